@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "model/robot_reader.h"
+
+namespace armcal {
+
+// Reads the chain base..tip of a URDF file. Fixed joints are lumped: their
+// child's inertia moves to the link they are fixed to (also links fixed to the
+// chain that lie beside it), links beside the chain that move are dropped;
+// Robot::notes says which. Inertia of links fixed to the base is ignored.
+// Strict: every number must be one ("2kg", "nan", "1,5" are refused with line
+// and attribute); DOCTYPE, loops, two parents, unknown joint types, non-finite
+// or negative masses, zero axes, swapped limits, unexpanded xacro, duplicate
+// names are refused. No entity, mesh or other file is ever opened.
+// Throws InputError.
+Robot ReadUrdf(const std::string& path, const RobotReaderOptions& options);
+
+}  // namespace armcal
