@@ -23,23 +23,31 @@ struct LogReaderOptions {
   std::vector<double> torque_constants;  // N m/A per joint; empty: not given
   std::vector<double> gear_ratios;       // per joint; empty: 1
   bool need_torque = true;
+  // Columns that are in the log and not wanted are not looked at.
+  bool want_velocity = false;
+  bool want_acceleration = false;
 };
 
 // Reads a CSV or gzipped CSV log block by block in constant memory.
 //
-// Header: `t` (or time, timestamp) and per joint either by number (1-based)
-// q1 qd1 qdd1 tau1 i1 or by name shoulder/position|velocity|acceleration|
-// effort|current, also with a leading path (/joint_states/shoulder/position).
-// A unit suffix is honoured: [s] [ms] [us] [ns] [rad] [deg] [rad/s] [deg/s]
-// [m] [mm] [Nm] [N] [mNm] [A] [mA]. Order never matters, names do; columns that
-// are not used are not parsed. Separators , ; or TAB; CRLF and a byte order
-// mark are accepted. Times may be large (epoch): they are kept relative to the
-// first row's without loss.
+// Header: `t` (or time, timestamp, __time) and per joint either by number
+// (1-based) q1 qd1 qdd1 tau1 i1 or by name shoulder/position|velocity|
+// acceleration|effort|current, also with a leading path
+// (/joint_states/shoulder/position). A unit suffix is honoured: [s] [ms] [us]
+// [ns] [rad] [deg] [rad/s] [deg/s] [rad/s^2] [deg/s^2] [m] [mm] [m/s] [mm/s]
+// [m/s^2] [mm/s^2] [Nm] [N] [mNm] [kNm] [A] [mA]; without one the unit is SI.
+// An effort in A is a current. Order never matters, names do; columns that are
+// not used are not parsed. Separators , ; or TAB; CRLF, a byte order mark,
+// quoted names and a # before the header are accepted. Times may be large
+// (epoch): they are kept relative to the first row's without loss. Equal times
+// pass.
 //
 // Throws InputError with file, row, column, value and expectation: a missing or
-// duplicate column, a field that is not a finite number in a used column, a row
-// with the wrong number of fields, time running backwards, a truncated or
-// damaged gzip stream, an empty file.
+// duplicate column, a log that numbers more joints than the robot has, a field
+// that is not a finite number in a used column, a row with the wrong number of
+// fields or none, time running backwards, a truncated or damaged gzip stream, a
+// file without rows, torque constants or gear ratios that do not fit. Rows are
+// lines of the file, the header is row 1.
 class LogReader {
  public:
   LogReader(const std::string& path, const LogReaderOptions& options);
@@ -49,11 +57,12 @@ class LogReader {
   bool has_velocity() const;  // a velocity column for every joint
   bool has_acceleration() const;
   // How the torque was made, a phrase for reports: "tau columns" or
-  // "currents times 14.87 13.26 ... N m/A".
+  // "currents times 14.87 13.26 N m/A"; empty where it is not needed.
   const std::string& torque_source() const;
 
   // Reads up to `max_rows` rows into *log (which it overwrites); false and an
-  // empty log at the end of the file.
+  // empty log at the end of the file. The wanted signals that the log lacks
+  // stay empty.
   bool Read(int max_rows, Log* log);
   // Starts again at the first row.
   void Rewind();

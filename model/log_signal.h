@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace armcal {
+
+// What a log may hold for each joint. kCurrent is a motor current, also where
+// an effort column says so by its unit ("shoulder/effort [A]", as UR robots
+// report).
+enum class Signal { kPosition, kVelocity, kAcceleration, kEffort, kCurrent };
+
+constexpr Signal kSignals[] = {Signal::kPosition, Signal::kVelocity,
+                               Signal::kAcceleration, Signal::kEffort,
+                               Signal::kCurrent};
+
+struct Unit {
+  std::string_view name;
+  double scale;  // to SI units
+};
+
+// How the columns of a signal are called and measured. To accept another unit,
+// add it to the table in log_signal.cc.
+struct SignalNames {
+  std::string_view number_prefix;  // q in q1
+  std::string_view path_part;      // position in shoulder/position
+  std::vector<Unit> units;
+};
+
+const SignalNames& NamesOf(Signal signal);
+// Null where the signal is not measured in that unit.
+const Unit* FindUnit(Signal signal, std::string_view name);
+
+bool IsTimeName(std::string_view name);
+// Whether time may be counted in this unit, 10^-decimals s.
+bool FindTimeUnit(std::string_view name, int* decimals);
+
+// Cuts characters in `of` from both ends.
+std::string_view Trim(std::string_view text, std::string_view of = " ");
+// Splits "q1 [deg]" into name and unit; the unit is empty where there is none.
+std::string_view SplitUnit(std::string_view name, std::string_view* unit);
+
+}  // namespace armcal
