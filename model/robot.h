@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,19 +34,8 @@ struct Link {
   }
 };
 
-// A serial arm: its links from base to tip, each with the joint that moves it.
-struct Robot {
-  std::string name;
-  std::vector<Link> links;
-  Eigen::Vector3d gravity{0, 0, -9.81};                    // in W, m/s^2
-  Eigen::Isometry3d X_LT = Eigen::Isometry3d::Identity();  // tool on last link
-  std::string tool_name;
-  // What the reader changed or dropped, a sentence each, for people to read.
-  std::vector<std::string> notes;
-
-  int num_joints() const { return static_cast<int>(links.size()); }
-  std::vector<std::string> JointNames() const;
-};
+// Rz(yaw) Ry(pitch) Rx(roll) of rpy = (roll, pitch, yaw), as URDF means it.
+Eigen::Matrix3d RotationFromRpy(const Eigen::Vector3d& rpy);
 
 // The classical four parameters of a DH row (an input form). Standard (Paul):
 // X_PL = Rz(theta) Tz(d) Tx(a) Rx(alpha). Modified (Craig):
@@ -58,6 +48,22 @@ struct DhParameters {
   double theta = 0;
 };
 enum class DhConvention { kStandard, kModified };
+
+// A serial arm: its links from base to tip, each with the joint that moves it.
+struct Robot {
+  std::string name;
+  std::vector<Link> links;
+  Eigen::Vector3d gravity{0, 0, -9.81};                    // in W, m/s^2
+  Eigen::Isometry3d X_LT = Eigen::Isometry3d::Identity();  // tool on last link
+  std::string tool_name;
+  // Set where the robot was given as a DH table: which rows `a` belongs to.
+  std::optional<DhConvention> dh_convention;
+  // What the reader changed or dropped, a sentence each, for people to read.
+  std::vector<std::string> notes;
+
+  int num_joints() const { return static_cast<int>(links.size()); }
+  std::vector<std::string> JointNames() const;
+};
 
 // Sets link->X_PF and link->X_ML for link->joint.type from a DH row. For the
 // standard convention F = P; for the modified one F is P moved by

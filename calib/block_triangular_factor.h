@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/model_parameters.h"
+
+namespace armcal {
+
+// The sufficient statistic of a log: for every joint i the triangular factor of
+// its equations [U_ii ... U_in | Y_i], updated by Householder QR as rows come
+// in. It needs the same memory for a log of any length, and from it follow the
+// recursive solution (2.28), the batch solution (2.25), every solution weighted
+// per joint, all residuals' norms, ranks and covariances; normal equations,
+// which square the condition, are never formed.
+class BlockTriangularFactor {
+ public:
+  explicit BlockTriangularFactor(const ModelParameters& parameters);
+
+  // Adds joint i's equation u x = y times `weight`; u holds all parameters.
+  void Add(int i, const Eigen::RowVectorXd& u, double y, double weight = 1);
+  // Adds joint i's equations of another factor of the same parameters.
+  void Merge(const BlockTriangularFactor& other, int i);
+
+  int num_joints() const { return static_cast<int>(joints_.size()); }
+  int num_parameters() const { return num_parameters_; }
+  int block_begin(int i) const { return block_begin_[i]; }
+  int block_size(int i) const { return block_begin_[i + 1] - block_begin_[i]; }
+  // The parameters of joint i's equations, ascending; its own block first.
+  const std::vector<int>& columns(int i) const { return joints_[i].columns; }
+  long rows(int i) const { return joints_[i].rows; }
+  // Upper triangle of size columns(i).size() + 1, the right side last.
+  const Eigen::MatrixXd& Triangle(int i) const;
+
+  // Root of the sum of squared residuals of joint i's equations at x.
+  double ResidualNorm(int i, const Eigen::VectorXd& x) const;
+
+ private:
+  static constexpr int kChunkRows = 256;
+  struct JointEquations {
+    std::vector<int> columns;
+    long rows = 0;
+    // The triangle in the top rows, new rows below it.
+    Eigen::MatrixXd buffer;
+    int filled = 0;
+  };
+  void Compress(JointEquations* joint) const;
+
+  int num_parameters_;
+  std::vector<int> block_begin_;
+  mutable std::vector<JointEquations> joints_;
+  mutable Eigen::MatrixXd triangle_;
+};
+
+// Root mean square of each joint's right-hand side.
+Eigen::VectorXd RightSideRms(const BlockTriangularFactor& factor);
+
+}  // namespace armcal

@@ -1,0 +1,211 @@
+#include <cmath>
+#include <cstdio>
+
+#include "calib/calibration_report.h"
+
+namespace armcal {
+namespace {
+
+using nlohmann::json;
+
+const char* SolverName(LinearSolver solver) {
+  switch (solver) {
+    case LinearSolver::kWeighted:
+      return "weighted";
+    case LinearSolver::kBatch:
+      return "batch";
+    case LinearSolver::kRecursive:
+      return "recursive";
+  }
+  return "";
+}
+
+// JSON has neither infinity nor NaN.
+json Number(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
+
+json LogsJson(const LogSet& logs) {
+  json result = json::array();
+  for (int k = 0; k < logs.size(); ++k) {
+    const TimeBase& base = logs.time_bases()[k];
+    result.push_back({{"file", logs.path(k)},
+                      {"samples", base.samples},
+                      {"seconds", base.range.end - base.range.begin},
+                      {"resampled", !base.uniform},
+                      {"gaps", base.gaps.size()}});
+  }
+  return result;
+}
+
+json TransitionJson(const CoulombTransition& t, JointType type) {
+  const bool velocity = t.law == CoulombTransition::Law::kVelocity;
+  return {{"law", velocity ? "velocity" : "displacement"},
+          {"width", t.width},
+          {"unit", std::string(PositionUnit(type)) + (velocity ? "/s" : "")}};
+}
+
+void AddFigures(const TorqueResidual& residual, const std::string& prefix,
+                int joint, json* entry) {
+  const auto moving = residual.moving(), whole = residual.whole();
+  (*entry)[prefix + "residual_rms"] = Number(moving.residual_rms[joint]);
+  (*entry)[prefix + "residual_percent"] = Number(moving.percent[joint]);
+  (*entry)[prefix + "torque_rms"] = Number(moving.torque_rms[joint]);
+  (*entry)[prefix + "whole_log_residual_rms"] =
+      Number(whole.residual_rms[joint]);
+  (*entry)[prefix + "whole_log_residual_percent"] =
+      Number(whole.percent[joint]);
+}
+
+json JointsJson(const Robot& robot, const LinearCalibration& result) {
+  json joints = json::array();
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const Joint& joint = robot.links[i].joint;
+    json entry = {{"name", joint.name},
+                  {"unit", EffortUnit(joint.type)},
+                  {"noise_stddev", Number(result.noise[i])}};
+    if (result.training) AddFigures(*result.training, "", i, &entry);
+    if (result.validation) {
+      AddFigures(*result.validation, "validation_", i, &entry);
+    }
+    if (!result.outliers.empty()) entry["outliers"] = result.outliers[i];
+    if (!result.transitions.empty()) {
+      entry["coulomb_transition"] =
+          TransitionJson(result.transitions[i], joint.type);
+    }
+    joints.push_back(entry);
+  }
+  return joints;
+}
+
+json ModelParametersJson(const LinearCalibration& result) {
+  json list = json::array();
+  for (int k = 0; k < result.parameters.size(); ++k) {
+    const ModelParameter& p = result.parameters.parameters()[k];
+    list.push_back(
+        {{"name", p.name},
+         {"unit", p.unit},
+         {"value", result.solved ? Number(result.x[k]) : nullptr},
+         {"stddev", result.solved ? Number(result.stddev[k]) : json(nullptr)},
+         {"block", p.block + 1},
+         {"identifiable", result.solved && result.identifiable[k]}});
+  }
+  return list;
+}
+
+// What a linear calibration knows of physical parameters: the joint terms.
+json ParametersJson(const Robot& robot, const LinearCalibration& result) {
+  json list = json::array();
+  for (int k = 0; result.solved && k < result.parameters.size(); ++k) {
+    const ModelParameter& p = result.parameters.parameters()[k];
+    if (!p.is_joint_term) continue;
+    list.push_back({{"name", robot.links[p.block].joint.name + "." +
+                                 JointTermName(p.term)},
+                    {"unit", p.unit},
+                    {"value", Number(result.x[k])},
+                    {"stddev", Number(result.stddev[k])},
+                    {"prior", nullptr},
+                    {"identifiable", bool(result.identifiable[k])}});
+  }
+  return list;
+}
+
+json RankJson(const LinearCalibration& result) {
+  const Identifiability& id = result.identifiability;
+  json unidentifiable = json::array(), blocks = json::array();
+  for (const auto& d : id.directions) unidentifiable.push_back(d.text);
+  for (const auto& d : id.block_directions) {
+    blocks.push_back({{"block", d.block + 1}, {"direction", d.text}});
+  }
+  return {{"blocks", id.block_rank},          {"of", id.block_size},
+          {"batch", id.batch_rank},           {"total", id.total},
+          {"unidentifiable", unidentifiable}, {"block_directions", blocks}};
+}
+
+json GeometryJson(const LinearCalibration& result) {
+  json list = json::array();
+  for (const RecoveredLength& l : result.lengths) {
+    list.push_back({{"name", l.name},
+                    {"symbol", l.symbol},
+                    {"unit", "m"},
+                    {"nominal", l.nominal},
+                    {"value", l.identifiable ? Number(l.value) : nullptr},
+                    {"stddev", l.identifiable ? Number(l.stddev) : nullptr},
+                    {"identifiable", l.identifiable}});
+  }
+  return list;
+}
+
+json UnpoweredJson(const Robot& robot, const LogSet& training,
+                   const LinearCalibration& result) {
+  json list = json::array();
+  for (const UnpoweredJoint& u : result.unpowered) {
+    list.push_back({{"log", training.path(u.log)},
+                    {"joint", robot.links[u.joint].joint.name},
+                    {"torque_rms", u.torque_rms}});
+  }
+  return list;
+}
+
+}  // namespace
+
+json ToJson(const Robot& robot, const LogSet& training,
+            const LogSet* validation, const LinearCalibration& result) {
+  json names = json::array(), units = json::array();
+  for (const ModelParameter& p : result.parameters.parameters()) {
+    names.push_back(p.name);
+    units.push_back(p.unit);
+  }
+  json out = {{"format", "armcal calibration 1"},
+              {"robot", robot.name},
+              {"estimate", "linear"},
+              {"solver", SolverName(result.solver)},
+              {"bandwidth_hz", result.bandwidth_hz},
+              {"logs", LogsJson(training)},
+              {"torque", training.torque_source()},
+              {"joints", JointsJson(robot, result)},
+              {"model_parameters", ModelParametersJson(result)},
+              {"parameters", ParametersJson(robot, result)},
+              {"merged", result.parameters.merged()},
+              {"unpowered", UnpoweredJson(robot, training, result)},
+              {"rank", RankJson(result)},
+              {"geometry", GeometryJson(result)},
+              {"covariance",
+               {{"names", names},
+                {"units", units},
+                {"file", "covariance.csv"},
+                {"method", result.covariance_method}}},
+              {"termination",
+               {{"converged", result.solved},
+                {"reason", result.reason},
+                {"iterations", result.passes}}}};
+  if (result.training) {
+    out["excluded_share"] = result.training->excluded_share();
+    out["stacked_residual_percent"] =
+        Number(result.training->moving().stacked_percent);
+  }
+  if (validation != nullptr) out["validation_logs"] = LogsJson(*validation);
+  if (result.validation) {
+    out["validation_stacked_residual_percent"] =
+        Number(result.validation->moving().stacked_percent);
+  }
+  return out;
+}
+
+std::string CovarianceCsv(const LinearCalibration& result) {
+  std::string text;
+  for (const ModelParameter& p : result.parameters.parameters()) {
+    text += (text.empty() ? "\"" : ",\"") + p.name + "\"";
+  }
+  text += "\n";
+  char number[40];
+  for (Eigen::Index r = 0; r < result.covariance.rows(); ++r) {
+    for (Eigen::Index c = 0; c < result.covariance.cols(); ++c) {
+      const bool seen = result.identifiable[r] && result.identifiable[c];
+      std::snprintf(number, sizeof(number), "%.17g", result.covariance(r, c));
+      text += std::string(c == 0 ? "" : ",") + (seen ? number : "");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace armcal

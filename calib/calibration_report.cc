@@ -1,0 +1,202 @@
+#include "calib/calibration_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace armcal {
+namespace {
+
+// printf to a string.
+__attribute__((format(printf, 1, 2))) std::string Format(const char* format,
+                                                         ...) {
+  char text[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof(text), format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string Percent(double percent) {
+  return std::isfinite(percent) ? Format("%6.2f", percent) : "     -";
+}
+
+std::string PlusMinus(double value, double stddev) {
+  if (!std::isfinite(stddev)) return Format("%11.5g (not seen)", value);
+  return Format("%11.5g +- %-9.3g", value, stddev);
+}
+
+const char* IdentificationName(const LinearCalibration& result) {
+  switch (result.identification) {
+    case Identification::kWeak:
+      return "weak form";
+    case Identification::kDifferential:
+      return "differential model (2.19)";
+    case Identification::kIntegral:
+      return "integral model (2.27)";
+  }
+  return "";
+}
+
+std::string DataText(const LogSet& training, const LinearCalibration& result) {
+  std::string text;
+  for (int k = 0; k < training.size(); ++k) {
+    text += "log        " + training.path(k) + ": " +
+            training.time_bases()[k].Describe() + "\n";
+  }
+  text += "torque     " + training.torque_source() + "\n";
+  text += "equations  " + std::string(IdentificationName(result));
+  if (result.identification == Identification::kWeak) {
+    text += Format(", windows of %.3g s", result.window_s);
+  }
+  text += Format(", %ld per joint", result.equations);
+  text += result.bandwidth_hz > 0
+              ? Format("; bandwidth %.3g Hz", result.bandwidth_hz)
+              : std::string("; no filter");
+  if (result.training && result.training->excluded_share() > 0) {
+    text += Format("; standstill left out: %.1f %% of the samples",
+                   100 * result.training->excluded_share());
+  }
+  return text + "\n";
+}
+
+std::string ResidualTable(const Robot& robot, const LinearCalibration& result) {
+  if (!result.training) return "";
+  const auto fit = result.training->moving();
+  std::string text =
+      "\nresidual               torque rms     residual rms      %";
+  if (result.validation) text += "   held out: torque    residual      %";
+  text += "\n";
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const Joint& joint = robot.links[i].joint;
+    text += Format("  %-20s %8.3f %-3s  %10.4f %-3s", joint.name.c_str(),
+                   fit.torque_rms[i], EffortUnit(joint.type),
+                   fit.residual_rms[i], EffortUnit(joint.type)) +
+            Percent(fit.percent[i]);
+    if (result.validation) {
+      const auto held_out = result.validation->moving();
+      text += Format("          %8.3f  %10.4f ", held_out.torque_rms[i],
+                     held_out.residual_rms[i]) +
+              Percent(held_out.percent[i]);
+    }
+    text += "\n";
+  }
+  text +=
+      Format("  all joints stacked %38s", "") + Percent(fit.stacked_percent);
+  if (result.validation) {
+    text += Format("%30s", "") +
+            Percent(result.validation->moving().stacked_percent);
+  }
+  return text + "\n";
+}
+
+std::string RankText(const LinearCalibration& result) {
+  const Identifiability& id = result.identifiability;
+  std::string blocks;
+  for (size_t i = 0; i < id.block_rank.size(); ++i) {
+    blocks += Format("%s%d/%d", i == 0 ? "" : " ", id.block_rank[i],
+                     id.block_size[i]);
+  }
+  std::string text = Format("\nrank       %d of %d, blocks %s\n", id.batch_rank,
+                            id.total, blocks.c_str());
+  for (const auto& d : id.directions) {
+    text += "           not identifiable: " + d.text + "\n";
+  }
+  if (id.directions.empty()) {
+    for (const auto& d : id.block_directions) {
+      text += Format("           block %d alone does not see: ", d.block + 1) +
+              d.text + "\n";
+    }
+  }
+  for (const std::string& sentence : result.parameters.merged()) {
+    text += "merged     " + sentence + "\n";
+  }
+  return text;
+}
+
+std::string UnpoweredText(const Robot& robot, const LogSet& training,
+                          const LinearCalibration& result) {
+  std::string text;
+  for (const UnpoweredJoint& u : result.unpowered) {
+    text += Format("unpowered  %s swings freely in %s (%.3g %s rms): its ",
+                   robot.links[u.joint].joint.name.c_str(),
+                   training.path(u.log).c_str(), u.torque_rms,
+                   EffortUnit(robot.links[u.joint].joint.type)) +
+            "equation has no scale\n";
+  }
+  return text;
+}
+
+std::string LengthTable(const LinearCalibration& result) {
+  if (result.lengths.empty()) return "";
+  std::string text = "\nlength              nominal m      estimate m\n";
+  for (const RecoveredLength& l : result.lengths) {
+    text += Format("  %-4s %-12s %9.5f  ", l.symbol.c_str(), l.name.c_str(),
+                   l.nominal);
+    text += l.identifiable ? Format("%11.6f +- %.2g\n", l.value, l.stddev)
+                           : std::string("only products with moments seen\n");
+  }
+  return text;
+}
+
+std::string TransitionTable(const Robot& robot,
+                            const LinearCalibration& result) {
+  if (result.transitions.empty()) return "";
+  std::string text = "\nCoulomb friction changes sign over\n";
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const CoulombTransition& t = result.transitions[i];
+    const Joint& joint = robot.links[i].joint;
+    const bool velocity = t.law == CoulombTransition::Law::kVelocity;
+    text += Format("  %-20s %.3g %s%s\n", joint.name.c_str(), t.width,
+                   PositionUnit(joint.type),
+                   velocity ? "/s (tanh)" : " (holds its torque at rest)");
+  }
+  return text;
+}
+
+std::string ParameterTable(const LinearCalibration& result) {
+  std::string text = "\nmodel parameter                       value\n";
+  for (int k = 0; k < result.parameters.size(); ++k) {
+    const ModelParameter& p = result.parameters.parameters()[k];
+    text += Format("  %-30s ", p.name.c_str()) +
+            PlusMinus(result.x[k], result.stddev[k]) + " " + p.unit + "\n";
+  }
+  return text + "standard deviations: " + result.covariance_method + "\n";
+}
+
+}  // namespace
+
+std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
+  const Identifiability& id = result.identifiability;
+  if (!result.solved) {
+    return robot.name + ": not calibrated: " + result.reason;
+  }
+  std::string text = Format(
+      "%s: %d model parameters, residual %.2f %% of the torque",
+      robot.name.c_str(), id.total, result.training->moving().stacked_percent);
+  if (result.validation) {
+    text += Format(", %.2f %% held out",
+                   result.validation->moving().stacked_percent);
+  }
+  if (id.batch_rank < id.total) {
+    text += Format("; %d directions not identifiable from this motion",
+                   id.total - id.batch_rank);
+  }
+  return text;
+}
+
+std::string FullReport(const Robot& robot, const LogSet& training,
+                       const LinearCalibration& result) {
+  std::string text = DataText(training, result);
+  text += UnpoweredText(robot, training, result);
+  text += ResidualTable(robot, result) + RankText(result);
+  if (result.solved) {
+    text += LengthTable(result) + TransitionTable(robot, result) +
+            ParameterTable(result);
+  }
+  return text + "\n" + BriefReport(robot, result) + "\n";
+}
+
+}  // namespace armcal

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "calib/linear_calibration.h"
+#include "calib/log_set.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// One sentence: how good, on what, and whether anything stayed unseen.
+std::string BriefReport(const Robot& robot, const LinearCalibration& result);
+
+// Everything a person needs on a terminal: data, residuals per joint, ranks,
+// lengths, friction, parameters with standard deviations.
+std::string FullReport(const Robot& robot, const LogSet& training,
+                       const LinearCalibration& result);
+
+// calibration.json (DESIGN.md, Files). Infinite and undefined numbers are null.
+nlohmann::json ToJson(const Robot& robot, const LogSet& training,
+                      const LogSet* validation,
+                      const LinearCalibration& result);
+
+// covariance.csv: a header of the model parameters' names, then the matrix.
+std::string CovarianceCsv(const LinearCalibration& result);
+
+}  // namespace armcal

@@ -1,0 +1,190 @@
+#include "calib/length_recovery.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// theta = (moments without lengths, joint terms, lengths) -> X_full.
+class Bilinear {
+ public:
+  explicit Bilinear(const ModelParameters& parameters)
+      : columns_(parameters.moment_columns()),
+        num_lengths_(static_cast<int>(parameters.unknown_lengths().size())),
+        full_(static_cast<int>(parameters.regrouping().cols())) {
+    std::map<std::pair<int, Moment>, int> index;
+    for (const MomentColumn& c : columns_) {
+      const int next = static_cast<int>(index.size());
+      moment_.push_back(
+          index.emplace(std::make_pair(c.block, c.moment), next).first->second);
+    }
+    num_moments_ = static_cast<int>(index.size());
+    num_terms_ = full_ - static_cast<int>(columns_.size());
+  }
+
+  int size() const { return length_begin() + num_lengths_; }
+  int length_begin() const { return num_moments_ + num_terms_; }
+  int moment(int column) const { return moment_[column]; }
+
+  VectorXd Value(const VectorXd& theta) const {
+    VectorXd x(full_);
+    const int m = static_cast<int>(columns_.size());
+    for (int c = 0; c < m; ++c) {
+      x[c] = theta[moment_[c]] * LengthOf(c, theta);
+    }
+    x.tail(num_terms_) = theta.segment(num_moments_, num_terms_);
+    return x;
+  }
+  MatrixXd Jacobian(const VectorXd& theta) const {
+    MatrixXd J = MatrixXd::Zero(full_, size());
+    const int m = static_cast<int>(columns_.size());
+    for (int c = 0; c < m; ++c) {
+      J(c, moment_[c]) = LengthOf(c, theta);
+      if (columns_[c].length >= 0) {
+        J(c, length_begin() + columns_[c].length) = theta[moment_[c]];
+      }
+    }
+    J.block(m, num_moments_, num_terms_, num_terms_).setIdentity();
+    return J;
+  }
+  // From any X_full: lengths as ratios of moments seen with and without them.
+  VectorXd Start(const VectorXd& x_full) const {
+    VectorXd theta = VectorXd::Zero(size());
+    const int m = static_cast<int>(columns_.size());
+    for (int c = 0; c < m; ++c) {
+      if (columns_[c].length < 0) theta[moment_[c]] = x_full[c];
+    }
+    theta.segment(num_moments_, num_terms_) = x_full.tail(num_terms_);
+    VectorXd product = VectorXd::Zero(num_lengths_);
+    VectorXd square = VectorXd::Zero(num_lengths_);
+    for (int c = 0; c < m; ++c) {
+      if (columns_[c].length < 0) continue;
+      const double alone = theta[moment_[c]];
+      product[columns_[c].length] += alone * x_full[c];
+      square[columns_[c].length] += alone * alone;
+    }
+    for (int l = 0; l < num_lengths_; ++l) {
+      theta[length_begin() + l] = square[l] > 0 ? product[l] / square[l] : 0.1;
+    }
+    return theta;
+  }
+
+ private:
+  double LengthOf(int c, const VectorXd& theta) const {
+    const int l = columns_[c].length;
+    return l < 0 ? 1 : theta[length_begin() + l];
+  }
+  std::vector<MomentColumn> columns_;
+  std::vector<int> moment_;
+  int num_lengths_, full_, num_moments_, num_terms_;
+};
+
+// Rows of M and x that are usable, whitened by the covariance.
+struct Whitened {
+  Whitened(const MatrixXd& M, const VectorXd& x, const MatrixXd& covariance,
+           const std::vector<bool>& usable) {
+    std::vector<int> rows;
+    for (int k = 0; k < x.size(); ++k) {
+      if (usable[k] && covariance(k, k) > 0) rows.push_back(k);
+    }
+    const VectorXd s = covariance.diagonal().cwiseSqrt();
+    const Eigen::Index n = static_cast<Eigen::Index>(rows.size());
+    MatrixXd correlation(n, n);
+    matrix.resize(n, M.cols());
+    value.resize(n);
+    for (Eigen::Index a = 0; a < n; ++a) {
+      for (Eigen::Index b = 0; b < n; ++b) {
+        correlation(a, b) =
+            covariance(rows[a], rows[b]) / (s[rows[a]] * s[rows[b]]);
+      }
+      correlation(a, a) += 1e-10;
+      matrix.row(a) = M.row(rows[a]) / s[rows[a]];
+      value[a] = x[rows[a]] / s[rows[a]];
+    }
+    const Eigen::LLT<MatrixXd> llt(correlation);
+    llt.matrixL().solveInPlace(matrix);
+    llt.matrixL().solveInPlace(value);
+  }
+  MatrixXd matrix;
+  VectorXd value;
+};
+
+struct Step {
+  Eigen::JacobiSVD<MatrixXd> svd;
+  VectorXd scale;
+};
+
+Step Decompose(const MatrixXd& J) {
+  Step step;
+  step.scale = J.colwise().norm();
+  for (double& s : step.scale) s = s > 0 ? s : 1;
+  step.svd.compute(J * step.scale.cwiseInverse().asDiagonal(),
+                   Eigen::ComputeThinU | Eigen::ComputeFullV);
+  step.svd.setThreshold(1e-9);
+  return step;
+}
+
+VectorXd Solve(const Whitened& w, const Bilinear& model) {
+  const VectorXd x_full =
+      w.matrix.completeOrthogonalDecomposition().solve(w.value);
+  VectorXd theta = model.Start(x_full);
+  double cost = (w.matrix * model.Value(theta) - w.value).squaredNorm();
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const Step step = Decompose(w.matrix * model.Jacobian(theta));
+    const VectorXd r = w.value - w.matrix * model.Value(theta);
+    VectorXd d = step.svd.solve(r).cwiseQuotient(step.scale);
+    bool better = false;
+    for (int halving = 0; halving < 30 && !better; ++halving, d /= 2) {
+      const VectorXd trial = theta + d;
+      const double trial_cost =
+          (w.matrix * model.Value(trial) - w.value).squaredNorm();
+      if (trial_cost >= cost) continue;
+      better = cost - trial_cost > 1e-14 * cost;
+      theta = trial;
+      cost = trial_cost;
+    }
+    if (!better) break;
+  }
+  return theta;
+}
+
+}  // namespace
+
+std::vector<RecoveredLength> RecoverLengths(const ModelParameters& parameters,
+                                            const VectorXd& x,
+                                            const MatrixXd& covariance,
+                                            const std::vector<bool>& usable) {
+  std::vector<RecoveredLength> result;
+  if (parameters.unknown_lengths().empty()) return result;
+  const Bilinear model(parameters);
+  const Whitened w(parameters.regrouping(), x, covariance, usable);
+  const VectorXd theta = Solve(w, model);
+  const Step step = Decompose(w.matrix * model.Jacobian(theta));
+  const Eigen::Index rank = step.svd.rank();
+  for (size_t l = 0; l < parameters.unknown_lengths().size(); ++l) {
+    const Length& length = parameters.unknown_lengths()[l];
+    const Eigen::Index k = model.length_begin() + static_cast<int>(l);
+    double variance = 0, unseen = 0;
+    for (Eigen::Index d = 0; d < step.svd.matrixV().cols(); ++d) {
+      const double v = step.svd.matrixV()(k, d);
+      if (d < rank) {
+        variance += std::pow(v / step.svd.singularValues()[d], 2);
+      } else {
+        unseen += v * v;
+      }
+    }
+    result.push_back({length.owner_name, length.name, length.value, theta[k],
+                      std::sqrt(variance) / step.scale[k], unseen < 1e-8});
+  }
+  return result;
+}
+
+}  // namespace armcal

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "model/model_parameters.h"
+
+namespace armcal {
+
+struct RecoveredLength {
+  std::string name;    // "<link>.a", the row of the DH table
+  std::string symbol;  // "a2"
+  double nominal;      // m, the robot file's
+  double value;        // m
+  double stddev;       // m
+  bool identifiable;   // false where only products with moments are seen
+};
+
+// The unknown lengths from estimated model parameters: every first moment
+// appears alone and times each length with the same lengths throughout (a
+// rank-one array, MATH.md C.1), so X = M X_full(moments, lengths) is fitted by
+// Gauss-Newton, weighted with the covariance of X, from a linear start that
+// needs no nominal lengths. Parameters not `usable` are left out.
+std::vector<RecoveredLength> RecoverLengths(const ModelParameters& parameters,
+                                            const Eigen::VectorXd& x,
+                                            const Eigen::MatrixXd& covariance,
+                                            const std::vector<bool>& usable);
+
+}  // namespace armcal

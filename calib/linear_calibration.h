@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/identifiability.h"
+#include "calib/length_recovery.h"
+#include "calib/linear_solution.h"
+#include "calib/log_set.h"
+#include "calib/torque_residual.h"
+#include "model/model_parameters.h"
+#include "model/robot.h"
+#include "problems/identification_rows.h"
+
+namespace armcal {
+
+enum class Loss { kSquared, kHuber };
+
+struct LinearCalibrationOptions {
+  GeometryKnowledge geometry = GeometryKnowledge::kKnown;
+  std::vector<JointTerm> joint_terms = {JointTerm::kViscous,
+                                        JointTerm::kCoulomb, JointTerm::kOffset,
+                                        JointTerm::kArmature};
+  // Given: the same transition of Coulomb friction for all joints; else each
+  // joint's is fitted.
+  std::optional<CoulombTransition> transition;
+  Identification identification = Identification::kWeak;
+  // Length of the weak form's test functions, s. Not given: 1.5 periods of the
+  // bandwidth, at least 0.3 s (shorter ones are biased by encoder noise).
+  std::optional<double> window_s;
+  std::vector<TimeRange> intervals;  // of the integral model
+  double interval_s = 0.5;
+  Quadrature quadrature = Quadrature::kTrapezoid;
+  LinearSolver solver = LinearSolver::kWeighted;
+  Loss loss = Loss::kHuber;  // of the weighted solver
+  // Cutoff for positions, differential rows and residuals, Hz; 0: none.
+  // Not given: DefaultBandwidth.
+  std::optional<double> bandwidth_hz;
+  Progress progress;
+};
+
+// One log's equation of one joint that carries no drive torque worth the name:
+// the arm swings freely there, the equation is homogeneous and knows no scale.
+struct UnpoweredJoint {
+  int log;
+  int joint;
+  double torque_rms;  // N m or N
+};
+
+// What a linear calibration found. Vectors have an entry per model parameter,
+// or per joint where said.
+struct LinearCalibration {
+  explicit LinearCalibration(const ModelParameters& model)
+      : parameters(model) {}
+
+  ModelParameters parameters;
+  std::vector<CoulombTransition> transitions;  // per joint, if in the model
+
+  bool solved = false;
+  std::string reason;  // why it stopped, or why it refused
+  int passes = 0;      // over the logs
+  Eigen::VectorXd x;
+  Eigen::VectorXd stddev;  // infinite where not identifiable
+  Eigen::MatrixXd covariance;
+  std::string covariance_method;
+  std::vector<bool> identifiable;
+  Eigen::VectorXd noise;  // per joint, of the equations: N m, N (N m s, N s)
+  Identifiability identifiability;
+  std::vector<RecoveredLength> lengths;
+
+  Identification identification = Identification::kWeak;
+  LinearSolver solver = LinearSolver::kWeighted;
+  double bandwidth_hz = 0;
+  double window_s = 0;
+  long equations = 0;
+  std::vector<long> outliers;  // per joint: equations Huber weighs below 1/2
+  std::vector<UnpoweredJoint> unpowered;
+  std::optional<TorqueResidual> training;
+  std::optional<TorqueResidual> validation;
+};
+
+// Calibrates the model parameters of `robot` (its inertias play no part) from
+// the training logs, and checks them on the validation logs, if any. Bad input
+// throws InputError; a calibration that cannot be solved is a result.
+LinearCalibration CalibrateLinear(const Robot& robot,
+                                  const LinearCalibrationOptions& options,
+                                  LogSet* training, LogSet* validation);
+
+}  // namespace armcal

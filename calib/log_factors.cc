@@ -1,0 +1,72 @@
+#include "calib/log_factors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+
+LogFactors::LogFactors(const ModelParameters& parameters,
+                       const RowOptions& rows, const Progress& progress,
+                       LogSet* logs)
+    : factors_(logs->size(), BlockTriangularFactor(parameters)),
+      mean_square_speed_(Eigen::ArrayXd::Zero(parameters.num_joints())) {
+  std::vector<MotionRegressor> regressors(logs->size(),
+                                          MotionRegressor(parameters));
+  double samples = 0;
+  logs->ForEach("reading", progress, [&](int log, const Trajectory& t) {
+    for (int k = t.core_begin; k < t.core_end; ++k) {
+      mean_square_speed_ += t.qd.row(k).transpose().array().square();
+    }
+    samples += t.core_end - t.core_begin;
+    ForEachRow(t, rows, &regressors[log], [&](const IdentificationRow& row) {
+      for (int i = 0; i < parameters.num_joints(); ++i) {
+        factors_[log].Add(i, row.U.row(i), row.Y[i]);
+      }
+    });
+  });
+  if (samples > 0) mean_square_speed_ /= samples;
+}
+
+BlockTriangularFactor LogFactors::Merged(
+    const ModelParameters& parameters,
+    const std::vector<std::vector<bool>>& powered) const {
+  BlockTriangularFactor merged(parameters);
+  for (int log = 0; log < size(); ++log) {
+    for (int i = 0; i < parameters.num_joints(); ++i) {
+      if (powered[log][i]) merged.Merge(factors_[log], i);
+    }
+  }
+  return merged;
+}
+
+std::vector<std::vector<bool>> FindPowered(const LogFactors& factors,
+                                           const Eigen::VectorXd& x) {
+  std::vector<std::vector<bool>> powered;
+  for (int log = 0; log < factors.size(); ++log) {
+    const BlockTriangularFactor& factor = factors.log(log);
+    powered.emplace_back();
+    for (int i = 0; i < factor.num_joints(); ++i) {
+      const Eigen::MatrixXd& R = factor.Triangle(i);
+      const std::vector<int>& columns = factor.columns(i);
+      double terms = 0;
+      for (size_t c = 0; c < columns.size(); ++c) {
+        terms += std::pow(x[columns[c]], 2) * R.col(c).squaredNorm();
+      }
+      const double torque = R.rightCols<1>().norm();
+      powered.back().push_back(torque > 0 && torque >= 0.1 * std::sqrt(terms));
+    }
+  }
+  return powered;
+}
+
+std::vector<std::vector<bool>> FindNonzero(const LogFactors& factors) {
+  std::vector<std::vector<bool>> nonzero;
+  for (int log = 0; log < factors.size(); ++log) {
+    const Eigen::VectorXd rms = RightSideRms(factors.log(log));
+    nonzero.emplace_back();
+    for (const double x : rms) nonzero.back().push_back(x > 0);
+  }
+  return nonzero;
+}
+
+}  // namespace armcal

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/block_triangular_factor.h"
+#include "calib/log_set.h"
+#include "model/model_parameters.h"
+#include "problems/identification_rows.h"
+
+namespace armcal {
+
+// The factors of several logs' equations, one each, so that equations of single
+// joints of single logs can be left out without reading the logs again.
+class LogFactors {
+ public:
+  // One pass over the logs.
+  LogFactors(const ModelParameters& parameters, const RowOptions& rows,
+             const Progress& progress, LogSet* logs);
+
+  const BlockTriangularFactor& log(int k) const { return factors_[k]; }
+  int size() const { return static_cast<int>(factors_.size()); }
+  // Mean square of joint speeds met, (rad/s)^2 or (m/s)^2, per joint.
+  const Eigen::ArrayXd& mean_square_speed() const { return mean_square_speed_; }
+
+  // All equations but those of (log, joint) for which powered[log][joint] is
+  // false.
+  BlockTriangularFactor Merged(
+      const ModelParameters& parameters,
+      const std::vector<std::vector<bool>>& powered) const;
+
+ private:
+  std::vector<BlockTriangularFactor> factors_;
+  Eigen::ArrayXd mean_square_speed_;
+};
+
+// Which equations have a drive torque worth the name: its rms is at least a
+// tenth of that of the terms x makes of them.
+std::vector<std::vector<bool>> FindPowered(const LogFactors& factors,
+                                           const Eigen::VectorXd& x);
+// All whose torque is not zero throughout.
+std::vector<std::vector<bool>> FindNonzero(const LogFactors& factors);
+
+}  // namespace armcal

@@ -1,0 +1,55 @@
+#include "calib/robust_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+namespace {
+
+// Bins of 0.5 % from 1e-12 to 1e12.
+constexpr double kLow = 1e-12;
+const double kLogStep = std::log(1.005);
+constexpr int kBins = 11100;
+
+}  // namespace
+
+double Huber::Weight(double r) {
+  const double size = std::abs(r);
+  return size <= kThreshold ? 1 : kThreshold / size;
+}
+
+bool Huber::Inside(double r) { return std::abs(r) <= kThreshold; }
+
+ResidualStatistics::ResidualStatistics() : histogram_(kBins, 0) {}
+
+void ResidualStatistics::Add(double r) {
+  const double bin = std::log(std::max(std::abs(r), kLow) / kLow) / kLogStep;
+  ++histogram_[std::min(kBins - 1, static_cast<int>(bin))];
+  ++count_;
+  if (Huber::Weight(r) < 0.5) ++outliers_;
+  // Outliers clipped, so that one does not decide.
+  const double clipped = r * Huber::Weight(r);
+  if (has_last_) product_ += clipped * last_;
+  square_ += clipped * clipped;
+  last_ = clipped;
+  has_last_ = true;
+}
+
+void ResidualStatistics::Break() { has_last_ = false; }
+
+double ResidualStatistics::RobustSpread() const {
+  long seen = 0;
+  for (int b = 0; b < kBins; ++b) {
+    seen += histogram_[b];
+    if (2 * seen >= count_ && count_ > 0) {
+      return 1.4826 * kLow * std::exp((b + 0.5) * kLogStep);
+    }
+  }
+  return 0;
+}
+
+double ResidualStatistics::Autocorrelation() const {
+  return square_ > 0 ? product_ / square_ : 0;
+}
+
+}  // namespace armcal

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/block_triangular_factor.h"
+#include "model/joint_term.h"
+#include "model/model_parameters.h"
+
+namespace armcal {
+
+// The transitions of Coulomb friction that are tried on a joint: 18 velocities
+// from 1e-3 to 0.3 rad/s and 15 displacements from 1e-4 to 2e-2 rad (m/s and m
+// for a prismatic joint).
+std::vector<CoulombTransition> CandidateTransitions();
+
+// Picks one transition per joint so that the weighted sum of squared residuals
+// is least, from the factor of a model that has a Coulomb column for every
+// candidate of every joint. Each candidate is judged by what it explains beyond
+// all other columns (Frisch-Waugh), joint after joint, twice for each of three
+// estimates of the joints' noise. Joints with noise[i] = 0 keep the first
+// candidate. Returns the index among each joint's candidates.
+std::vector<int> ChooseTransitions(const BlockTriangularFactor& factor,
+                                   const ModelParameters& parameters,
+                                   const Eigen::VectorXd& noise);
+
+}  // namespace armcal

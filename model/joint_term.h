@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/trajectory.h"
+
+namespace armcal {
+
+// What a joint adds to its own torque:
+// viscous qd + coulomb c + offset + armature qdd,
+// where c in [-1, 1] is the state of Coulomb friction.
+enum class JointTerm { kViscous, kCoulomb, kOffset, kArmature };
+const char* JointTermName(JointTerm term);
+
+// How Coulomb friction passes through zero velocity:
+//   kVelocity      c = tanh(qd / width), width in rad/s or m/s;
+//   kDisplacement  c = clip(c + dq / width, -1, 1), width in rad or m: a
+//                  Prandtl element, which holds its torque while the joint
+//                  stands still, as joints with harmonic drives do.
+struct CoulombTransition {
+  enum class Law { kVelocity, kDisplacement };
+  Law law = Law::kVelocity;
+  double width = 0.02;
+};
+
+struct JointTermColumn {
+  int joint;
+  JointTerm term;
+  CoulombTransition transition;  // of kCoulomb
+
+  // The torque per unit of the parameter is d/dt P - D; `c` is the state of
+  // Coulomb friction.
+  double P(double qd) const { return term == JointTerm::kArmature ? qd : 0; }
+  double D(double qd, double c) const;
+  double Torque(double qd, double qdd, double c) const;
+};
+
+// The states c of Coulomb columns along a log. Carries the state from one
+// trajectory to the next of the same segment; starts a segment at c = 0.
+class CoulombStates {
+ public:
+  // `columns`: the kCoulomb ones are followed, in their order.
+  explicit CoulombStates(const std::vector<JointTermColumn>& columns);
+
+  int size() const { return static_cast<int>(columns_.size()); }
+  // samples x size().
+  const Eigen::MatrixXd& Follow(const Trajectory& trajectory);
+
+ private:
+  double Initial(const Trajectory& trajectory, int column) const;
+
+  std::vector<JointTermColumn> columns_;
+  Eigen::MatrixXd states_;  // of the trajectory followed last
+  int segment_ = -1;
+  long first_index_ = 0;
+};
+
+}  // namespace armcal

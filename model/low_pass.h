@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace armcal {
+
+// Zero-phase low pass of each column of x (samples in rows): a Butterworth
+// filter of order 4 run forwards and backwards, so that the gain is 1/2 (-6 dB)
+// at cutoff_hz; ends are continued by odd reflection. A cutoff at or above half
+// the sample rate returns x unchanged.
+Eigen::MatrixXd ZeroPhaseLowPass(const Eigen::MatrixXd& x, double sample_rate,
+                                 double cutoff_hz);
+
+// Seconds after which the filter has forgotten its input to 1e-9.
+double LowPassMemory(double cutoff_hz);
+
+// d/dt of each column by central differences of order 4 (one-sided at the
+// ends, order 2); step dt in s.
+Eigen::MatrixXd Differentiate(const Eigen::MatrixXd& x, double dt);
+
+}  // namespace armcal

@@ -1,0 +1,384 @@
+#include "model/model_parameters.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "model/column_basis.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+const char* MomentSymbol(Moment moment) {
+  static const char* const kNames[] = {"m",   "hx",  "hy",  "hz", "(Ixx-Iyy)/2",
+                                       "Ixy", "Ixz", "Iyz", "Izz"};
+  return kNames[static_cast<int>(moment)];
+}
+
+// The order in which columns are kept: the first of dependent ones.
+std::vector<Moment> MomentsOfBlock(JointType type) {
+  if (!IsRotational(type)) {
+    return {Moment::kM, Moment::kHx, Moment::kHy, Moment::kHz};
+  }
+  return {Moment::kIzz, Moment::kIxxMinusIyy, Moment::kIxy, Moment::kIxz,
+          Moment::kIyz, Moment::kHx,          Moment::kHy};
+}
+
+// Whether the moment's functions are affine in the lengths before the block.
+bool DependsOnLengths(Moment moment, JointType type) {
+  if (!IsRotational(type)) return moment == Moment::kM;
+  return moment == Moment::kHx || moment == Moment::kHy;
+}
+
+double MomentValue(const InertialParameters& K, Moment moment) {
+  const Eigen::Matrix3d& I = K.inertia;
+  switch (moment) {
+    case Moment::kM:
+      return K.mass;
+    case Moment::kHx:
+    case Moment::kHy:
+    case Moment::kHz:
+      return K.first_moment[static_cast<int>(moment) -
+                            static_cast<int>(Moment::kHx)];
+    case Moment::kIxxMinusIyy:
+      return 0.5 * (I(0, 0) - I(1, 1));
+    case Moment::kIxy:
+      return I(0, 1);
+    case Moment::kIxz:
+      return I(0, 2);
+    case Moment::kIyz:
+      return I(1, 2);
+    case Moment::kIzz:
+      return I(2, 2);
+  }
+  return 0;
+}
+
+// Uniform on (-2, 2): joint positions, velocities and accelerations rich enough
+// that dependence of columns is never a close decision (MATH.md C.2).
+class RandomStates {
+ public:
+  VectorXd Next(int n) {
+    VectorXd v(n);
+    for (int i = 0; i < n; ++i) {
+      v[i] = static_cast<double>(generator_() >> 11) * 0x1p-51 - 2;
+    }
+    return v;
+  }
+
+ private:
+  std::mt19937_64 generator_{20261120};
+};
+
+// States of the Coulomb columns while all joints slide.
+VectorXd Sliding(const std::vector<JointTermColumn>& terms,
+                 const VectorXd& qd) {
+  std::vector<double> c;
+  for (const JointTermColumn& t : terms) {
+    if (t.term == JointTerm::kCoulomb) c.push_back(qd[t.joint] > 0 ? 1 : -1);
+  }
+  return Eigen::Map<const VectorXd>(c.data(), c.size());
+}
+
+}  // namespace
+
+ModelParameters::ModelParameters(const Robot& robot, const Options& options)
+    : chain_(MakeProximalChain(robot)) {
+  ChooseUnknownLengths(robot, options.geometry);
+  ListColumns(robot, options);
+  DropZeroMoments(robot);
+  ChooseBasis();
+  NameParameters();
+}
+
+void ModelParameters::ChooseUnknownLengths(const Robot& robot,
+                                           GeometryKnowledge geometry) {
+  if (geometry == GeometryKnowledge::kKnown) return;
+  for (const Length& length : chain_.lengths) {
+    bool unknown = geometry == GeometryKnowledge::kAllLengths;
+    if (geometry == GeometryKnowledge::kNonzeroLengths) {
+      unknown = std::abs(length.value) > 1e-9;
+    }
+    for (const Link& link : robot.links) {
+      if (geometry != GeometryKnowledge::kDeclaredLengths) break;
+      for (const std::string& symbol : link.unknown_lengths) {
+        unknown |= length.owner_name == link.name + "." + symbol;
+      }
+    }
+    if (unknown) unknown_.push_back(length);
+  }
+}
+
+void ModelParameters::ListColumns(const Robot& robot, const Options& options) {
+  for (int i = 0; i < num_joints(); ++i) {
+    const JointType type = chain_.joints[i].type;
+    for (const Moment moment : MomentsOfBlock(type)) {
+      moments_.push_back({i, moment, -1});
+      if (!DependsOnLengths(moment, type)) continue;
+      for (size_t l = 0; l < unknown_.size(); ++l) {
+        if (unknown_[l].joint < i) {
+          moments_.push_back({i, moment, static_cast<int>(l)});
+        }
+      }
+    }
+    for (const JointTerm term : options.joint_terms) {
+      if (term != JointTerm::kCoulomb) {
+        terms_.push_back({i, term, {}});
+        continue;
+      }
+      CHECK_EQ(options.transitions.size(), robot.links.size());
+      for (const CoulombTransition& t : options.transitions[i]) {
+        terms_.push_back({i, term, t});
+      }
+    }
+  }
+}
+
+// Removes moments that are zero for every arm with the declared symmetries,
+// found with random inertial parameters.
+void ModelParameters::DropZeroMoments(const Robot& robot) {
+  const bool declared = std::any_of(
+      robot.links.begin(), robot.links.end(),
+      [](const Link& link) { return !link.zero_inertials.empty(); });
+  if (!declared) return;
+  RandomStates random;
+  ProximalChain chain = chain_;
+  for (const Length& length : unknown_) {
+    chain.joints[length.joint].p[length.component] = random.Next(1)[0];
+  }
+  Robot sample = robot;
+  for (Link& link : sample.links) {
+    Vector10d v = random.Next(10);
+    for (int k = 0; k < 10; ++k) {
+      for (const std::string& name : link.zero_inertials) {
+        if (name == InertialName(k)) v[k] = 0;
+      }
+    }
+    link.inertial = InertialParameters::FromVector(v);
+  }
+  const auto K = CompositeInertials(sample, chain);
+  moments_.erase(std::remove_if(moments_.begin(), moments_.end(),
+                                [&](const MomentColumn& c) {
+                                  return std::abs(MomentValue(
+                                             K[c.block], c.moment)) < 1e-13;
+                                }),
+                 moments_.end());
+}
+
+int ModelParameters::BlockOfFull(int c) const {
+  const int m = static_cast<int>(moments_.size());
+  return c < m ? moments_[c].block : terms_[c - m].joint;
+}
+
+// U at random states, one below the other, all columns before regrouping.
+MatrixXd ModelParameters::SampleRegressor() const {
+  RegressorColumns all;
+  all.moments = moments_;
+  all.terms = terms_;
+  for (int c = 0; c < NumFull(); ++c) {
+    (c < static_cast<int>(moments_.size()) ? all.moment_index : all.term_index)
+        .push_back(c);
+  }
+  Regressor regressor(chain_, unknown_, all);
+  RandomStates random;
+  const int n = num_joints();
+  const int samples = std::max(60, 3 * NumFull() / n + 30);
+  MatrixXd U(samples * n, NumFull()), U_sample;
+  for (int s = 0; s < samples; ++s) {
+    const VectorXd q = random.Next(n), qd = random.Next(n);
+    regressor.Differential(q, qd, random.Next(n), Sliding(terms_, qd),
+                           &U_sample);
+    U.middleRows(s * n, n) = U_sample;
+  }
+  return U;
+}
+
+// Within a block, as (2.15) asks; across blocks rigid columns are independent
+// whenever they are within (MATH.md A.1).
+void ModelParameters::KeepMoments(const MatrixXd& U) {
+  const int m = static_cast<int>(moments_.size());
+  for (int i = 0; i < num_joints(); ++i) {
+    ColumnBasis basis(U.rows());
+    std::vector<int> block, kept;
+    double scale = 0;
+    for (int c = 0; c < m; ++c) {
+      if (moments_[c].block != i) continue;
+      block.push_back(c);
+      scale = std::max(scale, U.col(c).norm());
+    }
+    for (const int c : block) {
+      if (basis.Add(U.col(c), scale)) kept.push_back(c);
+    }
+    kept_.insert(kept_.end(), kept.begin(), kept.end());
+  }
+}
+
+// A term in the span of the rigid columns and the terms before it is merged.
+// Offset and armature can be; friction dissipates and cannot.
+void ModelParameters::KeepTerms(const MatrixXd& U) {
+  const int m = static_cast<int>(moments_.size());
+  ColumnBasis basis(U.rows());
+  for (const int c : kept_) basis.Add(U.col(c), U.col(c).norm());
+  for (const JointTerm term : {JointTerm::kViscous, JointTerm::kCoulomb,
+                               JointTerm::kOffset, JointTerm::kArmature}) {
+    for (size_t t = 0; t < terms_.size(); ++t) {
+      if (terms_[t].term != term) continue;
+      const int c = m + static_cast<int>(t);
+      const bool dissipates =
+          term == JointTerm::kViscous || term == JointTerm::kCoulomb;
+      if (dissipates || basis.Add(U.col(c), U.col(c).norm())) {
+        kept_.push_back(c);
+      }
+    }
+  }
+}
+
+void ModelParameters::ChooseBasis() {
+  const MatrixXd U = SampleRegressor();
+  KeepMoments(U);
+  KeepTerms(U);
+  std::stable_sort(kept_.begin(), kept_.end(), [this](int a, int b) {
+    return BlockOfFull(a) < BlockOfFull(b);
+  });
+  regrouping_ = MatrixXd::Zero(kept_.size(), NumFull());
+  for (int c = 0; c < NumFull(); ++c) {
+    const auto self = std::find(kept_.begin(), kept_.end(), c);
+    if (self != kept_.end()) {
+      regrouping_(self - kept_.begin(), c) = 1;
+      continue;
+    }
+    const bool moment = c < static_cast<int>(moments_.size());
+    std::vector<int> candidates;
+    for (const int k : kept_) {
+      if (!moment || BlockOfFull(k) == BlockOfFull(c)) candidates.push_back(k);
+    }
+    const VectorXd x = ExpressInColumns(U, c, candidates);
+    for (size_t k = 0; k < candidates.size(); ++k) {
+      const auto row = std::find(kept_.begin(), kept_.end(), candidates[k]);
+      regrouping_(row - kept_.begin(), c) = x[k];
+    }
+  }
+  block_begin_.assign(1, 0);
+  for (int i = 0; i < num_joints(); ++i) {
+    block_begin_.push_back(
+        std::count_if(kept_.begin(), kept_.end(),
+                      [&](int c) { return BlockOfFull(c) <= i; }));
+  }
+}
+
+Regressor ModelParameters::MakeRegressor() const {
+  RegressorColumns columns;
+  const int m = static_cast<int>(moments_.size());
+  for (int k = 0; k < size(); ++k) {
+    if (kept_[k] < m) {
+      columns.moments.push_back(moments_[kept_[k]]);
+      columns.moment_index.push_back(k);
+    } else {
+      columns.terms.push_back(terms_[kept_[k] - m]);
+      columns.term_index.push_back(k);
+    }
+  }
+  return Regressor(chain_, unknown_, columns);
+}
+
+VectorXd ModelParameters::FullValues(const Robot& robot) const {
+  const ProximalChain chain = MakeProximalChain(robot);
+  const auto K = CompositeInertials(robot, chain);
+  const int m = static_cast<int>(moments_.size());
+  VectorXd x(NumFull());
+  for (int c = 0; c < m; ++c) {
+    x[c] = MomentValue(K[moments_[c].block], moments_[c].moment);
+    if (moments_[c].length < 0) continue;
+    const Length& l = unknown_[moments_[c].length];
+    x[c] *= chain.joints[l.joint].p[l.component];
+  }
+  for (size_t t = 0; t < terms_.size(); ++t) {
+    const Joint& joint = robot.links[terms_[t].joint].joint;
+    const double values[] = {joint.viscous, joint.coulomb, 0, joint.armature};
+    x[m + t] = values[static_cast<int>(terms_[t].term)];
+  }
+  return x;
+}
+
+VectorXd ModelParameters::Values(const Robot& robot) const {
+  CHECK_EQ(robot.num_joints(), num_joints());
+  return regrouping_ * FullValues(robot);
+}
+
+std::string ModelParameters::FullName(int c) const {
+  const int m = static_cast<int>(moments_.size());
+  if (c >= m) {
+    const JointTermColumn& t = terms_[c - m];
+    return std::string(JointTermName(t.term)) + "[" +
+           std::to_string(t.joint + 1) + "]";
+  }
+  const MomentColumn& column = moments_[c];
+  const std::string symbol = std::string(MomentSymbol(column.moment)) + "[" +
+                             std::to_string(column.block + 1) + "]";
+  return column.length < 0 ? symbol
+                           : unknown_[column.length].name + "*" + symbol;
+}
+
+std::string ModelParameters::FullUnit(int c) const {
+  const int m = static_cast<int>(moments_.size());
+  if (c >= m) {
+    const JointTermColumn& t = terms_[c - m];
+    const bool rotational = IsRotational(chain_.joints[t.joint].type);
+    const std::string effort = rotational ? "N m" : "N";
+    if (t.term == JointTerm::kViscous) {
+      return effort + (rotational ? " s/rad" : " s/m");
+    }
+    if (t.term == JointTerm::kArmature) return rotational ? "kg m^2" : "kg";
+    return effort;
+  }
+  static const char* const kPowers[] = {"kg", "kg m", "kg m^2"};
+  const Moment moment = moments_[c].moment;
+  int power = moment == Moment::kM ? 0 : moment <= Moment::kHz ? 1 : 2;
+  if (moments_[c].length >= 0) ++power;
+  return kPowers[power];
+}
+
+void ModelParameters::NameParameters() {
+  const int m = static_cast<int>(moments_.size());
+  for (size_t k = 0; k < kept_.size(); ++k) {
+    const int c = kept_[k];
+    ModelParameter p;
+    p.name = FullName(c);
+    p.unit = FullUnit(c);
+    p.block = BlockOfFull(c);
+    p.is_joint_term = c >= m;
+    if (p.is_joint_term) {
+      p.term = terms_[c - m].term;
+      p.transition = terms_[c - m].transition;
+    }
+    for (int j = 0; j < NumFull(); ++j) {
+      const double x = regrouping_(k, j);
+      if (j == c || x == 0) continue;
+      char factor[32] = "";
+      if (std::abs(std::abs(x) - 1) > 1e-9) {
+        std::snprintf(factor, sizeof(factor), "%.4g*", std::abs(x));
+      }
+      p.name += (x < 0 ? " - " : " + ") + std::string(factor) + FullName(j);
+      if (j >= m) {
+        merged_.push_back(FullName(j) + " cannot be told from " + FullName(c) +
+                          ": they are one parameter");
+      }
+    }
+    parameters_.push_back(p);
+  }
+  row_columns_.resize(num_joints());
+  for (int k = 0; k < size(); ++k) {
+    const ModelParameter& p = parameters_[k];
+    for (int i = p.is_joint_term ? p.block : 0; i <= p.block; ++i) {
+      row_columns_[i].push_back(k);
+    }
+  }
+}
+
+}  // namespace armcal

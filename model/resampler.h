@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/log.h"
+
+namespace armcal {
+
+// A sliding window over the samples of one segment of a log, and its values on
+// a uniform grid t = first time of the segment + index * dt.
+class Resampler {
+ public:
+  Resampler(double dt, bool uniform) : dt_(dt), uniform_(uniform) {}
+
+  void Clear();
+  bool empty() const { return times_.empty(); }
+  double first_time() const { return segment_begin_; }
+  double last_time() const { return times_.back(); }
+  void Append(const Log& block, int row);
+  // Number of grid points up to the last sample.
+  long NumGridPoints() const;
+  // Forgets samples that no grid point from `index` on needs.
+  void DropBefore(long index);
+  // Grid points [begin, end): positions etc. into the matrices of *out (t as
+  // well). Exact samples where the time base is uniform, else cubic through
+  // the four nearest samples.
+  void Sample(long begin, long end, Log* out) const;
+
+ private:
+  Eigen::RowVectorXd Value(long index, size_t* hint) const;
+
+  double dt_;
+  bool uniform_;
+  double segment_begin_ = 0;
+  long dropped_ = 0;  // samples of the segment already forgotten
+  std::vector<double> times_;
+  std::vector<Eigen::RowVectorXd> values_;  // q, tau, qd, qdd side by side
+  int widths_[4] = {0, 0, 0, 0};
+};
+
+}  // namespace armcal

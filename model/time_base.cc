@@ -1,0 +1,180 @@
+#include "model/time_base.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "model/input_error.h"
+
+namespace armcal {
+namespace {
+
+constexpr int kBlockRows = 4096;
+
+// Steps in bins of 0.1 %, so that a median needs no memory of the log's size.
+class StepHistogram {
+ public:
+  void Add(double step) {
+    const int bin = Bin(step);
+    ++count_[bin];
+    sum_[bin] += step;
+    ++total_;
+  }
+  double Median() const {
+    long seen = 0;
+    for (size_t b = 0; b < count_.size(); ++b) {
+      seen += count_[b];
+      if (2 * seen >= total_) return sum_[b] / count_[b];
+    }
+    return 0;
+  }
+  double MeanBelow(double limit) const {
+    double sum = 0;
+    long count = 0;
+    for (int b = 0; b <= Bin(limit); ++b) {
+      sum += sum_[b];
+      count += count_[b];
+    }
+    return count > 0 ? sum / count : 0;
+  }
+
+ private:
+  static constexpr int kBins = 30000;
+  static int Bin(double step) {  // from 1e-9 s
+    const double b = std::log(std::max(step, 1e-9) * 1e9) / std::log(1.001);
+    return std::clamp(static_cast<int>(b), 0, kBins - 1);
+  }
+  std::vector<long> count_ = std::vector<long>(kBins, 0);
+  std::vector<double> sum_ = std::vector<double>(kBins, 0);
+  long total_ = 0;
+};
+
+// Mean squares of positions and of their rates over 20 ms or more, which
+// keeps encoder noise out.
+class MotionSpectrum {
+ public:
+  void Add(double t, const Eigen::RowVectorXd& q) {
+    if (count_ == 0) {
+      first_ = last_ = q;
+      sum_ = square_ = rate_ = Eigen::ArrayXd::Zero(q.size());
+    } else if (t - last_t_ < 0.02) {
+      return;
+    } else {
+      rate_ += (q - last_).transpose().array().square() / (t - last_t_);
+      time_ += t - last_t_;
+    }
+    const Eigen::ArrayXd x = (q - first_).transpose().array();
+    sum_ += x;
+    square_ += x.square();
+    ++count_;
+    last_ = q;
+    last_t_ = t;
+  }
+  double Frequency() const {
+    double frequency = 0;
+    for (int j = 0; j < sum_.size() && time_ > 0; ++j) {
+      const double mean = sum_[j] / count_;
+      const double variance = square_[j] / count_ - mean * mean;
+      if (variance < 1e-6) continue;  // 1 mrad: stands still
+      frequency = std::max(frequency, std::sqrt(rate_[j] / time_ / variance) /
+                                          (2 * 3.14159265358979));
+    }
+    return frequency;
+  }
+
+ private:
+  long count_ = 0;
+  double last_t_ = 0, time_ = 0;
+  Eigen::RowVectorXd first_, last_;
+  Eigen::ArrayXd sum_, square_, rate_;
+};
+
+// Everything the audit gathers from consecutive samples.
+struct Audit {
+  TimeBase base;
+  StepHistogram steps;
+  MotionSpectrum motion;
+  double last = 0;
+
+  void Add(double t, const Eigen::RowVectorXd& q) {
+    if (base.samples > 0) {
+      const double step = t - last;
+      if (step == 0) {
+        ++base.duplicates;
+        return;
+      }
+      steps.Add(step);
+      base.min_step =
+          base.samples == 1 ? step : std::min(base.min_step, step);
+      base.max_step = std::max(base.max_step, step);
+    } else {
+      base.range.begin = t;
+    }
+    base.range.end = last = t;
+    motion.Add(t, q);
+    ++base.samples;
+  }
+};
+
+}  // namespace
+
+TimeBase AuditTimeBase(const std::string& path, const TimeRange& crop,
+                       LogReader* reader) {
+  Audit audit;
+  Log block;
+  while (reader->Read(kBlockRows, &block)) {
+    for (int k = 0; k < block.size(); ++k) {
+      if (crop.Contains(block.t[k])) audit.Add(block.t[k], block.q.row(k));
+    }
+  }
+  TimeBase& base = audit.base;
+  if (base.samples < 3) {
+    throw InputError(path, "", std::to_string(base.samples) + " samples",
+                     "expected at least 3 samples with different times in the "
+                     "log (--crop keeps a part of it)");
+  }
+  base.median_step = audit.steps.Median();
+  base.dt = audit.steps.MeanBelow(3 * base.median_step);
+  base.uniform = base.max_step - base.min_step < 1e-3 * base.dt;
+  if (base.uniform) {
+    base.dt = (base.range.end - base.range.begin) /
+              static_cast<double>(base.samples - 1);
+  }
+  base.motion_hz = audit.motion.Frequency();
+  reader->Rewind();
+  if (base.max_step <= 3 * base.median_step) return base;
+  double last = base.range.begin;
+  while (reader->Read(kBlockRows, &block)) {
+    for (int k = 0; k < block.size(); ++k) {
+      if (!crop.Contains(block.t[k])) continue;
+      if (block.t[k] - last > 3 * base.median_step) {
+        base.gaps.push_back({last, block.t[k]});
+      }
+      last = block.t[k];
+    }
+  }
+  reader->Rewind();
+  return base;
+}
+
+std::string TimeBase::Describe() const {
+  char text[256];
+  std::snprintf(text, sizeof(text), "%ld samples in %.4g s, %.4g Hz", samples,
+                range.end - range.begin, 1 / dt);
+  std::string result = text;
+  if (!uniform) {
+    std::snprintf(text, sizeof(text), ", steps %.3g-%.3g ms (resampled)",
+                  1e3 * min_step, 1e3 * max_step);
+    result += text;
+  }
+  if (!gaps.empty()) {
+    result += ", " + std::to_string(gaps.size()) +
+              (gaps.size() == 1 ? " gap" : " gaps") + " over 3 steps";
+  }
+  if (duplicates > 0) {
+    result += ", " + std::to_string(duplicates) + " duplicate times dropped";
+  }
+  return result;
+}
+
+}  // namespace armcal

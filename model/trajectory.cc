@@ -1,0 +1,226 @@
+#include "model/trajectory.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/low_pass.h"
+#include "model/resampler.h"
+
+namespace armcal {
+namespace {
+
+constexpr int kBlockRows = 1024;
+constexpr double kStandstillSpeed = 1e-3;  // rad/s or m/s
+constexpr double kStandstillTime = 0.5;    // s
+constexpr double kCoreTime = 16;           // s
+constexpr long kMaxCore = 20000;           // samples
+
+void MarkStandstill(Trajectory* t) {
+  const int n = t->size();
+  const int least =
+      std::max(1, static_cast<int>(std::ceil(kStandstillTime / t->dt - 1e-9)));
+  t->standstill.setConstant(n, false);
+  int begin = 0;
+  for (int k = 0; k <= n; ++k) {
+    const bool still =
+        k < n && t->qd.row(k).cwiseAbs().maxCoeff() < kStandstillSpeed;
+    if (still) continue;
+    if (k - begin >= least) t->standstill.segment(begin, k - begin) = true;
+    begin = k + 1;
+  }
+}
+
+// Every factor-th sample.
+Eigen::MatrixXd Thin(const Eigen::MatrixXd& x, long factor) {
+  Eigen::MatrixXd y((x.rows() + factor - 1) / factor, x.cols());
+  for (Eigen::Index k = 0; k < y.rows(); ++k) y.row(k) = x.row(k * factor);
+  return y;
+}
+
+}  // namespace
+
+double DefaultBandwidth(const std::vector<TimeBase>& time_bases) {
+  double wish = 4, limit = 20;
+  for (const TimeBase& base : time_bases) {
+    wish = std::max(wish, 10 * base.motion_hz);
+    limit = std::min(limit, 0.2 / base.dt);
+  }
+  return std::min(wish, limit);
+}
+
+struct TrajectoryReader::Impl {
+  Impl(const std::string& path_in, const LogReaderOptions& log_options,
+       const TimeBase& time_base, const TrajectoryOptions& options_in)
+      : path(path_in),
+        options(options_in),
+        reader(path_in, log_options),
+        base(time_base),
+        bandwidth(options_in.bandwidth_hz),
+        resampler(base.dt, base.uniform) {
+    const double reach = options.reach_s + kStandstillTime + 4 * base.dt +
+                         (bandwidth > 0 ? 2 * LowPassMemory(bandwidth) : 0);
+    if (bandwidth > 0) {
+      thin = std::max(1L, static_cast<long>(1 / (16 * bandwidth * base.dt)));
+    }
+    margin = Whole(static_cast<long>(std::ceil(reach / base.dt)));
+    core =
+        Whole(std::clamp(static_cast<long>(kCoreTime / base.dt), 1L, kMaxCore));
+    largest_step = 3 * base.median_step;
+    if (bandwidth > 0) {
+      largest_step = std::max(largest_step, 0.25 / bandwidth);
+    }
+  }
+
+  // Reads samples of the current segment until grid point `index` is within
+  // the four-sample neighbourhood of what has been read, or the segment ends.
+  void FillTo(long index);
+  void Restart() {
+    reader.Rewind();
+    resampler.Clear();
+    block = Log();
+    block_row = 0;
+    segment = -1;
+    next_core = 0;
+    segment_ended = true;
+    log_ended = false;
+  }
+  bool NextBlock() {
+    block_row = 0;
+    log_ended = !reader.Read(kBlockRows, &block);
+    return !log_ended;
+  }
+  // The next multiple of `thin`, to which the borders of stretches are held.
+  long Whole(long samples) const { return (samples + thin - 1) / thin * thin; }
+  Trajectory Make(long core_begin, long core_end, long available);
+
+  std::string path;
+  TrajectoryOptions options;
+  LogReader reader;
+  TimeBase base;
+  double bandwidth;
+  Resampler resampler;
+  long thin = 1;  // one sample in so many is kept
+  long margin, core;
+  double largest_step;
+
+  Log block;
+  int block_row = 0;
+  int segment = -1;
+  long next_core = 0;
+  bool segment_ended = true;
+  bool log_ended = false;
+};
+
+void TrajectoryReader::Impl::FillTo(long index) {
+  while (!segment_ended) {
+    if (!resampler.empty() && resampler.NumGridPoints() > index + 4) return;
+    if (block_row >= block.size() && !NextBlock()) {
+      segment_ended = true;
+      return;
+    }
+    const double t = block.t[block_row];
+    if (!options.crop.Contains(t)) {
+      ++block_row;
+      continue;
+    }
+    if (!resampler.empty()) {
+      if (t == resampler.last_time()) {  // duplicate
+        ++block_row;
+        continue;
+      }
+      if (t - resampler.last_time() > largest_step) {
+        segment_ended = true;  // the row opens the next segment
+        return;
+      }
+    }
+    resampler.Append(block, block_row++);
+  }
+}
+
+Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
+                                        long available) {
+  const long begin = std::max(0L, core_begin - margin);
+  const long end = std::min(available, core_end + margin);
+  Log samples;
+  resampler.Sample(begin, end, &samples);
+  Trajectory t;
+  t.t0 = samples.t[0];
+  t.dt = base.dt;
+  t.tau = std::move(samples.tau);
+  const bool raw = bandwidth <= 0;
+  t.q = raw ? std::move(samples.q)
+            : ZeroPhaseLowPass(samples.q, 1 / base.dt, bandwidth);
+  t.qd = raw && samples.qd.size() > 0 ? std::move(samples.qd)
+                                      : Differentiate(t.q, t.dt);
+  t.qdd = raw && samples.qdd.size() > 0 ? std::move(samples.qdd)
+                                        : Differentiate(t.qd, t.dt);
+  if (thin > 1) {
+    t.tau = Thin(ZeroPhaseLowPass(t.tau, 1 / t.dt, 4 * bandwidth), thin);
+    for (Eigen::MatrixXd* x : {&t.q, &t.qd, &t.qdd}) *x = Thin(*x, thin);
+    t.dt *= static_cast<double>(thin);
+  }
+  t.segment = segment;
+  t.first_index = begin / thin;
+  t.core_begin = static_cast<int>((core_begin - begin) / thin);
+  t.core_end = static_cast<int>((core_end - begin + thin - 1) / thin);
+  MarkStandstill(&t);
+  return t;
+}
+
+TrajectoryReader::TrajectoryReader(const std::string& path,
+                                   const LogReaderOptions& log_options,
+                                   const TimeBase& time_base,
+                                   const TrajectoryOptions& options) {
+  LogReaderOptions with_rates = log_options;
+  with_rates.want_velocity = with_rates.want_acceleration =
+      options.bandwidth_hz == 0;
+  impl_ = std::make_unique<Impl>(path, with_rates, time_base, options);
+}
+TrajectoryReader::~TrajectoryReader() = default;
+TrajectoryReader::TrajectoryReader(TrajectoryReader&&) noexcept = default;
+
+const std::string& TrajectoryReader::path() const { return impl_->path; }
+const TimeBase& TrajectoryReader::time_base() const { return impl_->base; }
+double TrajectoryReader::bandwidth_hz() const { return impl_->bandwidth; }
+const std::string& TrajectoryReader::torque_source() const {
+  return impl_->reader.torque_source();
+}
+void TrajectoryReader::Rewind() { impl_->Restart(); }
+
+bool TrajectoryReader::Next(Trajectory* trajectory) {
+  Impl& s = *impl_;
+  while (true) {
+    s.FillTo(s.next_core + s.core + s.margin);
+    const long available = s.resampler.NumGridPoints();
+    if (s.segment_ended && s.next_core >= available) {
+      if (s.log_ended) return false;
+      s.resampler.Clear();
+      s.segment_ended = false;
+      s.next_core = 0;
+      ++s.segment;
+      continue;
+    }
+    // A remainder shorter than half a core joins this one.
+    long end = std::min(available, s.next_core + s.core);
+    if (s.segment_ended && available - end < s.core / 2) end = available;
+    if (end - s.next_core < 3 && s.next_core == 0) {  // nothing to use
+      s.next_core = end;
+      continue;
+    }
+    *trajectory = s.Make(s.next_core, end, available);
+    s.next_core = end;
+    s.resampler.DropBefore(std::max(0L, end - s.margin));
+    return true;
+  }
+}
+
+double TrajectoryReader::progress() const {
+  const TimeRange& range = impl_->base.range;
+  if (impl_->resampler.empty()) return impl_->log_ended ? 1 : 0;
+  return (impl_->resampler.last_time() - range.begin) /
+         (range.end - range.begin);
+}
+
+}  // namespace armcal

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/log_reader.h"
+#include "model/time_base.h"
+
+namespace armcal {
+
+// A stretch of motion on a uniform time grid, samples in rows. Its core is the
+// part that belongs to no other stretch; what lies around it lets filters and
+// test functions reach across the border. A log sampled faster than 16 times
+// the bandwidth is thinned to that rate, after its torque was low-passed at 4
+// times the bandwidth.
+struct Trajectory {
+  double t0 = 0;        // s since the log's first row, time of row 0
+  double dt = 0;        // s
+  Eigen::MatrixXd q;    // rad or m; low-passed unless the bandwidth is 0
+  Eigen::MatrixXd qd;   // rad/s or m/s
+  Eigen::MatrixXd qdd;  // rad/s^2 or m/s^2
+  Eigen::MatrixXd tau;  // N m or N, as recorded up to 4 times the bandwidth
+  // All |qd| below 1e-3 rad/s (m/s) for 0.5 s or longer.
+  Eigen::Array<bool, Eigen::Dynamic, 1> standstill;
+  int segment = 0;       // which stretch between gaps, from 0
+  long first_index = 0;  // grid index of row 0 in its segment
+  int core_begin = 0;
+  int core_end = 0;
+
+  int size() const { return static_cast<int>(q.rows()); }
+  int num_joints() const { return static_cast<int>(q.cols()); }
+  double time(int row) const { return t0 + row * dt; }
+};
+
+struct TrajectoryOptions {
+  // Cutoff of the zero-phase low pass on positions, Hz. 0: data are taken as
+  // they are, recorded velocities and accelerations where the log has them.
+  double bandwidth_hz = 0;
+  TimeRange crop;
+  // How far rows reach beyond the sample they belong to, s.
+  double reach_s = 0;
+};
+
+// A bandwidth for logs whose time bases are these: 10 times the fastest
+// motion's frequency, between 4 and 20 Hz, and at most a fifth of every sample
+// rate.
+double DefaultBandwidth(const std::vector<TimeBase>& time_bases);
+
+// Cuts a log into trajectories of bounded length, so that a log of any length
+// needs the same memory. A gap longer than three steps and than a quarter
+// period of the bandwidth ends a segment; shorter ones are interpolated.
+class TrajectoryReader {
+ public:
+  // `time_base` is the log's, of AuditTimeBase. Throws InputError.
+  TrajectoryReader(const std::string& path, const LogReaderOptions& log_options,
+                   const TimeBase& time_base, const TrajectoryOptions& options);
+  ~TrajectoryReader();
+  TrajectoryReader(TrajectoryReader&&) noexcept;
+
+  const std::string& path() const;
+  const TimeBase& time_base() const;
+  double bandwidth_hz() const;
+  const std::string& torque_source() const;
+
+  // The next stretch; false at the end.
+  bool Next(Trajectory* trajectory);
+  void Rewind();
+  // The share of the log that Next() has passed, 0 to 1.
+  double progress() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace armcal

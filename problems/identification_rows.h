@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "model/model_parameters.h"
+#include "model/time_base.h"
+#include "model/trajectory.h"
+
+namespace armcal {
+
+// Which identification model turns motion into linear equations U X = Y.
+enum class Identification {
+  kWeak,          // test functions over sliding windows: weak_rows.h
+  kDifferential,  // (2.19): differential_rows.h
+  kIntegral       // (2.27): integral_rows.h
+};
+enum class Quadrature { kTrapezoid, kSimpson };
+
+struct RowOptions {
+  Identification identification = Identification::kWeak;
+  double window_s = 0.5;  // weak: length of the test functions
+  int hops = 4;           // weak: windows start every window_s / hops
+  // Integral: the intervals (t1, t2) in s since the log's first row; empty:
+  // intervals of interval_s side by side.
+  std::vector<TimeRange> intervals;
+  double interval_s = 0.5;
+  Quadrature quadrature = Quadrature::kTrapezoid;
+  double bandwidth_hz = 0;  // differential: low pass of U and tau, 0: none
+};
+
+// One equation per joint: row i of U (n x parameters) and Y (n), N m (N), or
+// N m s (N s) for the integral model.
+struct IdentificationRow {
+  double time = 0;  // s, its middle
+  Eigen::MatrixXd U;
+  Eigen::VectorXd Y;
+};
+using RowSink = std::function<void(const IdentificationRow&)>;
+
+// How far rows reach beyond the sample they are assigned to, s.
+double RowReach(const RowOptions& options);
+
+// The regressor along a log: follows the states of Coulomb friction from one
+// trajectory to the next. Use a new one for each pass over a log.
+class MotionRegressor {
+ public:
+  explicit MotionRegressor(const ModelParameters& parameters);
+
+  const ModelParameters& parameters() const { return parameters_; }
+  // Must be called with each trajectory in turn, before its samples.
+  void Enter(const Trajectory& trajectory);
+  void Momentum(int sample, Eigen::MatrixXd* P, Eigen::MatrixXd* D);
+  void Differential(int sample, Eigen::MatrixXd* U);
+  // With Coulomb friction in the model, a sample at which the whole arm stands
+  // still says nothing: its friction can have any value.
+  bool Useless(int sample) const;
+
+ private:
+  ModelParameters parameters_;
+  Regressor regressor_;
+  CoulombStates coulomb_;
+  const Trajectory* trajectory_ = nullptr;
+  Eigen::MatrixXd states_;
+};
+
+// Calls `sink` for every row of the trajectory's core, in order of time. Rows
+// that reach into a useless sample are left out.
+void ForEachRow(const Trajectory& trajectory, const RowOptions& options,
+                MotionRegressor* regressor, const RowSink& sink);
+
+}  // namespace armcal

@@ -1,0 +1,69 @@
+#include "problems/integral_rows.h"
+
+#include <cmath>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Weight (in steps) of sample k of 0..steps.
+double QuadratureWeight(Quadrature rule, int k, int steps) {
+  const bool end = k == 0 || k == steps;
+  if (rule == Quadrature::kTrapezoid || steps % 2 != 0) return end ? 0.5 : 1;
+  return end ? 1.0 / 3 : (k % 2 == 1 ? 4.0 / 3 : 2.0 / 3);
+}
+
+// The first and last sample of every interval of the core.
+std::vector<std::pair<int, int>> IntervalSamples(const Trajectory& t,
+                                                 const RowOptions& options) {
+  std::vector<std::pair<int, int>> result;
+  if (!options.intervals.empty()) {
+    for (const TimeRange& interval : options.intervals) {
+      const long a = std::lround((interval.begin - t.t0) / t.dt);
+      const long b = std::lround((interval.end - t.t0) / t.dt);
+      if (a >= t.core_begin && a < t.core_end && b > a && b < t.size()) {
+        result.emplace_back(a, b);
+      }
+    }
+    return result;
+  }
+  long steps = std::max(1L, std::lround(options.interval_s / t.dt));
+  if (options.quadrature == Quadrature::kSimpson) steps += steps % 2;
+  for (int a = t.core_begin; a < t.core_end; ++a) {
+    if ((t.first_index + a) % steps == 0 && a + steps < t.size()) {
+      result.emplace_back(a, a + steps);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void ForEachIntegralRow(const Trajectory& trajectory, const RowOptions& options,
+                        MotionRegressor* regressor, const RowSink& sink) {
+  const int n = trajectory.num_joints();
+  MatrixXd P, D;
+  for (const auto& [begin, end] : IntervalSamples(trajectory, options)) {
+    IdentificationRow row;
+    row.time = trajectory.time((begin + end) / 2);
+    row.U.setZero(n, regressor->parameters().size());
+    row.Y.setZero(n);
+    bool use = true;
+    for (int k = begin; k <= end; ++k) {
+      regressor->Momentum(k, &P, &D);
+      const double w =
+          QuadratureWeight(options.quadrature, k - begin, end - begin) *
+          trajectory.dt;
+      row.U -= w * D;
+      row.Y += w * trajectory.tau.row(k).transpose();
+      if (k == begin) row.U -= P;
+      if (k == end) row.U += P;
+      use = use && !regressor->Useless(k);
+    }
+    if (use) sink(row);
+  }
+}
+
+}  // namespace armcal

@@ -1,0 +1,186 @@
+#include "tools/calibrate.h"
+
+#include <gflags/gflags.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "calib/calibration_report.h"
+#include "calib/linear_calibration.h"
+#include "model/input_text.h"
+#include "tools/input_flags.h"
+#include "tools/output_folder.h"
+#include "tools/progress_bar.h"
+
+DEFINE_string(
+    geometry, "known",
+    "lengths between the joint axes: known; lengths (those the robot "
+    "file declares unknown, or all that are not zero, are estimated); "
+    "all_lengths");
+DEFINE_string(identification, "weak",
+              "weak (test functions, no acceleration), differential (2.19), "
+              "integral (2.27)");
+DEFINE_string(solver, "weighted",
+              "weighted (noise of every joint re-estimated), batch (2.25), "
+              "recursive (2.28)");
+DEFINE_string(loss, "huber", "of the weighted solver: huber, squared");
+DEFINE_string(joint_terms, "viscous,coulomb,offset,armature",
+              "what joints add to the rigid arm, or none");
+DEFINE_string(coulomb_width, "auto",
+              "how Coulomb friction changes sign: auto (fitted per joint), a "
+              "speed such as 0.02rad/s, or a displacement such as 0.001rad, "
+              "for all joints");
+DEFINE_string(window, "",
+              "length of the weak form's test functions, s; default: 1.5 "
+              "periods of the bandwidth, at least 0.3");
+DEFINE_string(intervals, "",
+              "integral model: t1:t2[,t3:t4...], s; default: side by side");
+DEFINE_double(interval, 0.5, "integral model: length of intervals, s");
+DEFINE_string(quadrature, "trapezoid", "integral model: trapezoid, simpson");
+
+namespace armcal {
+namespace {
+
+GeometryKnowledge GeometryFromFlags(const Robot& robot) {
+  if (FLAGS_geometry != "lengths") {
+    return ParseChoice<GeometryKnowledge>(
+        "geometry", FLAGS_geometry,
+        {{"known", GeometryKnowledge::kKnown},
+         {"lengths", GeometryKnowledge::kNonzeroLengths},
+         {"all_lengths", GeometryKnowledge::kAllLengths}});
+  }
+  for (const Link& link : robot.links) {
+    if (!link.unknown_lengths.empty()) {
+      return GeometryKnowledge::kDeclaredLengths;
+    }
+  }
+  return GeometryKnowledge::kNonzeroLengths;
+}
+
+std::vector<JointTerm> JointTermsFromFlags() {
+  std::vector<JointTerm> terms;
+  if (FLAGS_joint_terms == "none") return terms;
+  for (const std::string& name : SplitAtCommas(FLAGS_joint_terms)) {
+    terms.push_back(
+        ParseChoice<JointTerm>("joint_terms", name,
+                               {{"viscous", JointTerm::kViscous},
+                                {"coulomb", JointTerm::kCoulomb},
+                                {"offset", JointTerm::kOffset},
+                                {"armature", JointTerm::kArmature}}));
+  }
+  return terms;
+}
+
+double PositiveNumber(const std::string& flag, const std::string& text) {
+  const auto numbers = ParseNumbers(flag, text);
+  if (numbers.size() != 1 || numbers[0] <= 0) {
+    throw UsageError("--" + flag + ": found '" + text +
+                     "', expected one positive number");
+  }
+  return numbers[0];
+}
+
+std::optional<CoulombTransition> TransitionFromFlags() {
+  using Law = CoulombTransition::Law;
+  const std::string& text = FLAGS_coulomb_width;
+  if (text == "auto") return std::nullopt;
+  for (const auto& [unit, law] :
+       std::vector<std::pair<std::string, Law>>{{"rad/s", Law::kVelocity},
+                                                {"m/s", Law::kVelocity},
+                                                {"rad", Law::kDisplacement},
+                                                {"m", Law::kDisplacement}}) {
+    const size_t at = text.rfind(unit);
+    if (at == std::string::npos || at + unit.size() != text.size()) continue;
+    return CoulombTransition{
+        law, PositiveNumber("coulomb_width", text.substr(0, at))};
+  }
+  throw UsageError("--coulomb_width: found '" + text +
+                   "', expected auto, a speed (0.02rad/s) or a displacement "
+                   "(0.001rad)");
+}
+
+LinearCalibrationOptions OptionsFromFlags(const Robot& robot) {
+  LinearCalibrationOptions options;
+  options.geometry = GeometryFromFlags(robot);
+  options.joint_terms = JointTermsFromFlags();
+  options.transition = TransitionFromFlags();
+  options.identification = ParseChoice<Identification>(
+      "identification", FLAGS_identification,
+      {{"weak", Identification::kWeak},
+       {"differential", Identification::kDifferential},
+       {"integral", Identification::kIntegral}});
+  options.solver =
+      ParseChoice<LinearSolver>("solver", FLAGS_solver,
+                                {{"weighted", LinearSolver::kWeighted},
+                                 {"batch", LinearSolver::kBatch},
+                                 {"recursive", LinearSolver::kRecursive}});
+  options.loss =
+      ParseChoice<Loss>("loss", FLAGS_loss,
+                        {{"huber", Loss::kHuber}, {"squared", Loss::kSquared}});
+  options.quadrature =
+      ParseChoice<Quadrature>("quadrature", FLAGS_quadrature,
+                              {{"trapezoid", Quadrature::kTrapezoid},
+                               {"simpson", Quadrature::kSimpson}});
+  if (!FLAGS_window.empty()) {
+    options.window_s = PositiveNumber("window", FLAGS_window);
+  }
+  options.intervals = ParseRanges("intervals", FLAGS_intervals);
+  for (const TimeRange& range : options.intervals) {
+    if (!std::isfinite(range.begin) || !std::isfinite(range.end)) {
+      throw UsageError("--intervals: expected t1:t2 with both ends");
+    }
+  }
+  if (!(FLAGS_interval > 0)) throw UsageError("--interval: expected s > 0");
+  options.interval_s = FLAGS_interval;
+  options.bandwidth_hz = BandwidthFromFlags();
+  return options;
+}
+
+int RunCalibrate() {
+  const Robot robot = RobotFromFlags();
+  LinearCalibrationOptions options = OptionsFromFlags(robot);
+  const LogReaderOptions log_options = LogOptionsFromFlags(robot);
+  const TimeRange crop = CropFromFlags();
+  LogSet training(LogsFromFlags(), log_options, crop);
+  LogSet validation(ValidationLogsFromFlags(), log_options, TimeRange());
+  LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
+
+  ProgressBar bar;
+  options.progress = [&bar](const std::string& stage, double fraction) {
+    bar.Show(stage, fraction);
+  };
+  const LinearCalibration result =
+      CalibrateLinear(robot, options, &training, held_out);
+
+  OutputFolder out(OutFromFlags());
+  out.Add("calibration.json",
+          ToJson(robot, training, held_out, result).dump(2) + "\n");
+  if (result.solved) out.Add("covariance.csv", CovarianceCsv(result));
+  out.Write();
+  for (const std::string& note : robot.notes) {
+    std::cout << "note       " << note << "\n";
+  }
+  std::cout << FullReport(robot, training, result);
+  return result.solved ? kExitOk : kExitNegative;
+}
+
+std::vector<std::string> FlagNames() {
+  std::vector<std::string> names = InputFlagNames();
+  for (const char* name :
+       {"geometry", "identification", "solver", "loss", "joint_terms",
+        "coulomb_width", "window", "intervals", "interval", "quadrature"}) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+Command CalibrateCommand() {
+  return {"calibrate",
+          "model parameters of an arm from logs of its joint positions and "
+          "torques, with standard deviations, ranks and a held-out check",
+          FlagNames(), &RunCalibrate};
+}
+
+}  // namespace armcal

@@ -1,0 +1,173 @@
+#include "tools/input_flags.h"
+
+#include <gflags/gflags.h>
+
+#include <cmath>
+
+#include "model/input_text.h"
+#include "model/robot_reader.h"
+#include "tools/command.h"
+
+DEFINE_string(robot, "", "robot file: .urdf, or .yaml with a DH table");
+DEFINE_string(base, "", "URDF link the arm starts at; default: the root");
+DEFINE_string(tip, "", "URDF link the arm ends at; default: the only one");
+DEFINE_string(gravity, "",
+              "gravity vector in the base frame, m/s^2, such as 0,0,-9.81; "
+              "default: the robot file's, for URDF 0,0,-9.81");
+DEFINE_string(log, "", "logs to calibrate on, CSV or CSV.gz: A[,B...]");
+DEFINE_string(validate, "", "logs held out to check the result: C[,D...]");
+DEFINE_string(torque_constants, "",
+              "per joint, N m/A: torque = constant x gear ratio x current");
+DEFINE_string(gear_ratios, "", "per joint; default: 1");
+DEFINE_string(torque_kind, "auto",
+              "what the log's torque is: auto, link, motor (motor side, times "
+              "gear ratio), current, command");
+DEFINE_string(bandwidth, "",
+              "cutoff of the zero-phase low pass, Hz; 0: data as they are; "
+              "default: 10 times the motion's frequency, 4 to 20 Hz");
+DEFINE_string(crop, "",
+              "use only t0:t1, s since the log's first row; default: all "
+              "(standstill is left out by itself)");
+DEFINE_string(out, "", "folder for the result files; default: write none");
+
+namespace armcal {
+namespace {
+
+std::vector<std::string> Required(const std::string& flag,
+                                  const std::string& value) {
+  std::vector<std::string> parts = SplitAtCommas(value);
+  if (parts.empty()) throw UsageError("--" + flag + "=FILE is needed");
+  return parts;
+}
+
+double ParseOne(const std::string& flag, const std::string& text) {
+  const std::optional<double> number = ParseNumber(text);
+  if (!number || !std::isfinite(*number)) {
+    throw UsageError("--" + flag + ": found '" + text + "', expected a number");
+  }
+  return *number;
+}
+
+}  // namespace
+
+const std::vector<std::string>& InputFlagNames() {
+  static const std::vector<std::string> kNames = {"robot",
+                                                  "log",
+                                                  "validate",
+                                                  "out",
+                                                  "bandwidth",
+                                                  "crop",
+                                                  "base",
+                                                  "tip",
+                                                  "gravity",
+                                                  "torque_kind",
+                                                  "torque_constants",
+                                                  "gear_ratios"};
+  return kNames;
+}
+
+std::vector<std::string> SplitAtCommas(const std::string& text) {
+  std::vector<std::string> parts;
+  size_t begin = 0;
+  while (begin <= text.size() && !text.empty()) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+std::vector<double> ParseNumbers(const std::string& flag,
+                                 const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& part : SplitAtCommas(text)) {
+    numbers.push_back(ParseOne(flag, part));
+  }
+  return numbers;
+}
+
+std::vector<TimeRange> ParseRanges(const std::string& flag,
+                                   const std::string& text) {
+  std::vector<TimeRange> ranges;
+  for (const std::string& part : SplitAtCommas(text)) {
+    const size_t colon = part.find(':');
+    if (colon == std::string::npos) {
+      throw UsageError("--" + flag + ": found '" + part +
+                       "', expected t0:t1 in s");
+    }
+    TimeRange range;
+    if (colon > 0) range.begin = ParseOne(flag, part.substr(0, colon));
+    if (colon + 1 < part.size()) {
+      range.end = ParseOne(flag, part.substr(colon + 1));
+    }
+    if (!(range.begin < range.end)) {
+      throw UsageError("--" + flag + ": found '" + part +
+                       "', expected t0 before t1");
+    }
+    ranges.push_back(range);
+  }
+  return ranges;
+}
+
+void RefuseChoice(const std::string& flag, const std::string& value,
+                  const std::vector<std::string>& choices) {
+  throw UsageError("--" + flag + ": found '" + value + "', expected one of " +
+                   JoinNames(choices));
+}
+
+Robot RobotFromFlags() {
+  if (FLAGS_robot.empty()) throw UsageError("--robot=FILE is needed");
+  RobotReaderOptions options;
+  options.base = FLAGS_base;
+  options.tip = FLAGS_tip;
+  if (!FLAGS_gravity.empty()) {
+    const std::vector<double> g = ParseNumbers("gravity", FLAGS_gravity);
+    if (g.size() != 3) {
+      throw UsageError("--gravity: expected three numbers, x,y,z in m/s^2");
+    }
+    options.gravity = Eigen::Vector3d(g[0], g[1], g[2]);
+  }
+  return ReadRobot(FLAGS_robot, options);
+}
+
+LogReaderOptions LogOptionsFromFlags(const Robot& robot) {
+  LogReaderOptions options;
+  options.joint_names = robot.JointNames();
+  options.torque_kind =
+      ParseChoice<TorqueKind>("torque_kind", FLAGS_torque_kind,
+                              {{"auto", TorqueKind::kAuto},
+                               {"link", TorqueKind::kLink},
+                               {"motor", TorqueKind::kMotor},
+                               {"current", TorqueKind::kCurrent},
+                               {"command", TorqueKind::kCommand}});
+  options.torque_constants =
+      ParseNumbers("torque_constants", FLAGS_torque_constants);
+  options.gear_ratios = ParseNumbers("gear_ratios", FLAGS_gear_ratios);
+  return options;
+}
+
+std::vector<std::string> LogsFromFlags() { return Required("log", FLAGS_log); }
+
+std::vector<std::string> ValidationLogsFromFlags() {
+  return SplitAtCommas(FLAGS_validate);
+}
+
+TimeRange CropFromFlags() {
+  const std::vector<TimeRange> ranges = ParseRanges("crop", FLAGS_crop);
+  if (ranges.size() > 1) throw UsageError("--crop takes one range, t0:t1");
+  return ranges.empty() ? TimeRange() : ranges[0];
+}
+
+std::optional<double> BandwidthFromFlags() {
+  if (FLAGS_bandwidth.empty()) return std::nullopt;
+  const double hz = ParseOne("bandwidth", FLAGS_bandwidth);
+  if (hz < 0) {
+    throw UsageError("--bandwidth: found '" + FLAGS_bandwidth +
+                     "', expected a frequency in Hz, or 0");
+  }
+  return hz;
+}
+
+std::string OutFromFlags() { return FLAGS_out; }
+
+}  // namespace armcal

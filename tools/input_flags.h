@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/log_reader.h"
+#include "model/robot.h"
+#include "model/time_base.h"
+
+namespace armcal {
+
+// The flags that commands share, parsed in one place. All throw UsageError for
+// a value that is not what the flag takes, InputError for what files hold.
+const std::vector<std::string>& InputFlagNames();
+
+Robot RobotFromFlags();  // --robot --base --tip --gravity
+LogReaderOptions LogOptionsFromFlags(const Robot& robot);
+std::vector<std::string> LogsFromFlags();            // --log
+std::vector<std::string> ValidationLogsFromFlags();  // --validate
+TimeRange CropFromFlags();                           // --crop
+std::optional<double> BandwidthFromFlags();          // --bandwidth
+std::string OutFromFlags();                          // --out
+
+// "1,2.5" and "0:0.5,1:1.5"; `flag` names the flag in the message.
+std::vector<double> ParseNumbers(const std::string& flag,
+                                 const std::string& text);
+std::vector<TimeRange> ParseRanges(const std::string& flag,
+                                   const std::string& text);
+std::vector<std::string> SplitAtCommas(const std::string& text);
+
+// The entry of `choices` called `value`; UsageError lists them.
+template <class T>
+T ParseChoice(const std::string& flag, const std::string& value,
+              const std::vector<std::pair<std::string, T>>& choices);
+[[noreturn]] void RefuseChoice(const std::string& flag,
+                               const std::string& value,
+                               const std::vector<std::string>& choices);
+
+template <class T>
+T ParseChoice(const std::string& flag, const std::string& value,
+              const std::vector<std::pair<std::string, T>>& choices) {
+  std::vector<std::string> names;
+  for (const auto& [name, choice] : choices) {
+    if (name == value) return choice;
+    names.push_back(name);
+  }
+  RefuseChoice(flag, value, names);
+}
+
+}  // namespace armcal

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace armcal {
+
+// Result files of one run, written at the end of it: all to temporary names
+// first, then renamed, so that a run that fails leaves no file behind and an
+// older result intact.
+class OutputFolder {
+ public:
+  // Empty `path`: nothing is written.
+  explicit OutputFolder(const std::string& path) : path_(path) {}
+
+  void Add(const std::string& name, std::string content);
+  // Creates the folder if need be. Throws InputError naming --out.
+  void Write() const;
+
+ private:
+  std::string path_;
+  std::vector<std::pair<std::string, std::string>> files_;
+};
+
+}  // namespace armcal

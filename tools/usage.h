@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "tools/command.h"
+
+namespace armcal {
+
+std::string GeneralHelp();
+std::string CommandHelp(const Command& command);
+
+// Sets the gflags of `command` from its command line (argv[0] is the command's
+// name). Throws UsageError: an unknown flag (with the nearest known one), a
+// flag without a value, a value of the wrong type, a word that is no flag.
+// Unlike gflags' own parser it never exits and knows only the command's flags.
+void ParseFlags(const Command& command, int argc, char** argv);
+
+}  // namespace armcal
