@@ -29,7 +29,9 @@ namespace armcal {
 //       zero: [hx, hy]            # inertial parameters zero by symmetry
 //   tool: {x: , y: , z: , roll: , pitch: , yaw: }   # on the last link
 //
-// Unknown, duplicate and misspelt keys are refused. Throws InputError.
+// Only convention, links and each link's joint are required; gravity defaults
+// to 0 0 -9.81, a mass without inertia is a point mass. Unknown, duplicate and
+// misspelt keys are refused, and --base and --tip. Throws InputError.
 Robot ReadDhTable(const std::string& path, const RobotReaderOptions& options);
 
 }  // namespace armcal

@@ -14,13 +14,15 @@ struct RobotReaderOptions {
   // with a message that lists them.
   std::string base;
   std::string tip;
-  // Overrides the file's gravity vector (URDF has none: 0 0 -9.81), in the base
-  // link's frame, m/s^2.
+  // Overrides the file's gravity vector, in the base link's frame, m/s^2. URDF
+  // has none: 0 0 -9.81 in the root link's frame, turned by the fixed joints
+  // between root and base.
   std::optional<Eigen::Vector3d> gravity;
 };
 
 // Reads a robot file by its ending: .urdf or .xml is URDF, .yaml or .yml a DH
-// table. Throws InputError with file, line and element, value and expectation.
+// table. Throws InputError with file, line and element, value and expectation;
+// also where finite numbers of the file have products that are not.
 Robot ReadRobot(const std::string& path, const RobotReaderOptions& options);
 
 }  // namespace armcal

@@ -13,8 +13,11 @@ namespace armcal {
 // Strict: every number must be one ("2kg", "nan", "1,5" are refused with line
 // and attribute); DOCTYPE, loops, two parents, unknown joint types, non-finite
 // or negative masses, zero axes, swapped limits, unexpanded xacro, duplicate
-// names are refused. No entity, mesh or other file is ever opened.
-// Throws InputError.
+// names are refused. Accepted with a note: mass 0 (no inertia given), inertia
+// that no rigid body has (a start value), limits that are missing or 0 (none).
+// The tool frame is the tip that the options name or the only fixed leaf beyond
+// the last joint, else the last link's frame. No entity, mesh or other file is
+// ever opened. Throws InputError.
 Robot ReadUrdf(const std::string& path, const RobotReaderOptions& options);
 
 }  // namespace armcal

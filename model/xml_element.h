@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tinyxml2 {
+class XMLDocument;
+class XMLElement;
+}  // namespace tinyxml2
+
+namespace armcal {
+
+// An element of an XmlFile, which must outlive it. Reading is strict: what is
+// not as asked throws InputError with line, element, attribute and value.
+class XmlElement {
+ public:
+  XmlElement(const std::string* file, const tinyxml2::XMLElement* element);
+
+  // Says in messages whose element this and its children are: "link 'arm'".
+  void SetOwner(const std::string& owner);
+  const std::string& owner() const { return owner_; }
+  std::string tag() const;
+  int line() const;
+
+  std::vector<XmlElement> Children(const char* tag) const;
+  // The child of that tag, if any; two are refused.
+  std::optional<XmlElement> Child(const char* tag) const;
+  XmlElement RequiredChild(const char* tag) const;
+
+  bool Has(const char* attribute) const;
+  std::string Text(const char* attribute) const;
+  // A text that is not empty and has no control characters.
+  std::string Name(const char* attribute) const;
+  // A finite number; `unit` ("kg") is for messages.
+  double Number(const char* attribute, const std::string& unit) const;
+  // The same, and not less than 0.
+  double NonNegative(const char* attribute, const std::string& unit) const;
+  // Three finite numbers.
+  Eigen::Vector3d Vector(const char* attribute, const std::string& unit) const;
+
+  // Throws InputError at this element, or at `attribute` where it is not empty.
+  [[noreturn]] void Refuse(const std::string& attribute,
+                           const std::string& found,
+                           const std::string& expected) const;
+
+ private:
+  void Numbers(const char* attribute, int count, const std::string& unit,
+               double* values) const;
+
+  const std::string* file_;
+  const tinyxml2::XMLElement* element_;
+  std::string owner_;
+  bool is_owner_ = false;
+};
+
+// A parsed XML file. Refuses, besides what is not well formed: more than 32
+// MiB, UTF-16, any DOCTYPE, nesting deeper than tinyxml2 allows (100), two
+// roots, repeated attributes and xacro elements.
+class XmlFile {
+ public:
+  explicit XmlFile(const std::string& path);
+  ~XmlFile();
+  XmlElement root() const;
+
+ private:
+  std::string path_;
+  std::unique_ptr<tinyxml2::XMLDocument> document_;
+};
+
+}  // namespace armcal
