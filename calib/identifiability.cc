@@ -17,16 +17,6 @@ using Eigen::VectorXd;
 
 constexpr double kExcited = 1e-8;  // relative to the direction seen best
 
-// rms torque of the joints; one that carries none is given the others' mean.
-VectorXd TorqueScale(const BlockTriangularFactor& factor) {
-  VectorXd rms = RightSideRms(factor);
-  const double mean = rms.mean();
-  for (double& x : rms) {
-    if (x <= 1e-12 * mean || x == 0) x = mean > 0 ? mean : 1;
-  }
-  return rms;
-}
-
 std::string DirectionText(const VectorXd& x, const VectorXd& y,
                           const ModelParameters& parameters) {
   std::string text;
@@ -72,10 +62,9 @@ int Rank(const VectorXd& s) {
   return rank;
 }
 
-}  // namespace
-
-MatrixXd ReferenceColumns(const ModelParameters& parameters, double speed,
-                          double hz) {
+// rms of the columns of U over random states.
+MatrixXd RichColumns(const ModelParameters& parameters, double speed,
+                     double hz) {
   const int n = parameters.num_joints();
   constexpr int kSamples = 200;
   std::mt19937_64 random(1);
@@ -100,18 +89,37 @@ MatrixXd ReferenceColumns(const ModelParameters& parameters, double speed,
   return (sum / kSamples).cwiseSqrt();
 }
 
+}  // namespace
+
+ReferenceMotion MakeReferenceMotion(const ModelParameters& parameters,
+                                    double speed, double hz, double unit,
+                                    const VectorXd& recorded,
+                                    const VectorXd& nominal) {
+  ReferenceMotion reference;
+  reference.columns = unit * RichColumns(parameters, speed, hz);
+  reference.torque = recorded.cwiseMax(
+      (reference.columns * nominal.asDiagonal()).rowwise().norm());
+  // A joint that carries none and has no nominal inertia: as the others.
+  const double mean = reference.torque.mean();
+  for (double& x : reference.torque) {
+    if (x <= 1e-12 * mean || x == 0) x = mean > 0 ? mean : 1;
+  }
+  return reference;
+}
+
 WeightedSystem MakeWeightedSystem(const BlockTriangularFactor& factor,
                                   const VectorXd& noise,
-                                  const MatrixXd& reference) {
+                                  const ReferenceMotion& reference) {
   const int m = factor.num_parameters();
-  const VectorXd torque = TorqueScale(factor);
   WeightedSystem system;
   system.scale = VectorXd::Zero(m);
   Eigen::Index height = 0;
   for (int i = 0; i < factor.num_joints(); ++i) {
     height += factor.columns(i).size() + 1;
     if (noise[i] <= 0) continue;
-    system.scale += (reference.row(i) / torque[i]).transpose().cwiseAbs2();
+    system.scale += (reference.columns.row(i) / reference.torque[i])
+                        .transpose()
+                        .cwiseAbs2();
   }
   system.scale = system.scale.cwiseSqrt();
   for (double& s : system.scale) s = s > 0 ? s : 1;
@@ -150,16 +158,15 @@ WeightedSystem::Directions WeightedSystem::Decompose() const {
 Identifiability AnalyzeIdentifiability(const BlockTriangularFactor& factor,
                                        const ModelParameters& parameters,
                                        const VectorXd& noise,
-                                       const MatrixXd& reference) {
+                                       const ReferenceMotion& reference) {
   Identifiability result;
-  const VectorXd torque = TorqueScale(factor);
   for (int i = 0; i < factor.num_joints(); ++i) {
     const int begin = factor.block_begin(i), size = factor.block_size(i);
     result.block_size.push_back(size);
-    VectorXd scale =
-        reference.row(i).segment(begin, size).transpose() / torque[i];
+    VectorXd scale = reference.columns.row(i).segment(begin, size).transpose() /
+                     reference.torque[i];
     for (double& s : scale) s = s > 0 ? s : 1;
-    const double sigma = noise[i] > 0 ? noise[i] : torque[i];
+    const double sigma = noise[i] > 0 ? noise[i] : reference.torque[i];
     const MatrixXd A = factor.Triangle(i).topLeftCorner(size, size) *
                        scale.cwiseInverse().asDiagonal() / sigma;
     const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeFullV);

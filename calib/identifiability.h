@@ -9,14 +9,26 @@
 
 namespace armcal {
 
-// How large each parameter's column would be in each joint's equations under a
-// rich motion, rms in N m (N) per unit of the parameter: n x m. Columns of a
-// log are judged against these, never against their own norm, which would make
-// a column that is not excited look excited.
-//   speed  rms joint speed of the motion, rad/s (a fifth of it in m/s)
-//   hz     its frequency
-Eigen::MatrixXd ReferenceColumns(const ModelParameters& parameters,
-                                 double speed, double hz);
+// What directions of a log are judged against, never their own norms, which
+// would make a column that is not excited look excited.
+struct ReferenceMotion {
+  // rms of each parameter's column in each joint's equations under a rich
+  // motion, per unit of the parameter: n x m.
+  Eigen::MatrixXd columns;
+  // What is a large torque of each joint: the larger of its rms in the log and
+  // of the rms terms that the nominal parameters make of `columns` (an arm that
+  // swings freely carries hardly any torque).
+  Eigen::VectorXd torque;
+};
+
+// A random motion with rms joint speed `speed` (rad/s; a fifth of it in m/s) at
+// frequency `hz`; `unit` is what rows are integrated over (1, or the interval's
+// length in s); `recorded` the rms right-hand side per joint; `nominal` the
+// parameters of the robot file, zero where it has none.
+ReferenceMotion MakeReferenceMotion(const ModelParameters& parameters,
+                                    double speed, double hz, double unit,
+                                    const Eigen::VectorXd& recorded,
+                                    const Eigen::VectorXd& nominal);
 
 // A combination of parameters that a log cannot see.
 struct UnidentifiableDirection {
@@ -28,8 +40,8 @@ struct UnidentifiableDirection {
 // The rank condition (2.30), block by block, which the recursion (2.28) needs,
 // and for all equations at once, which suffices for (2.25): MATH.md A.1.
 // A direction counts when it is excited at all (1e-8 of the best seen one) and
-// its standard deviation, as torque in the rich motion of ReferenceColumns, is
-// below the joint's torque in the log.
+// its standard deviation, as torque in the reference motion, is below what is a
+// large torque there.
 struct Identifiability {
   std::vector<int> block_rank;  // numerical rank of U_ii
   std::vector<int> block_size;
@@ -59,15 +71,14 @@ struct WeightedSystem {
 };
 
 // `noise`: standard deviation of each joint's equations; 0 leaves the joint
-// out. `reference`: ReferenceColumns times the row's unit (1, or the interval's
-// length for the integral model).
+// out.
 WeightedSystem MakeWeightedSystem(const BlockTriangularFactor& factor,
                                   const Eigen::VectorXd& noise,
-                                  const Eigen::MatrixXd& reference);
+                                  const ReferenceMotion& reference);
 
 Identifiability AnalyzeIdentifiability(const BlockTriangularFactor& factor,
                                        const ModelParameters& parameters,
                                        const Eigen::VectorXd& noise,
-                                       const Eigen::MatrixXd& reference);
+                                       const ReferenceMotion& reference);
 
 }  // namespace armcal

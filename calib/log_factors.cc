@@ -40,7 +40,8 @@ BlockTriangularFactor LogFactors::Merged(
 }
 
 std::vector<std::vector<bool>> FindPowered(const LogFactors& factors,
-                                           const Eigen::VectorXd& x) {
+                                           const Eigen::VectorXd& x,
+                                           double share) {
   std::vector<std::vector<bool>> powered;
   for (int log = 0; log < factors.size(); ++log) {
     const BlockTriangularFactor& factor = factors.log(log);
@@ -53,7 +54,8 @@ std::vector<std::vector<bool>> FindPowered(const LogFactors& factors,
         terms += std::pow(x[columns[c]], 2) * R.col(c).squaredNorm();
       }
       const double torque = R.rightCols<1>().norm();
-      powered.back().push_back(torque > 0 && torque >= 0.1 * std::sqrt(terms));
+      powered.back().push_back(torque > 0 &&
+                               torque >= share * std::sqrt(terms));
     }
   }
   return powered;

@@ -33,10 +33,11 @@ class LogFactors {
   Eigen::ArrayXd mean_square_speed_;
 };
 
-// Which equations have a drive torque worth the name: its rms is at least a
-// tenth of that of the terms x makes of them.
+// Which equations have a drive torque worth the name: its rms is at least
+// `share` of that of the terms x makes of them.
 std::vector<std::vector<bool>> FindPowered(const LogFactors& factors,
-                                           const Eigen::VectorXd& x);
+                                           const Eigen::VectorXd& x,
+                                           double share);
 // All whose torque is not zero throughout.
 std::vector<std::vector<bool>> FindNonzero(const LogFactors& factors);
 

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calib/log_set.h"
+#include "model/model_parameters.h"
+#include "problems/identification_rows.h"
+
+namespace armcal {
+
+// One row of every joint with its residuals at some parameters.
+struct RowResidual {
+  const IdentificationRow& row;
+  int log;
+  bool follows;  // comes right after the row before it, without a gap
+  // Per joint, in units of its noise; 0 where the equation is left out.
+  Eigen::VectorXd r;
+};
+
+// Which equations count: [log][joint].
+using EquationMask = std::vector<std::vector<bool>>;
+
+// Passes over the logs that look at every row's residual.
+class ResidualPass {
+ public:
+  ResidualPass(const ModelParameters& parameters, const RowOptions& rows,
+               const EquationMask& used, const Progress& progress,
+               LogSet* logs);
+
+  const ModelParameters& parameters() const { return parameters_; }
+  int num_logs() const { return logs_->size(); }
+  bool uses(int log, int joint) const { return used_[log][joint]; }
+  int passes() const { return passes_; }
+
+  void Run(const std::string& stage, const Eigen::VectorXd& x,
+           const Eigen::VectorXd& noise,
+           const std::function<void(const RowResidual&)>& visit);
+
+ private:
+  const ModelParameters& parameters_;
+  RowOptions rows_;
+  EquationMask used_;
+  Progress progress_;
+  LogSet* logs_;
+  int passes_ = 0;
+};
+
+}  // namespace armcal

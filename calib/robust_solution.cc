@@ -1,0 +1,43 @@
+#include "calib/robust_solution.h"
+
+#include <cmath>
+
+#include "calib/robust_rows.h"
+
+namespace armcal {
+
+RobustSolution SolveRobust(const Eigen::VectorXd& x,
+                           const Eigen::VectorXd& noise,
+                           const std::vector<bool>& frozen,
+                           const ReferenceMotion& reference,
+                           ResidualPass* pass) {
+  constexpr int kPasses = 2;
+  const int n = static_cast<int>(noise.size());
+  RobustSolution result;
+  result.solution.x = x;
+  result.noise = noise;
+  for (int k = 0; k < kPasses; ++k) {
+    BlockTriangularFactor factor(pass->parameters());
+    std::vector<ResidualStatistics> statistics(n);
+    pass->Run("robust weights", result.solution.x, result.noise,
+              [&](const RowResidual& residual) {
+                const IdentificationRow& row = residual.row;
+                for (int i = 0; i < n; ++i) {
+                  if (!pass->uses(residual.log, i)) continue;
+                  statistics[i].Add(residual.r[i]);
+                  factor.Add(i, row.U.row(i), row.Y[i],
+                             std::sqrt(Huber::Weight(residual.r[i])));
+                }
+              });
+    result.outliers.clear();
+    for (int i = 0; i < n; ++i) {
+      result.outliers.push_back(statistics[i].outliers());
+      const double spread = statistics[i].RobustSpread();
+      if (!frozen[i] && spread > 1e-9) result.noise[i] *= spread;
+    }
+    result.solution = SolveWeighted(factor, result.noise, reference);
+  }
+  return result;
+}
+
+}  // namespace armcal

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "calib/identifiability.h"
+#include "calib/linear_solution.h"
+#include "calib/residual_pass.h"
+
+namespace armcal {
+
+struct CovarianceEstimate {
+  Eigen::MatrixXd covariance;  // m x m, of the parameters
+  std::string method;          // a phrase for reports
+};
+
+// The covariance of a solution from rows that overlap and whose errors are
+// autocorrelated: the sandwich of the solution's gain and the long-run
+// covariance of the scores (Newey-West, Andrews' window for the worst joint's
+// autocorrelation). With three logs or more, deviations are at least what the
+// scatter of the logs' score sums shows: something may change from log to log
+// (temperature, wear, a torque scale). `huber`: the solution is of SolveRobust.
+// Two passes over the logs.
+CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
+                                         const Eigen::VectorXd& noise,
+                                         bool huber,
+                                         const ReferenceMotion& reference,
+                                         long rows, int hops_per_window,
+                                         ResidualPass* pass);
+
+}  // namespace armcal
