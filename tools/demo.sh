@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds armcal and shows it at work on a robot and
+# logs that come with it.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+tools/setup.sh
+if ! { cmake -S . -B build -G Ninja &&
+       cmake --build build -j "$(nproc)" --target armcal; } >build.log 2>&1; then
+  cat build.log >&2
+  exit 1
+fi
+rm build.log
+
+say() { printf '\n\033[1m%s\033[0m\n' "$*" | fold -s -w 80; }
+run() { echo "\$ $*"; echo; "$@"; }
+if [[ ! -t 1 ]]; then say() { printf '\n%s\n' "$*" | fold -s -w 80; }; fi
+
+say "1. A SCARA arm whose two link lengths nobody told us. From one log of joint \
+positions and torques armcal finds the six numbers that fix its dynamics, and \
+checks them on another motion, which it has not seen. The log was generated \
+with 17.55 7.55 2.343 0.176 3.11 0.35, without noise."
+run build/armcal calibrate --robot=data/scara/robot.yaml \
+  --log=data/scara/B.csv.gz --validate=data/scara/A.csv.gz \
+  --geometry=lengths --joint_terms=none --bandwidth=0 --out=armcal-out/scara
+
+say "2. The same arm from three intervals of a motion that looks the same forwards \
+and backwards in time. Joint by joint this cannot work, and armcal says what it \
+cannot see instead of printing a wrong number:"
+run build/armcal calibrate --robot=data/scara/robot.yaml \
+  --log=data/scara/A.csv.gz --geometry=lengths --joint_terms=none \
+  --bandwidth=0 --identification=integral --solver=recursive \
+  --intervals=1:1.5,1.5:2,2.5:3 || [[ $? -eq 1 ]]
+
+say "The result of 1 is in $PWD/armcal-out/scara: calibration.json for programs \
+(docs/calibrate.md explains every key) and covariance.csv, how the errors of the \
+numbers hang together."
