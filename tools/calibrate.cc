@@ -127,10 +127,14 @@ LinearCalibrationOptions OptionsFromFlags(const Robot& robot) {
   options.intervals = ParseRanges("intervals", FLAGS_intervals);
   for (const TimeRange& range : options.intervals) {
     if (!std::isfinite(range.begin) || !std::isfinite(range.end)) {
-      throw UsageError("--intervals: expected t1:t2 with both ends");
+      throw UsageError("--intervals: found '" + FLAGS_intervals +
+                       "', expected t1:t2 with both ends");
     }
   }
-  if (!(FLAGS_interval > 0)) throw UsageError("--interval: expected s > 0");
+  if (!(FLAGS_interval > 0) || !std::isfinite(FLAGS_interval)) {
+    throw UsageError("--interval: found '" + NumberText(FLAGS_interval) +
+                     "', expected a length in s above 0");
+  }
   options.interval_s = FLAGS_interval;
   options.bandwidth_hz = BandwidthFromFlags();
   return options;

@@ -33,11 +33,15 @@ DEFINE_string(out, "", "folder for the result files; default: write none");
 namespace armcal {
 namespace {
 
-std::vector<std::string> Required(const std::string& flag,
-                                  const std::string& value) {
-  std::vector<std::string> parts = SplitAtCommas(value);
-  if (parts.empty()) throw UsageError("--" + flag + "=FILE is needed");
-  return parts;
+std::vector<std::string> FileNames(const std::string& flag,
+                                   const std::string& value) {
+  std::vector<std::string> names = SplitAtCommas(value);
+  for (const std::string& name : names) {
+    if (!name.empty()) continue;
+    throw UsageError("--" + flag + ": found '" + value +
+                     "', expected file names with commas between them");
+  }
+  return names;
 }
 
 double ParseOne(const std::string& flag, const std::string& text) {
@@ -123,7 +127,8 @@ Robot RobotFromFlags() {
   if (!FLAGS_gravity.empty()) {
     const std::vector<double> g = ParseNumbers("gravity", FLAGS_gravity);
     if (g.size() != 3) {
-      throw UsageError("--gravity: expected three numbers, x,y,z in m/s^2");
+      throw UsageError("--gravity: found '" + FLAGS_gravity +
+                       "', expected three numbers, x,y,z in m/s^2");
     }
     options.gravity = Eigen::Vector3d(g[0], g[1], g[2]);
   }
@@ -146,10 +151,13 @@ LogReaderOptions LogOptionsFromFlags(const Robot& robot) {
   return options;
 }
 
-std::vector<std::string> LogsFromFlags() { return Required("log", FLAGS_log); }
+std::vector<std::string> LogsFromFlags() {
+  if (FLAGS_log.empty()) throw UsageError("--log=FILE is needed");
+  return FileNames("log", FLAGS_log);
+}
 
 std::vector<std::string> ValidationLogsFromFlags() {
-  return SplitAtCommas(FLAGS_validate);
+  return FileNames("validate", FLAGS_validate);
 }
 
 TimeRange CropFromFlags() {

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "model/input_error.h"
 #include "tools/command.h"
@@ -32,6 +34,15 @@ int Run(const Command& command, int argc, char** argv) {
   return command.run();
 }
 
+[[noreturn]] void RefuseCommand(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& command : Commands()) names.push_back(command.name);
+  const std::string nearest = NearestName(name, names);
+  throw UsageError("unknown command '" + name + "'" +
+                   (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
+                   "; see armcal --help");
+}
+
 int Main(int argc, char** argv) {
   if (argc < 2 || IsHelp(argv[1])) {
     (argc < 2 ? std::cerr : std::cout) << GeneralHelp();
@@ -45,8 +56,7 @@ int Main(int argc, char** argv) {
     if (std::strcmp(argv[1], command.name) != 0) continue;
     return Run(command, argc - 1, argv + 1);
   }
-  throw UsageError("unknown command '" + std::string(argv[1]) +
-                   "': see armcal --help");
+  RefuseCommand(argv[1]);
 }
 
 }  // namespace

@@ -15,12 +15,15 @@ std::string Wrapped(const std::string& text, size_t column, size_t width) {
   std::string result, word;
   size_t at = column;
   while (words >> word) {
-    if (at + word.size() + 1 > width) {
+    if (at > column && at + 1 + word.size() > width) {
       result += "\n" + std::string(column, ' ');
       at = column;
+    } else if (at > column) {
+      result += " ";
+      ++at;
     }
-    result += word + " ";
-    at += word.size() + 1;
+    result += word;
+    at += word.size();
   }
   return result + "\n";
 }
@@ -40,22 +43,17 @@ size_t EditDistance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-std::string NearestFlag(const Command& command, const std::string& name) {
-  std::string nearest;
-  size_t best = 4;
-  for (const std::string& flag : command.flags) {
-    const size_t distance = EditDistance(name, flag);
-    if (distance >= best) continue;
-    best = distance;
-    nearest = flag;
-  }
-  return nearest;
+// What a wrong flag type is called in a message.
+std::string TypeText(const std::string& gflags_type) {
+  if (gflags_type == "double") return "a number";
+  if (gflags_type == "bool") return "true or false";
+  return gflags_type == "string" ? "a valid value" : "a whole number";
 }
 
 void SetFlag(const Command& command, const std::string& name,
              const std::string& value) {
   if (std::count(command.flags.begin(), command.flags.end(), name) == 0) {
-    const std::string nearest = NearestFlag(command, name);
+    const std::string nearest = NearestName(name, command.flags);
     throw UsageError(
         "unknown flag --" + name + " of armcal " + command.name +
         (nearest.empty() ? "" : "; did you mean --" + nearest + "?") +
@@ -66,11 +64,24 @@ void SetFlag(const Command& command, const std::string& name,
   }
   gflags::CommandLineFlagInfo info;
   gflags::GetCommandLineFlagInfo(name.c_str(), &info);
-  throw UsageError("--" + name + "=" + value + ": expected a " +
-                   (info.type == "string" ? "valid value" : info.type));
+  throw UsageError("--" + name + ": found '" + value + "', expected " +
+                   TypeText(info.type));
 }
 
 }  // namespace
+
+std::string NearestName(const std::string& name,
+                        const std::vector<std::string>& names) {
+  std::string nearest;
+  size_t best = 4;
+  for (const std::string& candidate : names) {
+    const size_t distance = EditDistance(name, candidate);
+    if (distance >= std::min(best, candidate.size())) continue;
+    best = distance;
+    nearest = candidate;
+  }
+  return nearest;
+}
 
 std::string GeneralHelp() {
   std::string text =
@@ -85,7 +96,7 @@ std::string GeneralHelp() {
 }
 
 std::string CommandHelp(const Command& command) {
-  std::string text = "armcal " + std::string(command.name) + ": " +
+  std::string text = "armcal " + std::string(command.name) + " --flags\n\n  " +
                      Wrapped(command.summary, 2, 80) + "\n";
   for (const std::string& flag : command.flags) {
     gflags::CommandLineFlagInfo info;

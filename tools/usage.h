@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/command.h"
 
@@ -8,6 +9,11 @@ namespace armcal {
 
 std::string GeneralHelp();
 std::string CommandHelp(const Command& command);
+
+// The entry of `names` that `name` was probably meant to be: at most three
+// letters differ. Empty where none is near.
+std::string NearestName(const std::string& name,
+                        const std::vector<std::string>& names);
 
 // Sets the gflags of `command` from its command line (argv[0] is the command's
 // name). Throws UsageError: an unknown flag (with the nearest known one), a
