@@ -55,8 +55,10 @@ MatrixXd ZeroPhaseLowPass(const MatrixXd& x, double sample_rate,
   const int n = static_cast<int>(x.rows());
   if (n < 2 || cutoff_hz >= 0.499 * sample_rate) return x;
   const auto sections = Butterworth4(sample_rate, cutoff_hz);
+  // The filter starts from rest so far outside that a ramp passes.
   const int pad = std::min(
-      n - 1, static_cast<int>(std::ceil(2 * sample_rate / cutoff_hz)));
+      n - 1,
+      static_cast<int>(std::ceil(sample_rate * LowPassMemory(cutoff_hz))));
   MatrixXd result(n, x.cols());
   VectorXd padded(n + 2 * pad);
   for (int c = 0; c < x.cols(); ++c) {
@@ -86,15 +88,15 @@ MatrixXd Differentiate(const MatrixXd& x, double dt) {
   if (n < 3) return d;
   for (int k = 0; k < n; ++k) {
     if (k >= 2 && k + 2 < n) {
-      d.row(k) = (8 * (x.row(k + 1) - x.row(k - 1)) -
-                  (x.row(k + 2) - x.row(k - 2))) /
-                 (12 * dt);
+      d.row(k) =
+          (8 * (x.row(k + 1) - x.row(k - 1)) - (x.row(k + 2) - x.row(k - 2))) /
+          (12 * dt);
     } else if (k >= 1 && k + 1 < n) {
       d.row(k) = (x.row(k + 1) - x.row(k - 1)) / (2 * dt);
     } else {
       const int s = k == 0 ? 1 : -1;
-      d.row(k) = s * (-3 * x.row(k) + 4 * x.row(k + s) - x.row(k + 2 * s)) /
-                 (2 * dt);
+      d.row(k) =
+          s * (-3 * x.row(k) + 4 * x.row(k + s) - x.row(k + 2 * s)) / (2 * dt);
     }
   }
   return d;
