@@ -54,10 +54,15 @@ long Resampler::NumGridPoints() const {
 }
 
 void Resampler::DropBefore(long index) {
-  const double t = segment_begin_ + static_cast<double>(index) * dt_;
-  const auto it = std::lower_bound(times_.begin(), times_.end(), t - dt_ / 2);
+  long needed = index - dropped_;  // stamps may drift against a uniform grid
+  if (!uniform_) {
+    const double t = segment_begin_ + static_cast<double>(index) * dt_;
+    needed = std::lower_bound(times_.begin(), times_.end(), t - dt_ / 2) -
+             times_.begin();
+  }
   const long keep = 4;  // neighbours of the cubic
-  const long count = std::max<long>(0, it - times_.begin() - keep);
+  const long count =
+      std::clamp(needed - keep, 0L, static_cast<long>(times_.size()));
   times_.erase(times_.begin(), times_.begin() + count);
   values_.erase(values_.begin(), values_.begin() + count);
   dropped_ += count;
@@ -83,8 +88,7 @@ Eigen::RowVectorXd Resampler::Value(long index, size_t* hint) const {
 void Resampler::Sample(long begin, long end, Log* out) const {
   CHECK_LE(end, NumGridPoints());
   const Eigen::Index rows = end - begin;
-  Eigen::MatrixXd* const signals[] = {&out->q, &out->tau, &out->qd,
-                                      &out->qdd};
+  Eigen::MatrixXd* const signals[] = {&out->q, &out->tau, &out->qd, &out->qdd};
   for (int s = 0; s < 4; ++s) {
     signals[s]->resize(widths_[s] > 0 ? rows : 0, widths_[s]);
   }
