@@ -120,11 +120,12 @@ std::string UnpoweredText(const Robot& robot, const LogSet& training,
                           const LinearCalibration& result) {
   std::string text;
   for (const UnpoweredJoint& u : result.unpowered) {
-    text += Format("unpowered  %s swings freely in %s (%.3g %s rms): its ",
-                   robot.links[u.joint].joint.name.c_str(),
-                   training.path(u.log).c_str(), u.torque_rms,
-                   EffortUnit(robot.links[u.joint].joint.type)) +
-            "equation has no scale\n";
+    text += "unpowered  " + robot.links[u.joint].joint.name + " in " +
+            training.path(u.log) +
+            Format(
+                ": %.3g %s rms is next to nothing beside gravity and "
+                "inertia\n",
+                u.torque_rms, EffortUnit(robot.links[u.joint].joint.type));
   }
   return text;
 }

@@ -8,6 +8,7 @@
 #include "calib/robust_solution.h"
 #include "calib/row_covariance.h"
 #include "calib/transition_choice.h"
+#include "calib/used_equations.h"
 #include "model/input_error.h"
 
 namespace armcal {
@@ -99,43 +100,20 @@ void CheckIntervals(const RowOptions& rows, const LogSet& training,
       "standstill");
 }
 
-// Equations without drive torque are left out where the joint has others; a
-// joint that is never powered keeps them (*frozen), for Solve to weigh.
-EquationMask FindUsed(const Robot& robot, const LogFactors& factors,
-                      const ReferenceMotion& reference,
-                      std::vector<bool>* frozen, LinearCalibration* result) {
-  const int n = robot.num_joints();
-  const ModelParameters& parameters = result->parameters;
-  // By the robot file's inertia first: left to themselves, the equations of an
-  // arm that swings freely are solved best by an arm without mass.
-  const EquationMask nominal =
-      FindPowered(factors, parameters.Values(robot), 0.05);
-  EquationMask used = nominal;
-  for (int round = 0; round < 2; ++round) {
-    const BlockTriangularFactor merged = factors.Merged(parameters, used);
-    VectorXd noise = RightSideRms(merged);
-    const LinearSolution solution =
-        SolveReweighted(merged, reference, std::vector<bool>(n, false), &noise);
-    used = FindPowered(factors, solution.x, 0.1);
-    for (int log = 0; log < factors.size(); ++log) {
-      for (int i = 0; i < n; ++i) {
-        used[log][i] = used[log][i] && nominal[log][i];
-      }
-    }
+std::string WhyNothingToSolve(const LogFactors& factors,
+                              const ModelParameters& parameters) {
+  const BlockTriangularFactor all = factors.Merged(
+      parameters,
+      EquationMask(factors.size(),
+                   std::vector<bool>(parameters.num_joints(), true)));
+  if (all.rows(0) == 0) {
+    return "the logs hold no stretch of motion that is long enough for an "
+           "equation";
   }
-  frozen->assign(n, true);
-  for (int i = 0; i < n; ++i) {
-    for (int log = 0; log < factors.size(); ++log) {
-      if (used[log][i]) {
-        (*frozen)[i] = false;
-      } else {
-        result->unpowered.push_back(
-            {log, i, RightSideRms(factors.log(log))[i]});
-      }
-    }
-    for (auto& joints : used) joints[i] = joints[i] || (*frozen)[i];
-  }
-  return used;
+  const double torque = RightSideRms(all).maxCoeff();
+  if (torque == 0) return "the torque in the logs is zero throughout";
+  if (!std::isfinite(torque)) return "the torque in the logs overflows";
+  return "";
 }
 
 // Weighted by re-estimated noise. The noise of a homogeneous equation must not
@@ -175,8 +153,10 @@ LinearSolution Solve(const BlockTriangularFactor& factor,
     solution = SolveRecursive(factor, result->identifiability);
     if (solution.solved) result->noise = EstimateNoise(factor, solution.x);
   }
-  result->solved = solution.solved;
-  result->reason = solution.solved ? "solved" : solution.refusal;
+  result->solved = solution.solved && solution.x.allFinite();
+  result->reason = !solution.solved  ? solution.refusal
+                   : !result->solved ? "the numbers of the logs overflow"
+                                     : "solved";
   return solution;
 }
 
@@ -185,7 +165,6 @@ void SetCovariance(const CovarianceEstimate& estimate,
   const int m = result->parameters.size();
   result->covariance = estimate.covariance;
   result->covariance_method = estimate.method;
-  result->stddev.setConstant(m, std::numeric_limits<double>::infinity());
   for (int k = 0; k < m; ++k) {
     if (!result->identifiable[k]) continue;
     result->stddev[k] = std::sqrt(result->covariance(k, k));
@@ -214,7 +193,7 @@ void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
       Solve(factor, reference, frozen, options.solver, result);
   result->x = solution.x;
   result->identifiable = solution.identifiable;
-  if (!solution.solved) return;
+  if (!result->solved) return;
   const bool huber =
       options.solver == LinearSolver::kWeighted && options.loss == Loss::kHuber;
   if (huber) {
@@ -240,6 +219,20 @@ void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
 
 }  // namespace
 
+LinearCalibration::LinearCalibration(const ModelParameters& model)
+    : parameters(model),
+      x(VectorXd::Zero(model.size())),
+      stddev(VectorXd::Constant(model.size(),
+                                std::numeric_limits<double>::infinity())),
+      identifiable(model.size(), false),
+      noise(VectorXd::Constant(model.num_joints(), std::nan(""))) {
+  identifiability.total = model.size();
+  identifiability.block_rank.assign(model.num_joints(), 0);
+  for (int i = 0; i < model.num_joints(); ++i) {
+    identifiability.block_size.push_back(model.block_size(i));
+  }
+}
+
 LinearCalibration CalibrateLinear(const Robot& robot,
                                   const LinearCalibrationOptions& options,
                                   LogSet* training, LogSet* validation) {
@@ -260,17 +253,19 @@ LinearCalibration CalibrateLinear(const Robot& robot,
     result.equations += factors.log(log).rows(0);
   }
   CheckIntervals(rows, *training, result.equations);
+  result.reason = WhyNothingToSolve(factors, result.parameters);
+  if (!result.reason.empty()) return result;
   const ReferenceMotion reference =
       MakeReference(robot, result.parameters, rows, *training, factors);
-  std::vector<bool> frozen(robot.links.size(), false);
-  EquationMask used(factors.size(),
-                    std::vector<bool>(robot.links.size(), true));
+  UsedEquations equations = AllEquations(factors, robot.num_joints());
   if (options.solver == LinearSolver::kWeighted) {
-    used = FindUsed(robot, factors, reference, &frozen, &result);
+    equations = FindUsedEquations(factors, result.parameters, robot, reference);
+    result.unpowered = equations.unpowered;
   }
-  ResidualPass pass(result.parameters, rows, used, options.progress, training);
-  Estimate(options, rows, factors.Merged(result.parameters, used), reference,
-           frozen, &pass, &result);
+  ResidualPass pass(result.parameters, rows, equations.used, options.progress,
+                    training);
+  Estimate(options, rows, factors.Merged(result.parameters, equations.used),
+           reference, equations.frozen, &pass, &result);
   result.passes = pass.passes() + (transitions.empty() ? 2 : 3);
   if (!result.solved) return result;
 

@@ -10,6 +10,7 @@
 #include "calib/linear_solution.h"
 #include "calib/log_set.h"
 #include "calib/torque_residual.h"
+#include "calib/used_equations.h"
 #include "model/model_parameters.h"
 #include "model/robot.h"
 #include "problems/identification_rows.h"
@@ -41,19 +42,10 @@ struct LinearCalibrationOptions {
   Progress progress;
 };
 
-// One log's equation of one joint that carries no drive torque worth the name:
-// the arm swings freely there, the equation is homogeneous and knows no scale.
-struct UnpoweredJoint {
-  int log;
-  int joint;
-  double torque_rms;  // N m or N
-};
-
 // What a linear calibration found. Vectors have an entry per model parameter,
 // or per joint where said.
 struct LinearCalibration {
-  explicit LinearCalibration(const ModelParameters& model)
-      : parameters(model) {}
+  explicit LinearCalibration(const ModelParameters& model);
 
   ModelParameters parameters;
   std::vector<CoulombTransition> transitions;  // per joint, if in the model

@@ -24,7 +24,7 @@ ResidualStatistics::ResidualStatistics() : histogram_(kBins, 0) {}
 
 void ResidualStatistics::Add(double r) {
   const double bin = std::log(std::max(std::abs(r), kLow) / kLow) / kLogStep;
-  ++histogram_[std::min(kBins - 1, static_cast<int>(bin))];
+  ++histogram_[bin < kBins ? static_cast<int>(bin) : kBins - 1];  // also NaN
   ++count_;
   if (Huber::Weight(r) < 0.5) ++outliers_;
   // Outliers clipped, so that one does not decide.

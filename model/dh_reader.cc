@@ -224,9 +224,9 @@ Robot ReadDhTable(const std::string& path, const RobotReaderOptions& options) {
   const bool is_standard =
       root.RequiredChild("convention").Choice({"standard", "modified"}) ==
       "standard";
-  ReadLinks(root.RequiredChild("links"),
-            is_standard ? DhConvention::kStandard : DhConvention::kModified,
-            &robot);
+  robot.dh_convention =
+      is_standard ? DhConvention::kStandard : DhConvention::kModified;
+  ReadLinks(root.RequiredChild("links"), *robot.dh_convention, &robot);
   const std::optional<YamlNode> tool = root.Child("tool");
   if (tool) ReadTool(*tool, &robot);
   return robot;

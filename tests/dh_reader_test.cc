@@ -45,6 +45,7 @@ TEST(DhReader, ReadsEveryField) {
   expected << 2, 0, 0, 0, 1, 0.1, 2, 0.2, 0.3, 2.5;
   EXPECT_EQ(robot.links[2].inertial.ToVector(), expected);
   EXPECT_EQ(robot.tool_name, "tool");
+  EXPECT_EQ(robot.dh_convention, DhConvention::kStandard);
 }
 
 // The tip of a SCARA in closed form.
