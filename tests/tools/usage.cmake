@@ -1,0 +1,76 @@
+# What armcal says about itself and about wrong command lines.
+set(robot --robot=${DATA_DIR}/scara/robot.yaml)
+set(log --log=${DATA_DIR}/scara/A.csv.gz)
+
+foreach(flag --help -h help)
+  run("help by ${flag}" ${flag})
+  expect_code(0)
+  expect_text(out "usage: armcal COMMAND --flags" "calibrate" "--help lists its flags")
+  expect_empty(err)
+endforeach()
+
+run("nothing at all")
+expect_code(2)
+expect_text(err "usage: armcal COMMAND --flags")
+expect_empty(out)
+
+run("version" --version)
+expect_code(0)
+if(NOT out MATCHES "^armcal [0-9]+\\.[0-9]+\n$")
+  fail("armcal X.Y expected")
+endif()
+
+run("help of a command" calibrate --help)
+expect_code(0)
+expect_text(out "armcal calibrate --flags" "--robot " "--log " "--geometry " "--solver ")
+if(out MATCHES " \n" OR out MATCHES "[^\n]{81}")
+  fail("help has blanks at a line's end or lines over 80 columns")
+endif()
+
+run("unknown command" calibrat)
+expect_refusal(2 "unknown command 'calibrat'" "did you mean calibrate?" "armcal --help")
+run("unlike any command" frobnicate)
+expect_refusal(2 "unknown command 'frobnicate'; see armcal --help")
+run("flags before the command" ${robot} calibrate)
+expect_refusal(2 "unknown command '--robot=")
+
+run("unknown flag" calibrate --lgo=a.csv)
+expect_refusal(2 "unknown flag --lgo of armcal calibrate" "did you mean --log?"
+               "armcal calibrate --help")
+run("unlike any flag" calibrate --frobnicate)
+expect_refusal(2 "unknown flag --frobnicate of armcal calibrate; see")
+run("a flag of glog" calibrate --logtostderr=1)
+expect_refusal(2 "unknown flag --logtostderr")
+run("a word that is no flag" calibrate ${robot} ${log} more)
+expect_refusal(2 "'more' is not a flag")
+
+run("no robot" calibrate)
+expect_refusal(2 "--robot=FILE is needed")
+run("no log" calibrate ${robot})
+expect_refusal(2 "--log=FILE is needed")
+run("no value" calibrate --log)
+expect_refusal(2 "--log needs a value")
+run("an empty file name" calibrate ${robot} ${log},)
+expect_refusal(2 "--log: found '" "expected file names")
+
+foreach(pair
+    "--bandwidth=6Hz|--bandwidth: found '6Hz', expected a number"
+    "--bandwidth=-1|--bandwidth: found '-1', expected a frequency in Hz, or 0"
+    "--interval=abc|--interval: found 'abc', expected a number"
+    "--interval=-2|--interval: found '-2', expected a length in s above 0"
+    "--interval=inf|--interval: found 'inf', expected a length in s above 0"
+    "--window=0|--window: found '0', expected one positive number"
+    "--crop=3|--crop: found '3', expected t0:t1 in s"
+    "--crop=3:1|--crop: found '3:1', expected t0 before t1"
+    "--intervals=0:|--intervals: found '0:', expected t1:t2 with both ends"
+    "--gravity=0,0|--gravity: found '0,0', expected three numbers"
+    "--solver=fast|--solver: found 'fast', expected one of weighted, batch, recursive"
+    "--geometry=x|--geometry: found 'x', expected one of known"
+    "--joint_terms=stiction|--joint_terms: found 'stiction', expected one of viscous"
+    "--coulomb_width=2deg|--coulomb_width: found '2deg', expected auto")
+  string(REPLACE "|" ";" pair "${pair}")
+  list(GET pair 0 flag)
+  list(GET pair 1 message)
+  run("${flag}" calibrate ${robot} ${log} ${flag} --out=out)
+  expect_refusal(2 "${message}")
+endforeach()
