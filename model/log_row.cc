@@ -34,6 +34,7 @@ bool ParseNumber(std::string_view field, double* value) {
 LogRow::LogRow(const std::string& file, const LogColumns& columns,
                int time_column)
     : file_(file), columns_(columns), separator_(columns.separator()) {
+  if (time_column < 0) return;
   Step time;
   time.column.index = time_column;
   time.skip = time_column;

@@ -12,6 +12,7 @@ namespace armcal {
 // but counted: a row must have as many fields as the header.
 class LogRow {
  public:
+  // A negative `time_column`: the table has no time.
   LogRow(const std::string& file, const LogColumns& columns, int time_column);
 
   // Has these columns parsed too; returns the place of the first among the

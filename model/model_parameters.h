@@ -24,7 +24,7 @@ enum class GeometryKnowledge {
 struct ModelParameter {
   std::string name;  // "a2*hx[3]", "Izz[2] + armature[2]", "viscous[1]"
   std::string unit;
-  int block = 0;  // 0-based joint whose block it belongs to
+  int block = 0;               // 0-based joint whose block it belongs to
   bool is_joint_term = false;  // then `term` says which
   JointTerm term = JointTerm::kViscous;
   CoulombTransition transition;  // of kCoulomb

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "model/pose_reader.h"
+#include "model/robot.h"
+#include "problems/pose_problem.h"
+
+namespace armcal {
+
+struct PoseCalibrationOptions {
+  // Which of the arm's own parameters are refined besides the instrument's
+  // frame and targets.
+  enum class Refine { kNothing, kOffsets, kAll };
+  Refine refine = Refine::kAll;
+  RobustLoss loss = RobustLoss::kHuber;
+  // How far the arm's parameters may reasonably be from the file's: standard
+  // deviations of the prior, m and rad.
+  double prior_length = 0.01;
+  double prior_angle = 0.02;
+  int folds = 6;  // of the cross-validation
+};
+
+struct GeometryEstimate {
+  std::string name;
+  std::string unit;
+  double nominal;
+  double value;
+  double stddev;  // infinite where not identifiable
+  double prior;   // standard deviation of the prior, 0: none
+  bool identifiable;
+};
+
+// A calibration of the geometry from measured poses.
+struct PoseCalibration {
+  bool solved = false;
+  std::string reason;
+  std::vector<GeometryEstimate> parameters;  // estimated ones
+  // Sentences: what is held because the poses cannot tell it.
+  std::vector<std::string> held;
+  PoseNoise noise;
+  double before_rms = 0;  // m, distances per target, only the frame fitted
+  double rms = 0;         // m, all poses
+  double inlier_rms = 0;
+  double median = 0;
+  double max = 0;
+  double held_out_rms = 0;  // cross-validated
+  double held_out_median = 0;
+  std::vector<int> outliers;  // poses beyond 4 noise deviations
+  Robot robot;                // with the refined geometry
+};
+
+// Estimates the frame of the instrument, what it looks at, and the arm's
+// geometry. A problem that cannot be solved is a result.
+PoseCalibration CalibratePoses(const Robot& robot,
+                               const PoseMeasurements& measured,
+                               const PoseCalibrationOptions& options);
+
+}  // namespace armcal

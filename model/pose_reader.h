@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace armcal {
+
+// What was measured of the arm's geometry at a number of standstill positions.
+// Poses in rows.
+struct PoseMeasurements {
+  Eigen::MatrixXd q;      // rad or m, poses x joints
+  std::vector<long> row;  // line of the file, header = 1
+  // Positions (m) of targets on the tool in the frame of the instrument, a
+  // matrix of poses x 3 per target.
+  std::vector<Eigen::MatrixXd> targets;
+  // Tool poses in the frame of the instrument: x y z (m) qw qx qy qz.
+  Eigen::MatrixXd poses;
+  // Length (m) of a wire drawn from a fixed anchor to the tool.
+  Eigen::VectorXd lengths;
+  // Per target (or one): half-width of the instrument's 95 % interval, m;
+  // poses x columns, empty where the file has none.
+  Eigen::MatrixXd u95;
+
+  int size() const { return static_cast<int>(q.rows()); }
+};
+
+// Reads a CSV (or gzipped CSV) of poses: joint positions like a log's (q1.. or
+// shoulder/position, with units), and x1 y1 z1 [x2 y2 z2 ...] for targets, or x
+// y z qw qx qy qz, or length1; optional u95_1 [u95_2 ...]. Lengths in m unless
+// a suffix [mm] says otherwise. Throws InputError.
+PoseMeasurements ReadPoses(const std::string& path,
+                           const std::vector<std::string>& joint_names);
+
+}  // namespace armcal

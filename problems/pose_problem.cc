@@ -1,0 +1,136 @@
+#include "problems/pose_problem.h"
+
+#include <ceres/loss_function.h>
+
+#include "problems/pose_residual.h"
+#include "problems/target_residual.h"
+#include "problems/wire_residual.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+Isometry3d MeasuredPose(const PoseMeasurements& measured, int row) {
+  const Eigen::RowVectorXd m = measured.poses.row(row);
+  Isometry3d X = Isometry3d::Identity();
+  X.translation() = m.head<3>();
+  X.linear() = Eigen::Quaterniond(m[3], m[4], m[5], m[6]).normalized().matrix();
+  return X;
+}
+
+}  // namespace
+
+ceres::LossFunction* MakeLoss(RobustLoss loss, double scale) {
+  switch (loss) {
+    case RobustLoss::kSquared:
+      return nullptr;
+    case RobustLoss::kHuber:
+      return new ceres::HuberLoss(scale);
+    case RobustLoss::kCauchy:
+      return new ceres::CauchyLoss(scale);
+    case RobustLoss::kTukey:
+      return new ceres::TukeyLoss(scale);
+  }
+  return nullptr;
+}
+
+int PoseUnknowns::NumOther(const PoseMeasurements& measured) {
+  if (measured.lengths.size() > 0) return 4;
+  return 3 * static_cast<int>(measured.targets.size());
+}
+
+std::vector<std::string> PoseUnknowns::OtherNames(
+    const PoseMeasurements& measured) {
+  if (measured.lengths.size() > 0) {
+    return {"wire.x", "wire.y", "wire.z", "wire.offset"};
+  }
+  std::vector<std::string> names;
+  for (size_t k = 0; k < measured.targets.size(); ++k) {
+    for (const char* axis : {".x", ".y", ".z"}) {
+      names.push_back("target" + std::to_string(k + 1) + axis);
+    }
+  }
+  return names;
+}
+
+void AddPoseResiduals(std::shared_ptr<const ArmGeometry> geometry,
+                      const PoseMeasurements& measured,
+                      const std::vector<int>& rows, const PoseNoise& noise,
+                      RobustLoss loss, PoseUnknowns* unknowns,
+                      ceres::Problem* problem) {
+  // In noise units: 95 % efficient for normal errors, per residual.
+  const double scale = loss == RobustLoss::kTukey    ? 4.685
+                       : loss == RobustLoss::kCauchy ? 2.385
+                                                     : 1.345;
+  double* const g = unknowns->geometry.data();
+  double* const other = unknowns->other.data();
+  for (const int k : rows) {
+    const Eigen::VectorXd q = measured.q.row(k);
+    if (measured.lengths.size() > 0) {
+      problem->AddResidualBlock(
+          new WireResidual(geometry, q, measured.lengths[k], noise.position),
+          MakeLoss(loss, scale), g, other);
+    }
+    for (size_t t = 0; t < measured.targets.size(); ++t) {
+      problem->AddResidualBlock(
+          new TargetResidual(geometry, q, measured.targets[t].row(k),
+                             noise.position),
+          MakeLoss(loss, scale), g, other + 3 * t);
+    }
+    if (measured.poses.size() > 0) {
+      problem->AddResidualBlock(
+          new PoseResidual(geometry, q, MeasuredPose(measured, k),
+                           noise.position, noise.rotation),
+          MakeLoss(loss, scale), g);
+    }
+  }
+}
+
+MatrixXd PositionErrors(const ArmGeometry& geometry,
+                        const PoseMeasurements& measured,
+                        const PoseUnknowns& unknowns) {
+  const bool wire = measured.lengths.size() > 0;
+  const int targets = static_cast<int>(measured.targets.size());
+  MatrixXd errors(measured.size(), wire ? 1 : std::max(3, 3 * targets));
+  for (int k = 0; k < measured.size(); ++k) {
+    const Isometry3d X =
+        geometry.ToolPose(measured.q.row(k), unknowns.geometry.data(), nullptr);
+    if (wire) {
+      const Vector3d p_WA = unknowns.other.head<3>();
+      errors(k, 0) = (X.translation() - p_WA).norm() + unknowns.other[3] -
+                     measured.lengths[k];
+      continue;
+    }
+    for (int t = 0; t < targets; ++t) {
+      const Vector3d p = X * Vector3d(unknowns.other.segment<3>(3 * t));
+      errors.row(k).segment<3>(3 * t) =
+          p.transpose() - measured.targets[t].row(k);
+    }
+    if (targets == 0) {
+      errors.row(k) =
+          (X.translation() - MeasuredPose(measured, k).translation())
+              .transpose();
+    }
+  }
+  return errors;
+}
+
+MatrixXd RotationErrors(const ArmGeometry& geometry,
+                        const PoseMeasurements& measured,
+                        const PoseUnknowns& unknowns) {
+  if (measured.poses.size() == 0) return {};
+  MatrixXd errors(measured.size(), 3);
+  for (int k = 0; k < measured.size(); ++k) {
+    const Isometry3d X =
+        geometry.ToolPose(measured.q.row(k), unknowns.geometry.data(), nullptr);
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(
+        X.linear() * MeasuredPose(measured, k).linear().transpose()));
+    errors.row(k) = turn.angle() * turn.axis().transpose();
+  }
+  return errors;
+}
+
+}  // namespace armcal

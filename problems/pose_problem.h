@@ -1,0 +1,55 @@
+#pragma once
+
+#include <ceres/problem.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/arm_geometry.h"
+#include "model/pose_reader.h"
+
+namespace armcal {
+
+enum class RobustLoss { kSquared, kHuber, kCauchy, kTukey };
+
+// Null for kSquared; `scale` in noise units.
+ceres::LossFunction* MakeLoss(RobustLoss loss, double scale);
+
+// Standard deviations of what was measured.
+struct PoseNoise {
+  double position = 1e-3;  // m, of each coordinate or of a wire's length
+  double rotation = 1e-3;  // rad, of each component
+};
+
+// The unknowns of a geometric calibration, in two parameter blocks: the
+// geometry (ArmGeometry::Values) and what else the measurement needs: the
+// targets on the tool (3 each, m), or the wire's anchor and length offset (4).
+struct PoseUnknowns {
+  Eigen::VectorXd geometry;
+  Eigen::VectorXd other;
+
+  static int NumOther(const PoseMeasurements& measured);
+  // "target2.y", "wire.x", "wire.offset".
+  static std::vector<std::string> OtherNames(const PoseMeasurements& measured);
+};
+
+// Adds the residuals of poses `rows` to `problem`, whose parameter blocks are
+// those of `unknowns`.
+void AddPoseResiduals(std::shared_ptr<const ArmGeometry> geometry,
+                      const PoseMeasurements& measured,
+                      const std::vector<int>& rows, const PoseNoise& noise,
+                      RobustLoss loss, PoseUnknowns* unknowns,
+                      ceres::Problem* problem);
+
+// Deviations predicted - measured of every pose in m: 3 per target, 3 of a
+// pose's position, or 1; and rotation vectors (3, rad) of poses.
+Eigen::MatrixXd PositionErrors(const ArmGeometry& geometry,
+                               const PoseMeasurements& measured,
+                               const PoseUnknowns& unknowns);
+Eigen::MatrixXd RotationErrors(const ArmGeometry& geometry,
+                               const PoseMeasurements& measured,
+                               const PoseUnknowns& unknowns);
+
+}  // namespace armcal
