@@ -105,7 +105,7 @@ TEST(CoulombStates, StartsSegmentsAtZero) {
   CoulombStates states(Displacement(.1));
   states.Follow(Stretch({0, .05, .5}));
   EXPECT_EQ(states.Follow(Stretch({.5, .51}, 2))(0, 0), 1);  // the same segment
-  EXPECT_EQ(states.Follow(Stretch({.5, .51}, 0, 0, 1))(0, 0), 0);
+  EXPECT_EQ(states.Follow(Stretch({.5, .51}, 2, 0, 1))(0, 0), 0);
   states.Follow(Stretch({0, .05, .5}, 0, 0, 2));
   EXPECT_EQ(states.Follow(Stretch({.5, .51}, 7, 0, 2))(0, 0), 0);  // a hole
 }

@@ -207,11 +207,10 @@ TEST(ProximalChain, OtherLengthsHaveTheSameStructure) {
     SetRandomInertials(&random, &other);
     const ProximalChain chain = MakeProximalChain(robot);
     for (int i = 0; i + 1 < robot.num_joints(); ++i) {
-      // Along the common normal and along the axis, in the link's frame.
-      const Matrix3d R_LJ = chain.joints[i].X_JL.linear().transpose();
-      const Vector3d change =
-          R_LJ * Vector3d(Uniform(&random, -1, 1), 0, Uniform(&random, -1, 1));
-      other.links[i + 1].X_PF.pretranslate(change);
+      const ProximalJoint& joint = chain.joints[i];  // the other a is -a
+      const Vector3d change(-2 * joint.p.x(), 0, Uniform(&random, -1, 1));
+      other.links[i + 1].X_PF.pretranslate(joint.X_JL.linear().transpose() *
+                                           change);
     }
     EXPECT_LT(TorqueError(robot, other, GeometryKnowledge::kAllLengths), 1e-11);
   }
