@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <vector>
 
 #include "calib/robust_rows.h"
@@ -31,6 +32,49 @@ double Autocorrelation(const VectorXd& x, const VectorXd& noise,
   }
   return rho;
 }
+
+// What a Newey-West covariance of fitted residuals lacks: Bartlett's weights
+// take some of the correlation that overlapping rows have for certain, and the
+// fit has taken its share of the residuals. Both matter for short logs.
+class SmallSampleFactor {
+ public:
+  explicit SmallSampleFactor(int lags) : products_(lags + 1, 0) {}
+
+  void Add(const RowResidual& residual, const ResidualPass& pass) {
+    if (!residual.follows) recent_.clear();
+    VectorXd r = residual.r;
+    for (int i = 0; i < r.size(); ++i) {
+      r[i] *= Huber::Weight(r[i]);  // so that one outlier does not decide
+      rows_ += pass.uses(residual.log, i);
+    }
+    recent_.push_front(r);
+    if (recent_.size() > products_.size()) recent_.pop_back();
+    for (size_t l = 0; l < recent_.size(); ++l) {
+      products_[l] += r.dot(recent_[l]);
+    }
+  }
+  // On a covariance by Bartlett's window, of m parameters.
+  double Value(int window, int m) const {
+    if (products_[0] <= 0) return 1;
+    double whole = 1, weighted = 1, squares = 1;
+    for (size_t l = 1; l < products_.size(); ++l) {
+      const double rho = products_[l] / products_[0];
+      const double weight = 1 - static_cast<double>(l) / window;
+      whole += 2 * rho;
+      weighted += 2 * std::max(0.0, weight) * rho;
+      squares += 2 * rho * rho;
+    }
+    const double truncated =
+        weighted > 0 ? std::clamp(whole / weighted, 1.0, 1.5) : 1;
+    const double independent = rows_ / squares;
+    return truncated * independent / std::max(independent - m, m / 2.0);
+  }
+
+ private:
+  std::vector<double> products_;  // sums over rows of r(t) r(t - lag)
+  std::deque<VectorXd> recent_;
+  double rows_ = 0;
+};
 
 VectorXd Score(const RowResidual& residual, const LinearSolution& solution,
                const VectorXd& noise, bool huber,
@@ -76,11 +120,13 @@ CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                      hops_per_window + hops_per_window / 2);
   ScoreCovariance scores(parameters.size(), window);
   MatrixXd sums = MatrixXd::Zero(parameters.size(), pass->num_logs());
+  SmallSampleFactor small(hops_per_window - 1);
   BlockTriangularFactor inside(parameters);
   pass->Run("covariance", solution.x, noise, [&](const RowResidual& residual) {
     if (!residual.follows) scores.Break();
     const VectorXd score = Score(residual, solution, noise, huber, parameters);
     scores.Add(score);
+    small.Add(residual, *pass);
     sums.col(residual.log) += score;
     for (int i = 0; huber && i < noise.size(); ++i) {
       if (!pass->uses(residual.log, i) || !Huber::Inside(residual.r[i])) {
@@ -94,7 +140,8 @@ CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
     linearised.gain = SolveWeighted(inside, noise, reference).gain;
   }
   CovarianceEstimate estimate;
-  estimate.covariance = linearised.CovarianceFromScores(scores.Value());
+  estimate.covariance = small.Value(window, parameters.size()) *
+                        linearised.CovarianceFromScores(scores.Value());
   estimate.method = "Newey-West over " + std::to_string(window) + " rows";
   if (pass->num_logs() >= 3) {
     estimate.covariance =

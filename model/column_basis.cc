@@ -17,6 +17,7 @@ bool ColumnBasis::Add(const Eigen::VectorXd& column, double scale,
 
 Eigen::VectorXd ExpressInColumns(const Eigen::MatrixXd& A, int j,
                                  const std::vector<int>& kept) {
+  if (kept.empty()) return {};  // Eigen's QR takes no matrix without columns
   Eigen::MatrixXd B(A.rows(), kept.size());
   for (size_t k = 0; k < kept.size(); ++k) B.col(k) = A.col(kept[k]);
   Eigen::VectorXd c = B.colPivHouseholderQr().solve(A.col(j));

@@ -43,16 +43,20 @@ CoulombStates::CoulombStates(const std::vector<JointTermColumn>& columns) {
   }
 }
 
-double CoulombStates::Initial(const Trajectory& trajectory, int column) const {
-  const long row = trajectory.first_index - first_index_;
-  if (trajectory.segment != segment_ || row < 0 || row >= states_.rows()) {
-    return 0;
-  }
-  return states_(row, column);
+// How many of the trajectory's samples, up to the first of its core, have
+// states from the trajectory before.
+int CoulombStates::NumKnown(const Trajectory& trajectory) const {
+  const long shift = trajectory.first_index - first_index_;
+  if (trajectory.segment != segment_ || shift < 0) return 0;
+  return static_cast<int>(
+      std::clamp(states_.rows() - shift, 0L,
+                 std::min(trajectory.core_begin + 1L, 0L + trajectory.size())));
 }
 
 const Eigen::MatrixXd& CoulombStates::Follow(const Trajectory& trajectory) {
   Eigen::MatrixXd states(trajectory.size(), size());
+  const int known = NumKnown(trajectory);
+  const Eigen::Index shift = trajectory.first_index - first_index_;
   for (int c = 0; c < size() && trajectory.size() > 0; ++c) {
     const int j = columns_[c].joint;
     const CoulombTransition& transition = columns_[c].transition;
@@ -60,8 +64,11 @@ const Eigen::MatrixXd& CoulombStates::Follow(const Trajectory& trajectory) {
       states.col(c) = (trajectory.qd.col(j).array() / transition.width).tanh();
       continue;
     }
-    states(0, c) = Initial(trajectory, c);
-    for (int k = 1; k < trajectory.size(); ++k) {
+    states(0, c) = 0;
+    if (known > 0) {
+      states.col(c).head(known) = states_.col(c).segment(shift, known);
+    }
+    for (int k = std::max(1, known); k < trajectory.size(); ++k) {
       const double moved = trajectory.q(k, j) - trajectory.q(k - 1, j);
       states(k, c) =
           std::clamp(states(k - 1, c) + moved / transition.width, -1.0, 1.0);

@@ -36,8 +36,9 @@ struct JointTermColumn {
   double Torque(double qd, double qdd, double c) const;
 };
 
-// The states c of Coulomb columns along a log. Carries the state from one
-// trajectory to the next of the same segment; starts a segment at c = 0.
+// The states c of Coulomb columns along a log; starts a segment at c = 0. Up to
+// the core of a trajectory they are those of the trajectory before it, whose
+// core is free of the filters' ends; the element remembers.
 class CoulombStates {
  public:
   // `columns`: the kCoulomb ones are followed, in their order.
@@ -48,7 +49,7 @@ class CoulombStates {
   const Eigen::MatrixXd& Follow(const Trajectory& trajectory);
 
  private:
-  double Initial(const Trajectory& trajectory, int column) const;
+  int NumKnown(const Trajectory& trajectory) const;
 
   std::vector<JointTermColumn> columns_;
   Eigen::MatrixXd states_;  // of the trajectory followed last

@@ -51,9 +51,7 @@ Isometry3d ChooseNextFrame(const Isometry3d& X_GF) {
     const Vector3d e = axis - axis.z() * z;
     const double s = -o.dot(e) / e.squaredNorm();
     X_GN.translation() = o + s * axis;
-    Vector3d x = normal.normalized();
-    if (x.dot(X_GN.translation()) < -kExact) x = -x;
-    X_GN.linear() = FrameWithAxes(axis, x);
+    X_GN.linear() = FrameWithAxes(axis, normal);
     return X_GN;
   }
   X_GN.translation() = o - (o.z() / axis.z()) * axis;  // d = 0

@@ -32,9 +32,11 @@ struct ProximalJoint {
 // moved by the joint and then turned by theta, its origin on the joint axis.
 // Between J_i and G_{i+1} lies the constant C_i. J_i follows the DH convention
 // (x along the common normal to the next axis), so that C_i = Tx(a) Tz(d)
-// Rx(alpha); a robot read from a DH table keeps its table's lengths. Axes less
-// than 0.02 rad from parallel, where common normals run away, keep a general
-// rotation R and d = 0 (Hayati's remedy).
+// Rx(alpha); a robot read from a DH table keeps its table's lengths, another's
+// x has the sense of z cross the next axis whatever the lengths are, so that a
+// may be negative and arms that differ in lengths have the same frames. Axes
+// less than 0.02 rad from parallel, where common normals run away, keep a
+// general rotation R and d = 0 (Hayati's remedy).
 struct ProximalChain {
   std::vector<ProximalJoint> joints;
   Eigen::Vector3d gravity;      // expressed in G_1, m/s^2

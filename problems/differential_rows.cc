@@ -52,10 +52,15 @@ void ForEachDifferentialRow(const Trajectory& trajectory,
       filter
           ? std::max(1L, static_cast<long>(0.25 / (options.bandwidth_hz * dt)))
           : 1;
+  // What lies beyond the ends of a log the filter has to invent.
+  const int edge =
+      filter ? static_cast<int>(std::ceil(1.5 / (options.bandwidth_hz * dt)))
+             : 0;
   IdentificationRow row;
   row.U.setZero(n, parameters.size());
   row.Y.resize(n);
-  for (int k = trajectory.core_begin; k < trajectory.core_end; ++k) {
+  for (int k = std::max(edge, trajectory.core_begin);
+       k < std::min(samples - edge, trajectory.core_end); ++k) {
     if ((trajectory.first_index + k) % stride != 0 || regressor->Useless(k)) {
       continue;
     }

@@ -8,11 +8,20 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Weight (in steps) of sample k of 0..steps.
+// Weight (in steps) of sample k of 0..steps. Simpson's rule of an odd number of
+// steps takes three eighths for the last three; one step is a trapezoid.
 double QuadratureWeight(Quadrature rule, int k, int steps) {
-  const bool end = k == 0 || k == steps;
-  if (rule == Quadrature::kTrapezoid || steps % 2 != 0) return end ? 0.5 : 1;
-  return end ? 1.0 / 3 : (k % 2 == 1 ? 4.0 / 3 : 2.0 / 3);
+  if (rule == Quadrature::kTrapezoid || steps == 1) {
+    return k == 0 || k == steps ? 0.5 : 1;
+  }
+  const int thirds = steps - (steps % 2 == 0 ? 0 : 3);
+  double weight = 0;
+  if (k < thirds) weight = k == 0 ? 1.0 / 3 : k % 2 == 1 ? 4.0 / 3 : 2.0 / 3;
+  if (k == thirds && thirds > 0) weight = 1.0 / 3;
+  if (thirds < steps && k >= thirds) {
+    weight += k == thirds || k == steps ? 3.0 / 8 : 9.0 / 8;
+  }
+  return weight;
 }
 
 // The first and last sample of every interval of the core.

@@ -9,8 +9,8 @@ namespace armcal {
 // with phi(s) = (1 - s^2)^4 on s in [-1, 1], scaled to int phi dt = 1 so that
 // rows are mean torques (N m). No acceleration enters, and velocity only inside
 // smooth averages (MATH.md D2); a box for phi would give (2.27). The trapezoid
-// rule is spectrally accurate for it. Windows start at multiples of their hop
-// from the segment's first sample.
+// rule has order 4 for it: with 50 samples in a window, 1e-6 of the torque.
+// Windows start at multiples of their hop from the segment's first sample.
 void ForEachWeakRow(const Trajectory& trajectory, const RowOptions& options,
                     MotionRegressor* regressor, const RowSink& sink);
 

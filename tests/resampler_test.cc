@@ -81,6 +81,22 @@ TEST(Resampler, ErrorFallsWithTheFourthPower) {
   EXPECT_NEAR(error[0] / error[1], 16, 3);
 }
 
+// Halfway between samples the cubic through the four nearest errs by 9/384 h^4
+// times the fourth derivative.
+TEST(Resampler, TakesTheNearestSamples) {
+  const double h = .02;
+  std::vector<double> times = {0};
+  for (int k = 1; k < 200; ++k) times.push_back(h * (k - .5));
+  const Resampler resampler =
+      Fill(MakeLog(times, [](double t) { return std::sin(4 * t); }), h, false);
+  Log out;
+  resampler.Sample(0, resampler.NumGridPoints(), &out);
+  for (int k = 3; k < 190; ++k) {
+    EXPECT_NEAR(out.q(k, 0) - std::sin(4 * k * h),
+                -9.0 / 384 * std::pow(4 * h, 4) * std::sin(4 * k * h), 2e-8);
+  }
+}
+
 TEST(Resampler, PassesUniformSamplesAsTheyAre) {
   std::vector<double> times;
   for (int k = 0; k < 300; ++k) times.push_back(.1 + .01 * k);

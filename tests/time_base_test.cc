@@ -180,9 +180,9 @@ TEST(AuditTimeBase, FindsTheFrequencyOfTheMotion) {
   // The fastest joint counts, unless it moves by less than 1 mrad.
   EXPECT_NEAR(frequency({sine(2, .3), sine(.01, 4), sine(.0005, 9)}, .002), 4,
               .1);
-  // A quantised encoder (0.1 mrad at 1 kHz) does not look like fast motion.
+  // A coarse encoder (1 mrad, at 1 kHz) does not look like fast motion.
   const auto coarse = [&](double t) {
-    return 1e-4 * std::round(1e4 * sine(.5, 1)(t));
+    return 1e-3 * std::round(1e3 * sine(.05, 1)(t));
   };
   EXPECT_NEAR(frequency({coarse}, .001), 1, .02);
 }
