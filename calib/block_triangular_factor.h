@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "calib/triangular_factor.h"
 #include "model/model_parameters.h"
 
 namespace armcal {
@@ -22,34 +23,24 @@ class BlockTriangularFactor {
   // Adds joint i's equations of another factor of the same parameters.
   void Merge(const BlockTriangularFactor& other, int i);
 
-  int num_joints() const { return static_cast<int>(joints_.size()); }
+  int num_joints() const { return static_cast<int>(factors_.size()); }
   int num_parameters() const { return num_parameters_; }
   int block_begin(int i) const { return block_begin_[i]; }
   int block_size(int i) const { return block_begin_[i + 1] - block_begin_[i]; }
   // The parameters of joint i's equations, ascending; its own block first.
-  const std::vector<int>& columns(int i) const { return joints_[i].columns; }
-  long rows(int i) const { return joints_[i].rows; }
+  const std::vector<int>& columns(int i) const { return columns_[i]; }
+  long rows(int i) const { return factors_[i].rows(); }
   // Upper triangle of size columns(i).size() + 1, the right side last.
-  const Eigen::MatrixXd& Triangle(int i) const;
+  Eigen::MatrixXd Triangle(int i) const { return factors_[i].Triangle(); }
 
   // Root of the sum of squared residuals of joint i's equations at x.
   double ResidualNorm(int i, const Eigen::VectorXd& x) const;
 
  private:
-  static constexpr int kChunkRows = 256;
-  struct JointEquations {
-    std::vector<int> columns;
-    long rows = 0;
-    // The triangle in the top rows, new rows below it.
-    Eigen::MatrixXd buffer;
-    int filled = 0;
-  };
-  void Compress(JointEquations* joint) const;
-
   int num_parameters_;
   std::vector<int> block_begin_;
-  mutable std::vector<JointEquations> joints_;
-  mutable Eigen::MatrixXd triangle_;
+  std::vector<std::vector<int>> columns_;
+  std::vector<TriangularFactor> factors_;
 };
 
 // Root mean square of each joint's right-hand side.

@@ -42,20 +42,33 @@ using RowSink = std::function<void(const IdentificationRow&)>;
 // How far rows reach beyond the sample they are assigned to, s.
 double RowReach(const RowOptions& options);
 
-// The regressor along a log: follows the states of Coulomb friction from one
-// trajectory to the next. Use a new one for each pass over a log.
-class MotionRegressor {
+// Columns P and D of the joints' equations tau = (d/dt P - D) x along a log.
+// Use a new one for each pass over a log, and Enter() each trajectory in turn:
+// the states of Coulomb friction are followed from one to the next.
+class MotionFunctions {
+ public:
+  virtual ~MotionFunctions() = default;
+  virtual int size() const = 0;  // columns
+  virtual void Enter(const Trajectory& trajectory) = 0;
+  // P and D (n x size()) at a sample of the trajectory entered last.
+  virtual void Momentum(int sample, Eigen::MatrixXd* P, Eigen::MatrixXd* D) = 0;
+  // With Coulomb friction in the model, a sample at which the whole arm stands
+  // still says nothing: its friction can have any value.
+  virtual bool Useless(int sample) const = 0;
+};
+
+// Those of the model parameters.
+class MotionRegressor : public MotionFunctions {
  public:
   explicit MotionRegressor(const ModelParameters& parameters);
 
   const ModelParameters& parameters() const { return parameters_; }
-  // Must be called with each trajectory in turn, before its samples.
-  void Enter(const Trajectory& trajectory);
-  void Momentum(int sample, Eigen::MatrixXd* P, Eigen::MatrixXd* D);
+  int size() const override { return parameters_.size(); }
+  void Enter(const Trajectory& trajectory) override;
+  void Momentum(int sample, Eigen::MatrixXd* P, Eigen::MatrixXd* D) override;
+  bool Useless(int sample) const override;
+  // U of (2.20) at a sample.
   void Differential(int sample, Eigen::MatrixXd* U);
-  // With Coulomb friction in the model, a sample at which the whole arm stands
-  // still says nothing: its friction can have any value.
-  bool Useless(int sample) const;
 
  private:
   ModelParameters parameters_;

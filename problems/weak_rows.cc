@@ -64,7 +64,7 @@ class WindowSums {
 }  // namespace
 
 void ForEachWeakRow(const Trajectory& trajectory, const RowOptions& options,
-                    MotionRegressor* regressor, const RowSink& sink) {
+                    MotionFunctions* functions, const RowSink& sink) {
   const int n = trajectory.num_joints();
   const int steps = std::max(
       8, static_cast<int>(std::lround(options.window_s / trajectory.dt)));
@@ -84,10 +84,10 @@ void ForEachWeakRow(const Trajectory& trajectory, const RowOptions& options,
     const int k = static_cast<int>(sample - first);
     if (sample % hop == 0 && sample + steps / 2 < core_end &&
         sample + steps < first + trajectory.size()) {
-      windows.Start(sample, n, regressor->parameters().size());
+      windows.Start(sample, n, functions->size());
     }
-    regressor->Momentum(k, &P, &D);
-    windows.Add(sample, P, D, trajectory.tau.row(k), regressor->Useless(k));
+    functions->Momentum(k, &P, &D);
+    windows.Add(sample, P, D, trajectory.tau.row(k), functions->Useless(k));
     windows.Emit(sample, trajectory.time(k - steps / 2), sink);
   }
 }

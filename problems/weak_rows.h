@@ -12,6 +12,6 @@ namespace armcal {
 // rule has order 4 for it: with 50 samples in a window, 1e-6 of the torque.
 // Windows start at multiples of their hop from the segment's first sample.
 void ForEachWeakRow(const Trajectory& trajectory, const RowOptions& options,
-                    MotionRegressor* regressor, const RowSink& sink);
+                    MotionFunctions* functions, const RowSink& sink);
 
 }  // namespace armcal

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/arm_geometry.h"
+#include "model/joint_term.h"
+#include "model/link_regressor.h"
+#include "problems/identification_rows.h"
+
+namespace armcal {
+
+// Columns of what a robot file holds: the links' inertial parameters (10 each),
+// joint terms, and the geometry's parameters, in which the torque is taken
+// linearly about the robot's own geometry and inertia (central differences).
+class LinkFunctions : public MotionFunctions {
+ public:
+  // `refined`: which of the geometry's parameters have a column.
+  LinkFunctions(const Robot& robot, const std::vector<JointTermColumn>& terms,
+                const ArmGeometry& geometry, const std::vector<int>& refined);
+
+  int size() const override { return columns_; }
+  void Enter(const Trajectory& trajectory) override;
+  void Momentum(int sample, Eigen::MatrixXd* P, Eigen::MatrixXd* D) override;
+  bool Useless(int sample) const override;
+
+ private:
+  // The arm with one geometric parameter a little larger and smaller.
+  struct Perturbed {
+    LinkRegressor plus, minus;
+  };
+
+  std::vector<JointTermColumn> terms_;
+  LinkRegressor regressor_;
+  std::vector<Perturbed> perturbed_;
+  Eigen::VectorXd inertia_;  // of all links, stacked
+  CoulombStates coulomb_;
+  const Trajectory* trajectory_ = nullptr;
+  Eigen::MatrixXd states_;
+  int columns_;
+};
+
+// The links' inertial parameters, stacked.
+Eigen::VectorXd StackInertials(const Robot& robot);
+
+}  // namespace armcal
