@@ -11,12 +11,13 @@ RobustSolution SolveRobust(const Eigen::VectorXd& x,
                            const std::vector<bool>& frozen,
                            const ReferenceMotion& reference,
                            ResidualPass* pass) {
-  constexpr int kPasses = 2;
+  constexpr int kMostPasses = 20;
+  constexpr double kSettled = 0.1;  // standard deviations
   const int n = static_cast<int>(noise.size());
   RobustSolution result;
   result.solution.x = x;
   result.noise = noise;
-  for (int k = 0; k < kPasses; ++k) {
+  for (int k = 0; k < kMostPasses; ++k) {
     BlockTriangularFactor factor(pass->parameters());
     std::vector<ResidualStatistics> statistics(n);
     pass->Run("robust weights", result.solution.x, result.noise,
@@ -35,7 +36,16 @@ RobustSolution SolveRobust(const Eigen::VectorXd& x,
       const double spread = statistics[i].RobustSpread();
       if (!frozen[i] && spread > 1e-9) result.noise[i] *= spread;
     }
+    const Eigen::VectorXd last = result.solution.x;
     result.solution = SolveWeighted(factor, result.noise, reference);
+    // The gain of weighted least squares is the covariance of independent rows.
+    const double moved =
+        (result.solution.x - last)
+            .cwiseAbs()
+            .cwiseQuotient(
+                result.solution.gain.diagonal().cwiseSqrt().cwiseMax(1e-300))
+            .maxCoeff();
+    if (k > 0 && moved < kSettled) break;
   }
   return result;
 }
