@@ -29,7 +29,7 @@ std::string PlusMinus(double value, double stddev) {
 }
 
 const char* IdentificationName(const LinearCalibration& result) {
-  switch (result.identification) {
+  switch (result.rows.identification) {
     case Identification::kWeak:
       return "weak form";
     case Identification::kDifferential:
@@ -48,12 +48,12 @@ std::string DataText(const LogSet& training, const LinearCalibration& result) {
   }
   text += "torque     " + training.torque_source() + "\n";
   text += "equations  " + std::string(IdentificationName(result));
-  if (result.identification == Identification::kWeak) {
-    text += Format(", windows of %.3g s", result.window_s);
+  if (result.rows.identification == Identification::kWeak) {
+    text += Format(", windows of %.3g s", result.rows.window_s);
   }
   text += Format(", %ld per joint", result.equations);
-  text += result.bandwidth_hz > 0
-              ? Format("; bandwidth %.3g Hz", result.bandwidth_hz)
+  text += result.rows.bandwidth_hz > 0
+              ? Format("; bandwidth %.3g Hz", result.rows.bandwidth_hz)
               : std::string("; no filter");
   if (result.training && result.training->excluded_share() > 0) {
     text += Format("; standstill left out: %.1f %% of the samples",

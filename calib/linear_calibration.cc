@@ -179,9 +179,23 @@ TorqueResidual Evaluate(const std::string& stage,
                                           MotionRegressor(result.parameters));
   logs->ForEach(stage, progress, [&](int log, const Trajectory& t) {
     regressors[log].Enter(t);
-    residual.Add(t, result.x, result.bandwidth_hz, &regressors[log]);
+    residual.Add(t, result.x, result.rows.bandwidth_hz, &regressors[log]);
   });
   return residual;
+}
+
+// How much larger standard deviations are than those of independent rows.
+double MedianInflation(const MatrixXd& covariance,
+                       const MatrixXd& independent) {
+  std::vector<double> ratios;
+  for (Eigen::Index k = 0; k < covariance.rows(); ++k) {
+    if (!(independent(k, k) > 0)) continue;
+    ratios.push_back(std::sqrt(covariance(k, k) / independent(k, k)));
+  }
+  if (ratios.empty()) return 1;
+  std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2,
+                   ratios.end());
+  return std::max(1.0, ratios[ratios.size() / 2]);
 }
 
 // From the factor to the parameters and their covariance.
@@ -214,6 +228,9 @@ void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
         EstimateRowCovariance(solution, result->noise, huber, reference,
                               result->equations, rows.hops, pass),
         result);
+    result->inflation =
+        MedianInflation(result->covariance,
+                        solution.IndependentCovariance(factor, result->noise));
   }
 }
 
@@ -243,10 +260,8 @@ LinearCalibration CalibrateLinear(const Robot& robot,
 
   LinearCalibration result(MakeParameters(robot, options, transitions));
   for (const auto& t : transitions) result.transitions.push_back(t.front());
-  result.identification = rows.identification;
+  result.rows = rows;
   result.solver = options.solver;
-  result.bandwidth_hz = rows.bandwidth_hz;
-  result.window_s = rows.window_s;
 
   const LogFactors factors(result.parameters, rows, options.progress, training);
   for (int log = 0; log < factors.size(); ++log) {
@@ -262,6 +277,7 @@ LinearCalibration CalibrateLinear(const Robot& robot,
     equations = FindUsedEquations(factors, result.parameters, robot, reference);
     result.unpowered = equations.unpowered;
   }
+  result.used = equations.used;
   ResidualPass pass(result.parameters, rows, equations.used, options.progress,
                     training);
   Estimate(options, rows, factors.Merged(result.parameters, equations.used),

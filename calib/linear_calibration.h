@@ -62,10 +62,11 @@ struct LinearCalibration {
   Identifiability identifiability;
   std::vector<RecoveredLength> lengths;
 
-  Identification identification = Identification::kWeak;
   LinearSolver solver = LinearSolver::kWeighted;
-  double bandwidth_hz = 0;
-  double window_s = 0;
+  RowOptions rows;
+  EquationMask used;  // [log][joint]
+  // Standard deviations over those of independent rows, median.
+  double inflation = 1;
   long equations = 0;
   std::vector<long> outliers;  // per joint: equations Huber weighs below 1/2
   std::vector<UnpoweredJoint> unpowered;

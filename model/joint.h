@@ -22,6 +22,7 @@ struct Joint {
   double viscous = 0;   // N m s/rad or N s/m, as the robot file gives it
   double coulomb = 0;   // N m or N
   double armature = 0;  // kg m^2 or kg
+  double offset = 0;    // N m or N, a constant torque; in no robot file
 };
 
 inline bool IsRotational(JointType type) {

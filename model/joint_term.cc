@@ -19,6 +19,20 @@ const char* JointTermName(JointTerm term) {
   return "";
 }
 
+std::string JointTermUnit(JointTerm term, JointType type) {
+  const std::string effort = EffortUnit(type);
+  switch (term) {
+    case JointTerm::kViscous:
+      return effort + " s/" + PositionUnit(type);
+    case JointTerm::kArmature:
+      return IsRotational(type) ? "kg m^2" : "kg";
+    case JointTerm::kCoulomb:
+    case JointTerm::kOffset:
+      break;
+  }
+  return effort;
+}
+
 double JointTermColumn::D(double qd, double c) const {
   switch (term) {
     case JointTerm::kViscous:

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
+#include "model/joint.h"
 #include "model/trajectory.h"
 
 namespace armcal {
@@ -12,6 +14,8 @@ namespace armcal {
 // where c in [-1, 1] is the state of Coulomb friction.
 enum class JointTerm { kViscous, kCoulomb, kOffset, kArmature };
 const char* JointTermName(JointTerm term);
+// "N m s/rad" for viscous friction of a revolute joint.
+std::string JointTermUnit(JointTerm term, JointType type);
 
 // How Coulomb friction passes through zero velocity:
 //   kVelocity      c = tanh(qd / width), width in rad/s or m/s;

@@ -300,7 +300,8 @@ VectorXd ModelParameters::FullValues(const Robot& robot) const {
   }
   for (size_t t = 0; t < terms_.size(); ++t) {
     const Joint& joint = robot.links[terms_[t].joint].joint;
-    const double values[] = {joint.viscous, joint.coulomb, 0, joint.armature};
+    const double values[] = {joint.viscous, joint.coulomb, joint.offset,
+                             joint.armature};
     x[m + t] = values[static_cast<int>(terms_[t].term)];
   }
   return x;
@@ -329,13 +330,7 @@ std::string ModelParameters::FullUnit(int c) const {
   const int m = static_cast<int>(moments_.size());
   if (c >= m) {
     const JointTermColumn& t = terms_[c - m];
-    const bool rotational = IsRotational(chain_.joints[t.joint].type);
-    const std::string effort = rotational ? "N m" : "N";
-    if (t.term == JointTerm::kViscous) {
-      return effort + (rotational ? " s/rad" : " s/m");
-    }
-    if (t.term == JointTerm::kArmature) return rotational ? "kg m^2" : "kg";
-    return effort;
+    return JointTermUnit(t.term, chain_.joints[t.joint].type);
   }
   static const char* const kPowers[] = {"kg", "kg m", "kg m^2"};
   const Moment moment = moments_[c].moment;

@@ -1,0 +1,323 @@
+#include "calib/physical_calibration.h"
+
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "calib/robust_rows.h"
+#include "calib/triangular_factor.h"
+#include "problems/inertial_coordinates.h"
+#include "problems/inertial_prior.h"
+#include "problems/link_functions.h"
+#include "problems/torque_factor_residual.h"
+#include "problems/weak_rows.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The four terms of every joint, in the order of the parameters.
+std::vector<JointTermColumn> AllTerms(const LinearCalibration& linear) {
+  std::vector<JointTermColumn> terms;
+  for (int j = 0; j < linear.parameters.num_joints(); ++j) {
+    for (const JointTerm term : {JointTerm::kViscous, JointTerm::kCoulomb,
+                                 JointTerm::kOffset, JointTerm::kArmature}) {
+      JointTermColumn column{j, term, {}};
+      if (!linear.transitions.empty()) {
+        column.transition = linear.transitions[j];
+      }
+      terms.push_back(column);
+    }
+  }
+  return terms;
+}
+
+double* TermOf(JointTerm term, Joint* joint) {
+  switch (term) {
+    case JointTerm::kViscous:
+      return &joint->viscous;
+    case JointTerm::kCoulomb:
+      return &joint->coulomb;
+    case JointTerm::kOffset:
+      return &joint->offset;
+    case JointTerm::kArmature:
+      return &joint->armature;
+  }
+  return nullptr;
+}
+
+class PhysicalCalibrator {
+ public:
+  PhysicalCalibrator(const Robot& robot, const LinearCalibration& linear,
+                     const PhysicalCalibrationOptions& options)
+      : robot_(robot),
+        linear_(linear),
+        options_(options),
+        links_(robot.num_joints()),
+        terms_(AllTerms(linear)),
+        nominal_(StackInertials(robot)) {
+    for (JointTermColumn& t : terms_) {
+      term_start_.push_back(*TermOf(t.term, &robot_.links[t.joint].joint));
+      held_.push_back(true);
+    }
+    for (int k = 0; k < linear.parameters.size(); ++k) {
+      const ModelParameter& p = linear.parameters.parameters()[k];
+      if (!p.is_joint_term) continue;
+      for (size_t t = 0; t < terms_.size(); ++t) {
+        if (terms_[t].joint != p.block || terms_[t].term != p.term) continue;
+        held_[t] = false;
+        term_start_[t] = linear.x[k];
+      }
+    }
+  }
+
+  PhysicalCalibration Run(LogSet* training, LogSet* validation);
+
+ private:
+  int num_terms() const { return static_cast<int>(terms_.size()); }
+  void Reduce(LogSet* training);
+  bool Solve(PhysicalCalibration* result);
+  void Report(const VectorXd& V, const std::vector<double>& terms,
+              PhysicalCalibration* result) const;
+  TorqueResidual Evaluate(const Robot& robot, LogSet* logs) const;
+
+  Robot robot_;
+  const LinearCalibration& linear_;
+  const PhysicalCalibrationOptions& options_;
+  int links_;
+  std::vector<JointTermColumn> terms_;
+  VectorXd nominal_;                // stacked inertials of the file
+  std::vector<double> term_start_;  // joint terms
+  std::vector<bool> held_;          // per joint term
+  MatrixXd R_;                      // whitened equations R x = z
+  VectorXd z_;
+};
+
+// One pass: all joints' equations in whitened form. Rows that overlap and whose
+// errors are autocorrelated tell less than their number: `inflation`.
+void PhysicalCalibrator::Reduce(LogSet* training) {
+  const ArmGeometry geometry(robot_);
+  TriangularFactor factor(10 * links_ + num_terms());
+  std::vector<MotionRegressor> model(training->size(),
+                                     MotionRegressor(linear_.parameters));
+  std::vector<LinkFunctions> links(training->size(),
+                                   LinkFunctions(robot_, terms_, geometry, {}));
+  training->ForEach(
+      "links", options_.progress, [&](int log, const Trajectory& t) {
+        std::vector<VectorXd> weights;
+        ForEachRow(
+            t, linear_.rows, &model[log], [&](const IdentificationRow& row) {
+              VectorXd w =
+                  (row.Y - row.U * linear_.x).cwiseQuotient(linear_.noise);
+              for (int i = 0; i < w.size(); ++i) {
+                w[i] = linear_.used[log][i]
+                           ? std::sqrt(Huber::Weight(w[i])) /
+                                 (linear_.noise[i] * linear_.inflation)
+                           : 0;
+              }
+              weights.push_back(w);
+            });
+        size_t next = 0;
+        links[log].Enter(t);
+        ForEachWeakRow(t, linear_.rows, &links[log],
+                       [&](const IdentificationRow& row) {
+                         const VectorXd& w = weights[next++];
+                         for (int i = 0; i < w.size(); ++i) {
+                           if (w[i] > 0)
+                             factor.Add(row.U.row(i), row.Y[i], w[i]);
+                         }
+                       });
+      });
+  const MatrixXd triangle = factor.Triangle();
+  R_ = triangle.topLeftCorner(factor.columns(), factor.columns());
+  z_ = triangle.col(factor.columns()).head(factor.columns());
+}
+
+bool PhysicalCalibrator::Solve(PhysicalCalibration* result) {
+  std::vector<Vector10d> coordinates;
+  std::vector<double*> blocks;
+  for (int i = 0; i < links_; ++i) {
+    coordinates.push_back(
+        LogCholeskyFromInertial(nominal_.segment<10>(10 * i), 0.01, 0.01));
+  }
+  std::vector<double> terms = term_start_;
+  for (size_t t = 0; t < terms.size(); ++t) {
+    if (terms_[t].term != JointTerm::kOffset) terms[t] = std::max(0., terms[t]);
+  }
+  ceres::Problem problem;
+  for (Vector10d& c : coordinates) blocks.push_back(c.data());
+  blocks.push_back(terms.data());
+  problem.AddResidualBlock(
+      new TorqueFactorResidual(R_, z_, links_, num_terms(), VectorXd()),
+      nullptr, blocks);
+  for (int i = 0; i < links_; ++i) {
+    problem.AddResidualBlock(
+        new InertialPrior(nominal_.segment<10>(10 * i), options_.trust),
+        nullptr, blocks[i]);
+  }
+  std::vector<int> held;
+  for (int t = 0; t < num_terms(); ++t) {
+    if (held_[t]) held.push_back(t);
+    if (terms_[t].term == JointTerm::kOffset || held_[t]) continue;
+    problem.SetParameterLowerBound(terms.data(), t, 0);
+  }
+  if (static_cast<int>(held.size()) == num_terms()) {
+    problem.SetParameterBlockConstant(terms.data());
+  } else if (!held.empty()) {
+    problem.SetManifold(terms.data(),
+                        new ceres::SubsetManifold(num_terms(), held));
+  }
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.max_num_iterations = 300;
+  solver.function_tolerance = 1e-10;
+  solver.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  result->iterations = static_cast<int>(summary.iterations.size());
+  result->reason = ceres::TerminationTypeToString(summary.termination_type);
+  if (!summary.IsSolutionUsable()) return false;
+  VectorXd V(10 * links_);
+  for (int i = 0; i < links_; ++i) {
+    InertialFromLogCholesky(coordinates[i].data(), V.data() + 10 * i);
+    result->robot.links[i].inertial =
+        InertialParameters::FromVector(V.segment<10>(10 * i));
+    result->robot.links[i].has_inertial = true;
+  }
+  for (int t = 0; t < num_terms(); ++t) {
+    *TermOf(terms_[t].term, &result->robot.links[terms_[t].joint].joint) =
+        terms[t];
+  }
+  if (!V.allFinite()) return false;
+  Report(V, terms, result);
+  return true;
+}
+
+// Linear in V: the information of logs and prior adds up. A parameter counts as
+// identifiable where the logs alone, in every direction it takes part in, tell
+// more than a prior without trust.
+void PhysicalCalibrator::Report(const VectorXd& V,
+                                const std::vector<double>& terms,
+                                PhysicalCalibration* result) const {
+  const int p = static_cast<int>(R_.cols());
+  MatrixXd prior = MatrixXd::Zero(p, p);
+  for (int i = 0; i < links_; ++i) {
+    prior.block<10, 10>(10 * i, 10 * i) =
+        InertialPrior(nominal_.segment<10>(10 * i), 1).W();
+  }
+  std::vector<int> free;
+  for (int k = 0; k < p; ++k) {
+    if (k < 10 * links_ || !held_[k - 10 * links_]) free.push_back(k);
+    if (k >= 10 * links_) prior(k, k) = 1e-6;
+  }
+  const MatrixXd W = prior(free, free) / options_.trust;
+  const MatrixXd R = R_(Eigen::all, free);
+  const MatrixXd information = R.transpose() * R + W.transpose() * W;
+  const VectorXd s = information.diagonal().cwiseSqrt().cwiseInverse();
+  const MatrixXd scaled = s.asDiagonal() * information * s.asDiagonal();
+  const MatrixXd covariance =
+      s.asDiagonal() *
+      scaled.llt().solve(MatrixXd::Identity(free.size(), free.size())) *
+      s.asDiagonal();
+  // Data alone, in units of a prior without trust.
+  const MatrixXd unit = prior(free, free).inverse();
+  const Eigen::BDCSVD<MatrixXd> svd(R * unit, Eigen::ComputeFullV);
+  VectorXd unseen = VectorXd::Zero(free.size());
+  VectorXd whole = VectorXd::Zero(free.size());
+  const MatrixXd directions = unit * svd.matrixV();  // in parameters
+  for (Eigen::Index d = 0; d < directions.cols(); ++d) {
+    whole += directions.col(d).cwiseAbs2();
+    if (d < svd.singularValues().size() && svd.singularValues()[d] > 1) {
+      continue;
+    }
+    unseen += directions.col(d).cwiseAbs2();
+  }
+  result->covariance = MatrixXd::Zero(p, p);
+  for (int k = 0; k < p; ++k) {
+    PhysicalParameter out;
+    if (k < 10 * links_) {
+      out.name = robot_.links[k / 10].name + "." + InertialName(k % 10);
+      out.unit = InertialUnit(k % 10);
+      out.value = V[k];
+      out.prior = nominal_[k];
+    } else {
+      const JointTermColumn& t = terms_[k - 10 * links_];
+      Joint joint = robot_.links[t.joint].joint;
+      out.name = joint.name + "." + JointTermName(t.term);
+      out.unit = JointTermUnit(t.term, joint.type);
+      out.value = terms[k - 10 * links_];
+      out.prior = *TermOf(t.term, &joint);
+    }
+    const auto at = std::find(free.begin(), free.end(), k);
+    out.held = at == free.end();
+    out.identifiable = false;
+    out.stddev = std::numeric_limits<double>::infinity();
+    if (!out.held) {
+      const Eigen::Index f = at - free.begin();
+      out.identifiable = unseen[f] < 1e-3 * whole[f];
+      if (out.identifiable) out.stddev = std::sqrt(covariance(f, f));
+      for (size_t g = 0; g < free.size(); ++g) {
+        result->covariance(k, free[g]) = covariance(f, g);
+      }
+    }
+    result->parameters.push_back(out);
+  }
+}
+
+TorqueResidual PhysicalCalibrator::Evaluate(const Robot& robot,
+                                            LogSet* logs) const {
+  ModelParameters::Options options;
+  options.joint_terms = {JointTerm::kViscous, JointTerm::kCoulomb,
+                         JointTerm::kOffset, JointTerm::kArmature};
+  for (int j = 0; j < links_; ++j) {
+    options.transitions.push_back({terms_[4 * j].transition});
+  }
+  const ModelParameters parameters(robot, options);
+  const VectorXd x = parameters.Values(robot);
+  TorqueResidual residual(links_);
+  std::vector<MotionRegressor> regressors(logs->size(),
+                                          MotionRegressor(parameters));
+  logs->ForEach(
+      "residuals", options_.progress, [&](int log, const Trajectory& t) {
+        regressors[log].Enter(t);
+        residual.Add(t, x, linear_.rows.bandwidth_hz, &regressors[log]);
+      });
+  return residual;
+}
+
+PhysicalCalibration PhysicalCalibrator::Run(LogSet* training,
+                                            LogSet* validation) {
+  PhysicalCalibration result;
+  result.robot = robot_;
+  if (!linear_.solved) {
+    result.reason = linear_.reason;
+    return result;
+  }
+  Reduce(training);
+  result.solved = Solve(&result);
+  if (!result.solved) return result;
+  result.training = Evaluate(result.robot, training);
+  if (validation != nullptr) {
+    result.validation = Evaluate(result.robot, validation);
+  }
+  return result;
+}
+
+}  // namespace
+
+PhysicalCalibration CalibratePhysical(const Robot& robot,
+                                      const LinearCalibration& linear,
+                                      const PhysicalCalibrationOptions& options,
+                                      LogSet* training, LogSet* validation) {
+  return PhysicalCalibrator(robot, linear, options).Run(training, validation);
+}
+
+}  // namespace armcal
