@@ -24,7 +24,7 @@ enum class GeometryKnowledge {
 struct ModelParameter {
   std::string name;  // "a2*hx[3]", "Izz[2] + armature[2]", "viscous[1]"
   std::string unit;
-  int block = 0;  // 0-based joint whose block it belongs to
+  int block = 0;               // 0-based joint whose block it belongs to
   bool is_joint_term = false;  // then `term` says which
   JointTerm term = JointTerm::kViscous;
   CoulombTransition transition;  // of kCoulomb
@@ -76,6 +76,7 @@ class ModelParameters {
   void ListColumns(const Robot& robot, const Options& options);
   void DropZeroMoments(const Robot& robot);
   void ChooseBasis();
+  void NameMerged(int j);
   void NameParameters();
   std::string FullName(int full_column) const;
   std::string FullUnit(int full_column) const;
