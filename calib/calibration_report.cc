@@ -20,7 +20,7 @@ __attribute__((format(printf, 1, 2))) std::string Format(const char* format,
 }
 
 std::string Percent(double percent) {
-  return std::isfinite(percent) ? Format("%6.2f", percent) : "     -";
+  return std::isfinite(percent) ? Format("%7.2f", percent) : "      -";
 }
 
 std::string PlusMinus(double value, double stddev) {
@@ -62,31 +62,38 @@ std::string DataText(const LogSet& training, const LinearCalibration& result) {
   return text + "\n";
 }
 
+// Torque, residual and percentage of one joint; the unit where there is one.
+std::string FigureCells(double torque, double residual, double percent,
+                        const char* unit) {
+  return Format(" %9.3f %-3s %10.4f %-3s", torque, unit, residual, unit) +
+         Percent(percent);
+}
+
 std::string ResidualTable(const Robot& robot, const LinearCalibration& result) {
   if (!result.training) return "";
   const auto fit = result.training->moving();
-  std::string text =
-      "\nresidual               torque rms     residual rms      %";
-  if (result.validation) text += "   held out: torque    residual      %";
+  std::string text = "\n" + Format("%-22s", "residual (rms)") +
+                     "        torque       residual       %";
+  if (result.validation) text += "      held out: torque  residual       %";
   text += "\n";
   for (int i = 0; i < robot.num_joints(); ++i) {
     const Joint& joint = robot.links[i].joint;
-    text += Format("  %-20s %8.3f %-3s  %10.4f %-3s", joint.name.c_str(),
-                   fit.torque_rms[i], EffortUnit(joint.type),
-                   fit.residual_rms[i], EffortUnit(joint.type)) +
-            Percent(fit.percent[i]);
+    const char* unit = EffortUnit(joint.type);
+    text += Format("  %-20s", joint.name.c_str()) +
+            FigureCells(fit.torque_rms[i], fit.residual_rms[i], fit.percent[i],
+                        unit);
     if (result.validation) {
       const auto held_out = result.validation->moving();
-      text += Format("          %8.3f  %10.4f ", held_out.torque_rms[i],
-                     held_out.residual_rms[i]) +
-              Percent(held_out.percent[i]);
+      text +=
+          "   " + FigureCells(held_out.torque_rms[i], held_out.residual_rms[i],
+                              held_out.percent[i], unit);
     }
     text += "\n";
   }
-  text +=
-      Format("  all joints stacked %38s", "") + Percent(fit.stacked_percent);
+  text += Format("  %-20s%29s", "all joints stacked", "") +
+          Percent(fit.stacked_percent);
   if (result.validation) {
-    text += Format("%30s", "") +
+    text += Format("%32s", "") +
             Percent(result.validation->moving().stacked_percent);
   }
   return text + "\n";

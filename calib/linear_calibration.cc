@@ -94,10 +94,10 @@ void CheckIntervals(const RowOptions& rows, const LogSet& training,
       static_cast<long>(rows.intervals.size()) * training.size();
   if (equations >= expected) return;
   throw InputError(
-      training.path(0), "--intervals",
-      std::to_string(expected - equations) + " of " + std::to_string(expected),
-      "expected every interval to lie within the log, clear of gaps and "
-      "standstill");
+      training.path(0), "--intervals", "",
+      std::to_string(expected - equations) + " of " + std::to_string(expected) +
+          " intervals cannot be used; expected each to lie within the log, "
+          "clear of gaps and standstill");
 }
 
 std::string WhyNothingToSolve(const LogFactors& factors,
@@ -198,6 +198,15 @@ double MedianInflation(const MatrixXd& covariance,
   return std::max(1.0, ratios[ratios.size() / 2]);
 }
 
+// How many rows in a sequence share noise for certain: weak rows overlap, and
+// what differentiation makes of encoder noise lasts about a third of a second.
+int CorrelatedRows(const RowOptions& rows) {
+  const bool differential =
+      rows.identification == Identification::kDifferential;
+  if (!differential || rows.bandwidth_hz <= 0) return rows.hops;
+  return std::max(rows.hops, static_cast<int>(0.33 * 4 * rows.bandwidth_hz));
+}
+
 // From the factor to the parameters and their covariance.
 void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
               const BlockTriangularFactor& factor,
@@ -226,7 +235,7 @@ void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
   } else {
     SetCovariance(
         EstimateRowCovariance(solution, result->noise, huber, reference,
-                              result->equations, rows.hops, pass),
+                              result->equations, CorrelatedRows(rows), pass),
         result);
     result->inflation =
         MedianInflation(result->covariance,

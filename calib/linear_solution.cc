@@ -138,7 +138,11 @@ LinearSolution SolveReweighted(const BlockTriangularFactor& factor,
                                VectorXd* noise) {
   LinearSolution solution;
   for (int iteration = 0; iteration < 20; ++iteration) {
-    solution = SolveWeighted(factor, *noise, reference);
+    // The first noise is a guess, as large as the torque: directions must not
+    // be dropped for it, or what they explain would be taken for noise ever
+    // after.
+    solution = SolveWeighted(
+        factor, iteration == 0 ? VectorXd(1e-6 * *noise) : *noise, reference);
     const VectorXd estimate = EstimateNoise(factor, solution.x);
     double change = 0;
     for (int i = 0; i < noise->size(); ++i) {
@@ -146,7 +150,7 @@ LinearSolution SolveReweighted(const BlockTriangularFactor& factor,
       change = std::max(change, std::abs(std::log(estimate[i] / (*noise)[i])));
       (*noise)[i] = estimate[i];
     }
-    if (change < 0.02) break;
+    if (iteration > 0 && change < 0.02) break;
   }
   return solution;
 }

@@ -112,15 +112,15 @@ MatrixXd RaiseToLogScatter(const MatrixXd& covariance, const MatrixXd& gain,
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                                          const VectorXd& noise, bool huber,
                                          const ReferenceMotion& reference,
-                                         long rows, int hops_per_window,
+                                         long rows, int rows_per_window,
                                          ResidualPass* pass) {
   const ModelParameters& parameters = pass->parameters();
   const int window =
       BartlettWindow(Autocorrelation(solution.x, noise, pass), rows,
-                     hops_per_window + hops_per_window / 2);
+                     rows_per_window + rows_per_window / 2);
   ScoreCovariance scores(parameters.size(), window);
   MatrixXd sums = MatrixXd::Zero(parameters.size(), pass->num_logs());
-  SmallSampleFactor small(hops_per_window - 1);
+  SmallSampleFactor small(rows_per_window - 1);
   BlockTriangularFactor inside(parameters);
   pass->Run("covariance", solution.x, noise, [&](const RowResidual& residual) {
     if (!residual.follows) scores.Break();

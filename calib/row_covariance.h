@@ -17,7 +17,8 @@ struct CovarianceEstimate {
 // The covariance of a solution from rows that overlap and whose errors are
 // autocorrelated: the sandwich of the solution's gain and the long-run
 // covariance of the scores (Newey-West, Andrews' window for the worst joint's
-// autocorrelation). With three logs or more, deviations are at least what the
+// autocorrelation, at least 1.5 times the `rows_per_window` that are known to
+// be correlated). With three logs or more, deviations are at least what the
 // scatter of the logs' score sums shows: something may change from log to log
 // (temperature, wear, a torque scale). `huber`: the solution is of SolveRobust.
 // Two passes over the logs.
@@ -25,7 +26,7 @@ CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                                          const Eigen::VectorXd& noise,
                                          bool huber,
                                          const ReferenceMotion& reference,
-                                         long rows, int hops_per_window,
+                                         long rows, int rows_per_window,
                                          ResidualPass* pass);
 
 }  // namespace armcal

@@ -2,6 +2,8 @@
 
 #include <glog/logging.h>
 
+#include <Eigen/QR>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -47,27 +49,50 @@ void FilterForwards(const std::array<Section, 2>& sections, VectorXd* x) {
   }
 }
 
+// Values beyond the end of x (its last element), nearest first.
+VectorXd Reflected(const VectorXd& x, int count) {
+  const Eigen::Index last = x.size() - 1;
+  return VectorXd::NullaryExpr(count, [&](Eigen::Index k) {
+    return 2 * x[last] - x[std::max<Eigen::Index>(0, last - 1 - k)];
+  });
+}
+
+// Those of the cubic through the last `span` elements in the least-squares
+// sense.
+VectorXd Extrapolated(const VectorXd& x, int count, int span) {
+  const auto powers = [span](int samples, double first) {
+    const VectorXd s = VectorXd::LinSpaced(samples, first / span,
+                                           (first + samples - 1) / span);
+    MatrixXd A(samples, 4);
+    A << VectorXd::Ones(samples), s, s.cwiseAbs2(), s.array().cube().matrix();
+    return A;
+  };
+  const Eigen::Vector4d c =
+      powers(span, -span).colPivHouseholderQr().solve(x.tail(span));
+  return powers(count, 0) * c;
+}
+
 }  // namespace
 
 MatrixXd ZeroPhaseLowPass(const MatrixXd& x, double sample_rate,
-                          double cutoff_hz) {
+                          double cutoff_hz, Ends ends) {
   CHECK_GT(cutoff_hz, 0);
   const int n = static_cast<int>(x.rows());
   if (n < 2 || cutoff_hz >= 0.499 * sample_rate) return x;
   const auto sections = Butterworth4(sample_rate, cutoff_hz);
-  // The filter starts from rest so far outside that a ramp passes.
-  const int pad = std::min(
-      n - 1,
-      static_cast<int>(std::ceil(sample_rate * LowPassMemory(cutoff_hz))));
+  // The filter starts from rest so far outside that polynomials pass.
+  const int pad =
+      static_cast<int>(std::ceil(sample_rate * LowPassMemory(cutoff_hz)));
+  const int span = std::min(
+      n, std::max(6, static_cast<int>(std::lround(sample_rate / cutoff_hz))));
+  const bool extrapolate = ends == Ends::kExtrapolate && span >= 6;
+  const auto beyond = [&](const VectorXd& end) -> VectorXd {
+    return extrapolate ? Extrapolated(end, pad, span) : Reflected(end, pad);
+  };
   MatrixXd result(n, x.cols());
   VectorXd padded(n + 2 * pad);
   for (int c = 0; c < x.cols(); ++c) {
-    const auto column = x.col(c);
-    for (int k = 0; k < pad; ++k) {
-      padded[k] = 2 * column[0] - column[pad - k];
-      padded[pad + n + k] = 2 * column[n - 1] - column[n - 2 - k];
-    }
-    padded.segment(pad, n) = column;
+    padded << beyond(x.col(c).reverse()).reverse(), x.col(c), beyond(x.col(c));
     FilterForwards(sections, &padded);
     padded.reverseInPlace();
     FilterForwards(sections, &padded);

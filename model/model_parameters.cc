@@ -339,6 +339,20 @@ std::string ModelParameters::FullUnit(int c) const {
   return kPowers[power];
 }
 
+// Says what joint term `j` (a full column) is part of, if it was merged.
+void ModelParameters::NameMerged(int j) {
+  if (std::find(kept_.begin(), kept_.end(), j) != kept_.end()) return;
+  std::string hosts;
+  int count = 0;
+  for (size_t k = 0; k < kept_.size(); ++k) {
+    if (regrouping_(k, j) == 0) continue;
+    hosts += (count++ == 0 ? "" : " and ") + FullName(kept_[k]);
+  }
+  merged_.push_back(
+      FullName(j) + " cannot be told from " + hosts +
+      (count == 1 ? ": they are one parameter" : ": it is part of them"));
+}
+
 void ModelParameters::NameParameters() {
   const int m = static_cast<int>(moments_.size());
   for (size_t k = 0; k < kept_.size(); ++k) {
@@ -360,13 +374,10 @@ void ModelParameters::NameParameters() {
         std::snprintf(factor, sizeof(factor), "%.4g*", std::abs(x));
       }
       p.name += (x < 0 ? " - " : " + ") + std::string(factor) + FullName(j);
-      if (j >= m) {
-        merged_.push_back(FullName(j) + " cannot be told from " + FullName(c) +
-                          ": they are one parameter");
-      }
     }
     parameters_.push_back(p);
   }
+  for (int j = m; j < NumFull(); ++j) NameMerged(j);
   row_columns_.resize(num_joints());
   for (int k = 0; k < size(); ++k) {
     const ModelParameter& p = parameters_[k];

@@ -76,6 +76,7 @@ class ModelParameters {
   void ListColumns(const Robot& robot, const Options& options);
   void DropZeroMoments(const Robot& robot);
   void ChooseBasis();
+  void NameMerged(int j);
   void NameParameters();
   std::string FullName(int full_column) const;
   std::string FullUnit(int full_column) const;

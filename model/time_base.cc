@@ -104,8 +104,7 @@ struct Audit {
         return;
       }
       steps.Add(step);
-      base.min_step =
-          base.samples == 1 ? step : std::min(base.min_step, step);
+      base.min_step = base.samples == 1 ? step : std::min(base.min_step, step);
       base.max_step = std::max(base.max_step, step);
     } else {
       base.range.begin = t;

@@ -151,7 +151,8 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
   t.tau = std::move(samples.tau);
   const bool raw = bandwidth <= 0;
   t.q = raw ? std::move(samples.q)
-            : ZeroPhaseLowPass(samples.q, 1 / base.dt, bandwidth);
+            : ZeroPhaseLowPass(samples.q, 1 / base.dt, bandwidth,
+                               Ends::kExtrapolate);
   t.qd = raw && samples.qd.size() > 0 ? std::move(samples.qd)
                                       : Differentiate(t.q, t.dt);
   t.qdd = raw && samples.qdd.size() > 0 ? std::move(samples.qdd)

@@ -67,6 +67,28 @@ TEST(ZeroPhaseLowPass, PassesConstantsAndRampsUpToTheEnds) {
   }
 }
 
+// What keeps curving at the ends of a log: motion, not noise.
+TEST(ZeroPhaseLowPass, ExtrapolatedEndsKeepCurving) {
+  const double rate = 200, cutoff = 6;
+  VectorXd motion(800), cubic(800);
+  for (int k = 0; k < 800; ++k) {
+    const double t = k / rate;
+    motion[k] = std::sin(2 * kPi * 0.5 * t + 0.4);
+    cubic[k] = 1 - 2 * t + 3 * t * t - 0.5 * t * t * t;
+  }
+  EXPECT_LT((ZeroPhaseLowPass(cubic, rate, cutoff, Ends::kExtrapolate) - cubic)
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-8);
+  const auto error = [&](Ends ends) {
+    return (ZeroPhaseLowPass(motion, rate, cutoff, ends) - motion)
+        .cwiseAbs()
+        .maxCoeff();
+  };
+  EXPECT_LT(error(Ends::kExtrapolate), 1e-4);
+  EXPECT_GT(error(Ends::kReflect), 20 * error(Ends::kExtrapolate));
+}
+
 TEST(ZeroPhaseLowPass, IsLinearAndTreatsColumnsApart) {
   MatrixXd x(400, 3);
   x.col(0) = Samples(400, 100, [](double t) { return std::sin(9 * t); });

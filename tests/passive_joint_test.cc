@@ -96,6 +96,20 @@ TEST(PassiveJoint, ParametersDoNotCollapseWithoutNominalInertia) {
                                    {SwingFreely(robot, 1, 0)}, ViscousOnly()));
 }
 
+// A joint whose torque is nothing but noise must not hide what the others see.
+TEST(PassiveJoint, NoiseForTorqueDoesNotHideTheArm) {
+  const Robot robot = TwoLinks();
+  const LinearCalibration result =
+      CalibrateLogs(SampleRobot("2R planar (vertical plane)"),
+                    {SwingFreely(robot, 1, .05)}, ViscousOnly());
+  const VectorXd X = result.parameters.Values(robot);
+  EXPECT_GE(result.identifiability.batch_rank, X.size() - 1);
+  for (int k = 0; k + 1 < X.size(); ++k) {
+    EXPECT_LT(std::abs(result.x[k] - X[k]), 5 * result.stddev[k]) << k;
+    EXPECT_LT(result.stddev[k], .01) << k;
+  }
+}
+
 // Free in the second of three logs: that equation is left out and named.
 TEST(PassiveJoint, FreeSwingInOneLogIsNamed) {
   const Robot robot = TwoLinks();

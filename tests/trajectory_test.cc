@@ -32,7 +32,8 @@ TEST(TrajectoryReader, CuttingChangesNothing) {
   const double dt = .001, bandwidth = 5;
   const LogFile log = MakeLog(100, dt, Position, 1e-3);
   const int thin = 12;  // 1 kHz / (16 * 5 Hz) = 12.5
-  const MatrixXd q = ZeroPhaseLowPass(log.q, 1 / dt, bandwidth);
+  const MatrixXd q =
+      ZeroPhaseLowPass(log.q, 1 / dt, bandwidth, Ends::kExtrapolate);
   const MatrixXd qd = Differentiate(q, dt), qdd = Differentiate(qd, dt);
   const MatrixXd tau = ZeroPhaseLowPass(log.tau, 1 / dt, 4 * bandwidth);
   const auto parts = Cut(log.path, Bandwidth(bandwidth, .3));

@@ -91,7 +91,7 @@ expect_refusal(3 "good.csv" "--torque_constants")
 calibrate(good.csv --torque_constants=1,2,3)
 expect_refusal(3 "--torque_constants: found '1 2 3': expected one value per joint, the robot has 2")
 calibrate(good.csv --identification=integral --intervals=0:9)
-expect_refusal(3 "good.csv: --intervals: found" "expected every interval to lie within the log")
+expect_refusal(3 "good.csv: --intervals: 1 of 1 intervals cannot be used; expected each to lie within the log")
 
 # A result that cannot be written: the file `blocked` is no folder.
 file(WRITE ${WORK_DIR}/blocked "")
