@@ -271,6 +271,7 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   for (const auto& t : transitions) result.transitions.push_back(t.front());
   result.rows = rows;
   result.solver = options.solver;
+  result.joint_terms = options.joint_terms;
 
   const LogFactors factors(result.parameters, rows, options.progress, training);
   for (int log = 0; log < factors.size(); ++log) {

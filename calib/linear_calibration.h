@@ -63,6 +63,7 @@ struct LinearCalibration {
   std::vector<RecoveredLength> lengths;
 
   LinearSolver solver = LinearSolver::kWeighted;
+  std::vector<JointTerm> joint_terms;  // asked for, merged or not
   RowOptions rows;
   EquationMask used;  // [log][joint]
   // Standard deviations over those of independent rows, median.

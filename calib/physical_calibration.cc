@@ -66,15 +66,16 @@ class PhysicalCalibrator {
         nominal_(StackInertials(robot)) {
     for (JointTermColumn& t : terms_) {
       term_start_.push_back(*TermOf(t.term, &robot_.links[t.joint].joint));
-      held_.push_back(true);
+      held_.push_back(std::count(linear.joint_terms.begin(),
+                                 linear.joint_terms.end(), t.term) == 0);
     }
     for (int k = 0; k < linear.parameters.size(); ++k) {
       const ModelParameter& p = linear.parameters.parameters()[k];
       if (!p.is_joint_term) continue;
       for (size_t t = 0; t < terms_.size(); ++t) {
-        if (terms_[t].joint != p.block || terms_[t].term != p.term) continue;
-        held_[t] = false;
-        term_start_[t] = linear.x[k];
+        if (terms_[t].joint == p.block && terms_[t].term == p.term) {
+          term_start_[t] = linear.x[k];
+        }
       }
     }
   }
@@ -178,7 +179,7 @@ bool PhysicalCalibrator::Solve(PhysicalCalibration* result) {
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = 300;
-  solver.function_tolerance = 1e-10;
+  solver.function_tolerance = 1e-9;
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);

@@ -15,8 +15,8 @@ namespace armcal {
 struct PhysicalCalibrationOptions {
   // Relative standard deviation of the robot file's inertial parameters, in
   // every direction of the links' pseudo-inertias. It ties what the logs do not
-  // see; 1 is next to no trust.
-  double trust = 1;
+  // see.
+  double trust = 0.5;
   Progress progress;
 };
 

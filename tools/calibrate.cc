@@ -7,7 +7,10 @@
 
 #include "calib/calibration_report.h"
 #include "calib/linear_calibration.h"
+#include "calib/physical_calibration.h"
+#include "calib/physical_report.h"
 #include "model/input_text.h"
+#include "model/urdf_writer.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
@@ -37,6 +40,12 @@ DEFINE_string(intervals, "",
               "integral model: t1:t2[,t3:t4...], s; default: side by side");
 DEFINE_double(interval, 0.5, "integral model: length of intervals, s");
 DEFINE_string(quadrature, "trapezoid", "integral model: trapezoid, simpson");
+DEFINE_string(estimate, "refined",
+              "refined (also a physically consistent robot file for "
+              "simulators), linear (model parameters only)");
+DEFINE_double(trust, 0.5,
+              "relative standard deviation of the robot file's inertial "
+              "parameters, which tie what the logs do not show");
 
 namespace armcal {
 namespace {
@@ -140,6 +149,31 @@ LinearCalibrationOptions OptionsFromFlags(const Robot& robot) {
   return options;
 }
 
+// Why there is nothing to refine; empty where there is.
+std::string WhyNotRefined(const Robot& robot, const LinearCalibration& linear,
+                          const LinearCalibrationOptions& options) {
+  if (FLAGS_estimate == "linear" || !linear.solved) return "not asked for";
+  if (options.identification != Identification::kWeak ||
+      options.geometry != GeometryKnowledge::kKnown) {
+    return "it takes the weak form and a known geometry";
+  }
+  for (const Link& link : robot.links) {
+    if (link.inertial.mass > 0) continue;
+    return "the robot file gives link " + link.name + " no mass to start from";
+  }
+  return "";
+}
+
+void AddRobotFiles(const std::string& robot_path, const Robot& robot,
+                   OutputFolder* out) {
+  if (robot.dh_convention) {
+    out->Add("robot.urdf", MakeUrdf(robot));
+    return;
+  }
+  out->Add("robot.urdf", UpdateUrdf(robot_path, robot, false));
+  out->Add("robot_without_meshes.urdf", MakeUrdf(robot));
+}
+
 int RunCalibrate() {
   const Robot robot = RobotFromFlags();
   LinearCalibrationOptions options = OptionsFromFlags(robot);
@@ -156,15 +190,35 @@ int RunCalibrate() {
   const LinearCalibration result =
       CalibrateLinear(robot, options, &training, held_out);
 
+  nlohmann::json json = ToJson(robot, training, held_out, result);
+  std::string report = FullReport(robot, training, result);
   OutputFolder out(OutFromFlags());
-  out.Add("calibration.json",
-          ToJson(robot, training, held_out, result).dump(2) + "\n");
+  const std::string why_not = WhyNotRefined(robot, result, options);
+  if (why_not.empty()) {
+    PhysicalCalibrationOptions refine;
+    refine.trust = FLAGS_trust;
+    refine.progress = options.progress;
+    const PhysicalCalibration refined =
+        CalibratePhysical(robot, result, refine, &training, held_out);
+    AddRefined(refined, &json);
+    report += PhysicalReport(robot, refined);
+    if (refined.solved) {
+      AddRobotFiles(RobotPathFromFlags(), refined.robot, &out);
+      out.Add("parameters_covariance.csv", ParametersCovarianceCsv(refined));
+      for (const std::string& loss : UrdfLosses(refined.robot)) {
+        report += "robot.urdf  " + loss + "\n";
+      }
+    }
+  } else if (FLAGS_estimate == "refined" && result.solved) {
+    report += "no robot file: " + why_not + "\n";
+  }
+  out.Add("calibration.json", json.dump(2) + "\n");
   if (result.solved) out.Add("covariance.csv", CovarianceCsv(result));
   out.Write();
   for (const std::string& note : robot.notes) {
     std::cout << "note       " << note << "\n";
   }
-  std::cout << FullReport(robot, training, result);
+  std::cout << report;
   return result.solved ? kExitOk : kExitNegative;
 }
 
@@ -172,7 +226,8 @@ std::vector<std::string> FlagNames() {
   std::vector<std::string> names = InputFlagNames();
   for (const char* name :
        {"geometry", "identification", "solver", "loss", "joint_terms",
-        "coulomb_width", "window", "intervals", "interval", "quadrature"}) {
+        "coulomb_width", "window", "intervals", "interval", "quadrature",
+        "estimate", "trust"}) {
     names.push_back(name);
   }
   return names;

@@ -151,6 +151,8 @@ LogReaderOptions LogOptionsFromFlags(const Robot& robot) {
   return options;
 }
 
+std::string RobotPathFromFlags() { return FLAGS_robot; }
+
 std::vector<std::string> LogsFromFlags() {
   if (FLAGS_log.empty()) throw UsageError("--log=FILE is needed");
   return FileNames("log", FLAGS_log);

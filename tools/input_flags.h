@@ -16,6 +16,7 @@ const std::vector<std::string>& InputFlagNames();
 
 Robot RobotFromFlags();  // --robot --base --tip --gravity
 LogReaderOptions LogOptionsFromFlags(const Robot& robot);
+std::string RobotPathFromFlags();
 std::vector<std::string> LogsFromFlags();            // --log
 std::vector<std::string> ValidationLogsFromFlags();  // --validate
 TimeRange CropFromFlags();                           // --crop
