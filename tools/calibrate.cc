@@ -11,15 +11,18 @@
 #include "calib/physical_report.h"
 #include "model/input_text.h"
 #include "model/urdf_writer.h"
+#include "tools/calibrate_poses.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
+
+DECLARE_string(poses);
 
 DEFINE_string(
     geometry, "known",
     "lengths between the joint axes: known; lengths (those the robot "
     "file declares unknown, or all that are not zero, are estimated); "
-    "all_lengths");
+    "all_lengths; with --poses: known, offsets (joint zeros), refine");
 DEFINE_string(identification, "weak",
               "weak (test functions, no acceleration), differential (2.19), "
               "integral (2.27)");
@@ -176,6 +179,7 @@ void AddRobotFiles(const std::string& robot_path, const Robot& robot,
 
 int RunCalibrate() {
   const Robot robot = RobotFromFlags();
+  if (!FLAGS_poses.empty()) return CalibratePosesFromFlags(robot);
   LinearCalibrationOptions options = OptionsFromFlags(robot);
   const LogReaderOptions log_options = LogOptionsFromFlags(robot);
   const TimeRange crop = CropFromFlags();
@@ -227,7 +231,7 @@ std::vector<std::string> FlagNames() {
   for (const char* name :
        {"geometry", "identification", "solver", "loss", "joint_terms",
         "coulomb_width", "window", "intervals", "interval", "quadrature",
-        "estimate", "trust"}) {
+        "estimate", "trust", "poses"}) {
     names.push_back(name);
   }
   return names;

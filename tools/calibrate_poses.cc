@@ -1,0 +1,50 @@
+#include "tools/calibrate_poses.h"
+
+#include <gflags/gflags.h>
+
+#include <iostream>
+
+#include "calib/pose_calibration.h"
+#include "calib/pose_report.h"
+#include "model/pose_reader.h"
+#include "model/urdf_writer.h"
+#include "tools/command.h"
+#include "tools/input_flags.h"
+#include "tools/output_folder.h"
+
+DECLARE_string(geometry);
+DECLARE_string(loss);
+
+DEFINE_string(poses, "",
+              "CSV of measured poses: q1.. with x1 y1 z1 [x2 ..] (targets), "
+              "x y z qw qx qy qz (tool poses) or length1 (draw wire)");
+
+namespace armcal {
+
+int CalibratePosesFromFlags(const Robot& robot) {
+  using Refine = PoseCalibrationOptions::Refine;
+  PoseCalibrationOptions options;
+  options.refine = ParseChoice<Refine>("geometry", FLAGS_geometry,
+                                       {{"known", Refine::kNothing},
+                                        {"offsets", Refine::kOffsets},
+                                        {"refine", Refine::kAll}});
+  options.loss = ParseChoice<RobustLoss>("loss", FLAGS_loss,
+                                         {{"huber", RobustLoss::kHuber},
+                                          {"cauchy", RobustLoss::kCauchy},
+                                          {"tukey", RobustLoss::kTukey},
+                                          {"squared", RobustLoss::kSquared}});
+  const PoseMeasurements measured = ReadPoses(FLAGS_poses, robot.JointNames());
+  const PoseCalibration result = CalibratePoses(robot, measured, options);
+  OutputFolder out(OutFromFlags());
+  out.Add("calibration.json", PoseJson(robot, measured, result).dump(2) + "\n");
+  if (result.solved) {
+    out.Add("robot.urdf", robot.dh_convention ? MakeUrdf(result.robot)
+                                              : UpdateUrdf(RobotPathFromFlags(),
+                                                           result.robot, true));
+  }
+  out.Write();
+  std::cout << PoseReport(robot, measured, result);
+  return result.solved ? kExitOk : kExitNegative;
+}
+
+}  // namespace armcal
