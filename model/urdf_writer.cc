@@ -1,13 +1,16 @@
 #include "model/urdf_writer.h"
 
-#include <glog/logging.h>
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "model/input_error.h"
 #include "model/input_text.h"
+#include "model/urdf_chain.h"
+#include "model/urdf_tree.h"
 
 namespace armcal {
 namespace {
@@ -17,6 +20,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
+
+constexpr double kTurn = 6.28318530717958648;  // rad, or m
 
 // Ten digits, which is more than any calibration knows; no "-0".
 std::string Digits(double x) {
@@ -76,17 +81,19 @@ void SetDynamics(const Joint& joint, XMLElement* element) {
   dynamics->SetAttribute("friction", Digits(joint.coulomb).c_str());
 }
 
+// URDF wants limits of a revolute or prismatic joint; where the robot has none
+// they are wide.
 void SetLimits(const Joint& joint, XMLElement* element) {
+  const auto or_wide = [](double x, double wide) {
+    return Digits(std::isfinite(x) ? x : wide);
+  };
   XMLElement* limit = Child(element, "limit");
   if (joint.type != JointType::kContinuous) {
-    limit->SetAttribute(
-        "lower", Digits(std::max(joint.lower, -2 * 3.14159265358979)).c_str());
-    limit->SetAttribute(
-        "upper", Digits(std::min(joint.upper, 2 * 3.14159265358979)).c_str());
+    limit->SetAttribute("lower", or_wide(joint.lower, -kTurn).c_str());
+    limit->SetAttribute("upper", or_wide(joint.upper, kTurn).c_str());
   }
-  limit->SetAttribute("effort", Digits(std::min(joint.effort, 1e6)).c_str());
-  limit->SetAttribute("velocity",
-                      Digits(std::min(joint.velocity, 1e3)).c_str());
+  limit->SetAttribute("effort", or_wide(joint.effort, 1e6).c_str());
+  limit->SetAttribute("velocity", or_wide(joint.velocity, 1e3).c_str());
 }
 
 XMLElement* AddJoint(const char* name, const char* type, const char* parent,
@@ -116,84 +123,100 @@ XMLElement* Find(XMLElement* root, const char* tag, const std::string& name) {
   return nullptr;
 }
 
-Vector3d ReadVector(const XMLElement* element, const char* name) {
-  Vector3d v = Vector3d::Zero();
-  const char* text = element == nullptr ? nullptr : element->Attribute(name);
-  if (text != nullptr) std::sscanf(text, "%lf %lf %lf", &v[0], &v[1], &v[2]);
-  return v;
-}
-
-Isometry3d ReadOrigin(const XMLElement* parent) {
-  const XMLElement* origin = parent->FirstChildElement("origin");
-  const Vector3d rpy = ReadVector(origin, "rpy");
-  Isometry3d X = Isometry3d::Identity();
-  X.translation() = ReadVector(origin, "xyz");
-  X.linear() = RotationFromRpy(rpy);
-  return X;
-}
-
-InertialParameters ReadInertial(const XMLElement* inertial) {
-  const auto number = [](const XMLElement* e, const char* name) {
-    return e == nullptr ? 0 : e->DoubleAttribute(name);
-  };
-  const XMLElement* i = inertial->FirstChildElement("inertia");
-  Matrix3d I;
-  I << number(i, "ixx"), number(i, "ixy"), number(i, "ixz"), number(i, "ixy"),
-      number(i, "iyy"), number(i, "iyz"), number(i, "ixz"), number(i, "iyz"),
-      number(i, "izz");
-  return InertialParameters::FromCenterOfMass(
-             number(inertial->FirstChildElement("mass"), "value"),
-             Vector3d::Zero(), I)
-      .ReexpressIn(ReadOrigin(inertial));
-}
-
-// A link fixed to a moved one, with its pose in it. The file was read before,
-// so that it is known to be a tree of sound numbers.
-struct FixedLink {
-  XMLElement* element;
-  Isometry3d X_LC;
-};
-
-void CollectFixed(XMLElement* root, const std::string& link,
-                  const Isometry3d& X, std::vector<FixedLink>* found) {
-  for (XMLElement* joint = root->FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
-    const char* type = joint->Attribute("type");
-    const XMLElement* parent = joint->FirstChildElement("parent");
-    const XMLElement* child = joint->FirstChildElement("child");
-    if (type == nullptr || std::string(type) != "fixed" || parent == nullptr ||
-        child == nullptr || link != parent->Attribute("link")) {
-      continue;
-    }
-    const Isometry3d X_LC = X * ReadOrigin(joint);
-    XMLElement* element = Find(root, "link", child->Attribute("link"));
-    if (element == nullptr) continue;
-    found->push_back({element, X_LC});
-    CollectFixed(root, child->Attribute("link"), X_LC, found);
-  }
-}
-
-// The link gets what its fixed links do not have already.
-void DistributeInertia(const InertialParameters& total, XMLElement* root,
-                       XMLElement* link) {
-  std::vector<FixedLink> fixed;
-  CollectFixed(root, link->Attribute("name"), Isometry3d::Identity(), &fixed);
+// The link gets what the links that are fixed to it do not have already.
+void DistributeInertia(const InertialParameters& total, const UrdfTree& tree,
+                       int head, XMLElement* root) {
+  const RigidGroup group = FindGroup(tree, head);
+  XMLElement* link = Find(root, "link", tree.links[head].name);
   Vector10d rest = total.ToVector();
-  for (const FixedLink& f : fixed) {
-    const XMLElement* inertial = f.element->FirstChildElement("inertial");
-    if (inertial == nullptr) continue;
-    rest -= ReadInertial(inertial).ReexpressIn(f.X_LC).ToVector();
+  for (size_t i = 1; i < group.links.size(); ++i) {
+    const InertialParameters& fixed = tree.links[group.links[i]].inertial;
+    rest -= fixed.ReexpressIn(group.X_HLs[i]).ToVector();
   }
   const InertialParameters remaining = InertialParameters::FromVector(rest);
   if (WhyUnphysical(remaining).empty()) {
     SetInertial(remaining, link);
     return;
   }
-  for (const FixedLink& f : fixed) {
-    XMLElement* inertial = f.element->FirstChildElement("inertial");
-    if (inertial != nullptr) f.element->DeleteChild(inertial);
+  for (size_t i = 1; i < group.links.size(); ++i) {
+    XMLElement* fixed = Find(root, "link", tree.links[group.links[i]].name);
+    XMLElement* inertial = fixed->FirstChildElement("inertial");
+    if (inertial != nullptr) fixed->DeleteChild(inertial);
   }
   SetInertial(total, link);
+}
+
+int FindJoint(const std::string& path, const UrdfTree& tree, const Link& link) {
+  for (size_t j = 0; j < tree.joints.size(); ++j) {
+    const UrdfJoint& joint = tree.joints[j];
+    if (joint.joint.name == link.joint.name && !joint.is_fixed &&
+        tree.links[joint.child].name == link.name) {
+      return static_cast<int>(j);
+    }
+  }
+  throw InputError(path, "", link.name,
+                   "expected a link of the robot, moved by its joint " +
+                       Quoted(link.joint.name));
+}
+
+// Sets the origin of joint `j` so that its frame has the pose X_HJ in `head`,
+// which fixed joints connect to its parent.
+void SetJointOrigin(const std::string& path, int head, int j,
+                    const Isometry3d& X_HJ, UrdfTree* tree, XMLElement* root) {
+  UrdfJoint& joint = tree->joints[j];
+  const RigidGroup group = FindGroup(*tree, head);
+  if (std::count(group.links.begin(), group.links.end(), joint.parent) == 0) {
+    throw InputError(
+        path, "", tree->links[head].name,
+        "expected the link that carries joint " + Quoted(joint.joint.name));
+  }
+  joint.X_PJ = PoseInGroup(group, joint.parent).inverse() * X_HJ;
+  SetOrigin(joint.X_PJ, Find(root, "joint", joint.joint.name));
+}
+
+int FindBase(const std::string& path, const UrdfTree& tree,
+             const std::string& base, int first_joint) {
+  int link = tree.joints[first_joint].parent;
+  if (base.empty()) {
+    while (tree.links[link].parent_joint >= 0) {
+      link = tree.joints[tree.links[link].parent_joint].parent;
+    }
+    return link;
+  }
+  const std::optional<int> found = tree.FindLink(base);
+  if (!found) {
+    throw InputError(path, "", base, "expected a link of the URDF file");
+  }
+  return *found;
+}
+
+void SetGeometry(const std::string& path, const Robot& robot,
+                 const std::vector<int>& joints, const std::string& base,
+                 UrdfTree* tree, XMLElement* root) {
+  int head = FindBase(path, *tree, base, joints.front());
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const Link& link = robot.links[i];
+    SetJointOrigin(path, head, joints[i], link.X_PF * link.X_ML, tree, root);
+    head = tree->joints[joints[i]].child;
+  }
+  const std::optional<int> tool = tree->FindLink(robot.tool_name);
+  if (!tool) return;
+  SetJointOrigin(path, head, tree->links[*tool].parent_joint, robot.X_LT, tree,
+                 root);
+}
+
+// A name like `wish` that no link or joint of the robot has.
+std::string NewName(const Robot& robot, const std::string& wish) {
+  const auto is_taken = [&](const std::string& name) {
+    if (name == robot.tool_name) return true;
+    for (const Link& link : robot.links) {
+      if (link.name == name || link.joint.name == name) return true;
+    }
+    return false;
+  };
+  std::string name = wish;
+  while (is_taken(name)) name += "_";
+  return name;
 }
 
 // The frame of a link whose joint turns about its own origin: URDF's. Standard
@@ -211,8 +234,8 @@ std::string MakeUrdf(const Robot& robot) {
   XMLElement* root = document.NewElement("robot");
   root->SetAttribute("name", robot.name.c_str());
   document.InsertEndChild(root);
-  root->InsertNewChildElement("link")->SetAttribute("name", "base_link");
-  std::string parent = "base_link";
+  std::string parent = NewName(robot, "base_link");
+  root->InsertNewChildElement("link")->SetAttribute("name", parent.c_str());
   Isometry3d X_UL = Isometry3d::Identity();  // of the parent
   for (const Link& link : robot.links) {
     const Isometry3d X_MU = UrdfFrame(link);
@@ -235,33 +258,35 @@ std::string MakeUrdf(const Robot& robot) {
   if (!robot.tool_name.empty()) {
     root->InsertNewChildElement("link")->SetAttribute("name",
                                                       robot.tool_name.c_str());
-    AddJoint((robot.tool_name + "_joint").c_str(), "fixed", parent.c_str(),
-             robot.tool_name.c_str(), X_UL * robot.X_LT, root);
+    AddJoint(NewName(robot, robot.tool_name + "_joint").c_str(), "fixed",
+             parent.c_str(), robot.tool_name.c_str(), X_UL * robot.X_LT, root);
   }
   return Print(document);
 }
 
 std::string UpdateUrdf(const std::string& path, const Robot& robot,
-                       bool geometry) {
-  const std::string text = ReadTextFile(path, 32L << 20);
+                       bool geometry, const std::string& base) {
+  UrdfTree tree = ReadUrdfTree(path);
+  std::vector<int> joints;
+  for (const Link& link : robot.links) {
+    joints.push_back(FindJoint(path, tree, link));
+  }
   XMLDocument document;
-  if (document.Parse(text.c_str()) != tinyxml2::XML_SUCCESS) {
+  document.Parse(ReadTextFile(path, 32L << 20).c_str());
+  XMLElement* root = document.FirstChildElement("robot");
+  if (root == nullptr) {
     throw InputError(path, "", "", "expected the robot's URDF file");
   }
-  XMLElement* root = document.FirstChildElement("robot");
-  CHECK_NOTNULL(root);
-  for (const Link& link : robot.links) {
-    XMLElement* element = Find(root, "link", link.name);
-    XMLElement* joint = Find(root, "joint", link.joint.name);
-    if (element == nullptr || joint == nullptr) {
-      throw InputError(path, "", link.name,
-                       "expected a link of the robot in its URDF file");
-    }
+  if (geometry && !joints.empty()) {
+    SetGeometry(path, robot, joints, base, &tree, root);
+  }
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const Link& link = robot.links[i];
     if (link.inertial.mass > 0) {
-      DistributeInertia(link.inertial, root, element);
+      DistributeInertia(link.inertial, tree, tree.joints[joints[i]].child,
+                        root);
     }
-    SetDynamics(link.joint, joint);
-    if (geometry) SetOrigin(link.X_PF * link.X_ML, joint);
+    SetDynamics(link.joint, Find(root, "joint", link.joint.name));
   }
   return Print(document);
 }
@@ -279,9 +304,10 @@ std::vector<std::string> UrdfLosses(const Robot& robot) {
                        joint.name + ", " + NumberText(joint.offset));
     }
   }
-  if (robot.gravity.head<2>().norm() > 1e-9) {
-    losses.push_back(
-        "URDF has no field for gravity, which here is not along z");
+  const Vector3d& g = robot.gravity;
+  if ((g - Vector3d(0, 0, -g.norm())).norm() > 1e-9) {
+    losses.push_back("URDF has no field for gravity, which here is " +
+                     Digits(g) + " m/s^2, not along -z");
   }
   return losses;
 }
