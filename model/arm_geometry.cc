@@ -13,16 +13,40 @@ using Kind = ElementaryTransform::Kind;
 
 constexpr double kNearlyParallel = 0.1;  // rad
 
-// theta, d, a, alpha of X = Rz(theta) Tz(d) Tx(a) Rx(alpha).
-DhParameters StandardRow(const Isometry3d& X) {
+struct Row {
+  double theta = 0, d = 0, a = 0, alpha = 0, beta = 0;
+};
+
+// Of X = Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta); beta = 0 where axes are far
+// from parallel, as it would not be told from theta at alpha = pi/2.
+Row StandardRow(const Isometry3d& X) {
   const Eigen::Matrix3d& R = X.linear();
   const Vector3d p = X.translation();
-  DhParameters dh;
-  dh.theta = std::atan2(R(1, 0), R(0, 0));
-  dh.alpha = std::atan2(R(2, 1), R(2, 2));
-  dh.d = p.z();
-  dh.a = p.x() * std::cos(dh.theta) + p.y() * std::sin(dh.theta);
-  return dh;
+  Row row;
+  if (std::abs(R(2, 2)) > 0.5) {
+    const double sign = R(2, 2) < 0 ? -1 : 1;  // of cos(alpha)
+    row.beta = std::atan2(-sign * R(2, 0), sign * R(2, 2));
+    row.alpha = std::atan2(R(2, 1), sign * std::hypot(R(2, 0), R(2, 2)));
+    row.theta = std::atan2(-sign * R(0, 1), sign * R(1, 1));
+  } else {
+    row.alpha = std::atan2(R(2, 1), R(2, 2));
+    row.theta = std::atan2(R(1, 0), R(0, 0));
+  }
+  row.d = p.z();
+  row.a = p.x() * std::cos(row.theta) + p.y() * std::sin(row.theta);
+  return row;
+}
+
+// Of X_PF = Rx(alpha) Ry(beta) Tx(a), X_ML = Rz(theta) Tz(d).
+Row ModifiedRow(const Isometry3d& X_PF, const Isometry3d& X_ML) {
+  const Eigen::Matrix3d& R = X_PF.linear();
+  Row row;
+  row.alpha = std::atan2(R(2, 1), R(1, 1));
+  row.beta = std::atan2(R(0, 2), R(0, 0));
+  row.a = R.col(0).dot(X_PF.translation());
+  row.theta = std::atan2(X_ML.linear()(1, 0), X_ML.linear()(0, 0));
+  row.d = X_ML.translation().z();
+  return row;
 }
 
 bool NearlyParallel(const Robot& robot, int i) {
@@ -92,24 +116,23 @@ void ArmGeometry::AddPose(const std::string& owner, const Isometry3d& X) {
 }
 
 void ArmGeometry::AddStandardRow(const Link& link, int index, bool hayati) {
-  const DhParameters dh = StandardRow(link.X_ML);
+  const Row dh = StandardRow(link.X_ML);
   AddJoint(link.joint, index);
   Add(Kind::kRotation, 2, dh.theta, link.name + ".theta");
   Add(Kind::kTranslation, 2, dh.d, link.name + ".d");
   Add(Kind::kTranslation, 0, dh.a, link.name + ".a");
   Add(Kind::kRotation, 0, dh.alpha, link.name + ".alpha");
-  if (hayati) Add(Kind::kRotation, 1, 0, link.name + ".beta");
+  if (hayati) Add(Kind::kRotation, 1, dh.beta, link.name + ".beta");
 }
 
 void ArmGeometry::AddModifiedRow(const Link& link, int index, bool hayati) {
-  const DhParameters before = StandardRow(link.X_PF);  // theta = d = 0
-  const DhParameters after = StandardRow(link.X_ML);   // a = alpha = 0
-  Add(Kind::kRotation, 0, before.alpha, link.name + ".alpha");
-  if (hayati) Add(Kind::kRotation, 1, 0, link.name + ".beta");
-  Add(Kind::kTranslation, 0, before.a, link.name + ".a");
+  const Row dh = ModifiedRow(link.X_PF, link.X_ML);
+  Add(Kind::kRotation, 0, dh.alpha, link.name + ".alpha");
+  if (hayati) Add(Kind::kRotation, 1, dh.beta, link.name + ".beta");
+  Add(Kind::kTranslation, 0, dh.a, link.name + ".a");
   AddJoint(link.joint, index);
-  Add(Kind::kRotation, 2, after.theta, link.name + ".theta");
-  Add(Kind::kTranslation, 2, after.d, link.name + ".d");
+  Add(Kind::kRotation, 2, dh.theta, link.name + ".theta");
+  Add(Kind::kTranslation, 2, dh.d, link.name + ".d");
 }
 
 void ArmGeometry::AddUrdfLink(const Link& link, int index) {

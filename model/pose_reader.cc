@@ -1,6 +1,7 @@
 #include "model/pose_reader.h"
 
 #include <cmath>
+#include <sstream>
 #include <string_view>
 
 #include "model/input_error.h"
@@ -11,7 +12,10 @@
 namespace armcal {
 namespace {
 
+constexpr double kQuaternionNorm = 0.02;  // rounding to two digits is taken
+
 // The column called `name` but for its unit; index -1 where there is none.
+// Parts of a quaternion have no unit.
 LogColumn FindColumn(const std::string& file, const LogColumns& columns,
                      const std::string& name) {
   LogColumn found{-1, 1};
@@ -20,6 +24,10 @@ LogColumn FindColumn(const std::string& file, const LogColumns& columns,
     if (Trim(SplitUnit(columns.name(k), &unit)) != name) continue;
     if (found.index >= 0) {
       throw InputError(file, "row 1", name, "the column is there twice");
+    }
+    if (name[0] == 'q' && !unit.empty()) {
+      throw InputError(file, "row 1, column " + columns.name(k),
+                       std::string(unit), "expected no unit");
     }
     const double scale = unit.empty() || unit == "m" ? 1
                          : unit == "mm"              ? 1e-3
@@ -87,6 +95,35 @@ Places ChooseColumns(const std::string& path, const LogColumns& columns,
                    "(targets), x y z qw qx qy qz (poses) or length1 (a wire)");
 }
 
+// A number as people write it.
+std::string Text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+// Finite numbers that no instrument can have measured.
+void CheckValues(const std::string& path, const PoseMeasurements& measured) {
+  const auto refuse = [&](int k, const std::string& column,
+                          const std::string& found, const char* expected) {
+    throw InputError(
+        path, "row " + std::to_string(measured.row[k]) + ", column " + column,
+        found, expected);
+  };
+  for (Eigen::Index k = 0; k < measured.lengths.size(); ++k) {
+    const double length = measured.lengths[k];
+    if (length > 0) continue;
+    refuse(k, "length1", Text(length), "expected a length above 0");
+  }
+  for (Eigen::Index k = 0; k < measured.poses.rows(); ++k) {
+    const Eigen::Vector4d q = measured.poses.row(k).tail<4>();
+    if (std::abs(q.norm() - 1) < kQuaternionNorm) continue;
+    refuse(k, "qw",
+           Text(q[0]) + " " + Text(q[1]) + " " + Text(q[2]) + " " + Text(q[3]),
+           "expected a unit quaternion");
+  }
+}
+
 }  // namespace
 
 PoseMeasurements ReadPoses(const std::string& path,
@@ -126,6 +163,7 @@ PoseMeasurements ReadPoses(const std::string& path,
   if (places.num_u95 > 0) {
     result.u95 = table.middleCols(places.u95, places.num_u95);
   }
+  CheckValues(path, result);
   return result;
 }
 

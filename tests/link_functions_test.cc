@@ -1,0 +1,173 @@
+#include "problems/link_functions.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "model/inverse_dynamics.h"
+#include "problems/weak_rows.h"
+#include "tests/sample_motion.h"
+#include "tests/sample_robots.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+std::vector<int> All(const ArmGeometry& geometry) {
+  std::vector<int> all(geometry.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+Robot MakeRobot(const std::string& name, std::mt19937_64* random) {
+  Robot robot = SampleRobot(name);
+  SetRandomInertials(random, &robot);
+  return robot;
+}
+
+Robot Changed(const Robot& robot, int parameter, double by) {
+  ArmGeometry geometry(robot);
+  VectorXd g = geometry.Values();
+  g[parameter] += by;
+  geometry.SetValues(g);
+  return geometry.ApplyTo(robot);
+}
+
+Trajectory Record(const Robot& robot, std::mt19937_64* random) {
+  Log log = RecordMotion(RandomMultisine(random, robot.num_joints()), 2, .002);
+  AddTorque(robot, &log);
+  return MakeTrajectory(log);
+}
+
+std::vector<IdentificationRow> WeakRows(const Trajectory& trajectory,
+                                        LinkFunctions* functions) {
+  std::vector<IdentificationRow> rows;
+  functions->Enter(trajectory);
+  ForEachWeakRow(trajectory, RowOptions(), functions,
+                 [&](const IdentificationRow& row) { rows.push_back(row); });
+  return rows;
+}
+
+TEST(LinkFunctions, ColumnsOfLinksAndTerms) {
+  std::mt19937_64 random(1);
+  const Robot robot = MakeRobot("PUMA560 6R", &random);
+  const Trajectory trajectory = Record(robot, &random);
+  const std::vector<JointTermColumn> terms = {{1, JointTerm::kViscous, {}},
+                                              {4, JointTerm::kOffset, {}},
+                                              {2, JointTerm::kArmature, {}}};
+  const ArmGeometry geometry(robot);
+  LinkFunctions functions(robot, terms, geometry, {7, 9});
+  ASSERT_EQ(functions.size(), 65);
+  functions.Enter(trajectory);
+  LinkRegressor regressor(robot);
+  for (const int k : {0, 100, 1000}) {
+    MatrixXd P, D, P_links, D_links;
+    functions.Momentum(k, &P, &D);
+    const VectorXd q = trajectory.q.row(k), qd = trajectory.qd.row(k);
+    regressor.Momentum(q, qd, &P_links, &D_links);
+    EXPECT_EQ(P.leftCols(60), P_links);
+    EXPECT_EQ(D.leftCols(60), D_links);
+    MatrixXd P_terms = MatrixXd::Zero(6, 3), D_terms = P_terms;
+    D_terms(1, 0) = -qd[1];
+    D_terms(4, 1) = -1;
+    P_terms(2, 2) = qd[2];
+    EXPECT_EQ(P.middleCols(60, 3), P_terms);
+    EXPECT_EQ(D.middleCols(60, 3), D_terms);
+  }
+}
+
+TEST(LinkFunctions, StackInertialsInOrder) {
+  std::mt19937_64 random(2);
+  const Robot robot = MakeRobot("UR5 6R", &random);
+  const VectorXd V = StackInertials(robot);
+  ASSERT_EQ(V.size(), 60);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(V[10 * i], robot.links[i].inertial.mass);
+    EXPECT_EQ(V[10 * i + 9], robot.links[i].inertial.inertia(2, 2));
+  }
+}
+
+// On an analytic motion the inertias give Newton-Euler's torque, and a column
+// of the geometry the change of that torque: the robot is changed and its
+// torque computed anew, by other code and with another step.
+TEST(LinkFunctions, WeakRowsGiveTorqueAndItsChange) {
+  std::mt19937_64 random(3);
+  for (const std::string name : {"PUMA560 6R", "SCARA RRPR", "Panda 7R"}) {
+    Robot robot = MakeRobot(name, &random);
+    if (name == "Panda 7R") robot.dh_convention.reset();  // URDF's parameters
+    const ArmGeometry geometry(robot);
+    const int n = robot.num_joints(), links = 10 * n;
+    LinkFunctions functions(robot, {}, geometry, All(geometry));
+    Trajectory trajectory = Record(robot, &random);
+    const VectorXd V = StackInertials(robot);
+    const double size = ColumnRms(trajectory.tau).maxCoeff();
+    const auto rows = WeakRows(trajectory, &functions);
+    ASSERT_GT(rows.size(), 8);
+    for (const auto& row : rows) {
+      EXPECT_LT((row.U.leftCols(links) * V - row.Y).norm(), 1e-5 * size);
+    }
+    for (int p = 0; p < geometry.size(); ++p) {
+      const double e = 1e-4;
+      Trajectory change = trajectory;
+      const Robot plus = Changed(robot, p, e), minus = Changed(robot, p, -e);
+      for (int k = 0; k < change.size(); ++k) {
+        const VectorXd q = change.q.row(k), qd = change.qd.row(k),
+                       qdd = change.qdd.row(k);
+        change.tau.row(k) = (InverseDynamics(plus, q, qd, qdd) -
+                             InverseDynamics(minus, q, qd, qdd)) /
+                            (2 * e);
+      }
+      const auto changes = WeakRows(change, &functions);
+      for (const auto& row : changes) {
+        EXPECT_LT((row.U.col(links + p) - row.Y).norm(), 1e-5 * size)
+            << name << " " << geometry.Names()[p];
+      }
+    }
+  }
+}
+
+// What a tool or the base's position is does not reach the torque; the base's
+// tilt does through gravity.
+TEST(LinkFunctions, ColumnsOfFramesBesideTheArm) {
+  std::mt19937_64 random(4);
+  const Robot robot = MakeRobot("3R elbow", &random);
+  const ArmGeometry geometry(robot);
+  LinkFunctions functions(robot, {}, geometry, All(geometry));
+  const auto rows = WeakRows(Record(robot, &random), &functions);
+  for (int p = 0; p < geometry.size(); ++p) {
+    const std::string name = geometry.Names()[p];
+    double largest = 0;
+    for (const auto& row : rows) {
+      largest = std::max(largest, row.U.col(30 + p).norm());
+    }
+    const bool tilt = name == "base.pitch" || name == "base.roll";
+    const bool base = name.compare(0, 5, "base.") == 0;
+    if (tilt) {
+      EXPECT_GT(largest, 1) << name;
+    } else if (base) {
+      EXPECT_LT(largest, 1e-6) << name;
+    } else if (name.compare(0, 5, "tool.") == 0) {
+      EXPECT_EQ(largest, 0) << name;
+    }
+  }
+}
+
+TEST(LinkFunctions, StandstillIsUselessOnlyWithCoulombFriction) {
+  std::mt19937_64 random(5);
+  const Robot robot = MakeRobot("3R elbow", &random);
+  Trajectory trajectory = Record(robot, &random);
+  trajectory.standstill[5] = true;
+  for (const bool friction : {false, true}) {
+    std::vector<JointTermColumn> terms;
+    if (friction) terms.push_back({0, JointTerm::kCoulomb, {}});
+    LinkFunctions functions(robot, terms, ArmGeometry(robot), {});
+    functions.Enter(trajectory);
+    EXPECT_EQ(functions.Useless(5), friction);
+    EXPECT_FALSE(functions.Useless(6));
+  }
+}
+
+}  // namespace
+}  // namespace armcal

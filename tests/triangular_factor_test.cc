@@ -1,0 +1,99 @@
+#include "calib/triangular_factor.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/sample_robots.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd RandomRows(int rows, int columns, std::mt19937_64* random) {
+  MatrixXd A(rows, columns);
+  for (double& x : A.reshaped()) x = Uniform(random, -1, 1);
+  return A;
+}
+
+// R'R = [A y]'[A y], R upper triangular.
+void ExpectFactorOf(const TriangularFactor& factor, const MatrixXd& Ay) {
+  const MatrixXd R = factor.Triangle();
+  ASSERT_EQ(R.rows(), Ay.cols());
+  ASSERT_EQ(R.cols(), Ay.cols());
+  EXPECT_TRUE(R.isUpperTriangular(0));
+  const MatrixXd normal = Ay.transpose() * Ay;
+  EXPECT_LT((R.transpose() * R - normal).norm(), 1e-12 * (1 + normal.norm()));
+  EXPECT_EQ(factor.rows(), Ay.rows());
+}
+
+void AddRows(const MatrixXd& Ay, TriangularFactor* factor) {
+  const Eigen::Index n = Ay.cols() - 1;
+  for (Eigen::Index k = 0; k < Ay.rows(); ++k) {
+    factor->Add(Ay.row(k).head(n), Ay(k, n), 1);
+  }
+}
+
+TEST(TriangularFactor, OfAnyNumberOfRows) {
+  std::mt19937_64 random(1);
+  for (const int columns : {1, 4, 30}) {
+    for (const int rows : {0, 1, 3, 255, 256, 257, 1000}) {
+      const MatrixXd Ay = RandomRows(rows, columns + 1, &random);
+      TriangularFactor factor(columns);
+      AddRows(Ay, &factor);
+      ExpectFactorOf(factor, Ay);
+      ExpectFactorOf(factor, Ay);  // reading changes nothing
+    }
+  }
+}
+
+TEST(TriangularFactor, WeightsRows) {
+  std::mt19937_64 random(2);
+  MatrixXd Ay = RandomRows(400, 6, &random);
+  TriangularFactor factor(5);
+  for (int k = 0; k < Ay.rows(); ++k) {
+    const double weight = Uniform(&random, 0, 3);
+    factor.Add(Ay.row(k).head(5), Ay(k, 5), weight);
+    Ay.row(k) *= weight;
+  }
+  ExpectFactorOf(factor, Ay);
+}
+
+TEST(TriangularFactor, ReadsBetweenRowsAndMerges) {
+  std::mt19937_64 random(3);
+  const MatrixXd Ay = RandomRows(900, 8, &random);
+  TriangularFactor first(7), second(7), empty(7);
+  AddRows(Ay.topRows(100), &first);
+  ExpectFactorOf(first, Ay.topRows(100));
+  AddRows(Ay.middleRows(100, 410), &first);
+  ExpectFactorOf(first, Ay.topRows(510));
+  AddRows(Ay.bottomRows(390), &second);
+  first.Merge(second);
+  ExpectFactorOf(first, Ay);
+  first.Merge(empty);
+  ExpectFactorOf(first, Ay);
+  empty.Merge(first);
+  ExpectFactorOf(empty, Ay);
+}
+
+// The last column solves the least-squares problem; its corner is the norm of
+// what is left. Conditions that normal equations would lose are kept.
+TEST(TriangularFactor, SolvesIllConditionedEquations) {
+  std::mt19937_64 random(4);
+  MatrixXd A = RandomRows(600, 3, &random);
+  A.col(2) = A.col(1) + 1e-7 * A.col(2);
+  const Eigen::Vector3d x(1, -2, 3);
+  TriangularFactor factor(3);
+  for (int k = 0; k < A.rows(); ++k) {
+    factor.Add(A.row(k), A.row(k).dot(x), 1);
+  }
+  const MatrixXd R = factor.Triangle();
+  const Eigen::Vector3d solution =
+      R.topLeftCorner<3, 3>().triangularView<Eigen::Upper>().solve(
+          R.topRightCorner<3, 1>());
+  EXPECT_LT((solution - x).norm(), 1e-6);
+  EXPECT_LT(std::abs(R(3, 3)), 1e-12);
+}
+
+}  // namespace
+}  // namespace armcal
