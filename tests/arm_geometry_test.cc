@@ -179,7 +179,8 @@ TEST(ArmGeometry, AppliesToARobotAndBack) {
     }
     EXPECT_EQ(again.Names(), geometry.Names());
     if (!robot.dh_convention) continue;  // a URDF's zero goes into its origin
-    for (const double gap : again.Values() - geometry.Values() + base) {
+    const VectorXd gaps = again.Values() - geometry.Values() + base;
+    for (const double gap : gaps) {
       EXPECT_LT(std::abs(std::remainder(gap, 2 * M_PI)), 1e-12);
     }
   }
