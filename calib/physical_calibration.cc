@@ -4,8 +4,7 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "calib/robust_rows.h"
 #include "calib/triangular_factor.h"
 #include "problems/inertial_coordinates.h"
+#include "problems/inertial_manifold.h"
 #include "problems/inertial_prior.h"
 #include "problems/link_functions.h"
 #include "problems/torque_factor_residual.h"
@@ -85,7 +85,13 @@ class PhysicalCalibrator {
  private:
   int num_terms() const { return static_cast<int>(terms_.size()); }
   void Reduce(LogSet* training);
-  bool Solve(PhysicalCalibration* result);
+  struct Estimate {
+    std::vector<Vector10d> links;  // log-Cholesky coordinates
+    std::vector<double> terms;
+  };
+  ceres::Solver::Summary SolveAt(double trust, Estimate* estimate) const;
+  bool Solve(PhysicalCalibration* result) const;
+  MatrixXd Covariance(const std::vector<int>& free, double trust) const;
   void Report(const VectorXd& V, const std::vector<double>& terms,
               PhysicalCalibration* result) const;
   TorqueResidual Evaluate(const Robot& robot, LogSet* logs) const;
@@ -142,39 +148,33 @@ void PhysicalCalibrator::Reduce(LogSet* training) {
   z_ = triangle.col(factor.columns()).head(factor.columns());
 }
 
-bool PhysicalCalibrator::Solve(PhysicalCalibration* result) {
-  std::vector<Vector10d> coordinates;
+// The estimate with the file's links trusted this much, from the one given.
+ceres::Solver::Summary PhysicalCalibrator::SolveAt(double trust,
+                                                   Estimate* estimate) const {
   std::vector<double*> blocks;
-  for (int i = 0; i < links_; ++i) {
-    coordinates.push_back(
-        LogCholeskyFromInertial(nominal_.segment<10>(10 * i), 0.01, 0.01));
-  }
-  std::vector<double> terms = term_start_;
-  for (size_t t = 0; t < terms.size(); ++t) {
-    if (terms_[t].term != JointTerm::kOffset) terms[t] = std::max(0., terms[t]);
-  }
+  for (Vector10d& c : estimate->links) blocks.push_back(c.data());
+  double* const terms = estimate->terms.data();
+  blocks.push_back(terms);
   ceres::Problem problem;
-  for (Vector10d& c : coordinates) blocks.push_back(c.data());
-  blocks.push_back(terms.data());
   problem.AddResidualBlock(
       new TorqueFactorResidual(R_, z_, links_, num_terms(), VectorXd()),
       nullptr, blocks);
   for (int i = 0; i < links_; ++i) {
     problem.AddResidualBlock(
-        new InertialPrior(nominal_.segment<10>(10 * i), options_.trust),
-        nullptr, blocks[i]);
+        new InertialPrior(nominal_.segment<10>(10 * i), trust), nullptr,
+        blocks[i]);
+    problem.SetManifold(blocks[i], new InertialManifold);
   }
   std::vector<int> held;
   for (int t = 0; t < num_terms(); ++t) {
     if (held_[t]) held.push_back(t);
     if (terms_[t].term == JointTerm::kOffset || held_[t]) continue;
-    problem.SetParameterLowerBound(terms.data(), t, 0);
+    problem.SetParameterLowerBound(terms, t, 0);
   }
   if (static_cast<int>(held.size()) == num_terms()) {
-    problem.SetParameterBlockConstant(terms.data());
+    problem.SetParameterBlockConstant(terms);
   } else if (!held.empty()) {
-    problem.SetManifold(terms.data(),
-                        new ceres::SubsetManifold(num_terms(), held));
+    problem.SetManifold(terms, new ceres::SubsetManifold(num_terms(), held));
   }
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
@@ -183,64 +183,83 @@ bool PhysicalCalibrator::Solve(PhysicalCalibration* result) {
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
-  result->iterations = static_cast<int>(summary.iterations.size());
-  result->reason = ceres::TerminationTypeToString(summary.termination_type);
-  if (!summary.IsSolutionUsable()) return false;
+  return summary;
+}
+
+// Precise equations pull links that are far from the truth to the boundary of
+// what can exist, and steps along it are short. So the file's links are trusted
+// much at first and then less and less: the solutions lead through the inside.
+bool PhysicalCalibrator::Solve(PhysicalCalibration* result) const {
+  Estimate estimate;
+  for (int i = 0; i < links_; ++i) {
+    estimate.links.push_back(
+        LogCholeskyFromInertial(nominal_.segment<10>(10 * i), 0.01, 0.01));
+  }
+  estimate.terms = term_start_;
+  for (int t = 0; t < num_terms(); ++t) {
+    if (terms_[t].term == JointTerm::kOffset || held_[t]) continue;
+    estimate.terms[t] = std::max(0., estimate.terms[t]);
+  }
+  for (double trust = 0; trust < options_.trust;) {
+    trust = std::min(std::max(0.03, 3 * trust), options_.trust);
+    const ceres::Solver::Summary summary = SolveAt(trust, &estimate);
+    result->iterations += static_cast<int>(summary.iterations.size());
+    result->reason = ceres::TerminationTypeToString(summary.termination_type);
+    if (!summary.IsSolutionUsable()) return false;
+  }
   VectorXd V(10 * links_);
   for (int i = 0; i < links_; ++i) {
-    InertialFromLogCholesky(coordinates[i].data(), V.data() + 10 * i);
+    InertialFromLogCholesky(estimate.links[i].data(), V.data() + 10 * i);
     result->robot.links[i].inertial =
         InertialParameters::FromVector(V.segment<10>(10 * i));
     result->robot.links[i].has_inertial = true;
   }
   for (int t = 0; t < num_terms(); ++t) {
     *TermOf(terms_[t].term, &result->robot.links[terms_[t].joint].joint) =
-        terms[t];
+        estimate.terms[t];
   }
   if (!V.allFinite()) return false;
-  Report(V, terms, result);
+  Report(V, estimate.terms, result);
   return true;
 }
 
-// Linear in V: the information of logs and prior adds up. A parameter counts as
-// identifiable where the logs alone, in every direction it takes part in, tell
-// more than a prior without trust.
+// Linear in the parameters: the information of the logs, R, and of the prior
+// at `trust` adds up. Joint terms have next to no prior.
+MatrixXd PhysicalCalibrator::Covariance(const std::vector<int>& free,
+                                        double trust) const {
+  const Eigen::Index p = R_.cols();
+  MatrixXd stacked(R_.rows() + p, p);
+  stacked << R_, 1e-6 / trust * MatrixXd::Identity(p, p);
+  for (int i = 0; i < links_; ++i) {
+    stacked.block<10, 10>(R_.rows() + 10 * i, 10 * i) =
+        InertialPrior(nominal_.segment<10>(10 * i), trust).W();
+  }
+  const MatrixXd J = stacked(Eigen::all, free);
+  const VectorXd s = J.colwise().norm().cwiseInverse();
+  const Eigen::HouseholderQR<MatrixXd> qr(J * s.asDiagonal());
+  const Eigen::Index m = J.cols();
+  const MatrixXd half =
+      s.asDiagonal() *
+      MatrixXd(qr.matrixQR().topRows(m).triangularView<Eigen::Upper>())
+          .triangularView<Eigen::Upper>()
+          .solve(MatrixXd::Identity(m, m));
+  return half * half.transpose();
+}
+
+// A parameter counts as identifiable where the logs tell more of it than the
+// file trusted to 100 % does: where without the file their variance is less
+// than doubled.
 void PhysicalCalibrator::Report(const VectorXd& V,
                                 const std::vector<double>& terms,
                                 PhysicalCalibration* result) const {
   const int p = static_cast<int>(R_.cols());
-  MatrixXd prior = MatrixXd::Zero(p, p);
-  for (int i = 0; i < links_; ++i) {
-    prior.block<10, 10>(10 * i, 10 * i) =
-        InertialPrior(nominal_.segment<10>(10 * i), 1).W();
-  }
   std::vector<int> free;
   for (int k = 0; k < p; ++k) {
     if (k < 10 * links_ || !held_[k - 10 * links_]) free.push_back(k);
-    if (k >= 10 * links_) prior(k, k) = 1e-6;
   }
-  const MatrixXd W = prior(free, free) / options_.trust;
-  const MatrixXd R = R_(Eigen::all, free);
-  const MatrixXd information = R.transpose() * R + W.transpose() * W;
-  const VectorXd s = information.diagonal().cwiseSqrt().cwiseInverse();
-  const MatrixXd scaled = s.asDiagonal() * information * s.asDiagonal();
-  const MatrixXd covariance =
-      s.asDiagonal() *
-      scaled.llt().solve(MatrixXd::Identity(free.size(), free.size())) *
-      s.asDiagonal();
-  // Data alone, in units of a prior without trust.
-  const MatrixXd unit = prior(free, free).inverse();
-  const Eigen::BDCSVD<MatrixXd> svd(R * unit, Eigen::ComputeFullV);
-  VectorXd unseen = VectorXd::Zero(free.size());
-  VectorXd whole = VectorXd::Zero(free.size());
-  const MatrixXd directions = unit * svd.matrixV();  // in parameters
-  for (Eigen::Index d = 0; d < directions.cols(); ++d) {
-    whole += directions.col(d).cwiseAbs2();
-    if (d < svd.singularValues().size() && svd.singularValues()[d] > 1) {
-      continue;
-    }
-    unseen += directions.col(d).cwiseAbs2();
-  }
+  const MatrixXd covariance = Covariance(free, options_.trust);
+  const VectorXd trusted = Covariance(free, 1).diagonal();
+  const VectorXd untrusted = Covariance(free, 100).diagonal();
   result->covariance = MatrixXd::Zero(p, p);
   for (int k = 0; k < p; ++k) {
     PhysicalParameter out;
@@ -263,7 +282,7 @@ void PhysicalCalibrator::Report(const VectorXd& V,
     out.stddev = std::numeric_limits<double>::infinity();
     if (!out.held) {
       const Eigen::Index f = at - free.begin();
-      out.identifiable = unseen[f] < 1e-3 * whole[f];
+      out.identifiable = untrusted[f] < 2 * trusted[f];
       if (out.identifiable) out.stddev = std::sqrt(covariance(f, f));
       for (size_t g = 0; g < free.size(); ++g) {
         result->covariance(k, free[g]) = covariance(f, g);

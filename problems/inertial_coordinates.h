@@ -41,6 +41,19 @@ void InertialFromLogCholesky(const T* c, T* V) {
   V[9] = scale * (xx + yy);
 }
 
+// U of the coordinates: the pseudo-inertia is e^(2 a) U U'.
+template <class T>
+Eigen::Matrix<T, 4, 4> LogCholeskyFactor(const T* c) {
+  using std::exp;
+  const T zero(0), one(1);
+  Eigen::Matrix<T, 4, 4> U;
+  U << exp(c[1]), c[4], c[6], c[7],  //
+      zero, exp(c[2]), c[5], c[8],   //
+      zero, zero, exp(c[3]), c[9],   //
+      zero, zero, zero, one;
+  return U;
+}
+
 // The pseudo-inertia of (2.2), 4 x 4, linear in the parameters; kg m^2, kg m,
 // kg.
 Eigen::Matrix4d PseudoInertia(const Vector10d& V);

@@ -11,13 +11,27 @@ namespace armcal {
 
 using Matrix10d = Eigen::Matrix<double, 10, 10>;
 
-InertialPrior::InertialPrior(const Vector10d& V_0, double trust) {
+// h of the header at C = e^x, odd to first order: 2 x near 0.
+template <class T>
+T SignedRoot(const T& x) {
+  using std::abs;
+  using std::exp;
+  using std::sqrt;
+  if (abs(x) < T(1e-3)) {
+    return T(2) * x * (T(1) + x / T(3) + x * x / T(9));
+  }
+  const T h = sqrt(T(2) * (exp(T(2) * x) - T(1) - T(2) * x));
+  return x < T(0) ? T(-h) : h;
+}
+
+InertialPrior::InertialPrior(const Vector10d& V_0, double trust)
+    : c_0_(LogCholeskyFromInertial(V_0, 0.01, 0.01)), trust_(trust) {
   set_num_residuals(10);
   *mutable_parameter_block_sizes() = {10};
   // A file's inertia on or beyond the boundary is moved inside.
-  const Vector10d c = LogCholeskyFromInertial(V_0, 0.01, 0.01);
-  InertialFromLogCholesky(c.data(), V_0_.data());
-  const Eigen::Matrix4d A = PseudoInertia(V_0_).llt().matrixL();
+  Vector10d inside;
+  InertialFromLogCholesky(c_0_.data(), inside.data());
+  const Eigen::Matrix4d A = PseudoInertia(inside).llt().matrixL();
   for (int k = 0; k < 10; ++k) {
     const Eigen::Matrix4d P = PseudoInertia(Vector10d::Unit(k));
     const Eigen::Matrix4d half =
@@ -36,20 +50,31 @@ InertialPrior::InertialPrior(const Vector10d& V_0, double trust) {
 bool InertialPrior::Evaluate(double const* const* parameters, double* residuals,
                              double** jacobians) const {
   using Jet10 = ceres::Jet<double, 10>;
-  Jet10 c[10], V[10];
+  Jet10 c[10];
   for (int k = 0; k < 10; ++k) c[k] = Jet10(parameters[0][k], k);
-  InertialFromLogCholesky(c, V);
+  const Eigen::Matrix4d U_0_inverse = LogCholeskyFactor(c_0_.data())
+                                          .triangularView<Eigen::Upper>()
+                                          .solve(Eigen::Matrix4d::Identity());
+  const Jet10 scale = exp(c[0] - c_0_[0]);
+  const Eigen::Matrix<Jet10, 4, 4> C =
+      scale * (U_0_inverse.cast<Jet10>() * LogCholeskyFactor(c));
   Vector10d value;
   Matrix10d J;
-  for (int k = 0; k < 10; ++k) {
-    value[k] = V[k].a;
-    J.row(k) = V[k].v.transpose();
+  const auto set = [&](int row, const Jet10& r) {
+    value[row] = r.a / trust_;
+    J.row(row) = r.v.transpose() / trust_;
+  };
+  int row = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Jet10 depth = i < 3 ? c[1 + i] - c_0_[1 + i] : Jet10(0);
+    set(row++, SignedRoot(Jet10(c[0] - c_0_[0] + depth)));
+    for (int j = i + 1; j < 4; ++j) set(row++, std::sqrt(2.0) * C(i, j));
   }
   Eigen::Map<Vector10d> r(residuals);
-  r = W_ * (value - V_0_);
+  r = value;
   if (jacobians != nullptr && jacobians[0] != nullptr) {
     Eigen::Map<Eigen::Matrix<double, 10, 10, Eigen::RowMajor>> d(jacobians[0]);
-    d = W_ * J;
+    d = J;
   }
   return r.allFinite();
 }

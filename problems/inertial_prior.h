@@ -6,22 +6,26 @@
 
 namespace armcal {
 
-// Ties a link's inertial parameters V to those of the robot file, V_0:
-//   r = vec(A^-1 (P(V) - P(V_0)) A^-T) / trust   (10), A A' = P(V_0),
-// the pseudo-inertia's relative deviation in every direction: to second order
-// the log-determinant divergence (Lee, Wensing and Park 2020), independent of
-// units and frames. Off-diagonal entries count sqrt(2). Parameter block: V in
-// log-Cholesky coordinates.
+// Ties a link's inertial parameters V to those of the robot file, V_0, by the
+// log-determinant divergence of the pseudo-inertias (Lee, Wensing and Park
+// 2020), independent of units and frames:
+//   |r|^2 = 2 (tr X - log det X - 4) / trust^2,   P(V) = A X A', A A' = P(V_0).
+// Near V_0 it is |vec(X - 1)|^2 / trust^2, the relative deviation in every
+// direction; towards bodies that cannot exist it grows without bound. With
+// X = C C', C upper triangular, a residual is sqrt(2) C_ij for every entry
+// off the diagonal and h(C_ii)^2 = 2 (C_ii^2 - 1 - 2 log C_ii) for every one on
+// it. Parameter block: V in log-Cholesky coordinates.
 class InertialPrior : public ceres::CostFunction {
  public:
   InertialPrior(const Vector10d& V_0, double trust);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
-  // The prior's information about V: r = W (V - V_0).
+  // Near V_0, up to a rotation, r = W (V - V_0): the information about V.
   const Eigen::Matrix<double, 10, 10>& W() const { return W_; }
 
  private:
-  Vector10d V_0_;
+  Vector10d c_0_;  // V_0 in coordinates
+  double trust_;
   Eigen::Matrix<double, 10, 10> W_;
 };
 

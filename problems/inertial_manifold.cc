@@ -1,0 +1,90 @@
+#include "problems/inertial_manifold.h"
+
+#include <ceres/jet.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "problems/inertial_coordinates.h"
+
+namespace armcal {
+namespace {
+
+constexpr int kEntries[10][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1},
+                                 {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+constexpr double kLeast = 0.01;
+
+// C K with K K' = 1 + D, both upper triangular. Pivots of K below kLeast go on
+// smoothly and stay above 0.
+template <class T>
+void Step(const double* c, const T* D, T* result) {
+  using std::log;
+  using std::sqrt;
+  Eigen::Matrix<T, 4, 4> K = Eigen::Matrix<T, 4, 4>::Identity();
+  for (int k = 0; k < 10; ++k) K(kEntries[k][0], kEntries[k][1]) += D[k];
+  for (int j = 3; j >= 0; --j) {
+    for (int k = j + 1; k < 4; ++k) K(j, j) -= K(j, k) * K(j, k);
+    if (K(j, j) < T(kLeast)) {
+      K(j, j) = T(kLeast * kLeast) / (T(2 * kLeast) - K(j, j));
+    }
+    K(j, j) = sqrt(K(j, j));
+    for (int i = 0; i < j; ++i) {
+      for (int k = j + 1; k < 4; ++k) K(i, j) -= K(i, k) * K(j, k);
+      K(i, j) /= K(j, j);
+    }
+  }
+  const Eigen::Matrix<T, 4, 4> U =
+      LogCholeskyFactor(c).cast<T>().template triangularView<Eigen::Upper>() *
+      K;
+  result[0] = T(c[0]) + log(K(3, 3));
+  for (int i = 0; i < 3; ++i) {
+    result[1 + i] = log(U(i, i) / U(3, 3));
+    result[7 + i] = U(i, 3) / U(3, 3);
+  }
+  result[4] = U(0, 1) / U(3, 3);
+  result[5] = U(1, 2) / U(3, 3);
+  result[6] = U(0, 2) / U(3, 3);
+}
+
+}  // namespace
+
+bool InertialManifold::Plus(const double* x, const double* delta,
+                            double* x_plus_delta) const {
+  Step(x, delta, x_plus_delta);
+  return true;
+}
+
+bool InertialManifold::PlusJacobian(const double* x, double* jacobian) const {
+  using Jet10 = ceres::Jet<double, 10>;
+  Jet10 D[10], c[10];
+  for (int k = 0; k < 10; ++k) D[k] = Jet10(0, k);
+  Step(x, D, c);
+  for (int k = 0; k < 10; ++k) {
+    Eigen::Map<Vector10d>(jacobian + 10 * k) = c[k].v;
+  }
+  return true;
+}
+
+bool InertialManifold::Minus(const double* y, const double* x,
+                             double* y_minus_x) const {
+  const auto C = LogCholeskyFactor(x).triangularView<Eigen::Upper>();
+  const Eigen::Matrix4d K =
+      std::exp(y[0] - x[0]) * C.solve(LogCholeskyFactor(y));
+  const Eigen::Matrix4d D = K * K.transpose() - Eigen::Matrix4d::Identity();
+  for (int k = 0; k < 10; ++k) {
+    y_minus_x[k] = D(kEntries[k][0], kEntries[k][1]);
+  }
+  return true;
+}
+
+bool InertialManifold::MinusJacobian(const double* x, double* jacobian) const {
+  using Matrix10d = Eigen::Matrix<double, 10, 10, Eigen::RowMajor>;
+  Matrix10d plus;
+  PlusJacobian(x, plus.data());
+  const Matrix10d inverse = plus.inverse();
+  std::copy(inverse.data(), inverse.data() + 100, jacobian);
+  return true;
+}
+
+}  // namespace armcal
