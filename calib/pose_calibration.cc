@@ -20,7 +20,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Refine = PoseCalibrationOptions::Refine;
 
-constexpr double kOutlier = 4;  // noise deviations
+constexpr double kOutlier = 4;      // noise deviations
+constexpr double kSamePose = 1e-4;  // rad or m
+// Without some to spare the noise would be a guess.
+constexpr int kSpareEquations = 10;
 
 bool StartsWith(const std::string& text, const std::string& prefix) {
   return text.compare(0, prefix.size(), prefix) == 0;
@@ -50,6 +53,8 @@ class PoseCalibrator {
  private:
   bool OfInstrument(int k) const { return StartsWith(names_[k], "base."); }
   bool OfTool(int k) const { return StartsWith(names_[k], "tool."); }
+  // Coordinates of a position error.
+  int Width() const { return measured_.lengths.size() > 0 ? 1 : 3; }
   double PriorOf(int k) const {
     if (OfInstrument(k) || OfTool(k)) return 0;
     return units_[k] == "m" ? options_.prior_length : options_.prior_angle;
@@ -59,14 +64,22 @@ class PoseCalibrator {
                                const std::vector<int>& rows,
                                const PoseUnknowns& at,
                                std::vector<std::string>* held) const;
-  MatrixXd Jacobian(const std::vector<int>& rows, RobustLoss loss,
-                    const PoseUnknowns& at) const;
+  // Of all unknowns, in noise units and without the loss.
+  MatrixXd Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
+                    VectorXd* residuals = nullptr) const;
   bool Solve(const std::vector<bool>& free, const std::vector<int>& rows,
              PoseUnknowns* unknowns) const;
+  static int NumUnknowns(const std::vector<bool>& free,
+                         const PoseUnknowns& at) {
+    return static_cast<int>(std::count(free.begin(), free.end(), true) +
+                            at.other.size());
+  }
   // Distances of every target (or pose, or wire) of `rows`, m.
   std::vector<double> Distances(const std::vector<int>& rows,
                                 const PoseUnknowns& at) const;
-  void EstimateNoise(const PoseUnknowns& at);
+  void EstimateNoise(const std::vector<bool>& free, const PoseUnknowns& at);
+  std::string WhyTooFew(const std::vector<bool>& free,
+                        const PoseUnknowns& at) const;
   bool SolveWithNoise(const std::vector<bool>& free,
                       const std::vector<int>& rows, PoseUnknowns* unknowns);
   void CrossValidate(const std::vector<bool>& free, const PoseUnknowns& start,
@@ -102,12 +115,13 @@ std::vector<bool> PoseCalibrator::Wanted(Refine refine) const {
   return wanted;
 }
 
-MatrixXd PoseCalibrator::Jacobian(const std::vector<int>& rows, RobustLoss loss,
-                                  const PoseUnknowns& at) const {
+MatrixXd PoseCalibrator::Jacobian(const std::vector<int>& rows,
+                                  const PoseUnknowns& at,
+                                  VectorXd* residuals) const {
   PoseUnknowns unknowns = at;
   ceres::Problem problem;
-  AddPoseResiduals(geometry_, measured_, rows, noise_, loss, &unknowns,
-                   &problem);
+  AddPoseResiduals(geometry_, measured_, rows, noise_, RobustLoss::kSquared,
+                   &unknowns, &problem);
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.parameter_blocks.push_back(unknowns.geometry.data());
   const int step = measured_.lengths.size() > 0 ? 4 : 3;
@@ -115,7 +129,9 @@ MatrixXd PoseCalibrator::Jacobian(const std::vector<int>& rows, RobustLoss loss,
     evaluate.parameter_blocks.push_back(unknowns.other.data() + k);
   }
   ceres::CRSMatrix crs;
-  problem.Evaluate(evaluate, nullptr, nullptr, nullptr, &crs);
+  std::vector<double> r;
+  problem.Evaluate(evaluate, nullptr, &r, nullptr, &crs);
+  if (residuals) *residuals = Eigen::Map<VectorXd>(r.data(), r.size());
   MatrixXd J = MatrixXd::Zero(crs.num_rows, crs.num_cols);
   for (int r = 0; r < crs.num_rows; ++r) {
     for (int k = crs.rows[r]; k < crs.rows[r + 1]; ++k) {
@@ -130,7 +146,7 @@ MatrixXd PoseCalibrator::Jacobian(const std::vector<int>& rows, RobustLoss loss,
 std::vector<bool> PoseCalibrator::HoldUnseen(
     const std::vector<bool>& wanted, const std::vector<int>& rows,
     const PoseUnknowns& at, std::vector<std::string>* held) const {
-  const MatrixXd J = Jacobian(rows, RobustLoss::kSquared, at);
+  const MatrixXd J = Jacobian(rows, at);
   const int g = geometry_->size();
   ColumnBasis basis(static_cast<int>(J.rows()));
   const double rows_scale = J.leftCols(6).norm() / std::sqrt(6.0);
@@ -191,27 +207,60 @@ bool PoseCalibrator::Solve(const std::vector<bool>& free,
 std::vector<double> PoseCalibrator::Distances(const std::vector<int>& rows,
                                               const PoseUnknowns& at) const {
   const MatrixXd errors = PositionErrors(*geometry_, measured_, at);
-  const int width = errors.cols() == 1 ? 1 : 3;
   std::vector<double> distances;
   for (const int k : rows) {
-    for (Eigen::Index c = 0; c < errors.cols(); c += width) {
-      distances.push_back(errors.row(k).segment(c, width).norm());
+    for (Eigen::Index c = 0; c < errors.cols(); c += Width()) {
+      distances.push_back(errors.row(k).segment(c, Width()).norm());
     }
   }
   return distances;
 }
 
-// Robust: 1.4826 times the median of absolute coordinates.
-void PoseCalibrator::EstimateNoise(const PoseUnknowns& at) {
-  const auto spread = [](const MatrixXd& errors) {
+// Robust: 1.4826 times the median of absolute coordinates, corrected for what
+// the unknowns have taken out of them.
+void PoseCalibrator::EstimateNoise(const std::vector<bool>& free,
+                                   const PoseUnknowns& at) {
+  const MatrixXd position = PositionErrors(*geometry_, measured_, at);
+  const MatrixXd rotation = RotationErrors(*geometry_, measured_, at);
+  const double N = static_cast<double>(position.size() + rotation.size());
+  const double left = std::max(1.0, N - NumUnknowns(free, at));
+  const auto spread = [&](const MatrixXd& errors) {
     std::vector<double> sizes;
     for (const double e : errors.reshaped()) sizes.push_back(std::abs(e));
-    return std::max(1e-9, 1.4826 * Median(sizes));
+    return std::max(1e-9, 1.4826 * Median(sizes) * std::sqrt(N / left));
   };
-  noise_.position = spread(PositionErrors(*geometry_, measured_, at));
-  if (measured_.poses.size() > 0) {
-    noise_.rotation = spread(RotationErrors(*geometry_, measured_, at));
+  noise_.position = spread(position);
+  if (rotation.size() > 0) noise_.rotation = spread(rotation);
+}
+
+// Poses that repeat an arm position add nothing to the geometry.
+std::string PoseCalibrator::WhyTooFew(const std::vector<bool>& free,
+                                      const PoseUnknowns& at) const {
+  std::vector<int> different;
+  for (int k = 0; k < measured_.size(); ++k) {
+    const bool seen =
+        std::any_of(different.begin(), different.end(), [&](int j) {
+          return (measured_.q.row(j) - measured_.q.row(k))
+                     .cwiseAbs()
+                     .maxCoeff() < kSamePose;
+        });
+    if (!seen) different.push_back(k);
   }
+  const int per_pose = measured_.lengths.size() > 0 ? 1
+                       : measured_.poses.size() > 0
+                           ? 6
+                           : 3 * static_cast<int>(measured_.targets.size());
+  const int poses = static_cast<int>(different.size());
+  const int equations = per_pose * poses;
+  const int unknowns = NumUnknowns(free, at);
+  if (equations >= unknowns + kSpareEquations) return "";
+  return std::to_string(poses) +
+         (poses == 1 ? " arm position gives "
+                     : " different arm positions give ") +
+         std::to_string(equations) + " equations for " +
+         std::to_string(unknowns) + " unknowns, at least " +
+         std::to_string(unknowns + kSpareEquations) +
+         " are needed; measure more positions";
 }
 
 bool PoseCalibrator::SolveWithNoise(const std::vector<bool>& free,
@@ -219,7 +268,7 @@ bool PoseCalibrator::SolveWithNoise(const std::vector<bool>& free,
                                     PoseUnknowns* unknowns) {
   for (int round = 0; round < 4; ++round) {
     if (!Solve(free, rows, unknowns)) return false;
-    EstimateNoise(*unknowns);
+    EstimateNoise(free, *unknowns);
   }
   return Solve(free, rows, unknowns);
 }
@@ -227,6 +276,7 @@ bool PoseCalibrator::SolveWithNoise(const std::vector<bool>& free,
 void PoseCalibrator::CrossValidate(const std::vector<bool>& free,
                                    const PoseUnknowns& start,
                                    PoseCalibration* result) const {
+  if (options_.folds < 2) return;
   std::vector<double> all;
   for (int fold = 0; fold < options_.folds; ++fold) {
     std::vector<int> kept, left_out;
@@ -249,7 +299,8 @@ void PoseCalibrator::Report(const std::vector<bool>& free,
                             PoseCalibration* result) const {
   std::vector<int> rows(measured_.size());
   std::iota(rows.begin(), rows.end(), 0);
-  const MatrixXd J = Jacobian(rows, options_.loss, at);
+  VectorXd residuals;
+  const MatrixXd J = Jacobian(rows, at, &residuals);
   std::vector<int> columns;
   for (int k = 0; k < geometry_->size(); ++k) {
     if (free[k]) columns.push_back(k);
@@ -264,6 +315,9 @@ void PoseCalibrator::Report(const std::vector<bool>& free,
   const Eigen::JacobiSVD<MatrixXd> svd(A * scale.cwiseInverse().asDiagonal(),
                                        Eigen::ComputeThinV);
   const VectorXd s = svd.singularValues();
+  const double factor =
+      VarianceFactor(residuals, measured_.poses.size() > 0 ? 6 : Width(),
+                     options_.loss, static_cast<int>(columns.size()));
   for (int k = 0; k < num_free; ++k) {
     double variance = 0, unseen = 0;
     for (Eigen::Index d = 0; d < s.size(); ++d) {
@@ -278,7 +332,7 @@ void PoseCalibrator::Report(const std::vector<bool>& free,
     const bool seen = unseen < 1e-6;
     result->parameters.push_back(
         {names_[p], units_[p], nominal_[p], at.geometry[p],
-         seen ? std::sqrt(variance) / scale[k]
+         seen ? std::sqrt(factor * variance) / scale[k]
               : std::numeric_limits<double>::infinity(),
          PriorOf(p), seen});
   }
@@ -290,9 +344,11 @@ PoseCalibration PoseCalibrator::Run() {
   std::vector<int> rows(measured_.size());
   std::iota(rows.begin(), rows.end(), 0);
   PoseUnknowns unknowns = StartPoses(*geometry_, measured_);
-  EstimateNoise(unknowns);
+  EstimateNoise(std::vector<bool>(names_.size(), false), unknowns);
   const std::vector<bool> frame =
       HoldUnseen(Wanted(Refine::kNothing), rows, unknowns, nullptr);
+  result.reason = WhyTooFew(frame, unknowns);
+  if (!result.reason.empty()) return result;
   if (!SolveWithNoise(frame, rows, &unknowns)) {
     result.reason = "the instrument's frame cannot be found";
     return result;
@@ -305,6 +361,8 @@ PoseCalibration PoseCalibrator::Run() {
   result.before_rms = rms(Distances(rows, unknowns));
   const std::vector<bool> free =
       HoldUnseen(Wanted(options_.refine), rows, unknowns, &result.held);
+  result.reason = WhyTooFew(free, unknowns);
+  if (!result.reason.empty()) return result;
   if (!SolveWithNoise(free, rows, &unknowns)) {
     result.reason = "the geometry cannot be solved for";
     return result;

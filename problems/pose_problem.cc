@@ -2,6 +2,8 @@
 
 #include <ceres/loss_function.h>
 
+#include <algorithm>
+
 #include "problems/pose_residual.h"
 #include "problems/target_residual.h"
 #include "problems/wire_residual.h"
@@ -21,6 +23,13 @@ Isometry3d MeasuredPose(const PoseMeasurements& measured, int row) {
   return X;
 }
 
+// In noise units: 95 % efficient for normal errors, per residual.
+double LossScale(RobustLoss loss) {
+  return loss == RobustLoss::kTukey    ? 4.685
+         : loss == RobustLoss::kCauchy ? 2.385
+                                       : 1.345;
+}
+
 }  // namespace
 
 ceres::LossFunction* MakeLoss(RobustLoss loss, double scale) {
@@ -35,6 +44,22 @@ ceres::LossFunction* MakeLoss(RobustLoss loss, double scale) {
       return new ceres::TukeyLoss(scale);
   }
   return nullptr;
+}
+
+double VarianceFactor(const Eigen::VectorXd& residuals, int block,
+                      RobustLoss loss, int num_unknowns) {
+  const std::unique_ptr<ceres::LossFunction> rho(
+      MakeLoss(loss, LossScale(loss)));
+  const double N = static_cast<double>(residuals.size());
+  double squares = 0, slope = 0;
+  for (Eigen::Index k = 0; k + block <= residuals.size(); k += block) {
+    const double s = residuals.segment(k, block).squaredNorm();
+    double value[3] = {s, 1, 0};  // rho, rho', rho''
+    if (rho) rho->Evaluate(s, value);
+    squares += value[1] * value[1] * s;
+    slope += block * value[1] + 2 * value[2] * s;
+  }
+  return squares / std::max(1.0, N - num_unknowns) / (slope / N * slope / N);
 }
 
 int PoseUnknowns::NumOther(const PoseMeasurements& measured) {
@@ -61,10 +86,7 @@ void AddPoseResiduals(std::shared_ptr<const ArmGeometry> geometry,
                       const std::vector<int>& rows, const PoseNoise& noise,
                       RobustLoss loss, PoseUnknowns* unknowns,
                       ceres::Problem* problem) {
-  // In noise units: 95 % efficient for normal errors, per residual.
-  const double scale = loss == RobustLoss::kTukey    ? 4.685
-                       : loss == RobustLoss::kCauchy ? 2.385
-                                                     : 1.345;
+  const double scale = LossScale(loss);
   double* const g = unknowns->geometry.data();
   double* const other = unknowns->other.data();
   for (const int k : rows) {

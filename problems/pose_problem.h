@@ -17,6 +17,13 @@ enum class RobustLoss { kSquared, kHuber, kCauchy, kTukey };
 // Null for kSquared; `scale` in noise units.
 ceres::LossFunction* MakeLoss(RobustLoss loss, double scale);
 
+// The variance of an M-estimate over that of (J'J)^-1 (Huber 1981, 6.5):
+//   (sum psi^2 / (N - p)) / (mean psi')^2
+// for N residuals in noise units, in blocks of `block` that share a loss, and p
+// unknowns. Right also where the noise was only guessed.
+double VarianceFactor(const Eigen::VectorXd& residuals, int block,
+                      RobustLoss loss, int num_unknowns);
+
 // Standard deviations of what was measured.
 struct PoseNoise {
   double position = 1e-3;  // m, of each coordinate or of a wire's length
