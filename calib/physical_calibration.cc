@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/link_start.h"
 #include "calib/robust_rows.h"
 #include "calib/triangular_factor.h"
 #include "problems/inertial_coordinates.h"
@@ -186,27 +187,38 @@ ceres::Solver::Summary PhysicalCalibrator::SolveAt(double trust,
   return summary;
 }
 
-// Precise equations pull links that are far from the truth to the boundary of
-// what can exist, and steps along it are short. So the file's links are trusted
-// much at first and then less and less: the solutions lead through the inside.
 bool PhysicalCalibrator::Solve(PhysicalCalibration* result) const {
+  VectorXd x(R_.cols());
+  for (int i = 0; i < links_; ++i) {  // the file's, inside the boundary
+    const Vector10d c =
+        LogCholeskyFromInertial(nominal_.segment<10>(10 * i), 0.01, 0.01);
+    InertialFromLogCholesky(c.data(), x.data() + 10 * i);
+  }
+  std::vector<TermRange> ranges;
+  for (int t = 0; t < num_terms(); ++t) {
+    x[10 * links_ + t] = term_start_[t];
+    ranges.push_back(held_[t] ? TermRange::kHeld
+                     : terms_[t].term == JointTerm::kOffset
+                         ? TermRange::kFree
+                         : TermRange::kPositive);
+  }
+  const auto start = StartLinks(R_, z_, options_.trust, ranges, x);
+  if (!start) {
+    result->reason = "the numbers of the logs overflow";
+    return false;
+  }
   Estimate estimate;
   for (int i = 0; i < links_; ++i) {
     estimate.links.push_back(
-        LogCholeskyFromInertial(nominal_.segment<10>(10 * i), 0.01, 0.01));
+        LogCholeskyFromInertial(start->segment<10>(10 * i), 0, 0));
   }
-  estimate.terms = term_start_;
   for (int t = 0; t < num_terms(); ++t) {
-    if (terms_[t].term == JointTerm::kOffset || held_[t]) continue;
-    estimate.terms[t] = std::max(0., estimate.terms[t]);
+    estimate.terms.push_back((*start)[10 * links_ + t]);
   }
-  for (double trust = 0; trust < options_.trust;) {
-    trust = std::min(std::max(0.03, 3 * trust), options_.trust);
-    const ceres::Solver::Summary summary = SolveAt(trust, &estimate);
-    result->iterations += static_cast<int>(summary.iterations.size());
-    result->reason = ceres::TerminationTypeToString(summary.termination_type);
-    if (!summary.IsSolutionUsable()) return false;
-  }
+  const ceres::Solver::Summary summary = SolveAt(options_.trust, &estimate);
+  result->iterations = static_cast<int>(summary.iterations.size());
+  result->reason = ceres::TerminationTypeToString(summary.termination_type);
+  if (!summary.IsSolutionUsable()) return false;
   VectorXd V(10 * links_);
   for (int i = 0; i < links_; ++i) {
     InertialFromLogCholesky(estimate.links[i].data(), V.data() + 10 * i);
