@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -12,8 +13,10 @@ namespace armcal {
 inline std::string WriteFile(const std::string& bytes,
                              const std::string& name = "log.csv") {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string path = testing::TempDir() + test->test_suite_name() + "_" +
-                           test->name() + "_" + name;
+  std::string test_name =  // "Suite_Test/0" of a parameterised one
+      std::string(test->test_suite_name()) + "_" + test->name();
+  std::replace(test_name.begin(), test_name.end(), '/', '_');
+  const std::string path = testing::TempDir() + test_name + "_" + name;
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }
