@@ -1,7 +1,9 @@
 #include "calib/physical_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 namespace armcal {
 namespace {
@@ -31,15 +33,28 @@ json ParameterJson(const PhysicalParameter& p) {
           {"held", p.held}};
 }
 
-// "12.3 +- 0.4", or "12.3 (by the robot file)" where the logs do not tell.
-std::string Value(const PhysicalParameter& p) {
-  char text[64];
-  if (p.identifiable) {
-    std::snprintf(text, sizeof(text), "%9.4g +- %-8.2g", p.value, p.stddev);
-  } else {
-    std::snprintf(text, sizeof(text), "%9.4g %-11s", p.value, "(prior)");
-  }
+// Text in a column of this width; longer text makes the row longer.
+std::string Padded(std::string text, size_t width) {
+  if (text.size() < width) text.append(width - text.size(), ' ');
   return text;
+}
+
+template <typename... Args>
+std::string Format(const char* format, Args... args) {
+  char text[128];
+  std::snprintf(text, sizeof(text), format, args...);
+  return text;
+}
+
+constexpr size_t kValueWidth = 22;
+
+// "12.3 +- 0.4", or "12.3 (prior)" where the logs do not tell.
+std::string Value(const PhysicalParameter& p) {
+  const std::string value = Format("%9.4g ", p.value);
+  return Padded(value + (p.held           ? "(held)"
+                         : p.identifiable ? Format("+- %.2g", p.stddev)
+                                          : "(prior)"),
+                kValueWidth);
 }
 
 const PhysicalParameter* Find(const PhysicalCalibration& result,
@@ -50,6 +65,55 @@ const PhysicalParameter* Find(const PhysicalCalibration& result,
   return nullptr;
 }
 
+std::string Percent(const TorqueResidual& residual) {
+  const double percent = residual.moving().stacked_percent;
+  return std::isfinite(percent) ? Format("%.2f %%", percent)
+                                : "unknown (no torque)";
+}
+
+bool Converged(const PhysicalCalibration& result) {
+  return result.reason == "CONVERGENCE";
+}
+
+std::string LinkTable(const Robot& nominal, const Robot& robot) {
+  const std::string title = "robot for a simulator";
+  size_t width = title.size() + 1;
+  for (const Link& link : robot.links) {
+    width = std::max(width, link.name.size() + 3);
+  }
+  std::string text = "\n" + Padded(title, width) +
+                     "  mass kg    (file)   centre of mass x, y, z m\n";
+  for (size_t i = 0; i < robot.links.size(); ++i) {
+    const Link& link = robot.links[i];
+    const Eigen::Vector3d com = link.inertial.first_moment / link.inertial.mass;
+    text += Padded("  " + link.name, width) +
+            Format("%9.3f ", link.inertial.mass) +
+            Format("%9s",
+                   Format("(%.3f)", nominal.links[i].inertial.mass).c_str()) +
+            Format("   %9.4f %9.4f %9.4f\n", com.x(), com.y(), com.z());
+  }
+  return text;
+}
+
+std::string JointTable(const PhysicalCalibration& result) {
+  size_t width = 8;
+  for (const Link& link : result.robot.links) {
+    width = std::max(width, link.joint.name.size() + 3);
+  }
+  const std::vector<std::string> terms = {"viscous", "coulomb", "armature"};
+  std::string text = "\n" + Padded("  joint", width);
+  for (const auto& term : terms) text += Padded("  " + term, kValueWidth);
+  for (const Link& link : result.robot.links) {
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += "\n" + Padded("  " + link.joint.name, width);
+    for (const auto& term : terms) {
+      text += Value(*Find(result, link.joint.name + "." + term));
+    }
+  }
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string PhysicalReport(const Robot& nominal,
@@ -57,39 +121,12 @@ std::string PhysicalReport(const Robot& nominal,
   if (!result.solved) {
     return "\nno physically consistent robot: " + result.reason + "\n";
   }
-  char line[256];
-  std::string text =
-      "\nrobot for a simulator          mass kg (file)     centre of mass m\n";
-  for (size_t i = 0; i < result.robot.links.size(); ++i) {
-    const Link& link = result.robot.links[i];
-    const Eigen::Vector3d com = link.inertial.first_moment / link.inertial.mass;
-    std::snprintf(line, sizeof(line),
-                  "  %-24s %8.3f (%.3f)   %8.4f %8.4f %8.4f\n",
-                  link.name.c_str(), link.inertial.mass,
-                  nominal.links[i].inertial.mass, com.x(), com.y(), com.z());
-    text += line;
-  }
-  text +=
-      "\n  joint                 viscous               coulomb               "
-      "armature\n";
-  for (const Link& link : result.robot.links) {
-    text +=
-        "  " + link.joint.name +
-        std::string(std::max<size_t>(
-                        1, 20 - std::min<size_t>(19, link.joint.name.size())),
-                    ' ');
-    for (const char* term : {".viscous", ".coulomb", ".armature"}) {
-      text += Value(*Find(result, link.joint.name + term)) + " ";
-    }
-    text += "\n";
-  }
-  std::snprintf(line, sizeof(line), "\nresidual of this robot %.2f %%",
-                result.training->moving().stacked_percent);
-  text += line;
-  if (result.validation) {
-    std::snprintf(line, sizeof(line), ", held out %.2f %%",
-                  result.validation->moving().stacked_percent);
-    text += line;
+  std::string text = LinkTable(nominal, result.robot) + JointTable(result) +
+                     "\nresidual of this robot " + Percent(*result.training);
+  if (result.validation) text += ", held out " + Percent(*result.validation);
+  if (!Converged(result)) {
+    text += "\nnot converged: " + result.reason + " after " +
+            std::to_string(result.iterations) + " iterations";
   }
   return text + "\n";
 }
@@ -128,7 +165,7 @@ void AddRefined(const PhysicalCalibration& result, json* calibration) {
   c["parameters_covariance"] = {{"names", names},
                                 {"units", units},
                                 {"file", "parameters_covariance.csv"}};
-  c["refined"] = {{"converged", true},
+  c["refined"] = {{"converged", Converged(result)},
                   {"reason", result.reason},
                   {"iterations", result.iterations}};
 }

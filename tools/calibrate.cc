@@ -152,10 +152,22 @@ LinearCalibrationOptions OptionsFromFlags(const Robot& robot) {
   return options;
 }
 
+// Whether a robot for simulators is asked for, and how.
+bool IsRefinedFromFlags() {
+  return ParseChoice<bool>("estimate", FLAGS_estimate,
+                           {{"refined", true}, {"linear", false}});
+}
+
+double TrustFromFlags() {
+  if (FLAGS_trust > 0 && std::isfinite(FLAGS_trust)) return FLAGS_trust;
+  throw UsageError("--trust: found '" + NumberText(FLAGS_trust) +
+                   "', expected a relative standard deviation above 0");
+}
+
 // Why there is nothing to refine; empty where there is.
 std::string WhyNotRefined(const Robot& robot, const LinearCalibration& linear,
                           const LinearCalibrationOptions& options) {
-  if (FLAGS_estimate == "linear" || !linear.solved) return "not asked for";
+  if (!IsRefinedFromFlags() || !linear.solved) return "not asked for";
   if (options.identification != Identification::kWeak ||
       options.geometry != GeometryKnowledge::kKnown) {
     return "it takes the weak form and a known geometry";
@@ -181,6 +193,9 @@ int RunCalibrate() {
   const Robot robot = RobotFromFlags();
   if (!FLAGS_poses.empty()) return CalibratePosesFromFlags(robot);
   LinearCalibrationOptions options = OptionsFromFlags(robot);
+  const bool is_refined = IsRefinedFromFlags();
+  PhysicalCalibrationOptions refine;
+  refine.trust = TrustFromFlags();
   const LogReaderOptions log_options = LogOptionsFromFlags(robot);
   const TimeRange crop = CropFromFlags();
   LogSet training(LogsFromFlags(), log_options, crop);
@@ -191,6 +206,7 @@ int RunCalibrate() {
   options.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
   };
+  refine.progress = options.progress;
   const LinearCalibration result =
       CalibrateLinear(robot, options, &training, held_out);
 
@@ -199,9 +215,6 @@ int RunCalibrate() {
   OutputFolder out(OutFromFlags());
   const std::string why_not = WhyNotRefined(robot, result, options);
   if (why_not.empty()) {
-    PhysicalCalibrationOptions refine;
-    refine.trust = FLAGS_trust;
-    refine.progress = options.progress;
     const PhysicalCalibration refined =
         CalibratePhysical(robot, result, refine, &training, held_out);
     AddRefined(refined, &json);
@@ -213,7 +226,7 @@ int RunCalibrate() {
         report += "robot.urdf  " + loss + "\n";
       }
     }
-  } else if (FLAGS_estimate == "refined" && result.solved) {
+  } else if (is_refined && result.solved) {
     report += "no robot file: " + why_not + "\n";
   }
   out.Add("calibration.json", json.dump(2) + "\n");
