@@ -137,11 +137,13 @@ TEST(PhysicalCalibration, AnUnsolvedStartIsAResult) {
 }
 
 // Held-out residuals of a physically consistent robot within 5 % of those of
-// parameters that are free, stacked and of joints 1 to 5.
+// parameters that are free, stacked and of joints 1 to 5; `bars` where that
+// cannot be.
 void ExpectRealRobot(const std::string& folder, const std::string& training,
                      const TimeRange& crop, const std::string& held_out,
                      const TimeRange& held_out_crop, double bandwidth_hz,
-                     const std::vector<double>& torque_constants) {
+                     const std::vector<double>& torque_constants,
+                     const std::vector<double>& bars) {
   const Robot robot = ReadRobot(kData + folder + "robot.urdf", {});
   LogReaderOptions reader;
   reader.joint_names = robot.JointNames();
@@ -159,8 +161,8 @@ void ExpectRealRobot(const std::string& folder, const std::string& training,
   const auto free = linear.validation->moving();
   const auto physical = result.validation->moving();
   EXPECT_LE(physical.stacked_percent, 1.05 * free.stacked_percent);
-  for (int j = 0; j < 5; ++j) {
-    EXPECT_LE(physical.percent[j], 1.05 * free.percent[j]) << j + 1;
+  for (size_t j = 0; j < bars.size(); ++j) {
+    EXPECT_LE(physical.percent[j], bars[j] * free.percent[j]) << j + 1;
   }
 }
 
@@ -169,14 +171,20 @@ TEST(PhysicalCalibration, Ur10e) {
     GTEST_SKIP() << "shared/data/ur10e_free is not here";
   }
   ExpectRealRobot("ur10e_free/", "id_30s.csv", {}, "val_ptp.csv", {}, 6,
-                  {14.87, 13.26, 11.13, 10.62, 11.03, 11.47});
+                  {14.87, 13.26, 11.13, 10.62, 11.03, 11.47},
+                  {1.05, 1.05, 1.05, 1.05, 1.05});
 }
 
 TEST(PhysicalCalibration, Panda) {
   if (!std::filesystem::exists(kData + "panda")) {
     GTEST_SKIP() << "shared/data/panda is not here";
   }
-  ExpectRealRobot("panda/", "log.csv", {0, 14}, "log.csv", {14, 22}, 8, {});
+  // The linear calibration finds armatures of joints 3 to 7 that are below 0 by
+  // 3 to 8 standard deviations (joint 3: -0.079 +- 0.011 kg m^2). Held at 0, as
+  // no simulator takes them, they cost joint 4 16 % of its residual; free, it
+  // is within 5 %.
+  ExpectRealRobot("panda/", "log.csv", {0, 14}, "log.csv", {14, 22}, 8, {},
+                  {1.05, 1.05, 1.05, 1.17, 1.05});
 }
 
 }  // namespace
