@@ -180,7 +180,7 @@ TEST(PhysicalCalibration, Panda) {
     GTEST_SKIP() << "shared/data/panda is not here";
   }
   // The linear calibration finds armatures of joints 3 to 7 that are below 0 by
-  // 3 to 8 standard deviations (joint 3: -0.079 +- 0.011 kg m^2). Held at 0, as
+  // 2 to 7 standard deviations (joint 3: -0.079 +- 0.011 kg m^2). Held at 0, as
   // no simulator takes them, they cost joint 4 16 % of its residual; free, it
   // is within 5 %.
   ExpectRealRobot("panda/", "log.csv", {0, 14}, "log.csv", {14, 22}, 8, {},
