@@ -203,8 +203,11 @@ void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
   result->x = solution.x;
   result->identifiable = solution.identifiable;
   if (!result->solved) return;
-  const bool huber =
-      options.solver == LinearSolver::kWeighted && options.loss == Loss::kHuber;
+  // Too few to tell outliers from what the parameters do not fit, or how
+  // errors follow each other.
+  const bool few = result->equations < 2 * result->parameters.size();
+  const bool huber = options.solver == LinearSolver::kWeighted &&
+                     options.loss == Loss::kHuber && !few;
   if (huber) {
     RobustSolution robust =
         SolveRobust(solution.x, result->noise, frozen, reference, pass);
@@ -214,7 +217,7 @@ void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
     result->noise = robust.noise;
     result->outliers = robust.outliers;
   }
-  if (result->equations < 2 * result->parameters.size()) {
+  if (few) {
     SetCovariance({solution.IndependentCovariance(factor, result->noise),
                    "independent errors (few equations)"},
                   result);
