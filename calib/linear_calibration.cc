@@ -10,6 +10,7 @@
 #include "calib/transition_choice.h"
 #include "calib/used_equations.h"
 #include "model/input_error.h"
+#include "model/input_text.h"
 
 namespace armcal {
 namespace {
@@ -78,13 +79,29 @@ ReferenceMotion MakeReference(const Robot& robot,
   }
   double unit = 1;
   if (rows.identification == Identification::kIntegral) {
-    unit = rows.interval_s;
-    for (const TimeRange& r : rows.intervals) unit = r.end - r.begin;
+    unit = rows.intervals.empty() ? rows.interval_s : 0;
+    for (const TimeRange& r : rows.intervals) {
+      unit = std::max(unit, r.end - r.begin);
+    }
   }
   return MakeReferenceMotion(
       parameters, speed, motion_hz, unit,
       RightSideRms(factors.Merged(parameters, FindNonzero(factors))),
       parameters.Values(robot));
+}
+
+void CheckBandwidth(const std::optional<double>& given,
+                    const LogSet& training) {
+  if (!given || *given == 0) return;
+  double longest = 0;
+  for (const TimeBase& base : training.time_bases()) {
+    longest = std::max(longest, base.range.end - base.range.begin);
+  }
+  if (*given * longest >= 1) return;
+  throw InputError("", "--bandwidth", NumberText(*given),
+                   "expected 0, or a frequency in Hz whose period is shorter "
+                   "than the log, " +
+                       NumberText(longest) + " s");
 }
 
 void CheckIntervals(const RowOptions& rows, const LogSet& training,
@@ -249,6 +266,7 @@ LinearCalibration CalibrateLinear(const Robot& robot,
                                   const LinearCalibrationOptions& options,
                                   LogSet* training, LogSet* validation) {
   const RowOptions rows = MakeRowOptions(options, *training);
+  CheckBandwidth(options.bandwidth_hz, *training);
   training->Prepare(rows.bandwidth_hz, RowReach(rows));
   const Transitions transitions =
       FindTransitions(robot, options, rows, training);

@@ -59,7 +59,9 @@ struct TrajectoryReader::Impl {
         base(time_base),
         bandwidth(options_in.bandwidth_hz),
         resampler(base.dt, base.uniform) {
-    const double reach = options.reach_s + kStandstillTime + 4 * base.dt +
+    const double whole = base.range.end - base.range.begin;
+    const double reach = std::min(options.reach_s, whole) + kStandstillTime +
+                         4 * base.dt +
                          (bandwidth > 0 ? 2 * LowPassMemory(bandwidth) : 0);
     if (bandwidth > 0) {
       thin = std::max(1L, static_cast<long>(1 / (16 * bandwidth * base.dt)));

@@ -74,3 +74,15 @@ foreach(pair
   run("${flag}" calibrate ${robot} ${log} ${flag} --out=out)
   expect_refusal(2 "${message}")
 endforeach()
+
+# Absurd lengths: refused or a result, never a crash (November 2026).
+run("a bandwidth below the log's" calibrate ${robot} ${log} --bandwidth=1e-9)
+expect_refusal(3 "--bandwidth: found '1e-09'" "period is shorter than the log, 4 s")
+foreach(flags "--window=1e300" "--identification=integral;--interval=1e300")
+  run("${flags}" calibrate ${robot} ${log} ${flags})
+  expect_code(1)
+  expect_text(out "no stretch of motion that is long enough")
+endforeach()
+run("an endless interval" calibrate ${robot} ${log} --identification=integral
+    --intervals=0:1e300)
+expect_refusal(3 "--intervals: 1 of 1 intervals cannot be used")
