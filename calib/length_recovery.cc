@@ -166,6 +166,13 @@ std::vector<RecoveredLength> RecoverLengths(const ModelParameters& parameters,
   if (parameters.unknown_lengths().empty()) return result;
   const Bilinear model(parameters);
   const Whitened w(parameters.regrouping(), x, covariance, usable);
+  if (w.value.size() == 0) {  // Eigen's SVD takes no matrix without rows
+    for (const Length& length : parameters.unknown_lengths()) {
+      result.push_back({length.owner_name, length.name, length.value,
+                        std::nan(""), std::nan(""), false});
+    }
+    return result;
+  }
   const VectorXd theta = Solve(w, model);
   const Step step = Decompose(w.matrix * model.Jacobian(theta));
   const Eigen::Index rank = step.svd.rank();

@@ -62,3 +62,9 @@ expect_text(out "8 per joint" "rank       20 of 20" "independent errors (few equ
 if(out MATCHES "not seen" OR NOT out MATCHES "residual 0[.][0-9]+ % of the torque")
   fail("all parameters seen and a residual below 1 % expected")
 endif()
+
+# No parameter is seen at all, so that no length can be (November 2026).
+run("too short" calibrate --robot=${DATA_DIR}/scara/robot.yaml
+    --log=${DATA_DIR}/scara/B.csv.gz --crop=0:0.5 --geometry=all_lengths)
+expect_code(0)
+expect_text(out "only products with moments seen" "directions not identifiable")
