@@ -189,8 +189,9 @@ std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
                    result.validation->moving().stacked_percent);
   }
   if (id.batch_rank < id.total) {
-    text += Format("; %d directions not identifiable from this motion",
-                   id.total - id.batch_rank);
+    const int unseen = id.total - id.batch_rank;
+    text += Format("; %d direction%s not identifiable from this motion", unseen,
+                   unseen == 1 ? "" : "s");
   }
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -61,12 +62,17 @@ std::vector<JointTerm> JointTermsFromFlags() {
   std::vector<JointTerm> terms;
   if (FLAGS_joint_terms == "none") return terms;
   for (const std::string& name : SplitAtCommas(FLAGS_joint_terms)) {
-    terms.push_back(
+    const JointTerm term =
         ParseChoice<JointTerm>("joint_terms", name,
                                {{"viscous", JointTerm::kViscous},
                                 {"coulomb", JointTerm::kCoulomb},
                                 {"offset", JointTerm::kOffset},
-                                {"armature", JointTerm::kArmature}}));
+                                {"armature", JointTerm::kArmature}});
+    if (std::count(terms.begin(), terms.end(), term) > 0) {
+      throw UsageError("--joint_terms: found '" + FLAGS_joint_terms +
+                       "', expected " + name + " only once");
+    }
+    terms.push_back(term);
   }
   return terms;
 }

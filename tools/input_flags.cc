@@ -2,6 +2,7 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/input_text.h"
@@ -26,7 +27,7 @@ DEFINE_string(bandwidth, "",
               "cutoff of the zero-phase low pass, Hz; 0: data as they are; "
               "default: 10 times the motion's frequency, 4 to 20 Hz");
 DEFINE_string(crop, "",
-              "use only t0:t1, s since the log's first row; default: all "
+              "use only t0:t1 of --log, s since its first row; default: all "
               "(standstill is left out by itself)");
 DEFINE_string(out, "", "folder for the result files; default: write none");
 
