@@ -127,12 +127,16 @@ std::string UnpoweredText(const Robot& robot, const LogSet& training,
                           const LinearCalibration& result) {
   std::string text;
   for (const UnpoweredJoint& u : result.unpowered) {
+    const auto logs = std::count_if(
+        result.unpowered.begin(), result.unpowered.end(),
+        [&](const UnpoweredJoint& other) { return other.joint == u.joint; });
     text += "unpowered  " + robot.links[u.joint].joint.name + " in " +
             training.path(u.log) +
             Format(
                 ": %.3g %s rms is next to nothing beside gravity and "
-                "inertia\n",
-                u.torque_rms, EffortUnit(robot.links[u.joint].joint.type));
+                "inertia; %s\n",
+                u.torque_rms, EffortUnit(robot.links[u.joint].joint.type),
+                logs < training.size() ? "left out" : "used all the same");
   }
   return text;
 }

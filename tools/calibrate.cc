@@ -165,7 +165,7 @@ int RunCalibrate() {
   OutputFolder out(OutFromFlags());
   out.Add("calibration.json",
           ToJson(robot, training, held_out, result).dump(2) + "\n");
-  if (result.solved) out.Add("covariance.csv", CovarianceCsv(result));
+  out.Add("covariance.csv", CovarianceCsv(result));
   out.Write();
   for (const std::string& note : robot.notes) {
     std::cout << "note       " << note << "\n";
