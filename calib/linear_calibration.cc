@@ -234,10 +234,12 @@ void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
     result->noise = robust.noise;
     result->outliers = robust.outliers;
   }
+  result->independent_covariance =
+      solution.IndependentCovariance(factor, result->noise);
   if (few) {
-    SetCovariance({solution.IndependentCovariance(factor, result->noise),
-                   "independent errors (few equations)"},
-                  result);
+    SetCovariance(
+        {result->independent_covariance, "independent errors (few equations)"},
+        result);
   } else {
     SetCovariance(
         EstimateRowCovariance(solution, result->noise, huber, reference,
@@ -299,8 +301,9 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   result.passes = pass.passes() + (transitions.empty() ? 2 : 3);
   if (!result.solved) return result;
 
-  result.lengths = RecoverLengths(result.parameters, result.x,
-                                  result.covariance, result.identifiable);
+  result.lengths =
+      RecoverLengths(result.parameters, result.x, result.independent_covariance,
+                     result.covariance, result.identifiable);
   result.training = Evaluate("residuals", result, options.progress, training);
   ++result.passes;
   if (validation != nullptr) {

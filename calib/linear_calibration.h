@@ -58,6 +58,8 @@ struct LinearCalibration {
   Eigen::VectorXd x;
   Eigen::VectorXd stddev;  // infinite where not identifiable
   Eigen::MatrixXd covariance;
+  // What it would be if the equations had independent errors.
+  Eigen::MatrixXd independent_covariance;
   std::string covariance_method;
   std::vector<bool> identifiable;
   Eigen::VectorXd noise;  // per joint, of the equations: N m, N (N m s, N s)

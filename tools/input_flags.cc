@@ -25,7 +25,7 @@ DEFINE_string(torque_kind, "auto",
               "gear ratio), current, command");
 DEFINE_string(bandwidth, "",
               "cutoff of the zero-phase low pass, Hz; 0: data as they are; "
-              "default: 10 times the motion's frequency, 4 to 20 Hz");
+              "default: 10 times the motion's frequency, 8 to 20 Hz");
 DEFINE_string(crop, "",
               "use only t0:t1 of --log, s since its first row; default: all "
               "(standstill is left out by itself)");
