@@ -43,6 +43,20 @@ ModelParameters MakeParameters(const Robot& robot,
   return ModelParameters(robot, model);
 }
 
+// The equations with several Coulomb columns per joint to choose from.
+struct Screening {
+  Screening(const Robot& robot, const LinearCalibrationOptions& options,
+            const RowOptions& rows, const Transitions& transitions,
+            LogSet* training)
+      : parameters(MakeParameters(robot, options, transitions)),
+        factor(parameters) {
+    const LogFactors factors(parameters, rows, options.progress, training);
+    factor = factors.Merged(parameters, FindNonzero(factors));
+  }
+  ModelParameters parameters;
+  BlockTriangularFactor factor;
+};
+
 // One transition per joint; none where the model has no Coulomb friction.
 Transitions FindTransitions(const Robot& robot,
                             const LinearCalibrationOptions& options,
@@ -54,15 +68,17 @@ Transitions FindTransitions(const Robot& robot,
   }
   if (options.transition) return {n, {*options.transition}};
   const auto candidates = CandidateTransitions();
-  const ModelParameters parameters =
-      MakeParameters(robot, options, {n, candidates});
-  const LogFactors factors(parameters, rows, options.progress, training);
-  const BlockTriangularFactor merged =
-      factors.Merged(parameters, FindNonzero(factors));
+  const Screening coarse(robot, options, rows, {n, candidates}, training);
+  Transitions finer;
+  for (const int choice : ChooseTransitions(coarse.factor, coarse.parameters,
+                                            RightSideRms(coarse.factor))) {
+    finer.push_back(FinerTransitions(candidates[choice]));
+  }
+  const Screening fine(robot, options, rows, finer, training);
   Transitions transitions;
-  for (const int choice :
-       ChooseTransitions(merged, parameters, RightSideRms(merged))) {
-    transitions.push_back({candidates[choice]});
+  for (const CoulombTransition& t : RefineTransitions(
+           fine.factor, fine.parameters, RightSideRms(fine.factor))) {
+    transitions.push_back({t});
   }
   return transitions;
 }
@@ -210,9 +226,81 @@ int CorrelatedRows(const RowOptions& rows) {
   return std::max(rows.hops, static_cast<int>(0.33 * 4 * rows.bandwidth_hz));
 }
 
+// The model with the widths of Coulomb friction unknown as well: every joint
+// has a second Coulomb column of a slightly greater width, which together span
+// the width's own column. base[k] is the parameter that column k stands for.
+struct WidthsUnknown {
+  WidthsUnknown(const Robot& robot, const LinearCalibrationOptions& options,
+                const LinearCalibration& result)
+      : parameters(MakeParameters(robot, options, Wider(result.transitions))) {
+    int next = -1, last_block = -1;
+    for (const ModelParameter& p : parameters.parameters()) {
+      const bool coulomb = p.is_joint_term && p.term == JointTerm::kCoulomb;
+      if (!coulomb || p.block != last_block) ++next;
+      last_block = coulomb ? p.block : -1;
+      base.push_back(next);
+    }
+  }
+  static Transitions Wider(const std::vector<CoulombTransition>& chosen) {
+    Transitions wider;
+    for (CoulombTransition t : chosen) {
+      wider.push_back({t});
+      t.width *= 1.1;
+      wider.back().push_back(t);
+    }
+    return wider;
+  }
+  // Values of the base parameters, on the first column of each.
+  VectorXd Spread(const VectorXd& x) const {
+    VectorXd spread = VectorXd::Zero(parameters.size());
+    for (int k = 0; k < parameters.size(); ++k) {
+      if (k == 0 || base[k] != base[k - 1]) spread[k] = x[base[k]];
+    }
+    return spread;
+  }
+  // The covariance of the base parameters, which add up their columns.
+  MatrixXd Fold(const MatrixXd& covariance) const {
+    const int m = base.back() + 1;
+    MatrixXd folded = MatrixXd::Zero(m, m);
+    for (int i = 0; i < parameters.size(); ++i) {
+      for (int j = 0; j < parameters.size(); ++j) {
+        folded(base[i], base[j]) += covariance(i, j);
+      }
+    }
+    return folded;
+  }
+
+  ModelParameters parameters;
+  std::vector<int> base;
+};
+
+// The covariance from rows, the fitted widths' uncertainty included.
+CovarianceEstimate EstimateCovariance(
+    const Robot& robot, const LinearCalibrationOptions& options,
+    const RowOptions& rows, const LinearSolution& solution, bool huber,
+    const ReferenceMotion& reference, ResidualPass* pass,
+    const LinearCalibration& result) {
+  const int correlated = CorrelatedRows(rows);
+  if (result.transitions.empty() || options.transition || !solution.weighted) {
+    return EstimateRowCovariance(solution, result.noise, huber, reference,
+                                 result.equations, correlated, pass);
+  }
+  const WidthsUnknown wider(robot, options, result);
+  LinearSolution spread = solution;
+  spread.x = wider.Spread(solution.x);
+  ReferenceMotion columns = reference;
+  columns.columns = reference.columns(Eigen::all, wider.base);
+  ResidualPass wider_pass = pass->WithParameters(wider.parameters);
+  CovarianceEstimate estimate =
+      EstimateRowCovariance(spread, result.noise, huber, columns,
+                            result.equations, correlated, &wider_pass);
+  estimate.covariance = wider.Fold(estimate.covariance);
+  return estimate;
+}
+
 // From the factor to the parameters and their covariance.
-void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
-              const BlockTriangularFactor& factor,
+void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
+              const RowOptions& rows, const BlockTriangularFactor& factor,
               const ReferenceMotion& reference, const std::vector<bool>& frozen,
               ResidualPass* pass, LinearCalibration* result) {
   LinearSolution solution =
@@ -241,10 +329,9 @@ void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
         {result->independent_covariance, "independent errors (few equations)"},
         result);
   } else {
-    SetCovariance(
-        EstimateRowCovariance(solution, result->noise, huber, reference,
-                              result->equations, CorrelatedRows(rows), pass),
-        result);
+    SetCovariance(EstimateCovariance(robot, options, rows, solution, huber,
+                                     reference, pass, *result),
+                  result);
   }
 }
 
@@ -296,9 +383,11 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   }
   ResidualPass pass(result.parameters, rows, equations.used, options.progress,
                     training);
-  Estimate(options, rows, factors.Merged(result.parameters, equations.used),
-           reference, equations.frozen, &pass, &result);
-  result.passes = pass.passes() + (transitions.empty() ? 2 : 3);
+  Estimate(robot, options, rows,
+           factors.Merged(result.parameters, equations.used), reference,
+           equations.frozen, &pass, &result);
+  result.passes = pass.passes() + 2;  // the audit and the factors
+  if (!transitions.empty() && !options.transition) result.passes += 2;
   if (!result.solved) return result;
 
   result.lengths =
