@@ -4,11 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/calibration_model.h"
 #include "calib/log_factors.h"
 #include "calib/robust_solution.h"
-#include "calib/row_covariance.h"
-#include "calib/transition_choice.h"
+#include "calib/transition_search.h"
 #include "calib/used_equations.h"
+#include "calib/width_covariance.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
 
@@ -17,71 +18,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Transitions = std::vector<std::vector<CoulombTransition>>;
-
-RowOptions MakeRowOptions(const LinearCalibrationOptions& options,
-                          const LogSet& training) {
-  RowOptions rows;
-  rows.bandwidth_hz =
-      options.bandwidth_hz.value_or(DefaultBandwidth(training.time_bases()));
-  rows.identification = options.identification;
-  rows.window_s = options.window_s.value_or(
-      rows.bandwidth_hz > 0 ? std::max(0.3, 1.5 / rows.bandwidth_hz) : 0.5);
-  rows.intervals = options.intervals;
-  rows.interval_s = options.interval_s;
-  rows.quadrature = options.quadrature;
-  return rows;
-}
-
-ModelParameters MakeParameters(const Robot& robot,
-                               const LinearCalibrationOptions& options,
-                               const Transitions& transitions) {
-  ModelParameters::Options model;
-  model.geometry = options.geometry;
-  model.joint_terms = options.joint_terms;
-  model.transitions = transitions;
-  return ModelParameters(robot, model);
-}
-
-// The equations with several Coulomb columns per joint to choose from.
-struct Screening {
-  Screening(const Robot& robot, const LinearCalibrationOptions& options,
-            const RowOptions& rows, const Transitions& transitions,
-            LogSet* training)
-      : parameters(MakeParameters(robot, options, transitions)),
-        factor(parameters) {
-    const LogFactors factors(parameters, rows, options.progress, training);
-    factor = factors.Merged(parameters, FindNonzero(factors));
-  }
-  ModelParameters parameters;
-  BlockTriangularFactor factor;
-};
-
-// One transition per joint; none where the model has no Coulomb friction.
-Transitions FindTransitions(const Robot& robot,
-                            const LinearCalibrationOptions& options,
-                            const RowOptions& rows, LogSet* training) {
-  const size_t n = robot.links.size();
-  if (std::count(options.joint_terms.begin(), options.joint_terms.end(),
-                 JointTerm::kCoulomb) == 0) {
-    return {};
-  }
-  if (options.transition) return {n, {*options.transition}};
-  const auto candidates = CandidateTransitions();
-  const Screening coarse(robot, options, rows, {n, candidates}, training);
-  Transitions finer;
-  for (const int choice : ChooseTransitions(coarse.factor, coarse.parameters,
-                                            RightSideRms(coarse.factor))) {
-    finer.push_back(FinerTransitions(candidates[choice]));
-  }
-  const Screening fine(robot, options, rows, finer, training);
-  Transitions transitions;
-  for (const CoulombTransition& t : RefineTransitions(
-           fine.factor, fine.parameters, RightSideRms(fine.factor))) {
-    transitions.push_back({t});
-  }
-  return transitions;
-}
 
 ReferenceMotion MakeReference(const Robot& robot,
                               const ModelParameters& parameters,
@@ -215,87 +151,6 @@ TorqueResidual Evaluate(const std::string& stage,
     residual.Add(t, result.x, result.bandwidth_hz, &regressors[log]);
   });
   return residual;
-}
-
-// How many rows in a sequence share noise for certain: weak rows overlap, and
-// what differentiation makes of encoder noise lasts about a third of a second.
-int CorrelatedRows(const RowOptions& rows) {
-  const bool differential =
-      rows.identification == Identification::kDifferential;
-  if (!differential || rows.bandwidth_hz <= 0) return rows.hops;
-  return std::max(rows.hops, static_cast<int>(0.33 * 4 * rows.bandwidth_hz));
-}
-
-// The model with the widths of Coulomb friction unknown as well: every joint
-// has a second Coulomb column of a slightly greater width, which together span
-// the width's own column. base[k] is the parameter that column k stands for.
-struct WidthsUnknown {
-  WidthsUnknown(const Robot& robot, const LinearCalibrationOptions& options,
-                const LinearCalibration& result)
-      : parameters(MakeParameters(robot, options, Wider(result.transitions))) {
-    int next = -1, last_block = -1;
-    for (const ModelParameter& p : parameters.parameters()) {
-      const bool coulomb = p.is_joint_term && p.term == JointTerm::kCoulomb;
-      if (!coulomb || p.block != last_block) ++next;
-      last_block = coulomb ? p.block : -1;
-      base.push_back(next);
-    }
-  }
-  static Transitions Wider(const std::vector<CoulombTransition>& chosen) {
-    Transitions wider;
-    for (CoulombTransition t : chosen) {
-      wider.push_back({t});
-      t.width *= 1.1;
-      wider.back().push_back(t);
-    }
-    return wider;
-  }
-  // Values of the base parameters, on the first column of each.
-  VectorXd Spread(const VectorXd& x) const {
-    VectorXd spread = VectorXd::Zero(parameters.size());
-    for (int k = 0; k < parameters.size(); ++k) {
-      if (k == 0 || base[k] != base[k - 1]) spread[k] = x[base[k]];
-    }
-    return spread;
-  }
-  // The covariance of the base parameters, which add up their columns.
-  MatrixXd Fold(const MatrixXd& covariance) const {
-    const int m = base.back() + 1;
-    MatrixXd folded = MatrixXd::Zero(m, m);
-    for (int i = 0; i < parameters.size(); ++i) {
-      for (int j = 0; j < parameters.size(); ++j) {
-        folded(base[i], base[j]) += covariance(i, j);
-      }
-    }
-    return folded;
-  }
-
-  ModelParameters parameters;
-  std::vector<int> base;
-};
-
-// The covariance from rows, the fitted widths' uncertainty included.
-CovarianceEstimate EstimateCovariance(
-    const Robot& robot, const LinearCalibrationOptions& options,
-    const RowOptions& rows, const LinearSolution& solution, bool huber,
-    const ReferenceMotion& reference, ResidualPass* pass,
-    const LinearCalibration& result) {
-  const int correlated = CorrelatedRows(rows);
-  if (result.transitions.empty() || options.transition || !solution.weighted) {
-    return EstimateRowCovariance(solution, result.noise, huber, reference,
-                                 result.equations, correlated, pass);
-  }
-  const WidthsUnknown wider(robot, options, result);
-  LinearSolution spread = solution;
-  spread.x = wider.Spread(solution.x);
-  ReferenceMotion columns = reference;
-  columns.columns = reference.columns(Eigen::all, wider.base);
-  ResidualPass wider_pass = pass->WithParameters(wider.parameters);
-  CovarianceEstimate estimate =
-      EstimateRowCovariance(spread, result.noise, huber, columns,
-                            result.equations, correlated, &wider_pass);
-  estimate.covariance = wider.Fold(estimate.covariance);
-  return estimate;
 }
 
 // From the factor to the parameters and their covariance.
