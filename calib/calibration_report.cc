@@ -189,8 +189,9 @@ std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
       "%s: %d model parameters, residual %.2f %% of the torque",
       robot.name.c_str(), id.total, result.training->moving().stacked_percent);
   if (result.validation) {
-    text += Format(", %.2f %% held out",
-                   result.validation->moving().stacked_percent);
+    const double percent = result.validation->moving().stacked_percent;
+    text += std::isfinite(percent) ? Format(", %.2f %% held out", percent)
+                                   : ", no torque in the logs held out";
   }
   if (id.batch_rank < id.total) {
     const int unseen = id.total - id.batch_rank;

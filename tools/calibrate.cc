@@ -150,9 +150,11 @@ int RunCalibrate() {
   const Robot robot = RobotFromFlags();
   LinearCalibrationOptions options = OptionsFromFlags(robot);
   const LogReaderOptions log_options = LogOptionsFromFlags(robot);
+  CheckLogsApart();
   const TimeRange crop = CropFromFlags();
   LogSet training(LogsFromFlags(), log_options, crop);
-  LogSet validation(ValidationLogsFromFlags(), log_options, TimeRange());
+  LogSet validation(ValidationLogsFromFlags(), log_options,
+                    ValidationCropFromFlags());
   LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
 
   ProgressBar bar;
