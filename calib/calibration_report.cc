@@ -127,12 +127,16 @@ std::string UnpoweredText(const Robot& robot, const LogSet& training,
                           const LinearCalibration& result) {
   std::string text;
   for (const UnpoweredJoint& u : result.unpowered) {
+    const auto logs = std::count_if(
+        result.unpowered.begin(), result.unpowered.end(),
+        [&](const UnpoweredJoint& other) { return other.joint == u.joint; });
     text += "unpowered  " + robot.links[u.joint].joint.name + " in " +
             training.path(u.log) +
             Format(
                 ": %.3g %s rms is next to nothing beside gravity and "
-                "inertia\n",
-                u.torque_rms, EffortUnit(robot.links[u.joint].joint.type));
+                "inertia; %s\n",
+                u.torque_rms, EffortUnit(robot.links[u.joint].joint.type),
+                logs < training.size() ? "left out" : "used all the same");
   }
   return text;
 }
@@ -185,12 +189,14 @@ std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
       "%s: %d model parameters, residual %.2f %% of the torque",
       robot.name.c_str(), id.total, result.training->moving().stacked_percent);
   if (result.validation) {
-    text += Format(", %.2f %% held out",
-                   result.validation->moving().stacked_percent);
+    const double percent = result.validation->moving().stacked_percent;
+    text += std::isfinite(percent) ? Format(", %.2f %% held out", percent)
+                                   : ", no torque in the logs held out";
   }
   if (id.batch_rank < id.total) {
-    text += Format("; %d directions not identifiable from this motion",
-                   id.total - id.batch_rank);
+    const int unseen = id.total - id.batch_rank;
+    text += Format("; %d direction%s not identifiable from this motion", unseen,
+                   unseen == 1 ? "" : "s");
   }
   return text;
 }

@@ -22,7 +22,9 @@ nlohmann::json ToJson(const Robot& robot, const LogSet& training,
                       const LogSet* validation,
                       const LinearCalibration& result);
 
-// covariance.csv: a header of the model parameters' names, then the matrix.
+// covariance.csv: a header of the model parameters' names, then the matrix, its
+// entries empty where a parameter is not identifiable; the header alone where
+// nothing was solved, so that no older matrix stands beside a refusal.
 std::string CovarianceCsv(const LinearCalibration& result);
 
 }  // namespace armcal

@@ -87,34 +87,31 @@ class Bilinear {
   int num_lengths_, full_, num_moments_, num_terms_;
 };
 
-// Rows of M and x that are usable, whitened by the covariance.
+// Rows of M and x that are usable, whitened by the covariance of independent
+// errors, and the covariance that the whitened x has in truth.
 struct Whitened {
-  Whitened(const MatrixXd& M, const VectorXd& x, const MatrixXd& covariance,
-           const std::vector<bool>& usable) {
+  Whitened(const MatrixXd& M, const VectorXd& x, const MatrixXd& independent,
+           const MatrixXd& covariance, const std::vector<bool>& usable) {
     std::vector<int> rows;
     for (int k = 0; k < x.size(); ++k) {
-      if (usable[k] && covariance(k, k) > 0) rows.push_back(k);
+      if (usable[k] && independent(k, k) > 0) rows.push_back(k);
     }
-    const VectorXd s = covariance.diagonal().cwiseSqrt();
-    const Eigen::Index n = static_cast<Eigen::Index>(rows.size());
-    MatrixXd correlation(n, n);
-    matrix.resize(n, M.cols());
-    value.resize(n);
-    for (Eigen::Index a = 0; a < n; ++a) {
-      for (Eigen::Index b = 0; b < n; ++b) {
-        correlation(a, b) =
-            covariance(rows[a], rows[b]) / (s[rows[a]] * s[rows[b]]);
-      }
-      correlation(a, a) += 1e-10;
-      matrix.row(a) = M.row(rows[a]) / s[rows[a]];
-      value[a] = x[rows[a]] / s[rows[a]];
-    }
+    const VectorXd s = independent.diagonal()(rows).cwiseSqrt();
+    const auto unscale = s.cwiseInverse().asDiagonal();
+    MatrixXd correlation = unscale * independent(rows, rows) * unscale;
+    correlation.diagonal().array() += 1e-10;
+    matrix = unscale * M(rows, Eigen::all);
+    value = unscale * x(rows);
+    noise = unscale * covariance(rows, rows) * unscale;
     const Eigen::LLT<MatrixXd> llt(correlation);
     llt.matrixL().solveInPlace(matrix);
     llt.matrixL().solveInPlace(value);
+    llt.matrixL().solveInPlace(noise);
+    noise = llt.matrixL().solve(noise.transpose()).eval();
   }
   MatrixXd matrix;
   VectorXd value;
+  MatrixXd noise;
 };
 
 struct Step {
@@ -160,29 +157,41 @@ VectorXd Solve(const Whitened& w, const Bilinear& model) {
 
 std::vector<RecoveredLength> RecoverLengths(const ModelParameters& parameters,
                                             const VectorXd& x,
+                                            const MatrixXd& independent,
                                             const MatrixXd& covariance,
                                             const std::vector<bool>& usable) {
   std::vector<RecoveredLength> result;
   if (parameters.unknown_lengths().empty()) return result;
   const Bilinear model(parameters);
-  const Whitened w(parameters.regrouping(), x, covariance, usable);
+  const Whitened w(parameters.regrouping(), x, independent, covariance, usable);
+  if (w.value.size() == 0) {  // Eigen's SVD takes no matrix without rows
+    for (const Length& length : parameters.unknown_lengths()) {
+      result.push_back({length.owner_name, length.name, length.value,
+                        std::nan(""), std::nan(""), false});
+    }
+    return result;
+  }
   const VectorXd theta = Solve(w, model);
   const Step step = Decompose(w.matrix * model.Jacobian(theta));
   const Eigen::Index rank = step.svd.rank();
+  const VectorXd& s = step.svd.singularValues();
   for (size_t l = 0; l < parameters.unknown_lengths().size(); ++l) {
     const Length& length = parameters.unknown_lengths()[l];
     const Eigen::Index k = model.length_begin() + static_cast<int>(l);
-    double variance = 0, unseen = 0;
+    // theta_k moves by `gain` times the errors of the whitened x.
+    VectorXd gain = VectorXd::Zero(w.value.size());
+    double unseen = 0;
     for (Eigen::Index d = 0; d < step.svd.matrixV().cols(); ++d) {
       const double v = step.svd.matrixV()(k, d);
       if (d < rank) {
-        variance += std::pow(v / step.svd.singularValues()[d], 2);
+        gain += v / s[d] * step.svd.matrixU().col(d);
       } else {
         unseen += v * v;
       }
     }
     result.push_back({length.owner_name, length.name, length.value, theta[k],
-                      std::sqrt(variance) / step.scale[k], unseen < 1e-8});
+                      std::sqrt(gain.dot(w.noise * gain)) / step.scale[k],
+                      unseen < 1e-8});
   }
   return result;
 }

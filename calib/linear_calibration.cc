@@ -4,67 +4,20 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/calibration_model.h"
 #include "calib/log_factors.h"
 #include "calib/robust_solution.h"
-#include "calib/row_covariance.h"
-#include "calib/transition_choice.h"
+#include "calib/transition_search.h"
 #include "calib/used_equations.h"
+#include "calib/width_covariance.h"
 #include "model/input_error.h"
+#include "model/input_text.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Transitions = std::vector<std::vector<CoulombTransition>>;
-
-RowOptions MakeRowOptions(const LinearCalibrationOptions& options,
-                          const LogSet& training) {
-  RowOptions rows;
-  rows.bandwidth_hz =
-      options.bandwidth_hz.value_or(DefaultBandwidth(training.time_bases()));
-  rows.identification = options.identification;
-  rows.window_s = options.window_s.value_or(
-      rows.bandwidth_hz > 0 ? std::max(0.3, 1.5 / rows.bandwidth_hz) : 0.5);
-  rows.intervals = options.intervals;
-  rows.interval_s = options.interval_s;
-  rows.quadrature = options.quadrature;
-  return rows;
-}
-
-ModelParameters MakeParameters(const Robot& robot,
-                               const LinearCalibrationOptions& options,
-                               const Transitions& transitions) {
-  ModelParameters::Options model;
-  model.geometry = options.geometry;
-  model.joint_terms = options.joint_terms;
-  model.transitions = transitions;
-  return ModelParameters(robot, model);
-}
-
-// One transition per joint; none where the model has no Coulomb friction.
-Transitions FindTransitions(const Robot& robot,
-                            const LinearCalibrationOptions& options,
-                            const RowOptions& rows, LogSet* training) {
-  const size_t n = robot.links.size();
-  if (std::count(options.joint_terms.begin(), options.joint_terms.end(),
-                 JointTerm::kCoulomb) == 0) {
-    return {};
-  }
-  if (options.transition) return {n, {*options.transition}};
-  const auto candidates = CandidateTransitions();
-  const ModelParameters parameters =
-      MakeParameters(robot, options, {n, candidates});
-  const LogFactors factors(parameters, rows, options.progress, training);
-  const BlockTriangularFactor merged =
-      factors.Merged(parameters, FindNonzero(factors));
-  Transitions transitions;
-  for (const int choice :
-       ChooseTransitions(merged, parameters, RightSideRms(merged))) {
-    transitions.push_back({candidates[choice]});
-  }
-  return transitions;
-}
 
 ReferenceMotion MakeReference(const Robot& robot,
                               const ModelParameters& parameters,
@@ -78,13 +31,35 @@ ReferenceMotion MakeReference(const Robot& robot,
   }
   double unit = 1;
   if (rows.identification == Identification::kIntegral) {
-    unit = rows.interval_s;
-    for (const TimeRange& r : rows.intervals) unit = r.end - r.begin;
+    unit = rows.intervals.empty() ? rows.interval_s : 0;
+    for (const TimeRange& r : rows.intervals) {
+      unit = std::max(unit, r.end - r.begin);
+    }
   }
   return MakeReferenceMotion(
       parameters, speed, motion_hz, unit,
       RightSideRms(factors.Merged(parameters, FindNonzero(factors))),
       parameters.Values(robot));
+}
+
+void CheckBandwidth(const std::optional<double>& given,
+                    const LogSet& training) {
+  if (!given || *given == 0) return;
+  double longest = 0, slowest = 0;
+  for (const TimeBase& base : training.time_bases()) {
+    longest = std::max(longest, base.range.end - base.range.begin);
+    slowest = std::max(slowest, base.dt);
+  }
+  if (*given >= 0.5 / slowest) {
+    throw InputError("", "--bandwidth", NumberText(*given),
+                     "expected 0, or less than half the sample rate, " +
+                         NumberText(0.5 / slowest) + " Hz");
+  }
+  if (*given * longest >= 1) return;
+  throw InputError("", "--bandwidth", NumberText(*given),
+                   "expected 0, or a frequency in Hz whose period is shorter "
+                   "than the log, " +
+                       NumberText(longest) + " s");
 }
 
 void CheckIntervals(const RowOptions& rows, const LogSet& training,
@@ -198,18 +173,9 @@ double MedianInflation(const MatrixXd& covariance,
   return std::max(1.0, ratios[ratios.size() / 2]);
 }
 
-// How many rows in a sequence share noise for certain: weak rows overlap, and
-// what differentiation makes of encoder noise lasts about a third of a second.
-int CorrelatedRows(const RowOptions& rows) {
-  const bool differential =
-      rows.identification == Identification::kDifferential;
-  if (!differential || rows.bandwidth_hz <= 0) return rows.hops;
-  return std::max(rows.hops, static_cast<int>(0.33 * 4 * rows.bandwidth_hz));
-}
-
 // From the factor to the parameters and their covariance.
-void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
-              const BlockTriangularFactor& factor,
+void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
+              const RowOptions& rows, const BlockTriangularFactor& factor,
               const ReferenceMotion& reference, const std::vector<bool>& frozen,
               ResidualPass* pass, LinearCalibration* result) {
   LinearSolution solution =
@@ -217,8 +183,11 @@ void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
   result->x = solution.x;
   result->identifiable = solution.identifiable;
   if (!result->solved) return;
-  const bool huber =
-      options.solver == LinearSolver::kWeighted && options.loss == Loss::kHuber;
+  // Too few to tell outliers from what the parameters do not fit, or how
+  // errors follow each other.
+  const bool few = result->equations < 2 * result->parameters.size();
+  const bool huber = options.solver == LinearSolver::kWeighted &&
+                     options.loss == Loss::kHuber && !few;
   if (huber) {
     RobustSolution robust =
         SolveRobust(solution.x, result->noise, frozen, reference, pass);
@@ -228,18 +197,18 @@ void Estimate(const LinearCalibrationOptions& options, const RowOptions& rows,
     result->noise = robust.noise;
     result->outliers = robust.outliers;
   }
-  if (result->equations < 2 * result->parameters.size()) {
-    SetCovariance({solution.IndependentCovariance(factor, result->noise),
-                   "independent errors (few equations)"},
-                  result);
-  } else {
+  result->independent_covariance =
+      solution.IndependentCovariance(factor, result->noise);
+  if (few) {
     SetCovariance(
-        EstimateRowCovariance(solution, result->noise, huber, reference,
-                              result->equations, CorrelatedRows(rows), pass),
+        {result->independent_covariance, "independent errors (few equations)"},
         result);
+  } else {
+    SetCovariance(EstimateCovariance(robot, options, rows, solution, huber,
+                                     reference, pass, *result),
+                  result);
     result->inflation =
-        MedianInflation(result->covariance,
-                        solution.IndependentCovariance(factor, result->noise));
+        MedianInflation(result->covariance, result->independent_covariance);
   }
 }
 
@@ -263,6 +232,7 @@ LinearCalibration CalibrateLinear(const Robot& robot,
                                   const LinearCalibrationOptions& options,
                                   LogSet* training, LogSet* validation) {
   const RowOptions rows = MakeRowOptions(options, *training);
+  CheckBandwidth(options.bandwidth_hz, *training);
   training->Prepare(rows.bandwidth_hz, RowReach(rows));
   const Transitions transitions =
       FindTransitions(robot, options, rows, training);
@@ -290,13 +260,16 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   result.used = equations.used;
   ResidualPass pass(result.parameters, rows, equations.used, options.progress,
                     training);
-  Estimate(options, rows, factors.Merged(result.parameters, equations.used),
-           reference, equations.frozen, &pass, &result);
-  result.passes = pass.passes() + (transitions.empty() ? 2 : 3);
+  Estimate(robot, options, rows,
+           factors.Merged(result.parameters, equations.used), reference,
+           equations.frozen, &pass, &result);
+  result.passes = pass.passes() + 2;  // the audit and the factors
+  if (!transitions.empty() && !options.transition) result.passes += 2;
   if (!result.solved) return result;
 
-  result.lengths = RecoverLengths(result.parameters, result.x,
-                                  result.covariance, result.identifiable);
+  result.lengths =
+      RecoverLengths(result.parameters, result.x, result.independent_covariance,
+                     result.covariance, result.identifiable);
   result.training = Evaluate("residuals", result, options.progress, training);
   ++result.passes;
   if (validation != nullptr) {

@@ -35,7 +35,9 @@ struct LinearCalibrationOptions {
   double interval_s = 0.5;
   Quadrature quadrature = Quadrature::kTrapezoid;
   LinearSolver solver = LinearSolver::kWeighted;
-  Loss loss = Loss::kHuber;  // of the weighted solver
+  // Of the weighted solver; squared in any case where a joint has fewer
+  // equations than twice the parameters.
+  Loss loss = Loss::kHuber;
   // Cutoff for positions, differential rows and residuals, Hz; 0: none.
   // Not given: DefaultBandwidth.
   std::optional<double> bandwidth_hz;
@@ -56,6 +58,8 @@ struct LinearCalibration {
   Eigen::VectorXd x;
   Eigen::VectorXd stddev;  // infinite where not identifiable
   Eigen::MatrixXd covariance;
+  // What it would be if the equations had independent errors.
+  Eigen::MatrixXd independent_covariance;
   std::string covariance_method;
   std::vector<bool> identifiable;
   Eigen::VectorXd noise;  // per joint, of the equations: N m, N (N m s, N s)
@@ -75,8 +79,9 @@ struct LinearCalibration {
   std::optional<TorqueResidual> validation;
 };
 
-// Calibrates the model parameters of `robot` (its inertias play no part) from
-// the training logs, and checks them on the validation logs, if any. Bad input
+// Calibrates the model parameters of `robot` from the training logs, and checks
+// them on the validation logs, if any (null: none). The robot's inertias do not
+// enter the estimate; they only help to judge what is a small torque. Bad input
 // throws InputError; a calibration that cannot be solved is a result.
 LinearCalibration CalibrateLinear(const Robot& robot,
                                   const LinearCalibrationOptions& options,

@@ -42,6 +42,7 @@ LinearSolution SolveWeighted(const BlockTriangularFactor& factor,
   const WeightedSystem::Directions d = system.Decompose();
   LinearSolution solution;
   solution.solved = true;
+  solution.weighted = true;
   VectorXd y = VectorXd::Zero(m), share = VectorXd::Zero(m);
   MatrixXd inverse = MatrixXd::Zero(m, m);
   for (int k = 0; k < m; ++k) {
@@ -71,6 +72,7 @@ LinearSolution SolveBatch(const BlockTriangularFactor& factor,
       factor, VectorXd::Constant(factor.num_joints(), noise), reference);
   solution.gain /= noise * noise;
   solution.weight.setOnes();
+  solution.weighted = false;
   return solution;
 }
 

@@ -26,6 +26,7 @@ struct LinearSolution {
   Eigen::VectorXd x;
   Eigen::MatrixXd gain;    // m x m
   Eigen::VectorXd weight;  // per joint
+  bool weighted = false;   // by the joints' noise
   bool own_block_only = false;
   std::vector<bool> identifiable;  // per parameter
 

@@ -227,7 +227,7 @@ void PoseCalibrator::EstimateNoise(const std::vector<bool>& free,
   const auto spread = [&](const MatrixXd& errors) {
     std::vector<double> sizes;
     for (const double e : errors.reshaped()) sizes.push_back(std::abs(e));
-    return std::max(1e-9, 1.4826 * Median(sizes) * std::sqrt(N / left));
+    return std::max(1e-7, 1.4826 * Median(sizes) * std::sqrt(N / left));
   };
   noise_.position = spread(position);
   if (rotation.size() > 0) noise_.rotation = spread(rotation);

@@ -30,6 +30,10 @@ class ResidualPass {
                const EquationMask& used, const Progress& progress,
                LogSet* logs);
 
+  // The same passes for another model, which must outlive them.
+  ResidualPass WithParameters(const ModelParameters& parameters) const {
+    return ResidualPass(parameters, rows_, used_, progress_, logs_);
+  }
   const ModelParameters& parameters() const { return parameters_; }
   int num_logs() const { return logs_->size(); }
   bool uses(int log, int joint) const { return used_[log][joint]; }

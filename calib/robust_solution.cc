@@ -1,5 +1,6 @@
 #include "calib/robust_solution.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "calib/robust_rows.h"
@@ -13,6 +14,9 @@ RobustSolution SolveRobust(const Eigen::VectorXd& x,
                            ResidualPass* pass) {
   constexpr int kMostPasses = 20;
   constexpr double kSettled = 0.1;  // standard deviations
+  // Where a joint's equations can be solved exactly, their spread falls pass
+  // after pass, until nothing else counts beside them.
+  const Eigen::VectorXd least = 1e-3 * noise;
   const int n = static_cast<int>(noise.size());
   RobustSolution result;
   result.solution.x = x;
@@ -34,7 +38,8 @@ RobustSolution SolveRobust(const Eigen::VectorXd& x,
     for (int i = 0; i < n; ++i) {
       result.outliers.push_back(statistics[i].outliers());
       const double spread = statistics[i].RobustSpread();
-      if (!frozen[i] && spread > 1e-9) result.noise[i] *= spread;
+      if (frozen[i]) continue;
+      result.noise[i] = std::max(least[i], result.noise[i] * spread);
     }
     const Eigen::VectorXd last = result.solution.x;
     result.solution = SolveWeighted(factor, result.noise, reference);

@@ -128,15 +128,15 @@ CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
     scores.Add(score);
     small.Add(residual, *pass);
     sums.col(residual.log) += score;
-    for (int i = 0; huber && i < noise.size(); ++i) {
-      if (!pass->uses(residual.log, i) || !Huber::Inside(residual.r[i])) {
-        continue;
-      }
+    for (int i = 0; solution.weighted && i < noise.size(); ++i) {
+      // Outside, Huber's loss is only linear.
+      if (huber && !Huber::Inside(residual.r[i])) continue;
+      if (!pass->uses(residual.log, i)) continue;
       inside.Add(i, residual.row.U.row(i), residual.row.Y[i]);
     }
   });
   LinearSolution linearised = solution;
-  if (huber) {  // the loss is only linear for residuals outside
+  if (solution.weighted) {
     linearised.gain = SolveWeighted(inside, noise, reference).gain;
   }
   CovarianceEstimate estimate;

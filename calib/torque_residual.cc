@@ -54,7 +54,9 @@ TorqueResidual::Figures TorqueResidual::MakeFigures(const Sums& sums) {
   for (int j = 0; j < f.percent.size(); ++j) {
     if (sums.torque[j] <= 0) f.percent[j] = std::nan("");
   }
-  f.stacked_percent = 100 * std::sqrt(sums.residual.sum() / sums.torque.sum());
+  const double torque = sums.torque.sum();
+  f.stacked_percent =
+      torque > 0 ? 100 * std::sqrt(sums.residual.sum() / torque) : std::nan("");
   return f;
 }
 

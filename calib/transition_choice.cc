@@ -48,6 +48,7 @@ class Chooser {
       (coulomb ? candidates_[p.block] : always_).push_back(c);
     }
     choice_.assign(factor.num_joints(), 0);
+    gain_.resize(factor.num_joints());
     Weigh();
   }
 
@@ -59,6 +60,17 @@ class Chooser {
       ReestimateNoise();
     }
     return choice_;
+  }
+
+  // After Choose(): where the best candidate's gain peaks, in grid steps from
+  // it, by a parabola through its neighbours.
+  double Peak(int joint) const {
+    const std::vector<double>& g = gain_[joint];
+    const int k = choice_[joint];
+    if (k == 0 || k + 1 >= static_cast<int>(g.size())) return 0;
+    const double curvature = g[k - 1] - 2 * g[k] + g[k + 1];
+    if (!(curvature < 0)) return 0;
+    return std::clamp(0.5 * (g[k - 1] - g[k + 1]) / curvature, -0.5, 0.5);
   }
 
  private:
@@ -92,14 +104,15 @@ class Chooser {
         (qr.householderQ().transpose() * weighted_.rightCols<1>())
             .bottomRows(weighted_.rows() - qr.rank());
     double best = -1;
+    gain_[joint].assign(candidates_[joint].size(), 0);
     for (size_t k = 0; k < candidates_[joint].size(); ++k) {
       const VectorXd column = weighted_.col(candidates_[joint][k]);
       const VectorXd c = (qr.householderQ().transpose() * column)
                              .bottomRows(weighted_.rows() - qr.rank());
       if (c.norm() < 1e-8 * column.norm()) continue;
-      const double gain = std::pow(c.dot(y) / c.norm(), 2);
-      if (gain <= best) continue;
-      best = gain;
+      gain_[joint][k] = std::pow(c.dot(y) / c.norm(), 2);
+      if (gain_[joint][k] <= best) continue;
+      best = gain_[joint][k];
       choice_[joint] = static_cast<int>(k);
     }
   }
@@ -124,29 +137,70 @@ class Chooser {
   std::vector<int> always_;
   std::vector<std::vector<int>> candidates_;
   std::vector<int> choice_;
+  std::vector<std::vector<double>> gain_;  // of every candidate, per joint
 };
 
-void AddLogGrid(Law law, double low, double high, int count,
-                std::vector<CoulombTransition>* grid) {
-  for (int k = 0; k < count; ++k) {
-    const double width = low * std::pow(high / low, k / (count - 1.0));
-    grid->push_back({law, width});
+struct LogGrid {
+  double low, high;
+  int count;
+
+  double ratio() const { return std::pow(high / low, 1 / (count - 1.0)); }
+  void AddTo(Law law, std::vector<CoulombTransition>* transitions) const {
+    for (int k = 0; k < count; ++k) {
+      transitions->push_back(
+          {law, low * std::pow(high / low, k / (count - 1.0))});
+    }
   }
-}
+};
+
+constexpr LogGrid kVelocities = {1e-3, 0.3, 18};
+constexpr LogGrid kDisplacements = {1e-4, 2e-2, 15};
 
 }  // namespace
 
 std::vector<CoulombTransition> CandidateTransitions() {
   std::vector<CoulombTransition> grid;
-  AddLogGrid(Law::kVelocity, 1e-3, 0.3, 18, &grid);
-  AddLogGrid(Law::kDisplacement, 1e-4, 2e-2, 15, &grid);
+  kVelocities.AddTo(Law::kVelocity, &grid);
+  kDisplacements.AddTo(Law::kDisplacement, &grid);
   return grid;
+}
+
+std::vector<CoulombTransition> FinerTransitions(
+    const CoulombTransition& coarse) {
+  const LogGrid& grid =
+      coarse.law == Law::kVelocity ? kVelocities : kDisplacements;
+  const LogGrid finer = {std::max(grid.low, coarse.width / grid.ratio()),
+                         std::min(grid.high, coarse.width * grid.ratio()), 9};
+  std::vector<CoulombTransition> transitions;
+  finer.AddTo(coarse.law, &transitions);
+  return transitions;
 }
 
 std::vector<int> ChooseTransitions(const BlockTriangularFactor& factor,
                                    const ModelParameters& parameters,
                                    const VectorXd& noise) {
   return Chooser(factor, parameters, noise).Choose();
+}
+
+std::vector<CoulombTransition> RefineTransitions(
+    const BlockTriangularFactor& factor, const ModelParameters& parameters,
+    const VectorXd& noise) {
+  Chooser chooser(factor, parameters, noise);
+  const std::vector<int> choice = chooser.Choose();
+  std::vector<std::vector<CoulombTransition>> candidates(choice.size());
+  for (const ModelParameter& p : parameters.parameters()) {
+    if (p.is_joint_term && p.term == JointTerm::kCoulomb) {
+      candidates[p.block].push_back(p.transition);
+    }
+  }
+  std::vector<CoulombTransition> refined;
+  for (size_t j = 0; j < choice.size(); ++j) {
+    CoulombTransition t = candidates[j][choice[j]];
+    const double ratio = candidates[j][1].width / candidates[j][0].width;
+    t.width *= std::pow(ratio, chooser.Peak(static_cast<int>(j)));
+    refined.push_back(t);
+  }
+  return refined;
 }
 
 }  // namespace armcal

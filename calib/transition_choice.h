@@ -23,4 +23,15 @@ std::vector<int> ChooseTransitions(const BlockTriangularFactor& factor,
                                    const ModelParameters& parameters,
                                    const Eigen::VectorXd& noise);
 
+// A finer grid about one of CandidateTransitions(): 9 widths of its law up to
+// its neighbours on either side, within the limits of the coarse grid.
+std::vector<CoulombTransition> FinerTransitions(
+    const CoulombTransition& coarse);
+
+// Like ChooseTransitions on finer grids, with the width between the grid's
+// where a parabola through the three best has its top.
+std::vector<CoulombTransition> RefineTransitions(
+    const BlockTriangularFactor& factor, const ModelParameters& parameters,
+    const Eigen::VectorXd& noise);
+
 }  // namespace armcal

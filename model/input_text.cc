@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
-std::string_view Trim(std::string_view text) {
-  const size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 bool IsUtf16(std::string_view text) {
   return text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF";
 }
@@ -46,7 +40,8 @@ std::string ReadTextFile(const std::string& path, long max_bytes) {
         path, "", "",
         "expected at most " + std::to_string(max_bytes >> 20) + " MiB");
   }
-  if (Trim(text).empty()) throw InputError(path, "", "", "the file is empty");
+  if (Trim(text, kBlanks).empty())
+    throw InputError(path, "", "", "the file is empty");
   if (IsUtf16(text)) {
     throw InputError(path, "", "", "is UTF-16: expected UTF-8 text");
   }
@@ -56,8 +51,14 @@ std::string ReadTextFile(const std::string& path, long max_bytes) {
   return text;
 }
 
+std::string_view Trim(std::string_view text, std::string_view of) {
+  const size_t first = text.find_first_not_of(of);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(of) - first + 1);
+}
+
 std::optional<double> ParseNumber(std::string_view text) {
-  text = Trim(text);
+  text = Trim(text, kBlanks);
   double value = 0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -67,7 +68,7 @@ std::optional<double> ParseNumber(std::string_view text) {
 
 std::vector<std::string_view> SplitWords(std::string_view text) {
   std::vector<std::string_view> words;
-  for (text = Trim(text); !text.empty(); text = Trim(text)) {
+  for (text = Trim(text, kBlanks); !text.empty(); text = Trim(text, kBlanks)) {
     const size_t length = std::min(text.find_first_of(kBlanks), text.size());
     words.push_back(text.substr(0, length));
     text.remove_prefix(length);

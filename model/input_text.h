@@ -11,6 +11,9 @@ namespace armcal {
 // empty, larger than `max_bytes`, UTF-16 or contains NUL bytes.
 std::string ReadTextFile(const std::string& path, long max_bytes);
 
+// `text` without the characters in `of` at both ends.
+std::string_view Trim(std::string_view text, std::string_view of = " ");
+
 // The number that `text` is, blanks around it aside; nothing where any of it is
 // left over ("2kg", "2,5"). The number may be nan or inf.
 std::optional<double> ParseNumber(std::string_view text);

@@ -28,13 +28,6 @@ void AddTo(std::string* list, std::string_view item) {
   *list += item;
 }
 
-bool IsNumber(const std::string& text) {
-  double value;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end;
-}
-
 // 12 for the name "q12" and the prefix "q"; -1 where that is not its shape.
 int NumberAfter(std::string_view prefix, std::string_view name) {
   if (name.substr(0, prefix.size()) != prefix) return -1;
@@ -67,7 +60,8 @@ LogColumns::LogColumns(const std::string& file, std::string_view header,
   if (header.find('\r') != header.npos) {
     Refuse("the lines end in CR alone; save the file with LF or CRLF");
   }
-  if (std::all_of(names_.begin(), names_.end(), IsNumber)) {
+  if (std::all_of(names_.begin(), names_.end(),
+                  [](const auto& name) { return ParseNumber(name); })) {
     Refuse("expected a header that names the columns, as in t,q1,tau1");
   }
   if (size() == 1) {

@@ -17,7 +17,7 @@ bool IsTiny(std::string_view number) {
   return number.find("e-") != number.npos || number.find("E-") != number.npos;
 }
 
-bool ParseNumber(std::string_view field, double* value) {
+bool ParseSample(std::string_view field, double* value) {
   const std::string_view number = TrimNumber(field);
   const char* end = number.data() + number.size();
   const auto [stop, error] = std::from_chars(number.data(), end, *value);
@@ -80,7 +80,7 @@ const char* LogRow::ParseField(const char* p, const char* end,
   const bool whole = stop == end || *stop == separator_;
   if (whole && error == std::errc() && std::isfinite(*value)) return stop;
   end = EndOfField(p, end);
-  return ParseNumber(std::string_view(p, end - p), value) ? end : nullptr;
+  return ParseSample(std::string_view(p, end - p), value) ? end : nullptr;
 }
 
 bool LogRow::Parse(std::string_view line, double* values,
@@ -122,7 +122,7 @@ void LogRow::Refuse(std::string_view line, long row, bool cut) const {
     p = Skip(p, end, step.skip);
     const std::string_view field(p, EndOfField(p, end) - p);
     double value;
-    if (step.place == kTime || ParseNumber(field, &value)) continue;
+    if (step.place == kTime || ParseSample(field, &value)) continue;
     throw InputError(file_,
                      place + ", column " + columns_.name(step.column.index),
                      OneLine(Trim(field)), ExpectedNumber(field));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/input_text.h"
+
 namespace armcal {
 namespace {
 
@@ -54,12 +56,6 @@ bool FindTimeUnit(std::string_view name, int* decimals) {
     return true;
   }
   return false;
-}
-
-std::string_view Trim(std::string_view text, std::string_view of) {
-  const size_t first = text.find_first_not_of(of);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(of) - first + 1);
 }
 
 std::string_view SplitUnit(std::string_view name, std::string_view* unit) {

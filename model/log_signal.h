@@ -35,8 +35,6 @@ bool IsTimeName(std::string_view name);
 // Whether time may be counted in this unit, 10^-decimals s.
 bool FindTimeUnit(std::string_view name, int* decimals);
 
-// Cuts characters in `of` from both ends.
-std::string_view Trim(std::string_view text, std::string_view of = " ");
 // Splits "q1 [deg]" into name and unit; the unit is empty where there is none.
 std::string_view SplitUnit(std::string_view name, std::string_view* unit);
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "model/input_error.h"
+#include "model/input_text.h"
 #include "model/log_columns.h"
 #include "model/log_row.h"
 #include "model/text_source.h"

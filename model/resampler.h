@@ -24,7 +24,7 @@ class Resampler {
   void DropBefore(long index);
   // Grid points [begin, end): positions etc. into the matrices of *out (t as
   // well). Exact samples where the time base is uniform, else cubic through
-  // the four nearest samples.
+  // the four nearest samples, or linear where their stamps nearly coincide.
   void Sample(long begin, long end, Log* out) const;
 
  private:

@@ -13,11 +13,28 @@ namespace {
 
 constexpr int kBlockRows = 1024;
 constexpr double kStandstillSpeed = 1e-3;  // rad/s or m/s
+constexpr double kSpeedTime = 0.2;         // s, over which speed is judged
 constexpr double kStandstillTime = 0.5;    // s
 constexpr double kCoreTime = 16;           // s
 constexpr long kMaxCore = 20000;           // samples
 
-void MarkStandstill(Trajectory* t) {
+// Mean velocity over kSpeedTime around each sample (less at the ends).
+Eigen::MatrixXd MeanVelocity(const Eigen::MatrixXd& q, double dt) {
+  const Eigen::Index n = q.rows();
+  const Eigen::Index half = std::max<Eigen::Index>(
+      1, static_cast<Eigen::Index>(std::lround(kSpeedTime / 2 / dt)));
+  Eigen::MatrixXd v(n, q.cols());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::Index a = std::max<Eigen::Index>(0, k - half);
+    const Eigen::Index b = std::min(n - 1, k + half);
+    v.row(k) = (q.row(b) - q.row(a)) /
+               (dt * static_cast<double>(std::max<Eigen::Index>(1, b - a)));
+  }
+  return v;
+}
+
+// `reach`: how many samples on each side of its own a velocity stands for.
+void MarkStandstill(const Eigen::MatrixXd& velocity, int reach, Trajectory* t) {
   const int n = t->size();
   const int least =
       std::max(1, static_cast<int>(std::ceil(kStandstillTime / t->dt - 1e-9)));
@@ -25,9 +42,13 @@ void MarkStandstill(Trajectory* t) {
   int begin = 0;
   for (int k = 0; k <= n; ++k) {
     const bool still =
-        k < n && t->qd.row(k).cwiseAbs().maxCoeff() < kStandstillSpeed;
+        k < n && velocity.row(k).cwiseAbs().maxCoeff() < kStandstillSpeed;
     if (still) continue;
-    if (k - begin >= least) t->standstill.segment(begin, k - begin) = true;
+    const int first = begin == 0 ? 0 : std::max(0, begin - reach);
+    const int last = std::min(n, k + reach);
+    if (k > begin && last - first >= least) {
+      t->standstill.segment(first, last - first) = true;
+    }
     begin = k + 1;
   }
 }
@@ -42,7 +63,7 @@ Eigen::MatrixXd Thin(const Eigen::MatrixXd& x, long factor) {
 }  // namespace
 
 double DefaultBandwidth(const std::vector<TimeBase>& time_bases) {
-  double wish = 4, limit = 20;
+  double wish = 8, limit = 20;
   for (const TimeBase& base : time_bases) {
     wish = std::max(wish, 10 * base.motion_hz);
     limit = std::min(limit, 0.2 / base.dt);
@@ -59,7 +80,9 @@ struct TrajectoryReader::Impl {
         base(time_base),
         bandwidth(options_in.bandwidth_hz),
         resampler(base.dt, base.uniform) {
-    const double reach = options.reach_s + kStandstillTime + 4 * base.dt +
+    const double whole = base.range.end - base.range.begin;
+    const double reach = std::min(options.reach_s, whole) + kStandstillTime +
+                         4 * base.dt +
                          (bandwidth > 0 ? 2 * LowPassMemory(bandwidth) : 0);
     if (bandwidth > 0) {
       thin = std::max(1L, static_cast<long>(1 / (16 * bandwidth * base.dt)));
@@ -150,6 +173,14 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
   t.dt = base.dt;
   t.tau = std::move(samples.tau);
   const bool raw = bandwidth <= 0;
+  // Standstill is judged on what the band of the fit has not smeared.
+  Eigen::MatrixXd velocity =
+      raw ? samples.qd
+          : MeanVelocity(ZeroPhaseLowPass(samples.q, 1 / base.dt, 4 * bandwidth,
+                                          Ends::kExtrapolate),
+                         base.dt);
+  const bool recorded = raw && velocity.size() > 0;
+  if (velocity.size() == 0) velocity = MeanVelocity(samples.q, base.dt);
   t.q = raw ? std::move(samples.q)
             : ZeroPhaseLowPass(samples.q, 1 / base.dt, bandwidth,
                                Ends::kExtrapolate);
@@ -159,14 +190,17 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
                                         : Differentiate(t.qd, t.dt);
   if (thin > 1) {
     t.tau = Thin(ZeroPhaseLowPass(t.tau, 1 / t.dt, 4 * bandwidth), thin);
-    for (Eigen::MatrixXd* x : {&t.q, &t.qd, &t.qdd}) *x = Thin(*x, thin);
+    for (Eigen::MatrixXd* x : {&t.q, &t.qd, &t.qdd, &velocity}) {
+      *x = Thin(*x, thin);
+    }
     t.dt *= static_cast<double>(thin);
   }
   t.segment = segment;
   t.first_index = begin / thin;
   t.core_begin = static_cast<int>((core_begin - begin) / thin);
   t.core_end = static_cast<int>((core_end - begin + thin - 1) / thin);
-  MarkStandstill(&t);
+  MarkStandstill(velocity,
+                 recorded ? 0 : static_cast<int>(kSpeedTime / 2 / t.dt), &t);
   return t;
 }
 

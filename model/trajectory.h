@@ -22,7 +22,9 @@ struct Trajectory {
   Eigen::MatrixXd qd;   // rad/s or m/s
   Eigen::MatrixXd qdd;  // rad/s^2 or m/s^2
   Eigen::MatrixXd tau;  // N m or N, as recorded up to 4 times the bandwidth
-  // All |qd| below 1e-3 rad/s (m/s) for 0.5 s or longer.
+  // All |qd| below 1e-3 rad/s (m/s) for 0.5 s or longer; qd here is the mean
+  // over 0.2 s of positions low-passed at 4 times the bandwidth, which rings
+  // less after a stop than `qd`.
   Eigen::Array<bool, Eigen::Dynamic, 1> standstill;
   int segment = 0;       // which stretch between gaps, from 0
   long first_index = 0;  // grid index of row 0 in its segment
@@ -44,8 +46,9 @@ struct TrajectoryOptions {
 };
 
 // A bandwidth for logs whose time bases are these: 10 times the fastest
-// motion's frequency, between 4 and 20 Hz, and at most a fifth of every sample
-// rate.
+// motion's frequency, between 8 and 20 Hz (friction changes sign, and
+// accelerations begin, faster than the bulk of the motion), and at most a fifth
+// of every sample rate.
 double DefaultBandwidth(const std::vector<TimeBase>& time_bases);
 
 // Cuts a log into trajectories of bounded length, so that a log of any length

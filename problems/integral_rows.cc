@@ -1,6 +1,8 @@
 #include "problems/integral_rows.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace armcal {
 namespace {
@@ -38,6 +40,7 @@ std::vector<std::pair<int, int>> IntervalSamples(const Trajectory& t,
     }
     return result;
   }
+  if (options.interval_s > t.size() * t.dt) return result;
   long steps = std::max(1L, std::lround(options.interval_s / t.dt));
   if (options.quadrature == Quadrature::kSimpson) steps += steps % 2;
   for (int a = t.core_begin; a < t.core_end; ++a) {

@@ -65,6 +65,7 @@ class WindowSums {
 
 void ForEachWeakRow(const Trajectory& trajectory, const RowOptions& options,
                     MotionFunctions* functions, const RowSink& sink) {
+  if (options.window_s > trajectory.size() * trajectory.dt) return;
   const int n = trajectory.num_joints();
   const int steps = std::max(
       8, static_cast<int>(std::lround(options.window_s / trajectory.dt)));

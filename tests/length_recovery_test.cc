@@ -51,8 +51,8 @@ struct Lengths {
   }
   std::map<std::string, RecoveredLength> Recover(const VectorXd& x) const {
     std::map<std::string, RecoveredLength> lengths;
-    for (const RecoveredLength& l :
-         RecoverLengths(parameters, x, covariance, solution.identifiable)) {
+    for (const RecoveredLength& l : RecoverLengths(
+             parameters, x, covariance, covariance, solution.identifiable)) {
       lengths.emplace(l.symbol, l);
     }
     return lengths;

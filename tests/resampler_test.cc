@@ -179,5 +179,21 @@ TEST(Resampler, TakesShortSegmentsAndClears) {
   EXPECT_EQ(out.q(0, 0), -4);
 }
 
+// A microsecond between two samples, as when messages arrive late and at once:
+// the noise of a sample must not be multiplied.
+TEST(Resampler, NearlyEqualStampsMakeNoSpikes) {
+  const double dt = .01;
+  std::vector<double> times;
+  for (int k = 0; k < 50; ++k) {
+    times.push_back(k % 7 == 3 ? (k + 1) * dt - 1e-6 : k * dt);
+  }
+  Log log = MakeLog(times, [](double) { return 0.; });
+  for (int k = 0; k < log.size(); ++k) log.q(k, 0) = k % 2 == 0 ? 1 : -1;
+  const Resampler resampler = Fill(log, .99 * dt, false);
+  Log out;
+  resampler.Sample(0, resampler.NumGridPoints(), &out);
+  EXPECT_LE(out.q.col(0).cwiseAbs().maxCoeff(), 10);
+}
+
 }  // namespace
 }  // namespace armcal

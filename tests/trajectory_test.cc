@@ -113,8 +113,8 @@ TEST(DefaultBandwidth, FollowsTheMotionAndTheRate) {
     }
     return DefaultBandwidth(bases);
   };
-  EXPECT_EQ(bandwidth({{.1, .001}}), 4);
-  EXPECT_EQ(bandwidth({{.7, .001}}), 7);
+  EXPECT_EQ(bandwidth({{.1, .001}}), 8);
+  EXPECT_EQ(bandwidth({{.85, .001}}), 8.5);
   EXPECT_EQ(bandwidth({{.7, .001}, {.9, .001}}), 9);
   EXPECT_EQ(bandwidth({{5, .001}}), 20);
   EXPECT_EQ(bandwidth({{5, .02}, {1, .001}}), 10);

@@ -2,6 +2,7 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -43,7 +44,7 @@ DEFINE_string(intervals, "",
               "integral model: t1:t2[,t3:t4...], s; default: side by side");
 DEFINE_double(interval, 0.5, "integral model: length of intervals, s");
 DEFINE_string(quadrature, "trapezoid", "integral model: trapezoid, simpson");
-DEFINE_string(estimate, "refined",
+DEFINE_string(estimate, "linear",
               "refined (also a physically consistent robot file for "
               "simulators), linear (model parameters only)");
 DEFINE_double(trust, 0.5,
@@ -73,12 +74,17 @@ std::vector<JointTerm> JointTermsFromFlags() {
   std::vector<JointTerm> terms;
   if (FLAGS_joint_terms == "none") return terms;
   for (const std::string& name : SplitAtCommas(FLAGS_joint_terms)) {
-    terms.push_back(
+    const JointTerm term =
         ParseChoice<JointTerm>("joint_terms", name,
                                {{"viscous", JointTerm::kViscous},
                                 {"coulomb", JointTerm::kCoulomb},
                                 {"offset", JointTerm::kOffset},
-                                {"armature", JointTerm::kArmature}}));
+                                {"armature", JointTerm::kArmature}});
+    if (std::count(terms.begin(), terms.end(), term) > 0) {
+      throw UsageError("--joint_terms: found '" + FLAGS_joint_terms +
+                       "', expected " + name + " only once");
+    }
+    terms.push_back(term);
   }
   return terms;
 }
@@ -197,9 +203,11 @@ int RunCalibrate() {
   PhysicalCalibrationOptions refine;
   refine.trust = TrustFromFlags();
   const LogReaderOptions log_options = LogOptionsFromFlags(robot);
+  CheckLogsApart();
   const TimeRange crop = CropFromFlags();
   LogSet training(LogsFromFlags(), log_options, crop);
-  LogSet validation(ValidationLogsFromFlags(), log_options, TimeRange());
+  LogSet validation(ValidationLogsFromFlags(), log_options,
+                    ValidationCropFromFlags());
   LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
 
   ProgressBar bar;
@@ -230,7 +238,7 @@ int RunCalibrate() {
     report += "no robot file: " + why_not + "\n";
   }
   out.Add("calibration.json", json.dump(2) + "\n");
-  if (result.solved) out.Add("covariance.csv", CovarianceCsv(result));
+  out.Add("covariance.csv", CovarianceCsv(result));
   out.Write();
   for (const std::string& note : robot.notes) {
     std::cout << "note       " << note << "\n";

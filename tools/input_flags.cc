@@ -2,6 +2,7 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/input_text.h"
@@ -24,10 +25,12 @@ DEFINE_string(torque_kind, "auto",
               "gear ratio), current, command");
 DEFINE_string(bandwidth, "",
               "cutoff of the zero-phase low pass, Hz; 0: data as they are; "
-              "default: 10 times the motion's frequency, 4 to 20 Hz");
+              "default: 10 times the motion's frequency, 8 to 20 Hz");
 DEFINE_string(crop, "",
-              "use only t0:t1, s since the log's first row; default: all "
+              "use only t0:t1 of --log, s since its first row; default: all "
               "(standstill is left out by itself)");
+DEFINE_string(validate_crop, "",
+              "use only t0:t1 of the logs held out; default: all");
 DEFINE_string(out, "", "folder for the result files; default: write none");
 
 namespace armcal {
@@ -55,18 +58,11 @@ double ParseOne(const std::string& flag, const std::string& text) {
 }  // namespace
 
 const std::vector<std::string>& InputFlagNames() {
-  static const std::vector<std::string> kNames = {"robot",
-                                                  "log",
-                                                  "validate",
-                                                  "out",
-                                                  "bandwidth",
-                                                  "crop",
-                                                  "base",
-                                                  "tip",
-                                                  "gravity",
-                                                  "torque_kind",
-                                                  "torque_constants",
-                                                  "gear_ratios"};
+  static const std::vector<std::string> kNames = {
+      "robot",      "log",     "validate",      "out",
+      "bandwidth",  "crop",    "validate_crop", "base",
+      "tip",        "gravity", "torque_kind",   "torque_constants",
+      "gear_ratios"};
   return kNames;
 }
 
@@ -162,10 +158,42 @@ std::vector<std::string> ValidationLogsFromFlags() {
   return FileNames("validate", FLAGS_validate);
 }
 
-TimeRange CropFromFlags() {
-  const std::vector<TimeRange> ranges = ParseRanges("crop", FLAGS_crop);
-  if (ranges.size() > 1) throw UsageError("--crop takes one range, t0:t1");
+namespace {
+
+TimeRange OneRange(const std::string& flag, const std::string& text) {
+  const std::vector<TimeRange> ranges = ParseRanges(flag, text);
+  if (ranges.size() > 1) {
+    throw UsageError("--" + flag + " takes one range, t0:t1");
+  }
   return ranges.empty() ? TimeRange() : ranges[0];
+}
+
+void RefuseTwice(const std::string& flag, std::vector<std::string> logs) {
+  std::sort(logs.begin(), logs.end());
+  const auto twice = std::adjacent_find(logs.begin(), logs.end());
+  if (twice == logs.end()) return;
+  throw UsageError("--" + flag + " names " + *twice +
+                   " twice, which would count its evidence twice");
+}
+
+}  // namespace
+
+TimeRange CropFromFlags() { return OneRange("crop", FLAGS_crop); }
+TimeRange ValidationCropFromFlags() {
+  return OneRange("validate_crop", FLAGS_validate_crop);
+}
+
+void CheckLogsApart() {
+  const std::vector<std::string> logs = LogsFromFlags();
+  RefuseTwice("log", logs);
+  RefuseTwice("validate", ValidationLogsFromFlags());
+  if (!FLAGS_crop.empty() && !FLAGS_validate_crop.empty()) return;
+  for (const std::string& log : ValidationLogsFromFlags()) {
+    if (std::count(logs.begin(), logs.end(), log) == 0) continue;
+    throw UsageError("--validate names " + log +
+                     ", which --log calibrates on; give --crop and "
+                     "--validate_crop to use a part of it for each");
+  }
 }
 
 std::optional<double> BandwidthFromFlags() {

@@ -20,8 +20,12 @@ std::string RobotPathFromFlags();
 std::vector<std::string> LogsFromFlags();            // --log
 std::vector<std::string> ValidationLogsFromFlags();  // --validate
 TimeRange CropFromFlags();                           // --crop
-std::optional<double> BandwidthFromFlags();          // --bandwidth
-std::string OutFromFlags();                          // --out
+TimeRange ValidationCropFromFlags();                 // --validate_crop
+// Refuses a log that is named twice, or held out whole from what it is
+// calibrated on.
+void CheckLogsApart();
+std::optional<double> BandwidthFromFlags();  // --bandwidth
+std::string OutFromFlags();                  // --out
 
 // "1,2.5" and "0:0.5,1:1.5"; `flag` names the flag in the message.
 std::vector<double> ParseNumbers(const std::string& flag,

@@ -3,6 +3,7 @@
 #include <gflags/gflags.h>
 #include <glog/logging.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -59,12 +60,19 @@ int Main(int argc, char** argv) {
   RefuseCommand(argv[1]);
 }
 
+// After glog has said which CHECK failed.
+[[noreturn]] void FailInternally() {
+  std::cerr << "This is a bug in armcal; please report it.\n";
+  std::_Exit(kExitInternal);
+}
+
 }  // namespace
 }  // namespace armcal
 
 int main(int argc, char** argv) {
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);
+  google::InstallFailureFunction(&armcal::FailInternally);
   try {
     return armcal::Main(argc, argv);
   } catch (const armcal::UsageError& error) {

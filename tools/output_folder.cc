@@ -43,15 +43,15 @@ void OutputFolder::Write() const {
     for (const auto& [name, content] : files_) {
       WriteFile(folder / (name + ending), content);
     }
+    for (const auto& file : files_) {
+      fs::rename(folder / (file.first + ending), folder / file.first, error);
+      if (error) Refuse(folder / file.first, error.message());
+    }
   } catch (...) {
     for (const auto& file : files_) {
       fs::remove(folder / (file.first + ending), error);
     }
     throw;
-  }
-  for (const auto& file : files_) {
-    fs::rename(folder / (file.first + ending), folder / file.first, error);
-    if (error) Refuse(folder / file.first, error.message());
   }
 }
 

@@ -59,11 +59,16 @@ void SetFlag(const Command& command, const std::string& name,
         (nearest.empty() ? "" : "; did you mean --" + nearest + "?") +
         "; see armcal " + command.name + " --help");
   }
+  gflags::CommandLineFlagInfo info;
+  gflags::GetCommandLineFlagInfo(name.c_str(), &info);
+  if (!info.is_default) {
+    throw UsageError("--" + name +
+                     " is given twice; several values go into one flag, with "
+                     "commas between them");
+  }
   if (!gflags::SetCommandLineOption(name.c_str(), value.c_str()).empty()) {
     return;
   }
-  gflags::CommandLineFlagInfo info;
-  gflags::GetCommandLineFlagInfo(name.c_str(), &info);
   throw UsageError("--" + name + ": found '" + value + "', expected " +
                    TypeText(info.type));
 }

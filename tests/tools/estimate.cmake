@@ -24,7 +24,7 @@ if(NOT estimate STREQUAL "linear")
   fail("calibration.json: estimate ${estimate}")
 endif()
 
-run("refined, the default" calibrate ${flags} --out=refined)
+run("refined" calibrate ${flags} --estimate=refined --out=refined)
 expect_code(0)
 expect_empty(err)
 expect_text(out "robot for a simulator" "residual of this robot" "held out"
@@ -48,7 +48,8 @@ endforeach()
 
 # The file that was written is a robot file; from there nothing changes.
 run("robot.urdf again" calibrate --robot=refined/robot.urdf --gravity=0,0,9.8
-    --log=${DATA_DIR}/scara/B.csv.gz --joint_terms=none --bandwidth=0 --out=again)
+    --log=${DATA_DIR}/scara/B.csv.gz --joint_terms=none --bandwidth=0
+    --estimate=refined --out=again)
 expect_code(0)
 expect_text(out "17.55" "7.55" "robot for a simulator")
 if(NOT EXISTS ${WORK_DIR}/again/robot_without_meshes.urdf)
@@ -59,7 +60,8 @@ file(READ ${WORK_DIR}/scara.yaml yaml)
 string(REPLACE "mass: 2, inertia: [0.1, 0.1, 0.1]" "d: 0" yaml "${yaml}")
 file(WRITE ${WORK_DIR}/massless.yaml "${yaml}")
 run("no mass to start from" calibrate --robot=massless.yaml
-    --log=${DATA_DIR}/scara/B.csv.gz --joint_terms=none --bandwidth=0)
+    --log=${DATA_DIR}/scara/B.csv.gz --joint_terms=none --bandwidth=0
+    --estimate=refined)
 expect_code(0)
 expect_text(out "no robot file: the robot file gives link link3 no mass")
 

@@ -38,6 +38,11 @@ string(JSON converged GET "${json}" termination converged)
 if(converged)
   fail("calibration.json claims to have converged")
 endif()
+file(STRINGS ${WORK_DIR}/refused/covariance.csv lines)
+list(LENGTH lines count)
+if(NOT count EQUAL 1)
+  fail("covariance.csv: the header alone expected")
+endif()
 run("set 2, batch" calibrate ${flags} ${set2} --solver=batch)
 expect_code(0)
 expect_text(out "17.55" "7.55")
@@ -52,3 +57,19 @@ run("weak form" calibrate --robot=${DATA_DIR}/scara/robot.yaml
     --geometry=lengths --joint_terms=none --bandwidth=0)
 expect_code(0)
 expect_text(out "weak form" "held out" "17.55" "7.55" "2.343" "0.176" "3.11" "0.35")
+
+# Eight equations per joint for twenty parameters: Huber's weights would solve
+# the wrist's exactly and drop all other joints beside them (November 2026).
+run("few equations" calibrate --robot=${DATA_DIR}/scara/robot.yaml
+    --log=${DATA_DIR}/scara/B.csv.gz --identification=integral)
+expect_code(0)
+expect_text(out "8 per joint" "rank       20 of 20" "independent errors (few equations)")
+if(out MATCHES "not seen" OR NOT out MATCHES "residual 0[.][0-9]+ % of the torque")
+  fail("all parameters seen and a residual below 1 % expected")
+endif()
+
+# No parameter is seen at all, so that no length can be (November 2026).
+run("too short" calibrate --robot=${DATA_DIR}/scara/robot.yaml
+    --log=${DATA_DIR}/scara/B.csv.gz --crop=0:0.5 --geometry=all_lengths)
+expect_code(0)
+expect_text(out "only products with moments seen" "directions not identifiable")

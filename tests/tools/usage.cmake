@@ -50,6 +50,8 @@ run("no log" calibrate ${robot})
 expect_refusal(2 "--log=FILE is needed")
 run("no value" calibrate --log)
 expect_refusal(2 "--log needs a value")
+run("two logs in two flags" calibrate ${robot} ${log} ${log})
+expect_refusal(2 "--log is given twice; several values go into one flag, with commas")
 run("an empty file name" calibrate ${robot} ${log},)
 expect_refusal(2 "--log: found '" "expected file names")
 
@@ -67,6 +69,7 @@ foreach(pair
     "--solver=fast|--solver: found 'fast', expected one of weighted, batch, recursive"
     "--geometry=x|--geometry: found 'x', expected one of known"
     "--joint_terms=stiction|--joint_terms: found 'stiction', expected one of viscous"
+    "--joint_terms=viscous,viscous|--joint_terms: found 'viscous,viscous', expected viscous only once"
     "--coulomb_width=2deg|--coulomb_width: found '2deg', expected auto")
   string(REPLACE "|" ";" pair "${pair}")
   list(GET pair 0 flag)
@@ -74,3 +77,15 @@ foreach(pair
   run("${flag}" calibrate ${robot} ${log} ${flag} --out=out)
   expect_refusal(2 "${message}")
 endforeach()
+
+# Absurd lengths: refused or a result, never a crash (November 2026).
+run("a bandwidth below the log's" calibrate ${robot} ${log} --bandwidth=1e-9)
+expect_refusal(3 "--bandwidth: found '1e-09'" "period is shorter than the log, 4 s")
+foreach(flags "--window=1e300" "--identification=integral;--interval=1e300")
+  run("${flags}" calibrate ${robot} ${log} ${flags})
+  expect_code(1)
+  expect_text(out "no stretch of motion that is long enough")
+endforeach()
+run("an endless interval" calibrate ${robot} ${log} --identification=integral
+    --intervals=0:1e300)
+expect_refusal(3 "--intervals: 1 of 1 intervals cannot be used")

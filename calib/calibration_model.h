@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/linear_calibration.h"
+#include "calib/log_set.h"
+#include "model/joint_term.h"
+#include "model/model_parameters.h"
+#include "model/robot.h"
+#include "problems/identification_rows.h"
+
+namespace armcal {
+
+// Per joint, the transitions of Coulomb friction that have a column; no joints
+// where the model has no Coulomb friction.
+using Transitions = std::vector<std::vector<CoulombTransition>>;
+
+// The rows and the parameters that calibration options ask for.
+RowOptions MakeRowOptions(const LinearCalibrationOptions& options,
+                          const LogSet& training);
+ModelParameters MakeParameters(const Robot& robot,
+                               const LinearCalibrationOptions& options,
+                               const Transitions& transitions);
+
+}  // namespace armcal

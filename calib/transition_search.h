@@ -1,0 +1,14 @@
+#pragma once
+
+#include "calib/calibration_model.h"
+
+namespace armcal {
+
+// One transition of Coulomb friction per joint, fitted on the training logs in
+// two passes (a coarse grid, a finer one about its best); none where the model
+// has no Coulomb friction; the options' own where they give one.
+Transitions FindTransitions(const Robot& robot,
+                            const LinearCalibrationOptions& options,
+                            const RowOptions& rows, LogSet* training);
+
+}  // namespace armcal
