@@ -67,6 +67,7 @@ json JointsJson(const Robot& robot, const LinearCalibration& result) {
       AddFigures(*result.validation, "validation_", i, &entry);
     }
     if (!result.outliers.empty()) entry["outliers"] = result.outliers[i];
+    if (result.training) entry["spikes"] = result.training->spikes(i);
     if (!result.transitions.empty()) {
       entry["coulomb_transition"] =
           TransitionJson(result.transitions[i], joint.type);

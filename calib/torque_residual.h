@@ -32,6 +32,9 @@ class TorqueResidual {
   Figures whole() const { return MakeFigures(whole_); }
   // The share of samples that standstill excludes.
   double excluded_share() const;
+  // Torque samples per joint that were taken for spikes: left out of the fit,
+  // but not of these figures.
+  long spikes(int joint) const { return spikes_[joint]; }
   long samples() const { return static_cast<long>(whole_.count); }
 
  private:
@@ -42,6 +45,7 @@ class TorqueResidual {
   static Figures MakeFigures(const Sums& sums);
 
   Sums moving_, whole_;
+  Eigen::Array<long, 1, Eigen::Dynamic> spikes_;
 };
 
 }  // namespace armcal

@@ -7,6 +7,7 @@
 
 #include "model/low_pass.h"
 #include "model/resampler.h"
+#include "model/spikes.h"
 
 namespace armcal {
 namespace {
@@ -173,6 +174,14 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
   t.dt = base.dt;
   t.tau = std::move(samples.tau);
   const bool raw = bandwidth <= 0;
+  t.tau_recorded = t.tau;
+  if (!raw && t.tau.size() > 0) {
+    t.spikes = RemoveSpikes(&t.tau)
+                   .middleRows(core_begin - begin, core_end - core_begin)
+                   .cast<long>()
+                   .colwise()
+                   .sum();
+  }
   // Standstill is judged on what the band of the fit has not smeared.
   Eigen::MatrixXd velocity =
       raw ? samples.qd
@@ -189,7 +198,9 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
   t.qdd = raw && samples.qdd.size() > 0 ? std::move(samples.qdd)
                                         : Differentiate(t.qd, t.dt);
   if (thin > 1) {
-    t.tau = Thin(ZeroPhaseLowPass(t.tau, 1 / t.dt, 4 * bandwidth), thin);
+    for (Eigen::MatrixXd* x : {&t.tau, &t.tau_recorded}) {
+      *x = Thin(ZeroPhaseLowPass(*x, 1 / t.dt, 4 * bandwidth), thin);
+    }
     for (Eigen::MatrixXd* x : {&t.q, &t.qd, &t.qdd, &velocity}) {
       *x = Thin(*x, thin);
     }

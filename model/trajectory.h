@@ -21,11 +21,15 @@ struct Trajectory {
   Eigen::MatrixXd q;    // rad or m; low-passed unless the bandwidth is 0
   Eigen::MatrixXd qd;   // rad/s or m/s
   Eigen::MatrixXd qdd;  // rad/s^2 or m/s^2
-  Eigen::MatrixXd tau;  // N m or N, as recorded up to 4 times the bandwidth
+  Eigen::MatrixXd tau;  // N m or N, up to 4 times the bandwidth, no spikes
+  Eigen::MatrixXd tau_recorded;  // the same with its spikes
   // All |qd| below 1e-3 rad/s (m/s) for 0.5 s or longer; qd here is the mean
   // over 0.2 s of positions low-passed at 4 times the bandwidth, which rings
   // less after a stop than `qd`.
   Eigen::Array<bool, Eigen::Dynamic, 1> standstill;
+  // Per joint, samples of the core whose torque was a spike (spikes.h) and was
+  // replaced; empty with a bandwidth of 0, which takes data as they are.
+  Eigen::Array<long, 1, Eigen::Dynamic> spikes;
   int segment = 0;       // which stretch between gaps, from 0
   long first_index = 0;  // grid index of row 0 in its segment
   int core_begin = 0;

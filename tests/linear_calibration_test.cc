@@ -163,5 +163,19 @@ TEST_F(Ur5, HuberResistsSingleSamplesInTheDifferentialModel) {
   ExpectResists([&] { SpoilSamples(.02); }, 100, 1.5, true);
 }
 
+// Every window of the weak form holds some of these: they are taken out sample
+// by sample, before.
+TEST_F(Ur5, WeakFormResistsScatteredSamples) {
+  AddSensorNoise(.01);
+  const VectorXd clean = CalibrateLogs(robot_, {log_}, options_).stddev;
+  SpoilSamples(.05);
+  const LinearCalibration spoiled = CalibrateLogs(robot_, {log_}, options_);
+  EXPECT_LT(Normalised(spoiled, clean), 2);  // over 100 without
+  for (int j = 0; j < 6; ++j) {
+    EXPECT_NEAR(spoiled.training->spikes(j), .05 * log_.size(),
+                .01 * log_.size());
+  }
+}
+
 }  // namespace
 }  // namespace armcal

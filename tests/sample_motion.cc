@@ -140,7 +140,7 @@ Trajectory MakeTrajectory(const Log& log) {
   t.q = log.q;
   t.qd = log.qd;
   t.qdd = log.qdd;
-  t.tau = log.tau;
+  t.tau = t.tau_recorded = log.tau;
   t.standstill.setConstant(log.size(), false);
   t.core_end = log.size();
   return t;

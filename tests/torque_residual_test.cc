@@ -64,8 +64,8 @@ TEST_F(Residual, FiguresByHand) {
 TEST_F(Residual, StandstillIsLeftOutOfMovingOnly) {
   Trajectory t = MakeTrajectory(log_);
   t.standstill.head(100) = true;
-  t.tau.topRows(100).col(0).array() += 5;
-  t.tau.bottomRows(301).col(0).array() += 1;
+  t.tau_recorded.topRows(100).col(0).array() += 5;
+  t.tau_recorded.bottomRows(301).col(0).array() += 1;
   const TorqueResidual residual = Evaluate(t);
   EXPECT_NEAR(residual.moving().residual_rms[0], 1, 1e-12);
   EXPECT_NEAR(residual.whole().residual_rms[0],
@@ -77,9 +77,9 @@ TEST_F(Residual, CountsTheCoreOnly) {
   Trajectory t = MakeTrajectory(log_);
   t.core_begin = 50;
   t.core_end = 150;
-  t.tau.topRows(50).array() += 100;
-  t.tau.bottomRows(401 - 150).array() += 100;
-  t.tau.middleRows(50, 100).array() += .2;
+  t.tau_recorded.topRows(50).array() += 100;
+  t.tau_recorded.bottomRows(401 - 150).array() += 100;
+  t.tau_recorded.middleRows(50, 100).array() += .2;
   const TorqueResidual residual = Evaluate(t);
   EXPECT_EQ(residual.samples(), 100);
   EXPECT_NEAR(residual.whole().residual_rms[1], .2, 1e-12);
@@ -87,13 +87,13 @@ TEST_F(Residual, CountsTheCoreOnly) {
 
 TEST_F(Residual, TrajectoriesAddUp) {
   Trajectory t = MakeTrajectory(log_);
-  t.tau.array() += .1;
+  t.tau_recorded.array() += .1;
   const ModelParameters parameters(robot_, ModelParameters::Options());
   MotionRegressor regressor(parameters);
   regressor.Enter(t);
   TorqueResidual residual(2);
   residual.Add(t, parameters.Values(robot_), 0, &regressor);
-  t.tau.array() += .2;
+  t.tau_recorded.array() += .2;
   residual.Add(t, parameters.Values(robot_), 0, &regressor);
   EXPECT_EQ(residual.samples(), 802);
   EXPECT_NEAR(residual.whole().residual_rms[0], std::sqrt((.01 + .09) / 2),

@@ -1,0 +1,61 @@
+#include "model/spikes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+
+MatrixXd Noisy(int n, double sigma, std::mt19937_64* random) {
+  std::normal_distribution<double> normal(0, sigma);
+  MatrixXd x(n, 1);
+  for (int k = 0; k < n; ++k) {
+    x(k, 0) = 10 * std::sin(0.02 * k) + (std::sin(0.01 * k) > 0 ? 3 : -3) +
+              normal(*random);
+  }
+  return x;
+}
+
+// 5 % of the samples 20 standard deviations too high, wherever they fall.
+TEST(RemoveSpikes, FindsWhatSticksOut) {
+  std::mt19937_64 random(1);
+  const MatrixXd clean = Noisy(4000, 0.1, &random);
+  MatrixXd x = clean;
+  int planted = 0;
+  Eigen::Array<bool, Eigen::Dynamic, 1> is_spike(4000);
+  for (int k = 0; k < 4000; ++k) {
+    is_spike[k] = random() % 20 == 0;
+    if (is_spike[k]) x(k, 0) += 2;
+    planted += is_spike[k];
+  }
+  const auto replaced = RemoveSpikes(&x);
+  const int found = (replaced.col(0) && is_spike).count();
+  EXPECT_GE(found, 0.97 * planted);
+  EXPECT_GE(found, 0.99 * replaced.count());
+  EXPECT_LT((x - clean).cwiseAbs().mean(), 0.01);
+}
+
+TEST(RemoveSpikes, LeavesCleanSignalsAlone) {
+  std::mt19937_64 random(2);
+  MatrixXd noisy = Noisy(4000, 0.1, &random);
+  const MatrixXd before = noisy;
+  EXPECT_LE(RemoveSpikes(&noisy).count(), 2);
+  // Exact data: steps and smooth peaks, nothing to be 8 deviations from.
+  MatrixXd smooth(4000, 1);
+  for (int k = 0; k < 4000; ++k) {
+    smooth(k, 0) = 10 * std::sin(0.02 * k) + (k > 2000 ? 5 : 0);
+  }
+  EXPECT_EQ(RemoveSpikes(&smooth).count(), 0);
+  MatrixXd constant = MatrixXd::Constant(100, 1, 3);
+  constant(50, 0) = 4;  // most samples equal their neighbours: no scale
+  EXPECT_EQ(RemoveSpikes(&constant).count(), 0);
+  MatrixXd few = MatrixXd::Random(5, 2);
+  EXPECT_EQ(RemoveSpikes(&few).count(), 0);
+}
+
+}  // namespace
+}  // namespace armcal
