@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "calib/calibration_report.h"
+#include "calib/json_figures.h"
 
 namespace armcal {
 namespace {
@@ -19,9 +20,6 @@ const char* SolverName(LinearSolver solver) {
   }
   return "";
 }
-
-// JSON has neither infinity nor NaN.
-json Number(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
 
 json LogsJson(const LogSet& logs) {
   json result = json::array();
@@ -43,28 +41,16 @@ json TransitionJson(const CoulombTransition& t, JointType type) {
           {"unit", std::string(PositionUnit(type)) + (velocity ? "/s" : "")}};
 }
 
-void AddFigures(const TorqueResidual& residual, const std::string& prefix,
-                int joint, json* entry) {
-  const auto moving = residual.moving(), whole = residual.whole();
-  (*entry)[prefix + "residual_rms"] = Number(moving.residual_rms[joint]);
-  (*entry)[prefix + "residual_percent"] = Number(moving.percent[joint]);
-  (*entry)[prefix + "torque_rms"] = Number(moving.torque_rms[joint]);
-  (*entry)[prefix + "whole_log_residual_rms"] =
-      Number(whole.residual_rms[joint]);
-  (*entry)[prefix + "whole_log_residual_percent"] =
-      Number(whole.percent[joint]);
-}
-
 json JointsJson(const Robot& robot, const LinearCalibration& result) {
   json joints = json::array();
   for (int i = 0; i < robot.num_joints(); ++i) {
     const Joint& joint = robot.links[i].joint;
     json entry = {{"name", joint.name},
                   {"unit", EffortUnit(joint.type)},
-                  {"noise_stddev", Number(result.noise[i])}};
-    if (result.training) AddFigures(*result.training, "", i, &entry);
+                  {"noise_stddev", JsonNumber(result.noise[i])}};
+    if (result.training) SetJointFigures(*result.training, "", i, &entry);
     if (result.validation) {
-      AddFigures(*result.validation, "validation_", i, &entry);
+      SetJointFigures(*result.validation, "validation_", i, &entry);
     }
     if (!result.outliers.empty()) entry["outliers"] = result.outliers[i];
     if (result.training) entry["spikes"] = result.training->spikes(i);
@@ -84,8 +70,9 @@ json ModelParametersJson(const LinearCalibration& result) {
     list.push_back(
         {{"name", p.name},
          {"unit", p.unit},
-         {"value", result.solved ? Number(result.x[k]) : nullptr},
-         {"stddev", result.solved ? Number(result.stddev[k]) : json(nullptr)},
+         {"value", result.solved ? JsonNumber(result.x[k]) : nullptr},
+         {"stddev",
+          result.solved ? JsonNumber(result.stddev[k]) : json(nullptr)},
          {"block", p.block + 1},
          {"identifiable", result.solved && result.identifiable[k]}});
   }
@@ -101,8 +88,8 @@ json ParametersJson(const Robot& robot, const LinearCalibration& result) {
     list.push_back({{"name", robot.links[p.block].joint.name + "." +
                                  JointTermName(p.term)},
                     {"unit", p.unit},
-                    {"value", Number(result.x[k])},
-                    {"stddev", Number(result.stddev[k])},
+                    {"value", JsonNumber(result.x[k])},
+                    {"stddev", JsonNumber(result.stddev[k])},
                     {"prior", nullptr},
                     {"identifiable", bool(result.identifiable[k])}});
   }
@@ -128,8 +115,8 @@ json GeometryJson(const LinearCalibration& result) {
                     {"symbol", l.symbol},
                     {"unit", "m"},
                     {"nominal", l.nominal},
-                    {"value", l.identifiable ? Number(l.value) : nullptr},
-                    {"stddev", l.identifiable ? Number(l.stddev) : nullptr},
+                    {"value", l.identifiable ? JsonNumber(l.value) : nullptr},
+                    {"stddev", l.identifiable ? JsonNumber(l.stddev) : nullptr},
                     {"identifiable", l.identifiable}});
   }
   return list;
@@ -181,12 +168,12 @@ json ToJson(const Robot& robot, const LogSet& training,
   if (result.training) {
     out["excluded_share"] = result.training->excluded_share();
     out["stacked_residual_percent"] =
-        Number(result.training->moving().stacked_percent);
+        JsonNumber(result.training->moving().stacked_percent);
   }
   if (validation != nullptr) out["validation_logs"] = LogsJson(*validation);
   if (result.validation) {
     out["validation_stacked_residual_percent"] =
-        Number(result.validation->moving().stacked_percent);
+        JsonNumber(result.validation->moving().stacked_percent);
   }
   return out;
 }

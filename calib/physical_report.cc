@@ -5,30 +5,19 @@
 #include <cstdio>
 #include <vector>
 
+#include "calib/json_figures.h"
+
 namespace armcal {
 namespace {
 
 using nlohmann::json;
 
-json Number(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
-
-void SetFigures(const TorqueResidual& residual, const std::string& prefix,
-                int joint, json* entry) {
-  const auto moving = residual.moving(), whole = residual.whole();
-  (*entry)[prefix + "residual_rms"] = Number(moving.residual_rms[joint]);
-  (*entry)[prefix + "residual_percent"] = Number(moving.percent[joint]);
-  (*entry)[prefix + "whole_log_residual_rms"] =
-      Number(whole.residual_rms[joint]);
-  (*entry)[prefix + "whole_log_residual_percent"] =
-      Number(whole.percent[joint]);
-}
-
 json ParameterJson(const PhysicalParameter& p) {
   return {{"name", p.name},
           {"unit", p.unit},
-          {"value", Number(p.value)},
-          {"stddev", Number(p.stddev)},
-          {"prior", Number(p.prior)},
+          {"value", JsonNumber(p.value)},
+          {"stddev", JsonNumber(p.stddev)},
+          {"prior", JsonNumber(p.prior)},
           {"identifiable", p.identifiable},
           {"held", p.held}};
 }
@@ -144,16 +133,16 @@ void AddRefined(const PhysicalCalibration& result, json* calibration) {
   }
   c["estimate"] = "refined";
   for (size_t i = 0; i < result.robot.links.size(); ++i) {
-    SetFigures(*result.training, "", static_cast<int>(i), &c["joints"][i]);
+    SetJointFigures(*result.training, "", static_cast<int>(i), &c["joints"][i]);
     if (!result.validation) continue;
-    SetFigures(*result.validation, "validation_", static_cast<int>(i),
-               &c["joints"][i]);
+    SetJointFigures(*result.validation, "validation_", static_cast<int>(i),
+                    &c["joints"][i]);
   }
   c["stacked_residual_percent"] =
-      Number(result.training->moving().stacked_percent);
+      JsonNumber(result.training->moving().stacked_percent);
   if (result.validation) {
     c["validation_stacked_residual_percent"] =
-        Number(result.validation->moving().stacked_percent);
+        JsonNumber(result.validation->moving().stacked_percent);
   }
   c["parameters"] = json::array();
   json names = json::array(), units = json::array();

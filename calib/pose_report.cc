@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calib/json_figures.h"
+
 namespace armcal {
 namespace {
 
 using nlohmann::json;
-
-json Number(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
 
 // Lengths in mm and angles in degrees, as people read them.
 std::string Estimate(const GeometryEstimate& p) {
@@ -75,9 +75,9 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
         {{"name", p.name},
          {"unit", p.unit},
          {"nominal", p.nominal},
-         {"value", Number(p.value)},
-         {"stddev", Number(p.stddev)},
-         {"prior_stddev", p.prior > 0 ? Number(p.prior) : json(nullptr)},
+         {"value", JsonNumber(p.value)},
+         {"stddev", JsonNumber(p.stddev)},
+         {"prior_stddev", p.prior > 0 ? JsonNumber(p.prior) : json(nullptr)},
          {"identifiable", p.identifiable}});
   }
   for (const int k : result.outliers) outliers.push_back(measured.row[k]);

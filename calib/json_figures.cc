@@ -1,0 +1,23 @@
+#include "calib/json_figures.h"
+
+#include <cmath>
+
+namespace armcal {
+
+nlohmann::json JsonNumber(double x) {
+  return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr);
+}
+
+void SetJointFigures(const TorqueResidual& residual, const std::string& prefix,
+                     int joint, nlohmann::json* entry) {
+  const auto moving = residual.moving(), whole = residual.whole();
+  (*entry)[prefix + "residual_rms"] = JsonNumber(moving.residual_rms[joint]);
+  (*entry)[prefix + "residual_percent"] = JsonNumber(moving.percent[joint]);
+  (*entry)[prefix + "torque_rms"] = JsonNumber(moving.torque_rms[joint]);
+  (*entry)[prefix + "whole_log_residual_rms"] =
+      JsonNumber(whole.residual_rms[joint]);
+  (*entry)[prefix + "whole_log_residual_percent"] =
+      JsonNumber(whole.percent[joint]);
+}
+
+}  // namespace armcal
