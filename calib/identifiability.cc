@@ -19,7 +19,8 @@ constexpr double kExcited = 1e-8;  // relative to the direction seen best
 
 std::string DirectionText(const VectorXd& x, const VectorXd& y,
                           const ModelParameters& parameters) {
-  std::string text;
+  std::string text, only;
+  int terms = 0;
   const double largest = y.cwiseAbs().maxCoeff();
   for (int c = 0; c < x.size(); ++c) {
     if (std::abs(y[c]) < 0.05 * largest) continue;
@@ -30,9 +31,11 @@ std::string DirectionText(const VectorXd& x, const VectorXd& y,
     } else {
       text += x[c] < 0 ? " - " : " + ";
     }
-    text += factor + parameters.parameters()[c].name;
+    only = parameters.parameters()[c].name;
+    text += factor + only;
+    ++terms;
   }
-  return text;
+  return terms == 1 ? only : text;
 }
 
 UnidentifiableDirection MakeDirection(const VectorXd& y, const VectorXd& scale,
@@ -60,6 +63,33 @@ int Rank(const VectorXd& s) {
     if (x > 1 && x > kExcited * s[0]) ++rank;
   }
   return rank;
+}
+
+// Another basis of the space that the columns of N span, in which each vector
+// has one coordinate for its own (reduced echelon form with full pivoting, in
+// the order of these coordinates): what cannot be seen of a joint at rest then
+// reads as three parameters, not as three mixtures of them.
+MatrixXd EchelonBasis(const MatrixXd& N) {
+  MatrixXd rows = N.transpose();
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> pivots;  // column, row
+  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
+    Eigen::Index r, c;
+    rows.bottomRows(rows.rows() - k).cwiseAbs().maxCoeff(&r, &c);
+    rows.row(k).swap(rows.row(k + r));
+    rows.row(k) /= rows(k, c);
+    for (Eigen::Index other = 0; other < rows.rows(); ++other) {
+      if (other == k) continue;
+      const double factor = rows(other, c);
+      rows.row(other) -= factor * rows.row(k);
+    }
+    pivots.emplace_back(c, k);
+  }
+  std::sort(pivots.begin(), pivots.end());
+  MatrixXd basis(N.rows(), N.cols());
+  for (size_t k = 0; k < pivots.size(); ++k) {
+    basis.col(k) = rows.row(pivots[k].second).transpose();
+  }
+  return basis;
 }
 
 // rms of the columns of U over random states.
@@ -173,18 +203,20 @@ Identifiability AnalyzeIdentifiability(const BlockTriangularFactor& factor,
     int rank = Rank(svd.singularValues());
     if (noise[i] <= 0) rank = 0;
     result.block_rank.push_back(rank);
-    for (int k = rank; k < size; ++k) {
+    const MatrixXd unseen = EchelonBasis(svd.matrixV().rightCols(size - rank));
+    for (int k = 0; k < size - rank; ++k) {
       result.block_directions.push_back(
-          MakeDirection(svd.matrixV().col(k), scale, begin, i, parameters));
+          MakeDirection(unseen.col(k), scale, begin, i, parameters));
     }
   }
   const WeightedSystem system = MakeWeightedSystem(factor, noise, reference);
   const WeightedSystem::Directions d = system.Decompose();
   result.total = factor.num_parameters();
   result.batch_rank = d.rank;
-  for (int k = d.rank; k < result.total; ++k) {
+  const MatrixXd unseen = EchelonBasis(d.V.rightCols(result.total - d.rank));
+  for (int k = 0; k < result.total - d.rank; ++k) {
     result.directions.push_back(
-        MakeDirection(d.V.col(k), system.scale, 0, -1, parameters));
+        MakeDirection(unseen.col(k), system.scale, 0, -1, parameters));
   }
   return result;
 }

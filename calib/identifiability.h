@@ -34,7 +34,7 @@ ReferenceMotion MakeReferenceMotion(const ModelParameters& parameters,
 struct UnidentifiableDirection {
   int block = -1;     // of the block rank test; -1: of the whole problem
   Eigen::VectorXd x;  // m entries, the largest 1 in size
-  std::string text;   // "1.00 Izz[3] - 0.52 hx[4]"
+  std::string text;   // "viscous[4]", "1.00 Izz[3] - 0.52 hx[4]"
 };
 
 // The rank condition (2.30), block by block, which the recursion (2.28) needs,
