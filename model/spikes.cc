@@ -48,11 +48,13 @@ Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> RemoveSpikes(
         size[k] = std::abs(signal[k] - median[k]);
       }
       if (pass == 0) limit = kThreshold * Percentile90(size) / kNormal90;
+      bool found = false;
       for (Eigen::Index k = 0; limit > 0 && k < n; ++k) {
         if (size[k] <= limit) continue;
         (*x)(k, c) = median[k];
-        replaced(k, c) = true;
+        replaced(k, c) = found = true;
       }
+      if (!found) break;
     }
   }
   return replaced;
