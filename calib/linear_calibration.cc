@@ -78,9 +78,7 @@ void CheckIntervals(const RowOptions& rows, const LogSet& training,
 std::string WhyNothingToSolve(const LogFactors& factors,
                               const ModelParameters& parameters) {
   const BlockTriangularFactor all = factors.Merged(
-      parameters,
-      EquationMask(factors.size(),
-                   std::vector<bool>(parameters.num_joints(), true)));
+      parameters, AllEquations(factors, parameters.num_joints()).used);
   if (all.rows(0) == 0) {
     return "the logs hold no stretch of motion that is long enough for an "
            "equation";
@@ -144,19 +142,6 @@ void SetCovariance(const CovarianceEstimate& estimate,
     if (!result->identifiable[k]) continue;
     result->stddev[k] = std::sqrt(result->covariance(k, k));
   }
-}
-
-TorqueResidual Evaluate(const std::string& stage,
-                        const LinearCalibration& result,
-                        const Progress& progress, LogSet* logs) {
-  TorqueResidual residual(result.parameters.num_joints());
-  std::vector<MotionRegressor> regressors(logs->size(),
-                                          MotionRegressor(result.parameters));
-  logs->ForEach(stage, progress, [&](int log, const Trajectory& t) {
-    regressors[log].Enter(t);
-    residual.Add(t, result.x, result.rows.bandwidth_hz, &regressors[log]);
-  });
-  return residual;
 }
 
 // How much larger standard deviations are than those of independent rows.
@@ -270,12 +255,16 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   result.lengths =
       RecoverLengths(result.parameters, result.x, result.independent_covariance,
                      result.covariance, result.identifiable);
-  result.training = Evaluate("residuals", result, options.progress, training);
+  const auto evaluate = [&](const std::string& stage, LogSet* logs) {
+    return EvaluateTorqueResidual(result.parameters, result.x,
+                                  rows.bandwidth_hz, stage, options.progress,
+                                  logs);
+  };
+  result.training = evaluate("residuals", training);
   ++result.passes;
   if (validation != nullptr) {
     validation->Prepare(rows.bandwidth_hz, RowReach(rows));
-    result.validation =
-        Evaluate("validation", result, options.progress, validation);
+    result.validation = evaluate("validation", validation);
   }
   return result;
 }

@@ -313,16 +313,9 @@ TorqueResidual PhysicalCalibrator::Evaluate(const Robot& robot,
     options.transitions.push_back({terms_[4 * j].transition});
   }
   const ModelParameters parameters(robot, options);
-  const VectorXd x = parameters.Values(robot);
-  TorqueResidual residual(links_);
-  std::vector<MotionRegressor> regressors(logs->size(),
-                                          MotionRegressor(parameters));
-  logs->ForEach(
-      "residuals", options_.progress, [&](int log, const Trajectory& t) {
-        regressors[log].Enter(t);
-        residual.Add(t, x, linear_.rows.bandwidth_hz, &regressors[log]);
-      });
-  return residual;
+  return EvaluateTorqueResidual(parameters, parameters.Values(robot),
+                                linear_.rows.bandwidth_hz, "residuals",
+                                options_.progress, logs);
 }
 
 PhysicalCalibration PhysicalCalibrator::Run(LogSet* training,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "model/low_pass.h"
 
@@ -60,6 +61,20 @@ TorqueResidual::Figures TorqueResidual::MakeFigures(const Sums& sums) {
   f.stacked_percent =
       torque > 0 ? 100 * std::sqrt(sums.residual.sum() / torque) : std::nan("");
   return f;
+}
+
+TorqueResidual EvaluateTorqueResidual(const ModelParameters& parameters,
+                                      const VectorXd& x, double bandwidth_hz,
+                                      const std::string& stage,
+                                      const Progress& progress, LogSet* logs) {
+  TorqueResidual residual(parameters.num_joints());
+  std::vector<MotionRegressor> regressors(logs->size(),
+                                          MotionRegressor(parameters));
+  logs->ForEach(stage, progress, [&](int log, const Trajectory& t) {
+    regressors[log].Enter(t);
+    residual.Add(t, x, bandwidth_hz, &regressors[log]);
+  });
+  return residual;
 }
 
 }  // namespace armcal

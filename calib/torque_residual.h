@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
+#include "calib/log_set.h"
 #include "model/model_parameters.h"
 #include "model/trajectory.h"
 #include "problems/identification_rows.h"
@@ -47,5 +49,13 @@ class TorqueResidual {
   Sums moving_, whole_;
   Eigen::Array<long, 1, Eigen::Dynamic> spikes_;
 };
+
+// Of parameters `x` over all logs, in one pass that `progress` knows as
+// `stage`.
+TorqueResidual EvaluateTorqueResidual(const ModelParameters& parameters,
+                                      const Eigen::VectorXd& x,
+                                      double bandwidth_hz,
+                                      const std::string& stage,
+                                      const Progress& progress, LogSet* logs);
 
 }  // namespace armcal
