@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/low_pass.h"
+#include "tests/row_tiles.h"
 #include "tests/two_link_arm.h"
 
 namespace armcal {
@@ -25,15 +26,6 @@ RowOptions Differential(double bandwidth = 0) {
   options.identification = Identification::kDifferential;
   options.bandwidth_hz = bandwidth;
   return options;
-}
-
-std::vector<IdentificationRow> Rows(const Trajectory& trajectory,
-                                    const RowOptions& options,
-                                    MotionRegressor* regressor) {
-  std::vector<IdentificationRow> rows;
-  ForEachRow(trajectory, options, regressor,
-             [&](const IdentificationRow& row) { rows.push_back(row); });
-  return rows;
 }
 
 TEST(DifferentialRows, AreTheRegressorAtEverySample) {
@@ -78,33 +70,15 @@ TEST(DifferentialRows, FilterBothSidesAlike) {
 }
 
 TEST(DifferentialRows, TileAcrossCores) {
-  const TwoLinkArm arm;
   const double dt = .01;
-  const int n = 3000;
   for (const double bandwidth : {0.0, 5.0}) {
+    SCOPED_TRACE(bandwidth);
     const RowOptions options = Differential(bandwidth);
     // As TrajectoryReader makes them: twice the filter's memory at least.
     const int margin =
         10 + static_cast<int>(std::ceil(2 * RowReach(options) / dt));
-    MotionRegressor whole_regressor(Parameters()), regressor(Parameters());
-    const auto whole = Rows(arm.Record(dt, n), options, &whole_regressor);
-    std::vector<IdentificationRow> parts;
-    const int borders[] = {0, 600, 607, 1500, 2201, n};
-    for (int i = 0; i + 1 < 6; ++i) {
-      const int begin = std::max(0, borders[i] - margin);
-      const int end = std::min(n, borders[i + 1] + margin);
-      Trajectory t = arm.Record(dt, end - begin, begin);
-      t.core_begin = borders[i] - begin;
-      t.core_end = borders[i + 1] - begin;
-      const auto rows = Rows(t, options, &regressor);
-      parts.insert(parts.end(), rows.begin(), rows.end());
-    }
-    ASSERT_EQ(parts.size(), whole.size()) << bandwidth;
-    for (size_t k = 0; k < whole.size(); ++k) {
-      ASSERT_NEAR(parts[k].time, whole[k].time, 1e-9);
-      ASSERT_LT((parts[k].U - whole[k].U).cwiseAbs().maxCoeff(), 1e-8);
-      ASSERT_LT((parts[k].Y - whole[k].Y).cwiseAbs().maxCoeff(), 1e-8);
-    }
+    ExpectRowsTile(Parameters(), options, dt, margin,
+                   {0, 600, 607, 1500, 2201, 3000}, 1e-8);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/row_tiles.h"
 #include "tests/two_link_arm.h"
 
 namespace armcal {
@@ -12,15 +13,6 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kPi = 3.14159265358979323846;
-
-std::vector<IdentificationRow> Rows(const Trajectory& trajectory,
-                                    const RowOptions& options,
-                                    MotionRegressor* regressor) {
-  std::vector<IdentificationRow> rows;
-  ForEachRow(trajectory, options, regressor,
-             [&](const IdentificationRow& row) { rows.push_back(row); });
-  return rows;
-}
 
 RowOptions Integral(Quadrature quadrature = Quadrature::kTrapezoid) {
   RowOptions options;
@@ -111,34 +103,13 @@ TEST(IntegralRows, IntervalsSideBySide) {
 }
 
 TEST(IntegralRows, TileAcrossCores) {
-  const TwoLinkArm arm;
-  const ModelParameters parameters = Parameters(arm.ToRobot());
-  const double dt = .01;
-  const int n = 1000, margin = 130;
   for (const bool given : {false, true}) {
     RowOptions options = Integral(Quadrature::kSimpson);
     options.interval_s = .33;
     if (given) options.intervals = {{0, 1.2}, {2.99, 3.5}, {3, 4.2}, {9, 9.99}};
-    MotionRegressor whole_regressor(parameters), regressor(parameters);
-    const auto whole = Rows(arm.Record(dt, n), options, &whole_regressor);
-    EXPECT_EQ(whole.size(), given ? 4 : 29);  // 34 steps
-    std::vector<IdentificationRow> parts;
-    const int borders[] = {0, 300, 301, 777, n};
-    for (int i = 0; i + 1 < 5; ++i) {
-      const int begin = std::max(0, borders[i] - margin);
-      const int end = std::min(n, borders[i + 1] + margin);
-      Trajectory t = arm.Record(dt, end - begin, begin);
-      t.core_begin = borders[i] - begin;
-      t.core_end = borders[i + 1] - begin;
-      const auto rows = Rows(t, options, &regressor);
-      parts.insert(parts.end(), rows.begin(), rows.end());
-    }
-    ASSERT_EQ(parts.size(), whole.size());
-    for (size_t k = 0; k < whole.size(); ++k) {
-      ASSERT_NEAR(parts[k].time, whole[k].time, 1e-9);
-      ASSERT_LT((parts[k].U - whole[k].U).cwiseAbs().maxCoeff(), 1e-10);
-      ASSERT_LT((parts[k].Y - whole[k].Y).cwiseAbs().maxCoeff(), 1e-10);
-    }
+    EXPECT_EQ(ExpectRowsTile(Parameters(TwoLinkArm().ToRobot()), options, .01,
+                             130, {0, 300, 301, 777, 1000}, 1e-10),
+              given ? 4 : 29);  // 34 steps
   }
 }
 

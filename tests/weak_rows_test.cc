@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/row_tiles.h"
 #include "tests/two_link_arm.h"
 
 namespace armcal {
@@ -18,15 +19,6 @@ ModelParameters Parameters(const TwoLinkArm& arm,
   options.joint_terms = terms;
   options.transitions.assign(2, {CoulombTransition()});
   return ModelParameters(arm.ToRobot(), options);
-}
-
-std::vector<IdentificationRow> Rows(const Trajectory& trajectory,
-                                    const RowOptions& options,
-                                    MotionRegressor* regressor) {
-  std::vector<IdentificationRow> rows;
-  ForEachRow(trajectory, options, regressor,
-             [&](const IdentificationRow& row) { rows.push_back(row); });
-  return rows;
 }
 
 double LargestError(const std::vector<IdentificationRow>& rows,
@@ -107,33 +99,15 @@ TEST(WeakRows, WindowsStartAtMultiplesOfTheHop) {
 
 // Cut anywhere, the windows are those of the whole, each once.
 TEST(WeakRows, TileAcrossCores) {
-  const TwoLinkArm arm;
-  const ModelParameters parameters = Parameters(arm);
   const double dt = .01;
-  const int n = 1200, margin = 60;
+  const int margin = 60;
   for (const double window : {.5, .17}) {
+    SCOPED_TRACE(window);
     RowOptions options;
     options.window_s = window;
     ASSERT_LE(RowReach(options), margin * dt);
-    MotionRegressor whole_regressor(parameters), regressor(parameters);
-    const auto whole = Rows(arm.Record(dt, n), options, &whole_regressor);
-    std::vector<IdentificationRow> parts;
-    const int borders[] = {0, 137, 138, 300, 512, 701, 1100, n};
-    for (int i = 0; i + 1 < 8; ++i) {
-      const int begin = std::max(0, borders[i] - margin);
-      const int end = std::min(n, borders[i + 1] + margin);
-      Trajectory t = arm.Record(dt, end - begin, begin);
-      t.core_begin = borders[i] - begin;
-      t.core_end = borders[i + 1] - begin;
-      const auto rows = Rows(t, options, &regressor);
-      parts.insert(parts.end(), rows.begin(), rows.end());
-    }
-    ASSERT_EQ(parts.size(), whole.size()) << window;
-    for (size_t k = 0; k < whole.size(); ++k) {
-      ASSERT_NEAR(parts[k].time, whole[k].time, 1e-9);
-      ASSERT_LT((parts[k].U - whole[k].U).cwiseAbs().maxCoeff(), 1e-10);
-      ASSERT_LT((parts[k].Y - whole[k].Y).cwiseAbs().maxCoeff(), 1e-10);
-    }
+    ExpectRowsTile(Parameters(TwoLinkArm()), options, dt, margin,
+                   {0, 137, 138, 300, 512, 701, 1100, 1200}, 1e-10);
   }
 }
 
