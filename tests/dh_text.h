@@ -10,7 +10,7 @@
 #include <string>
 
 #include "model/dh_reader.h"
-#include "model/input_error.h"
+#include "tests/refusal.h"
 
 namespace armcal {
 
@@ -37,50 +37,30 @@ links:
 tool: {z: -0.05, yaw: 0.5}
 )";
 
-inline std::string WriteTemp(const std::string& text) {
-  const std::string path =
-      testing::TempDir() + "dh" + std::to_string(getpid()) + ".yaml";
-  std::ofstream(path, std::ios::binary) << text;
-  return path;
+// Tests run beside each other.
+inline std::string TempPath() {
+  return testing::TempDir() + "dh" + std::to_string(getpid()) + ".yaml";
 }
 
 inline Robot Read(const std::string& text,
                   const RobotReaderOptions& options = {}) {
-  const std::string path = WriteTemp(text);
+  const std::string path = TempPath();
+  std::ofstream(path, std::ios::binary) << text;
   const Robot robot = ReadDhTable(path, options);
   std::remove(path.c_str());
   return robot;
 }
 
-// What the reader says about `text`, without the file's name.
 inline std::string Refusal(const std::string& text,
                            const RobotReaderOptions& options = {}) {
-  const std::string path = WriteTemp(text);
-  std::string message;
-  try {
+  return RefusalOf(TempPath(), text, [&](const std::string& path) {
     ReadDhTable(path, options);
-  } catch (const InputError& error) {
-    message = error.what();
-    EXPECT_EQ(message.rfind(path + ": ", 0), 0u) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    message.erase(0, path.size() + 2);
-  }
-  std::remove(path.c_str());
-  return message;
+  });
 }
 
-// A change of kScara and what is then refused.
-struct Case {
-  const char* old_text;  // in kScara, the first such
-  const char* new_text;
-  const char* message;
-};
-
+// Of a changed kScara.
 inline std::string Refusal(const Case& c) {
-  std::string text = kScara;
-  const size_t at = text.find(c.old_text);
-  EXPECT_NE(at, std::string::npos) << c.old_text;
-  return Refusal(text.replace(at, std::string(c.old_text).size(), c.new_text));
+  return Refusal(Changed(kScara, c));
 }
 
 }  // namespace armcal

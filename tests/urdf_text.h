@@ -9,8 +9,8 @@
 #include <fstream>
 #include <string>
 
-#include "model/input_error.h"
 #include "model/urdf_reader.h"
+#include "tests/refusal.h"
 
 namespace armcal {
 
@@ -76,36 +76,13 @@ inline const char kArm[] = R"(<?xml version="1.0"?>
 </robot>
 )";
 
-// What ReadUrdf says about `text`, without the file's name; empty: nothing.
 inline std::string Refusal(const std::string& text,
                            const RobotReaderOptions& options = {}) {
-  const std::string path = TempPath();
-  std::ofstream(path, std::ios::binary) << text;
-  std::string message;
-  try {
-    ReadUrdf(path, options);
-  } catch (const InputError& error) {
-    message = error.what();
-    EXPECT_EQ(message.rfind(path + ": ", 0), 0u) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    message.erase(0, path.size() + 2);
-  }
-  std::remove(path.c_str());
-  return message;
+  return RefusalOf(TempPath(), text,
+                   [&](const std::string& path) { ReadUrdf(path, options); });
 }
 
-// A change of kArm and what is then refused.
-struct Case {
-  const char* old_text;  // in kArm, the first such
-  const char* new_text;
-  const char* message;
-};
-
-inline std::string Refusal(const Case& c) {
-  std::string text = kArm;
-  const size_t at = text.find(c.old_text);
-  EXPECT_NE(at, std::string::npos) << c.old_text;
-  return Refusal(text.replace(at, std::string(c.old_text).size(), c.new_text));
-}
+// Of a changed kArm.
+inline std::string Refusal(const Case& c) { return Refusal(Changed(kArm, c)); }
 
 }  // namespace armcal
