@@ -170,10 +170,9 @@ double TrustFromFlags() {
                    "', expected a relative standard deviation above 0");
 }
 
-// Why there is nothing to refine; empty where there is.
-std::string WhyNotRefined(const Robot& robot, const LinearCalibration& linear,
+// Why a solved calibration cannot be refined; empty where it can.
+std::string WhyNotRefined(const Robot& robot,
                           const LinearCalibrationOptions& options) {
-  if (!IsRefinedFromFlags() || !linear.solved) return "not asked for";
   if (options.identification != Identification::kWeak ||
       options.geometry != GeometryKnowledge::kKnown) {
     return "it takes the weak form and a known geometry";
@@ -193,6 +192,22 @@ void AddRobotFiles(const std::string& robot_path, const Robot& robot,
   }
   out->Add("robot.urdf", UpdateUrdf(robot_path, robot, false));
   out->Add("robot_without_meshes.urdf", MakeUrdf(robot));
+}
+
+// The report of a refined calibration, the figures and files of which are
+// added.
+std::string AddRefinedOutputs(const Robot& robot,
+                              const PhysicalCalibration& refined,
+                              nlohmann::json* json, OutputFolder* out) {
+  AddRefined(refined, json);
+  std::string report = PhysicalReport(robot, refined);
+  if (!refined.solved) return report;
+  AddRobotFiles(RobotPathFromFlags(), refined.robot, out);
+  out->Add("parameters_covariance.csv", ParametersCovarianceCsv(refined));
+  for (const std::string& loss : UrdfLosses(refined.robot)) {
+    report += "robot.urdf  " + loss + "\n";
+  }
+  return report;
 }
 
 int RunCalibrate() {
@@ -221,21 +236,14 @@ int RunCalibrate() {
   nlohmann::json json = ToJson(robot, training, held_out, result);
   std::string report = FullReport(robot, training, result);
   OutputFolder out(OutFromFlags());
-  const std::string why_not = WhyNotRefined(robot, result, options);
-  if (why_not.empty()) {
-    const PhysicalCalibration refined =
-        CalibratePhysical(robot, result, refine, &training, held_out);
-    AddRefined(refined, &json);
-    report += PhysicalReport(robot, refined);
-    if (refined.solved) {
-      AddRobotFiles(RobotPathFromFlags(), refined.robot, &out);
-      out.Add("parameters_covariance.csv", ParametersCovarianceCsv(refined));
-      for (const std::string& loss : UrdfLosses(refined.robot)) {
-        report += "robot.urdf  " + loss + "\n";
-      }
-    }
-  } else if (is_refined && result.solved) {
-    report += "no robot file: " + why_not + "\n";
+  if (is_refined && result.solved) {
+    const std::string why_not = WhyNotRefined(robot, options);
+    report += why_not.empty()
+                  ? AddRefinedOutputs(robot,
+                                      CalibratePhysical(robot, result, refine,
+                                                        &training, held_out),
+                                      &json, &out)
+                  : "no robot file: " + why_not + "\n";
   }
   out.Add("calibration.json", json.dump(2) + "\n");
   out.Add("covariance.csv", CovarianceCsv(result));
