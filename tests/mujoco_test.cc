@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "calib/physical_calibration.h"
+#include "calib/nonlinear_calibration.h"
 #include "model/inverse_dynamics.h"
 #include "model/robot_reader.h"
 #include "model/urdf_writer.h"
-#include "tests/physical_runs.h"
+#include "tests/nonlinear_runs.h"
 
 namespace armcal {
 namespace {
@@ -76,7 +76,7 @@ Robot CalibratedRobot(const std::string& folder, const std::string& log,
   LinearCalibrationOptions options;
   options.bandwidth_hz = bandwidth_hz;
   const auto linear = CalibrateLinear(robot, options, &logs, nullptr);
-  return CalibratePhysical(robot, linear, {}, &logs, nullptr).robot;
+  return CalibrateNonlinear(robot, linear, {}, &logs, nullptr).robot;
 }
 
 TEST(Mujoco, Ur10e) {
@@ -111,7 +111,7 @@ TEST(Mujoco, LinksAtTheBoundaryLoad) {
   for (int seed = 1; seed <= 5; ++seed) {
     std::mt19937_64 random(seed);
     const SimulatedArm arm = MakeArm("Panda 7R", 1, &random);
-    PhysicalCalibrationOptions options;
+    NonlinearCalibrationOptions options;
     options.trust = 3;
     const auto result = Calibrate(arm, .1, options, &random).physical;
     ASSERT_TRUE(result.solved);

@@ -8,8 +8,8 @@
 
 #include "calib/calibration_report.h"
 #include "calib/linear_calibration.h"
-#include "calib/physical_calibration.h"
-#include "calib/physical_report.h"
+#include "calib/nonlinear_calibration.h"
+#include "calib/nonlinear_report.h"
 #include "model/input_text.h"
 #include "model/urdf_writer.h"
 #include "tools/calibrate_poses.h"
@@ -197,10 +197,10 @@ void AddRobotFiles(const std::string& robot_path, const Robot& robot,
 // The report of a refined calibration, the figures and files of which are
 // added.
 std::string AddRefinedOutputs(const Robot& robot,
-                              const PhysicalCalibration& refined,
+                              const NonlinearCalibration& refined,
                               nlohmann::json* json, OutputFolder* out) {
   AddRefined(refined, json);
-  std::string report = PhysicalReport(robot, refined);
+  std::string report = NonlinearReport(robot, refined);
   if (!refined.solved) return report;
   AddRobotFiles(RobotPathFromFlags(), refined.robot, out);
   out->Add("parameters_covariance.csv", ParametersCovarianceCsv(refined));
@@ -215,7 +215,7 @@ int RunCalibrate() {
   if (!FLAGS_poses.empty()) return CalibratePosesFromFlags(robot);
   LinearCalibrationOptions options = OptionsFromFlags(robot);
   const bool is_refined = IsRefinedFromFlags();
-  PhysicalCalibrationOptions refine;
+  NonlinearCalibrationOptions refine;
   refine.trust = TrustFromFlags();
   const LogReaderOptions log_options = LogOptionsFromFlags(robot);
   CheckLogsApart();
@@ -240,8 +240,8 @@ int RunCalibrate() {
     const std::string why_not = WhyNotRefined(robot, options);
     report += why_not.empty()
                   ? AddRefinedOutputs(robot,
-                                      CalibratePhysical(robot, result, refine,
-                                                        &training, held_out),
+                                      CalibrateNonlinear(robot, result, refine,
+                                                         &training, held_out),
                                       &json, &out)
                   : "no robot file: " + why_not + "\n";
   }

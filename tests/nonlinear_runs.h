@@ -1,7 +1,7 @@
 #pragma once
 
 // Simulated arms whose links differ from their robot file's, and what
-// CalibratePhysical makes of their logs.
+// CalibrateNonlinear makes of their logs.
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "calib/linear_calibration.h"
-#include "calib/physical_calibration.h"
+#include "calib/nonlinear_calibration.h"
 #include "problems/inertial_coordinates.h"
 #include "tests/sample_motion.h"
 #include "tests/sample_robots.h"
@@ -80,16 +80,16 @@ inline Log MoveArm(const Robot& truth, double duration,
   return log;
 }
 
-struct PhysicalRun {
+struct NonlinearRun {
   LinearCalibration linear;
-  PhysicalCalibration physical;
+  NonlinearCalibration physical;
 };
 
 // Calibrates on one log and validates on another, both with noise of `noise`
 // times the torque.
-inline PhysicalRun Calibrate(const SimulatedArm& arm, double noise,
-                             const PhysicalCalibrationOptions& options,
-                             std::mt19937_64* random) {
+inline NonlinearRun Calibrate(const SimulatedArm& arm, double noise,
+                              const NonlinearCalibrationOptions& options,
+                              std::mt19937_64* random) {
   LogReaderOptions reader;
   reader.joint_names = arm.file.JointNames();
   const auto write = [&](double duration, const std::string& name) {
@@ -104,8 +104,8 @@ inline PhysicalRun Calibrate(const SimulatedArm& arm, double noise,
   linear.bandwidth_hz = 0;
   LinearCalibration start =
       CalibrateLinear(arm.file, linear, &training, &validation);
-  PhysicalCalibration physical =
-      CalibratePhysical(arm.file, start, options, &training, &validation);
+  NonlinearCalibration physical =
+      CalibrateNonlinear(arm.file, start, options, &training, &validation);
   return {std::move(start), std::move(physical)};
 }
 

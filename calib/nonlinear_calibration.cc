@@ -1,4 +1,4 @@
-#include "calib/physical_calibration.h"
+#include "calib/nonlinear_calibration.h"
 
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
@@ -58,7 +58,7 @@ double* TermOf(JointTerm term, Joint* joint) {
 class PhysicalCalibrator {
  public:
   PhysicalCalibrator(const Robot& robot, const LinearCalibration& linear,
-                     const PhysicalCalibrationOptions& options)
+                     const NonlinearCalibrationOptions& options)
       : robot_(robot),
         linear_(linear),
         options_(options),
@@ -81,7 +81,7 @@ class PhysicalCalibrator {
     }
   }
 
-  PhysicalCalibration Run(LogSet* training, LogSet* validation);
+  NonlinearCalibration Run(LogSet* training, LogSet* validation);
 
  private:
   int num_terms() const { return static_cast<int>(terms_.size()); }
@@ -91,15 +91,15 @@ class PhysicalCalibrator {
     std::vector<double> terms;
   };
   ceres::Solver::Summary SolveAt(double trust, Estimate* estimate) const;
-  bool Solve(PhysicalCalibration* result) const;
+  bool Solve(NonlinearCalibration* result) const;
   MatrixXd Covariance(const std::vector<int>& free, double trust) const;
   void Report(const VectorXd& V, const std::vector<double>& terms,
-              PhysicalCalibration* result) const;
+              NonlinearCalibration* result) const;
   TorqueResidual Evaluate(const Robot& robot, LogSet* logs) const;
 
   Robot robot_;
   const LinearCalibration& linear_;
-  const PhysicalCalibrationOptions& options_;
+  const NonlinearCalibrationOptions& options_;
   int links_;
   std::vector<JointTermColumn> terms_;
   VectorXd nominal_;                // stacked inertials of the file
@@ -187,7 +187,7 @@ ceres::Solver::Summary PhysicalCalibrator::SolveAt(double trust,
   return summary;
 }
 
-bool PhysicalCalibrator::Solve(PhysicalCalibration* result) const {
+bool PhysicalCalibrator::Solve(NonlinearCalibration* result) const {
   VectorXd x(R_.cols());
   for (int i = 0; i < links_; ++i) {  // the file's, inside the boundary
     const Vector10d c =
@@ -263,7 +263,7 @@ MatrixXd PhysicalCalibrator::Covariance(const std::vector<int>& free,
 // than doubled.
 void PhysicalCalibrator::Report(const VectorXd& V,
                                 const std::vector<double>& terms,
-                                PhysicalCalibration* result) const {
+                                NonlinearCalibration* result) const {
   const int p = static_cast<int>(R_.cols());
   std::vector<int> free;
   for (int k = 0; k < p; ++k) {
@@ -318,9 +318,9 @@ TorqueResidual PhysicalCalibrator::Evaluate(const Robot& robot,
                                 options_.progress, logs);
 }
 
-PhysicalCalibration PhysicalCalibrator::Run(LogSet* training,
-                                            LogSet* validation) {
-  PhysicalCalibration result;
+NonlinearCalibration PhysicalCalibrator::Run(LogSet* training,
+                                             LogSet* validation) {
+  NonlinearCalibration result;
   result.robot = robot_;
   if (!linear_.solved) {
     result.reason = linear_.reason;
@@ -338,10 +338,10 @@ PhysicalCalibration PhysicalCalibrator::Run(LogSet* training,
 
 }  // namespace
 
-PhysicalCalibration CalibratePhysical(const Robot& robot,
-                                      const LinearCalibration& linear,
-                                      const PhysicalCalibrationOptions& options,
-                                      LogSet* training, LogSet* validation) {
+NonlinearCalibration CalibrateNonlinear(
+    const Robot& robot, const LinearCalibration& linear,
+    const NonlinearCalibrationOptions& options, LogSet* training,
+    LogSet* validation) {
   return PhysicalCalibrator(robot, linear, options).Run(training, validation);
 }
 

@@ -1,11 +1,11 @@
-#include "calib/physical_calibration.h"
+#include "calib/nonlinear_calibration.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "model/robot_reader.h"
-#include "tests/physical_runs.h"
+#include "tests/nonlinear_runs.h"
 
 namespace armcal {
 namespace {
@@ -20,7 +20,7 @@ void ExpectPhysical(const Robot& robot) {
   }
 }
 
-const PhysicalParameter& Get(const PhysicalCalibration& result,
+const PhysicalParameter& Get(const NonlinearCalibration& result,
                              const std::string& name) {
   for (const PhysicalParameter& p : result.parameters) {
     if (p.name == name) return p;
@@ -28,7 +28,7 @@ const PhysicalParameter& Get(const PhysicalCalibration& result,
   throw std::out_of_range(name);
 }
 
-void ExpectStddevs(const PhysicalCalibration& result) {
+void ExpectStddevs(const NonlinearCalibration& result) {
   for (size_t k = 0; k < result.parameters.size(); ++k) {
     const PhysicalParameter& p = result.parameters[k];
     EXPECT_TRUE(std::isfinite(p.value)) << p.name;
@@ -44,9 +44,9 @@ class SimulatedArms : public testing::TestWithParam<const char*> {};
 TEST_P(SimulatedArms, BecomePhysicalAndPredictNewMotion) {
   std::mt19937_64 random(11);
   const SimulatedArm arm = MakeArm(GetParam(), .3, &random);
-  PhysicalCalibrationOptions options;
+  NonlinearCalibrationOptions options;
   options.trust = .3;
-  const PhysicalRun run = Calibrate(arm, .01, options, &random);
+  const NonlinearRun run = Calibrate(arm, .01, options, &random);
   ASSERT_TRUE(run.physical.solved) << run.physical.reason;
   EXPECT_EQ(run.physical.reason, "CONVERGENCE");
   ExpectPhysical(run.physical.robot);
@@ -71,11 +71,11 @@ INSTANTIATE_TEST_SUITE_P(, SimulatedArms,
                          testing::Values("3R elbow", "UR5 6R"));
 
 // Joint 1 is vertical: of link 1 only Izz and the armature act, as their sum.
-TEST(PhysicalCalibration, KnowsWhatTheLogsDoNotShow) {
+TEST(NonlinearCalibration, KnowsWhatTheLogsDoNotShow) {
   std::mt19937_64 random(12);
   const SimulatedArm arm = MakeArm("UR5 6R", .3, &random);
   for (const double trust : {.05, .3, 3.}) {
-    PhysicalCalibrationOptions options;
+    NonlinearCalibrationOptions options;
     options.trust = trust;
     const auto result = Calibrate(arm, .01, options, &random).physical;
     for (int j = 1; j <= 6; ++j) {
@@ -95,7 +95,7 @@ TEST(PhysicalCalibration, KnowsWhatTheLogsDoNotShow) {
   }
 }
 
-TEST(PhysicalCalibration, HoldsTermsThatAreNotAskedFor) {
+TEST(NonlinearCalibration, HoldsTermsThatAreNotAskedFor) {
   std::mt19937_64 random(13);
   const SimulatedArm arm = MakeArm("3R elbow", .3, &random);
   const std::string path = WriteFile(LogCsv(MoveArm(arm.truth, 10, &random)));
@@ -108,7 +108,8 @@ TEST(PhysicalCalibration, HoldsTermsThatAreNotAskedFor) {
     options.joint_terms = {JointTerm::kViscous, JointTerm::kOffset};
     if (none) options.joint_terms.clear();
     const auto linear = CalibrateLinear(arm.file, options, &logs, nullptr);
-    const auto result = CalibratePhysical(arm.file, linear, {}, &logs, nullptr);
+    const auto result =
+        CalibrateNonlinear(arm.file, linear, {}, &logs, nullptr);
     ASSERT_TRUE(result.solved) << result.reason;
     EXPECT_EQ(Get(result, "joint2.viscous").held, none);
     EXPECT_TRUE(Get(result, "joint2.coulomb").held);
@@ -121,7 +122,7 @@ TEST(PhysicalCalibration, HoldsTermsThatAreNotAskedFor) {
   }
 }
 
-TEST(PhysicalCalibration, AnUnsolvedStartIsAResult) {
+TEST(NonlinearCalibration, AnUnsolvedStartIsAResult) {
   std::mt19937_64 random(14);
   const SimulatedArm arm = MakeArm("3R elbow", .3, &random);
   Log still = MoveArm(arm.truth, 10, &random);
@@ -130,7 +131,7 @@ TEST(PhysicalCalibration, AnUnsolvedStartIsAResult) {
   reader.joint_names = arm.file.JointNames();
   LogSet logs({WriteFile(LogCsv(still))}, reader, {});
   const auto linear = CalibrateLinear(arm.file, {}, &logs, nullptr);
-  const auto result = CalibratePhysical(arm.file, linear, {}, &logs, nullptr);
+  const auto result = CalibrateNonlinear(arm.file, linear, {}, &logs, nullptr);
   EXPECT_FALSE(result.solved);
   EXPECT_EQ(result.reason, linear.reason);
   EXPECT_TRUE(result.parameters.empty());
@@ -153,7 +154,7 @@ void ExpectRealRobot(const std::string& folder, const std::string& training,
   LinearCalibrationOptions options;
   options.bandwidth_hz = bandwidth_hz;
   const auto linear = CalibrateLinear(robot, options, &logs, &validation);
-  const auto result = CalibratePhysical(robot, linear, {}, &logs, &validation);
+  const auto result = CalibrateNonlinear(robot, linear, {}, &logs, &validation);
   ASSERT_TRUE(result.solved) << result.reason;
   EXPECT_EQ(result.reason, "CONVERGENCE");
   ExpectPhysical(result.robot);
@@ -166,7 +167,7 @@ void ExpectRealRobot(const std::string& folder, const std::string& training,
   }
 }
 
-TEST(PhysicalCalibration, Ur10e) {
+TEST(NonlinearCalibration, Ur10e) {
   if (!std::filesystem::exists(kData + "ur10e_free")) {
     GTEST_SKIP() << "shared/data/ur10e_free is not here";
   }
@@ -175,7 +176,7 @@ TEST(PhysicalCalibration, Ur10e) {
                   {1.05, 1.05, 1.05, 1.05, 1.05});
 }
 
-TEST(PhysicalCalibration, Panda) {
+TEST(NonlinearCalibration, Panda) {
   if (!std::filesystem::exists(kData + "panda")) {
     GTEST_SKIP() << "shared/data/panda is not here";
   }

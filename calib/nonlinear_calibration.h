@@ -12,7 +12,7 @@
 
 namespace armcal {
 
-struct PhysicalCalibrationOptions {
+struct NonlinearCalibrationOptions {
   // Relative standard deviation of the robot file's inertial parameters, in
   // every direction of the links' pseudo-inertias. It ties what the logs do not
   // see.
@@ -32,7 +32,7 @@ struct PhysicalParameter {
 };
 
 // A robot with physically consistent links that moves like the logged one.
-struct PhysicalCalibration {
+struct NonlinearCalibration {
   bool solved = false;
   std::string reason;
   int iterations = 0;
@@ -46,9 +46,9 @@ struct PhysicalCalibration {
 // Estimates links' inertial parameters (log-Cholesky, hence physically
 // consistent) and joint terms from the torque equations of the logs, weighted
 // as the linear calibration found them, with the robot file as prior.
-PhysicalCalibration CalibratePhysical(const Robot& robot,
-                                      const LinearCalibration& linear,
-                                      const PhysicalCalibrationOptions& options,
-                                      LogSet* training, LogSet* validation);
+NonlinearCalibration CalibrateNonlinear(
+    const Robot& robot, const LinearCalibration& linear,
+    const NonlinearCalibrationOptions& options, LogSet* training,
+    LogSet* validation);
 
 }  // namespace armcal

@@ -1,4 +1,4 @@
-#include "calib/physical_report.h"
+#include "calib/nonlinear_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ std::string Value(const PhysicalParameter& p) {
                 kValueWidth);
 }
 
-const PhysicalParameter* Find(const PhysicalCalibration& result,
+const PhysicalParameter* Find(const NonlinearCalibration& result,
                               const std::string& name) {
   for (const PhysicalParameter& p : result.parameters) {
     if (p.name == name) return &p;
@@ -60,7 +60,7 @@ std::string Percent(const TorqueResidual& residual) {
                                 : "unknown (no torque)";
 }
 
-bool Converged(const PhysicalCalibration& result) {
+bool Converged(const NonlinearCalibration& result) {
   return result.reason == "CONVERGENCE";
 }
 
@@ -84,7 +84,7 @@ std::string LinkTable(const Robot& nominal, const Robot& robot) {
   return text;
 }
 
-std::string JointTable(const PhysicalCalibration& result) {
+std::string JointTable(const NonlinearCalibration& result) {
   size_t width = 8;
   for (const Link& link : result.robot.links) {
     width = std::max(width, link.joint.name.size() + 3);
@@ -105,8 +105,8 @@ std::string JointTable(const PhysicalCalibration& result) {
 
 }  // namespace
 
-std::string PhysicalReport(const Robot& nominal,
-                           const PhysicalCalibration& result) {
+std::string NonlinearReport(const Robot& nominal,
+                            const NonlinearCalibration& result) {
   if (!result.solved) {
     return "\nno physically consistent robot: " + result.reason + "\n";
   }
@@ -120,7 +120,7 @@ std::string PhysicalReport(const Robot& nominal,
   return text + "\n";
 }
 
-void AddRefined(const PhysicalCalibration& result, json* calibration) {
+void AddRefined(const NonlinearCalibration& result, json* calibration) {
   json& c = *calibration;
   if (!result.solved) {
     c["refined"] = {{"converged", false}, {"reason", result.reason}};
@@ -159,7 +159,7 @@ void AddRefined(const PhysicalCalibration& result, json* calibration) {
                   {"iterations", result.iterations}};
 }
 
-std::string ParametersCovarianceCsv(const PhysicalCalibration& result) {
+std::string ParametersCovarianceCsv(const NonlinearCalibration& result) {
   std::string text;
   for (const PhysicalParameter& p : result.parameters) {
     text += (text.empty() ? "\"" : ",\"") + p.name + "\"";

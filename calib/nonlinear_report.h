@@ -3,21 +3,22 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "calib/physical_calibration.h"
+#include "calib/nonlinear_calibration.h"
 
 namespace armcal {
 
 // The robot for a simulator on a terminal: links with masses and centres
 // beside the file's, what joints add, residuals, and what stayed open.
-std::string PhysicalReport(const Robot& nominal,
-                           const PhysicalCalibration& result);
+std::string NonlinearReport(const Robot& nominal,
+                            const NonlinearCalibration& result);
 
 // Makes `calibration` (of ToJson) describe the refined estimate: its joints and
 // parameters, the linear estimate's under "linear".
-void AddRefined(const PhysicalCalibration& result, nlohmann::json* calibration);
+void AddRefined(const NonlinearCalibration& result,
+                nlohmann::json* calibration);
 
 // parameters_covariance.csv: a header of the parameters' names, the matrix;
 // empty fields where a parameter is not identifiable.
-std::string ParametersCovarianceCsv(const PhysicalCalibration& result);
+std::string ParametersCovarianceCsv(const NonlinearCalibration& result);
 
 }  // namespace armcal

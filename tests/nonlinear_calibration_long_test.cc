@@ -1,9 +1,9 @@
-// Monte Carlo runs of CalibratePhysical: intervals, and whether fits of every
+// Monte Carlo runs of CalibrateNonlinear: intervals, and whether fits of every
 // difficulty end.
 
 #include <gtest/gtest.h>
 
-#include "tests/physical_runs.h"
+#include "tests/nonlinear_runs.h"
 
 namespace armcal {
 namespace {
@@ -23,7 +23,7 @@ class Intervals : public testing::TestWithParam<const char*> {};
 // The truth is drawn from the prior in every run.
 TEST_P(Intervals, AreTrue) {
   Scores terms, inertias;
-  PhysicalCalibrationOptions options;
+  NonlinearCalibrationOptions options;
   options.trust = .3;
   for (int run = 0; run < 60; ++run) {
     std::mt19937_64 random(100 + run);
@@ -59,9 +59,9 @@ TEST_P(Robots, AlwaysEnd) {
                      std::to_string(trust) + " seed " + std::to_string(seed));
         std::mt19937_64 random(seed);
         const SimulatedArm arm = MakeArm(GetParam(), 1, &random);
-        PhysicalCalibrationOptions options;
+        NonlinearCalibrationOptions options;
         options.trust = trust;
-        const PhysicalRun run = Calibrate(arm, noise, options, &random);
+        const NonlinearRun run = Calibrate(arm, noise, options, &random);
         ASSERT_TRUE(run.physical.solved) << run.physical.reason;
         EXPECT_EQ(run.physical.reason, "CONVERGENCE");
         EXPECT_LE(run.physical.iterations, 50);

@@ -1,10 +1,10 @@
-#include "calib/physical_report.h"
+#include "calib/nonlinear_report.h"
 
 #include <gmock/gmock.h>
 
 #include <sstream>
 
-#include "tests/physical_runs.h"
+#include "tests/nonlinear_runs.h"
 
 namespace armcal {
 namespace {
@@ -15,7 +15,7 @@ using testing::Not;
 
 struct Case {
   Robot file;
-  PhysicalRun run;
+  NonlinearRun run;
   json linear;  // what AddRefined is given
 };
 
@@ -60,13 +60,13 @@ std::vector<std::string> Table(const std::string& text,
   return rows;
 }
 
-TEST(PhysicalReport, ColumnsLineUpWhateverTheNames) {
+TEST(NonlinearReport, ColumnsLineUpWhateverTheNames) {
   const std::string name(40, 'x');
   for (const auto& [link, joint] :
        {std::make_pair(std::string("b"), std::string("c")),
         std::make_pair(name, std::string("c")), std::make_pair(name, name)}) {
     const Case c = MakeCase(link, joint);
-    const std::string text = PhysicalReport(c.file, c.run.physical);
+    const std::string text = NonlinearReport(c.file, c.run.physical);
     SCOPED_TRACE(text);
     const auto links = Table(text, "robot for a simulator");
     ASSERT_EQ(links.size(), 4u);
@@ -92,20 +92,20 @@ TEST(PhysicalReport, ColumnsLineUpWhateverTheNames) {
   }
 }
 
-TEST(PhysicalReport, SaysWhatDidNotWork) {
+TEST(NonlinearReport, SaysWhatDidNotWork) {
   Case c = MakeCase("b", "c");
   c.run.physical.reason = "NO_CONVERGENCE";
-  EXPECT_THAT(PhysicalReport(c.file, c.run.physical),
+  EXPECT_THAT(NonlinearReport(c.file, c.run.physical),
               HasSubstr("\nnot converged: NO_CONVERGENCE after "));
   AddRefined(c.run.physical, &c.linear);
   EXPECT_EQ(c.linear["refined"]["converged"], false);
   c.run.physical.training = TorqueResidual(3);  // of nothing
-  const std::string text = PhysicalReport(c.file, c.run.physical);
+  const std::string text = NonlinearReport(c.file, c.run.physical);
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 
-  PhysicalCalibration refused;
+  NonlinearCalibration refused;
   refused.reason = "for a reason";
-  EXPECT_EQ(PhysicalReport(c.file, refused),
+  EXPECT_EQ(NonlinearReport(c.file, refused),
             "\nno physically consistent robot: for a reason\n");
   json calibration = {{"estimate", "linear"}, {"parameters", {1}}};
   AddRefined(refused, &calibration);
@@ -117,7 +117,7 @@ TEST(PhysicalReport, SaysWhatDidNotWork) {
 
 TEST(AddRefined, DescribesTheRefinedEstimateAndKeepsTheLinear) {
   Case made = MakeCase("b", "c");
-  const PhysicalCalibration& physical = made.run.physical;
+  const NonlinearCalibration& physical = made.run.physical;
   const json before = made.linear;
   json c = made.linear;
   AddRefined(physical, &c);
@@ -156,7 +156,7 @@ TEST(AddRefined, DescribesTheRefinedEstimateAndKeepsTheLinear) {
 }
 
 TEST(ParametersCovarianceCsv, LeavesOutWhatTheLogsDoNotTell) {
-  const PhysicalCalibration physical = MakeCase("b", "c").run.physical;
+  const NonlinearCalibration physical = MakeCase("b", "c").run.physical;
   const auto lines = Lines(ParametersCovarianceCsv(physical));
   const auto& p = physical.parameters;
   ASSERT_EQ(lines.size(), p.size() + 1);
