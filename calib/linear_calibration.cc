@@ -138,6 +138,8 @@ void SetCovariance(const CovarianceEstimate& estimate,
   const int m = result->parameters.size();
   result->covariance = estimate.covariance;
   result->covariance_method = estimate.method;
+  result->score_window = estimate.window;
+  result->small_sample = estimate.small_sample;
   for (int k = 0; k < m; ++k) {
     if (!result->identifiable[k]) continue;
     result->stddev[k] = std::sqrt(result->covariance(k, k));
@@ -224,6 +226,7 @@ LinearCalibration CalibrateLinear(const Robot& robot,
 
   LinearCalibration result(MakeParameters(robot, options, transitions));
   for (const auto& t : transitions) result.transitions.push_back(t.front());
+  result.fitted_transitions = !transitions.empty() && !options.transition;
   result.rows = rows;
   result.solver = options.solver;
   result.joint_terms = options.joint_terms;
@@ -249,7 +252,7 @@ LinearCalibration CalibrateLinear(const Robot& robot,
            factors.Merged(result.parameters, equations.used), reference,
            equations.frozen, &pass, &result);
   result.passes = pass.passes() + 2;  // the audit and the factors
-  if (!transitions.empty() && !options.transition) result.passes += 2;
+  if (result.fitted_transitions) result.passes += 2;
   if (!result.solved) return result;
 
   result.lengths =

@@ -51,6 +51,7 @@ struct LinearCalibration {
 
   ModelParameters parameters;
   std::vector<CoulombTransition> transitions;  // per joint, if in the model
+  bool fitted_transitions = false;
 
   bool solved = false;
   std::string reason;  // why it stopped, or why it refused
@@ -61,6 +62,8 @@ struct LinearCalibration {
   // What it would be if the equations had independent errors.
   Eigen::MatrixXd independent_covariance;
   std::string covariance_method;
+  int score_window = 1;     // of the covariance, rows
+  double small_sample = 1;  // factor on it
   std::vector<bool> identifiable;
   Eigen::VectorXd noise;  // per joint, of the equations: N m, N (N m s, N s)
   Identifiability identifiability;

@@ -5,50 +5,65 @@
 #include <string>
 #include <vector>
 
+#include "calib/arm_unknowns.h"
 #include "calib/linear_calibration.h"
 #include "calib/log_set.h"
 #include "calib/torque_residual.h"
+#include "model/pose_reader.h"
 #include "model/robot.h"
+#include "problems/pose_problem.h"
 
 namespace armcal {
 
 struct NonlinearCalibrationOptions {
-  // Relative standard deviation of the robot file's inertial parameters, in
-  // every direction of the links' pseudo-inertias. It ties what the logs do not
-  // see.
-  double trust = 0.5;
+  // How far the robot file's values may be from the truth. It ties what
+  // the data do not see.
+  ArmTrust trust;
+  RefineGeometry refine = RefineGeometry::kNothing;
+  RobustLoss pose_loss = RobustLoss::kTukey;
   Progress progress;
 };
 
 // One parameter of the robot that a simulator needs.
 struct PhysicalParameter {
-  std::string name;  // "<link>.mass", "<joint>.viscous"
+  std::string name;  // "<link>.mass", "<joint>.viscous", "<link>.a"
   std::string unit;
   double value;
-  double stddev;  // infinite where the logs do not determine it
+  double stddev;  // infinite where the data do not determine it
   double prior;   // the robot file's value
   bool identifiable;
-  bool held;  // not estimated: one with another parameter
+  bool held;      // not estimated: one with another parameter
+  bool geometry;  // of the arm, its base, tool, instrument or targets
 };
 
-// A robot with physically consistent links that moves like the logged one.
+// Measured poses at an estimate.
+struct PoseFigures {
+  double rms = 0;  // m, distances per target or pose
+  double max = 0;
+  double before_rms = 0;  // only the instrument's frame fitted
+  PoseNoise noise;
+};
+
+// A robot with physically consistent links that moves like the real one.
 struct NonlinearCalibration {
   bool solved = false;
   std::string reason;
   int iterations = 0;
-  Robot robot;  // with the estimated inertial parameters and joint terms
+  Robot robot;  // with the estimated parameters
   std::vector<PhysicalParameter> parameters;
   Eigen::MatrixXd covariance;  // of them, prior included
   std::optional<TorqueResidual> training;
   std::optional<TorqueResidual> validation;
+  std::optional<PoseFigures> poses;
 };
 
 // Estimates links' inertial parameters (log-Cholesky, hence physically
-// consistent) and joint terms from the torque equations of the logs, weighted
-// as the linear calibration found them, with the robot file as prior.
+// consistent), joint terms and, where asked for, the geometry from the torque
+// equations of the logs, weighted as the linear calibration found them, and
+// from measured poses, if any (null: none), with the robot file as prior.
 NonlinearCalibration CalibrateNonlinear(
     const Robot& robot, const LinearCalibration& linear,
     const NonlinearCalibrationOptions& options, LogSet* training,
-    LogSet* validation);
+    LogSet* validation, const PoseMeasurements* poses = nullptr);
 
 }  // namespace armcal

@@ -4,25 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "calib/pose_fit.h"
-#include "calib/pose_start.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Refine = PoseCalibrationOptions::Refine;
 
 constexpr double kOutlier = 4;  // noise deviations
-
-double Rms(const std::vector<double>& d) {
-  double sum = 0;
-  for (const double x : d) sum += x * x;
-  return std::sqrt(sum / static_cast<double>(d.size()));
-}
 
 // Leaves out every folds-th pose in turn and predicts it from the others.
 void CrossValidate(const PoseFit& fit, const std::vector<bool>& free,
@@ -47,7 +38,6 @@ void CrossValidate(const PoseFit& fit, const std::vector<bool>& free,
 // The free parameters with standard deviations from the data alone.
 void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
                       const std::vector<int>& rows, const PoseUnknowns& at,
-                      const PoseMeasurements& measured, RobustLoss loss,
                       PoseCalibration* result) {
   const ArmGeometry& geometry = fit.geometry();
   const std::vector<std::string> names = geometry.Names();
@@ -70,8 +60,7 @@ void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
                                        Eigen::ComputeThinV);
   const VectorXd s = svd.singularValues();
   const double factor =
-      VarianceFactor(residuals, measured.poses.size() > 0 ? 6 : fit.Width(),
-                     loss, static_cast<int>(columns.size()));
+      fit.VarianceFactor(residuals, static_cast<int>(columns.size()));
   for (int k = 0; k < num_free; ++k) {
     double variance = 0, unseen = 0;
     for (Eigen::Index d = 0; d < s.size(); ++d) {
@@ -100,27 +89,14 @@ PoseCalibration CalibratePoses(const Robot& robot,
   PoseFit fit(robot, measured, options);
   PoseCalibration result;
   result.robot = robot;
-  std::vector<int> rows(measured.size());
-  std::iota(rows.begin(), rows.end(), 0);
-  PoseUnknowns unknowns = StartPoses(fit.geometry(), measured);
-  fit.EstimateNoise(std::vector<bool>(fit.geometry().size(), false), unknowns);
-  const std::vector<bool> frame =
-      fit.HoldUnseen(fit.Wanted(Refine::kNothing), rows, unknowns, nullptr);
-  result.reason = fit.WhyTooFew(frame, unknowns);
+  const PoseSolution solution = SolvePoses(measured, options.refine, &fit);
+  result.reason = solution.refusal;
+  result.before_rms = solution.before_rms;
+  result.held = solution.held;
   if (!result.reason.empty()) return result;
-  if (!fit.SolveWithNoise(frame, rows, &unknowns)) {
-    result.reason = "the instrument's frame cannot be found";
-    return result;
-  }
-  result.before_rms = Rms(fit.Distances(rows, unknowns));
-  const std::vector<bool> free =
-      fit.HoldUnseen(fit.Wanted(options.refine), rows, unknowns, &result.held);
-  result.reason = fit.WhyTooFew(free, unknowns);
-  if (!result.reason.empty()) return result;
-  if (!fit.SolveWithNoise(free, rows, &unknowns)) {
-    result.reason = "the geometry cannot be solved for";
-    return result;
-  }
+  const PoseUnknowns& unknowns = solution.unknowns;
+  const std::vector<bool>& free = solution.free;
+  const std::vector<int> rows = fit.AllRows();
   result.solved = true;
   result.reason = "solved";
   result.noise = fit.noise();
@@ -139,7 +115,7 @@ PoseCalibration CalibratePoses(const Robot& robot,
     result.inlier_rms = Rms(fit.Distances(inliers, unknowns));
   }
   CrossValidate(fit, free, unknowns, options.folds, measured.size(), &result);
-  ReportParameters(fit, free, rows, unknowns, measured, options.loss, &result);
+  ReportParameters(fit, free, rows, unknowns, &result);
   ArmGeometry refined = fit.geometry();
   refined.SetValues(unknowns.geometry);
   result.robot = refined.ApplyTo(robot);

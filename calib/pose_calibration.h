@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "model/arm_geometry.h"
 #include "model/pose_reader.h"
 #include "model/robot.h"
 #include "problems/pose_problem.h"
@@ -11,10 +12,7 @@
 namespace armcal {
 
 struct PoseCalibrationOptions {
-  // Which of the arm's own parameters are refined besides the instrument's
-  // frame and targets.
-  enum class Refine { kNothing, kOffsets, kAll };
-  Refine refine = Refine::kAll;
+  RefineGeometry refine = RefineGeometry::kAll;
   RobustLoss loss = RobustLoss::kHuber;
   // How far the arm's parameters may reasonably be from the file's: standard
   // deviations of the prior, m and rad.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "calib/pose_start.h"
 #include "model/column_basis.h"
 
 namespace armcal {
@@ -15,15 +16,10 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Refine = PoseCalibrationOptions::Refine;
 
 constexpr double kSamePose = 1e-4;  // rad or m
 // Without some to spare the noise would be a guess.
 constexpr int kSpareEquations = 10;
-
-bool StartsWith(const std::string& text, const std::string& prefix) {
-  return text.compare(0, prefix.size(), prefix) == 0;
-}
 
 }  // namespace
 
@@ -32,6 +28,12 @@ double Median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + values.size() / 2,
                    values.end());
   return values[values.size() / 2];
+}
+
+double Rms(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double x : values) sum += x * x;
+  return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 PoseFit::PoseFit(const Robot& robot, const PoseMeasurements& measured,
@@ -43,33 +45,15 @@ PoseFit::PoseFit(const Robot& robot, const PoseMeasurements& measured,
       units_(geometry_->Units()),
       nominal_(geometry_->Values()) {}
 
-bool PoseFit::OfInstrument(int k) const {
-  return StartsWith(names_[k], "base.");
+std::vector<int> PoseFit::AllRows() const {
+  std::vector<int> rows(measured_.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
 }
-bool PoseFit::OfTool(int k) const { return StartsWith(names_[k], "tool."); }
 
 double PoseFit::PriorOf(int k) const {
-  if (OfInstrument(k) || OfTool(k)) return 0;
+  if (ArmGeometry::IsBase(k) || geometry_->IsTool(k)) return 0;
   return units_[k] == "m" ? options_.prior_length : options_.prior_angle;
-}
-
-std::vector<bool> PoseFit::Wanted(Refine refine) const {
-  std::vector<bool> wanted(names_.size(), false);
-  const bool wire = measured_.lengths.size() > 0;
-  const bool targets = !measured_.targets.empty();
-  for (int k = 0; k < geometry_->size(); ++k) {
-    const std::string field = names_[k].substr(names_[k].rfind('.'));
-    if (OfInstrument(k)) {
-      wanted[k] = !wire;  // a wire's anchor stands for it
-    } else if (OfTool(k)) {
-      wanted[k] =
-          wire ? field == ".x" || field == ".y" || field == ".z" : !targets;
-    } else {
-      wanted[k] = refine == Refine::kAll ||
-                  (refine == Refine::kOffsets && field == ".theta");
-    }
-  }
-  return wanted;
 }
 
 MatrixXd PoseFit::Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
@@ -114,7 +98,7 @@ std::vector<bool> PoseFit::HoldUnseen(const std::vector<bool>& wanted,
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [this](int a, int b) {
     const auto rank = [this](int k) {
-      if (OfInstrument(k) || OfTool(k)) return 0;
+      if (ArmGeometry::IsBase(k) || geometry_->IsTool(k)) return 0;
       return names_[k].rfind(".theta") != std::string::npos ? 1 : 2;
     };
     return rank(a) < rank(b);
@@ -135,8 +119,7 @@ std::vector<bool> PoseFit::HoldUnseen(const std::vector<bool>& wanted,
 bool PoseFit::Solve(const std::vector<bool>& free, const std::vector<int>& rows,
                     PoseUnknowns* unknowns) const {
   ceres::Problem problem;
-  AddPoseResiduals(geometry_, measured_, rows, noise_, options_.loss, unknowns,
-                   &problem);
+  AddResiduals(rows, unknowns, &problem);
   MatrixXd weight = MatrixXd::Zero(geometry_->size(), geometry_->size());
   std::vector<int> constant;
   for (int k = 0; k < geometry_->size(); ++k) {
@@ -227,6 +210,33 @@ bool PoseFit::SolveWithNoise(const std::vector<bool>& free,
     EstimateNoise(free, *unknowns);
   }
   return Solve(free, rows, unknowns);
+}
+
+PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
+                        PoseFit* fit) {
+  PoseSolution solution;
+  const std::vector<int> rows = fit->AllRows();
+  solution.unknowns = StartPoses(fit->geometry(), measured);
+  fit->EstimateNoise(std::vector<bool>(fit->geometry().size(), false),
+                     solution.unknowns);
+  const auto solve = [&](RefineGeometry what, const char* failure) {
+    solution.held.clear();
+    solution.free = fit->HoldUnseen(fit->Wanted(what), rows, solution.unknowns,
+                                    &solution.held);
+    solution.refusal = fit->WhyTooFew(solution.free, solution.unknowns);
+    if (!solution.refusal.empty()) return false;
+    if (!fit->SolveWithNoise(solution.free, rows, &solution.unknowns)) {
+      solution.refusal = failure;
+    }
+    return solution.refusal.empty();
+  };
+  if (!solve(RefineGeometry::kNothing,
+             "the instrument's frame cannot be found")) {
+    return solution;
+  }
+  solution.before_rms = Rms(fit->Distances(rows, solution.unknowns));
+  solve(refine, "the geometry cannot be solved for");
+  return solution;
 }
 
 }  // namespace armcal

@@ -14,6 +14,7 @@
 namespace armcal {
 
 double Median(std::vector<double> values);  // 0 of none
+double Rms(const std::vector<double>& values);
 
 // Fits of measured poses with some of the geometry's parameters free, and what
 // there is to be fitted. `rows` are indices of poses, `free` flags of the
@@ -25,13 +26,23 @@ class PoseFit {
 
   const ArmGeometry& geometry() const { return *geometry_; }
   const PoseNoise& noise() const { return noise_; }
+  std::vector<int> AllRows() const;
+  // Of the estimate's covariance over (J'J)^-1 (pose_problem.h).
+  double VarianceFactor(const Eigen::VectorXd& residuals,
+                        int num_unknowns) const {
+    return armcal::VarianceFactor(residuals,
+                                  measured_.poses.size() > 0 ? 6 : Width(),
+                                  options_.loss, num_unknowns);
+  }
   // Coordinates of a position error.
   int Width() const { return measured_.lengths.size() > 0 ? 1 : 3; }
   // Standard deviation of the prior on parameter k; 0: none.
   double PriorOf(int k) const;
 
   // The parameters that refinement and this kind of measurement ask for.
-  std::vector<bool> Wanted(PoseCalibrationOptions::Refine refine) const;
+  std::vector<bool> Wanted(RefineGeometry refine) const {
+    return FreeGeometry(*geometry_, refine, &measured_);
+  }
   // Of those, the ones that the poses can tell apart; *held says why not.
   std::vector<bool> HoldUnseen(const std::vector<bool>& wanted,
                                const std::vector<int>& rows,
@@ -43,6 +54,12 @@ class PoseFit {
   // Of all unknowns, in noise units and without the loss.
   Eigen::MatrixXd Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
                            Eigen::VectorXd* residuals = nullptr) const;
+  // Adds the residuals of poses `rows`, whose blocks are those of `unknowns`.
+  void AddResiduals(const std::vector<int>& rows, PoseUnknowns* unknowns,
+                    ceres::Problem* problem) const {
+    AddPoseResiduals(geometry_, measured_, rows, noise_, options_.loss,
+                     unknowns, problem);
+  }
   // False where the solver found no usable solution.
   bool Solve(const std::vector<bool>& free, const std::vector<int>& rows,
              PoseUnknowns* unknowns) const;
@@ -54,8 +71,6 @@ class PoseFit {
                                 const PoseUnknowns& at) const;
 
  private:
-  bool OfInstrument(int k) const;
-  bool OfTool(int k) const;
   static int NumUnknowns(const std::vector<bool>& free,
                          const PoseUnknowns& at) {
     return static_cast<int>(std::count(free.begin(), free.end(), true) +
@@ -69,5 +84,17 @@ class PoseFit {
   Eigen::VectorXd nominal_;
   PoseNoise noise_;
 };
+
+// Poses fitted alone, from their start values: first the instrument's frame,
+// then what `refine` asks for and the poses can tell.
+struct PoseSolution {
+  std::string refusal;  // why there is none; empty: solved
+  PoseUnknowns unknowns;
+  std::vector<bool> free;         // of the geometry's parameters
+  std::vector<std::string> held;  // sentences
+  double before_rms = 0;          // m, with only the frame fitted
+};
+PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
+                        PoseFit* fit);
 
 }  // namespace armcal

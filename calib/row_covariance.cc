@@ -93,11 +93,13 @@ VectorXd Score(const RowResidual& residual, const LinearSolution& solution,
   return score;
 }
 
-// Standard deviations raised to the scatter of the logs' score sums (columns).
+}  // namespace
+
 MatrixXd RaiseToLogScatter(const MatrixXd& covariance, const MatrixXd& gain,
-                           const MatrixXd& sums) {
-  const double logs = static_cast<double>(sums.cols());
-  const MatrixXd between = gain * sums;
+                           const MatrixXd& log_sums) {
+  const double logs = static_cast<double>(log_sums.cols());
+  if (logs < 3) return covariance;
+  const MatrixXd between = gain * log_sums;
   VectorXd factor(covariance.rows());
   for (Eigen::Index k = 0; k < factor.size(); ++k) {
     const double variance = logs / (logs - 1) * between.row(k).squaredNorm();
@@ -106,8 +108,6 @@ MatrixXd RaiseToLogScatter(const MatrixXd& covariance, const MatrixXd& gain,
   }
   return factor.asDiagonal() * covariance * factor.asDiagonal();
 }
-
-}  // namespace
 
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                                          const VectorXd& noise, bool huber,
@@ -140,12 +140,13 @@ CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
     linearised.gain = SolveWeighted(inside, noise, reference).gain;
   }
   CovarianceEstimate estimate;
-  estimate.covariance = small.Value(window, parameters.size()) *
-                        linearised.CovarianceFromScores(scores.Value());
+  estimate.window = window;
+  estimate.small_sample = small.Value(window, parameters.size());
+  estimate.covariance = RaiseToLogScatter(
+      estimate.small_sample * linearised.CovarianceFromScores(scores.Value()),
+      linearised.gain, sums);
   estimate.method = "Newey-West over " + std::to_string(window) + " rows";
   if (pass->num_logs() >= 3) {
-    estimate.covariance =
-        RaiseToLogScatter(estimate.covariance, linearised.gain, sums);
     estimate.method += ", at least the scatter between logs";
   }
   return estimate;

@@ -12,7 +12,15 @@ namespace armcal {
 struct CovarianceEstimate {
   Eigen::MatrixXd covariance;  // m x m, of the parameters
   std::string method;          // a phrase for reports
+  int window = 1;              // of the scores, in rows
+  double small_sample = 1;     // factor on their covariance
 };
+
+// Deviations of `covariance` raised to the scatter of the logs' score sums
+// (columns), which `gain` takes to parameters; as it is with less than three.
+Eigen::MatrixXd RaiseToLogScatter(const Eigen::MatrixXd& covariance,
+                                  const Eigen::MatrixXd& gain,
+                                  const Eigen::MatrixXd& log_sums);
 
 // The covariance of a solution from rows that overlap and whose errors are
 // autocorrelated: the sandwich of the solution's gain and the long-run

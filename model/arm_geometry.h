@@ -41,6 +41,10 @@ struct ParameterTwist {
   }
 };
 
+// Which of an arm's own parameters, besides base and tool, a calibration
+// refines: kOffsets, the joints' zeros.
+enum class RefineGeometry { kNothing, kOffsets, kAll };
+
 // The geometry of an arm as a sequence of elementary transforms from the world
 // to the tool, with the parameters of the file's own convention:
 //   DH standard  <link>.theta .d .a .alpha        (F = P)
@@ -55,6 +59,9 @@ class ArmGeometry {
   explicit ArmGeometry(const Robot& robot);
 
   int size() const { return static_cast<int>(parameters_.size()); }
+  // Whether parameter k is the base's, the tool's: six each, first and last.
+  static bool IsBase(int k) { return k < 6; }
+  bool IsTool(int k) const { return k >= size() - 6; }
   std::vector<std::string> Names() const;
   std::vector<std::string> Units() const;  // "m" or "rad"
   Eigen::VectorXd Values() const;

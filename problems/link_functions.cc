@@ -23,7 +23,7 @@ LinkFunctions::LinkFunctions(const Robot& robot,
                              const ArmGeometry& geometry,
                              const std::vector<int>& refined)
     : terms_(terms),
-      regressor_(robot),
+      regressor_(geometry.ApplyTo(robot)),
       inertia_(StackInertials(robot)),
       coulomb_(terms),
       columns_(10 * robot.num_joints() +

@@ -12,10 +12,11 @@ namespace armcal {
 
 // Columns of what a robot file holds: the links' inertial parameters (10 each),
 // joint terms, and the geometry's parameters, in which the torque is taken
-// linearly about the robot's own geometry and inertia (central differences).
+// linearly about `geometry` and the robot's inertia (central differences).
 class LinkFunctions : public MotionFunctions {
  public:
-  // `refined`: which of the geometry's parameters have a column.
+  // The arm is `robot` with `geometry` in place of its own. `refined`: which of
+  // the geometry's parameters have a column.
   LinkFunctions(const Robot& robot, const std::vector<JointTermColumn>& terms,
                 const ArmGeometry& geometry, const std::vector<int>& refined);
 

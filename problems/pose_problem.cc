@@ -81,6 +81,28 @@ std::vector<std::string> PoseUnknowns::OtherNames(
   return names;
 }
 
+std::vector<bool> FreeGeometry(const ArmGeometry& geometry,
+                               RefineGeometry refine,
+                               const PoseMeasurements* measured) {
+  const bool wire = measured != nullptr && measured->lengths.size() > 0;
+  const bool targets = measured != nullptr && !measured->targets.empty();
+  const std::vector<std::string> names = geometry.Names();
+  std::vector<bool> free(geometry.size(), false);
+  for (int k = 0; k < geometry.size(); ++k) {
+    const std::string field = names[k].substr(names[k].rfind('.'));
+    if (ArmGeometry::IsBase(k)) {
+      free[k] = measured != nullptr && !wire;  // an anchor stands for it
+    } else if (geometry.IsTool(k)) {
+      const bool point = field == ".x" || field == ".y" || field == ".z";
+      free[k] = measured != nullptr && !targets && (point || !wire);
+    } else {
+      free[k] = refine == RefineGeometry::kAll ||
+                (refine == RefineGeometry::kOffsets && field == ".theta");
+    }
+  }
+  return free;
+}
+
 void AddPoseResiduals(std::shared_ptr<const ArmGeometry> geometry,
                       const PoseMeasurements& measured,
                       const std::vector<int>& rows, const PoseNoise& noise,

@@ -42,6 +42,12 @@ struct PoseUnknowns {
   static std::vector<std::string> OtherNames(const PoseMeasurements& measured);
 };
 
+// Which of the geometry's parameters `refine` and these measurements (null:
+// none, torques alone) leave free.
+std::vector<bool> FreeGeometry(const ArmGeometry& geometry,
+                               RefineGeometry refine,
+                               const PoseMeasurements* measured);
+
 // Adds the residuals of poses `rows` to `problem`, whose parameter blocks are
 // those of `unknowns`.
 void AddPoseResiduals(std::shared_ptr<const ArmGeometry> geometry,

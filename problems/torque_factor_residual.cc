@@ -29,16 +29,19 @@ void EvaluateInertial(const double* c, Vector10d* V, Matrix10d* J) {
 }  // namespace
 
 TorqueFactorResidual::TorqueFactorResidual(const MatrixXd& R, const VectorXd& z,
-                                           int num_links, int num_terms,
-                                           const VectorXd& g_0)
-    : R_(R), z_(z), g_0_(g_0), num_links_(num_links), num_terms_(num_terms) {
-  CHECK_EQ(R.cols(), 10 * num_links + num_terms + g_0.size());
+                                           int num_links,
+                                           const std::vector<int>& sizes)
+    : R_(R), z_(z), num_links_(num_links) {
   set_num_residuals(static_cast<int>(R.rows()));
   mutable_parameter_block_sizes()->assign(num_links, 10);
-  if (num_terms > 0) mutable_parameter_block_sizes()->push_back(num_terms);
-  if (g_0.size() > 0) {
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(g_0.size()));
+  int columns = 10 * num_links;
+  for (const int size : sizes) {
+    if (size == 0) continue;
+    sizes_.push_back(size);
+    mutable_parameter_block_sizes()->push_back(size);
+    columns += size;
   }
+  CHECK_EQ(R.cols(), columns);
 }
 
 bool TorqueFactorResidual::Evaluate(double const* const* parameters,
@@ -58,19 +61,15 @@ bool TorqueFactorResidual::Evaluate(double const* const* parameters,
   }
   int block = num_links_;
   Eigen::Index at = 10 * num_links_;
-  const auto add_linear = [&](Eigen::Index size, const VectorXd& origin) {
-    if (size == 0) return;
+  for (const int size : sizes_) {
     const auto columns = R_.middleCols(at, size);
-    r += columns *
-         (Eigen::Map<const VectorXd>(parameters[block], size) - origin);
+    r += columns * Eigen::Map<const VectorXd>(parameters[block], size);
     if (jacobians != nullptr && jacobians[block] != nullptr) {
       Eigen::Map<RowMajor>(jacobians[block], R_.rows(), size) = columns;
     }
     at += size;
     ++block;
-  };
-  add_linear(num_terms_, VectorXd::Zero(num_terms_));
-  add_linear(g_0_.size(), g_0_);
+  }
   return r.allFinite();
 }
 

@@ -112,7 +112,7 @@ TEST(Mujoco, LinksAtTheBoundaryLoad) {
     std::mt19937_64 random(seed);
     const SimulatedArm arm = MakeArm("Panda 7R", 1, &random);
     NonlinearCalibrationOptions options;
-    options.trust = 3;
+    options.trust.inertia = 3;
     const auto result = Calibrate(arm, .1, options, &random).physical;
     ASSERT_TRUE(result.solved);
     ExpectSameInMujoco(result.robot);

@@ -24,10 +24,10 @@ class Intervals : public testing::TestWithParam<const char*> {};
 TEST_P(Intervals, AreTrue) {
   Scores terms, inertias;
   NonlinearCalibrationOptions options;
-  options.trust = .3;
+  options.trust.inertia = .3;
   for (int run = 0; run < 60; ++run) {
     std::mt19937_64 random(100 + run);
-    const SimulatedArm arm = MakeArm(GetParam(), options.trust, &random);
+    const SimulatedArm arm = MakeArm(GetParam(), options.trust.inertia, &random);
     const auto result = Calibrate(arm, .01, options, &random).physical;
     ASSERT_TRUE(result.solved) << result.reason;
     for (const PhysicalParameter& p : result.parameters) {
@@ -60,7 +60,7 @@ TEST_P(Robots, AlwaysEnd) {
         std::mt19937_64 random(seed);
         const SimulatedArm arm = MakeArm(GetParam(), 1, &random);
         NonlinearCalibrationOptions options;
-        options.trust = trust;
+        options.trust.inertia = trust;
         const NonlinearRun run = Calibrate(arm, noise, options, &random);
         ASSERT_TRUE(run.physical.solved) << run.physical.reason;
         EXPECT_EQ(run.physical.reason, "CONVERGENCE");

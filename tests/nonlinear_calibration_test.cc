@@ -45,7 +45,7 @@ TEST_P(SimulatedArms, BecomePhysicalAndPredictNewMotion) {
   std::mt19937_64 random(11);
   const SimulatedArm arm = MakeArm(GetParam(), .3, &random);
   NonlinearCalibrationOptions options;
-  options.trust = .3;
+  options.trust.inertia = .3;
   const NonlinearRun run = Calibrate(arm, .01, options, &random);
   ASSERT_TRUE(run.physical.solved) << run.physical.reason;
   EXPECT_EQ(run.physical.reason, "CONVERGENCE");
@@ -76,7 +76,7 @@ TEST(NonlinearCalibration, KnowsWhatTheLogsDoNotShow) {
   const SimulatedArm arm = MakeArm("UR5 6R", .3, &random);
   for (const double trust : {.05, .3, 3.}) {
     NonlinearCalibrationOptions options;
-    options.trust = trust;
+    options.trust.inertia = trust;
     const auto result = Calibrate(arm, .01, options, &random).physical;
     for (int j = 1; j <= 6; ++j) {
       const std::string joint = "joint" + std::to_string(j);

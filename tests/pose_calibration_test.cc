@@ -16,7 +16,7 @@ namespace armcal {
 namespace {
 
 using Eigen::VectorXd;
-using Refine = PoseCalibrationOptions::Refine;
+using Refine = RefineGeometry;
 
 PoseCalibrationOptions Options(RobustLoss loss, Refine refine = Refine::kAll,
                                int folds = 0) {

@@ -24,7 +24,6 @@ struct Problem {
     R.resize(s.rows, columns);
     for (double& x : R.reshaped()) x = Uniform(&random, -1, 1);
     z = UniformVector(&random, s.rows, -1, 1);
-    g_0 = UniformVector(&random, s.geometry, -1, 1);
     x.resize(columns);
     for (int i = 0; i < s.links; ++i) {
       blocks.push_back(UniformVector(&random, 10, -.7, .7));
@@ -36,13 +35,13 @@ struct Problem {
     }
     if (s.geometry > 0) {
       blocks.push_back(UniformVector(&random, s.geometry, -1, 1));
-      x.tail(s.geometry) = blocks.back() - g_0;
+      x.tail(s.geometry) = blocks.back();
     }
     for (const VectorXd& block : blocks) parameters.push_back(block.data());
   }
   std::mt19937_64 random{3};
   MatrixXd R;
-  VectorXd z, g_0, x;
+  VectorXd z, x;
   std::vector<VectorXd> blocks;
   std::vector<const double*> parameters;
 };
@@ -50,7 +49,8 @@ struct Problem {
 TEST(TorqueFactorResidual, IsTheDenseProduct) {
   for (const Sizes& s : kSizes) {
     const Problem p(s);
-    const TorqueFactorResidual cost(p.R, p.z, s.links, s.terms, p.g_0);
+    const TorqueFactorResidual cost(p.R, p.z, s.links,
+                                    {s.terms, s.geometry});
     ASSERT_EQ(cost.num_residuals(), s.rows);
     ASSERT_EQ(cost.parameter_block_sizes().size(), p.blocks.size());
     for (size_t k = 0; k < p.blocks.size(); ++k) {
@@ -66,7 +66,8 @@ TEST(TorqueFactorResidual, GradientIsRight) {
   const std::vector<const ceres::Manifold*>* no_manifolds = nullptr;
   for (const Sizes& s : kSizes) {
     const Problem p(s);
-    const TorqueFactorResidual cost(p.R, p.z, s.links, s.terms, p.g_0);
+    const TorqueFactorResidual cost(p.R, p.z, s.links,
+                                    {s.terms, s.geometry});
     ceres::NumericDiffOptions options;
     options.ridders_relative_initial_step_size = 1e-3;
     ceres::GradientChecker checker(&cost, no_manifolds, options);
@@ -79,7 +80,7 @@ TEST(TorqueFactorResidual, GradientIsRight) {
 // Ceres takes false for a step that went too far, and tries a shorter one.
 TEST(TorqueFactorResidual, OverflowIsRefused) {
   Problem p(kSizes[0]);
-  const TorqueFactorResidual cost(p.R, p.z, 2, 4, p.g_0);
+  const TorqueFactorResidual cost(p.R, p.z, 2, {4, 3});
   p.blocks[1][2] = 400;
   VectorXd r(27);
   EXPECT_FALSE(cost.Evaluate(p.parameters.data(), r.data(), nullptr));

@@ -216,7 +216,7 @@ int RunCalibrate() {
   LinearCalibrationOptions options = OptionsFromFlags(robot);
   const bool is_refined = IsRefinedFromFlags();
   NonlinearCalibrationOptions refine;
-  refine.trust = TrustFromFlags();
+  refine.trust.inertia = TrustFromFlags();
   const LogReaderOptions log_options = LogOptionsFromFlags(robot);
   CheckLogsApart();
   const TimeRange crop = CropFromFlags();

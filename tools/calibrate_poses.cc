@@ -22,7 +22,7 @@ DEFINE_string(poses, "",
 namespace armcal {
 
 int CalibratePosesFromFlags(const Robot& robot) {
-  using Refine = PoseCalibrationOptions::Refine;
+  using Refine = RefineGeometry;
   PoseCalibrationOptions options;
   options.refine = ParseChoice<Refine>("geometry", FLAGS_geometry,
                                        {{"known", Refine::kNothing},

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/arm_fit.h"
+#include "calib/link_equations.h"
+
+namespace armcal {
+
+// How sure an estimate of an arm's unknowns is.
+struct ArmCovariance {
+  // Of the estimate's error, over the noise and over truths that the prior
+  // allows; rows and columns of what is held are 0.
+  Eigen::MatrixXd covariance;
+  // Whether the data tell more of a parameter than the file would that is
+  // trusted to 100 % (a geometric one: to its prior's deviation): without the
+  // file its variance is less than doubled.
+  std::vector<bool> identifiable;
+};
+
+// The sandwich of information and scores: torque rows overlap and have
+// autocorrelated errors.
+ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
+                                    const ArmFit& fit, const ArmTrust& trust,
+                                    const ArmValues& at,
+                                    const LinkInformation& torques);
+
+}  // namespace armcal

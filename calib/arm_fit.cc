@@ -1,0 +1,196 @@
+#include "calib/arm_fit.h"
+
+#include <ceres/manifold.h>
+#include <ceres/normal_prior.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include "calib/link_start.h"
+#include "problems/inertial_coordinates.h"
+#include "problems/inertial_manifold.h"
+#include "problems/inertial_prior.h"
+#include "problems/torque_factor_residual.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The parameter blocks of a Ceres problem.
+struct Blocks {
+  explicit Blocks(const ArmValues& values) : value(values) {
+    for (Eigen::Index k = 0; k < values.links.size(); k += 10) {
+      links.push_back(
+          LogCholeskyFromInertial(values.links.segment<10>(k), 0, 0));
+    }
+  }
+  ArmValues Values() {
+    for (size_t i = 0; i < links.size(); ++i) {
+      InertialFromLogCholesky(links[i].data(), value.links.data() + 10 * i);
+    }
+    return value;
+  }
+  ArmValues value;  // links: only as they were
+  std::vector<Vector10d> links;
+};
+
+// Keeps the entries of a block that are not free.
+void Hold(const ArmUnknowns& unknowns, int begin, int size, double* block,
+          ceres::Problem* problem) {
+  std::vector<int> held;
+  for (int k = 0; k < size; ++k) {
+    if (!unknowns.is_free(begin + k)) held.push_back(k);
+  }
+  if (static_cast<int>(held.size()) == size) {
+    problem->SetParameterBlockConstant(block);
+  } else if (!held.empty()) {
+    problem->SetManifold(block, new ceres::SubsetManifold(size, held));
+  }
+}
+
+bool IsPositive(const ArmUnknowns& unknowns, int term) {
+  return unknowns.is_free(unknowns.terms_begin() + term) &&
+         unknowns.terms()[term].term != JointTerm::kOffset;
+}
+
+void AddNormalPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
+                    int begin, const VectorXd& mean, double* block,
+                    ceres::Problem* problem) {
+  MatrixXd weight = MatrixXd::Zero(mean.size(), mean.size());
+  for (int k = 0; k < mean.size(); ++k) {
+    const double prior = unknowns.GeometryPrior(begin + k, trust);
+    if (prior > 0) weight(k, k) = 1 / prior;
+  }
+  problem->AddResidualBlock(new ceres::NormalPrior(weight, mean), nullptr,
+                            block);
+}
+
+}  // namespace
+
+ArmFit::ArmFit(const ArmUnknowns& unknowns, const ArmTrust& trust,
+               const PoseFit* poses)
+    : unknowns_(unknowns), trust_(trust), poses_(poses) {}
+
+bool ArmFit::Start(const LinkEquations& equations, ArmValues* values) const {
+  const int size = unknowns_.tilt_begin();
+  VectorXd x(size);
+  for (int i = 0; i < unknowns_.num_links(); ++i) {  // inside the boundary
+    const Vector10d c = LogCholeskyFromInertial(
+        unknowns_.nominal().links.segment<10>(10 * i), 0.01, 0.01);
+    InertialFromLogCholesky(c.data(), x.data() + 10 * i);
+  }
+  x.tail(values->terms.size()) = values->terms;
+  std::vector<TermRange> ranges;
+  for (int t = 0; t < values->terms.size(); ++t) {
+    ranges.push_back(IsPositive(unknowns_, t) ? TermRange::kPositive
+                     : unknowns_.is_free(unknowns_.terms_begin() + t)
+                         ? TermRange::kFree
+                         : TermRange::kHeld);
+  }
+  const Eigen::Index others = unknowns_.size() - size;
+  const auto start =
+      StartLinks(equations.R.leftCols(size),
+                 equations.z - equations.R.rightCols(others) *
+                                   values->Stacked().tail(others),
+                 trust_.inertia, ranges, x);
+  if (!start) return false;
+  values->links = start->head(values->links.size());
+  values->terms = start->tail(values->terms.size());
+  return true;
+}
+
+ArmFit::End ArmFit::Solve(const LinkEquations& equations,
+                          ArmValues* values) const {
+  Blocks blocks(*values);
+  ArmValues& v = blocks.value;
+  std::vector<double*> all;
+  for (Vector10d& c : blocks.links) all.push_back(c.data());
+  std::vector<int> sizes;
+  for (VectorXd* part : {&v.terms, &v.poses.geometry, &v.poses.other}) {
+    if (part == &v.poses.geometry) {
+      all.push_back(v.tilt.data());
+      sizes.push_back(2);
+    }
+    if (part->size() == 0) continue;
+    all.push_back(part->data());
+    sizes.push_back(static_cast<int>(part->size()));
+  }
+  ceres::Problem problem;
+  problem.AddResidualBlock(
+      new TorqueFactorResidual(equations.R, equations.z, unknowns_.num_links(),
+                               sizes),
+      nullptr, all);
+  const ArmValues& nominal = unknowns_.nominal();
+  for (size_t i = 0; i < blocks.links.size(); ++i) {
+    problem.AddResidualBlock(
+        new InertialPrior(nominal.links.segment<10>(10 * i), trust_.inertia),
+        nullptr, all[i]);
+    problem.SetManifold(all[i], new InertialManifold);
+  }
+  double* const g = v.poses.geometry.data();
+  AddNormalPrior(unknowns_, trust_, unknowns_.tilt_begin(), nominal.tilt,
+                 v.tilt.data(), &problem);
+  AddNormalPrior(unknowns_, trust_, unknowns_.geometry_begin(),
+                 nominal.poses.geometry, g, &problem);
+  if (poses_ != nullptr)
+    poses_->AddResiduals(poses_->AllRows(), &v.poses, &problem);
+  Hold(unknowns_, unknowns_.terms_begin(), static_cast<int>(v.terms.size()),
+       v.terms.data(), &problem);
+  for (int t = 0; t < v.terms.size(); ++t) {
+    if (IsPositive(unknowns_, t)) {
+      problem.SetParameterLowerBound(v.terms.data(), t, 0);
+    }
+  }
+  Hold(unknowns_, unknowns_.tilt_begin(), 2, v.tilt.data(), &problem);
+  Hold(unknowns_, unknowns_.geometry_begin(),
+       static_cast<int>(v.poses.geometry.size()), g, &problem);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = 300;
+  options.function_tolerance = 1e-9;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  const ArmValues result = blocks.Values();
+  End end;
+  end.reason = ceres::TerminationTypeToString(summary.termination_type);
+  end.iterations = static_cast<int>(summary.iterations.size());
+  end.usable = summary.IsSolutionUsable() && result.Stacked().allFinite();
+  if (end.usable) *values = result;
+  return end;
+}
+
+// Parameters without a prior have one that tells next to nothing.
+MatrixXd ArmFit::PriorInformation(const ArmTrust& trust) const {
+  MatrixXd information =
+      1e-12 * MatrixXd::Identity(unknowns_.size(), unknowns_.size());
+  for (int i = 0; i < unknowns_.num_links(); ++i) {
+    const auto W = InertialPrior(unknowns_.nominal().links.segment<10>(10 * i),
+                                 trust.inertia)
+                       .W();
+    information.block<10, 10>(10 * i, 10 * i) = W.transpose() * W;
+  }
+  for (int k = unknowns_.tilt_begin(); k < unknowns_.other_begin(); ++k) {
+    const double prior = unknowns_.GeometryPrior(k, trust);
+    if (prior > 0) information(k, k) = 1 / (prior * prior);
+  }
+  return information;
+}
+
+MatrixXd ArmFit::PoseInformation(const ArmValues& values) const {
+  MatrixXd information = MatrixXd::Zero(unknowns_.size(), unknowns_.size());
+  if (poses_ == nullptr) return information;
+  VectorXd residuals;
+  const MatrixXd J =
+      poses_->Jacobian(poses_->AllRows(), values.poses, &residuals);
+  int num_free = 0;
+  for (int k = unknowns_.geometry_begin(); k < unknowns_.size(); ++k) {
+    num_free += unknowns_.is_free(k);
+  }
+  information.bottomRightCorner(J.cols(), J.cols()) =
+      J.transpose() * J / poses_->VarianceFactor(residuals, num_free);
+  return information;
+}
+
+}  // namespace armcal

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "calib/arm_unknowns.h"
+#include "calib/link_equations.h"
+#include "calib/pose_fit.h"
+
+namespace armcal {
+
+// The fit of an arm's unknowns to torque equations and measured poses at once,
+// with the robot file as prior: links in log-Cholesky coordinates, hence
+// physically consistent; friction and armature not negative.
+class ArmFit {
+ public:
+  // `poses`: null without measured poses. All are kept by reference.
+  ArmFit(const ArmUnknowns& unknowns, const ArmTrust& trust,
+         const PoseFit* poses);
+
+  // Links and joint terms from any start, for the geometry of `values`
+  // (StartLinks). False where numbers overflow.
+  bool Start(const LinkEquations& equations, ArmValues* values) const;
+
+  struct End {
+    bool usable = false;
+    std::string reason;  // Ceres' word
+    int iterations = 0;
+  };
+  End Solve(const LinkEquations& equations, ArmValues* values) const;
+
+  // Information about the unknowns, near the file's values and at `values`.
+  Eigen::MatrixXd PriorInformation(const ArmTrust& trust) const;
+  Eigen::MatrixXd PoseInformation(const ArmValues& values) const;
+
+ private:
+  const ArmUnknowns& unknowns_;
+  const ArmTrust& trust_;
+  const PoseFit* poses_;
+};
+
+}  // namespace armcal

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/arm_unknowns.h"
+#include "calib/linear_calibration.h"
+#include "calib/log_set.h"
+
+namespace armcal {
+
+// The torque equations of logs, R x = z, in all of an arm's unknowns x (columns
+// of those that torques do not see are 0). They are whitened, weighted by
+// Huber's loss, compressed to a triangle, and linear about some values in the
+// geometry; z is such that x are the unknowns themselves.
+struct LinkEquations {
+  Eigen::MatrixXd R;
+  Eigen::VectorXd z;
+  // Per joint, the robust spread of the residuals at those values in units of
+  // the noise given, 0 where no equation is used.
+  Eigen::VectorXd spread;
+};
+
+// What the torque equations tell about the unknowns at some values.
+struct LinkInformation {
+  Eigen::MatrixXd H;  // of equations inside Huber's threshold
+  // The covariance of the sum of scores, autocorrelation allowed for
+  // (Newey-West as the linear calibration's).
+  Eigen::MatrixXd S;
+  Eigen::MatrixXd log_sums;  // of scores, a column per log
+};
+
+// Passes over the logs. `noise`: standard deviations per joint of the weak
+// rows; those of rows that follow each other tell less than their number, which
+// the linear calibration's inflation stands for.
+class LinkPass {
+ public:
+  LinkPass(const ArmUnknowns& unknowns, const LinearCalibration& linear,
+           const Progress& progress, LogSet* logs);
+
+  LinkEquations Reduce(const ArmValues& at, const Eigen::VectorXd& noise);
+  // With fitted widths of Coulomb friction, which friction and armature share,
+  // as unknowns of their own that are eliminated.
+  LinkInformation Inform(const ArmValues& at, const Eigen::VectorXd& noise);
+
+ private:
+  struct Residual;
+  void ForEachResidual(const std::string& stage, const ArmValues& at,
+                       const Eigen::VectorXd& noise,
+                       const std::vector<JointTermColumn>& terms,
+                       const std::function<void(const Residual&)>& visit);
+
+  const ArmUnknowns& unknowns_;
+  const LinearCalibration& linear_;
+  Progress progress_;
+  LogSet* logs_;
+};
+
+}  // namespace armcal
