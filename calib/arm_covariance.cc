@@ -1,23 +1,14 @@
 #include "calib/arm_covariance.h"
 
-#include <Eigen/Cholesky>
-
+#include "calib/overlap_covariance.h"
 #include "calib/row_covariance.h"
+#include "calib/scaled_inverse.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Inverts positive definite matrices whose units differ by many orders.
-MatrixXd ScaledInverse(const MatrixXd& A) {
-  const VectorXd s = A.diagonal().cwiseSqrt().cwiseInverse();
-  const MatrixXd scaled = s.asDiagonal() * A * s.asDiagonal();
-  return s.asDiagonal() *
-         scaled.ldlt().solve(MatrixXd::Identity(A.rows(), A.cols())) *
-         s.asDiagonal();
-}
 
 ArmTrust Weaker(double inertia, const ArmTrust& trust, double geometry) {
   return {inertia, geometry * trust.length, geometry * trust.angle};
@@ -30,27 +21,23 @@ ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
                                     const ArmValues& at,
                                     const LinkInformation& torques) {
   const std::vector<int> free = unknowns.FreeIndices();
-  const MatrixXd poses = fit.PoseInformation(at);
-  const auto information = [&](const ArmTrust& t) -> MatrixXd {
-    return (torques.H + poses + fit.PriorInformation(t))(free, free);
+  const MatrixXd data = torques.H + fit.PoseInformation(at);
+  const auto inverse = [&](const ArmTrust& t) {
+    return ScaledInverse(data + fit.PriorInformation(t), free);
   };
-  const MatrixXd gain = ScaledInverse(information(trust));
-  const MatrixXd scores =
-      (torques.S + poses + fit.PriorInformation(trust))(free, free);
-  const MatrixXd covariance =
-      RaiseToLogScatter(gain * scores * gain.transpose(), gain,
-                        torques.log_sums(free, Eigen::all));
-  const VectorXd trusted =
-      ScaledInverse(information(Weaker(1, trust, 1))).diagonal();
-  const VectorXd untrusted =
-      ScaledInverse(information(Weaker(100, trust, 100))).diagonal();
+  const MatrixXd gain = inverse(trust);
+  const MatrixXd others = fit.PoseInformation(at) + fit.PriorInformation(trust);
+  const MatrixXd rest = gain * others * gain.transpose();
   ArmCovariance result;
-  result.covariance = MatrixXd::Zero(unknowns.size(), unknowns.size());
-  result.covariance(free, free) = covariance;
-  result.identifiable.assign(unknowns.size(), false);
-  for (size_t f = 0; f < free.size(); ++f) {
-    const auto k = static_cast<Eigen::Index>(f);
-    result.identifiable[free[f]] = untrusted[k] < 2 * trusted[k];
+  result.covariance =
+      RaiseToLogScatter(RaiseTo(torques.least + rest.diagonal(),
+                                rest + gain * torques.S * gain.transpose()),
+                        gain, torques.log_sums);
+  const VectorXd trusted = inverse(Weaker(1, trust, 1)).diagonal();
+  const VectorXd untrusted = inverse(Weaker(100, trust, 100)).diagonal();
+  for (int k = 0; k < unknowns.size(); ++k) {
+    result.identifiable.push_back(unknowns.is_free(k) &&
+                                  untrusted[k] < 2 * trusted[k]);
   }
   return result;
 }

@@ -139,7 +139,7 @@ void SetCovariance(const CovarianceEstimate& estimate,
   result->covariance = estimate.covariance;
   result->covariance_method = estimate.method;
   result->score_window = estimate.window;
-  result->small_sample = estimate.small_sample;
+  result->rows_per_window = estimate.rows_per_window;
   for (int k = 0; k < m; ++k) {
     if (!result->identifiable[k]) continue;
     result->stddev[k] = std::sqrt(result->covariance(k, k));

@@ -62,8 +62,9 @@ struct LinearCalibration {
   // What it would be if the equations had independent errors.
   Eigen::MatrixXd independent_covariance;
   std::string covariance_method;
-  int score_window = 1;     // of the covariance, rows
-  double small_sample = 1;  // factor on it
+  // Of the covariance: rows per window of its scores, rows that overlap.
+  int score_window = 1;
+  int rows_per_window = 1;
   std::vector<bool> identifiable;
   Eigen::VectorXd noise;  // per joint, of the equations: N m, N (N m s, N s)
   Identifiability identifiability;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calib/robust_rows.h"
-#include "calib/score_covariance.h"
+#include "calib/scaled_inverse.h"
 #include "calib/triangular_factor.h"
 #include "problems/link_functions.h"
 #include "problems/weak_rows.h"
@@ -16,22 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kWider = 1.1;
-
-// A second Coulomb column, of a slightly greater width, for each in `terms`
-// that is free; `of` says which it belongs to.
-std::vector<JointTermColumn> WiderColumns(const ArmUnknowns& unknowns,
-                                          std::vector<int>* of) {
-  std::vector<JointTermColumn> wider;
-  for (size_t t = 0; t < unknowns.terms().size(); ++t) {
-    const int k = unknowns.terms_begin() + static_cast<int>(t);
-    if (unknowns.terms()[t].term != JointTerm::kCoulomb) continue;
-    if (!unknowns.is_free(k)) continue;
-    wider.push_back(unknowns.terms()[t]);
-    wider.back().transition.width *= kWider;
-    of->push_back(k);
-  }
-  return wider;
-}
 
 // Without the last `count` unknowns, which are estimated too.
 void Eliminate(Eigen::Index count, LinkInformation* information) {
@@ -47,13 +31,30 @@ void Eliminate(Eigen::Index count, LinkInformation* information) {
   information->H = (information->H.topRows(p) * T.transpose()).eval();
   information->S = (T * information->S * T.transpose()).eval();
   information->log_sums = (T * information->log_sums).eval();
+  information->least.conservativeResize(p);
 }
 
-// A symmetric matrix of torque columns among all unknowns.
-MatrixXd Spread(const MatrixXd& A, const std::vector<int>& columns, int size) {
-  MatrixXd all = MatrixXd::Zero(size, size);
-  all(columns, columns) = A;
+// Of torque columns among all unknowns.
+LinkInformation Spread(const LinkInformation& torques,
+                       const std::vector<int>& columns, int size) {
+  LinkInformation all;
+  all.H = all.S = MatrixXd::Zero(size, size);
+  all.H(columns, columns) = torques.H;
+  all.S(columns, columns) = torques.S;
+  all.log_sums = MatrixXd::Zero(size, torques.log_sums.cols());
+  all.log_sums(columns, Eigen::all) = torques.log_sums;
+  all.least = VectorXd::Zero(size);
+  all.least(columns) = torques.least;
   return all;
+}
+
+Score MakeScore(const FittedRow& row) {
+  Score score{row.U.transpose() * row.r, row.U, {}};
+  for (int i = 0; i < row.r.size(); ++i) {
+    if (!row.used[i] || !row.inside[i]) score.C.row(i).setZero();
+  }
+  score.U = score.C;
+  return score;
 }
 
 }  // namespace
@@ -66,6 +67,42 @@ struct LinkPass::Residual {
   VectorXd r;  // in noise units, 0 where the equation is not used
   int log;
   bool follows;  // right after the row before it
+};
+
+// The columns of an information: those of the torques' unknowns, then wider
+// Coulomb columns, less the columns they belong to.
+struct LinkPass::Columns {
+  Columns(const ArmUnknowns& unknowns, bool with_wider)
+      : torques(unknowns.TorqueColumns()),
+        terms(unknowns.terms()),
+        rigid(unknowns.tilt_begin()) {
+    for (size_t t = 0; with_wider && t < unknowns.terms().size(); ++t) {
+      const int k = unknowns.terms_begin() + static_cast<int>(t);
+      if (unknowns.terms()[t].term != JointTerm::kCoulomb) continue;
+      if (!unknowns.is_free(k)) continue;
+      terms.push_back(unknowns.terms()[t]);
+      terms.back().transition.width *= kWider;
+      wider.push_back(k);
+    }
+  }
+  Eigen::Index num_torques() const { return torques.size(); }
+  Eigen::Index num_wider() const { return wider.size(); }
+  Eigen::Index size() const { return num_torques() + num_wider(); }
+  // LinkFunctions has the wider columns behind the terms.
+  MatrixXd Sorted(const MatrixXd& U) const {
+    MatrixXd sorted(U.rows(), size());
+    sorted << U.leftCols(rigid), U.rightCols(num_torques() - rigid),
+        U.middleCols(rigid, num_wider());
+    for (Eigen::Index k = 0; k < num_wider(); ++k) {
+      sorted.col(num_torques() + k) -= U.col(wider[k]);
+    }
+    return sorted;
+  }
+
+  std::vector<int> torques;
+  std::vector<JointTermColumn> terms;
+  Eigen::Index rigid;      // columns of links and terms
+  std::vector<int> wider;  // the columns they belong to
 };
 
 LinkPass::LinkPass(const ArmUnknowns& unknowns, const LinearCalibration& linear,
@@ -132,53 +169,64 @@ LinkEquations LinkPass::Reduce(const ArmValues& at, const VectorXd& noise) {
   return equations;
 }
 
-LinkInformation LinkPass::Inform(const ArmValues& at, const VectorXd& noise) {
-  std::vector<JointTermColumn> terms = unknowns_.terms();
-  std::vector<int> of;
-  if (linear_.fitted_transitions) {
-    const auto wider = WiderColumns(unknowns_, &of);
-    terms.insert(terms.end(), wider.begin(), wider.end());
+// Whitened like the equations of Reduce.
+FittedRow LinkPass::MakeFittedRow(const Residual& residual,
+                                  const Columns& columns,
+                                  const VectorXd& noise) const {
+  const VectorXd whiten = (linear_.inflation * noise).cwiseInverse();
+  FittedRow row{whiten.asDiagonal() * columns.Sorted(residual.U),
+                residual.r / linear_.inflation,
+                linear_.used[residual.log],
+                {}};
+  for (int i = 0; i < row.r.size(); ++i) {
+    row.r[i] *= Huber::Weight(residual.r[i]);
+    row.inside.push_back(Huber::Inside(residual.r[i]));  // else only linear
   }
-  // LinkFunctions has the wider columns behind the terms; they go last here.
-  const std::vector<int> columns = unknowns_.TorqueColumns();
-  const Eigen::Index p = static_cast<Eigen::Index>(columns.size());
-  const Eigen::Index before = unknowns_.tilt_begin();
-  const Eigen::Index count = static_cast<Eigen::Index>(of.size());
-  ScoreCovariance scores(static_cast<int>(p + count), linear_.score_window);
+  return row;
+}
+
+LinkInformation LinkPass::Inform(const ArmValues& at, const VectorXd& noise,
+                                 const MatrixXd& other) {
+  const Columns columns(unknowns_, linear_.fitted_transitions);
+  const Eigen::Index size = columns.size();
+  const auto run = [&](const std::string& stage, const auto& visit) {
+    ForEachResidual(
+        stage, at, noise, columns.terms, [&](const Residual& residual) {
+          const FittedRow row = MakeFittedRow(residual, columns, noise);
+          visit(residual, row, MakeScore(row));
+        });
+  };
   LinkInformation information;
-  information.H = MatrixXd::Zero(p + count, p + count);
-  information.log_sums = MatrixXd::Zero(p + count, logs_->size());
-  MatrixXd U(noise.size(), p + count);
-  ForEachResidual(
-      "covariance", at, noise, terms, [&](const Residual& residual) {
-        U << residual.U.leftCols(before), residual.U.rightCols(p - before),
-            residual.U.middleCols(before, count);
-        for (Eigen::Index k = 0; k < count; ++k) U.col(p + k) -= U.col(of[k]);
-        if (!residual.follows) scores.Break();
-        VectorXd score = VectorXd::Zero(p + count);
-        for (int i = 0; i < noise.size(); ++i) {
-          if (!linear_.used[residual.log][i]) continue;
-          const VectorXd u =
-              U.row(i).transpose() / (noise[i] * linear_.inflation);
-          const double r = residual.r[i];
-          score += u * (r * Huber::Weight(r) / linear_.inflation);
-          // Outside, Huber's loss is only linear.
-          if (Huber::Inside(r)) {
-            information.H.selfadjointView<Eigen::Lower>().rankUpdate(u);
-          }
-        }
-        scores.Add(score);
-        information.log_sums.col(residual.log) += score;
-      });
+  information.H = MatrixXd::Zero(size, size);
+  run("information", [&](const Residual&, const FittedRow&, const Score& s) {
+    information.H.selfadjointView<Eigen::Lower>().rankUpdate(s.C.transpose());
+  });
   information.H = MatrixXd(information.H.selfadjointView<Eigen::Lower>());
-  information.S = linear_.small_sample * scores.Value();
-  Eliminate(count, &information);
-  information.H = Spread(information.H, columns, unknowns_.size());
-  information.S = Spread(information.S, columns, unknowns_.size());
-  const MatrixXd sums = information.log_sums;
-  information.log_sums = MatrixXd::Zero(unknowns_.size(), sums.cols());
-  information.log_sums(columns, Eigen::all) = sums;
-  return information;
+  MatrixXd whole = information.H;
+  whole.topLeftCorner(columns.num_torques(), columns.num_torques()) +=
+      other(columns.torques, columns.torques);
+  std::vector<int> free;
+  for (int k = 0; k < size; ++k) {
+    const bool own = k >= columns.num_torques();
+    if (own || unknowns_.is_free(columns.torques[k])) free.push_back(k);
+    if (own) whole(k, k) = whole(k, k) * (1 + 1e-9) + 1e-300;
+  }
+  const MatrixXd gain = ScaledInverse(whole, free);
+  ScoreCovariance scores(static_cast<int>(size), linear_.score_window, gain);
+  const int n = unknowns_.num_links();
+  OverlapCovariance overlap(n, static_cast<int>(size), linear_.rows_per_window);
+  information.log_sums = MatrixXd::Zero(size, logs_->size());
+  run("covariance",
+      [&](const Residual& residual, const FittedRow& row, const Score& score) {
+        if (!residual.follows) scores.Break(), overlap.Break();
+        scores.Add(score);
+        overlap.Add(row);
+        information.log_sums.col(residual.log) += score.value;
+      });
+  information.S = scores.Value();
+  information.least = overlap.Value(gain, VectorXd::Ones(n)).diagonal();
+  Eliminate(columns.num_wider(), &information);
+  return Spread(information, columns.torques, unknowns_.size());
 }
 
 }  // namespace armcal

@@ -6,6 +6,8 @@
 #include "calib/arm_unknowns.h"
 #include "calib/linear_calibration.h"
 #include "calib/log_set.h"
+#include "calib/overlap_covariance.h"
+#include "calib/score_covariance.h"
 
 namespace armcal {
 
@@ -28,6 +30,8 @@ struct LinkInformation {
   // (Newey-West as the linear calibration's).
   Eigen::MatrixXd S;
   Eigen::MatrixXd log_sums;  // of scores, a column per log
+  // Variances that errors make which are correlated only where rows overlap.
+  Eigen::VectorXd least;
 };
 
 // Passes over the logs. `noise`: standard deviations per joint of the weak
@@ -40,11 +44,16 @@ class LinkPass {
 
   LinkEquations Reduce(const ArmValues& at, const Eigen::VectorXd& noise);
   // With fitted widths of Coulomb friction, which friction and armature share,
-  // as unknowns of their own that are eliminated.
-  LinkInformation Inform(const ArmValues& at, const Eigen::VectorXd& noise);
+  // as unknowns of their own that are eliminated. `other`: the information that
+  // does not come from torques. Two passes.
+  LinkInformation Inform(const ArmValues& at, const Eigen::VectorXd& noise,
+                         const Eigen::MatrixXd& other);
 
  private:
   struct Residual;
+  struct Columns;
+  FittedRow MakeFittedRow(const Residual& residual, const Columns& columns,
+                          const Eigen::VectorXd& noise) const;
   void ForEachResidual(const std::string& stage, const ArmValues& at,
                        const Eigen::VectorXd& noise,
                        const std::vector<JointTermColumn>& terms,

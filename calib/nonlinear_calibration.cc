@@ -194,9 +194,12 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
   result.solved = Solve(training, fit, &result);
   if (!result.solved) return result;
   LinkPass pass(unknowns_, linear_, options_.progress, training);
-  Report(EstimateArmCovariance(unknowns_, fit, options_.trust, values_,
-                               pass.Inform(values_, noise_)),
-         &result);
+  Report(
+      EstimateArmCovariance(unknowns_, fit, options_.trust, values_,
+                            pass.Inform(values_, noise_,
+                                        fit.PriorInformation(options_.trust) +
+                                            fit.PoseInformation(values_))),
+      &result);
   result.robot = unknowns_.Apply(values_);
   result.training = Evaluate(result.robot, training);
   if (validation != nullptr) {

@@ -20,7 +20,8 @@ double Huber::Weight(double r) {
 
 bool Huber::Inside(double r) { return std::abs(r) <= kThreshold; }
 
-ResidualStatistics::ResidualStatistics() : histogram_(kBins, 0) {}
+ResidualStatistics::ResidualStatistics(int lag)
+    : histogram_(kBins, 0), lag_(lag) {}
 
 void ResidualStatistics::Add(double r) {
   const double bin = std::log(std::max(std::abs(r), kLow) / kLow) / kLogStep;
@@ -29,13 +30,14 @@ void ResidualStatistics::Add(double r) {
   if (Huber::Weight(r) < 0.5) ++outliers_;
   // Outliers clipped, so that one does not decide.
   const double clipped = r * Huber::Weight(r);
-  if (has_last_) product_ += clipped * last_;
   square_ += clipped * clipped;
-  last_ = clipped;
-  has_last_ = true;
+  recent_.push_back(clipped);
+  if (recent_.size() <= lag_) return;
+  product_ += clipped * recent_.front();
+  recent_.pop_front();
 }
 
-void ResidualStatistics::Break() { has_last_ = false; }
+void ResidualStatistics::Break() { recent_.clear(); }
 
 double ResidualStatistics::RobustSpread() const {
   long seen = 0;

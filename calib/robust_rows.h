@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
 #include <vector>
 
 namespace armcal {
@@ -15,10 +16,10 @@ struct Huber {
 };
 
 // Statistics of residuals in one pass and constant memory: their robust spread
-// and lag-one autocorrelation. Residuals are given in units of a first guess.
+// and autocorrelation at a lag. Residuals are given in units of a first guess.
 class ResidualStatistics {
  public:
-  ResidualStatistics();
+  explicit ResidualStatistics(int lag = 1);
 
   void Add(double r);
   void Break();  // the next residual does not follow the last
@@ -32,8 +33,9 @@ class ResidualStatistics {
  private:
   std::vector<long> histogram_;  // of log |r|
   long count_ = 0, outliers_ = 0;
-  double last_ = 0, product_ = 0, square_ = 0;
-  bool has_last_ = false;
+  double product_ = 0, square_ = 0;
+  size_t lag_;
+  std::deque<double> recent_;
 };
 
 }  // namespace armcal

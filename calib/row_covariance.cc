@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <vector>
 
+#include "calib/overlap_covariance.h"
 #include "calib/robust_rows.h"
 #include "calib/score_covariance.h"
 
@@ -14,81 +14,66 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Lag-one autocorrelation of the worst joint's residuals.
-double Autocorrelation(const VectorXd& x, const VectorXd& noise,
-                       ResidualPass* pass) {
-  const int n = static_cast<int>(noise.size());
-  std::vector<ResidualStatistics> statistics(n);
-  pass->Run("autocorrelation", x, noise, [&](const RowResidual& residual) {
-    for (int i = 0; i < n; ++i) {
-      if (!pass->uses(residual.log, i)) continue;
-      if (!residual.follows) statistics[i].Break();
-      statistics[i].Add(residual.r[i]);
-    }
-  });
-  double rho = 0;
-  for (const ResidualStatistics& s : statistics) {
-    rho = std::max(rho, s.Autocorrelation());
-  }
-  return rho;
-}
-
-// What a Newey-West covariance of fitted residuals lacks: Bartlett's weights
-// take some of the correlation that overlapping rows have for certain, and the
-// fit has taken its share of the residuals. Both matter for short logs.
-class SmallSampleFactor {
- public:
-  explicit SmallSampleFactor(int lags) : products_(lags + 1, 0) {}
-
-  void Add(const RowResidual& residual, const ResidualPass& pass) {
-    if (!residual.follows) recent_.clear();
-    VectorXd r = residual.r;
-    for (int i = 0; i < r.size(); ++i) {
-      r[i] *= Huber::Weight(r[i]);  // so that one outlier does not decide
-      rows_ += pass.uses(residual.log, i);
-    }
-    recent_.push_front(r);
-    if (recent_.size() > products_.size()) recent_.pop_back();
-    for (size_t l = 0; l < recent_.size(); ++l) {
-      products_[l] += r.dot(recent_[l]);
-    }
-  }
-  // On a covariance by Bartlett's window, of m parameters.
-  double Value(int window, int m) const {
-    if (products_[0] <= 0) return 1;
-    double whole = 1, weighted = 1, squares = 1;
-    for (size_t l = 1; l < products_.size(); ++l) {
-      const double rho = products_[l] / products_[0];
-      const double weight = 1 - static_cast<double>(l) / window;
-      whole += 2 * rho;
-      weighted += 2 * std::max(0.0, weight) * rho;
-      squares += 2 * rho * rho;
-    }
-    const double truncated =
-        weighted > 0 ? std::clamp(whole / weighted, 1.0, 1.5) : 1;
-    const double independent = rows_ / squares;
-    return truncated * independent / std::max(independent - m, m / 2.0);
-  }
-
- private:
-  std::vector<double> products_;  // sums over rows of r(t) r(t - lag)
-  std::deque<VectorXd> recent_;
-  double rows_ = 0;
+// What a first pass finds.
+struct RowStudy {
+  // Of the worst joint's residuals, at the lag where rows no longer overlap.
+  double autocorrelation = 0;
+  // Equations inside Huber's threshold: outside, the loss is only linear.
+  BlockTriangularFactor inside;
 };
 
-VectorXd Score(const RowResidual& residual, const LinearSolution& solution,
-               const VectorXd& noise, bool huber,
-               const ModelParameters& parameters) {
-  VectorXd score = VectorXd::Zero(parameters.size());
-  for (int i = 0; i < noise.size(); ++i) {
+RowStudy StudyRows(const LinearSolution& solution, const VectorXd& noise,
+                   bool huber, int rows_per_window, ResidualPass* pass) {
+  const int n = static_cast<int>(noise.size());
+  RowStudy study{0, BlockTriangularFactor(pass->parameters())};
+  std::vector<ResidualStatistics> statistics(
+      n, ResidualStatistics(rows_per_window));
+  pass->Run("autocorrelation", solution.x, noise,
+            [&](const RowResidual& residual) {
+              for (int i = 0; i < n; ++i) {
+                if (!pass->uses(residual.log, i)) continue;
+                if (!residual.follows) statistics[i].Break();
+                statistics[i].Add(residual.r[i]);
+                if (huber && !Huber::Inside(residual.r[i])) continue;
+                study.inside.Add(i, residual.row.U.row(i), residual.row.Y[i]);
+              }
+            });
+  for (const ResidualStatistics& s : statistics) {
+    study.autocorrelation =
+        std::max(study.autocorrelation, s.Autocorrelation());
+  }
+  return study;
+}
+
+// What the score's covariance takes of a row, and what remains of it where the
+// loss is only linear.
+FittedRow MakeFittedRow(const RowResidual& residual, bool huber,
+                        const ResidualPass& pass) {
+  FittedRow row{residual.row.U, residual.r, {}, {}};
+  for (int i = 0; i < row.r.size(); ++i) {
     const double r = residual.r[i];
-    const double scale =
-        solution.weight[i] * noise[i] * r * (huber ? Huber::Weight(r) : 1);
+    row.used.push_back(pass.uses(residual.log, i));
+    row.inside.push_back(!huber || Huber::Inside(r));
+    if (huber) row.r[i] *= Huber::Weight(r);
+  }
+  return row;
+}
+
+Score MakeScore(const FittedRow& row, const LinearSolution& solution,
+                const VectorXd& noise, const ModelParameters& parameters) {
+  const Eigen::Index n = noise.size(), m = parameters.size();
+  Score score{VectorXd::Zero(m), MatrixXd::Zero(n, m), MatrixXd::Zero(n, m)};
+  for (int i = 0; i < n; ++i) {
+    if (!row.used[i]) continue;
     const int begin = solution.own_block_only ? parameters.block_begin(i) : 0;
     const int size =
         solution.own_block_only ? parameters.block_size(i) : parameters.size();
-    score.segment(begin, size) +=
-        scale * residual.row.U.row(i).segment(begin, size).transpose();
+    const VectorXd c =
+        solution.weight[i] * row.U.row(i).segment(begin, size).transpose();
+    score.value.segment(begin, size) += noise[i] * row.r[i] * c;
+    if (!row.inside[i]) continue;
+    score.C.row(i).segment(begin, size) = c.transpose();
+    score.U.row(i) = row.U.row(i);
   }
   return score;
 }
@@ -100,13 +85,8 @@ MatrixXd RaiseToLogScatter(const MatrixXd& covariance, const MatrixXd& gain,
   const double logs = static_cast<double>(log_sums.cols());
   if (logs < 3) return covariance;
   const MatrixXd between = gain * log_sums;
-  VectorXd factor(covariance.rows());
-  for (Eigen::Index k = 0; k < factor.size(); ++k) {
-    const double variance = logs / (logs - 1) * between.row(k).squaredNorm();
-    const double within = covariance(k, k);
-    factor[k] = within > 0 ? std::sqrt(std::max(1.0, variance / within)) : 1;
-  }
-  return factor.asDiagonal() * covariance * factor.asDiagonal();
+  return RaiseTo(logs / (logs - 1) * between.rowwise().squaredNorm(),
+                 covariance);
 }
 
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
@@ -114,38 +94,40 @@ CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                                          const ReferenceMotion& reference,
                                          long rows, int rows_per_window,
                                          ResidualPass* pass) {
-  const ModelParameters& parameters = pass->parameters();
-  const int window =
-      BartlettWindow(Autocorrelation(solution.x, noise, pass), rows,
-                     rows_per_window + rows_per_window / 2);
-  ScoreCovariance scores(parameters.size(), window);
-  MatrixXd sums = MatrixXd::Zero(parameters.size(), pass->num_logs());
-  SmallSampleFactor small(rows_per_window - 1);
-  BlockTriangularFactor inside(parameters);
-  pass->Run("covariance", solution.x, noise, [&](const RowResidual& residual) {
-    if (!residual.follows) scores.Break();
-    const VectorXd score = Score(residual, solution, noise, huber, parameters);
-    scores.Add(score);
-    small.Add(residual, *pass);
-    sums.col(residual.log) += score;
-    for (int i = 0; solution.weighted && i < noise.size(); ++i) {
-      // Outside, Huber's loss is only linear.
-      if (huber && !Huber::Inside(residual.r[i])) continue;
-      if (!pass->uses(residual.log, i)) continue;
-      inside.Add(i, residual.row.U.row(i), residual.row.Y[i]);
-    }
-  });
+  const int m = pass->parameters().size();
+  const RowStudy study =
+      StudyRows(solution, noise, huber, rows_per_window, pass);
   LinearSolution linearised = solution;
   if (solution.weighted) {
-    linearised.gain = SolveWeighted(inside, noise, reference).gain;
+    linearised.gain = SolveWeighted(study.inside, noise, reference).gain;
   }
   CovarianceEstimate estimate;
-  estimate.window = window;
-  estimate.small_sample = small.Value(window, parameters.size());
-  estimate.covariance = RaiseToLogScatter(
-      estimate.small_sample * linearised.CovarianceFromScores(scores.Value()),
-      linearised.gain, sums);
-  estimate.method = "Newey-West over " + std::to_string(window) + " rows";
+  estimate.rows_per_window = rows_per_window;
+  // Andrews' window for what rows that do not overlap still share.
+  estimate.window =
+      std::max(rows_per_window + rows_per_window / 2,
+               rows_per_window * BartlettWindow(study.autocorrelation,
+                                                rows / rows_per_window, 1));
+  ScoreCovariance scores(m, estimate.window, linearised.gain);
+  OverlapCovariance overlap(static_cast<int>(noise.size()), m, rows_per_window);
+  MatrixXd sums = MatrixXd::Zero(m, pass->num_logs());
+  pass->Run("covariance", solution.x, noise, [&](const RowResidual& residual) {
+    if (!residual.follows) scores.Break(), overlap.Break();
+    const FittedRow row = MakeFittedRow(residual, huber, *pass);
+    const Score score = MakeScore(row, solution, noise, pass->parameters());
+    scores.Add(score);
+    overlap.Add(row);
+    sums.col(residual.log) += score.value;
+  });
+  MatrixXd covariance = linearised.CovarianceFromScores(scores.Value());
+  if (!solution.own_block_only) {
+    const VectorXd scale = solution.weight.cwiseProduct(noise);
+    covariance =
+        RaiseTo(overlap.Value(linearised.gain, scale).diagonal(), covariance);
+  }
+  estimate.covariance = RaiseToLogScatter(covariance, linearised.gain, sums);
+  estimate.method =
+      "Newey-West over " + std::to_string(estimate.window) + " rows";
   if (pass->num_logs() >= 3) {
     estimate.method += ", at least the scatter between logs";
   }

@@ -13,7 +13,7 @@ struct CovarianceEstimate {
   Eigen::MatrixXd covariance;  // m x m, of the parameters
   std::string method;          // a phrase for reports
   int window = 1;              // of the scores, in rows
-  double small_sample = 1;     // factor on their covariance
+  int rows_per_window = 1;     // as given
 };
 
 // Deviations of `covariance` raised to the scatter of the logs' score sums
@@ -24,10 +24,11 @@ Eigen::MatrixXd RaiseToLogScatter(const Eigen::MatrixXd& covariance,
 
 // The covariance of a solution from rows that overlap and whose errors are
 // autocorrelated: the sandwich of the solution's gain and the long-run
-// covariance of the scores (Newey-West, Andrews' window for the worst joint's
-// autocorrelation, at least 1.5 times the `rows_per_window` that are known to
-// be correlated). With three logs or more, deviations are at least what the
-// scatter of the logs' score sums shows: something may change from log to log
+// covariance of the scores (Newey-West over Andrews' window for what rows that
+// do not overlap, `rows_per_window` apart, still share, of the worst joint).
+// Deviations are at least what errors that are correlated only where rows
+// overlap make of them, and with three logs or more at least what the scatter
+// of the logs' score sums shows: something may change from log to log
 // (temperature, wear, a torque scale). `huber`: the solution is of SolveRobust.
 // Two passes over the logs.
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,

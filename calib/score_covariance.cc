@@ -5,22 +5,42 @@
 
 namespace armcal {
 
-ScoreCovariance::ScoreCovariance(int size, int window)
+ScoreCovariance::ScoreCovariance(int size, int window,
+                                 const Eigen::MatrixXd& gain)
     : window_(std::max(1, window)),
+      gain_(gain),
       sum_(Eigen::VectorXd::Zero(size)),
       squares_(Eigen::MatrixXd::Zero(size, size)) {}
 
-void ScoreCovariance::AccumulateWindow() {
-  squares_.selfadjointView<Eigen::Lower>().rankUpdate(sum_);
+// M gain s of the window.
+Eigen::VectorXd ScoreCovariance::TakenByFit(const Eigen::VectorXd& sum) const {
+  const Eigen::VectorXd x = gain_ * sum;
+  Eigen::VectorXd taken = Eigen::VectorXd::Zero(sum.size());
+  for (const Score& score : recent_) {
+    taken.noalias() += score.C.transpose() * (score.U * x);
+  }
+  return taken;
 }
 
-void ScoreCovariance::Add(const Eigen::VectorXd& score) {
+void ScoreCovariance::AccumulateWindow() {
+  Eigen::VectorXd sum = sum_;
+  if (gain_.size() > 0) {
+    Eigen::VectorXd power = sum_;
+    for (const double coefficient : {1.0 / 2, 3.0 / 8, 5.0 / 16}) {
+      power = TakenByFit(power);
+      sum += coefficient * power;
+    }
+  }
+  squares_.selfadjointView<Eigen::Lower>().rankUpdate(sum);
+}
+
+void ScoreCovariance::Add(const Score& score) {
   if (static_cast<int>(recent_.size()) == window_) {
-    sum_ -= recent_.front();
+    sum_ -= recent_.front().value;
     recent_.pop_front();
   }
   recent_.push_back(score);
-  sum_ += score;
+  sum_ += score.value;
   AccumulateWindow();
 }
 
@@ -29,7 +49,7 @@ void ScoreCovariance::Break() {
   const int room = window_ - static_cast<int>(recent_.size());
   for (int k = 0; k < room && !recent_.empty(); ++k) AccumulateWindow();
   while (recent_.size() > 1) {
-    sum_ -= recent_.front();
+    sum_ -= recent_.front().value;
     recent_.pop_front();
     AccumulateWindow();
   }

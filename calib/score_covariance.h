@@ -5,24 +5,40 @@
 
 namespace armcal {
 
+// One row's part in an estimate x = gain * sum of C'(Y - U x): the score is
+// C' r, r the residuals (n). C and U are n x size; 0 where an equation does not
+// count.
+struct Score {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd C, U;
+};
+
 // The covariance of a sum of autocorrelated scores, in one pass: Newey-West
 // with Bartlett weights 1 - |l| / window. It is accumulated as the mean square
 // of sums over sliding windows, which is the same and positive semidefinite by
 // construction. Windows do not reach across Break().
+//
+// The fit has taken its share of the residuals: a window's sum s is too small
+// by M gain s, where M is the sum of its C'U. It is made (1 - M gain)^-1/2 s
+// (to third order), as large as it is expected to be: Bell and McCaffrey's CR2
+// (2002), for windows.
 class ScoreCovariance {
  public:
-  ScoreCovariance(int size, int window);
+  // gain: size x size; empty: nothing was fitted.
+  ScoreCovariance(int size, int window, const Eigen::MatrixXd& gain = {});
 
-  void Add(const Eigen::VectorXd& score);
+  void Add(const Score& score);
   void Break();
   // The covariance of the sum of all scores added.
   Eigen::MatrixXd Value();
 
  private:
   void AccumulateWindow();
+  Eigen::VectorXd TakenByFit(const Eigen::VectorXd& sum) const;
 
   int window_;
-  std::deque<Eigen::VectorXd> recent_;
+  Eigen::MatrixXd gain_;
+  std::deque<Score> recent_;
   Eigen::VectorXd sum_;  // of recent_
   Eigen::MatrixXd squares_;
 };

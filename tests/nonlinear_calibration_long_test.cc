@@ -27,7 +27,8 @@ TEST_P(Intervals, AreTrue) {
   options.trust.inertia = .3;
   for (int run = 0; run < 60; ++run) {
     std::mt19937_64 random(100 + run);
-    const SimulatedArm arm = MakeArm(GetParam(), options.trust.inertia, &random);
+    const SimulatedArm arm =
+        MakeArm(GetParam(), options.trust.inertia, &random);
     const auto result = Calibrate(arm, .01, options, &random).physical;
     ASSERT_TRUE(result.solved) << result.reason;
     for (const PhysicalParameter& p : result.parameters) {

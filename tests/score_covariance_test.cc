@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <vector>
 
@@ -43,7 +44,7 @@ MatrixXd InOnePass(const std::vector<Series>& all, int window, int size) {
   ScoreCovariance scores(size, window);
   for (const Series& s : all) {
     scores.Break();
-    for (const VectorXd& score : s) scores.Add(score);
+    for (const VectorXd& score : s) scores.Add({score, {}, {}});
   }
   return scores.Value();
 }
@@ -101,7 +102,7 @@ TEST(ScoreCovariance, LongRunVarianceOfAutoregression) {
       ScoreCovariance scores(1, window);
       double x = Normal(&random) / std::sqrt(1 - rho * rho);
       for (long k = 0; k < kCount; ++k) {
-        scores.Add(VectorXd::Constant(1, x));
+        scores.Add({VectorXd::Constant(1, x), {}, {}});
         x = rho * x + Normal(&random);
       }
       mean += scores.Value()(0, 0) / kCount / kRuns;
@@ -114,6 +115,41 @@ TEST(ScoreCovariance, LongRunVarianceOfAutoregression) {
     bartlett /= 1 - rho * rho;
     EXPECT_NEAR(mean / bartlett, 1, .03) << rho;
     EXPECT_NEAR(mean / truth, 1, .08) << rho;
+  }
+}
+
+// Y = U x + e with independent e: E[score score'] of a window is M - M G M, M
+// its U'U and G the fit's gain; the sums made up for the fit have M again, so
+// that the sandwich is G, the covariance of x. 30 rows for 6 parameters, some
+// of which few rows tell of.
+TEST(ScoreCovariance, GivesBackWhatTheFitHasTaken) {
+  constexpr int kRows = 30, kSize = 6, kRuns = 4000;
+  std::mt19937_64 random(3);
+  MatrixXd U(kRows, kSize);
+  for (double& u : U.reshaped()) u = Normal(&random);
+  U.col(5).tail(24).setZero();
+  const MatrixXd gain = (U.transpose() * U).inverse();
+  for (const int window : {1, 3}) {
+    VectorXd plain = VectorXd::Zero(kSize), made_up = plain;
+    for (int run = 0; run < kRuns; ++run) {
+      VectorXd e(kRows);
+      for (double& x : e) x = Normal(&random);
+      const VectorXd r = e - U * (gain * (U.transpose() * e));
+      ScoreCovariance as_it_is(kSize, window), corrected(kSize, window, gain);
+      for (int k = 0; k < kRows; ++k) {
+        const Score score{U.row(k).transpose() * r[k], U.row(k), U.row(k)};
+        as_it_is.Add(score);
+        corrected.Add(score);
+      }
+      plain += (gain * as_it_is.Value() * gain).diagonal() / kRuns;
+      made_up += (gain * corrected.Value() * gain).diagonal() / kRuns;
+    }
+    const VectorXd ratio = made_up.cwiseQuotient(gain.diagonal());
+    const VectorXd before = plain.cwiseQuotient(gain.diagonal());
+    EXPECT_LT(before.maxCoeff(), .9) << window;
+    EXPECT_NEAR(ratio.mean(), 1, .05) << window;
+    EXPECT_GT(ratio.minCoeff(), .85) << window;
+    EXPECT_LT(ratio.maxCoeff(), 1.1) << window;
   }
 }
 

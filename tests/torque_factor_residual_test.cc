@@ -49,8 +49,7 @@ struct Problem {
 TEST(TorqueFactorResidual, IsTheDenseProduct) {
   for (const Sizes& s : kSizes) {
     const Problem p(s);
-    const TorqueFactorResidual cost(p.R, p.z, s.links,
-                                    {s.terms, s.geometry});
+    const TorqueFactorResidual cost(p.R, p.z, s.links, {s.terms, s.geometry});
     ASSERT_EQ(cost.num_residuals(), s.rows);
     ASSERT_EQ(cost.parameter_block_sizes().size(), p.blocks.size());
     for (size_t k = 0; k < p.blocks.size(); ++k) {
@@ -66,8 +65,7 @@ TEST(TorqueFactorResidual, GradientIsRight) {
   const std::vector<const ceres::Manifold*>* no_manifolds = nullptr;
   for (const Sizes& s : kSizes) {
     const Problem p(s);
-    const TorqueFactorResidual cost(p.R, p.z, s.links,
-                                    {s.terms, s.geometry});
+    const TorqueFactorResidual cost(p.R, p.z, s.links, {s.terms, s.geometry});
     ceres::NumericDiffOptions options;
     options.ridders_relative_initial_step_size = 1e-3;
     ceres::GradientChecker checker(&cost, no_manifolds, options);

@@ -1,0 +1,96 @@
+#include "calib/overlap_covariance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+OverlapCovariance::OverlapCovariance(int num_joints, int num_parameters,
+                                     int rows_per_window)
+    : lags_(rows_per_window),
+      distances_(2 * lags_ - 1),
+      rows_(VectorXd::Zero(num_joints)),
+      inside_(rows_),
+      products_(MatrixXd::Zero(num_joints, lags_)),
+      squares_(num_joints * distances_,
+               MatrixXd::Zero(num_parameters, num_parameters)) {}
+
+void OverlapCovariance::Break() { recent_.clear(); }
+
+void OverlapCovariance::Add(const FittedRow& row) {
+  recent_.push_front(row);
+  if (static_cast<int>(recent_.size()) > distances_) recent_.pop_back();
+  for (int i = 0; i < row.r.size(); ++i) {
+    if (!row.used[i]) continue;
+    rows_[i] += 1;
+    inside_[i] += row.inside[i];
+    for (int d = 0; d < static_cast<int>(recent_.size()); ++d) {
+      if (d < lags_) products_(i, d) += row.r[i] * recent_[d].r[i];
+      squares_[i * distances_ + d].noalias() +=
+          row.U.row(i).transpose() * recent_[d].U.row(i);
+    }
+  }
+}
+
+// How much smaller products_ are for the fit. With the hat matrix H and the
+// errors' covariance W, residuals have (I - H) W (I - H)'.
+MatrixXd OverlapCovariance::Taken(const MatrixXd& gain, const VectorXd& scale,
+                                  const MatrixXd& c,
+                                  const MatrixXd& covariance) const {
+  MatrixXd taken = MatrixXd::Zero(c.rows(), lags_);
+  for (int i = 0; i < scale.size(); ++i) {
+    if (rows_[i] == 0) continue;
+    const double slope = inside_[i] / rows_[i];
+    const double square = scale[i] * scale[i];
+    VectorXd hat(distances_);
+    for (int d = 0; d < distances_; ++d) {
+      hat[d] = square * gain.cwiseProduct(Square(i, d)).sum();
+    }
+    for (int l = 0; l < lags_; ++l) {
+      for (int k = 1 - lags_; k < lags_; ++k) {
+        taken(i, l) += 2 * slope * c(i, std::abs(k)) * hat[std::abs(l + k)];
+      }
+      taken(i, l) -=
+          slope * slope * square * covariance.cwiseProduct(Square(i, l)).sum();
+    }
+  }
+  return taken;
+}
+
+MatrixXd OverlapCovariance::Value(const MatrixXd& gain,
+                                  const VectorXd& scale) const {
+  const auto count = rows_.cwiseMax(1).cwiseInverse().asDiagonal();
+  MatrixXd c = count * products_, covariance;
+  for (int iteration = 0; iteration < 10; ++iteration) {
+    MatrixXd sum = MatrixXd::Zero(gain.rows(), gain.cols());
+    for (int i = 0; i < scale.size(); ++i) {
+      const double square = scale[i] * scale[i];
+      sum += square * c(i, 0) * Square(i, 0);
+      for (int l = 1; l < lags_; ++l) {
+        sum += square * c(i, l) * (Square(i, l) + Square(i, l).transpose());
+      }
+    }
+    covariance = gain * sum * gain.transpose();
+    c = count * (products_ + Taken(gain, scale, c, covariance));
+    // Where parameters take most of a joint's rows nothing can be given back.
+    for (int i = 0; i < scale.size(); ++i) {
+      const double most = 4 * products_(i, 0) / std::max(1., rows_[i]);
+      if (c(i, 0) > most) c.row(i) *= most / c(i, 0);
+    }
+  }
+  return covariance;
+}
+
+MatrixXd RaiseTo(const VectorXd& least, const MatrixXd& covariance) {
+  VectorXd factor(covariance.rows());
+  for (Eigen::Index k = 0; k < factor.size(); ++k) {
+    const double ratio = least[k] / covariance(k, k);
+    factor[k] = covariance(k, k) > 0 ? std::sqrt(std::max(1.0, ratio)) : 1;
+  }
+  return factor.asDiagonal() * covariance * factor.asDiagonal();
+}
+
+}  // namespace armcal
