@@ -1,5 +1,10 @@
 #include "calib/arm_covariance.h"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "calib/combination.h"
 #include "calib/overlap_covariance.h"
 #include "calib/row_covariance.h"
 #include "calib/scaled_inverse.h"
@@ -12,6 +17,32 @@ using Eigen::VectorXd;
 
 ArmTrust Weaker(double inertia, const ArmTrust& trust, double geometry) {
   return {inertia, geometry * trust.length, geometry * trust.angle};
+}
+
+// Directions in which the data tell less than a prior of these deviations.
+std::vector<std::string> UnseenCombinations(const ArmUnknowns& unknowns,
+                                            const MatrixXd& data,
+                                            const VectorXd& prior) {
+  const std::vector<int> free = unknowns.FreeIndices();
+  std::vector<std::string> names;
+  VectorXd size(free.size());
+  for (size_t f = 0; f < free.size(); ++f) {
+    const int k = free[f];
+    names.push_back(unknowns.name(k));
+    // Without a prior: a thousand times what it would be alone.
+    size[f] = std::min(std::sqrt(prior[k]),
+                       1e3 / std::sqrt(std::max(data(k, k), 1e-300)));
+  }
+  const MatrixXd relative =
+      size.asDiagonal() * data(free, free) * size.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(relative);
+  const Eigen::Index count = (eigen.eigenvalues().array() < 1).count();
+  std::vector<std::string> texts;
+  for (const Combination& c : NameCombinations(
+           eigen.eigenvectors().leftCols(count), size.cwiseInverse(), names)) {
+    texts.push_back(c.text);
+  }
+  return texts;
 }
 
 }  // namespace
@@ -33,7 +64,11 @@ ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
       RaiseToLogScatter(RaiseTo(torques.least + rest.diagonal(),
                                 rest + gain * torques.S * gain.transpose()),
                         gain, torques.log_sums);
-  const VectorXd trusted = inverse(Weaker(1, trust, 1)).diagonal();
+  const ArmTrust weak = Weaker(1, trust, 1);
+  result.unseen = UnseenCombinations(
+      unknowns, data,
+      ScaledInverse(fit.PriorInformation(weak), free).diagonal());
+  const VectorXd trusted = inverse(weak).diagonal();
   const VectorXd untrusted = inverse(Weaker(100, trust, 100)).diagonal();
   for (int k = 0; k < unknowns.size(); ++k) {
     result.identifiable.push_back(unknowns.is_free(k) &&

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "calib/arm_fit.h"
@@ -17,6 +18,8 @@ struct ArmCovariance {
   // trusted to 100 % (a geometric one: to its prior's deviation): without the
   // file its variance is less than doubled.
   std::vector<bool> identifiable;
+  // Combinations of free parameters of which the data tell less than that.
+  std::vector<std::string> unseen;
 };
 
 // The sandwich of information and scores: torque rows overlap and have

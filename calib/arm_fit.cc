@@ -106,20 +106,15 @@ ArmFit::End ArmFit::Solve(const LinkEquations& equations,
   ArmValues& v = blocks.value;
   std::vector<double*> all;
   for (Vector10d& c : blocks.links) all.push_back(c.data());
-  std::vector<int> sizes;
-  for (VectorXd* part : {&v.terms, &v.poses.geometry, &v.poses.other}) {
-    if (part == &v.poses.geometry) {
-      all.push_back(v.tilt.data());
-      sizes.push_back(2);
-    }
-    if (part->size() == 0) continue;
-    all.push_back(part->data());
-    sizes.push_back(static_cast<int>(part->size()));
-  }
+  const int num_terms = static_cast<int>(v.terms.size());
+  const int num_geometry = static_cast<int>(v.poses.geometry.size());
+  all.insert(all.end(),
+             {v.terms.data(), v.tilt.data(), v.poses.geometry.data()});
   ceres::Problem problem;
   problem.AddResidualBlock(
-      new TorqueFactorResidual(equations.R, equations.z, unknowns_.num_links(),
-                               sizes),
+      new TorqueFactorResidual(equations.R.leftCols(unknowns_.other_begin()),
+                               equations.z, unknowns_.num_links(),
+                               {num_terms, 2, num_geometry}),
       nullptr, all);
   const ArmValues& nominal = unknowns_.nominal();
   for (size_t i = 0; i < blocks.links.size(); ++i) {
@@ -135,16 +130,14 @@ ArmFit::End ArmFit::Solve(const LinkEquations& equations,
                  nominal.poses.geometry, g, &problem);
   if (poses_ != nullptr)
     poses_->AddResiduals(poses_->AllRows(), &v.poses, &problem);
-  Hold(unknowns_, unknowns_.terms_begin(), static_cast<int>(v.terms.size()),
-       v.terms.data(), &problem);
-  for (int t = 0; t < v.terms.size(); ++t) {
+  Hold(unknowns_, unknowns_.terms_begin(), num_terms, v.terms.data(), &problem);
+  for (int t = 0; t < num_terms; ++t) {
     if (IsPositive(unknowns_, t)) {
       problem.SetParameterLowerBound(v.terms.data(), t, 0);
     }
   }
   Hold(unknowns_, unknowns_.tilt_begin(), 2, v.tilt.data(), &problem);
-  Hold(unknowns_, unknowns_.geometry_begin(),
-       static_cast<int>(v.poses.geometry.size()), g, &problem);
+  Hold(unknowns_, unknowns_.geometry_begin(), num_geometry, g, &problem);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 300;

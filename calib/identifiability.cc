@@ -6,8 +6,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <random>
+
+#include "calib/combination.h"
 
 namespace armcal {
 namespace {
@@ -17,42 +18,21 @@ using Eigen::VectorXd;
 
 constexpr double kExcited = 1e-8;  // relative to the direction seen best
 
-std::string DirectionText(const VectorXd& x, const VectorXd& y,
-                          const ModelParameters& parameters) {
-  std::string text, only;
-  int terms = 0;
-  const double largest = y.cwiseAbs().maxCoeff();
-  for (int c = 0; c < x.size(); ++c) {
-    if (std::abs(y[c]) < 0.05 * largest) continue;
-    char factor[32];
-    std::snprintf(factor, sizeof(factor), "%.2f ", std::abs(x[c]));
-    if (text.empty()) {
-      text = x[c] < 0 ? "-" : "";
-    } else {
-      text += x[c] < 0 ? " - " : " + ";
-    }
-    only = parameters.parameters()[c].name;
-    text += factor + only;
-    ++terms;
+// Those that the columns of `unseen` span, of the parameters from `begin` on.
+std::vector<UnidentifiableDirection> MakeDirections(
+    const MatrixXd& unseen, const VectorXd& scale, int begin, int block,
+    const ModelParameters& parameters) {
+  std::vector<std::string> names;
+  for (Eigen::Index k = 0; k < unseen.rows(); ++k) {
+    names.push_back(parameters.parameters()[begin + k].name);
   }
-  return terms == 1 ? only : text;
-}
-
-UnidentifiableDirection MakeDirection(const VectorXd& y, const VectorXd& scale,
-                                      int begin, int block,
-                                      const ModelParameters& parameters) {
-  VectorXd full_y = VectorXd::Zero(parameters.size());
-  full_y.segment(begin, y.size()) = y;
-  UnidentifiableDirection d;
-  d.block = block;
-  d.x = VectorXd::Zero(parameters.size());
-  d.x.segment(begin, y.size()) = y.cwiseQuotient(scale);
-  // Normalised and signed by the entry that matters most.
-  Eigen::Index lead;
-  d.x.cwiseAbs().maxCoeff(&lead);
-  d.x /= d.x[lead];
-  d.text = DirectionText(d.x, full_y, parameters);
-  return d;
+  std::vector<UnidentifiableDirection> directions;
+  for (const Combination& c : NameCombinations(unseen, scale, names)) {
+    VectorXd x = VectorXd::Zero(parameters.size());
+    x.segment(begin, c.x.size()) = c.x;
+    directions.push_back({block, x, c.text});
+  }
+  return directions;
 }
 
 // Of a system with unit noise in coordinates relative to the joint's torque: a
@@ -63,33 +43,6 @@ int Rank(const VectorXd& s) {
     if (x > 1 && x > kExcited * s[0]) ++rank;
   }
   return rank;
-}
-
-// Another basis of the space that the columns of N span, in which each vector
-// has one coordinate for its own (reduced echelon form with full pivoting, in
-// the order of these coordinates): what cannot be seen of a joint at rest then
-// reads as three parameters, not as three mixtures of them.
-MatrixXd EchelonBasis(const MatrixXd& N) {
-  MatrixXd rows = N.transpose();
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> pivots;  // column, row
-  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
-    Eigen::Index r, c;
-    rows.bottomRows(rows.rows() - k).cwiseAbs().maxCoeff(&r, &c);
-    rows.row(k).swap(rows.row(k + r));
-    rows.row(k) /= rows(k, c);
-    for (Eigen::Index other = 0; other < rows.rows(); ++other) {
-      if (other == k) continue;
-      const double factor = rows(other, c);
-      rows.row(other) -= factor * rows.row(k);
-    }
-    pivots.emplace_back(c, k);
-  }
-  std::sort(pivots.begin(), pivots.end());
-  MatrixXd basis(N.rows(), N.cols());
-  for (size_t k = 0; k < pivots.size(); ++k) {
-    basis.col(k) = rows.row(pivots[k].second).transpose();
-  }
-  return basis;
 }
 
 // rms of the columns of U over random states.
@@ -203,21 +156,18 @@ Identifiability AnalyzeIdentifiability(const BlockTriangularFactor& factor,
     int rank = Rank(svd.singularValues());
     if (noise[i] <= 0) rank = 0;
     result.block_rank.push_back(rank);
-    const MatrixXd unseen = EchelonBasis(svd.matrixV().rightCols(size - rank));
-    for (int k = 0; k < size - rank; ++k) {
-      result.block_directions.push_back(
-          MakeDirection(unseen.col(k), scale, begin, i, parameters));
+    for (const UnidentifiableDirection& direction :
+         MakeDirections(svd.matrixV().rightCols(size - rank), scale, begin, i,
+                        parameters)) {
+      result.block_directions.push_back(direction);
     }
   }
   const WeightedSystem system = MakeWeightedSystem(factor, noise, reference);
   const WeightedSystem::Directions d = system.Decompose();
   result.total = factor.num_parameters();
   result.batch_rank = d.rank;
-  const MatrixXd unseen = EchelonBasis(d.V.rightCols(result.total - d.rank));
-  for (int k = 0; k < result.total - d.rank; ++k) {
-    result.directions.push_back(
-        MakeDirection(unseen.col(k), system.scale, 0, -1, parameters));
-  }
+  result.directions = MakeDirections(d.V.rightCols(result.total - d.rank),
+                                     system.scale, 0, -1, parameters);
   return result;
 }
 

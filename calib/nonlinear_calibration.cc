@@ -162,6 +162,7 @@ void NonlinearCalibrator::Report(const ArmCovariance& covariance,
     result->parameters.push_back(out);
   }
   result->covariance = covariance.covariance(shown, shown);
+  result->unseen = covariance.unseen;
 }
 
 TorqueResidual NonlinearCalibrator::Evaluate(const Robot& robot,

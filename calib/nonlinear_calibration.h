@@ -47,11 +47,14 @@ struct PoseFigures {
 // A robot with physically consistent links that moves like the real one.
 struct NonlinearCalibration {
   bool solved = false;
-  std::string reason;
+  std::string reason;  // Ceres' word, or why it is not solved
+  bool converged() const { return solved && reason == "CONVERGENCE"; }
   int iterations = 0;
   Robot robot;  // with the estimated parameters
   std::vector<PhysicalParameter> parameters;
   Eigen::MatrixXd covariance;  // of them, prior included
+  // Combinations that the data do not tell: only the file's values do.
+  std::vector<std::string> unseen;
   std::optional<TorqueResidual> training;
   std::optional<TorqueResidual> validation;
   std::optional<PoseFigures> poses;

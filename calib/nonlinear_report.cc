@@ -5,22 +5,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "calib/json_figures.h"
-
 namespace armcal {
 namespace {
-
-using nlohmann::json;
-
-json ParameterJson(const PhysicalParameter& p) {
-  return {{"name", p.name},
-          {"unit", p.unit},
-          {"value", JsonNumber(p.value)},
-          {"stddev", JsonNumber(p.stddev)},
-          {"prior", JsonNumber(p.prior)},
-          {"identifiable", p.identifiable},
-          {"held", p.held}};
-}
 
 // Text in a column of this width; longer text makes the row longer.
 std::string Padded(std::string text, size_t width) {
@@ -58,10 +44,6 @@ std::string Percent(const TorqueResidual& residual) {
   const double percent = residual.moving().stacked_percent;
   return std::isfinite(percent) ? Format("%.2f %%", percent)
                                 : "unknown (no torque)";
-}
-
-bool Converged(const NonlinearCalibration& result) {
-  return result.reason == "CONVERGENCE";
 }
 
 std::string LinkTable(const Robot& nominal, const Robot& robot) {
@@ -103,6 +85,56 @@ std::string JointTable(const NonlinearCalibration& result) {
   return text + "\n";
 }
 
+// Lengths in mm and angles in degrees, as people read them.
+std::string GeometryTable(const NonlinearCalibration& result) {
+  std::string text;
+  for (const PhysicalParameter& p : result.parameters) {
+    if (!p.geometry) continue;
+    const bool angle = p.unit == "rad";
+    const double scale = angle ? 180 / M_PI : 1e3;
+    text += Padded("  " + p.name, 24) + Format("%12.4f -> ", scale * p.prior) +
+            Format("%12.4f ", scale * p.value) +
+            (p.identifiable ? Format("+- %-9.2g", scale * p.stddev)
+                            : Padded("(prior)", 12)) +
+            (angle ? " deg\n" : " mm\n");
+  }
+  if (text.empty()) return text;
+  return "\ngeometry                        file       estimate\n" + text;
+}
+
+std::string PoseText(const NonlinearCalibration& result) {
+  if (!result.poses) return "";
+  const PoseFigures& poses = *result.poses;
+  return Format("\nposes      %.4f mm rms with the file's geometry, ",
+                1e3 * poses.before_rms) +
+         Format("%.4f mm with the estimate (max %.4f mm)", 1e3 * poses.rms,
+                1e3 * poses.max);
+}
+
+std::string CertaintyText(const NonlinearCalibration& result) {
+  int estimated = 0, identifiable = 0;
+  for (const PhysicalParameter& p : result.parameters) {
+    estimated += !p.held;
+    identifiable += p.identifiable;
+  }
+  std::string text = "\n" + std::to_string(identifiable) + " of " +
+                     std::to_string(estimated) +
+                     " parameters determined by the data, the others by the "
+                     "file as far as it is trusted";
+  const auto strong = StrongCorrelations(result);
+  constexpr size_t kShown = 3;
+  for (size_t k = 0; k < std::min(kShown, strong.size()); ++k) {
+    text += (k == 0 ? "\ncorrelated " : ", ") +
+            result.parameters[strong[k].a].name + " and " +
+            result.parameters[strong[k].b].name +
+            Format(" (%.3f)", strong[k].value);
+  }
+  if (strong.size() > kShown) {
+    text += Format(", and %zu more pairs", strong.size() - kShown);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string NonlinearReport(const Robot& nominal,
@@ -111,74 +143,15 @@ std::string NonlinearReport(const Robot& nominal,
     return "\nno physically consistent robot: " + result.reason + "\n";
   }
   std::string text = LinkTable(nominal, result.robot) + JointTable(result) +
-                     "\nresidual of this robot " + Percent(*result.training);
+                     GeometryTable(result) + "\nresidual of this robot " +
+                     Percent(*result.training);
   if (result.validation) text += ", held out " + Percent(*result.validation);
-  if (!Converged(result)) {
+  text += PoseText(result) + CertaintyText(result);
+  if (!result.converged()) {
     text += "\nnot converged: " + result.reason + " after " +
             std::to_string(result.iterations) + " iterations";
   }
   return text + "\n";
-}
-
-void AddRefined(const NonlinearCalibration& result, json* calibration) {
-  json& c = *calibration;
-  if (!result.solved) {
-    c["refined"] = {{"converged", false}, {"reason", result.reason}};
-    return;
-  }
-  c["linear"] = {{"joints", c["joints"]}, {"parameters", c["parameters"]}};
-  for (const char* key :
-       {"stacked_residual_percent", "validation_stacked_residual_percent"}) {
-    if (c.contains(key)) c["linear"][key] = c[key];
-  }
-  c["estimate"] = "refined";
-  for (size_t i = 0; i < result.robot.links.size(); ++i) {
-    SetJointFigures(*result.training, "", static_cast<int>(i), &c["joints"][i]);
-    if (!result.validation) continue;
-    SetJointFigures(*result.validation, "validation_", static_cast<int>(i),
-                    &c["joints"][i]);
-  }
-  c["stacked_residual_percent"] =
-      JsonNumber(result.training->moving().stacked_percent);
-  if (result.validation) {
-    c["validation_stacked_residual_percent"] =
-        JsonNumber(result.validation->moving().stacked_percent);
-  }
-  c["parameters"] = json::array();
-  json names = json::array(), units = json::array();
-  for (const PhysicalParameter& p : result.parameters) {
-    c["parameters"].push_back(ParameterJson(p));
-    names.push_back(p.name);
-    units.push_back(p.unit);
-  }
-  c["parameters_covariance"] = {{"names", names},
-                                {"units", units},
-                                {"file", "parameters_covariance.csv"}};
-  c["refined"] = {{"converged", Converged(result)},
-                  {"reason", result.reason},
-                  {"iterations", result.iterations}};
-}
-
-std::string ParametersCovarianceCsv(const NonlinearCalibration& result) {
-  std::string text;
-  for (const PhysicalParameter& p : result.parameters) {
-    text += (text.empty() ? "\"" : ",\"") + p.name + "\"";
-  }
-  text += "\n";
-  char number[40];
-  for (size_t r = 0; r < result.parameters.size(); ++r) {
-    for (size_t k = 0; k < result.parameters.size(); ++k) {
-      if (k > 0) text += ",";
-      if (!result.parameters[r].identifiable ||
-          !result.parameters[k].identifiable) {
-        continue;
-      }
-      std::snprintf(number, sizeof(number), "%.17g", result.covariance(r, k));
-      text += number;
-    }
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace armcal

@@ -2,10 +2,19 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "calib/nonlinear_calibration.h"
 
 namespace armcal {
+
+// Of two parameters (indices) that the data determine.
+struct Correlation {
+  size_t a, b;
+  double value;
+};
+// Those of 0.9 and more in size, the strongest first.
+std::vector<Correlation> StrongCorrelations(const NonlinearCalibration& result);
 
 // The robot for a simulator on a terminal: links with masses and centres
 // beside the file's, what joints add, residuals, and what stayed open.
