@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "calib/linear_calibration.h"
@@ -21,5 +22,9 @@ RowOptions MakeRowOptions(const LinearCalibrationOptions& options,
 ModelParameters MakeParameters(const Robot& robot,
                                const LinearCalibrationOptions& options,
                                const Transitions& transitions);
+
+// Throws InputError where a bandwidth that was given is none that the logs can
+// be filtered at.
+void CheckBandwidth(const std::optional<double>& given, const LogSet& logs);
 
 }  // namespace armcal

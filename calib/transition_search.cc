@@ -22,11 +22,26 @@ struct Screening {
   BlockTriangularFactor factor;
 };
 
+// What `choose` makes of the equations, all at once or joint by joint.
+template <class Choose>
+auto ChooseFrom(const Screening& screening, TorqueScale scale, Choose choose) {
+  const Eigen::VectorXd noise = RightSideRms(screening.factor);
+  auto all = choose(screening.factor, screening.parameters, noise);
+  if (scale == TorqueScale::kCommon) return all;
+  for (Eigen::Index i = 0; i < noise.size(); ++i) {
+    Eigen::VectorXd alone = Eigen::VectorXd::Zero(noise.size());
+    alone[i] = noise[i];
+    all[i] = choose(screening.factor, screening.parameters, alone)[i];
+  }
+  return all;
+}
+
 }  // namespace
 
 Transitions FindTransitions(const Robot& robot,
                             const LinearCalibrationOptions& options,
-                            const RowOptions& rows, LogSet* training) {
+                            const RowOptions& rows, LogSet* training,
+                            TorqueScale scale) {
   const size_t n = robot.links.size();
   if (std::count(options.joint_terms.begin(), options.joint_terms.end(),
                  JointTerm::kCoulomb) == 0) {
@@ -36,14 +51,13 @@ Transitions FindTransitions(const Robot& robot,
   const auto candidates = CandidateTransitions();
   const Screening coarse(robot, options, rows, {n, candidates}, training);
   Transitions finer;
-  for (const int choice : ChooseTransitions(coarse.factor, coarse.parameters,
-                                            RightSideRms(coarse.factor))) {
+  for (const int choice : ChooseFrom(coarse, scale, ChooseTransitions)) {
     finer.push_back(FinerTransitions(candidates[choice]));
   }
   const Screening fine(robot, options, rows, finer, training);
   Transitions transitions;
-  for (const CoulombTransition& t : RefineTransitions(
-           fine.factor, fine.parameters, RightSideRms(fine.factor))) {
+  for (const CoulombTransition& t :
+       ChooseFrom(fine, scale, RefineTransitions)) {
     transitions.push_back({t});
   }
   return transitions;
