@@ -107,9 +107,12 @@ TorqueColumns FindTorqueColumns(const std::string& file,
       return {columns.Find(Signal::kEffort), "commanded tau columns"};
     case TorqueKind::kCurrent:
       if (options.torque_constants.empty()) {
-        throw InputError(file, "", "",
-                         "the torque comes from currents: expected "
-                         "--torque_constants=K1,.. in N m/A, one per joint");
+        throw InputError(
+            file, "", "",
+            "the torque comes from currents, its scale is not observable "
+            "from them alone: expected --torque_constants=K1,.. in N m/A, "
+            "one per joint, or --payload_mass and --payload_log to estimate "
+            "them");
       }
       return FromCurrents(columns, options);
     default:

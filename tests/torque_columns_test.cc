@@ -81,8 +81,9 @@ TEST(TorqueColumns, SayWhatIsMissing) {
             "elbow/effort; or currents (i1 or shoulder/current, ..) with "
             "--torque_constants");
   EXPECT_EQ(Find("t,i1,i2", Options(TorqueKind::kAuto)),
-            "FILE: the torque comes from currents: expected "
-            "--torque_constants=K1,.. in N m/A, one per joint");
+            "FILE: the torque comes from currents, its scale is not observable "
+            "from them alone: expected --torque_constants=K1,.. in N m/A, one "
+            "per joint, or --payload_mass and --payload_log to estimate them");
   EXPECT_EQ(Find("t,tau2,i1", Options(TorqueKind::kAuto)),
             "FILE: row 1: missing tau1 or shoulder/effort; the robot has 2 "
             "joints, the log holds tau2");

@@ -1,0 +1,127 @@
+#include "calib/gain_covariance.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "calib/overlap_covariance.h"
+#include "calib/robust_rows.h"
+#include "calib/score_covariance.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// What a first pass finds, as EstimateRowCovariance has it.
+struct CurrentStudy {
+  // Of the worst joint's residuals, at the lag where rows no longer overlap.
+  double autocorrelation = 0;
+  MatrixXd gain;  // of equations inside Huber's threshold
+};
+
+CurrentStudy StudyCurrents(const GainFit& fit, bool huber, int rows_per_window,
+                           CurrentPass* pass) {
+  std::vector<ResidualStatistics> statistics(
+      fit.noise.size(), ResidualStatistics(rows_per_window));
+  const auto curvature = [huber](double r) {
+    // Outside, Huber's loss is only linear.
+    return !huber || Huber::Inside(r) ? 1.0 : 0.0;
+  };
+  const CurrentFactors inside =
+      pass->Factors("autocorrelation", fit.estimate, fit.noise, curvature,
+                    [&](const CurrentRow& row) {
+                      for (int i = 0; i < fit.noise.size(); ++i) {
+                        if (!row.follows) statistics[i].Break();
+                        if (fit.noise[i] > 0) statistics[i].Add(row.r[i]);
+                      }
+                    });
+  CurrentStudy study;
+  for (const ResidualStatistics& s : statistics) {
+    study.autocorrelation =
+        std::max(study.autocorrelation, s.Autocorrelation());
+  }
+  study.gain = GainSensitivity(WhitenedEquations(inside, fit.noise), pass->B(),
+                               fit.estimate, fit.reference)
+                   .Gain();
+  return study;
+}
+
+// Gradients of every joint's current by (g, x, p), in units of its noise.
+MatrixXd Jacobian(const CurrentRow& row, const GainEstimate& estimate,
+                  const VectorXd& noise, const MatrixXd& B) {
+  const Eigen::Index n = noise.size(), m = estimate.x.size();
+  const VectorXd x =
+      row.loaded ? VectorXd(estimate.x + B * estimate.p) : estimate.x;
+  MatrixXd J = MatrixXd::Zero(n, n + m + 10);
+  for (int i = 0; i < n; ++i) {
+    if (noise[i] <= 0) continue;
+    const auto u = row.row.U.row(i) / noise[i];
+    J(i, i) = u.dot(x);
+    J.row(i).segment(n, m) = estimate.g[i] * u;
+    if (row.loaded) J.row(i).tail<10>() = estimate.g[i] * (u * B);
+  }
+  return J;
+}
+
+// Equations in units of noise: U are the gradients of the currents.
+FittedRow MakeFittedRow(const CurrentRow& row, const GainFit& fit, bool huber,
+                        const MatrixXd& B) {
+  FittedRow fitted{Jacobian(row, fit.estimate, fit.noise, B), row.r, {}, {}};
+  fitted.U.col(fit.reference).setZero();  // is known
+  for (int i = 0; i < row.r.size(); ++i) {
+    fitted.used.push_back(fit.noise[i] > 0);
+    fitted.inside.push_back(!huber || Huber::Inside(row.r[i]));
+    if (huber) fitted.r[i] *= Huber::Weight(row.r[i]);
+  }
+  return fitted;
+}
+
+Score MakeScore(const FittedRow& row) {
+  MatrixXd inside = row.U;
+  for (int i = 0; i < row.r.size(); ++i) {
+    if (!row.inside[i]) inside.row(i).setZero();
+  }
+  return {row.U.transpose() * row.r, inside, inside};
+}
+
+}  // namespace
+
+CovarianceEstimate EstimateGainCovariance(const GainFit& fit, bool huber,
+                                          const MatrixXd& D,
+                                          int rows_per_window,
+                                          CurrentPass* pass) {
+  const CurrentStudy study = StudyCurrents(fit, huber, rows_per_window, pass);
+  const int size = static_cast<int>(D.rows());
+  const int joints = static_cast<int>(fit.noise.size());
+  CovarianceEstimate result;
+  result.rows_per_window = rows_per_window;
+  result.window = std::max(
+      rows_per_window + rows_per_window / 2,
+      rows_per_window * BartlettWindow(study.autocorrelation,
+                                       fit.equations / rows_per_window, 1));
+  ScoreCovariance scores(size, result.window, study.gain);
+  OverlapCovariance overlap(joints, size, rows_per_window);
+  MatrixXd sums = MatrixXd::Zero(size, pass->num_logs());
+  pass->Run("covariance", fit.estimate, fit.noise, [&](const CurrentRow& row) {
+    if (!row.follows) scores.Break(), overlap.Break();
+    const FittedRow fitted = MakeFittedRow(row, fit, huber, pass->B());
+    const Score score = MakeScore(fitted);
+    scores.Add(score);
+    overlap.Add(fitted);
+    sums.col(row.log) += score.value;
+  });
+  const MatrixXd reach = D.transpose() * study.gain;
+  const MatrixXd least =
+      D.transpose() * overlap.Value(study.gain, VectorXd::Ones(joints)) * D;
+  result.covariance = RaiseToLogScatter(
+      RaiseTo(least.diagonal(), reach * scores.Value() * reach.transpose()),
+      reach, sums);
+  result.method =
+      "Newey-West over " + std::to_string(result.window) + " rows" +
+      (pass->num_logs() >= 3 ? ", at least the scatter between logs" : "");
+  return result;
+}
+
+}  // namespace armcal
