@@ -7,11 +7,13 @@
 #include <iostream>
 
 #include "calib/calibration_report.h"
+#include "calib/drive_gains_report.h"
 #include "calib/linear_calibration.h"
 #include "calib/nonlinear_calibration.h"
 #include "calib/nonlinear_report.h"
 #include "model/input_text.h"
 #include "model/urdf_writer.h"
+#include "tools/calibrate_payload.h"
 #include "tools/calibrate_poses.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
@@ -87,15 +89,6 @@ std::vector<JointTerm> JointTermsFromFlags() {
     terms.push_back(term);
   }
   return terms;
-}
-
-double PositiveNumber(const std::string& flag, const std::string& text) {
-  const auto numbers = ParseNumbers(flag, text);
-  if (numbers.size() != 1 || numbers[0] <= 0) {
-    throw UsageError("--" + flag + ": found '" + text +
-                     "', expected one positive number");
-  }
-  return numbers[0];
 }
 
 std::optional<CoulombTransition> TransitionFromFlags() {
@@ -217,24 +210,27 @@ int RunCalibrate() {
   const bool is_refined = IsRefinedFromFlags();
   NonlinearCalibrationOptions refine;
   refine.trust.inertia = TrustFromFlags();
-  const LogReaderOptions log_options = LogOptionsFromFlags(robot);
+  LogReaderOptions log_options = LogOptionsFromFlags(robot);
   CheckLogsApart();
-  const TimeRange crop = CropFromFlags();
-  LogSet training(LogsFromFlags(), log_options, crop);
-  LogSet validation(ValidationLogsFromFlags(), log_options,
-                    ValidationCropFromFlags());
-  LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
-
   ProgressBar bar;
   options.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
   };
+  const auto gains = DriveGainsFromFlags(robot, options, &log_options);
+  if (gains && !gains->solved) return ReportUnsolvedGains(robot, *gains);
+  LogSet training(LogsFromFlags(), log_options, CropFromFlags());
+  LogSet validation(ValidationLogsFromFlags(), log_options,
+                    ValidationCropFromFlags());
+  LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
+
   refine.progress = options.progress;
   const LinearCalibration result =
       CalibrateLinear(robot, options, &training, held_out);
 
   nlohmann::json json = ToJson(robot, training, held_out, result);
-  std::string report = FullReport(robot, training, result);
+  std::string report = gains ? DriveGainsReport(*gains) : "";
+  report += FullReport(robot, training, result);
+  if (gains) AddDriveGains(*gains, &json);
   OutputFolder out(OutFromFlags());
   if (is_refined && result.solved) {
     const std::string why_not = WhyNotRefined(robot, options);
@@ -260,7 +256,7 @@ std::vector<std::string> FlagNames() {
   for (const char* name :
        {"geometry", "identification", "solver", "loss", "joint_terms",
         "coulomb_width", "window", "intervals", "interval", "quadrature",
-        "estimate", "trust", "poses"}) {
+        "estimate", "trust", "payload_mass", "payload_log", "poses"}) {
     names.push_back(name);
   }
   return names;

@@ -86,6 +86,15 @@ std::vector<double> ParseNumbers(const std::string& flag,
   return numbers;
 }
 
+double PositiveNumber(const std::string& flag, const std::string& text) {
+  const auto numbers = ParseNumbers(flag, text);
+  if (numbers.size() != 1 || numbers[0] <= 0) {
+    throw UsageError("--" + flag + ": found '" + text +
+                     "', expected one positive number");
+  }
+  return numbers[0];
+}
+
 std::vector<TimeRange> ParseRanges(const std::string& flag,
                                    const std::string& text) {
   std::vector<TimeRange> ranges;

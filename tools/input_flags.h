@@ -30,6 +30,7 @@ std::string OutFromFlags();                  // --out
 // "1,2.5" and "0:0.5,1:1.5"; `flag` names the flag in the message.
 std::vector<double> ParseNumbers(const std::string& flag,
                                  const std::string& text);
+double PositiveNumber(const std::string& flag, const std::string& text);
 std::vector<TimeRange> ParseRanges(const std::string& flag,
                                    const std::string& text);
 std::vector<std::string> SplitAtCommas(const std::string& text);

@@ -1,0 +1,100 @@
+#include "tools/calibrate_payload.h"
+
+#include <gflags/gflags.h>
+
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "calib/drive_gains_report.h"
+#include "tools/command.h"
+#include "tools/input_flags.h"
+#include "tools/output_folder.h"
+
+DEFINE_string(payload_mass, "",
+              "kg, of the payload in --payload_log: the torque constants are "
+              "estimated from the currents of --log (bare arm) and "
+              "--payload_log");
+DEFINE_string(payload_log, "",
+              "logs of the same arm with a payload of --payload_mass fixed to "
+              "its last link: D[,E...]");
+
+namespace armcal {
+namespace {
+
+std::vector<std::string> PayloadLogs() {
+  std::vector<std::string> logs = SplitAtCommas(FLAGS_payload_log);
+  std::vector<std::string> others = LogsFromFlags();
+  for (const std::string& log : ValidationLogsFromFlags()) {
+    others.push_back(log);
+  }
+  for (const std::string& log : logs) {
+    if (log.empty()) {
+      throw UsageError("--payload_log: found '" + FLAGS_payload_log +
+                       "', expected file names with commas between them");
+    }
+    if (std::count(logs.begin(), logs.end(), log) > 1 ||
+        std::count(others.begin(), others.end(), log) > 0) {
+      throw UsageError("--payload_log names " + log +
+                       ", which is named before; logs of the bare arm (--log, "
+                       "--validate) and with the payload are different ones");
+    }
+  }
+  return logs;
+}
+
+void CheckOtherFlags(const LinearCalibrationOptions& options,
+                     const LogReaderOptions& log_options) {
+  if (!log_options.torque_constants.empty()) {
+    throw UsageError(
+        "--torque_constants is what --payload_log estimates; give one of them");
+  }
+  if (log_options.torque_kind != TorqueKind::kAuto &&
+      log_options.torque_kind != TorqueKind::kCurrent) {
+    throw UsageError(
+        "--payload_log estimates torque constants from currents; expected "
+        "--torque_kind=current");
+  }
+  if (options.geometry != GeometryKnowledge::kKnown) {
+    throw UsageError("--payload_log takes --geometry=known");
+  }
+}
+
+}  // namespace
+
+std::optional<DriveGains> DriveGainsFromFlags(
+    const Robot& robot, const LinearCalibrationOptions& options,
+    LogReaderOptions* log_options) {
+  if (FLAGS_payload_mass.empty() && FLAGS_payload_log.empty()) {
+    return std::nullopt;
+  }
+  if (FLAGS_payload_mass.empty() || FLAGS_payload_log.empty()) {
+    throw UsageError("--payload_mass=KG and --payload_log=FILE go together");
+  }
+  const double mass = PositiveNumber("payload_mass", FLAGS_payload_mass);
+  const std::vector<std::string> payload_logs = PayloadLogs();
+  CheckOtherFlags(options, *log_options);
+  log_options->torque_kind = TorqueKind::kCurrent;
+  log_options->torque_constants.assign(robot.num_joints(), 1);
+  LogSet bare(LogsFromFlags(), *log_options, CropFromFlags());
+  LogSet payload(payload_logs, *log_options, TimeRange());
+  const DriveGains gains =
+      EstimateDriveGains(robot, options, mass, &bare, &payload);
+  if (gains.solved) log_options->torque_constants = gains.TorqueConstants();
+  return gains;
+}
+
+int ReportUnsolvedGains(const Robot& robot, const DriveGains& gains) {
+  nlohmann::json json = {{"format", "armcal calibration 1"},
+                         {"robot", robot.name}};
+  AddDriveGains(gains, &json);
+  OutputFolder out(OutFromFlags());
+  out.Add("calibration.json", json.dump(2) + "\n");
+  out.Add("covariance.csv", "\n");  // no older matrix beside a refusal
+  out.Write();
+  std::cout << DriveGainsReport(gains);
+  return kExitNegative;
+}
+
+}  // namespace armcal

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "calib/drive_gains.h"
+#include "calib/linear_calibration.h"
+#include "model/log_reader.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// The torque constants that --payload_mass and --payload_log ask to estimate
+// from the logs' currents; nothing where neither flag is given. Solved, they
+// become those of `log_options`.
+std::optional<DriveGains> DriveGainsFromFlags(
+    const Robot& robot, const LinearCalibrationOptions& options,
+    LogReaderOptions* log_options);
+
+// What there is to tell of gains that are not solved: the exit code.
+int ReportUnsolvedGains(const Robot& robot, const DriveGains& gains);
+
+}  // namespace armcal
