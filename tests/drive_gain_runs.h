@@ -72,6 +72,21 @@ inline LinearCalibrationOptions DriveOptions() {
   return options;
 }
 
+inline LinearCalibrationOptions ExactOptions() {
+  LinearCalibrationOptions options = DriveOptions();
+  options.bandwidth_hz = 0;
+  return options;
+}
+
+// Currents of the bare arm and of the arm with its payload, without noise.
+struct Currents {
+  Currents(const DrivenArm& driven, double duration, std::mt19937_64* random)
+      : bare(ToCurrents(MoveArm(driven.arm.truth, duration, random), driven.K)),
+        loaded(
+            ToCurrents(MoveArm(Loaded(driven), duration, random), driven.K)) {}
+  Log bare, loaded;
+};
+
 // EstimateDriveGains as a user meets it, on logs written to files. `loaded` may
 // be empty.
 inline DriveGains EstimateFromLogs(const Robot& robot, double payload_mass,

@@ -12,21 +12,6 @@ namespace {
 using Eigen::VectorXd;
 using testing::HasSubstr;
 
-LinearCalibrationOptions ExactOptions() {
-  LinearCalibrationOptions options = DriveOptions();
-  options.bandwidth_hz = 0;
-  return options;
-}
-
-// Currents of the bare arm and of the arm with its payload, without noise.
-struct Currents {
-  Currents(const DrivenArm& driven, double duration, std::mt19937_64* random)
-      : bare(ToCurrents(MoveArm(driven.arm.truth, duration, random), driven.K)),
-        loaded(
-            ToCurrents(MoveArm(Loaded(driven), duration, random), driven.K)) {}
-  Log bare, loaded;
-};
-
 void ExpectGains(const DriveGains& result, const VectorXd& K, double relative) {
   ASSERT_TRUE(result.solved) << result.reason;
   for (int j = 0; j < K.size(); ++j) {
@@ -108,54 +93,6 @@ TEST(DriveGains, ScaleIsThePayloads) {
   EXPECT_THAT(DriveGainsReport(bare), HasSubstr("not calibrated: the torque"));
 }
 
-// The same payload on the same log as bare: it weighs nothing.
-TEST(DriveGains, PayloadThatIsNotThereIsRefused) {
-  std::mt19937_64 random(9);
-  DrivenArm driven = MakeDrivenArm("UR5 6R", &random);
-  driven.payload = InertialParameters();
-  Currents currents(driven, 15, &random);
-  AddDriveNoise(.01, 1e-4, &random, &currents.bare);
-  AddDriveNoise(.01, 1e-4, &random, &currents.loaded);
-  const DriveGains result = EstimateFromLogs(
-      driven.arm.file, 3, {currents.bare}, {currents.loaded}, DriveOptions());
-  EXPECT_FALSE(result.solved);
-  for (const DriveGain& gain : result.gains) {
-    EXPECT_FALSE(gain.identifiable) << gain.name;
-    EXPECT_THAT(gain.reason, HasSubstr("three standard deviations clear of 0"));
-  }
-}
-
-// Horizontal SCARA whose wrist alone turns while it carries the payload: the
-// lift feels the weight; the others feel its inertia about the wrist, which is
-// unknown, and share none with the lift.
-TEST(DriveGains, WristAloneShowsTheLiftOnly) {
-  std::mt19937_64 random(10);
-  const DrivenArm driven = MakeDrivenArm("SCARA RRPR", &random);
-  const Log bare = ToCurrents(MoveArm(driven.arm.truth, 15, &random), driven.K);
-  Multisine wrist = RandomMultisine(&random, 4, 1.2);
-  wrist.amplitude.topRows(3).setZero();
-  Log loaded = RecordMotion(wrist, 15, .01);
-  AddTorque(Loaded(driven), &loaded);
-  for (int j = 0; j < 4; ++j) {
-    const Joint& joint = driven.arm.truth.links[j].joint;
-    AddCoulomb(j, joint.coulomb, kTransition, &loaded);
-    loaded.tau.col(j).array() += joint.offset;
-  }
-  Log noisy[] = {bare, ToCurrents(loaded, driven.K)};
-  for (Log& log : noisy) AddDriveNoise(.01, 1e-5, &random, &log);
-  const DriveGains result =
-      EstimateFromLogs(driven.arm.file, driven.payload.mass, {noisy[0]},
-                       {noisy[1]}, DriveOptions());
-  EXPECT_FALSE(result.solved);
-  for (const int j : {0, 1, 3}) {
-    EXPECT_FALSE(result.gains[j].identifiable) << j;
-  }
-  ASSERT_TRUE(result.gains[2].identifiable) << result.gains[2].reason;
-  EXPECT_NEAR(result.gains[2].value, driven.K[2], 4 * result.gains[2].stddev);
-  EXPECT_LT(result.gains[2].stddev, .01 * driven.K[2]);
-  EXPECT_THAT(result.reason, HasSubstr("of joint1, joint2, joint4: "));
-}
-
 // Arms of all kinds, some of which do not show all their gains: what is
 // reported is right.
 TEST(DriveGains, OfRandomArmsAreRightOrRefused) {
@@ -183,30 +120,6 @@ TEST(DriveGains, OfRandomArmsAreRightOrRefused) {
     }
   }
   EXPECT_GT(seen, 40);
-}
-
-TEST(DriveGains, JointWithoutCurrentIsNamed) {
-  std::mt19937_64 random(11);
-  const DrivenArm driven = MakeDrivenArm("3R elbow", &random);
-  Currents currents(driven, 15, &random);
-  currents.loaded.tau.col(0).setZero();
-  const DriveGains result =
-      EstimateFromLogs(driven.arm.file, driven.payload.mass, {currents.bare},
-                       {currents.loaded}, ExactOptions());
-  EXPECT_FALSE(result.solved);
-  EXPECT_THAT(result.reason, HasSubstr("of joint1: its current is zero"));
-  EXPECT_NEAR(result.gains[2].value / driven.K[2], 1, 1e-4);
-}
-
-TEST(DriveGains, ShortLogsAreRefused) {
-  std::mt19937_64 random(12);
-  const DrivenArm driven = MakeDrivenArm("Panda 7R", &random);
-  const Currents currents(driven, 3, &random);
-  const DriveGains result =
-      EstimateFromLogs(driven.arm.file, driven.payload.mass, {currents.bare},
-                       {currents.loaded}, ExactOptions());
-  EXPECT_FALSE(result.solved);
-  EXPECT_THAT(result.reason, HasSubstr("longer logs are needed"));
 }
 
 // Disturbances of 50 standard deviations for 0.1 s, 1 % of the time: Huber's
