@@ -173,11 +173,12 @@ void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
   // Too few to tell outliers from what the parameters do not fit, or how
   // errors follow each other.
   const bool few = result->equations < 2 * result->parameters.size();
-  const bool huber = options.solver == LinearSolver::kWeighted &&
-                     options.loss == Loss::kHuber && !few;
-  if (huber) {
-    RobustSolution robust =
-        SolveRobust(solution.x, result->noise, frozen, reference, pass);
+  if (options.solver == LinearSolver::kWeighted && !few) {
+    result->loss = options.loss.value_or(RobustLoss::kHuber);
+  }
+  if (result->loss != RobustLoss::kSquared) {
+    RobustSolution robust = SolveRobust(solution.x, result->noise, frozen,
+                                        result->loss, reference, pass);
     solution = std::move(robust.solution);
     result->x = solution.x;
     result->identifiable = solution.identifiable;
@@ -191,8 +192,8 @@ void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
         {result->independent_covariance, "independent errors (few equations)"},
         result);
   } else {
-    SetCovariance(EstimateCovariance(robot, options, rows, solution, huber,
-                                     reference, pass, *result),
+    SetCovariance(EstimateCovariance(robot, options, rows, solution,
+                                     result->loss, reference, pass, *result),
                   result);
     result->inflation =
         MedianInflation(result->covariance, result->independent_covariance);

@@ -14,10 +14,9 @@
 #include "model/model_parameters.h"
 #include "model/robot.h"
 #include "problems/identification_rows.h"
+#include "problems/robust_loss.h"
 
 namespace armcal {
-
-enum class Loss { kSquared, kHuber };
 
 struct LinearCalibrationOptions {
   GeometryKnowledge geometry = GeometryKnowledge::kKnown;
@@ -36,8 +35,9 @@ struct LinearCalibrationOptions {
   Quadrature quadrature = Quadrature::kTrapezoid;
   LinearSolver solver = LinearSolver::kWeighted;
   // Of the weighted solver; squared in any case where a joint has fewer
-  // equations than twice the parameters.
-  Loss loss = Loss::kHuber;
+  // equations than twice the parameters. Not given: Huber's. Any but squared
+  // also takes gross errors out of the torque samples.
+  std::optional<RobustLoss> loss;
   // Cutoff for positions, differential rows and residuals, Hz; 0: none.
   // Not given: DefaultBandwidth.
   std::optional<double> bandwidth_hz;
@@ -71,7 +71,8 @@ struct LinearCalibration {
   std::vector<RecoveredLength> lengths;
 
   LinearSolver solver = LinearSolver::kWeighted;
-  std::vector<JointTerm> joint_terms;  // asked for, merged or not
+  RobustLoss loss = RobustLoss::kSquared;  // that was used
+  std::vector<JointTerm> joint_terms;      // asked for, merged or not
   RowOptions rows;
   EquationMask used;  // [log][joint]
   // Standard deviations over those of independent rows, median.

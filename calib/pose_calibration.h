@@ -13,7 +13,8 @@ namespace armcal {
 
 struct PoseCalibrationOptions {
   RefineGeometry refine = RefineGeometry::kAll;
-  RobustLoss loss = RobustLoss::kHuber;
+  // Tukey's gives wrong poses up, where Huber's lets each pull for ever.
+  RobustLoss loss = RobustLoss::kTukey;
   // How far the arm's parameters may reasonably be from the file's: standard
   // deviations of the prior, m and rad.
   double prior_length = 0.01;
@@ -46,7 +47,7 @@ struct PoseCalibration {
   double max = 0;
   double held_out_rms = 0;  // cross-validated
   double held_out_median = 0;
-  std::vector<int> outliers;  // poses beyond 4 noise deviations
+  std::vector<int> outliers;  // poses that Tukey's loss gives up
   Robot robot;                // with the refined geometry
 };
 

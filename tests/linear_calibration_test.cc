@@ -69,10 +69,10 @@ class Ur5 : public testing::Test {
     const VectorXd clean =
         CalibrateLogs(robot_, {log_}, options_, with_rates).stddev;
     spoil();
-    options_.loss = Loss::kSquared;
+    options_.loss = RobustLoss::kSquared;
     const double squared =
         Normalised(CalibrateLogs(robot_, {log_}, options_, with_rates), clean);
-    options_.loss = Loss::kHuber;
+    options_.loss = RobustLoss::kHuber;
     const LinearCalibration robust =
         CalibrateLogs(robot_, {log_}, options_, with_rates);
     const double huber = Normalised(robust, clean);
@@ -119,7 +119,7 @@ TEST_F(Ur5, ExactDataByEveryModel) {
 
 TEST_F(Ur5, ErrorsAreAsLargeAsClaimed) {
   AddSensorNoise(.01);
-  for (const auto loss : {Loss::kHuber, Loss::kSquared}) {
+  for (const auto loss : {RobustLoss::kHuber, RobustLoss::kSquared}) {
     options_.loss = loss;
     const LinearCalibration result = CalibrateLogs(robot_, {log_}, options_);
     ASSERT_TRUE(result.solved) << result.reason;

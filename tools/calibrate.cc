@@ -30,7 +30,6 @@ DEFINE_string(identification, "weak",
 DEFINE_string(solver, "weighted",
               "weighted (noise of every joint re-estimated), batch (2.25), "
               "recursive (2.28)");
-DEFINE_string(loss, "huber", "of the weighted solver: huber, squared");
 DEFINE_string(joint_terms, "viscous,coulomb,offset,armature",
               "what joints add to the rigid arm, or none");
 DEFINE_string(coulomb_width, "auto",
@@ -132,9 +131,7 @@ LinearCalibrationOptions OptionsFromFlags(const Robot& robot) {
                                 {{"weighted", LinearSolver::kWeighted},
                                  {"batch", LinearSolver::kBatch},
                                  {"recursive", LinearSolver::kRecursive}});
-  options.loss =
-      ParseChoice<Loss>("loss", FLAGS_loss,
-                        {{"huber", Loss::kHuber}, {"squared", Loss::kSquared}});
+  options.loss = LossFromFlags();
   options.quadrature =
       ParseChoice<Quadrature>("quadrature", FLAGS_quadrature,
                               {{"trapezoid", Quadrature::kTrapezoid},
