@@ -5,8 +5,8 @@
 namespace armcal {
 
 // What large residuals count, of torques and of poses alike. Huber's lets each
-// pull with a bounded force, Cauchy's with a falling one, Tukey's gives up those
-// beyond its scale.
+// pull with a bounded force, Cauchy's with a falling one, Tukey's gives up
+// those beyond its scale.
 enum class RobustLoss { kSquared, kHuber, kCauchy, kTukey };
 
 // In noise units, for residuals of 1, 3 or 6 coordinates that are judged by
