@@ -5,6 +5,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "calib/outlier_report.h"
+
 namespace armcal {
 namespace {
 
@@ -141,19 +143,6 @@ std::string UnpoweredText(const Robot& robot, const LogSet& training,
   return text;
 }
 
-std::string SpikeText(const Robot& robot, const LinearCalibration& result) {
-  std::string text;
-  for (int i = 0; result.training && i < robot.num_joints(); ++i) {
-    if (result.training->spikes(i) == 0) continue;
-    text +=
-        Format("%s %ld of %s", text.empty() ? "" : ",",
-               result.training->spikes(i), robot.links[i].joint.name.c_str());
-  }
-  return text.empty() ? ""
-                      : "spikes    " + text +
-                            ": single torque samples left out of the fit\n";
-}
-
 std::string LengthTable(const LinearCalibration& result) {
   if (result.lengths.empty()) return "";
   std::string text = "\nlength              nominal m      estimate m\n";
@@ -217,7 +206,7 @@ std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
 std::string FullReport(const Robot& robot, const LogSet& training,
                        const LinearCalibration& result) {
   std::string text = DataText(training, result);
-  text += UnpoweredText(robot, training, result) + SpikeText(robot, result);
+  text += UnpoweredText(robot, training, result) + OutlierText(robot, training);
   text += ResidualTable(robot, result) + RankText(result);
   if (result.solved) {
     text += LengthTable(result) + TransitionTable(robot, result) +

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/calibration_checks.h"
 #include "calib/calibration_model.h"
 #include "calib/log_factors.h"
 #include "calib/robust_solution.h"
+#include "calib/torque_outliers.h"
 #include "calib/transition_search.h"
 #include "calib/used_equations.h"
 #include "calib/width_covariance.h"
-#include "model/input_error.h"
-#include "model/input_text.h"
 
 namespace armcal {
 namespace {
@@ -40,53 +40,6 @@ ReferenceMotion MakeReference(const Robot& robot,
       parameters, speed, motion_hz, unit,
       RightSideRms(factors.Merged(parameters, FindNonzero(factors))),
       parameters.Values(robot));
-}
-
-void CheckBandwidth(const std::optional<double>& given,
-                    const LogSet& training) {
-  if (!given || *given == 0) return;
-  double longest = 0, slowest = 0;
-  for (const TimeBase& base : training.time_bases()) {
-    longest = std::max(longest, base.range.end - base.range.begin);
-    slowest = std::max(slowest, base.dt);
-  }
-  if (*given >= 0.5 / slowest) {
-    throw InputError("", "--bandwidth", NumberText(*given),
-                     "expected 0, or less than half the sample rate, " +
-                         NumberText(0.5 / slowest) + " Hz");
-  }
-  if (*given * longest >= 1) return;
-  throw InputError("", "--bandwidth", NumberText(*given),
-                   "expected 0, or a frequency in Hz whose period is shorter "
-                   "than the log, " +
-                       NumberText(longest) + " s");
-}
-
-void CheckIntervals(const RowOptions& rows, const LogSet& training,
-                    long equations) {
-  if (rows.identification != Identification::kIntegral) return;
-  const long expected =
-      static_cast<long>(rows.intervals.size()) * training.size();
-  if (equations >= expected) return;
-  throw InputError(
-      training.path(0), "--intervals", "",
-      std::to_string(expected - equations) + " of " + std::to_string(expected) +
-          " intervals cannot be used; expected each to lie within the log, "
-          "clear of gaps and standstill");
-}
-
-std::string WhyNothingToSolve(const LogFactors& factors,
-                              const ModelParameters& parameters) {
-  const BlockTriangularFactor all = factors.Merged(
-      parameters, AllEquations(factors, parameters.num_joints()).used);
-  if (all.rows(0) == 0) {
-    return "the logs hold no stretch of motion that is long enough for an "
-           "equation";
-  }
-  const double torque = RightSideRms(all).maxCoeff();
-  if (torque == 0) return "the torque in the logs is zero throughout";
-  if (!std::isfinite(torque)) return "the torque in the logs overflows";
-  return "";
 }
 
 // Weighted by re-estimated noise. The noise of a homogeneous equation must not
@@ -216,15 +169,14 @@ LinearCalibration::LinearCalibration(const ModelParameters& model)
   }
 }
 
-LinearCalibration CalibrateLinear(const Robot& robot,
-                                  const LinearCalibrationOptions& options,
-                                  LogSet* training, LogSet* validation) {
-  const RowOptions rows = MakeRowOptions(options, *training);
-  CheckBandwidth(options.bandwidth_hz, *training);
-  training->Prepare(rows.bandwidth_hz, RowReach(rows));
-  const Transitions transitions =
-      FindTransitions(robot, options, rows, training);
+namespace {
 
+// From the logs as the set now gives them.
+LinearCalibration CalibrateOnce(const Robot& robot,
+                                const LinearCalibrationOptions& options,
+                                const RowOptions& rows,
+                                const Transitions& transitions,
+                                LogSet* training) {
   LinearCalibration result(MakeParameters(robot, options, transitions));
   for (const auto& t : transitions) result.transitions.push_back(t.front());
   result.fitted_transitions = !transitions.empty() && !options.transition;
@@ -252,8 +204,53 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   Estimate(robot, options, rows,
            factors.Merged(result.parameters, equations.used), reference,
            equations.frozen, &pass, &result);
-  result.passes = pass.passes() + 2;  // the audit and the factors
-  if (result.fitted_transitions) result.passes += 2;
+  result.passes = pass.passes() + 1;  // the factors
+  return result;
+}
+
+// Calibrates, takes out the torque samples that the calibration shows to be
+// wrong, and again until these stay the same.
+LinearCalibration CalibrateWithoutOutliers(
+    const Robot& robot, const LinearCalibrationOptions& options,
+    const RowOptions& rows, LogSet* training) {
+  constexpr int kMostRounds = 3;
+  LinearCalibration result =
+      CalibrateOnce(robot, options, rows,
+                    FindTransitions(robot, options, rows, training), training);
+  const bool searched = result.fitted_transitions;
+  result.passes += searched ? 2 : 0;
+  if (options.loss == RobustLoss::kSquared || rows.bandwidth_hz <= 0) {
+    return result;
+  }
+  for (int round = 0; round < kMostRounds && result.solved; ++round) {
+    const OutlierLists last = training->spikes() > 0 || round > 0
+                                  ? training->outliers()
+                                  : OutlierLists(training->size());
+    training->TakeOut(FindTorqueOutliers(result.parameters, result.x,
+                                         options.progress, training));
+    const int passes = ++result.passes;
+    if (SameSamples(training->outliers(), last)) break;
+    result = CalibrateOnce(
+        robot, options, rows,
+        FollowTransitions(robot, options, rows, result.transitions, training),
+        training);
+    result.passes += passes + (searched ? 1 : 0);
+  }
+  return result;
+}
+
+}  // namespace
+
+LinearCalibration CalibrateLinear(const Robot& robot,
+                                  const LinearCalibrationOptions& options,
+                                  LogSet* training, LogSet* validation) {
+  const RowOptions rows = MakeRowOptions(options, *training);
+  CheckBandwidth(options.bandwidth_hz, *training);
+  training->Prepare(rows.bandwidth_hz, RowReach(rows),
+                    options.loss != RobustLoss::kSquared);
+  LinearCalibration result =
+      CalibrateWithoutOutliers(robot, options, rows, training);
+  ++result.passes;  // the audit
   if (!result.solved) return result;
 
   result.lengths =

@@ -13,4 +13,18 @@ namespace armcal {
 Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> RemoveSpikes(
     Eigen::MatrixXd* x);
 
+// Samples that stick out of a signal that is slow beside them: of residuals,
+// where RemoveSpikes would take motion for noise.
+struct Outlying {
+  Eigen::Array<bool, Eigen::Dynamic, 1> marked;
+  Eigen::VectorXd level;  // the median of the unmarked samples around each
+  double deviation = 0;   // standard, of samples about their level
+};
+
+// Marks samples that differ by more than 8 deviations, and by more than
+// `least`, from the median of the `reach` unmarked ones on either side. The
+// deviation is robust against a fifth of outliers; runs of up to `reach`
+// samples are found, longer ones are a change of level.
+Outlying FindOutlying(const Eigen::VectorXd& x, int reach, double least);
+
 }  // namespace armcal

@@ -164,17 +164,15 @@ TEST_F(Ur5, HuberResistsSingleSamplesInTheDifferentialModel) {
 }
 
 // Every window of the weak form holds some of these: they are taken out sample
-// by sample, before.
+// by sample, before. Squared leaves the data as they are.
 TEST_F(Ur5, WeakFormResistsScatteredSamples) {
   AddSensorNoise(.01);
   const VectorXd clean = CalibrateLogs(robot_, {log_}, options_).stddev;
   SpoilSamples(.05);
   const LinearCalibration spoiled = CalibrateLogs(robot_, {log_}, options_);
-  EXPECT_LT(Normalised(spoiled, clean), 2);  // over 100 without
-  for (int j = 0; j < 6; ++j) {
-    EXPECT_NEAR(spoiled.training->spikes(j), .05 * log_.size(),
-                .01 * log_.size());
-  }
+  EXPECT_LT(Normalised(spoiled, clean), 1.5);
+  options_.loss = RobustLoss::kSquared;
+  EXPECT_GT(Normalised(CalibrateLogs(robot_, {log_}, options_), clean), 100);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "calib/linear_calibration.h"
 #include "calib/nonlinear_calibration.h"
 #include "calib/nonlinear_report.h"
+#include "calib/outlier_report.h"
 #include "model/input_text.h"
 #include "model/urdf_writer.h"
 #include "tools/calibrate_poses.h"
@@ -244,6 +245,9 @@ int RunCalibrate() {
   }
   out.Add("calibration.json", json.dump(2) + "\n");
   out.Add("covariance.csv", CovarianceCsv(result));
+  if (CountOutliers(training) > 0) {
+    out.Add("outliers.csv", OutlierCsv(robot, training));
+  }
   out.Write();
   for (const std::string& note : robot.notes) {
     std::cout << "note       " << note << "\n";
