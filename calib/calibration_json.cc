@@ -4,6 +4,7 @@
 #include "calib/calibration_report.h"
 #include "calib/json_figures.h"
 #include "calib/outlier_report.h"
+#include "calib/verdict.h"
 
 namespace armcal {
 namespace {
@@ -160,6 +161,7 @@ json ToJson(const Robot& robot, const LogSet& training,
               {"unpowered", UnpoweredJson(robot, training, result)},
               {"outliers", OutlierJson(robot, training, kListedOutliers)},
               {"outlier_count", CountOutliers(training)},
+              {"verdict", VerdictJson(Shortcomings(robot, result))},
               {"rank", RankJson(result)},
               {"geometry", GeometryJson(result)},
               {"covariance",

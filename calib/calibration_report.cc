@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "calib/outlier_report.h"
+#include "calib/verdict.h"
 
 namespace armcal {
 namespace {
@@ -212,7 +213,9 @@ std::string FullReport(const Robot& robot, const LogSet& training,
     text += LengthTable(result) + TransitionTable(robot, result) +
             ParameterTable(result);
   }
-  return text + "\n" + BriefReport(robot, result) + "\n";
+  text += "\n";
+  if (result.solved) text += VerdictText(Shortcomings(robot, result));
+  return text + BriefReport(robot, result) + "\n";
 }
 
 }  // namespace armcal

@@ -185,6 +185,7 @@ LinearCalibration CalibrateOnce(const Robot& robot,
   result.joint_terms = options.joint_terms;
 
   const LogFactors factors(result.parameters, rows, options.progress, training);
+  result.travel = factors.travel();
   for (int log = 0; log < factors.size(); ++log) {
     result.equations += factors.log(log).rows(0);
   }

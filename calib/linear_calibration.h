@@ -80,6 +80,7 @@ struct LinearCalibration {
   long equations = 0;
   std::vector<long> outliers;  // per joint: equations Huber weighs below 1/2
   std::vector<UnpoweredJoint> unpowered;
+  Eigen::VectorXd travel;  // per joint, rad or m
   std::optional<TorqueResidual> training;
   std::optional<TorqueResidual> validation;
 };

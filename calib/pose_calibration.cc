@@ -31,6 +31,15 @@ std::vector<int> FindOutliers(const PoseFit& fit, const PoseUnknowns& at,
   return outliers;
 }
 
+// rms of positions (of the first target, or of lengths) about their mean, m.
+double Extent(const PoseMeasurements& measured) {
+  MatrixXd p = measured.lengths;
+  if (!measured.targets.empty()) p = measured.targets[0];
+  if (measured.poses.size() > 0) p = measured.poses.leftCols(3);
+  const MatrixXd about = p.rowwise() - p.colwise().mean();
+  return about.norm() / std::sqrt(static_cast<double>(p.rows()));
+}
+
 // Leaves out every folds-th pose in turn and predicts it from the others.
 void CrossValidate(const PoseFit& fit, const std::vector<bool>& free,
                    const PoseUnknowns& start, RobustLoss loss, int folds,
@@ -105,6 +114,11 @@ PoseCalibration CalibratePoses(const Robot& robot,
   PoseFit fit(robot, measured, options);
   PoseCalibration result;
   result.robot = robot;
+  result.count = measured.size();
+  result.refined = options.refine != RefineGeometry::kNothing;
+  result.travel =
+      measured.q.colwise().maxCoeff() - measured.q.colwise().minCoeff();
+  result.extent = Extent(measured);
   const PoseSolution solution = SolvePoses(measured, options.refine, &fit);
   result.reason = solution.refusal;
   result.before_rms = solution.before_rms;

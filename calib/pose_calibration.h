@@ -39,6 +39,10 @@ struct PoseCalibration {
   std::vector<GeometryEstimate> parameters;  // estimated ones
   // Sentences: what is held because the poses cannot tell it.
   std::vector<std::string> held;
+  int count = 0;           // poses
+  bool refined = false;    // the arm's own geometry too
+  Eigen::VectorXd travel;  // per joint, rad or m
+  double extent = 0;       // m, rms of measured positions about their mean
   PoseNoise noise;
   double before_rms = 0;  // m, distances per target, only the frame fitted
   double rms = 0;         // m, all poses

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "calib/json_figures.h"
+#include "calib/verdict.h"
 
 namespace armcal {
 namespace {
@@ -64,7 +65,7 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
   for (const std::string& sentence : result.held) {
     text += "held       " + sentence + "\n";
   }
-  return text;
+  return text + VerdictText(Shortcomings(robot, result));
 }
 
 json PoseJson(const Robot& robot, const PoseMeasurements& measured,
@@ -86,6 +87,7 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
           {"estimate", "refined"},
           {"geometry", geometry},
           {"held", result.held},
+          {"verdict", VerdictJson(Shortcomings(robot, result))},
           {"poses",
            {{"count", measured.size()},
             {"kind", Kind(measured)},

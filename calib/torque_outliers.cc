@@ -13,6 +13,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kReach = 15;
+// A jump of the residual is an error of the sample only where the torque makes
+// it, not the prediction.
+constexpr double kLeastJump = 0.5;
 constexpr double kLeastShare = 0.01;  // of the torque's rms
 
 // Torque that x predicts where the log was sampled, between the grid's points.
@@ -47,6 +50,9 @@ void Judge(const Trajectory& t, const MatrixXd& predicted, int joint,
   for (int k = 0; k < s.size(); ++k) {
     const bool in_core = s.place[k] >= t.core_begin && s.place[k] < t.core_end;
     if (!in_core || !found.marked[k]) continue;
+    const double size = residual[k] - found.level[k];
+    const double jump = tau[k] - Bridge(tau, k, found.marked);
+    if (jump / size < kLeastJump) continue;
     const double stands = predicted(k, joint) + found.level[k];
     list->push_back({s.row[k], s.t[k], joint, tau[k], stands,
                      (tau[k] - stands) / std::max(found.deviation, least / 8)});

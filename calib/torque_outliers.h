@@ -11,7 +11,8 @@ namespace armcal {
 // Gross errors of single torque samples, found by what parameters `x` of a
 // calibration predict at them: samples whose residual sticks out of the
 // residuals around it (FindOutlying, 15 samples on either side) by more than 8
-// noise deviations and a hundredth of the torque. What is replaced by the
+// noise deviations and a hundredth of the torque, where the torque itself jumps
+// by half as much. What is replaced by the
 // prediction plus the level of the residual around it counts for nothing in an
 // estimate that has settled. One list per log, in the order of rows. One pass
 // over the logs at their full rate.

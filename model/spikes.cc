@@ -105,4 +105,17 @@ Outlying FindOutlying(const Eigen::VectorXd& x, int reach, double least) {
   return result;
 }
 
+double Bridge(const Eigen::VectorXd& x, Eigen::Index k,
+              const Eigen::Array<bool, Eigen::Dynamic, 1>& marked) {
+  Eigen::Index left = k - 1, right = k + 1;
+  while (left >= 0 && marked[left]) --left;
+  while (right < x.size() && marked[right]) ++right;
+  const bool has_right = right < x.size();
+  if (left < 0) return has_right ? x[right] : x[k];
+  if (!has_right) return x[left];
+  const double share =
+      static_cast<double>(k - left) / static_cast<double>(right - left);
+  return (1 - share) * x[left] + share * x[right];
+}
+
 }  // namespace armcal

@@ -27,4 +27,9 @@ struct Outlying {
 // samples are found, longer ones are a change of level.
 Outlying FindOutlying(const Eigen::VectorXd& x, int reach, double least);
 
+// Value k of x on the straight line between the nearest unmarked samples on
+// either side; the nearer one at an end, x[k] where all are marked.
+double Bridge(const Eigen::VectorXd& x, Eigen::Index k,
+              const Eigen::Array<bool, Eigen::Dynamic, 1>& marked);
+
 }  // namespace armcal

@@ -11,6 +11,7 @@
 #include "calib/nonlinear_calibration.h"
 #include "calib/nonlinear_report.h"
 #include "calib/outlier_report.h"
+#include "calib/verdict.h"
 #include "model/input_text.h"
 #include "model/urdf_writer.h"
 #include "tools/calibrate_poses.h"
@@ -253,7 +254,7 @@ int RunCalibrate() {
     std::cout << "note       " << note << "\n";
   }
   std::cout << report;
-  return result.solved ? kExitOk : kExitNegative;
+  return Shortcomings(robot, result).empty() ? kExitOk : kExitNegative;
 }
 
 std::vector<std::string> FlagNames() {

@@ -6,6 +6,7 @@
 
 #include "calib/pose_calibration.h"
 #include "calib/pose_report.h"
+#include "calib/verdict.h"
 #include "model/pose_reader.h"
 #include "model/urdf_writer.h"
 #include "tools/command.h"
@@ -39,7 +40,7 @@ int CalibratePosesFromFlags(const Robot& robot) {
   }
   out.Write();
   std::cout << PoseReport(robot, measured, result);
-  return result.solved ? kExitOk : kExitNegative;
+  return Shortcomings(robot, result).empty() ? kExitOk : kExitNegative;
 }
 
 }  // namespace armcal
