@@ -97,7 +97,8 @@ void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
       }
     }
     const int p = columns[k];
-    const bool seen = unseen < 1e-6;
+    // The loss of a hopeless fit may be all slope: no variance then.
+    const bool seen = unseen < 1e-6 && std::isfinite(factor);
     result->parameters.push_back(
         {names[p], units[p], nominal[p], at.geometry[p],
          seen ? std::sqrt(factor * variance) / scale[k]

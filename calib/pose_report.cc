@@ -16,10 +16,13 @@ using nlohmann::json;
 std::string Estimate(const GeometryEstimate& p) {
   const bool angle = p.unit == "rad";
   const double scale = angle ? 57.29577951308232 : 1e3;
-  char text[128];
-  std::snprintf(text, sizeof(text), "  %-22s %12.4f -> %12.4f +- %-9.2g %s\n",
-                p.name.c_str(), scale * p.nominal, scale * p.value,
-                scale * p.stddev, angle ? "deg" : "mm");
+  char text[128], spread[32] = "(not seen)  ";
+  if (std::isfinite(p.stddev)) {
+    std::snprintf(spread, sizeof(spread), "+- %-9.2g", scale * p.stddev);
+  }
+  std::snprintf(text, sizeof(text), "  %-22s %12.4f -> %12.4f %s %s\n",
+                p.name.c_str(), scale * p.nominal, scale * p.value, spread,
+                angle ? "deg" : "mm");
   return text;
 }
 
