@@ -57,6 +57,11 @@ json JointsJson(const Robot& robot, const LogSet& training,
     if (result.validation) {
       SetJointFigures(*result.validation, "validation_", i, &entry);
     }
+    if (!result.sample_noise.empty()) {
+      const SampleNoise& noise = result.sample_noise[i];
+      entry["sample_noise_stddev"] = JsonNumber(noise.stddev);
+      entry["noise_source"] = NoiseSourceName(noise.source);
+    }
     if (!result.outliers.empty()) entry["outliers"] = result.outliers[i];
     entry["spikes"] = CountOutliers(training, i);
     if (!result.transitions.empty()) {

@@ -144,6 +144,19 @@ std::string UnpoweredText(const Robot& robot, const LogSet& training,
   return text;
 }
 
+std::string NoiseTable(const Robot& robot, const LinearCalibration& result) {
+  if (result.sample_noise.empty()) return "";
+  std::string text = "\nnoise of a torque sample, from\n";
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const SampleNoise& noise = result.sample_noise[i];
+    const Joint& joint = robot.links[i].joint;
+    text += Format("  %-20s %9.3g %-3s %s, %ld samples\n", joint.name.c_str(),
+                   noise.stddev, EffortUnit(joint.type),
+                   NoiseSourceName(noise.source), noise.samples);
+  }
+  return text;
+}
+
 std::string LengthTable(const LinearCalibration& result) {
   if (result.lengths.empty()) return "";
   std::string text = "\nlength              nominal m      estimate m\n";
@@ -208,7 +221,8 @@ std::string FullReport(const Robot& robot, const LogSet& training,
                        const LinearCalibration& result) {
   std::string text = DataText(training, result);
   text += UnpoweredText(robot, training, result) + OutlierText(robot, training);
-  text += ResidualTable(robot, result) + RankText(result);
+  text += ResidualTable(robot, result) + NoiseTable(robot, result) +
+          RankText(result);
   if (result.solved) {
     text += LengthTable(result) + TransitionTable(robot, result) +
             ParameterTable(result);

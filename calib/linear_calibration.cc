@@ -263,7 +263,9 @@ LinearCalibration CalibrateLinear(const Robot& robot,
                                   logs);
   };
   result.training = evaluate("residuals", training);
-  ++result.passes;
+  result.sample_noise = EstimateSampleNoise(result.parameters, result.x,
+                                            options.progress, training);
+  result.passes += 2;
   if (validation != nullptr) {
     validation->Prepare(rows.bandwidth_hz, RowReach(rows));
     result.validation = evaluate("validation", validation);

@@ -9,6 +9,7 @@
 #include "calib/length_recovery.h"
 #include "calib/linear_solution.h"
 #include "calib/log_set.h"
+#include "calib/sample_noise.h"
 #include "calib/torque_residual.h"
 #include "calib/used_equations.h"
 #include "model/model_parameters.h"
@@ -67,6 +68,7 @@ struct LinearCalibration {
   int rows_per_window = 1;
   std::vector<bool> identifiable;
   Eigen::VectorXd noise;  // per joint, of the equations: N m, N (N m s, N s)
+  std::vector<SampleNoise> sample_noise;  // per joint, if solved
   Identifiability identifiability;
   std::vector<RecoveredLength> lengths;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/sample_residuals.h"
 #include "model/spikes.h"
 #include "problems/identification_rows.h"
 
@@ -18,33 +19,13 @@ constexpr int kReach = 15;
 constexpr double kLeastJump = 0.5;
 constexpr double kLeastShare = 0.01;  // of the torque's rms
 
-// Torque that x predicts where the log was sampled, between the grid's points.
-MatrixXd PredictSamples(const Trajectory& t, const VectorXd& x,
-                        MotionRegressor* regressor) {
-  MatrixXd grid(t.size(), t.num_joints()), U;
-  regressor->Enter(t);
-  for (int k = 0; k < t.size(); ++k) {
-    regressor->Differential(k, &U);
-    grid.row(k) = (U * x).transpose();
-  }
-  MatrixXd predicted(t.samples.size(), t.num_joints());
-  for (int k = 0; k < t.samples.size(); ++k) {
-    const double place = std::clamp(t.samples.place[k], 0.0, t.size() - 1.0);
-    const int left = std::min(static_cast<int>(place), t.size() - 2);
-    const double share = place - left;
-    predicted.row(k) =
-        (1 - share) * grid.row(left) + share * grid.row(left + 1);
-  }
-  return predicted;
-}
-
 // Adds those of one joint in the trajectory's core.
-void Judge(const Trajectory& t, const MatrixXd& predicted, int joint,
+void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
            std::vector<TorqueOutlier>* list) {
   const TorqueSamples& s = t.samples;
   const VectorXd tau = s.tau.col(joint);
   const double rms = tau.norm() / std::sqrt(std::max<double>(1, tau.size()));
-  const VectorXd residual = tau - predicted.col(joint);
+  const VectorXd residual = residuals.col(joint);
   const double least = kLeastShare * rms;
   const Outlying found = FindOutlying(residual, kReach, least);
   for (int k = 0; k < s.size(); ++k) {
@@ -53,9 +34,9 @@ void Judge(const Trajectory& t, const MatrixXd& predicted, int joint,
     const double size = residual[k] - found.level[k];
     const double jump = tau[k] - Bridge(tau, k, found.marked);
     if (jump / size < kLeastJump) continue;
-    const double stands = predicted(k, joint) + found.level[k];
+    const double stands = tau[k] - size;
     list->push_back({s.row[k], s.t[k], joint, tau[k], stands,
-                     (tau[k] - stands) / std::max(found.deviation, least / 8)});
+                     size / std::max(found.deviation, least / 8)});
   }
 }
 
@@ -69,9 +50,9 @@ OutlierLists FindTorqueOutliers(const ModelParameters& parameters,
                                           MotionRegressor(parameters));
   logs->ForEachAtFullRate(
       "outliers", progress, [&](int log, const Trajectory& t) {
-        const MatrixXd predicted = PredictSamples(t, x, &regressors[log]);
+        const MatrixXd residuals = SampleResiduals(t, x, &regressors[log]);
         for (int i = 0; i < t.num_joints(); ++i) {
-          Judge(t, predicted, i, &lists[log]);
+          Judge(t, residuals, i, &lists[log]);
         }
       });
   for (std::vector<TorqueOutlier>& list : lists) {
