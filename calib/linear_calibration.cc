@@ -210,11 +210,12 @@ LinearCalibration CalibrateOnce(const Robot& robot,
 }
 
 // Calibrates, takes out the torque samples that the calibration shows to be
-// wrong, and again until these stay the same.
+// wrong, and again until these and the parameters stay the same.
 LinearCalibration CalibrateWithoutOutliers(
     const Robot& robot, const LinearCalibrationOptions& options,
     const RowOptions& rows, LogSet* training) {
-  constexpr int kMostRounds = 3;
+  constexpr int kMostRounds = 4;
+  constexpr double kSettled = 0.1;  // standard deviations
   LinearCalibration result =
       CalibrateOnce(robot, options, rows,
                     FindTransitions(robot, options, rows, training), training);
@@ -223,6 +224,7 @@ LinearCalibration CalibrateWithoutOutliers(
   if (options.loss == RobustLoss::kSquared || rows.bandwidth_hz <= 0) {
     return result;
   }
+  double moved = 0;
   for (int round = 0; round < kMostRounds && result.solved; ++round) {
     const OutlierLists last = training->spikes() > 0 || round > 0
                                   ? training->outliers()
@@ -230,12 +232,16 @@ LinearCalibration CalibrateWithoutOutliers(
     training->TakeOut(FindTorqueOutliers(result.parameters, result.x,
                                          options.progress, training));
     const int passes = ++result.passes;
-    if (SameSamples(training->outliers(), last)) break;
+    const bool same = SameSamples(training->outliers(), last);
+    if (same && (round == 0 || moved < kSettled)) break;
+    const VectorXd from = result.x;
     result = CalibrateOnce(
         robot, options, rows,
         FollowTransitions(robot, options, rows, result.transitions, training),
         training);
     result.passes += passes + (searched ? 1 : 0);
+    moved =
+        (result.x - from).cwiseQuotient(result.stddev).cwiseAbs().maxCoeff();
   }
   return result;
 }

@@ -34,8 +34,7 @@ void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
     const double size = residual[k] - found.level[k];
     const double jump = tau[k] - Bridge(tau, k, found.marked);
     if (jump / size < kLeastJump) continue;
-    const double stands = tau[k] - size;
-    list->push_back({s.row[k], s.t[k], joint, tau[k], stands,
+    list->push_back({s.row[k], s.t[k], joint, tau[k], tau[k] - residual[k],
                      size / std::max(found.deviation, least / 8)});
   }
 }

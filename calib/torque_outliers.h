@@ -12,10 +12,9 @@ namespace armcal {
 // calibration predict at them: samples whose residual sticks out of the
 // residuals around it (FindOutlying, 15 samples on either side) by more than 8
 // noise deviations and a hundredth of the torque, where the torque itself jumps
-// by half as much. What is replaced by the
-// prediction plus the level of the residual around it counts for nothing in an
-// estimate that has settled. One list per log, in the order of rows. One pass
-// over the logs at their full rate.
+// by half as much. They are replaced by the prediction: once calibration and
+// replacement agree, such samples count for nothing, like missing data. One
+// list per log, in the order of rows. One pass over the logs at full rate.
 OutlierLists FindTorqueOutliers(const ModelParameters& parameters,
                                 const Eigen::VectorXd& x,
                                 const Progress& progress, LogSet* logs);

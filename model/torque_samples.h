@@ -14,8 +14,8 @@ struct TorqueOutlier {
   double time;         // s since the log's first row
   int joint;           // from 0
   double recorded;     // N m or N
-  double replacement;  // N m or N: what its neighbours and the model expect
-  double size;         // recorded - replacement, in noise deviations
+  double replacement;  // N m or N: what the model predicts
+  double size;         // of the jump from the samples around, in noise units
 };
 
 // Torque as it was sampled, before anything is put on a time grid.
