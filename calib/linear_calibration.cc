@@ -219,11 +219,9 @@ LinearCalibration CalibrateWithoutOutliers(
   LinearCalibration result =
       CalibrateOnce(robot, options, rows,
                     FindTransitions(robot, options, rows, training), training);
-  const bool searched = result.fitted_transitions;
-  result.passes += searched ? 2 : 0;
-  if (options.loss == RobustLoss::kSquared || rows.bandwidth_hz <= 0) {
-    return result;
-  }
+  result.passes += result.fitted_transitions ? 2 : 0;
+  const bool as_is = options.loss == RobustLoss::kSquared;
+  if (as_is || rows.bandwidth_hz <= 0) return result;
   double moved = 0;
   for (int round = 0; round < kMostRounds && result.solved; ++round) {
     const OutlierLists last = training->spikes() > 0 || round > 0
@@ -239,7 +237,7 @@ LinearCalibration CalibrateWithoutOutliers(
         robot, options, rows,
         FollowTransitions(robot, options, rows, result.transitions, training),
         training);
-    result.passes += passes + (searched ? 1 : 0);
+    result.passes += passes + (result.fitted_transitions ? 1 : 0);
     moved =
         (result.x - from).cwiseQuotient(result.stddev).cwiseAbs().maxCoeff();
   }

@@ -6,7 +6,7 @@
 
 #include "calib/repeated_motion.h"
 #include "tests/calibrate_logs.h"
-#include "tests/physical_runs.h"
+#include "tests/nonlinear_runs.h"
 
 namespace armcal {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "calib/torque_outliers.h"
 #include "tests/calibrate_logs.h"
-#include "tests/physical_runs.h"
+#include "tests/nonlinear_runs.h"
 
 namespace armcal {
 
