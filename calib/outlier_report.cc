@@ -43,7 +43,7 @@ std::string OutlierText(const Robot& robot, const LogSet& logs) {
   if (text.empty()) return "";
   return "outliers  " + text +
          ": torque samples beyond 8 noise deviations, left out of the fit; "
-         "outliers.csv lists them\n";
+         "--out lists them in outliers.csv\n";
 }
 
 nlohmann::json OutlierJson(const Robot& robot, const LogSet& logs, int most) {

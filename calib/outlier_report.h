@@ -19,7 +19,8 @@ std::string OutlierText(const Robot& robot, const LogSet& logs);
 // the residual in noise deviations.
 nlohmann::json OutlierJson(const Robot& robot, const LogSet& logs, int most);
 
-// outliers.csv: the same of all of them.
+// outliers.csv: the same of all of them, under a header that is always there,
+// so that no older list stands beside a clean log.
 std::string OutlierCsv(const Robot& robot, const LogSet& logs);
 
 }  // namespace armcal

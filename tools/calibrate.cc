@@ -246,9 +246,7 @@ int RunCalibrate() {
   }
   out.Add("calibration.json", json.dump(2) + "\n");
   out.Add("covariance.csv", CovarianceCsv(result));
-  if (CountOutliers(training) > 0) {
-    out.Add("outliers.csv", OutlierCsv(robot, training));
-  }
+  out.Add("outliers.csv", OutlierCsv(robot, training));
   out.Write();
   for (const std::string& note : robot.notes) {
     std::cout << "note       " << note << "\n";
