@@ -3,11 +3,15 @@
 
 #include "calib/calibration_report.h"
 #include "calib/json_figures.h"
+#include "calib/outlier_report.h"
+#include "calib/verdict.h"
 
 namespace armcal {
 namespace {
 
 using nlohmann::json;
+
+constexpr int kListedOutliers = 100;  // all are in outliers.csv
 
 const char* SolverName(LinearSolver solver) {
   switch (solver) {
@@ -41,7 +45,8 @@ json TransitionJson(const CoulombTransition& t, JointType type) {
           {"unit", std::string(PositionUnit(type)) + (velocity ? "/s" : "")}};
 }
 
-json JointsJson(const Robot& robot, const LinearCalibration& result) {
+json JointsJson(const Robot& robot, const LogSet& training,
+                const LinearCalibration& result) {
   json joints = json::array();
   for (int i = 0; i < robot.num_joints(); ++i) {
     const Joint& joint = robot.links[i].joint;
@@ -52,8 +57,13 @@ json JointsJson(const Robot& robot, const LinearCalibration& result) {
     if (result.validation) {
       SetJointFigures(*result.validation, "validation_", i, &entry);
     }
+    if (!result.sample_noise.empty()) {
+      const SampleNoise& noise = result.sample_noise[i];
+      entry["sample_noise_stddev"] = JsonNumber(noise.stddev);
+      entry["noise_source"] = NoiseSourceName(noise.source);
+    }
     if (!result.outliers.empty()) entry["outliers"] = result.outliers[i];
-    if (result.training) entry["spikes"] = result.training->spikes(i);
+    entry["spikes"] = CountOutliers(training, i);
     if (!result.transitions.empty()) {
       entry["coulomb_transition"] =
           TransitionJson(result.transitions[i], joint.type);
@@ -149,11 +159,14 @@ json ToJson(const Robot& robot, const LogSet& training,
               {"bandwidth_hz", result.rows.bandwidth_hz},
               {"logs", LogsJson(training)},
               {"torque", training.torque_source()},
-              {"joints", JointsJson(robot, result)},
+              {"joints", JointsJson(robot, training, result)},
               {"model_parameters", ModelParametersJson(result)},
               {"parameters", ParametersJson(robot, result)},
               {"merged", result.parameters.merged()},
               {"unpowered", UnpoweredJson(robot, training, result)},
+              {"outliers", OutlierJson(robot, training, kListedOutliers)},
+              {"outlier_count", CountOutliers(training)},
+              {"verdict", VerdictJson(Shortcomings(robot, result))},
               {"rank", RankJson(result)},
               {"geometry", GeometryJson(result)},
               {"covariance",

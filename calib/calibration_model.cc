@@ -31,23 +31,4 @@ ModelParameters MakeParameters(const Robot& robot,
   return ModelParameters(robot, model);
 }
 
-void CheckBandwidth(const std::optional<double>& given, const LogSet& logs) {
-  if (!given || *given == 0) return;
-  double longest = 0, slowest = 0;
-  for (const TimeBase& base : logs.time_bases()) {
-    longest = std::max(longest, base.range.end - base.range.begin);
-    slowest = std::max(slowest, base.dt);
-  }
-  if (*given >= 0.5 / slowest) {
-    throw InputError("", "--bandwidth", NumberText(*given),
-                     "expected 0, or less than half the sample rate, " +
-                         NumberText(0.5 / slowest) + " Hz");
-  }
-  if (*given * longest >= 1) return;
-  throw InputError("", "--bandwidth", NumberText(*given),
-                   "expected 0, or a frequency in Hz whose period is shorter "
-                   "than the log, " +
-                       NumberText(longest) + " s");
-}
-
 }  // namespace armcal

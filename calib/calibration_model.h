@@ -23,8 +23,4 @@ ModelParameters MakeParameters(const Robot& robot,
                                const LinearCalibrationOptions& options,
                                const Transitions& transitions);
 
-// Throws InputError where a bandwidth that was given is none that the logs can
-// be filtered at.
-void CheckBandwidth(const std::optional<double>& given, const LogSet& logs);
-
 }  // namespace armcal

@@ -5,6 +5,9 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "calib/outlier_report.h"
+#include "calib/verdict.h"
+
 namespace armcal {
 namespace {
 
@@ -141,17 +144,17 @@ std::string UnpoweredText(const Robot& robot, const LogSet& training,
   return text;
 }
 
-std::string SpikeText(const Robot& robot, const LinearCalibration& result) {
-  std::string text;
-  for (int i = 0; result.training && i < robot.num_joints(); ++i) {
-    if (result.training->spikes(i) == 0) continue;
-    text +=
-        Format("%s %ld of %s", text.empty() ? "" : ",",
-               result.training->spikes(i), robot.links[i].joint.name.c_str());
+std::string NoiseTable(const Robot& robot, const LinearCalibration& result) {
+  if (result.sample_noise.empty()) return "";
+  std::string text = "\nnoise of a torque sample, from\n";
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const SampleNoise& noise = result.sample_noise[i];
+    const Joint& joint = robot.links[i].joint;
+    text += Format("  %-20s %9.3g %-3s %s, %ld samples\n", joint.name.c_str(),
+                   noise.stddev, EffortUnit(joint.type),
+                   NoiseSourceName(noise.source), noise.samples);
   }
-  return text.empty() ? ""
-                      : "spikes    " + text +
-                            ": single torque samples left out of the fit\n";
+  return text;
 }
 
 std::string LengthTable(const LinearCalibration& result) {
@@ -217,13 +220,16 @@ std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
 std::string FullReport(const Robot& robot, const LogSet& training,
                        const LinearCalibration& result) {
   std::string text = DataText(training, result);
-  text += UnpoweredText(robot, training, result) + SpikeText(robot, result);
-  text += ResidualTable(robot, result) + RankText(result);
+  text += UnpoweredText(robot, training, result) + OutlierText(robot, training);
+  text += ResidualTable(robot, result) + NoiseTable(robot, result) +
+          RankText(result);
   if (result.solved) {
     text += LengthTable(result) + TransitionTable(robot, result) +
             ParameterTable(result);
   }
-  return text + "\n" + BriefReport(robot, result) + "\n";
+  text += "\n";
+  if (result.solved) text += VerdictText(Shortcomings(robot, result));
+  return text + BriefReport(robot, result) + "\n";
 }
 
 }  // namespace armcal

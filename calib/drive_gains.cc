@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/calibration_checks.h"
 #include "calib/calibration_model.h"
 #include "calib/current_pass.h"
 #include "calib/gain_covariance.h"
@@ -118,8 +119,8 @@ DriveGains Estimate(const Robot& robot, const LinearCalibrationOptions& options,
   DriveGains result = Unknown(robot, payload_mass);
   CurrentPass pass(parameters, rows, PayloadColumns(parameters, robot),
                    options.progress, bare, payload);
-  const bool huber = options.loss == Loss::kHuber;
-  const GainFit fit = FitGains(parameters.Values(robot), huber, &pass);
+  const RobustLoss loss = options.loss.value_or(RobustLoss::kHuber);
+  const GainFit fit = FitGains(parameters.Values(robot), loss, &pass);
   result.noise = fit.noise;
   result.outliers = fit.outliers;
   result.equations = fit.equations;
@@ -130,7 +131,7 @@ DriveGains Estimate(const Robot& robot, const LinearCalibrationOptions& options,
                                       pass.B(), fit.estimate, fit.reference);
     const MatrixXd D = Gradients(fit, payload_mass);
     const CovarianceEstimate covariance =
-        EstimateGainCovariance(fit, huber, D, rows.hops, &pass);
+        EstimateGainCovariance(fit, loss, D, rows.hops, &pass);
     ReportGains(fit, sensitivity, D, covariance.covariance, pass.has_payload(),
                 &result);
     ReportCentre(fit, sensitivity, D, covariance.covariance, &result);

@@ -18,16 +18,15 @@ using Eigen::VectorXd;
 struct CurrentStudy {
   // Of the worst joint's residuals, at the lag where rows no longer overlap.
   double autocorrelation = 0;
-  MatrixXd gain;  // of equations inside Huber's threshold
+  MatrixXd gain;  // of equations, by the slope of the loss
 };
 
-CurrentStudy StudyCurrents(const GainFit& fit, bool huber, int rows_per_window,
-                           CurrentPass* pass) {
+CurrentStudy StudyCurrents(const GainFit& fit, RobustLoss loss,
+                           int rows_per_window, CurrentPass* pass) {
   std::vector<ResidualStatistics> statistics(
       fit.noise.size(), ResidualStatistics(rows_per_window));
-  const auto curvature = [huber](double r) {
-    // Outside, Huber's loss is only linear.
-    return !huber || Huber::Inside(r) ? 1.0 : 0.0;
+  const auto curvature = [loss](double r) {
+    return std::max(0.0, EvaluateLoss(loss, r).slope);
   };
   const CurrentFactors inside =
       pass->Factors("autocorrelation", fit.estimate, fit.noise, curvature,
@@ -66,14 +65,15 @@ MatrixXd Jacobian(const CurrentRow& row, const GainEstimate& estimate,
 }
 
 // Equations in units of noise: U are the gradients of the currents.
-FittedRow MakeFittedRow(const CurrentRow& row, const GainFit& fit, bool huber,
-                        const MatrixXd& B) {
+FittedRow MakeFittedRow(const CurrentRow& row, const GainFit& fit,
+                        RobustLoss loss, const MatrixXd& B) {
   FittedRow fitted{Jacobian(row, fit.estimate, fit.noise, B), row.r, {}, {}};
   fitted.U.col(fit.reference).setZero();  // is known
   for (int i = 0; i < row.r.size(); ++i) {
     fitted.used.push_back(fit.noise[i] > 0);
-    fitted.inside.push_back(!huber || Huber::Inside(row.r[i]));
-    if (huber) fitted.r[i] *= Huber::Weight(row.r[i]);
+    const LossAt at = EvaluateLoss(loss, row.r[i]);
+    fitted.inside.push_back(at.slope > 0);
+    fitted.r[i] *= at.weight;
   }
   return fitted;
 }
@@ -88,11 +88,11 @@ Score MakeScore(const FittedRow& row) {
 
 }  // namespace
 
-CovarianceEstimate EstimateGainCovariance(const GainFit& fit, bool huber,
+CovarianceEstimate EstimateGainCovariance(const GainFit& fit, RobustLoss loss,
                                           const MatrixXd& D,
                                           int rows_per_window,
                                           CurrentPass* pass) {
-  const CurrentStudy study = StudyCurrents(fit, huber, rows_per_window, pass);
+  const CurrentStudy study = StudyCurrents(fit, loss, rows_per_window, pass);
   const int size = static_cast<int>(D.rows());
   const int joints = static_cast<int>(fit.noise.size());
   CovarianceEstimate result;
@@ -106,7 +106,7 @@ CovarianceEstimate EstimateGainCovariance(const GainFit& fit, bool huber,
   MatrixXd sums = MatrixXd::Zero(size, pass->num_logs());
   pass->Run("covariance", fit.estimate, fit.noise, [&](const CurrentRow& row) {
     if (!row.follows) scores.Break(), overlap.Break();
-    const FittedRow fitted = MakeFittedRow(row, fit, huber, pass->B());
+    const FittedRow fitted = MakeFittedRow(row, fit, loss, pass->B());
     const Score score = MakeScore(fitted);
     scores.Add(score);
     overlap.Add(fitted);

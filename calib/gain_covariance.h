@@ -11,9 +11,9 @@ namespace armcal {
 // The covariance of quantities with gradients D by (g, x, p), p x k, at the
 // minimum: k x k. As EstimateRowCovariance has it for linear estimates: rows
 // overlap and their errors are autocorrelated. `rows_per_window` are known to
-// overlap; `huber`: the estimate minimises Huber's loss. Two passes over the
+// overlap; `loss`: what the estimate minimises. Two passes over the
 // logs.
-CovarianceEstimate EstimateGainCovariance(const GainFit& fit, bool huber,
+CovarianceEstimate EstimateGainCovariance(const GainFit& fit, RobustLoss loss,
                                           const Eigen::MatrixXd& D,
                                           int rows_per_window,
                                           CurrentPass* pass);

@@ -35,7 +35,7 @@ class Fitter {
 
   void Start(const VectorXd& nominal);
   void Reweigh();
-  void SolveRobustly();
+  void SolveRobustly(RobustLoss loss);
 
  private:
   int n() const { return static_cast<int>(fit_.noise.size()); }
@@ -121,19 +121,20 @@ double Fitter::Moved(const CurrentFactors& factors,
 
 // Weights by the solution before, noise by the residuals' robust spread, at
 // least a thousandth of what it was.
-void Fitter::SolveRobustly() {
+void Fitter::SolveRobustly(RobustLoss loss) {
   constexpr int kMostPasses = 20;
   constexpr double kSettled = 0.1;  // standard deviations
   const VectorXd least = 1e-3 * fit_.noise;
   for (int k = 0; k < kMostPasses; ++k) {
     std::vector<ResidualStatistics> statistics(n());
-    const CurrentFactors factors =
-        pass_.Factors("robust weights", fit_.estimate, fit_.noise,
-                      Huber::Weight, [&](const CurrentRow& row) {
-                        for (int i = 0; i < n(); ++i) {
-                          if (fit_.noise[i] > 0) statistics[i].Add(row.r[i]);
-                        }
-                      });
+    const CurrentFactors factors = pass_.Factors(
+        "robust weights", fit_.estimate, fit_.noise,
+        [loss](double r) { return EvaluateLoss(loss, r).weight; },
+        [&](const CurrentRow& row) {
+          for (int i = 0; i < n(); ++i) {
+            if (fit_.noise[i] > 0) statistics[i].Add(row.r[i]);
+          }
+        });
     fit_.outliers.clear();
     for (int i = 0; i < n(); ++i) {
       fit_.outliers.push_back(statistics[i].outliers());
@@ -149,7 +150,7 @@ void Fitter::SolveRobustly() {
 
 }  // namespace
 
-GainFit FitGains(const VectorXd& nominal, bool huber, CurrentPass* pass) {
+GainFit FitGains(const VectorXd& nominal, RobustLoss loss, CurrentPass* pass) {
   const int n = pass->parameters().num_joints();
   const GainEstimate none{VectorXd::Ones(n), VectorXd::Zero(nominal.size()),
                           VectorXd::Zero(10)};
@@ -165,7 +166,8 @@ GainFit FitGains(const VectorXd& nominal, bool huber, CurrentPass* pass) {
   Fitter fitter(pass, &fit);
   fitter.Start(nominal);
   if (fit.failure.empty()) fitter.Reweigh();
-  if (fit.failure.empty() && huber) fitter.SolveRobustly();
+  if (fit.failure.empty() && loss != RobustLoss::kSquared)
+    fitter.SolveRobustly(loss);
   return fit;
 }
 

@@ -6,6 +6,7 @@
 
 #include "calib/current_pass.h"
 #include "calib/gain_solution.h"
+#include "problems/robust_loss.h"
 
 namespace armcal {
 
@@ -21,10 +22,11 @@ struct GainFit {
 };
 
 // One pass for a start without knowledge, noise per joint re-estimated until it
-// stays; with `huber` then reweighted least squares with Huber's loss, a pass
+// stays; then, but for kSquared, reweighted least squares with `loss`, a pass
 // for each, as SolveRobust does it. `nominal`: the robot file's parameters, a
 // guess of the gains' ratios where a motion cannot show them.
-GainFit FitGains(const Eigen::VectorXd& nominal, bool huber, CurrentPass* pass);
+GainFit FitGains(const Eigen::VectorXd& nominal, RobustLoss loss,
+                 CurrentPass* pass);
 
 // 1 / K_j as a product of the estimate's entries, times the payload's mass, and
 // its gradient by (g, x, p).

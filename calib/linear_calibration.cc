@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/calibration_checks.h"
 #include "calib/calibration_model.h"
 #include "calib/log_factors.h"
 #include "calib/robust_solution.h"
+#include "calib/torque_outliers.h"
 #include "calib/transition_search.h"
 #include "calib/used_equations.h"
 #include "calib/width_covariance.h"
-#include "model/input_error.h"
-#include "model/input_text.h"
 
 namespace armcal {
 namespace {
@@ -40,33 +40,6 @@ ReferenceMotion MakeReference(const Robot& robot,
       parameters, speed, motion_hz, unit,
       RightSideRms(factors.Merged(parameters, FindNonzero(factors))),
       parameters.Values(robot));
-}
-
-void CheckIntervals(const RowOptions& rows, const LogSet& training,
-                    long equations) {
-  if (rows.identification != Identification::kIntegral) return;
-  const long expected =
-      static_cast<long>(rows.intervals.size()) * training.size();
-  if (equations >= expected) return;
-  throw InputError(
-      training.path(0), "--intervals", "",
-      std::to_string(expected - equations) + " of " + std::to_string(expected) +
-          " intervals cannot be used; expected each to lie within the log, "
-          "clear of gaps and standstill");
-}
-
-std::string WhyNothingToSolve(const LogFactors& factors,
-                              const ModelParameters& parameters) {
-  const BlockTriangularFactor all = factors.Merged(
-      parameters, AllEquations(factors, parameters.num_joints()).used);
-  if (all.rows(0) == 0) {
-    return "the logs hold no stretch of motion that is long enough for an "
-           "equation";
-  }
-  const double torque = RightSideRms(all).maxCoeff();
-  if (torque == 0) return "the torque in the logs is zero throughout";
-  if (!std::isfinite(torque)) return "the torque in the logs overflows";
-  return "";
 }
 
 // Weighted by re-estimated noise. The noise of a homogeneous equation must not
@@ -153,11 +126,12 @@ void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
   // Too few to tell outliers from what the parameters do not fit, or how
   // errors follow each other.
   const bool few = result->equations < 2 * result->parameters.size();
-  const bool huber = options.solver == LinearSolver::kWeighted &&
-                     options.loss == Loss::kHuber && !few;
-  if (huber) {
-    RobustSolution robust =
-        SolveRobust(solution.x, result->noise, frozen, reference, pass);
+  if (options.solver == LinearSolver::kWeighted && !few) {
+    result->loss = options.loss.value_or(RobustLoss::kHuber);
+  }
+  if (result->loss != RobustLoss::kSquared) {
+    RobustSolution robust = SolveRobust(solution.x, result->noise, frozen,
+                                        result->loss, reference, pass);
     solution = std::move(robust.solution);
     result->x = solution.x;
     result->identifiable = solution.identifiable;
@@ -171,8 +145,8 @@ void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
         {result->independent_covariance, "independent errors (few equations)"},
         result);
   } else {
-    SetCovariance(EstimateCovariance(robot, options, rows, solution, huber,
-                                     reference, pass, *result),
+    SetCovariance(EstimateCovariance(robot, options, rows, solution,
+                                     result->loss, reference, pass, *result),
                   result);
     result->inflation =
         MedianInflation(result->covariance, result->independent_covariance);
@@ -195,15 +169,14 @@ LinearCalibration::LinearCalibration(const ModelParameters& model)
   }
 }
 
-LinearCalibration CalibrateLinear(const Robot& robot,
-                                  const LinearCalibrationOptions& options,
-                                  LogSet* training, LogSet* validation) {
-  const RowOptions rows = MakeRowOptions(options, *training);
-  CheckBandwidth(options.bandwidth_hz, *training);
-  training->Prepare(rows.bandwidth_hz, RowReach(rows));
-  const Transitions transitions =
-      FindTransitions(robot, options, rows, training);
+namespace {
 
+// From the logs as the set now gives them.
+LinearCalibration CalibrateOnce(const Robot& robot,
+                                const LinearCalibrationOptions& options,
+                                const RowOptions& rows,
+                                const Transitions& transitions,
+                                LogSet* training) {
   LinearCalibration result(MakeParameters(robot, options, transitions));
   for (const auto& t : transitions) result.transitions.push_back(t.front());
   result.fitted_transitions = !transitions.empty() && !options.transition;
@@ -212,6 +185,7 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   result.joint_terms = options.joint_terms;
 
   const LogFactors factors(result.parameters, rows, options.progress, training);
+  result.travel = factors.travel();
   for (int log = 0; log < factors.size(); ++log) {
     result.equations += factors.log(log).rows(0);
   }
@@ -231,8 +205,57 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   Estimate(robot, options, rows,
            factors.Merged(result.parameters, equations.used), reference,
            equations.frozen, &pass, &result);
-  result.passes = pass.passes() + 2;  // the audit and the factors
-  if (result.fitted_transitions) result.passes += 2;
+  result.passes = pass.passes() + 1;  // the factors
+  return result;
+}
+
+// Calibrates, takes out the torque samples that the calibration shows to be
+// wrong, and again until these and the parameters stay the same.
+LinearCalibration CalibrateWithoutOutliers(
+    const Robot& robot, const LinearCalibrationOptions& options,
+    const RowOptions& rows, LogSet* training) {
+  constexpr int kMostRounds = 4;
+  constexpr double kSettled = 0.1;  // standard deviations
+  LinearCalibration result =
+      CalibrateOnce(robot, options, rows,
+                    FindTransitions(robot, options, rows, training), training);
+  result.passes += result.fitted_transitions ? 2 : 0;
+  const bool as_is = options.loss == RobustLoss::kSquared;
+  if (as_is || rows.bandwidth_hz <= 0) return result;
+  double moved = 0;
+  for (int round = 0; round < kMostRounds && result.solved; ++round) {
+    const OutlierLists last = training->spikes() > 0 || round > 0
+                                  ? training->outliers()
+                                  : OutlierLists(training->size());
+    training->TakeOut(FindTorqueOutliers(result.parameters, result.x,
+                                         options.progress, training));
+    const int passes = ++result.passes;
+    const bool same = SameSamples(training->outliers(), last);
+    if (same && (round == 0 || moved < kSettled)) break;
+    const VectorXd from = result.x;
+    result = CalibrateOnce(
+        robot, options, rows,
+        FollowTransitions(robot, options, rows, result.transitions, training),
+        training);
+    result.passes += passes + (result.fitted_transitions ? 1 : 0);
+    moved =
+        (result.x - from).cwiseQuotient(result.stddev).cwiseAbs().maxCoeff();
+  }
+  return result;
+}
+
+}  // namespace
+
+LinearCalibration CalibrateLinear(const Robot& robot,
+                                  const LinearCalibrationOptions& options,
+                                  LogSet* training, LogSet* validation) {
+  const RowOptions rows = MakeRowOptions(options, *training);
+  CheckBandwidth(options.bandwidth_hz, *training);
+  training->Prepare(rows.bandwidth_hz, RowReach(rows),
+                    options.loss != RobustLoss::kSquared);
+  LinearCalibration result =
+      CalibrateWithoutOutliers(robot, options, rows, training);
+  ++result.passes;  // the audit
   if (!result.solved) return result;
 
   result.lengths =
@@ -244,7 +267,9 @@ LinearCalibration CalibrateLinear(const Robot& robot,
                                   logs);
   };
   result.training = evaluate("residuals", training);
-  ++result.passes;
+  result.sample_noise = EstimateSampleNoise(result.parameters, result.x,
+                                            options.progress, training);
+  result.passes += 2;
   if (validation != nullptr) {
     validation->Prepare(rows.bandwidth_hz, RowReach(rows));
     result.validation = evaluate("validation", validation);

@@ -9,15 +9,15 @@
 #include "calib/length_recovery.h"
 #include "calib/linear_solution.h"
 #include "calib/log_set.h"
+#include "calib/sample_noise.h"
 #include "calib/torque_residual.h"
 #include "calib/used_equations.h"
 #include "model/model_parameters.h"
 #include "model/robot.h"
 #include "problems/identification_rows.h"
+#include "problems/robust_loss.h"
 
 namespace armcal {
-
-enum class Loss { kSquared, kHuber };
 
 struct LinearCalibrationOptions {
   GeometryKnowledge geometry = GeometryKnowledge::kKnown;
@@ -36,8 +36,9 @@ struct LinearCalibrationOptions {
   Quadrature quadrature = Quadrature::kTrapezoid;
   LinearSolver solver = LinearSolver::kWeighted;
   // Of the weighted solver; squared in any case where a joint has fewer
-  // equations than twice the parameters.
-  Loss loss = Loss::kHuber;
+  // equations than twice the parameters. Not given: Huber's. Any but squared
+  // also takes gross errors out of the torque samples.
+  std::optional<RobustLoss> loss;
   // Cutoff for positions, differential rows and residuals, Hz; 0: none.
   // Not given: DefaultBandwidth.
   std::optional<double> bandwidth_hz;
@@ -67,11 +68,13 @@ struct LinearCalibration {
   int rows_per_window = 1;
   std::vector<bool> identifiable;
   Eigen::VectorXd noise;  // per joint, of the equations: N m, N (N m s, N s)
+  std::vector<SampleNoise> sample_noise;  // per joint, if solved
   Identifiability identifiability;
   std::vector<RecoveredLength> lengths;
 
   LinearSolver solver = LinearSolver::kWeighted;
-  std::vector<JointTerm> joint_terms;  // asked for, merged or not
+  RobustLoss loss = RobustLoss::kSquared;  // that was used
+  std::vector<JointTerm> joint_terms;      // asked for, merged or not
   RowOptions rows;
   EquationMask used;  // [log][joint]
   // Standard deviations over those of independent rows, median.
@@ -79,6 +82,7 @@ struct LinearCalibration {
   long equations = 0;
   std::vector<long> outliers;  // per joint: equations Huber weighs below 1/2
   std::vector<UnpoweredJoint> unpowered;
+  Eigen::VectorXd travel;  // per joint, rad or m
   std::optional<TorqueResidual> training;
   std::optional<TorqueResidual> validation;
 };

@@ -144,18 +144,19 @@ LinkEquations LinkPass::Reduce(const ArmValues& at, const VectorXd& noise) {
   const int n = unknowns_.num_links();
   TriangularFactor factor(static_cast<int>(columns.size()));
   std::vector<ResidualStatistics> statistics(n);
-  ForEachResidual("links", at, noise, unknowns_.terms(),
-                  [&](const Residual& residual) {
-                    const VectorXd y =
-                        residual.Y + residual.U.rightCols(about.size()) * about;
-                    for (int i = 0; i < n; ++i) {
-                      if (!linear_.used[residual.log][i]) continue;
-                      statistics[i].Add(residual.r[i]);
-                      factor.Add(residual.U.row(i), y[i],
-                                 std::sqrt(Huber::Weight(residual.r[i])) /
-                                     (noise[i] * linear_.inflation));
-                    }
-                  });
+  ForEachResidual(
+      "links", at, noise, unknowns_.terms(), [&](const Residual& residual) {
+        const VectorXd y =
+            residual.Y + residual.U.rightCols(about.size()) * about;
+        for (int i = 0; i < n; ++i) {
+          if (!linear_.used[residual.log][i]) continue;
+          statistics[i].Add(residual.r[i]);
+          factor.Add(
+              residual.U.row(i), y[i],
+              std::sqrt(EvaluateLoss(linear_.loss, residual.r[i]).weight) /
+                  (noise[i] * linear_.inflation));
+        }
+      });
   const MatrixXd triangle = factor.Triangle();
   const Eigen::Index p = factor.columns();
   LinkEquations equations;
@@ -179,8 +180,9 @@ FittedRow LinkPass::MakeFittedRow(const Residual& residual,
                 linear_.used[residual.log],
                 {}};
   for (int i = 0; i < row.r.size(); ++i) {
-    row.r[i] *= Huber::Weight(residual.r[i]);
-    row.inside.push_back(Huber::Inside(residual.r[i]));  // else only linear
+    const LossAt loss = EvaluateLoss(linear_.loss, residual.r[i]);
+    row.r[i] *= loss.weight;
+    row.inside.push_back(loss.slope > 0);
   }
   return row;
 }

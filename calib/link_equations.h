@@ -13,8 +13,8 @@ namespace armcal {
 
 // The torque equations of logs, R x = z, in all of an arm's unknowns x (columns
 // of those that torques do not see are 0). They are whitened, weighted by
-// Huber's loss, compressed to a triangle, and linear about some values in the
-// geometry; z is such that x are the unknowns themselves.
+// the linear calibration's loss, compressed to a triangle, and linear about
+// some values in the geometry; z is such that x are the unknowns themselves.
 struct LinkEquations {
   Eigen::MatrixXd R;
   Eigen::VectorXd z;
@@ -25,7 +25,7 @@ struct LinkEquations {
 
 // What the torque equations tell about the unknowns at some values.
 struct LinkInformation {
-  Eigen::MatrixXd H;  // of equations inside Huber's threshold
+  Eigen::MatrixXd H;  // of equations that the loss still slopes at
   // The covariance of the sum of scores, autocorrelation allowed for
   // (Newey-West as the linear calibration's).
   Eigen::MatrixXd S;

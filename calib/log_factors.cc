@@ -1,5 +1,6 @@
 #include "calib/log_factors.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -9,13 +10,17 @@ LogFactors::LogFactors(const ModelParameters& parameters,
                        const RowOptions& rows, const Progress& progress,
                        LogSet* logs)
     : factors_(logs->size(), BlockTriangularFactor(parameters)),
-      mean_square_speed_(Eigen::ArrayXd::Zero(parameters.num_joints())) {
+      mean_square_speed_(Eigen::ArrayXd::Zero(parameters.num_joints())),
+      travel_(Eigen::VectorXd::Zero(parameters.num_joints())) {
   std::vector<MotionRegressor> regressors(logs->size(),
                                           MotionRegressor(parameters));
   double samples = 0;
+  std::vector<Eigen::AlignedBox<double, Eigen::Dynamic>> met(
+      logs->size(), Eigen::AlignedBox<double, Eigen::Dynamic>(travel_.size()));
   logs->ForEach("reading", progress, [&](int log, const Trajectory& t) {
     for (int k = t.core_begin; k < t.core_end; ++k) {
       mean_square_speed_ += t.qd.row(k).transpose().array().square();
+      met[log].extend(t.q.row(k).transpose().eval());
     }
     samples += t.core_end - t.core_begin;
     ForEachRow(t, rows, &regressors[log], [&](const IdentificationRow& row) {
@@ -25,6 +30,9 @@ LogFactors::LogFactors(const ModelParameters& parameters,
     });
   });
   if (samples > 0) mean_square_speed_ /= samples;
+  for (const auto& box : met) {
+    if (!box.isEmpty()) travel_ = travel_.cwiseMax(box.sizes());
+  }
 }
 
 BlockTriangularFactor LogFactors::Merged(

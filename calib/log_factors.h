@@ -21,6 +21,8 @@ class LogFactors {
   int size() const { return static_cast<int>(factors_.size()); }
   // Mean square of joint speeds met, (rad/s)^2 or (m/s)^2, per joint.
   const Eigen::ArrayXd& mean_square_speed() const { return mean_square_speed_; }
+  // How far each joint travels, rad or m: the most of all logs.
+  const Eigen::VectorXd& travel() const { return travel_; }
 
   // All equations but those of (log, joint) for which powered[log][joint] is
   // false.
@@ -31,6 +33,7 @@ class LogFactors {
  private:
   std::vector<BlockTriangularFactor> factors_;
   Eigen::ArrayXd mean_square_speed_;
+  Eigen::VectorXd travel_;
 };
 
 // Which equations have a drive torque worth the name: its rms is at least

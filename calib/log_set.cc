@@ -15,18 +15,37 @@ LogSet::LogSet(const std::vector<std::string>& paths,
   }
 }
 
-void LogSet::Prepare(double bandwidth_hz, double reach_s) {
+void LogSet::Prepare(double bandwidth_hz, double reach_s, bool remove_spikes) {
   options_.bandwidth_hz = bandwidth_hz;
   options_.reach_s = reach_s;
+  options_.remove_spikes = remove_spikes;
+  outliers_.clear();
 }
 
 void LogSet::ForEach(const std::string& stage, const Progress& progress,
-                     const std::function<void(int, const Trajectory&)>& visit) {
+                     const Visit& visit) {
+  spikes_ = 0;
+  WorkThrough(stage, progress, options_, outliers_, visit);
+}
+
+void LogSet::ForEachAtFullRate(const std::string& stage,
+                               const Progress& progress, const Visit& visit) {
+  TrajectoryOptions options = options_;
+  options.every_sample = true;
+  options.remove_spikes = false;
+  WorkThrough(stage, progress, options, {}, visit);
+}
+
+void LogSet::WorkThrough(const std::string& stage, const Progress& progress,
+                         TrajectoryOptions options,
+                         const OutlierLists& outliers, const Visit& visit) {
   Trajectory trajectory;
   for (int log = 0; log < size(); ++log) {
+    if (!outliers.empty()) options.outliers = &outliers[log];
     TrajectoryReader reader(paths_[log], log_options_, time_bases_[log],
-                            options_);
+                            options);
     while (reader.Next(&trajectory)) {
+      spikes_ += trajectory.spikes.sum();
       visit(log, trajectory);
       if (progress) progress(stage, (log + reader.progress()) / size());
     }

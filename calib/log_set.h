@@ -12,11 +12,15 @@ namespace armcal {
 
 // Told what is being done and how far it is, 0 to 1.
 using Progress = std::function<void(const std::string& stage, double fraction)>;
+// Gross errors in torque samples, a list per log in the order of rows.
+using OutlierLists = std::vector<std::vector<TorqueOutlier>>;
 
 // Several logs that are worked through together, pass after pass, without ever
 // being in memory as a whole.
 class LogSet {
  public:
+  using Visit = std::function<void(int log, const Trajectory&)>;
+
   // Opens the logs and audits their time bases. Throws InputError.
   LogSet(const std::vector<std::string>& paths,
          const LogReaderOptions& log_options, const TimeRange& crop);
@@ -26,19 +30,35 @@ class LogSet {
   const std::vector<TimeBase>& time_bases() const { return time_bases_; }
   const std::string& torque_source() const { return torque_source_; }
 
-  // Sets how trajectories are made; before ForEach.
-  void Prepare(double bandwidth_hz, double reach_s);
+  // Sets how trajectories are made; before ForEach. Spikes of the torque are
+  // replaced or kept, and no outliers are known.
+  void Prepare(double bandwidth_hz, double reach_s, bool remove_spikes = true);
   double bandwidth_hz() const { return options_.bandwidth_hz; }
+  // From now on these torque samples are replaced, and none but these.
+  void TakeOut(OutlierLists outliers) { outliers_ = std::move(outliers); }
+  const OutlierLists& outliers() const { return outliers_; }
+
   // Calls visit(log, trajectory) for all of them, in order.
   void ForEach(const std::string& stage, const Progress& progress,
-               const std::function<void(int, const Trajectory&)>& visit);
+               const Visit& visit);
+  // Neither thinned nor rid of outliers, the torque also sample by sample.
+  void ForEachAtFullRate(const std::string& stage, const Progress& progress,
+                         const Visit& visit);
+  // Spikes of all joints that the last ForEach replaced.
+  long spikes() const { return spikes_; }
 
  private:
+  void WorkThrough(const std::string& stage, const Progress& progress,
+                   TrajectoryOptions options, const OutlierLists& outliers,
+                   const Visit& visit);
+
   std::vector<std::string> paths_;
   LogReaderOptions log_options_;
   TrajectoryOptions options_;
   std::vector<TimeBase> time_bases_;
   std::string torque_source_;
+  OutlierLists outliers_;
+  long spikes_ = 0;
 };
 
 }  // namespace armcal

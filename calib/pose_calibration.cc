@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "calib/pose_fit.h"
@@ -13,12 +14,36 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kOutlier = 4;  // noise deviations
+// Poses one of whose residual vectors (of a target, the pose or the wire) is so
+// long that Tukey's loss gives it up.
+std::vector<int> FindOutliers(const PoseFit& fit, const PoseUnknowns& at,
+                              const std::vector<int>& rows) {
+  VectorXd residuals;
+  fit.Jacobian(rows, at, &residuals);
+  const double limit = LossScale(RobustLoss::kTukey, fit.Coordinates());
+  const Eigen::Index per_pose = residuals.size() / rows.size();
+  std::vector<int> outliers;
+  for (size_t k = 0; k < rows.size(); ++k) {
+    const auto r = residuals.segment(k * per_pose, per_pose)
+                       .reshaped(fit.Coordinates(), Eigen::AutoSize);
+    if (r.colwise().norm().maxCoeff() > limit) outliers.push_back(rows[k]);
+  }
+  return outliers;
+}
+
+// rms of positions (of the first target, or of lengths) about their mean, m.
+double Extent(const PoseMeasurements& measured) {
+  MatrixXd p = measured.lengths;
+  if (!measured.targets.empty()) p = measured.targets[0];
+  if (measured.poses.size() > 0) p = measured.poses.leftCols(3);
+  const MatrixXd about = p.rowwise() - p.colwise().mean();
+  return about.norm() / std::sqrt(static_cast<double>(p.rows()));
+}
 
 // Leaves out every folds-th pose in turn and predicts it from the others.
 void CrossValidate(const PoseFit& fit, const std::vector<bool>& free,
-                   const PoseUnknowns& start, int folds, int poses,
-                   PoseCalibration* result) {
+                   const PoseUnknowns& start, RobustLoss loss, int folds,
+                   int poses, PoseCalibration* result) {
   if (folds < 2) return;
   std::vector<double> all;
   for (int fold = 0; fold < folds; ++fold) {
@@ -27,7 +52,7 @@ void CrossValidate(const PoseFit& fit, const std::vector<bool>& free,
       (k % folds == fold ? left_out : kept).push_back(k);
     }
     PoseUnknowns unknowns = start;
-    if (!fit.Solve(free, kept, &unknowns)) continue;
+    if (!fit.Solve(free, kept, loss, &unknowns)) continue;
     for (const double d : fit.Distances(left_out, unknowns)) all.push_back(d);
   }
   if (all.empty()) return;
@@ -72,7 +97,8 @@ void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
       }
     }
     const int p = columns[k];
-    const bool seen = unseen < 1e-6;
+    // The loss of a hopeless fit may be all slope: no variance then.
+    const bool seen = unseen < 1e-6 && std::isfinite(factor);
     result->parameters.push_back(
         {names[p], units[p], nominal[p], at.geometry[p],
          seen ? std::sqrt(factor * variance) / scale[k]
@@ -89,6 +115,11 @@ PoseCalibration CalibratePoses(const Robot& robot,
   PoseFit fit(robot, measured, options);
   PoseCalibration result;
   result.robot = robot;
+  result.count = measured.size();
+  result.refined = options.refine != RefineGeometry::kNothing;
+  result.travel =
+      measured.q.colwise().maxCoeff() - measured.q.colwise().minCoeff();
+  result.extent = Extent(measured);
   const PoseSolution solution = SolvePoses(measured, options.refine, &fit);
   result.reason = solution.refusal;
   result.before_rms = solution.before_rms;
@@ -104,17 +135,15 @@ PoseCalibration CalibratePoses(const Robot& robot,
   result.rms = Rms(distances);
   result.median = Median(distances);
   result.max = *std::max_element(distances.begin(), distances.end());
-  const MatrixXd errors = PositionErrors(fit.geometry(), measured, unknowns);
+  result.outliers = FindOutliers(fit, unknowns, rows);
   std::vector<int> inliers;
-  for (const int k : rows) {
-    const bool out =
-        errors.row(k).cwiseAbs().maxCoeff() > kOutlier * fit.noise().position;
-    (out ? result.outliers : inliers).push_back(k);
-  }
+  std::set_difference(rows.begin(), rows.end(), result.outliers.begin(),
+                      result.outliers.end(), std::back_inserter(inliers));
   if (!inliers.empty()) {
     result.inlier_rms = Rms(fit.Distances(inliers, unknowns));
   }
-  CrossValidate(fit, free, unknowns, options.folds, measured.size(), &result);
+  CrossValidate(fit, free, unknowns, options.loss, options.folds,
+                measured.size(), &result);
   ReportParameters(fit, free, rows, unknowns, &result);
   ArmGeometry refined = fit.geometry();
   refined.SetValues(unknowns.geometry);

@@ -13,7 +13,8 @@ namespace armcal {
 
 struct PoseCalibrationOptions {
   RefineGeometry refine = RefineGeometry::kAll;
-  RobustLoss loss = RobustLoss::kHuber;
+  // Tukey's gives wrong poses up, where Huber's lets each pull for ever.
+  RobustLoss loss = RobustLoss::kTukey;
   // How far the arm's parameters may reasonably be from the file's: standard
   // deviations of the prior, m and rad.
   double prior_length = 0.01;
@@ -38,6 +39,10 @@ struct PoseCalibration {
   std::vector<GeometryEstimate> parameters;  // estimated ones
   // Sentences: what is held because the poses cannot tell it.
   std::vector<std::string> held;
+  int count = 0;           // poses
+  bool refined = false;    // the arm's own geometry too
+  Eigen::VectorXd travel;  // per joint, rad or m
+  double extent = 0;       // m, rms of measured positions about their mean
   PoseNoise noise;
   double before_rms = 0;  // m, distances per target, only the frame fitted
   double rms = 0;         // m, all poses
@@ -46,7 +51,7 @@ struct PoseCalibration {
   double max = 0;
   double held_out_rms = 0;  // cross-validated
   double held_out_median = 0;
-  std::vector<int> outliers;  // poses beyond 4 noise deviations
+  std::vector<int> outliers;  // poses that Tukey's loss gives up
   Robot robot;                // with the refined geometry
 };
 

@@ -117,9 +117,10 @@ std::vector<bool> PoseFit::HoldUnseen(const std::vector<bool>& wanted,
 }
 
 bool PoseFit::Solve(const std::vector<bool>& free, const std::vector<int>& rows,
-                    PoseUnknowns* unknowns) const {
+                    RobustLoss loss, PoseUnknowns* unknowns) const {
   ceres::Problem problem;
-  AddResiduals(rows, unknowns, &problem);
+  AddPoseResiduals(geometry_, measured_, rows, noise_, loss, unknowns,
+                   &problem);
   MatrixXd weight = MatrixXd::Zero(geometry_->size(), geometry_->size());
   std::vector<int> constant;
   for (int k = 0; k < geometry_->size(); ++k) {
@@ -205,11 +206,17 @@ std::string PoseFit::WhyTooFew(const std::vector<bool>& free,
 bool PoseFit::SolveWithNoise(const std::vector<bool>& free,
                              const std::vector<int>& rows,
                              PoseUnknowns* unknowns) {
-  for (int round = 0; round < 4; ++round) {
-    if (!Solve(free, rows, unknowns)) return false;
-    EstimateNoise(free, *unknowns);
+  std::vector<RobustLoss> losses = {options_.loss};
+  if (options_.loss != RobustLoss::kSquared) {
+    losses.insert(losses.begin(), RobustLoss::kHuber);
   }
-  return Solve(free, rows, unknowns);
+  for (const RobustLoss loss : losses) {
+    for (int round = 0; round < 4; ++round) {
+      if (!Solve(free, rows, loss, unknowns)) return false;
+      EstimateNoise(free, *unknowns);
+    }
+  }
+  return Solve(free, rows, options_.loss, unknowns);
 }
 
 PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,

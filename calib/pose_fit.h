@@ -30,12 +30,13 @@ class PoseFit {
   // Of the estimate's covariance over (J'J)^-1 (pose_problem.h).
   double VarianceFactor(const Eigen::VectorXd& residuals,
                         int num_unknowns) const {
-    return armcal::VarianceFactor(residuals,
-                                  measured_.poses.size() > 0 ? 6 : Width(),
-                                  options_.loss, num_unknowns);
+    return armcal::VarianceFactor(residuals, Coordinates(), options_.loss,
+                                  num_unknowns);
   }
   // Coordinates of a position error.
   int Width() const { return measured_.lengths.size() > 0 ? 1 : 3; }
+  // Coordinates of a residual that share a loss.
+  int Coordinates() const { return measured_.poses.size() > 0 ? 6 : Width(); }
   // Standard deviation of the prior on parameter k; 0: none.
   double PriorOf(int k) const;
 
@@ -62,7 +63,9 @@ class PoseFit {
   }
   // False where the solver found no usable solution.
   bool Solve(const std::vector<bool>& free, const std::vector<int>& rows,
-             PoseUnknowns* unknowns) const;
+             RobustLoss loss, PoseUnknowns* unknowns) const;
+  // With the noise re-estimated; a loss that gives poses up starts where
+  // Huber's ends.
   bool SolveWithNoise(const std::vector<bool>& free,
                       const std::vector<int>& rows, PoseUnknowns* unknowns);
   void EstimateNoise(const std::vector<bool>& free, const PoseUnknowns& at);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "calib/json_figures.h"
+#include "calib/verdict.h"
 
 namespace armcal {
 namespace {
@@ -15,10 +16,13 @@ using nlohmann::json;
 std::string Estimate(const GeometryEstimate& p) {
   const bool angle = p.unit == "rad";
   const double scale = angle ? 57.29577951308232 : 1e3;
-  char text[128];
-  std::snprintf(text, sizeof(text), "  %-22s %12.4f -> %12.4f +- %-9.2g %s\n",
-                p.name.c_str(), scale * p.nominal, scale * p.value,
-                scale * p.stddev, angle ? "deg" : "mm");
+  char text[128], spread[32] = "(not seen)  ";
+  if (std::isfinite(p.stddev)) {
+    std::snprintf(spread, sizeof(spread), "+- %-9.2g", scale * p.stddev);
+  }
+  std::snprintf(text, sizeof(text), "  %-22s %12.4f -> %12.4f %s %s\n",
+                p.name.c_str(), scale * p.nominal, scale * p.value, spread,
+                angle ? "deg" : "mm");
   return text;
 }
 
@@ -31,7 +35,7 @@ std::string OutlierText(const PoseMeasurements& measured,
                         const PoseCalibration& result) {
   if (result.outliers.empty()) return "";
   std::string text = "outliers   " + std::to_string(result.outliers.size()) +
-                     " poses beyond 4 noise deviations, rows";
+                     " poses given up (Tukey's limit), rows";
   constexpr size_t kShown = 12;
   for (size_t k = 0; k < std::min(kShown, result.outliers.size()); ++k) {
     text += " " + std::to_string(measured.row[result.outliers[k]]);
@@ -64,7 +68,7 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
   for (const std::string& sentence : result.held) {
     text += "held       " + sentence + "\n";
   }
-  return text;
+  return text + VerdictText(Shortcomings(robot, result));
 }
 
 json PoseJson(const Robot& robot, const PoseMeasurements& measured,
@@ -86,6 +90,7 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
           {"estimate", "refined"},
           {"geometry", geometry},
           {"held", result.held},
+          {"verdict", VerdictJson(Shortcomings(robot, result))},
           {"poses",
            {{"count", measured.size()},
             {"kind", Kind(measured)},

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problems/robust_loss.h"
+
 namespace armcal {
 namespace {
 
@@ -13,12 +15,9 @@ constexpr int kBins = 11100;
 
 }  // namespace
 
-double Huber::Weight(double r) {
-  const double size = std::abs(r);
-  return size <= kThreshold ? 1 : kThreshold / size;
+double Clipped(double r) {
+  return r * EvaluateLoss(RobustLoss::kHuber, r).weight;
 }
-
-bool Huber::Inside(double r) { return std::abs(r) <= kThreshold; }
 
 ResidualStatistics::ResidualStatistics(int lag)
     : histogram_(kBins, 0), lag_(lag) {}
@@ -27,9 +26,8 @@ void ResidualStatistics::Add(double r) {
   const double bin = std::log(std::max(std::abs(r), kLow) / kLow) / kLogStep;
   ++histogram_[bin < kBins ? static_cast<int>(bin) : kBins - 1];  // also NaN
   ++count_;
-  if (Huber::Weight(r) < 0.5) ++outliers_;
-  // Outliers clipped, so that one does not decide.
-  const double clipped = r * Huber::Weight(r);
+  const double clipped = Clipped(r);
+  if (std::abs(clipped) < 0.5 * std::abs(r)) ++outliers_;
   square_ += clipped * clipped;
   recent_.push_back(clipped);
   if (recent_.size() <= lag_) return;

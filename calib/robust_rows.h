@@ -1,19 +1,14 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <cstddef>
 #include <deque>
 #include <vector>
 
 namespace armcal {
 
-// Huber's loss at 1.345 standard deviations (95 % efficient for normal errors).
-struct Huber {
-  static constexpr double kThreshold = 1.345;
-  // The factor on a residual of r standard deviations in the normal equations.
-  static double Weight(double r);
-  // Derivative of the score: 1 inside, 0 outside.
-  static bool Inside(double r);
-};
+// A residual of r noise deviations, brought to where Huber's loss begins to
+// doubt it: so that one outlier does not decide a statistic.
+double Clipped(double r);
 
 // Statistics of residuals in one pass and constant memory: their robust spread
 // and autocorrelation at a lag. Residuals are given in units of a first guess.
@@ -27,7 +22,7 @@ class ResidualStatistics {
   double RobustSpread() const;
   double Autocorrelation() const;
   long count() const { return count_; }
-  // How many residuals Huber's loss weighs below 1/2.
+  // How many residuals are beyond 2.7, where Huber's weight is below 1/2.
   long outliers() const { return outliers_; }
 
  private:

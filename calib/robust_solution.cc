@@ -7,50 +7,64 @@
 
 namespace armcal {
 
-RobustSolution SolveRobust(const Eigen::VectorXd& x,
-                           const Eigen::VectorXd& noise,
-                           const std::vector<bool>& frozen,
-                           const ReferenceMotion& reference,
-                           ResidualPass* pass) {
+namespace {
+
+void Iterate(RobustLoss loss, const Eigen::VectorXd& least,
+             const std::vector<bool>& frozen, const ReferenceMotion& reference,
+             ResidualPass* pass, RobustSolution* result) {
   constexpr int kMostPasses = 20;
   constexpr double kSettled = 0.1;  // standard deviations
-  // Where a joint's equations can be solved exactly, their spread falls pass
-  // after pass, until nothing else counts beside them.
-  const Eigen::VectorXd least = 1e-3 * noise;
-  const int n = static_cast<int>(noise.size());
-  RobustSolution result;
-  result.solution.x = x;
-  result.noise = noise;
+  const int n = static_cast<int>(least.size());
   for (int k = 0; k < kMostPasses; ++k) {
     BlockTriangularFactor factor(pass->parameters());
     std::vector<ResidualStatistics> statistics(n);
-    pass->Run("robust weights", result.solution.x, result.noise,
+    pass->Run("robust weights", result->solution.x, result->noise,
               [&](const RowResidual& residual) {
                 const IdentificationRow& row = residual.row;
                 for (int i = 0; i < n; ++i) {
                   if (!pass->uses(residual.log, i)) continue;
-                  statistics[i].Add(residual.r[i]);
-                  factor.Add(i, row.U.row(i), row.Y[i],
-                             std::sqrt(Huber::Weight(residual.r[i])));
+                  const double r = residual.r[i];
+                  statistics[i].Add(r);
+                  const double weight = EvaluateLoss(loss, r).weight;
+                  factor.Add(i, row.U.row(i), row.Y[i], std::sqrt(weight));
                 }
               });
-    result.outliers.clear();
+    result->outliers.clear();
     for (int i = 0; i < n; ++i) {
-      result.outliers.push_back(statistics[i].outliers());
+      result->outliers.push_back(statistics[i].outliers());
       const double spread = statistics[i].RobustSpread();
       if (frozen[i]) continue;
-      result.noise[i] = std::max(least[i], result.noise[i] * spread);
+      result->noise[i] = std::max(least[i], result->noise[i] * spread);
     }
-    const Eigen::VectorXd last = result.solution.x;
-    result.solution = SolveWeighted(factor, result.noise, reference);
+    const Eigen::VectorXd last = result->solution.x;
+    result->solution = SolveWeighted(factor, result->noise, reference);
     // The gain of weighted least squares is the covariance of independent rows.
     const double moved =
-        (result.solution.x - last)
+        (result->solution.x - last)
             .cwiseAbs()
             .cwiseQuotient(
-                result.solution.gain.diagonal().cwiseSqrt().cwiseMax(1e-300))
+                result->solution.gain.diagonal().cwiseSqrt().cwiseMax(1e-300))
             .maxCoeff();
     if (k > 0 && moved < kSettled) break;
+  }
+}
+
+}  // namespace
+
+RobustSolution SolveRobust(const Eigen::VectorXd& x,
+                           const Eigen::VectorXd& noise,
+                           const std::vector<bool>& frozen, RobustLoss loss,
+                           const ReferenceMotion& reference,
+                           ResidualPass* pass) {
+  // Where a joint's equations can be solved exactly, their spread falls pass
+  // after pass, until nothing else counts beside them.
+  const Eigen::VectorXd least = 1e-3 * noise;
+  RobustSolution result;
+  result.solution.x = x;
+  result.noise = noise;
+  Iterate(RobustLoss::kHuber, least, frozen, reference, pass, &result);
+  if (loss != RobustLoss::kHuber) {
+    Iterate(loss, least, frozen, reference, pass, &result);
   }
   return result;
 }

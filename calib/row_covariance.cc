@@ -18,14 +18,18 @@ using Eigen::VectorXd;
 struct RowStudy {
   // Of the worst joint's residuals, at the lag where rows no longer overlap.
   double autocorrelation = 0;
-  // Equations inside Huber's threshold: outside, the loss is only linear.
-  BlockTriangularFactor inside;
+  // Equations by the slope of their scores. Where the loss gives a residual up
+  // it is negative: only its mean tells what a joint's equations inform, which
+  // `slope` has as a share of the positive ones.
+  BlockTriangularFactor sloping;
+  VectorXd slope;
 };
 
 RowStudy StudyRows(const LinearSolution& solution, const VectorXd& noise,
-                   bool huber, int rows_per_window, ResidualPass* pass) {
+                   RobustLoss loss, int rows_per_window, ResidualPass* pass) {
   const int n = static_cast<int>(noise.size());
-  RowStudy study{0, BlockTriangularFactor(pass->parameters())};
+  RowStudy study{0, BlockTriangularFactor(pass->parameters()), {}};
+  VectorXd slopes = VectorXd::Zero(n), positive = slopes;
   std::vector<ResidualStatistics> statistics(
       n, ResidualStatistics(rows_per_window));
   pass->Run("autocorrelation", solution.x, noise,
@@ -34,27 +38,32 @@ RowStudy StudyRows(const LinearSolution& solution, const VectorXd& noise,
                 if (!pass->uses(residual.log, i)) continue;
                 if (!residual.follows) statistics[i].Break();
                 statistics[i].Add(residual.r[i]);
-                if (huber && !Huber::Inside(residual.r[i])) continue;
-                study.inside.Add(i, residual.row.U.row(i), residual.row.Y[i]);
+                const double slope = EvaluateLoss(loss, residual.r[i]).slope;
+                slopes[i] += slope;
+                if (slope <= 0) continue;
+                positive[i] += slope;
+                study.sloping.Add(i, residual.row.U.row(i), residual.row.Y[i],
+                                  std::sqrt(slope));
               }
             });
   for (const ResidualStatistics& s : statistics) {
     study.autocorrelation =
         std::max(study.autocorrelation, s.Autocorrelation());
   }
+  study.slope = slopes.cwiseQuotient(positive.cwiseMax(1e-300)).cwiseMax(.1);
   return study;
 }
 
 // What the score's covariance takes of a row, and what remains of it where the
 // loss is only linear.
-FittedRow MakeFittedRow(const RowResidual& residual, bool huber,
+FittedRow MakeFittedRow(const RowResidual& residual, RobustLoss loss,
                         const ResidualPass& pass) {
   FittedRow row{residual.row.U, residual.r, {}, {}};
   for (int i = 0; i < row.r.size(); ++i) {
-    const double r = residual.r[i];
+    const LossAt at = EvaluateLoss(loss, residual.r[i]);
     row.used.push_back(pass.uses(residual.log, i));
-    row.inside.push_back(!huber || Huber::Inside(r));
-    if (huber) row.r[i] *= Huber::Weight(r);
+    row.inside.push_back(at.slope > 0);
+    row.r[i] *= at.weight;
   }
   return row;
 }
@@ -90,16 +99,19 @@ MatrixXd RaiseToLogScatter(const MatrixXd& covariance, const MatrixXd& gain,
 }
 
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
-                                         const VectorXd& noise, bool huber,
+                                         const VectorXd& noise, RobustLoss loss,
                                          const ReferenceMotion& reference,
                                          long rows, int rows_per_window,
                                          ResidualPass* pass) {
   const int m = pass->parameters().size();
   const RowStudy study =
-      StudyRows(solution, noise, huber, rows_per_window, pass);
+      StudyRows(solution, noise, loss, rows_per_window, pass);
   LinearSolution linearised = solution;
   if (solution.weighted) {
-    linearised.gain = SolveWeighted(study.inside, noise, reference).gain;
+    linearised.gain =
+        SolveWeighted(study.sloping,
+                      noise.cwiseQuotient(study.slope.cwiseSqrt()), reference)
+            .gain;
   }
   CovarianceEstimate estimate;
   estimate.rows_per_window = rows_per_window;
@@ -113,7 +125,7 @@ CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
   MatrixXd sums = MatrixXd::Zero(m, pass->num_logs());
   pass->Run("covariance", solution.x, noise, [&](const RowResidual& residual) {
     if (!residual.follows) scores.Break(), overlap.Break();
-    const FittedRow row = MakeFittedRow(residual, huber, *pass);
+    const FittedRow row = MakeFittedRow(residual, loss, *pass);
     const Score score = MakeScore(row, solution, noise, pass->parameters());
     scores.Add(score);
     overlap.Add(row);

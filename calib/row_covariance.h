@@ -6,6 +6,7 @@
 #include "calib/identifiability.h"
 #include "calib/linear_solution.h"
 #include "calib/residual_pass.h"
+#include "problems/robust_loss.h"
 
 namespace armcal {
 
@@ -29,11 +30,11 @@ Eigen::MatrixXd RaiseToLogScatter(const Eigen::MatrixXd& covariance,
 // Deviations are at least what errors that are correlated only where rows
 // overlap make of them, and with three logs or more at least what the scatter
 // of the logs' score sums shows: something may change from log to log
-// (temperature, wear, a torque scale). `huber`: the solution is of SolveRobust.
+// (temperature, wear, a torque scale). `loss`: that of the solution.
 // Two passes over the logs.
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                                          const Eigen::VectorXd& noise,
-                                         bool huber,
+                                         RobustLoss loss,
                                          const ReferenceMotion& reference,
                                          long rows, int rows_per_window,
                                          ResidualPass* pass);

@@ -15,7 +15,6 @@ TorqueResidual::TorqueResidual(int num_joints) {
   for (Sums* sums : {&moving_, &whole_}) {
     sums->torque = sums->residual = Eigen::ArrayXd::Zero(num_joints);
   }
-  spikes_.setZero(num_joints);
 }
 
 void TorqueResidual::Add(const Trajectory& trajectory, const VectorXd& x,
@@ -27,7 +26,6 @@ void TorqueResidual::Add(const Trajectory& trajectory, const VectorXd& x,
     predicted.row(k) = U * x;
   }
   MatrixXd recorded = trajectory.tau_recorded;
-  if (trajectory.spikes.size() > 0) spikes_ += trajectory.spikes;
   if (bandwidth_hz > 0) {
     predicted = ZeroPhaseLowPass(predicted, 1 / trajectory.dt, bandwidth_hz);
     recorded = ZeroPhaseLowPass(recorded, 1 / trajectory.dt, bandwidth_hz);

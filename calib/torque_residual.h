@@ -13,7 +13,7 @@ namespace armcal {
 // How far predicted torques are from recorded ones, over the samples of one or
 // several logs: both low-passed at the bandwidth (order 4, zero phase). All
 // vectors have an entry per joint; a percentage is 100 |tau - tau_hat| / |tau|
-// in 2-norm, NaN where the torque is zero.
+// in 2-norm, NaN where the torque is zero. Torque outliers count like the rest.
 class TorqueResidual {
  public:
   struct Figures {
@@ -34,9 +34,6 @@ class TorqueResidual {
   Figures whole() const { return MakeFigures(whole_); }
   // The share of samples that standstill excludes.
   double excluded_share() const;
-  // Torque samples per joint that were taken for spikes: left out of the fit,
-  // but not of these figures.
-  long spikes(int joint) const { return spikes_[joint]; }
   long samples() const { return static_cast<long>(whole_.count); }
 
  private:
@@ -47,7 +44,6 @@ class TorqueResidual {
   static Figures MakeFigures(const Sums& sums);
 
   Sums moving_, whole_;
-  Eigen::Array<long, 1, Eigen::Dynamic> spikes_;
 };
 
 // Of parameters `x` over all logs, in one pass that `progress` knows as

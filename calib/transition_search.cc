@@ -36,6 +36,22 @@ auto ChooseFrom(const Screening& screening, TorqueScale scale, Choose choose) {
   return all;
 }
 
+// Finer widths of each joint's law about the one given, and the best of them.
+Transitions Refine(const Robot& robot, const LinearCalibrationOptions& options,
+                   const RowOptions& rows,
+                   const std::vector<CoulombTransition>& about,
+                   LogSet* training) {
+  Transitions finer;
+  for (const CoulombTransition& t : about) finer.push_back(FinerTransitions(t));
+  const Screening fine(robot, options, rows, finer, training);
+  Transitions transitions;
+  for (const CoulombTransition& t :
+       ChooseFrom(fine, scale, RefineTransitions)) {
+    transitions.push_back({t});
+  }
+  return transitions;
+}
+
 }  // namespace
 
 Transitions FindTransitions(const Robot& robot,
@@ -50,17 +66,21 @@ Transitions FindTransitions(const Robot& robot,
   if (options.transition) return {n, {*options.transition}};
   const auto candidates = CandidateTransitions();
   const Screening coarse(robot, options, rows, {n, candidates}, training);
-  Transitions finer;
+  std::vector<CoulombTransition> about;
   for (const int choice : ChooseFrom(coarse, scale, ChooseTransitions)) {
-    finer.push_back(FinerTransitions(candidates[choice]));
+    about.push_back(candidates[choice]);
   }
-  const Screening fine(robot, options, rows, finer, training);
-  Transitions transitions;
-  for (const CoulombTransition& t :
-       ChooseFrom(fine, scale, RefineTransitions)) {
-    transitions.push_back({t});
-  }
-  return transitions;
+  return Refine(robot, options, rows, about, scale, training);
+}
+
+Transitions FollowTransitions(const Robot& robot,
+                              const LinearCalibrationOptions& options,
+                              const RowOptions& rows,
+                              const std::vector<CoulombTransition>& found,
+                              LogSet* training) {
+  if (found.empty()) return {};
+  if (options.transition) return {found.size(), {*options.transition}};
+  return Refine(robot, options, rows, found, TorqueScale::kCommon, training);
 }
 
 }  // namespace armcal

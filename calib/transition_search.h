@@ -16,4 +16,12 @@ Transitions FindTransitions(const Robot& robot,
                             const RowOptions& rows, LogSet* training,
                             TorqueScale scale = TorqueScale::kCommon);
 
+// The widths anew, each joint's law as found before: for logs some of whose
+// torque samples have been replaced since. One pass.
+Transitions FollowTransitions(const Robot& robot,
+                              const LinearCalibrationOptions& options,
+                              const RowOptions& rows,
+                              const std::vector<CoulombTransition>& found,
+                              LogSet* training);
+
 }  // namespace armcal

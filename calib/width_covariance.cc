@@ -70,12 +70,12 @@ struct WidthsUnknown {
 
 CovarianceEstimate EstimateCovariance(
     const Robot& robot, const LinearCalibrationOptions& options,
-    const RowOptions& rows, const LinearSolution& solution, bool huber,
+    const RowOptions& rows, const LinearSolution& solution, RobustLoss loss,
     const ReferenceMotion& reference, ResidualPass* pass,
     const LinearCalibration& result) {
   const int correlated = CorrelatedRows(rows);
   if (result.transitions.empty() || options.transition || !solution.weighted) {
-    return EstimateRowCovariance(solution, result.noise, huber, reference,
+    return EstimateRowCovariance(solution, result.noise, loss, reference,
                                  result.equations, correlated, pass);
   }
   const WidthsUnknown wider(robot, options, result);
@@ -85,7 +85,7 @@ CovarianceEstimate EstimateCovariance(
   columns.columns = reference.columns(Eigen::all, wider.base);
   ResidualPass wider_pass = pass->WithParameters(wider.parameters);
   CovarianceEstimate estimate =
-      EstimateRowCovariance(spread, result.noise, huber, columns,
+      EstimateRowCovariance(spread, result.noise, loss, columns,
                             result.equations, correlated, &wider_pass);
   estimate.covariance = wider.Fold(estimate.covariance);
   return estimate;

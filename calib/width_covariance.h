@@ -13,7 +13,7 @@ namespace armcal {
 // share, included.
 CovarianceEstimate EstimateCovariance(
     const Robot& robot, const LinearCalibrationOptions& options,
-    const RowOptions& rows, const LinearSolution& solution, bool huber,
+    const RowOptions& rows, const LinearSolution& solution, RobustLoss loss,
     const ReferenceMotion& reference, ResidualPass* pass,
     const LinearCalibration& result);
 

@@ -8,51 +8,15 @@
 #include "model/low_pass.h"
 #include "model/resampler.h"
 #include "model/spikes.h"
+#include "model/standstill.h"
+#include "model/torque_samples.h"
 
 namespace armcal {
 namespace {
 
 constexpr int kBlockRows = 1024;
-constexpr double kStandstillSpeed = 1e-3;  // rad/s or m/s
-constexpr double kSpeedTime = 0.2;         // s, over which speed is judged
-constexpr double kStandstillTime = 0.5;    // s
-constexpr double kCoreTime = 16;           // s
-constexpr long kMaxCore = 20000;           // samples
-
-// Mean velocity over kSpeedTime around each sample (less at the ends).
-Eigen::MatrixXd MeanVelocity(const Eigen::MatrixXd& q, double dt) {
-  const Eigen::Index n = q.rows();
-  const Eigen::Index half = std::max<Eigen::Index>(
-      1, static_cast<Eigen::Index>(std::lround(kSpeedTime / 2 / dt)));
-  Eigen::MatrixXd v(n, q.cols());
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::Index a = std::max<Eigen::Index>(0, k - half);
-    const Eigen::Index b = std::min(n - 1, k + half);
-    v.row(k) = (q.row(b) - q.row(a)) /
-               (dt * static_cast<double>(std::max<Eigen::Index>(1, b - a)));
-  }
-  return v;
-}
-
-// `reach`: how many samples on each side of its own a velocity stands for.
-void MarkStandstill(const Eigen::MatrixXd& velocity, int reach, Trajectory* t) {
-  const int n = t->size();
-  const int least =
-      std::max(1, static_cast<int>(std::ceil(kStandstillTime / t->dt - 1e-9)));
-  t->standstill.setConstant(n, false);
-  int begin = 0;
-  for (int k = 0; k <= n; ++k) {
-    const bool still =
-        k < n && velocity.row(k).cwiseAbs().maxCoeff() < kStandstillSpeed;
-    if (still) continue;
-    const int first = begin == 0 ? 0 : std::max(0, begin - reach);
-    const int last = std::min(n, k + reach);
-    if (k > begin && last - first >= least) {
-      t->standstill.segment(first, last - first) = true;
-    }
-    begin = k + 1;
-  }
-}
+constexpr double kCoreTime = 16;  // s
+constexpr long kMaxCore = 20000;  // samples
 
 // Every factor-th sample.
 Eigen::MatrixXd Thin(const Eigen::MatrixXd& x, long factor) {
@@ -80,12 +44,14 @@ struct TrajectoryReader::Impl {
         reader(path_in, log_options),
         base(time_base),
         bandwidth(options_in.bandwidth_hz),
-        resampler(base.dt, base.uniform) {
+        resampler(base.dt, base.uniform),
+        recorded(base.dt, base.uniform),
+        samples(base.dt, base.uniform) {
     const double whole = base.range.end - base.range.begin;
     const double reach = std::min(options.reach_s, whole) + kStandstillTime +
                          4 * base.dt +
                          (bandwidth > 0 ? 2 * LowPassMemory(bandwidth) : 0);
-    if (bandwidth > 0) {
+    if (bandwidth > 0 && !options.every_sample) {
       thin = std::max(1L, static_cast<long>(1 / (16 * bandwidth * base.dt)));
     }
     margin = Whole(static_cast<long>(std::ceil(reach / base.dt)));
@@ -102,7 +68,7 @@ struct TrajectoryReader::Impl {
   void FillTo(long index);
   void Restart() {
     reader.Rewind();
-    resampler.Clear();
+    Clear();
     block = Log();
     block_row = 0;
     segment = -1;
@@ -113,8 +79,30 @@ struct TrajectoryReader::Impl {
   bool NextBlock() {
     block_row = 0;
     log_ended = !reader.Read(kBlockRows, &block);
+    if (options.outliers != nullptr && !log_ended) {
+      as_recorded.t = block.t;
+      as_recorded.tau = block.tau;
+      ReplaceOutliers(*options.outliers, &block);
+    }
     return !log_ended;
   }
+  void Clear() {
+    resampler.Clear();
+    recorded.Clear();
+    samples.Clear();
+  }
+  void Append(int row) {
+    resampler.Append(block, row);
+    if (options.outliers != nullptr) recorded.Append(as_recorded, row);
+    if (options.every_sample) samples.Append(block, row);
+  }
+  void DropBefore(long index) {
+    resampler.DropBefore(index);
+    if (options.outliers != nullptr) recorded.DropBefore(index);
+    samples.DropBefore(index);
+  }
+  void SetTorque(long begin, long end, long core_begin, long core_end,
+                 Eigen::MatrixXd tau, Trajectory* t) const;
   // The next multiple of `thin`, to which the borders of stretches are held.
   long Whole(long samples) const { return (samples + thin - 1) / thin * thin; }
   Trajectory Make(long core_begin, long core_end, long available);
@@ -125,11 +113,14 @@ struct TrajectoryReader::Impl {
   TimeBase base;
   double bandwidth;
   Resampler resampler;
+  Resampler recorded;  // torque with its outliers, where they are known
+  TorqueSampleWindow samples;
   long thin = 1;  // one sample in so many is kept
   long margin, core;
   double largest_step;
 
   Log block;
+  Log as_recorded;  // its torque before outliers were replaced
   int block_row = 0;
   int segment = -1;
   long next_core = 0;
@@ -159,7 +150,27 @@ void TrajectoryReader::Impl::FillTo(long index) {
         return;
       }
     }
-    resampler.Append(block, block_row++);
+    Append(block_row++);
+  }
+}
+
+// Torque of grid points [begin, end), as the fit takes it and as recorded.
+void TrajectoryReader::Impl::SetTorque(long begin, long end, long core_begin,
+                                       long core_end, Eigen::MatrixXd tau,
+                                       Trajectory* t) const {
+  t->tau = std::move(tau);
+  t->tau_recorded = t->tau;
+  if (options.every_sample) t->samples = samples.Between(begin, end);
+  if (options.outliers != nullptr) {
+    Log grid;
+    recorded.Sample(begin, end, &grid);
+    t->tau_recorded = std::move(grid.tau);
+  } else if (options.remove_spikes && bandwidth > 0 && t->tau.size() > 0) {
+    t->spikes = RemoveSpikes(&t->tau)
+                    .middleRows(core_begin - begin, core_end - core_begin)
+                    .cast<long>()
+                    .colwise()
+                    .sum();
   }
 }
 
@@ -167,36 +178,28 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
                                         long available) {
   const long begin = std::max(0L, core_begin - margin);
   const long end = std::min(available, core_end + margin);
-  Log samples;
-  resampler.Sample(begin, end, &samples);
+  Log grid;
+  resampler.Sample(begin, end, &grid);
   Trajectory t;
-  t.t0 = samples.t[0];
+  t.t0 = grid.t[0];
   t.dt = base.dt;
-  t.tau = std::move(samples.tau);
   const bool raw = bandwidth <= 0;
-  t.tau_recorded = t.tau;
-  if (!raw && t.tau.size() > 0) {
-    t.spikes = RemoveSpikes(&t.tau)
-                   .middleRows(core_begin - begin, core_end - core_begin)
-                   .cast<long>()
-                   .colwise()
-                   .sum();
-  }
+  SetTorque(begin, end, core_begin, core_end, std::move(grid.tau), &t);
   // Standstill is judged on what the band of the fit has not smeared.
   Eigen::MatrixXd velocity =
-      raw ? samples.qd
-          : MeanVelocity(ZeroPhaseLowPass(samples.q, 1 / base.dt, 4 * bandwidth,
+      raw ? grid.qd
+          : MeanVelocity(ZeroPhaseLowPass(grid.q, 1 / base.dt, 4 * bandwidth,
                                           Ends::kExtrapolate),
                          base.dt);
   const bool recorded = raw && velocity.size() > 0;
-  if (velocity.size() == 0) velocity = MeanVelocity(samples.q, base.dt);
-  t.q = raw ? std::move(samples.q)
-            : ZeroPhaseLowPass(samples.q, 1 / base.dt, bandwidth,
+  if (velocity.size() == 0) velocity = MeanVelocity(grid.q, base.dt);
+  t.q = raw ? std::move(grid.q)
+            : ZeroPhaseLowPass(grid.q, 1 / base.dt, bandwidth,
                                Ends::kExtrapolate);
-  t.qd = raw && samples.qd.size() > 0 ? std::move(samples.qd)
-                                      : Differentiate(t.q, t.dt);
-  t.qdd = raw && samples.qdd.size() > 0 ? std::move(samples.qdd)
-                                        : Differentiate(t.qd, t.dt);
+  t.qd =
+      raw && grid.qd.size() > 0 ? std::move(grid.qd) : Differentiate(t.q, t.dt);
+  t.qdd = raw && grid.qdd.size() > 0 ? std::move(grid.qdd)
+                                     : Differentiate(t.qd, t.dt);
   if (thin > 1) {
     for (Eigen::MatrixXd* x : {&t.tau, &t.tau_recorded}) {
       *x = Thin(ZeroPhaseLowPass(*x, 1 / t.dt, 4 * bandwidth), thin);
@@ -210,8 +213,9 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
   t.first_index = begin / thin;
   t.core_begin = static_cast<int>((core_begin - begin) / thin);
   t.core_end = static_cast<int>((core_end - begin + thin - 1) / thin);
-  MarkStandstill(velocity,
-                 recorded ? 0 : static_cast<int>(kSpeedTime / 2 / t.dt), &t);
+  t.standstill = FindStandstill(
+      velocity, t.dt,
+      recorded ? 0 : static_cast<int>(kStandstillMeanTime / 2 / t.dt));
   return t;
 }
 
@@ -242,7 +246,7 @@ bool TrajectoryReader::Next(Trajectory* trajectory) {
     const long available = s.resampler.NumGridPoints();
     if (s.segment_ended && s.next_core >= available) {
       if (s.log_ended) return false;
-      s.resampler.Clear();
+      s.Clear();
       s.segment_ended = false;
       s.next_core = 0;
       ++s.segment;
@@ -257,7 +261,7 @@ bool TrajectoryReader::Next(Trajectory* trajectory) {
     }
     *trajectory = s.Make(s.next_core, end, available);
     s.next_core = end;
-    s.resampler.DropBefore(std::max(0L, end - s.margin));
+    s.DropBefore(std::max(0L, end - s.margin));
     return true;
   }
 }

@@ -7,6 +7,7 @@
 
 #include "model/log_reader.h"
 #include "model/time_base.h"
+#include "model/torque_samples.h"
 
 namespace armcal {
 
@@ -21,17 +22,18 @@ struct Trajectory {
   Eigen::MatrixXd q;    // rad or m; low-passed unless the bandwidth is 0
   Eigen::MatrixXd qd;   // rad/s or m/s
   Eigen::MatrixXd qdd;  // rad/s^2 or m/s^2
-  Eigen::MatrixXd tau;  // N m or N, up to 4 times the bandwidth, no spikes
-  Eigen::MatrixXd tau_recorded;  // the same with its spikes
+  Eigen::MatrixXd tau;  // N m or N, up to 4 times the bandwidth, no outliers
+  Eigen::MatrixXd tau_recorded;  // the same with its outliers
   // All |qd| below 1e-3 rad/s (m/s) for 0.5 s or longer; qd here is the mean
   // over 0.2 s of positions low-passed at 4 times the bandwidth, which rings
   // less after a stop than `qd`.
   Eigen::Array<bool, Eigen::Dynamic, 1> standstill;
   // Per joint, samples of the core whose torque was a spike (spikes.h) and was
-  // replaced; empty with a bandwidth of 0, which takes data as they are.
+  // replaced; empty where spikes are not looked for.
   Eigen::Array<long, 1, Eigen::Dynamic> spikes;
-  int segment = 0;       // which stretch between gaps, from 0
-  long first_index = 0;  // grid index of row 0 in its segment
+  TorqueSamples samples;  // of all rows, where every sample is asked for
+  int segment = 0;        // which stretch between gaps, from 0
+  long first_index = 0;   // grid index of row 0 in its segment
   int core_begin = 0;
   int core_end = 0;
 
@@ -47,6 +49,13 @@ struct TrajectoryOptions {
   TimeRange crop;
   // How far rows reach beyond the sample they belong to, s.
   double reach_s = 0;
+  // Gross errors in torque samples: those of this list (the log's, by row) are
+  // replaced; without one, spikes as RemoveSpikes finds them, unless the
+  // bandwidth is 0.
+  const std::vector<TorqueOutlier>* outliers = nullptr;
+  bool remove_spikes = true;
+  // No thinning, and the torque also sample by sample.
+  bool every_sample = false;
 };
 
 // A bandwidth for logs whose time bases are these: 10 times the fastest

@@ -1,7 +1,5 @@
 #include "problems/pose_problem.h"
 
-#include <ceres/loss_function.h>
-
 #include <algorithm>
 
 #include "problems/pose_residual.h"
@@ -23,33 +21,11 @@ Isometry3d MeasuredPose(const PoseMeasurements& measured, int row) {
   return X;
 }
 
-// In noise units: 95 % efficient for normal errors, per residual.
-double LossScale(RobustLoss loss) {
-  return loss == RobustLoss::kTukey    ? 4.685
-         : loss == RobustLoss::kCauchy ? 2.385
-                                       : 1.345;
-}
-
 }  // namespace
-
-ceres::LossFunction* MakeLoss(RobustLoss loss, double scale) {
-  switch (loss) {
-    case RobustLoss::kSquared:
-      return nullptr;
-    case RobustLoss::kHuber:
-      return new ceres::HuberLoss(scale);
-    case RobustLoss::kCauchy:
-      return new ceres::CauchyLoss(scale);
-    case RobustLoss::kTukey:
-      return new ceres::TukeyLoss(scale);
-  }
-  return nullptr;
-}
 
 double VarianceFactor(const Eigen::VectorXd& residuals, int block,
                       RobustLoss loss, int num_unknowns) {
-  const std::unique_ptr<ceres::LossFunction> rho(
-      MakeLoss(loss, LossScale(loss)));
+  const std::unique_ptr<ceres::LossFunction> rho(MakeLoss(loss, block));
   const double N = static_cast<double>(residuals.size());
   double squares = 0, slope = 0;
   for (Eigen::Index k = 0; k + block <= residuals.size(); k += block) {
@@ -108,7 +84,6 @@ void AddPoseResiduals(std::shared_ptr<const ArmGeometry> geometry,
                       const std::vector<int>& rows, const PoseNoise& noise,
                       RobustLoss loss, PoseUnknowns* unknowns,
                       ceres::Problem* problem) {
-  const double scale = LossScale(loss);
   double* const g = unknowns->geometry.data();
   double* const other = unknowns->other.data();
   for (const int k : rows) {
@@ -116,19 +91,19 @@ void AddPoseResiduals(std::shared_ptr<const ArmGeometry> geometry,
     if (measured.lengths.size() > 0) {
       problem->AddResidualBlock(
           new WireResidual(geometry, q, measured.lengths[k], noise.position),
-          MakeLoss(loss, scale), g, other);
+          MakeLoss(loss, 1), g, other);
     }
     for (size_t t = 0; t < measured.targets.size(); ++t) {
       problem->AddResidualBlock(
           new TargetResidual(geometry, q, measured.targets[t].row(k),
                              noise.position),
-          MakeLoss(loss, scale), g, other + 3 * t);
+          MakeLoss(loss, 3), g, other + 3 * t);
     }
     if (measured.poses.size() > 0) {
       problem->AddResidualBlock(
           new PoseResidual(geometry, q, MeasuredPose(measured, k),
                            noise.position, noise.rotation),
-          MakeLoss(loss, scale), g);
+          MakeLoss(loss, 6), g);
     }
   }
 }

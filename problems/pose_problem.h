@@ -9,13 +9,9 @@
 
 #include "model/arm_geometry.h"
 #include "model/pose_reader.h"
+#include "problems/robust_loss.h"
 
 namespace armcal {
-
-enum class RobustLoss { kSquared, kHuber, kCauchy, kTukey };
-
-// Null for kSquared; `scale` in noise units.
-ceres::LossFunction* MakeLoss(RobustLoss loss, double scale);
 
 // The variance of an M-estimate over that of (J'J)^-1 (Huber 1981, 6.5):
 //   (sum psi^2 / (N - p)) / (mean psi')^2

@@ -136,19 +136,19 @@ TEST(DriveGains, DisturbancesDoNotPull) {
     }
   }
   double worst[2];
-  for (const Loss loss : {Loss::kHuber, Loss::kSquared}) {
+  for (const RobustLoss loss : {RobustLoss::kHuber, RobustLoss::kSquared}) {
     LinearCalibrationOptions options = DriveOptions();
     options.loss = loss;
     const DriveGains result =
         EstimateFromLogs(driven.arm.file, driven.payload.mass, {currents.bare},
                          {currents.loaded}, options);
     ASSERT_TRUE(result.solved) << result.reason;
-    double& w = worst[loss == Loss::kSquared];
+    double& w = worst[loss == RobustLoss::kSquared];
     w = 0;
     for (int j = 0; j < 6; ++j) {
       const double error = result.gains[j].value - driven.K[j];
       w = std::max(w, std::abs(error) / driven.K[j]);
-      if (loss == Loss::kHuber) {
+      if (loss == RobustLoss::kHuber) {
         EXPECT_LT(std::abs(error), 4 * result.gains[j].stddev) << j;
         EXPECT_GT(result.outliers[j], 0) << j;
       }

@@ -73,7 +73,7 @@ LinearCalibrationOptions PaperOptions() {
   LinearCalibrationOptions options;
   options.geometry = GeometryKnowledge::kNonzeroLengths;
   options.joint_terms = {};
-  options.loss = Loss::kSquared;
+  options.loss = RobustLoss::kSquared;
   return options;
 }
 
@@ -123,7 +123,7 @@ TEST(ScaraInNoise, WeakFormByDefault) {
 
 TEST(ScaraInNoise, WeakFormWithHuber) {
   LinearCalibrationOptions options = PaperOptions();
-  options.loss = Loss::kHuber;
+  options.loss = RobustLoss::kHuber;
   const MonteCarlo result = RunScara(options, 300);
   result.Print("weak, default, Huber");
   EXPECT_LT(std::abs(result.bias_percent()[0]), .02);

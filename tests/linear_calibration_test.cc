@@ -69,10 +69,10 @@ class Ur5 : public testing::Test {
     const VectorXd clean =
         CalibrateLogs(robot_, {log_}, options_, with_rates).stddev;
     spoil();
-    options_.loss = Loss::kSquared;
+    options_.loss = RobustLoss::kSquared;
     const double squared =
         Normalised(CalibrateLogs(robot_, {log_}, options_, with_rates), clean);
-    options_.loss = Loss::kHuber;
+    options_.loss = RobustLoss::kHuber;
     const LinearCalibration robust =
         CalibrateLogs(robot_, {log_}, options_, with_rates);
     const double huber = Normalised(robust, clean);
@@ -119,7 +119,7 @@ TEST_F(Ur5, ExactDataByEveryModel) {
 
 TEST_F(Ur5, ErrorsAreAsLargeAsClaimed) {
   AddSensorNoise(.01);
-  for (const auto loss : {Loss::kHuber, Loss::kSquared}) {
+  for (const auto loss : {RobustLoss::kHuber, RobustLoss::kSquared}) {
     options_.loss = loss;
     const LinearCalibration result = CalibrateLogs(robot_, {log_}, options_);
     ASSERT_TRUE(result.solved) << result.reason;
@@ -164,17 +164,15 @@ TEST_F(Ur5, HuberResistsSingleSamplesInTheDifferentialModel) {
 }
 
 // Every window of the weak form holds some of these: they are taken out sample
-// by sample, before.
+// by sample, before. Squared leaves the data as they are.
 TEST_F(Ur5, WeakFormResistsScatteredSamples) {
   AddSensorNoise(.01);
   const VectorXd clean = CalibrateLogs(robot_, {log_}, options_).stddev;
   SpoilSamples(.05);
   const LinearCalibration spoiled = CalibrateLogs(robot_, {log_}, options_);
-  EXPECT_LT(Normalised(spoiled, clean), 2);  // over 100 without
-  for (int j = 0; j < 6; ++j) {
-    EXPECT_NEAR(spoiled.training->spikes(j), .05 * log_.size(),
-                .01 * log_.size());
-  }
+  EXPECT_LT(Normalised(spoiled, clean), 1.5);
+  options_.loss = RobustLoss::kSquared;
+  EXPECT_GT(Normalised(CalibrateLogs(robot_, {log_}, options_), clean), 100);
 }
 
 }  // namespace

@@ -57,5 +57,44 @@ TEST(RemoveSpikes, LeavesCleanSignalsAlone) {
   EXPECT_EQ(RemoveSpikes(&few).count(), 0);
 }
 
+// 5 % one-sided outliers of 20 deviations and a run of eleven, where the level
+// drifts by 50 and jumps by 30.
+TEST(FindOutlying, FindsRunsAndLeavesLevelsAlone) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal(0, 0.1);
+  Eigen::VectorXd clean(4000);
+  for (int k = 0; k < 4000; ++k) {
+    clean[k] = 5 * std::sin(5e-4 * k) + (k < 2000 ? 0 : 3) + normal(random);
+  }
+  Eigen::VectorXd x = clean;
+  Eigen::Array<bool, Eigen::Dynamic, 1> planted(4000);
+  for (int k = 0; k < 4000; ++k) planted[k] = random() % 20 == 0;
+  planted.segment(1000, 11) = true;
+  planted.head(2) = planted.tail(2) = true;
+  for (int k = 0; k < 4000; ++k) x[k] += planted[k] ? 2 : 0;
+  const Outlying found = FindOutlying(x, 15, 0);
+  EXPECT_TRUE((found.marked == planted).all())
+      << (found.marked != planted).count();
+  // The level has no part in them: |normal| has mean .8 deviations.
+  EXPECT_NEAR((found.level - clean).cwiseAbs().mean(), .08, .005);
+}
+
+TEST(FindOutlying, DeviationAndLeastSize) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal(0, 0.1);
+  Eigen::VectorXd x(20000);
+  for (double& v : x) v = normal(random);
+  const Outlying clean = FindOutlying(x, 15, 0);
+  EXPECT_EQ(clean.marked.count(), 0);
+  EXPECT_NEAR(clean.deviation, .1, .005);
+  x[500] += 2;
+  EXPECT_EQ(FindOutlying(x, 15, 0).marked.count(), 1);
+  EXPECT_EQ(FindOutlying(x, 15, 1).marked.count(), 1);
+  EXPECT_EQ(FindOutlying(x, 15, 3).marked.count(), 0);
+  x.setConstant(7);
+  EXPECT_EQ(FindOutlying(x, 15, 0).marked.count(), 0);
+  EXPECT_EQ(FindOutlying(Eigen::VectorXd::Random(5), 15, 0).marked.count(), 0);
+}
+
 }  // namespace
 }  // namespace armcal

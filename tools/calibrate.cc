@@ -11,6 +11,8 @@
 #include "calib/linear_calibration.h"
 #include "calib/nonlinear_calibration.h"
 #include "calib/nonlinear_report.h"
+#include "calib/outlier_report.h"
+#include "calib/verdict.h"
 #include "model/input_text.h"
 #include "model/urdf_writer.h"
 #include "tools/calibrate_payload.h"
@@ -32,7 +34,6 @@ DEFINE_string(identification, "weak",
 DEFINE_string(solver, "weighted",
               "weighted (noise of every joint re-estimated), batch (2.25), "
               "recursive (2.28)");
-DEFINE_string(loss, "huber", "of the weighted solver: huber, squared");
 DEFINE_string(joint_terms, "viscous,coulomb,offset,armature",
               "what joints add to the rigid arm, or none");
 DEFINE_string(coulomb_width, "auto",
@@ -125,9 +126,7 @@ LinearCalibrationOptions OptionsFromFlags(const Robot& robot) {
                                 {{"weighted", LinearSolver::kWeighted},
                                  {"batch", LinearSolver::kBatch},
                                  {"recursive", LinearSolver::kRecursive}});
-  options.loss =
-      ParseChoice<Loss>("loss", FLAGS_loss,
-                        {{"huber", Loss::kHuber}, {"squared", Loss::kSquared}});
+  options.loss = LossFromFlags();
   options.quadrature =
       ParseChoice<Quadrature>("quadrature", FLAGS_quadrature,
                               {{"trapezoid", Quadrature::kTrapezoid},
@@ -243,12 +242,13 @@ int RunCalibrate() {
   }
   out.Add("calibration.json", json.dump(2) + "\n");
   out.Add("covariance.csv", CovarianceCsv(result));
+  out.Add("outliers.csv", OutlierCsv(robot, training));
   out.Write();
   for (const std::string& note : robot.notes) {
     std::cout << "note       " << note << "\n";
   }
   std::cout << report;
-  return result.solved ? kExitOk : kExitNegative;
+  return Shortcomings(robot, result).empty() ? kExitOk : kExitNegative;
 }
 
 std::vector<std::string> FlagNames() {

@@ -6,6 +6,7 @@
 
 #include "calib/pose_calibration.h"
 #include "calib/pose_report.h"
+#include "calib/verdict.h"
 #include "model/pose_reader.h"
 #include "model/urdf_writer.h"
 #include "tools/command.h"
@@ -13,7 +14,6 @@
 #include "tools/output_folder.h"
 
 DECLARE_string(geometry);
-DECLARE_string(loss);
 
 DEFINE_string(poses, "",
               "CSV of measured poses: q1.. with x1 y1 z1 [x2 ..] (targets), "
@@ -28,11 +28,7 @@ int CalibratePosesFromFlags(const Robot& robot) {
                                        {{"known", Refine::kNothing},
                                         {"offsets", Refine::kOffsets},
                                         {"refine", Refine::kAll}});
-  options.loss = ParseChoice<RobustLoss>("loss", FLAGS_loss,
-                                         {{"huber", RobustLoss::kHuber},
-                                          {"cauchy", RobustLoss::kCauchy},
-                                          {"tukey", RobustLoss::kTukey},
-                                          {"squared", RobustLoss::kSquared}});
+  options.loss = LossFromFlags().value_or(options.loss);
   const PoseMeasurements measured = ReadPoses(FLAGS_poses, robot.JointNames());
   const PoseCalibration result = CalibratePoses(robot, measured, options);
   OutputFolder out(OutFromFlags());
@@ -44,7 +40,7 @@ int CalibratePosesFromFlags(const Robot& robot) {
   }
   out.Write();
   std::cout << PoseReport(robot, measured, result);
-  return result.solved ? kExitOk : kExitNegative;
+  return Shortcomings(robot, result).empty() ? kExitOk : kExitNegative;
 }
 
 }  // namespace armcal

@@ -31,6 +31,10 @@ DEFINE_string(crop, "",
               "(standstill is left out by itself)");
 DEFINE_string(validate_crop, "",
               "use only t0:t1 of the logs held out; default: all");
+DEFINE_string(loss, "auto",
+              "what large residuals count: auto (huber for torques, tukey for "
+              "poses), huber, cauchy, tukey, squared (all alike, and no gross "
+              "error is taken out of the torque)");
 DEFINE_string(out, "", "folder for the result files; default: write none");
 
 namespace armcal {
@@ -213,6 +217,16 @@ std::optional<double> BandwidthFromFlags() {
                      "', expected a frequency in Hz, or 0");
   }
   return hz;
+}
+
+std::optional<RobustLoss> LossFromFlags() {
+  return ParseChoice<std::optional<RobustLoss>>(
+      "loss", FLAGS_loss,
+      {{"auto", std::nullopt},
+       {"huber", RobustLoss::kHuber},
+       {"cauchy", RobustLoss::kCauchy},
+       {"tukey", RobustLoss::kTukey},
+       {"squared", RobustLoss::kSquared}});
 }
 
 std::string OutFromFlags() { return FLAGS_out; }

@@ -7,6 +7,7 @@
 #include "model/log_reader.h"
 #include "model/robot.h"
 #include "model/time_base.h"
+#include "problems/robust_loss.h"
 
 namespace armcal {
 
@@ -26,6 +27,8 @@ TimeRange ValidationCropFromFlags();                 // --validate_crop
 void CheckLogsApart();
 std::optional<double> BandwidthFromFlags();  // --bandwidth
 std::string OutFromFlags();                  // --out
+// --loss; nothing: what suits the measurement.
+std::optional<RobustLoss> LossFromFlags();
 
 // "1,2.5" and "0:0.5,1:1.5"; `flag` names the flag in the message.
 std::vector<double> ParseNumbers(const std::string& flag,

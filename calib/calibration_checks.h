@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "calib/log_factors.h"
+#include "calib/log_set.h"
+#include "model/model_parameters.h"
+#include "problems/identification_rows.h"
+
+namespace armcal {
+
+// Whether options fit the logs; InputError says what would.
+void CheckBandwidth(const std::optional<double>& given, const LogSet& training);
+void CheckIntervals(const RowOptions& rows, const LogSet& training,
+                    long equations);
+
+// Why the equations of the logs can have no solution; empty if they can.
+std::string WhyNothingToSolve(const LogFactors& factors,
+                              const ModelParameters& parameters);
+
+}  // namespace armcal

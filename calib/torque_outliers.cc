@@ -1,0 +1,79 @@
+#include "calib/torque_outliers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/sample_residuals.h"
+#include "model/spikes.h"
+#include "problems/identification_rows.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kReach = 15;
+// A jump of the residual is an error of the sample only where the torque makes
+// it, not the prediction.
+constexpr double kLeastJump = 0.5;
+constexpr double kLeastShare = 0.01;  // of the torque's rms
+
+// Adds those of one joint in the trajectory's core.
+void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
+           std::vector<TorqueOutlier>* list) {
+  const TorqueSamples& s = t.samples;
+  const VectorXd tau = s.tau.col(joint);
+  const double rms = tau.norm() / std::sqrt(std::max<double>(1, tau.size()));
+  const VectorXd residual = residuals.col(joint);
+  const double least = kLeastShare * rms;
+  const Outlying found = FindOutlying(residual, kReach, least);
+  for (int k = 0; k < s.size(); ++k) {
+    const bool in_core = s.place[k] >= t.core_begin && s.place[k] < t.core_end;
+    if (!in_core || !found.marked[k]) continue;
+    const double size = residual[k] - found.level[k];
+    const double jump = tau[k] - Bridge(tau, k, found.marked);
+    if (jump / size < kLeastJump) continue;
+    list->push_back({s.row[k], s.t[k], joint, tau[k], tau[k] - residual[k],
+                     size / std::max(found.deviation, least / 8)});
+  }
+}
+
+}  // namespace
+
+OutlierLists FindTorqueOutliers(const ModelParameters& parameters,
+                                const VectorXd& x, const Progress& progress,
+                                LogSet* logs) {
+  OutlierLists lists(logs->size());
+  std::vector<MotionRegressor> regressors(logs->size(),
+                                          MotionRegressor(parameters));
+  logs->ForEachAtFullRate(
+      "outliers", progress, [&](int log, const Trajectory& t) {
+        const MatrixXd residuals = SampleResiduals(t, x, &regressors[log]);
+        for (int i = 0; i < t.num_joints(); ++i) {
+          Judge(t, residuals, i, &lists[log]);
+        }
+      });
+  for (std::vector<TorqueOutlier>& list : lists) {
+    std::sort(list.begin(), list.end(),
+              [](const TorqueOutlier& a, const TorqueOutlier& b) {
+                return a.row != b.row ? a.row < b.row : a.joint < b.joint;
+              });
+  }
+  return lists;
+}
+
+bool SameSamples(const OutlierLists& a, const OutlierLists& b) {
+  if (a.size() != b.size()) return false;
+  for (size_t log = 0; log < a.size(); ++log) {
+    const bool same =
+        std::equal(a[log].begin(), a[log].end(), b[log].begin(), b[log].end(),
+                   [](const TorqueOutlier& p, const TorqueOutlier& q) {
+                     return p.row == q.row && p.joint == q.joint;
+                   });
+    if (!same) return false;
+  }
+  return true;
+}
+
+}  // namespace armcal

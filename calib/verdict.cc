@@ -1,0 +1,113 @@
+#include "calib/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "model/joint.h"
+
+namespace armcal {
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+// A joint that travels less shows nothing but noise and play, rad or m.
+constexpr double kLeastTravel = 2e-3;
+// Shares of what was measured that a fit must not leave: of all joints' torque,
+// of one joint's (where others can be right), and of poses' extent.
+constexpr double kMostResidual = 70;  // %: half of the mean square
+constexpr double kMostOfOneJoint = 90;
+constexpr double kMostDeviation = 0.1;
+
+std::string Number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", x);
+  return text;
+}
+
+void AddUnmoved(const Robot& robot, const Eigen::VectorXd& travel,
+                const std::string& what, Sentences* sentences) {
+  for (int i = 0; i < travel.size(); ++i) {
+    if (travel[i] >= kLeastTravel) continue;
+    const Joint& joint = robot.links[i].joint;
+    sentences->push_back(joint.name + " never moves (by " + Number(travel[i]) +
+                         " " + PositionUnit(joint.type) + " at most): " + what);
+  }
+}
+
+bool IsUnpowered(const LinearCalibration& result, int joint) {
+  return std::any_of(result.unpowered.begin(), result.unpowered.end(),
+                     [joint](const auto& u) { return u.joint == joint; });
+}
+
+void AddUnexplained(const Robot& robot, const LinearCalibration& result,
+                    Sentences* sentences) {
+  const auto figures = result.training->moving();
+  if (figures.stacked_percent > kMostResidual) {
+    sentences->push_back("the model leaves " + Number(figures.stacked_percent) +
+                         " % of the torque unexplained: torque and motion do "
+                         "not belong together");
+    return;
+  }
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    if (!(figures.percent[i] > kMostOfOneJoint)) continue;
+    if (IsUnpowered(result, i)) continue;
+    sentences->push_back("the model leaves " + Number(figures.percent[i]) +
+                         " % of the torque of " + robot.links[i].joint.name +
+                         " unexplained");
+  }
+}
+
+}  // namespace
+
+Sentences Shortcomings(const Robot& robot, const LinearCalibration& result) {
+  if (!result.solved) return {result.reason};
+  const Identifiability& id = result.identifiability;
+  Sentences sentences;
+  if (id.batch_rank == 0) {
+    return {"none of the " + std::to_string(id.total) +
+            " parameters shows in this motion"};
+  }
+  if (id.batch_rank < id.total) {
+    AddUnmoved(robot, result.travel, "what only its motion shows is unknown",
+               &sentences);
+  }
+  AddUnexplained(robot, result, &sentences);
+  return sentences;
+}
+
+Sentences Shortcomings(const Robot& robot, const PoseCalibration& result) {
+  if (!result.solved) return {result.reason};
+  Sentences sentences;
+  if (result.refined) {
+    AddUnmoved(robot, result.travel, "its geometry is not determined",
+               &sentences);
+  }
+  const double deviation = std::max(result.median, result.held_out_median);
+  if (deviation > kMostDeviation * result.extent) {
+    sentences.push_back("the poses do not follow the joints: they deviate by " +
+                        Number(1e3 * deviation) +
+                        " mm (median) of an extent of " +
+                        Number(1e3 * result.extent) + " mm");
+  }
+  if (2 * static_cast<int>(result.outliers.size()) > result.count) {
+    sentences.push_back(std::to_string(result.outliers.size()) + " of " +
+                        std::to_string(result.count) +
+                        " poses are outliers to the others");
+  }
+  return sentences;
+}
+
+nlohmann::json VerdictJson(const Sentences& shortcomings) {
+  return {{"passed", shortcomings.empty()}, {"reasons", shortcomings}};
+}
+
+std::string VerdictText(const Sentences& shortcomings) {
+  std::string text;
+  for (const std::string& sentence : shortcomings) {
+    text += "failed     " + sentence + "\n";
+  }
+  return text;
+}
+
+}  // namespace armcal

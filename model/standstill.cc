@@ -1,0 +1,49 @@
+#include "model/standstill.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+namespace {
+
+constexpr double kStandstillSpeed = 1e-3;  // rad/s or m/s
+
+}  // namespace
+
+Eigen::MatrixXd MeanVelocity(const Eigen::MatrixXd& q, double dt) {
+  const Eigen::Index n = q.rows();
+  const Eigen::Index half = std::max<Eigen::Index>(
+      1, static_cast<Eigen::Index>(std::lround(kStandstillMeanTime / 2 / dt)));
+  Eigen::MatrixXd v(n, q.cols());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::Index a = std::max<Eigen::Index>(0, k - half);
+    const Eigen::Index b = std::min(n - 1, k + half);
+    v.row(k) = (q.row(b) - q.row(a)) /
+               (dt * static_cast<double>(std::max<Eigen::Index>(1, b - a)));
+  }
+  return v;
+}
+
+Eigen::Array<bool, Eigen::Dynamic, 1> FindStandstill(
+    const Eigen::MatrixXd& velocity, double dt, int reach) {
+  const int n = static_cast<int>(velocity.rows());
+  const int least =
+      std::max(1, static_cast<int>(std::ceil(kStandstillTime / dt - 1e-9)));
+  Eigen::Array<bool, Eigen::Dynamic, 1> standstill =
+      Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, false);
+  int begin = 0;
+  for (int k = 0; k <= n; ++k) {
+    const bool still =
+        k < n && velocity.row(k).cwiseAbs().maxCoeff() < kStandstillSpeed;
+    if (still) continue;
+    const int first = begin == 0 ? 0 : std::max(0, begin - reach);
+    const int last = std::min(n, k + reach);
+    if (k > begin && last - first >= least) {
+      standstill.segment(first, last - first) = true;
+    }
+    begin = k + 1;
+  }
+  return standstill;
+}
+
+}  // namespace armcal

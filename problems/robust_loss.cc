@@ -1,0 +1,65 @@
+#include "problems/robust_loss.h"
+
+#include <glog/logging.h>
+
+namespace armcal {
+namespace {
+
+// rho(s) with s = r^2 has psi = r rho', hence psi' = rho' + 2 s rho''.
+LossAt FromCeres(const ceres::LossFunction& loss, double r) {
+  double rho[3];
+  loss.Evaluate(r * r, rho);
+  return {rho[1], rho[1] + 2 * r * r * rho[2]};
+}
+
+}  // namespace
+
+double LossScale(RobustLoss loss, int coordinates) {
+  const int column = coordinates == 1 ? 0 : coordinates == 3 ? 1 : 2;
+  CHECK(column < 2 || coordinates == 6) << coordinates;
+  constexpr double kHuber[] = {1.345, 1.628, 1.869};
+  constexpr double kCauchy[] = {2.385, 2.666, 2.862};
+  constexpr double kTukey[] = {4.685, 5.490, 6.356};
+  switch (loss) {
+    case RobustLoss::kSquared:
+      return 0;
+    case RobustLoss::kHuber:
+      return kHuber[column];
+    case RobustLoss::kCauchy:
+      return kCauchy[column];
+    case RobustLoss::kTukey:
+      return kTukey[column];
+  }
+  return 0;
+}
+
+ceres::LossFunction* MakeLoss(RobustLoss loss, int coordinates) {
+  const double scale = LossScale(loss, coordinates);
+  switch (loss) {
+    case RobustLoss::kSquared:
+      return nullptr;
+    case RobustLoss::kHuber:
+      return new ceres::HuberLoss(scale);
+    case RobustLoss::kCauchy:
+      return new ceres::CauchyLoss(scale);
+    case RobustLoss::kTukey:
+      return new ceres::TukeyLoss(scale);
+  }
+  return nullptr;
+}
+
+LossAt EvaluateLoss(RobustLoss loss, double r) {
+  switch (loss) {
+    case RobustLoss::kSquared:
+      return {1, 1};
+    case RobustLoss::kHuber:
+      return FromCeres(ceres::HuberLoss(LossScale(loss)), r);
+    case RobustLoss::kCauchy:
+      return FromCeres(ceres::CauchyLoss(LossScale(loss)), r);
+    case RobustLoss::kTukey:
+      return FromCeres(ceres::TukeyLoss(LossScale(loss)), r);
+  }
+  return {1, 1};
+}
+
+}  // namespace armcal
