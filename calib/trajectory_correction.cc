@@ -195,7 +195,9 @@ bool TrajectoryCorrection::Fit(const VectorXd& x, const TrajectoryNoise& noise,
                                TorqueWeighting weighting, int steps) {
   x_ = x;
   noise_ = noise;
-  weighting_ = weighting;
+  // The first step by squares: where positions alone say little, at the ends,
+  // Huber's weights would take what they leave for outliers.
+  weighting_ = steps > 0 ? TorqueWeighting::kSquared : weighting;
   T_.resize(size());
   for (int k = 0; steps > 0 && k < size(); ++k) {
     sensitivity_.Differentiate(sample(k), x, &T_[k]);
@@ -212,6 +214,7 @@ bool TrajectoryCorrection::Fit(const VectorXd& x, const TrajectoryNoise& noise,
                                               num_joints())
                    .topRows(points_.rows());
     FollowSpline();
+    weighting_ = weighting;
     Weigh();
   }
   return true;
