@@ -52,6 +52,9 @@ json JointsJson(const Robot& robot, const LinearCalibration& result) {
     if (result.validation) {
       SetJointFigures(*result.validation, "validation_", i, &entry);
     }
+    if (result.encoder_noise.size() > 0) {
+      entry["encoder_noise_stddev"] = JsonNumber(result.encoder_noise[i]);
+    }
     if (!result.outliers.empty()) entry["outliers"] = result.outliers[i];
     if (result.training) entry["spikes"] = result.training->spikes(i);
     if (!result.transitions.empty()) {
@@ -146,6 +149,8 @@ json ToJson(const Robot& robot, const LogSet& training,
               {"robot", robot.name},
               {"estimate", "linear"},
               {"solver", SolverName(result.solver)},
+              {"trajectory",
+               result.encoder_noise.size() > 0 ? "corrected" : "measured"},
               {"bandwidth_hz", result.rows.bandwidth_hz},
               {"logs", LogsJson(training)},
               {"torque", training.torque_source()},

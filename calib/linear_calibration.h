@@ -67,6 +67,8 @@ struct LinearCalibration {
   int rows_per_window = 1;
   std::vector<bool> identifiable;
   Eigen::VectorXd noise;  // per joint, of the equations: N m, N (N m s, N s)
+  // Per joint, rad or m, where trajectories were corrected; else empty.
+  Eigen::VectorXd encoder_noise;
   Identifiability identifiability;
   std::vector<RecoveredLength> lengths;
 

@@ -12,29 +12,21 @@ namespace armcal {
 // A linear calibration made better by maximum likelihood, in which recorded
 // positions are as uncertain as recorded torques.
 struct TrajectoryRefinement {
-  explicit TrajectoryRefinement(const LinearCalibration& start)
-      : calibration(start) {}
-
-  // Refined where `refined`, else the start. `noise` is that of single torque
-  // samples, `outliers` counts samples.
+  // The refined one, its `noise` that of single torque samples, its `outliers`
+  // counted in samples; or the start, where `refined` is false.
   LinearCalibration calibration;
   bool refined = false;
   bool converged = false;
-  std::string reason;  // why it stopped, or why it was refused
-  int passes = 0;
-  double knot_s = 0;              // of the splines
-  Eigen::VectorXd encoder_noise;  // per joint, of single samples, rad or m
-  // How much larger than white noise the torque residuals are in the long run:
-  // their variance over blocks of a quarter second over that of white noise.
-  double whiteness = 1;
+  std::string reason;  // why it stopped, or why it could not be done
+  double knot_s = 0;   // of the splines
 };
 
-// From the solution `start` of CalibrateLinear, for the same logs and options:
-// Gauss-Newton over the parameters, the transition widths of Coulomb friction
-// (where fitted) and splines of all motions (TrajectoryCorrection), with noise
-// re-estimated on the way; Huber's loss on torques where the options say so.
-// Standard deviations are those of independent samples; where residuals are
-// autocorrelated, at least those of the scores' long-run covariance.
+// From the solution `start` of CalibrateLinear (weighted, weak rows) for the
+// same logs and options: Gauss-Newton over the parameters, the transition
+// widths of Coulomb friction where they were fitted, and splines of all motions
+// with knots half a period of the bandwidth apart (TrajectoryCorrection). Noise
+// is re-estimated on the way; torques count by Huber's loss where the options
+// say so. What the start could not see stays as it is.
 TrajectoryRefinement RefineTrajectories(const Robot& robot,
                                         const LinearCalibrationOptions& options,
                                         const LinearCalibration& start,

@@ -112,8 +112,8 @@ TEST_P(Accuracy, Report) {
     if (!run) first.push_back(ml);
     time_ml += double(std::clock() - t0) / CLOCKS_PER_SEC;
     ASSERT_TRUE(ml.refined) << ml.reason;
-    passes += ml.passes; white += ml.calibration.covariance_method[0] == 'i';
-    sq += ml.encoder_noise; st += ml.calibration.noise.cwiseQuotient(sigma);
+    passes += (ml.calibration.passes - linear.passes); white += ml.calibration.covariance_method[0] == 'i';
+    sq += ml.calibration.encoder_noise; st += ml.calibration.noise.cwiseQuotient(sigma);
     if (run == 0) {
       knots = ml.knot_s;
       TrajectoryCorrection truth(parameters, knots);
