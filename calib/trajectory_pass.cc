@@ -18,8 +18,6 @@ using Eigen::VectorXd;
 constexpr double kLogWidthPrior = 1;
 constexpr double kLeastNoise = 1e-12;        // rad or m, N m or N
 constexpr double kHuberMeanSquare = 0.7102;  // of psi, for normal errors
-// d log of it / d log of the errors' size, halved.
-constexpr double kHuberResponse = 0.545;
 
 TrajectoryNoise NoiseOf(const TrajectoryEstimate& estimate, int log) {
   TrajectoryNoise noise = estimate.noise;
@@ -124,9 +122,12 @@ double UpdateTrajectoryNoise(const TrajectoryEquations& equations, bool huber,
   ArrayXd torque = NoiseFactor(sums, spent, huber ? kHuberMeanSquare : 1);
   for (int j = 0; j < torque.size(); ++j) {
     if (estimate->frozen[j] || sums.count[j] == 0) torque[j] = 1;
-    // Newton's step, where it is safe.
-    const bool near = huber && std::abs(std::log(torque[j])) < 0.3;
-    if (near) torque[j] = std::pow(torque[j], 1 / kHuberResponse);
+    if (!huber || sums.squares[j] == 0) continue;
+    // Newton's step: of psi's squares only those inside grow with the errors.
+    const double outside = std::pow(Huber::kThreshold, 2) *
+                           (sums.count[j] - sums.slope[j]) / sums.squares[j];
+    if (std::abs(std::log(torque[j])) > 0.3) continue;
+    torque[j] = std::pow(torque[j], 1 / std::max(0.4, 1 - outside));
   }
   TrajectoryNoise& noise = estimate->noise;
   noise.encoder = (noise.encoder * encoder).max(kLeastNoise);

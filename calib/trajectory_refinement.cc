@@ -83,7 +83,7 @@ class Refinement {
   TrajectoryEstimate estimate_;
   MatrixXd seen_;
   std::vector<CoulombTransition> transitions_ = start_.transitions;
-  VectorXd outliers_, samples_;
+  VectorXd outliers_;
 };
 
 // The largest move, in standard deviations.
@@ -128,7 +128,7 @@ bool Refinement::Run() {
       return false;
     }
     outliers_ = equations.torque.outliers;
-    samples_ = equations.torque.count;
+    if (std::getenv("TRACE")) { std::fprintf(stderr, "pass %d moved %.3g changed %.3g |", k, moved, changed); for (double v : estimate_.log_width) std::fprintf(stderr, " %.3f", v); std::fprintf(stderr, "\n"); }
     result_->converged = moved < kSettledMove && changed < kSettledNoise;
   }
   result_->reason =
@@ -152,7 +152,6 @@ void Refinement::Report() {
   }
   c.noise = estimate_.noise.torque;
   c.encoder_noise = estimate_.noise.encoder;
-  c.equations = std::lround(samples_.maxCoeff());
   c.outliers.clear();
   for (const double o : outliers_) c.outliers.push_back(std::lround(o));
   c.passes += pass_.passes();

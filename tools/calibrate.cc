@@ -13,6 +13,7 @@
 #include "model/input_text.h"
 #include "model/urdf_writer.h"
 #include "tools/calibrate_poses.h"
+#include "tools/correct_trajectories.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
@@ -217,6 +218,7 @@ int RunCalibrate() {
   const bool is_refined = IsRefinedFromFlags();
   NonlinearCalibrationOptions refine;
   refine.trust.inertia = TrustFromFlags();
+  CheckTrajectoryFlag(options);
   const LogReaderOptions log_options = LogOptionsFromFlags(robot);
   CheckLogsApart();
   const TimeRange crop = CropFromFlags();
@@ -230,11 +232,12 @@ int RunCalibrate() {
     bar.Show(stage, fraction);
   };
   refine.progress = options.progress;
-  const LinearCalibration result =
+  LinearCalibration result =
       CalibrateLinear(robot, options, &training, held_out);
-
+  const std::string corrected =
+      CorrectTrajectories(robot, options, &training, held_out, &result);
   nlohmann::json json = ToJson(robot, training, held_out, result);
-  std::string report = FullReport(robot, training, result);
+  std::string report = FullReport(robot, training, result) + corrected;
   OutputFolder out(OutFromFlags());
   if (is_refined && result.solved) {
     const std::string why_not = WhyNotRefined(robot, options);
@@ -260,7 +263,7 @@ std::vector<std::string> FlagNames() {
   for (const char* name :
        {"geometry", "identification", "solver", "loss", "joint_terms",
         "coulomb_width", "window", "intervals", "interval", "quadrature",
-        "estimate", "trust", "poses"}) {
+        "estimate", "trust", "trajectory", "poses"}) {
     names.push_back(name);
   }
   return names;
