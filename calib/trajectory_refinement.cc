@@ -128,7 +128,6 @@ bool Refinement::Run() {
       return false;
     }
     outliers_ = equations.torque.outliers;
-    if (std::getenv("TRACE")) { std::fprintf(stderr, "pass %d moved %.3g changed %.3g |", k, moved, changed); for (double v : estimate_.log_width) std::fprintf(stderr, " %.3f", v); std::fprintf(stderr, "\n"); }
     result_->converged = moved < kSettledMove && changed < kSettledNoise;
   }
   result_->reason =
