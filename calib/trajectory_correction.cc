@@ -24,21 +24,6 @@ int NumBlocks(const TrajectorySpline& spline) {
 
 }  // namespace
 
-NoiseSums::NoiseSums(int num_joints)
-    : count(ArrayXd::Zero(num_joints)),
-      fitted(count),
-      squares(count),
-      slope(count),
-      outliers(count) {}
-
-void NoiseSums::Add(const NoiseSums& other) {
-  count += other.count;
-  fitted += other.fitted;
-  squares += other.squares;
-  slope += other.slope;
-  outliers += other.outliers;
-}
-
 TrajectoryCorrection::TrajectoryCorrection(const ModelParameters& parameters,
                                            double knot_s)
     : sensitivity_(parameters),

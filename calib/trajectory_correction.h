@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/block_tridiagonal_factor.h"
+#include "calib/noise_sums.h"
 #include "model/model_parameters.h"
 #include "model/trajectory.h"
 #include "problems/torque_sensitivity.h"
@@ -26,18 +27,6 @@ struct TrajectoryNoise {
   Eigen::ArrayXd torque;   // N m or N; infinite: left out
   // Of Huber's psi, for kLinearised.
   Eigen::ArrayXd mean_slope, mean_square;
-};
-
-// What residuals of one kind, in units of their noise, say about it; per joint.
-struct NoiseSums {
-  explicit NoiseSums(int num_joints);
-  void Add(const NoiseSums& other);
-
-  Eigen::ArrayXd count;
-  Eigen::ArrayXd fitted;   // degrees of freedom that the spline took
-  Eigen::ArrayXd squares;  // of psi
-  Eigen::ArrayXd slope;    // of psi'
-  Eigen::ArrayXd outliers;
 };
 
 // Maximum likelihood of one stretch of motion: its true positions are a spline

@@ -26,7 +26,7 @@ VectorXd LongRunFactor(const TrajectoryEstimate& estimate,
                [&](int, TrajectoryCorrection* stretch) {
                  scores.Break();
                  stretch->ForEachScore([&](const VectorXd& score) {
-                   scores.Add(score.head(estimate.size()));
+                   scores.Add({score.head(estimate.size()), {}, {}});
                  });
                });
   const MatrixXd long_run = covariance * scores.Value() * covariance;

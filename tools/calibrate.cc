@@ -226,7 +226,6 @@ int RunCalibrate() {
   LogSet validation(ValidationLogsFromFlags(), log_options,
                     ValidationCropFromFlags());
   LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
-
   ProgressBar bar;
   options.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
