@@ -62,6 +62,9 @@ json JointsJson(const Robot& robot, const LogSet& training,
       entry["sample_noise_stddev"] = JsonNumber(noise.stddev);
       entry["noise_source"] = NoiseSourceName(noise.source);
     }
+    if (result.encoder_noise.size() > 0) {
+      entry["encoder_noise_stddev"] = JsonNumber(result.encoder_noise[i]);
+    }
     if (!result.outliers.empty()) entry["outliers"] = result.outliers[i];
     entry["spikes"] = CountOutliers(training, i);
     if (!result.transitions.empty()) {
@@ -156,6 +159,8 @@ json ToJson(const Robot& robot, const LogSet& training,
               {"robot", robot.name},
               {"estimate", "linear"},
               {"solver", SolverName(result.solver)},
+              {"trajectory",
+               result.encoder_noise.size() > 0 ? "corrected" : "measured"},
               {"bandwidth_hz", result.rows.bandwidth_hz},
               {"logs", LogsJson(training)},
               {"torque", training.torque_source()},

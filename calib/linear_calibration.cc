@@ -123,9 +123,11 @@ void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
   result->x = solution.x;
   result->identifiable = solution.identifiable;
   if (!result->solved) return;
-  // Too few to tell outliers from what the parameters do not fit, or how
-  // errors follow each other.
-  const bool few = result->equations < 2 * result->parameters.size();
+  // Too few to tell outliers from what the parameters do not fit; or, all
+  // joints together, how errors follow each other.
+  const int m = result->parameters.size();
+  const bool few = result->equations < 2 * m;
+  const bool scarce = result->equations * robot.num_joints() < 4 * m;
   if (options.solver == LinearSolver::kWeighted && !few) {
     result->loss = options.loss.value_or(RobustLoss::kHuber);
   }
@@ -140,7 +142,7 @@ void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
   }
   result->independent_covariance =
       solution.IndependentCovariance(factor, result->noise);
-  if (few) {
+  if (scarce) {
     SetCovariance(
         {result->independent_covariance, "independent errors (few equations)"},
         result);

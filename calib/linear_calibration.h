@@ -69,6 +69,8 @@ struct LinearCalibration {
   std::vector<bool> identifiable;
   Eigen::VectorXd noise;  // per joint, of the equations: N m, N (N m s, N s)
   std::vector<SampleNoise> sample_noise;  // per joint, if solved
+  // Per joint, rad or m, where trajectories were corrected; else empty.
+  Eigen::VectorXd encoder_noise;
   Identifiability identifiability;
   std::vector<RecoveredLength> lengths;
 

@@ -40,7 +40,7 @@ auto ChooseFrom(const Screening& screening, TorqueScale scale, Choose choose) {
 Transitions Refine(const Robot& robot, const LinearCalibrationOptions& options,
                    const RowOptions& rows,
                    const std::vector<CoulombTransition>& about,
-                   LogSet* training) {
+                   TorqueScale scale, LogSet* training) {
   Transitions finer;
   for (const CoulombTransition& t : about) finer.push_back(FinerTransitions(t));
   const Screening fine(robot, options, rows, finer, training);

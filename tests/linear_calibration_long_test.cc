@@ -4,64 +4,13 @@
 #include <cstdio>
 
 #include "tests/calibrate_logs.h"
+#include "tests/monte_carlo.h"
 #include "tests/sample_robots.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::VectorXd;
-
-// Errors over many runs of a calibration.
-struct MonteCarlo {
-  explicit MonteCarlo(const VectorXd& X_in)
-      : X(X_in),
-        sum(VectorXd::Zero(X.size())),
-        squares(sum),
-        claimed(sum),
-        covered(sum) {}
-  void Add(const LinearCalibration& result) {
-    ASSERT_TRUE(result.solved) << result.reason;
-    const VectorXd error = result.x - X;
-    sum += error;
-    squares += error.cwiseAbs2();
-    claimed += result.stddev;
-    for (int k = 0; k < X.size(); ++k) {
-      covered[k] += std::abs(error[k]) < 1.96 * result.stddev[k];
-    }
-    ++runs;
-  }
-  VectorXd bias() const { return sum / runs; }
-  VectorXd stddev() const {
-    return ((squares / runs - bias().cwiseAbs2()) * runs / (runs - 1))
-        .cwiseSqrt();
-  }
-  // Mean claimed standard deviation over the true one.
-  VectorXd honesty() const { return (claimed / runs).cwiseQuotient(stddev()); }
-  VectorXd bias_percent() const {
-    return 100 * bias().cwiseQuotient(X.cwiseAbs());
-  }
-  VectorXd stddev_percent() const {
-    return 100 * stddev().cwiseQuotient(X.cwiseAbs());
-  }
-  double coverage() const { return 100 * covered.mean() / runs; }
-  void Print(const char* what) const {
-    std::printf("%s\n", what);
-    const auto line = [&](const char* name, const VectorXd& x) {
-      std::printf("  %-24s", name);
-      for (const double v : x) std::printf(" %9.4f", v);
-      std::printf("\n");
-    };
-    if (X.cwiseAbs().minCoeff() > 0) {
-      line("bias %", bias_percent());
-      line("stddev %", stddev_percent());
-    }
-    line("claimed / true stddev", honesty());
-    line("coverage %", 100 * covered / runs);
-  }
-
-  VectorXd X, sum, squares, claimed, covered;
-  double runs = 0;
-};
 
 Robot PaperScara() {
   Robot robot = SampleRobot("SCARA RRPR");

@@ -17,6 +17,7 @@
 #include "model/urdf_writer.h"
 #include "tools/calibrate_payload.h"
 #include "tools/calibrate_poses.h"
+#include "tools/correct_trajectories.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
@@ -209,6 +210,7 @@ int RunCalibrate() {
   const bool is_refined = IsRefinedFromFlags();
   NonlinearCalibrationOptions refine;
   refine.trust.inertia = TrustFromFlags();
+  CheckTrajectoryFlag(options);
   LogReaderOptions log_options = LogOptionsFromFlags(robot);
   CheckLogsApart();
   ProgressBar bar;
@@ -223,12 +225,13 @@ int RunCalibrate() {
   LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
 
   refine.progress = options.progress;
-  const LinearCalibration result =
+  LinearCalibration result =
       CalibrateLinear(robot, options, &training, held_out);
-
+  const std::string corrected =
+      CorrectTrajectories(robot, options, &training, held_out, &result);
   nlohmann::json json = ToJson(robot, training, held_out, result);
   std::string report = gains ? DriveGainsReport(*gains) : "";
-  report += FullReport(robot, training, result);
+  report += FullReport(robot, training, result) + corrected;
   if (gains) AddDriveGains(*gains, &json);
   OutputFolder out(OutFromFlags());
   if (is_refined && result.solved) {
@@ -256,7 +259,8 @@ std::vector<std::string> FlagNames() {
   for (const char* name :
        {"geometry", "identification", "solver", "loss", "joint_terms",
         "coulomb_width", "window", "intervals", "interval", "quadrature",
-        "estimate", "trust", "payload_mass", "payload_log", "poses"}) {
+        "estimate", "trust", "trajectory", "payload_mass", "payload_log",
+        "poses"}) {
     names.push_back(name);
   }
   return names;

@@ -1,0 +1,70 @@
+#include "tools/correct_trajectories.h"
+
+#include <gflags/gflags.h>
+
+#include <cstdio>
+
+#include "calib/trajectory_refinement.h"
+#include "tools/command.h"
+#include "tools/input_flags.h"
+
+DECLARE_string(estimate);
+
+DEFINE_string(trajectory, "measured",
+              "measured (recorded positions as they are, in weak rows), "
+              "corrected (maximum likelihood: splines through all motions, "
+              "fitted to positions and torques; for noisy encoders)");
+
+namespace armcal {
+
+namespace {
+
+bool IsAskedFor() {
+  return ParseChoice<bool>("trajectory", FLAGS_trajectory,
+                           {{"measured", false}, {"corrected", true}});
+}
+
+}  // namespace
+
+void CheckTrajectoryFlag(const LinearCalibrationOptions& options) {
+  if (!IsAskedFor()) return;
+  const auto expect = [](bool fits, const std::string& flag) {
+    if (fits) return;
+    throw UsageError("--trajectory: found 'corrected', expected " + flag +
+                     " with it");
+  };
+  expect(options.identification == Identification::kWeak,
+         "--identification=weak");
+  expect(options.solver == LinearSolver::kWeighted, "--solver=weighted");
+  const RobustLoss loss = options.loss.value_or(RobustLoss::kHuber);
+  expect(loss == RobustLoss::kHuber || loss == RobustLoss::kSquared,
+         "--loss=huber or squared");
+  expect(FLAGS_estimate != "refined", "--estimate=linear or auto");
+}
+
+std::string CorrectTrajectories(const Robot& robot,
+                                const LinearCalibrationOptions& options,
+                                LogSet* training, LogSet* validation,
+                                LinearCalibration* result) {
+  if (!IsAskedFor() || !result->solved) return "";
+  const TrajectoryRefinement refinement =
+      RefineTrajectories(robot, options, *result, training, validation);
+  *result = refinement.calibration;
+  if (!refinement.refined) {
+    return "trajectories not corrected: " + refinement.reason + "\n";
+  }
+  char text[100];
+  std::snprintf(
+      text, sizeof(text),
+      "trajectories corrected (splines with knots every %.0f ms; %s)\n"
+      "encoder noise  ",
+      1e3 * refinement.knot_s, refinement.reason.c_str());
+  std::string report = text;
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    std::snprintf(text, sizeof(text), " %.2g", result->encoder_noise[i]);
+    report += text;
+  }
+  return report + " rad (m)\n";
+}
+
+}  // namespace armcal
