@@ -202,6 +202,7 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
                                             fit.PoseInformation(values_))),
       &result);
   result.robot = unknowns_.Apply(values_);
+  result.refined_geometry = unknowns_.refines_geometry() || poses != nullptr;
   result.training = Evaluate(result.robot, training);
   if (validation != nullptr) {
     result.validation = Evaluate(result.robot, validation);

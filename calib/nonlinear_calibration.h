@@ -58,6 +58,7 @@ struct NonlinearCalibration {
   std::optional<TorqueResidual> training;
   std::optional<TorqueResidual> validation;
   std::optional<PoseFigures> poses;
+  bool refined_geometry = false;  // or the tool: robot's is not the file's
 };
 
 // Estimates links' inertial parameters (log-Cholesky, hence physically

@@ -9,26 +9,22 @@
 #include "calib/calibration_report.h"
 #include "calib/drive_gains_report.h"
 #include "calib/linear_calibration.h"
-#include "calib/nonlinear_calibration.h"
-#include "calib/nonlinear_report.h"
 #include "calib/outlier_report.h"
 #include "calib/verdict.h"
 #include "model/input_text.h"
-#include "model/urdf_writer.h"
 #include "tools/calibrate_payload.h"
 #include "tools/calibrate_poses.h"
+#include "tools/calibrate_refined.h"
 #include "tools/correct_trajectories.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
 
-DECLARE_string(poses);
-
 DEFINE_string(
     geometry, "known",
-    "lengths between the joint axes: known; lengths (those the robot "
-    "file declares unknown, or all that are not zero, are estimated); "
-    "all_lengths; with --poses: known, offsets (joint zeros), refine");
+    "known; lengths (between the joint axes: those the robot file declares "
+    "unknown, or all that are not zero, are estimated), all_lengths; offsets "
+    "(joint zeros are refined), refine (all of the file's geometry is)");
 DEFINE_string(identification, "weak",
               "weak (test functions, no acceleration), differential (2.19), "
               "integral (2.27)");
@@ -48,24 +44,19 @@ DEFINE_string(intervals, "",
               "integral model: t1:t2[,t3:t4...], s; default: side by side");
 DEFINE_double(interval, 0.5, "integral model: length of intervals, s");
 DEFINE_string(quadrature, "trapezoid", "integral model: trapezoid, simpson");
-DEFINE_string(estimate, "linear",
-              "refined (also a physically consistent robot file for "
-              "simulators), linear (model parameters only)");
-DEFINE_double(trust, 0.5,
-              "relative standard deviation of the robot file's inertial "
-              "parameters, which tie what the logs do not show");
 
 namespace armcal {
 namespace {
 
 GeometryKnowledge GeometryFromFlags(const Robot& robot) {
-  if (FLAGS_geometry != "lengths") {
-    return ParseChoice<GeometryKnowledge>(
-        "geometry", FLAGS_geometry,
-        {{"known", GeometryKnowledge::kKnown},
-         {"lengths", GeometryKnowledge::kNonzeroLengths},
-         {"all_lengths", GeometryKnowledge::kAllLengths}});
-  }
+  const auto knowledge = ParseChoice<GeometryKnowledge>(
+      "geometry", FLAGS_geometry,
+      {{"known", GeometryKnowledge::kKnown},
+       {"lengths", GeometryKnowledge::kNonzeroLengths},
+       {"all_lengths", GeometryKnowledge::kAllLengths},
+       {"offsets", GeometryKnowledge::kKnown},
+       {"refine", GeometryKnowledge::kKnown}});
+  if (knowledge != GeometryKnowledge::kNonzeroLengths) return knowledge;
   for (const Link& link : robot.links) {
     if (!link.unknown_lengths.empty()) {
       return GeometryKnowledge::kDeclaredLengths;
@@ -151,98 +142,70 @@ LinearCalibrationOptions OptionsFromFlags(const Robot& robot) {
   return options;
 }
 
-// Whether a robot for simulators is asked for, and how.
-bool IsRefinedFromFlags() {
-  return ParseChoice<bool>("estimate", FLAGS_estimate,
-                           {{"refined", true}, {"linear", false}});
+// What was measured and what is asked for.
+struct Task {
+  Robot robot;
+  LinearCalibrationOptions linear;
+  std::optional<Refinement> refinement;
+  LogReaderOptions logs;
+};
+
+Task TaskFromFlags() {
+  Task task;
+  task.robot = RobotFromFlags();
+  task.linear = OptionsFromFlags(task.robot);
+  CheckTrajectoryFlag(task.linear);
+  task.refinement = RefinementFromFlags(task.robot, task.linear);
+  task.logs = LogOptionsFromFlags(task.robot);
+  CheckLogsApart();
+  return task;
 }
 
-double TrustFromFlags() {
-  if (FLAGS_trust > 0 && std::isfinite(FLAGS_trust)) return FLAGS_trust;
-  throw UsageError("--trust: found '" + NumberText(FLAGS_trust) +
-                   "', expected a relative standard deviation above 0");
-}
-
-// Why a solved calibration cannot be refined; empty where it can.
-std::string WhyNotRefined(const Robot& robot,
-                          const LinearCalibrationOptions& options) {
-  if (options.identification != Identification::kWeak ||
-      options.geometry != GeometryKnowledge::kKnown) {
-    return "it takes the weak form and a known geometry";
+// Adds the robot for simulators to the outputs. False where one was asked for
+// and there is none.
+bool Refine(const Task& task, const LinearCalibration& linear, LogSet* training,
+            LogSet* held_out, nlohmann::json* json, std::string* report,
+            OutputFolder* out) {
+  if (!task.refinement || !linear.solved) return true;
+  const Refinement& refinement = *task.refinement;
+  if (!refinement.why_not.empty()) {
+    *report += "no robot file: " + refinement.why_not + "\n";
+    return !refinement.asked_for;
   }
-  for (const Link& link : robot.links) {
-    if (link.inertial.mass > 0) continue;
-    return "the robot file gives link " + link.name + " no mass to start from";
-  }
-  return "";
-}
-
-void AddRobotFiles(const std::string& robot_path, const Robot& robot,
-                   OutputFolder* out) {
-  if (robot.dh_convention) {
-    out->Add("robot.urdf", MakeUrdf(robot));
-    return;
-  }
-  out->Add("robot.urdf", UpdateUrdf(robot_path, robot, false));
-  out->Add("robot_without_meshes.urdf", MakeUrdf(robot));
-}
-
-// The report of a refined calibration, the figures and files of which are
-// added.
-std::string AddRefinedOutputs(const Robot& robot,
-                              const NonlinearCalibration& refined,
-                              nlohmann::json* json, OutputFolder* out) {
-  AddRefined(refined, json);
-  std::string report = NonlinearReport(robot, refined);
-  if (!refined.solved) return report;
-  AddRobotFiles(RobotPathFromFlags(), refined.robot, out);
-  out->Add("parameters_covariance.csv", ParametersCovarianceCsv(refined));
-  for (const std::string& loss : UrdfLosses(refined.robot)) {
-    report += "robot.urdf  " + loss + "\n";
-  }
-  return report;
+  const NonlinearCalibration refined = CalibrateNonlinear(
+      task.robot, linear, refinement.options, training, held_out,
+      refinement.poses ? &*refinement.poses : nullptr);
+  *report += AddRefinedOutputs(task.robot, refined, json, out);
+  return refined.converged() || !refinement.asked_for;
 }
 
 int RunCalibrate() {
-  const Robot robot = RobotFromFlags();
-  if (!FLAGS_poses.empty()) return CalibratePosesFromFlags(robot);
-  LinearCalibrationOptions options = OptionsFromFlags(robot);
-  const bool is_refined = IsRefinedFromFlags();
-  NonlinearCalibrationOptions refine;
-  refine.trust.inertia = TrustFromFlags();
-  CheckTrajectoryFlag(options);
-  LogReaderOptions log_options = LogOptionsFromFlags(robot);
-  CheckLogsApart();
+  if (PosesAloneFromFlags()) return CalibratePosesFromFlags(RobotFromFlags());
+  Task task = TaskFromFlags();
+  const Robot& robot = task.robot;
   ProgressBar bar;
-  options.progress = [&bar](const std::string& stage, double fraction) {
+  task.linear.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
   };
-  const auto gains = DriveGainsFromFlags(robot, options, &log_options);
+  if (task.refinement) task.refinement->options.progress = task.linear.progress;
+  const auto gains = DriveGainsFromFlags(robot, task.linear, &task.logs);
   if (gains && !gains->solved) return ReportUnsolvedGains(robot, *gains);
-  LogSet training(LogsFromFlags(), log_options, CropFromFlags());
-  LogSet validation(ValidationLogsFromFlags(), log_options,
+  LogSet training(LogsFromFlags(), task.logs, CropFromFlags());
+  LogSet validation(ValidationLogsFromFlags(), task.logs,
                     ValidationCropFromFlags());
   LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
 
-  refine.progress = options.progress;
   LinearCalibration result =
-      CalibrateLinear(robot, options, &training, held_out);
+      CalibrateLinear(robot, task.linear, &training, held_out);
   const std::string corrected =
-      CorrectTrajectories(robot, options, &training, held_out, &result);
+      CorrectTrajectories(robot, task.linear, &training, held_out, &result);
   nlohmann::json json = ToJson(robot, training, held_out, result);
   std::string report = gains ? DriveGainsReport(*gains) : "";
   report += FullReport(robot, training, result) + corrected;
   if (gains) AddDriveGains(*gains, &json);
   OutputFolder out(OutFromFlags());
-  if (is_refined && result.solved) {
-    const std::string why_not = WhyNotRefined(robot, options);
-    report += why_not.empty()
-                  ? AddRefinedOutputs(robot,
-                                      CalibrateNonlinear(robot, result, refine,
-                                                         &training, held_out),
-                                      &json, &out)
-                  : "no robot file: " + why_not + "\n";
-  }
+  const bool refined =
+      Refine(task, result, &training, held_out, &json, &report, &out);
   out.Add("calibration.json", json.dump(2) + "\n");
   out.Add("covariance.csv", CovarianceCsv(result));
   out.Add("outliers.csv", OutlierCsv(robot, training));
@@ -251,7 +214,8 @@ int RunCalibrate() {
     std::cout << "note       " << note << "\n";
   }
   std::cout << report;
-  return Shortcomings(robot, result).empty() ? kExitOk : kExitNegative;
+  return refined && Shortcomings(robot, result).empty() ? kExitOk
+                                                        : kExitNegative;
 }
 
 std::vector<std::string> FlagNames() {
@@ -259,8 +223,8 @@ std::vector<std::string> FlagNames() {
   for (const char* name :
        {"geometry", "identification", "solver", "loss", "joint_terms",
         "coulomb_width", "window", "intervals", "interval", "quadrature",
-        "estimate", "trust", "trajectory", "payload_mass", "payload_log",
-        "poses"}) {
+        "estimate", "trust", "length_trust", "angle_trust", "trajectory",
+        "payload_mass", "payload_log", "poses"}) {
     names.push_back(name);
   }
   return names;

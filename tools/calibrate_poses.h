@@ -4,7 +4,10 @@
 
 namespace armcal {
 
-// armcal calibrate --poses=FILE without a log: the geometry alone.
+// Whether there are measured poses (--poses) and no log.
+bool PosesAloneFromFlags();
+
+// Calibrates the geometry alone.
 int CalibratePosesFromFlags(const Robot& robot);
 
 }  // namespace armcal

@@ -1,0 +1,123 @@
+#include "tools/calibrate_refined.h"
+
+#include <gflags/gflags.h>
+
+#include <cmath>
+
+#include "calib/nonlinear_report.h"
+#include "model/input_text.h"
+#include "model/urdf_writer.h"
+#include "tools/command.h"
+#include "tools/input_flags.h"
+
+DECLARE_string(geometry);
+DECLARE_string(poses);
+
+DEFINE_string(estimate, "auto",
+              "refined (a physically consistent robot for simulators, beside "
+              "the model parameters), linear (model parameters only), auto "
+              "(refined where the robot file has masses to start from)");
+DEFINE_double(trust, 0.5,
+              "relative standard deviation of the robot file's inertial "
+              "parameters, which tie what the logs do not show");
+DEFINE_double(length_trust, 0.01,
+              "standard deviation of the robot file's lengths where they are "
+              "refined, m");
+DEFINE_double(angle_trust, 0.02,
+              "standard deviation of the robot file's angles where they are "
+              "refined, and of the base's tilt, rad");
+
+namespace armcal {
+namespace {
+
+enum class Estimate { kAuto, kRefined, kLinear };
+
+double PositiveFlag(const std::string& name, double value,
+                    const std::string& expected) {
+  if (value > 0 && std::isfinite(value)) return value;
+  throw UsageError("--" + name + ": found '" + NumberText(value) +
+                   "', expected " + expected + " above 0");
+}
+
+std::string WhyNotRefined(const Robot& robot,
+                          const LinearCalibrationOptions& options) {
+  if (options.identification != Identification::kWeak ||
+      options.geometry != GeometryKnowledge::kKnown) {
+    return "it takes the weak form and a known geometry";
+  }
+  for (const Link& link : robot.links) {
+    if (link.inertial.mass > 0) continue;
+    return "the robot file gives link " + link.name + " no mass to start from";
+  }
+  return "";
+}
+
+void AddRobotFiles(const std::string& robot_path, const Robot& robot,
+                   bool geometry, OutputFolder* out) {
+  if (robot.dh_convention) {
+    out->Add("robot.urdf", MakeUrdf(robot));
+    return;
+  }
+  out->Add("robot.urdf", UpdateUrdf(robot_path, robot, geometry));
+  out->Add("robot_without_meshes.urdf", MakeUrdf(robot));
+}
+
+}  // namespace
+
+ArmTrust TrustFromFlags() {
+  return {PositiveFlag("trust", FLAGS_trust, "a relative standard deviation"),
+          PositiveFlag("length_trust", FLAGS_length_trust,
+                       "a standard deviation in m"),
+          PositiveFlag("angle_trust", FLAGS_angle_trust,
+                       "a standard deviation in rad")};
+}
+
+std::optional<RefineGeometry> RefineGeometryFromFlags() {
+  if (FLAGS_geometry == "offsets") return RefineGeometry::kOffsets;
+  if (FLAGS_geometry == "refine") return RefineGeometry::kAll;
+  return std::nullopt;
+}
+
+std::optional<Refinement> RefinementFromFlags(
+    const Robot& robot, const LinearCalibrationOptions& options) {
+  const auto estimate = ParseChoice<Estimate>("estimate", FLAGS_estimate,
+                                              {{"auto", Estimate::kAuto},
+                                               {"refined", Estimate::kRefined},
+                                               {"linear", Estimate::kLinear}});
+  const auto geometry = RefineGeometryFromFlags();
+  const bool poses = !FLAGS_poses.empty();
+  Refinement refinement;
+  refinement.options.trust = TrustFromFlags();
+  refinement.options.pose_loss =
+      LossFromFlags().value_or(refinement.options.pose_loss);
+  if (estimate == Estimate::kLinear) {
+    if (geometry || poses) {
+      throw UsageError(
+          "--estimate: found 'linear', expected refined or auto: a geometry "
+          "is only refined together with the robot");
+    }
+    return std::nullopt;
+  }
+  refinement.asked_for = estimate == Estimate::kRefined || geometry || poses;
+  refinement.why_not = WhyNotRefined(robot, options);
+  if (geometry) refinement.options.refine = *geometry;
+  if (poses) refinement.poses = ReadPoses(FLAGS_poses, robot.JointNames());
+  return refinement;
+}
+
+std::string AddRefinedOutputs(const Robot& robot,
+                              const NonlinearCalibration& refined,
+                              nlohmann::json* json, OutputFolder* out) {
+  AddRefined(refined, json);
+  std::string report = NonlinearReport(robot, refined);
+  if (!refined.solved) return report;
+  AddRobotFiles(RobotPathFromFlags(), refined.robot, refined.refined_geometry,
+                out);
+  out->Add("parameters_covariance.csv", ParametersCovarianceCsv(refined));
+  for (const std::string& loss : UrdfLosses(refined.robot)) {
+    report += "robot.urdf  " + loss + "\n";
+  }
+  return report;
+}
+
+}  // namespace armcal

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/linear_calibration.h"
+#include "calib/nonlinear_calibration.h"
+#include "model/pose_reader.h"
+#include "model/robot.h"
+#include "tools/output_folder.h"
+
+namespace armcal {
+
+ArmTrust TrustFromFlags();  // --trust --length_trust --angle_trust
+
+// What the flags ask of a robot for simulators.
+struct Refinement {
+  bool asked_for = false;  // by --estimate, --geometry or --poses
+  std::string why_not;     // why it cannot be made; empty where it can
+  NonlinearCalibrationOptions options;
+  std::optional<PoseMeasurements> poses;
+};
+
+// Nothing where --estimate=linear. UsageError where what is asked for cannot
+// be: flags that exclude each other.
+std::optional<Refinement> RefinementFromFlags(
+    const Robot& robot, const LinearCalibrationOptions& options);
+
+// Whether --geometry asks for the arm's parameters to be refined, and which.
+std::optional<RefineGeometry> RefineGeometryFromFlags();
+
+// The report of a refined calibration, the figures and files of which are
+// added.
+std::string AddRefinedOutputs(const Robot& robot,
+                              const NonlinearCalibration& refined,
+                              nlohmann::json* json, OutputFolder* out);
+
+}  // namespace armcal
