@@ -6,8 +6,8 @@
 
 #include "calib/combination.h"
 #include "calib/overlap_covariance.h"
+#include "calib/posterior.h"
 #include "calib/row_covariance.h"
-#include "calib/scaled_inverse.h"
 
 namespace armcal {
 namespace {
@@ -16,7 +16,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 ArmTrust Weaker(double inertia, const ArmTrust& trust, double geometry) {
-  return {inertia, geometry * trust.length, geometry * trust.angle};
+  return {inertia, geometry * trust.length, geometry * trust.angle,
+          geometry * trust.joint_terms};
 }
 
 // Directions in which the data tell less than a prior of these deviations.
@@ -53,23 +54,25 @@ ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
                                     const LinkInformation& torques) {
   const std::vector<int> free = unknowns.FreeIndices();
   const MatrixXd data = torques.H + fit.PoseInformation(at);
-  const auto inverse = [&](const ArmTrust& t) {
-    return ScaledInverse(data + fit.PriorInformation(t), free);
+  const auto trusting = [&](const ArmTrust& t) {
+    return Posterior(data, fit.PriorInformation(t), free);
   };
-  const MatrixXd gain = inverse(trust);
-  const MatrixXd others = fit.PoseInformation(at) + fit.PriorInformation(trust);
-  const MatrixXd rest = gain * others * gain.transpose();
+  const Posterior posterior = trusting(trust);
+  const MatrixXd rest =
+      posterior.Sandwich(fit.PoseInformation(at) + fit.PriorInformation(trust));
   ArmCovariance result;
   result.covariance =
       RaiseToLogScatter(RaiseTo(torques.least + rest.diagonal(),
-                                rest + gain * torques.S * gain.transpose()),
-                        gain, torques.log_sums);
+                                rest + posterior.Sandwich(torques.S)),
+                        posterior.Gain(), torques.log_sums);
   const ArmTrust weak = Weaker(1, trust, 1);
+  const MatrixXd nothing = MatrixXd::Zero(data.rows(), data.cols());
   result.unseen = UnseenCombinations(
       unknowns, data,
-      ScaledInverse(fit.PriorInformation(weak), free).diagonal());
-  const VectorXd trusted = inverse(weak).diagonal();
-  const VectorXd untrusted = inverse(Weaker(100, trust, 100)).diagonal();
+      Posterior(nothing, fit.PriorInformation(weak), free).Gain().diagonal());
+  const VectorXd trusted = trusting(weak).Gain().diagonal();
+  const VectorXd untrusted =
+      trusting(Weaker(100, trust, 100)).Gain().diagonal();
   for (int k = 0; k < unknowns.size(); ++k) {
     result.identifiable.push_back(unknowns.is_free(k) &&
                                   untrusted[k] < 2 * trusted[k]);

@@ -59,11 +59,29 @@ void AddNormalPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
                     ceres::Problem* problem) {
   MatrixXd weight = MatrixXd::Zero(mean.size(), mean.size());
   for (int k = 0; k < mean.size(); ++k) {
-    const double prior = unknowns.GeometryPrior(begin + k, trust);
+    const double prior = unknowns.NormalPrior(begin + k, trust);
     if (prior > 0) weight(k, k) = 1 / prior;
   }
   problem->AddResidualBlock(new ceres::NormalPrior(weight, mean), nullptr,
                             block);
+}
+
+// The torque equations and, as equations of their own, the prior on terms.
+LinkEquations WithTermPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
+                            const LinkEquations& equations) {
+  const Eigen::Index rows = equations.R.rows();
+  const VectorXd& nominal = unknowns.nominal().terms;
+  LinkEquations all = equations;
+  all.R.conservativeResize(rows + nominal.size(), Eigen::NoChange);
+  all.R.bottomRows(nominal.size()).setZero();
+  all.z.conservativeResize(rows + nominal.size());
+  for (int t = 0; t < nominal.size(); ++t) {
+    const int k = unknowns.terms_begin() + t;
+    const double weight = 1 / unknowns.NormalPrior(k, trust);
+    all.R(rows + t, k) = weight;
+    all.z[rows + t] = weight * nominal[t];
+  }
+  return all;
 }
 
 }  // namespace
@@ -72,7 +90,8 @@ ArmFit::ArmFit(const ArmUnknowns& unknowns, const ArmTrust& trust,
                const PoseFit* poses)
     : unknowns_(unknowns), trust_(trust), poses_(poses) {}
 
-bool ArmFit::Start(const LinkEquations& equations, ArmValues* values) const {
+bool ArmFit::Start(const LinkEquations& torques, ArmValues* values) const {
+  const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
   const int size = unknowns_.tilt_begin();
   VectorXd x(size);
   for (int i = 0; i < unknowns_.num_links(); ++i) {  // inside the boundary
@@ -100,8 +119,9 @@ bool ArmFit::Start(const LinkEquations& equations, ArmValues* values) const {
   return true;
 }
 
-ArmFit::End ArmFit::Solve(const LinkEquations& equations,
+ArmFit::End ArmFit::Solve(const LinkEquations& torques,
                           ArmValues* values) const {
+  const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
   Blocks blocks(*values);
   ArmValues& v = blocks.value;
   std::vector<double*> all;
@@ -154,18 +174,16 @@ ArmFit::End ArmFit::Solve(const LinkEquations& equations,
   return end;
 }
 
-// Parameters without a prior have one that tells next to nothing.
 MatrixXd ArmFit::PriorInformation(const ArmTrust& trust) const {
-  MatrixXd information =
-      1e-12 * MatrixXd::Identity(unknowns_.size(), unknowns_.size());
+  MatrixXd information = MatrixXd::Zero(unknowns_.size(), unknowns_.size());
   for (int i = 0; i < unknowns_.num_links(); ++i) {
     const auto W = InertialPrior(unknowns_.nominal().links.segment<10>(10 * i),
                                  trust.inertia)
                        .W();
     information.block<10, 10>(10 * i, 10 * i) = W.transpose() * W;
   }
-  for (int k = unknowns_.tilt_begin(); k < unknowns_.other_begin(); ++k) {
-    const double prior = unknowns_.GeometryPrior(k, trust);
+  for (int k = unknowns_.terms_begin(); k < unknowns_.size(); ++k) {
+    const double prior = unknowns_.NormalPrior(k, trust);
     if (prior > 0) information(k, k) = 1 / (prior * prior);
   }
   return information;

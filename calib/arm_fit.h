@@ -20,14 +20,14 @@ class ArmFit {
 
   // Links and joint terms from any start, for the geometry of `values`
   // (StartLinks). False where numbers overflow.
-  bool Start(const LinkEquations& equations, ArmValues* values) const;
+  bool Start(const LinkEquations& torques, ArmValues* values) const;
 
   struct End {
     bool usable = false;
     std::string reason;  // Ceres' word
     int iterations = 0;
   };
-  End Solve(const LinkEquations& equations, ArmValues* values) const;
+  End Solve(const LinkEquations& torques, ArmValues* values) const;
 
   // Information about the unknowns, near the file's values and at `values`.
   Eigen::MatrixXd PriorInformation(const ArmTrust& trust) const;

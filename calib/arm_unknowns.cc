@@ -62,6 +62,11 @@ ArmUnknowns::ArmUnknowns(const Robot& robot, const LinearCalibration& linear,
     }
   }
   AddTerms(linear);
+  torque_rms_.setOnes(robot.num_joints());
+  if (linear.training) {
+    const Eigen::VectorXd rms = linear.training->moving().torque_rms;
+    torque_rms_ = rms.cwiseMax(1e-3 * rms.maxCoeff() + 1e-9);
+  }
   AddGeometry(refine, poses);
 }
 
@@ -126,7 +131,11 @@ std::vector<int> ArmUnknowns::FreeIndices() const {
   return indices;
 }
 
-double ArmUnknowns::GeometryPrior(int k, const ArmTrust& trust) const {
+double ArmUnknowns::NormalPrior(int k, const ArmTrust& trust) const {
+  if (k < terms_begin()) return 0;
+  if (k < tilt_begin()) {
+    return trust.joint_terms * torque_rms_[terms_[k - terms_begin()].joint];
+  }
   const int g = k - geometry_begin();
   const bool tilt = k >= tilt_begin() && k < geometry_begin();
   const bool own = k >= geometry_begin() && k < other_begin() &&

@@ -20,6 +20,10 @@ struct ArmTrust {
   double inertia = 0.5;
   double length = 0.01;  // m
   double angle = 0.02;   // rad; also of the base's tilt
+  // Of friction, offset and armature, whose torque at 1 rad/s and 1 rad/s^2 is
+  // this many times what the joint's torque is: next to nothing, so that what
+  // no motion shows stays finite.
+  double joint_terms = 10;
 };
 
 // Values of all that a calibration of torques and poses can find.
@@ -57,8 +61,9 @@ class ArmUnknowns {
   const Robot& robot() const { return robot_; }  // the file's
   const ArmValues& nominal() const { return nominal_; }
   const std::vector<JointTermColumn>& terms() const { return terms_; }
-  // Standard deviation of the prior on a geometric parameter; 0: none.
-  double GeometryPrior(int k, const ArmTrust& trust) const;
+  // Standard deviation of the normal prior on parameter k, about the file's
+  // value; 0: none. (Links have InertialPrior.)
+  double NormalPrior(int k, const ArmTrust& trust) const;
   // Parameters of ArmGeometry(robot) that torques are taken linearly in, and
   // where their columns belong.
   const std::vector<int>& torque_geometry() const { return torque_geometry_; }
@@ -84,6 +89,7 @@ class ArmUnknowns {
   ArmValues nominal_;
   std::vector<std::string> names_, units_;
   std::vector<bool> free_;
+  Eigen::VectorXd torque_rms_;  // per joint
 };
 
 // A joint's term, as the robot holds it.

@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "calib/posterior.h"
 #include "calib/robust_rows.h"
-#include "calib/scaled_inverse.h"
 #include "calib/triangular_factor.h"
 #include "problems/link_functions.h"
 #include "problems/weak_rows.h"
@@ -204,16 +204,15 @@ LinkInformation LinkPass::Inform(const ArmValues& at, const VectorXd& noise,
     information.H.selfadjointView<Eigen::Lower>().rankUpdate(s.C.transpose());
   });
   information.H = MatrixXd(information.H.selfadjointView<Eigen::Lower>());
-  MatrixXd whole = information.H;
-  whole.topLeftCorner(columns.num_torques(), columns.num_torques()) +=
+  MatrixXd prior = MatrixXd::Zero(size, size);
+  prior.topLeftCorner(columns.num_torques(), columns.num_torques()) =
       other(columns.torques, columns.torques);
   std::vector<int> free;
   for (int k = 0; k < size; ++k) {
     const bool own = k >= columns.num_torques();
     if (own || unknowns_.is_free(columns.torques[k])) free.push_back(k);
-    if (own) whole(k, k) = whole(k, k) * (1 + 1e-9) + 1e-300;
   }
-  const MatrixXd gain = ScaledInverse(whole, free);
+  const MatrixXd gain = Posterior(information.H, prior, free).Gain();
   ScoreCovariance scores(static_cast<int>(size), linear_.score_window, gain);
   const int n = unknowns_.num_links();
   OverlapCovariance overlap(n, static_cast<int>(size), linear_.rows_per_window);

@@ -17,8 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Rounds of taking the torques linearly in the geometry.
-constexpr int kMostRounds = 8;
-constexpr double kSettled = 0.03;  // noise deviations, rms over parameters
+constexpr int kMostRounds = 20;
+constexpr double kSettled = 0.05;  // noise deviations, rms over parameters
 
 // Links (of no body) and terms that have the linear estimate's torques.
 ArmValues LinearValues(const ArmUnknowns& unknowns,

@@ -62,6 +62,10 @@ file(WRITE ${WORK_DIR}/massless.yaml "${yaml}")
 run("no mass to start from" calibrate --robot=massless.yaml
     --log=${DATA_DIR}/scara/B.csv.gz --joint_terms=none --bandwidth=0
     --estimate=refined)
+expect_code(1)
+expect_text(out "no robot file: the robot file gives link link3 no mass")
+run("no mass, and none asked for" calibrate --robot=massless.yaml
+    --log=${DATA_DIR}/scara/B.csv.gz --joint_terms=none --bandwidth=0)
 expect_code(0)
 expect_text(out "no robot file: the robot file gives link link3 no mass")
 
@@ -71,10 +75,14 @@ foreach(pair
     "--trust=nan|--trust: found 'nan', expected a relative"
     "--trust=inf|--trust: found 'inf', expected a relative"
     "--trust=much|--trust: found 'much', expected a number"
-    "--estimate=best|--estimate: found 'best', expected one of refined, linear")
+    "--estimate=best|--estimate: found 'best', expected one of auto, refined, linear"
+    "--estimate=linear --geometry=refine|--estimate: found 'linear', expected refined or auto"
+    "--length_trust=0|--length_trust: found '0', expected a standard deviation in m above 0"
+    "--angle_trust=-1|--angle_trust: found '-1', expected a standard deviation in rad above 0")
   string(REPLACE "|" ";" pair "${pair}")
   list(GET pair 0 flag)
   list(GET pair 1 message)
-  run("${flag}" calibrate ${flags} ${flag} --out=out)
+  separate_arguments(given UNIX_COMMAND "${flag}")
+  run("${flag}" calibrate ${flags} ${given} --out=out)
   expect_refusal(2 "${message}")
 endforeach()

@@ -1,0 +1,58 @@
+#include "calib/posterior.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "tests/sample_motion.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+
+MatrixXd RandomInformation(int size, int rank, std::mt19937_64* random) {
+  MatrixXd J(rank, size);
+  for (double& x : J.reshaped()) x = Normal(random);
+  return J.transpose() * J;
+}
+
+TEST(Posterior, IsTheInverseOfTheSum) {
+  std::mt19937_64 random(1);
+  const MatrixXd data = RandomInformation(6, 4, &random);
+  const MatrixXd prior = RandomInformation(6, 9, &random);
+  const MatrixXd scores = RandomInformation(6, 6, &random);
+  const Posterior posterior(data, prior, {0, 1, 3, 5});
+  const std::vector<int> kept = {0, 1, 3, 5};
+  const MatrixXd inverse = MatrixXd((data + prior)(kept, kept)).inverse();
+  EXPECT_LT((posterior.Gain()(kept, kept) - inverse).norm(),
+            1e-12 * inverse.norm());
+  EXPECT_EQ(posterior.Gain().row(2).norm() + posterior.Gain().col(4).norm(), 0);
+  const MatrixXd sandwich = inverse * scores(kept, kept) * inverse;
+  EXPECT_LT((posterior.Sandwich(scores)(kept, kept) - sandwich).norm(),
+            1e-12 * sandwich.norm());
+}
+
+// Data of noise 1e-8 on two of three combinations: the third has the prior's
+// variance, which a direct inverse loses.
+TEST(Posterior, KeepsWhatOnlyThePriorKnows) {
+  MatrixXd J(2, 3);
+  J << 1, 1, 1, 1, 2, 3;
+  J *= 1e8;
+  const MatrixXd prior = MatrixXd::Identity(3, 3);
+  const Posterior posterior(J.transpose() * J, prior, {0, 1, 2});
+  const Eigen::Vector3d unseen = Eigen::Vector3d(1, -2, 1).normalized();
+  EXPECT_NEAR(unseen.dot(posterior.Gain() * unseen), 1, 1e-6);
+  EXPECT_NEAR(posterior.Gain().trace(), 1, 1e-6);
+}
+
+TEST(Posterior, ParametersWithoutPriorHaveTheDatas) {
+  std::mt19937_64 random(2);
+  const MatrixXd data = RandomInformation(3, 8, &random);
+  const Posterior posterior(data, MatrixXd::Zero(3, 3), {0, 1, 2});
+  EXPECT_LT((posterior.Gain() - data.inverse()).norm(),
+            1e-6 * data.inverse().norm());
+}
+
+}  // namespace
+}  // namespace armcal
