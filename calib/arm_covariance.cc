@@ -1,6 +1,6 @@
 #include "calib/arm_covariance.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +20,8 @@ ArmTrust Weaker(double inertia, const ArmTrust& trust, double geometry) {
           geometry * trust.joint_terms};
 }
 
+constexpr double kNoPrior = 1e100;  // a variance
+
 // Directions in which the data tell less than a prior of these deviations.
 std::vector<std::string> UnseenCombinations(const ArmUnknowns& unknowns,
                                             const MatrixXd& data,
@@ -31,16 +33,19 @@ std::vector<std::string> UnseenCombinations(const ArmUnknowns& unknowns,
     const int k = free[f];
     names.push_back(unknowns.name(k));
     // Without a prior: a thousand times what it would be alone.
-    size[f] = std::min(std::sqrt(prior[k]),
-                       1e3 / std::sqrt(std::max(data(k, k), 1e-300)));
+    size[f] = prior[k] < kNoPrior ? std::sqrt(prior[k])
+                                  : 1e3 / std::max(data.col(k).norm(), 1e-150);
   }
-  const MatrixXd relative =
-      size.asDiagonal() * data(free, free) * size.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(relative);
-  const Eigen::Index count = (eigen.eigenvalues().array() < 1).count();
+  const MatrixXd relative = data(Eigen::all, free) * size.asDiagonal();
+  const Eigen::BDCSVD<MatrixXd> svd(relative, Eigen::ComputeFullV);
+  Eigen::Index rank = 0;
+  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > 1) {
+    ++rank;
+  }
   std::vector<std::string> texts;
-  for (const Combination& c : NameCombinations(
-           eigen.eigenvectors().leftCols(count), size.cwiseInverse(), names)) {
+  for (const Combination& c :
+       NameCombinations(svd.matrixV().rightCols(size.size() - rank),
+                        size.cwiseInverse(), names)) {
     texts.push_back(c.text);
   }
   return texts;
@@ -53,20 +58,23 @@ ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
                                     const ArmValues& at,
                                     const LinkInformation& torques) {
   const std::vector<int> free = unknowns.FreeIndices();
-  const MatrixXd data = torques.H + fit.PoseInformation(at);
+  const MatrixXd poses = fit.PoseRows(at);
+  MatrixXd data(torques.R.rows() + poses.rows(), unknowns.size());
+  data << torques.R, poses;
   const auto trusting = [&](const ArmTrust& t) {
     return Posterior(data, fit.PriorInformation(t), free);
   };
   const Posterior posterior = trusting(trust);
   const MatrixXd rest =
-      posterior.Sandwich(fit.PoseInformation(at) + fit.PriorInformation(trust));
+      posterior.Sandwich(poses) +
+      posterior.Sandwich(SquareRoot(fit.PriorInformation(trust)));
   ArmCovariance result;
-  result.covariance =
-      RaiseToLogScatter(RaiseTo(torques.least + rest.diagonal(),
-                                rest + posterior.Sandwich(torques.S)),
-                        posterior.Gain(), torques.log_sums);
+  result.covariance = RaiseToLogScatter(
+      RaiseTo(torques.least + rest.diagonal(),
+              rest + posterior.Sandwich(SquareRoot(torques.S))),
+      posterior.Gain(), torques.log_sums);
   const ArmTrust weak = Weaker(1, trust, 1);
-  const MatrixXd nothing = MatrixXd::Zero(data.rows(), data.cols());
+  const MatrixXd nothing = MatrixXd::Zero(0, data.cols());
   result.unseen = UnseenCombinations(
       unknowns, data,
       Posterior(nothing, fit.PriorInformation(weak), free).Gain().diagonal());

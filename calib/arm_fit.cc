@@ -5,6 +5,8 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include <cmath>
+
 #include "calib/link_start.h"
 #include "problems/inertial_coordinates.h"
 #include "problems/inertial_manifold.h"
@@ -162,6 +164,9 @@ ArmFit::End ArmFit::Solve(const LinkEquations& torques,
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 300;
   options.function_tolerance = 1e-9;
+  // Gauss-Newton unless it fails: the usual damping, relative to the data,
+  // stops directions that only the prior determines where they started.
+  options.initial_trust_region_radius = 1e16;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -189,9 +194,8 @@ MatrixXd ArmFit::PriorInformation(const ArmTrust& trust) const {
   return information;
 }
 
-MatrixXd ArmFit::PoseInformation(const ArmValues& values) const {
-  MatrixXd information = MatrixXd::Zero(unknowns_.size(), unknowns_.size());
-  if (poses_ == nullptr) return information;
+MatrixXd ArmFit::PoseRows(const ArmValues& values) const {
+  if (poses_ == nullptr) return MatrixXd::Zero(0, unknowns_.size());
   VectorXd residuals;
   const MatrixXd J =
       poses_->Jacobian(poses_->AllRows(), values.poses, &residuals);
@@ -199,9 +203,10 @@ MatrixXd ArmFit::PoseInformation(const ArmValues& values) const {
   for (int k = unknowns_.geometry_begin(); k < unknowns_.size(); ++k) {
     num_free += unknowns_.is_free(k);
   }
-  information.bottomRightCorner(J.cols(), J.cols()) =
-      J.transpose() * J / poses_->VarianceFactor(residuals, num_free);
-  return information;
+  MatrixXd rows = MatrixXd::Zero(J.rows(), unknowns_.size());
+  rows.rightCols(J.cols()) =
+      J / std::sqrt(poses_->VarianceFactor(residuals, num_free));
+  return rows;
 }
 
 }  // namespace armcal

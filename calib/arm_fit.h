@@ -29,9 +29,10 @@ class ArmFit {
   };
   End Solve(const LinkEquations& torques, ArmValues* values) const;
 
-  // Information about the unknowns, near the file's values and at `values`.
+  // The prior's information, near the file's values.
   Eigen::MatrixXd PriorInformation(const ArmTrust& trust) const;
-  Eigen::MatrixXd PoseInformation(const ArmValues& values) const;
+  // The poses' Jacobian by the unknowns at `values`, whitened.
+  Eigen::MatrixXd PoseRows(const ArmValues& values) const;
 
  private:
   const ArmUnknowns& unknowns_;

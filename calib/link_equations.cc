@@ -1,6 +1,6 @@
 #include "calib/link_equations.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <cmath>
 
 #include "calib/posterior.h"
@@ -20,15 +20,18 @@ constexpr double kWider = 1.1;
 // Without the last `count` unknowns, which are estimated too.
 void Eliminate(Eigen::Index count, LinkInformation* information) {
   if (count == 0) return;
-  const Eigen::Index p = information->H.rows() - count;
-  MatrixXd nuisance = information->H.bottomRightCorner(count, count);
-  for (double& d : nuisance.diagonal()) d = d * (1 + 1e-9) + 1e-300;
+  const Eigen::Index p = information->R.cols() - count;
+  MatrixXd turned(information->R.rows(), p + count);
+  turned << information->R.rightCols(count), information->R.leftCols(p);
+  const Eigen::HouseholderQR<MatrixXd> qr(turned);
+  const MatrixXd R = qr.matrixQR().triangularView<Eigen::Upper>();
+  MatrixXd nuisance = R.topLeftCorner(count, count);
+  for (double& d : nuisance.diagonal()) d = d == 0 ? 1 : d;  // not seen
   MatrixXd T(p, p + count);
-  T << MatrixXd::Identity(p, p),
-      -nuisance.ldlt()
-           .solve(information->H.bottomLeftCorner(count, p))
-           .transpose();
-  information->H = (information->H.topRows(p) * T.transpose()).eval();
+  T << MatrixXd::Identity(p, p), -nuisance.triangularView<Eigen::Upper>()
+                                      .solve(R.topRightCorner(count, p))
+                                      .transpose();
+  information->R = R.bottomRightCorner(R.rows() - count, p);
   information->S = (T * information->S * T.transpose()).eval();
   information->log_sums = (T * information->log_sums).eval();
   information->least.conservativeResize(p);
@@ -38,8 +41,9 @@ void Eliminate(Eigen::Index count, LinkInformation* information) {
 LinkInformation Spread(const LinkInformation& torques,
                        const std::vector<int>& columns, int size) {
   LinkInformation all;
-  all.H = all.S = MatrixXd::Zero(size, size);
-  all.H(columns, columns) = torques.H;
+  all.R = MatrixXd::Zero(torques.R.rows(), size);
+  all.R(Eigen::all, columns) = torques.R;
+  all.S = MatrixXd::Zero(size, size);
   all.S(columns, columns) = torques.S;
   all.log_sums = MatrixXd::Zero(size, torques.log_sums.cols());
   all.log_sums(columns, Eigen::all) = torques.log_sums;
@@ -187,8 +191,26 @@ FittedRow LinkPass::MakeFittedRow(const Residual& residual,
   return row;
 }
 
+// Of the torques' unknowns, all others known.
+MatrixXd LinkPass::Gain(const MatrixXd& R, const Columns& columns,
+                        const MatrixXd& others, const MatrixXd& prior) const {
+  const Eigen::Index count = columns.num_torques(), size = columns.size();
+  MatrixXd A = MatrixXd::Zero(R.rows() + others.rows(), size);
+  A.topRows(R.rows()) = R;
+  A.bottomLeftCorner(others.rows(), count) =
+      others(Eigen::all, columns.torques);
+  MatrixXd P = MatrixXd::Zero(size, size);
+  P.topLeftCorner(count, count) = prior(columns.torques, columns.torques);
+  std::vector<int> free;
+  for (int k = 0; k < size; ++k) {
+    if (k >= count || unknowns_.is_free(columns.torques[k])) free.push_back(k);
+  }
+  return Posterior(A, P, free).Gain();
+}
+
 LinkInformation LinkPass::Inform(const ArmValues& at, const VectorXd& noise,
-                                 const MatrixXd& other) {
+                                 const MatrixXd& others,
+                                 const MatrixXd& prior) {
   const Columns columns(unknowns_, linear_.fitted_transitions);
   const Eigen::Index size = columns.size();
   const auto run = [&](const std::string& stage, const auto& visit) {
@@ -198,21 +220,13 @@ LinkInformation LinkPass::Inform(const ArmValues& at, const VectorXd& noise,
           visit(residual, row, MakeScore(row));
         });
   };
-  LinkInformation information;
-  information.H = MatrixXd::Zero(size, size);
+  TriangularFactor factor(static_cast<int>(size));
   run("information", [&](const Residual&, const FittedRow&, const Score& s) {
-    information.H.selfadjointView<Eigen::Lower>().rankUpdate(s.C.transpose());
+    for (Eigen::Index i = 0; i < s.C.rows(); ++i) factor.Add(s.C.row(i), 0, 1);
   });
-  information.H = MatrixXd(information.H.selfadjointView<Eigen::Lower>());
-  MatrixXd prior = MatrixXd::Zero(size, size);
-  prior.topLeftCorner(columns.num_torques(), columns.num_torques()) =
-      other(columns.torques, columns.torques);
-  std::vector<int> free;
-  for (int k = 0; k < size; ++k) {
-    const bool own = k >= columns.num_torques();
-    if (own || unknowns_.is_free(columns.torques[k])) free.push_back(k);
-  }
-  const MatrixXd gain = Posterior(information.H, prior, free).Gain();
+  LinkInformation information;
+  information.R = factor.Triangle().topLeftCorner(size, size);
+  const MatrixXd gain = Gain(information.R, columns, others, prior);
   ScoreCovariance scores(static_cast<int>(size), linear_.score_window, gain);
   const int n = unknowns_.num_links();
   OverlapCovariance overlap(n, static_cast<int>(size), linear_.rows_per_window);

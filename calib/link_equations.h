@@ -25,7 +25,8 @@ struct LinkEquations {
 
 // What the torque equations tell about the unknowns at some values.
 struct LinkInformation {
-  Eigen::MatrixXd H;  // of equations that the loss still slopes at
+  // Of the equations, by the slope of the loss: their information is R'R.
+  Eigen::MatrixXd R;
   // The covariance of the sum of scores, autocorrelation allowed for
   // (Newey-West as the linear calibration's).
   Eigen::MatrixXd S;
@@ -44,16 +45,20 @@ class LinkPass {
 
   LinkEquations Reduce(const ArmValues& at, const Eigen::VectorXd& noise);
   // With fitted widths of Coulomb friction, which friction and armature share,
-  // as unknowns of their own that are eliminated. `other`: the information that
-  // does not come from torques. Two passes.
+  // as unknowns of their own that are eliminated. `others`: rows of other data,
+  // whitened, and `prior`, the prior's information. Two passes.
   LinkInformation Inform(const ArmValues& at, const Eigen::VectorXd& noise,
-                         const Eigen::MatrixXd& other);
+                         const Eigen::MatrixXd& others,
+                         const Eigen::MatrixXd& prior);
 
  private:
   struct Residual;
   struct Columns;
   FittedRow MakeFittedRow(const Residual& residual, const Columns& columns,
                           const Eigen::VectorXd& noise) const;
+  Eigen::MatrixXd Gain(const Eigen::MatrixXd& R, const Columns& columns,
+                       const Eigen::MatrixXd& others,
+                       const Eigen::MatrixXd& prior) const;
   void ForEachResidual(const std::string& stage, const ArmValues& at,
                        const Eigen::VectorXd& noise,
                        const std::vector<JointTermColumn>& terms,

@@ -18,6 +18,9 @@ using Eigen::VectorXd;
 
 // Rounds of taking the torques linearly in the geometry.
 constexpr int kMostRounds = 20;
+// Of the torque: equations are not trusted beyond it. Logs without noise would
+// have what is left of the filters pull the geometry off exact poses.
+constexpr double kLeastNoise = 1e-5;
 constexpr double kSettled = 0.05;  // noise deviations, rms over parameters
 
 // Links (of no body) and terms that have the linear estimate's torques.
@@ -63,6 +66,10 @@ class NonlinearCalibrator {
         unknowns_(robot, linear, options.refine, poses),
         noise_(linear.noise),
         values_(unknowns_.nominal()) {
+    if (linear.training) {
+      noise_ =
+          noise_.cwiseMax(kLeastNoise * linear.training->moving().torque_rms);
+    }
     if (poses == nullptr) return;
     pose_options_.refine = options.refine;
     pose_options_.loss = options.pose_loss;
@@ -197,9 +204,8 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
   LinkPass pass(unknowns_, linear_, options_.progress, training);
   Report(
       EstimateArmCovariance(unknowns_, fit, options_.trust, values_,
-                            pass.Inform(values_, noise_,
-                                        fit.PriorInformation(options_.trust) +
-                                            fit.PoseInformation(values_))),
+                            pass.Inform(values_, noise_, fit.PoseRows(values_),
+                                        fit.PriorInformation(options_.trust))),
       &result);
   result.robot = unknowns_.Apply(values_);
   result.refined_geometry = unknowns_.refines_geometry() || poses != nullptr;

@@ -137,6 +137,9 @@ bool PoseFit::Solve(const std::vector<bool>& free, const std::vector<int>& rows,
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = 200;
   solver.function_tolerance = 1e-12;
+  // Gauss-Newton unless it fails: the usual damping would stop directions that
+  // the prior determines where they started.
+  solver.initial_trust_region_radius = 1e16;
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);

@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 
 namespace armcal {
@@ -9,38 +11,48 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-Posterior::Posterior(const MatrixXd& data, const MatrixXd& prior,
+Posterior::Posterior(const MatrixXd& A, const MatrixXd& prior,
                      const std::vector<int>& kept) {
   constexpr double kFlat = 1e-8;
   MatrixXd P = prior(kept, kept);
-  const MatrixXd H = data(kept, kept);
-  for (Eigen::Index k = 0; k < P.rows(); ++k) {
-    if (P(k, k) == 0) P(k, k) = std::max(kFlat * H(k, k), 1e-300);
+  const Eigen::Index p = P.rows();
+  MatrixXd relative = MatrixXd::Zero(std::max(A.rows(), p), p);
+  relative.topRows(A.rows()) = A(Eigen::all, kept);
+  for (Eigen::Index k = 0; k < p; ++k) {
+    if (P(k, k) > 0) continue;
+    P(k, k) = std::max(kFlat * relative.col(k).squaredNorm(), 1e-300);
   }
   // P = S^-1 L L' S^-1 with S for the units.
   const VectorXd s = P.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LLT<MatrixXd> llt(MatrixXd(s.asDiagonal() * P * s.asDiagonal()));
-  MatrixXd relative = s.asDiagonal() * H * s.asDiagonal();
-  llt.matrixL().solveInPlace(relative);
-  relative = llt.matrixL().solve(relative.transpose()).eval();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(relative);
-  MatrixXd T = eigen.eigenvectors();
+  relative = relative * s.asDiagonal();
+  relative = llt.matrixL().solve(relative.transpose()).transpose().eval();
+  const Eigen::HouseholderQR<MatrixXd> qr(relative);
+  const MatrixXd R = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
+  const Eigen::BDCSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
+  MatrixXd T = svd.matrixV();
   llt.matrixU().solveInPlace(T);
-  T_ = MatrixXd::Zero(data.rows(), P.cols());
+  T_ = MatrixXd::Zero(A.cols(), p);
   T_(kept, Eigen::all) = s.asDiagonal() * T;
-  shrink_ = (1 + eigen.eigenvalues().array().max(0)).inverse();
+  shrink_ = (1 + svd.singularValues().array().square()).inverse();
 }
 
 MatrixXd Posterior::Gain() const {
   return T_ * shrink_.asDiagonal() * T_.transpose();
 }
 
-MatrixXd Posterior::Sandwich(const MatrixXd& scores) const {
-  MatrixXd inner = T_.transpose() * scores * T_;
-  inner = shrink_.asDiagonal() * inner * shrink_.asDiagonal();
-  // Rounding may have left a trace below 0 of what is as good as 0.
-  for (double& d : inner.diagonal()) d = std::max(d, 0.0);
-  return T_ * inner * T_.transpose();
+MatrixXd Posterior::Sandwich(const MatrixXd& F) const {
+  const MatrixXd root = F * T_ * shrink_.asDiagonal() * T_.transpose();
+  return root.transpose() * root;
+}
+
+MatrixXd SquareRoot(const MatrixXd& A) {
+  const VectorXd s = A.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const auto unscale = s.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
+      MatrixXd(unscale * A * unscale));
+  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+         eigen.eigenvectors().transpose() * s.asDiagonal();
 }
 
 }  // namespace armcal

@@ -11,36 +11,43 @@ namespace {
 
 using Eigen::MatrixXd;
 
+MatrixXd RandomRows(int size, int rows, std::mt19937_64* random) {
+  MatrixXd A(rows, size);
+  for (double& x : A.reshaped()) x = Normal(random);
+  return A;
+}
+
 MatrixXd RandomInformation(int size, int rank, std::mt19937_64* random) {
-  MatrixXd J(rank, size);
-  for (double& x : J.reshaped()) x = Normal(random);
-  return J.transpose() * J;
+  const MatrixXd A = RandomRows(size, rank, random);
+  return A.transpose() * A;
 }
 
 TEST(Posterior, IsTheInverseOfTheSum) {
   std::mt19937_64 random(1);
-  const MatrixXd data = RandomInformation(6, 4, &random);
+  const MatrixXd A = RandomRows(6, 4, &random);
+  const MatrixXd data = A.transpose() * A;
   const MatrixXd prior = RandomInformation(6, 9, &random);
-  const MatrixXd scores = RandomInformation(6, 6, &random);
-  const Posterior posterior(data, prior, {0, 1, 3, 5});
+  const MatrixXd scores = RandomInformation(6, 3, &random);
+  const Posterior posterior(A, prior, {0, 1, 3, 5});
   const std::vector<int> kept = {0, 1, 3, 5};
   const MatrixXd inverse = MatrixXd((data + prior)(kept, kept)).inverse();
   EXPECT_LT((posterior.Gain()(kept, kept) - inverse).norm(),
             1e-12 * inverse.norm());
   EXPECT_EQ(posterior.Gain().row(2).norm() + posterior.Gain().col(4).norm(), 0);
   const MatrixXd sandwich = inverse * scores(kept, kept) * inverse;
-  EXPECT_LT((posterior.Sandwich(scores)(kept, kept) - sandwich).norm(),
-            1e-12 * sandwich.norm());
+  EXPECT_LT(
+      (posterior.Sandwich(SquareRoot(scores))(kept, kept) - sandwich).norm(),
+      1e-12 * sandwich.norm());
 }
 
-// Data of noise 1e-8 on two of three combinations: the third has the prior's
+// Data of noise 1e-10 on two of three combinations: the third has the prior's
 // variance, which a direct inverse loses.
 TEST(Posterior, KeepsWhatOnlyThePriorKnows) {
   MatrixXd J(2, 3);
   J << 1, 1, 1, 1, 2, 3;
-  J *= 1e8;
+  J *= 1e10;
   const MatrixXd prior = MatrixXd::Identity(3, 3);
-  const Posterior posterior(J.transpose() * J, prior, {0, 1, 2});
+  const Posterior posterior(J, prior, {0, 1, 2});
   const Eigen::Vector3d unseen = Eigen::Vector3d(1, -2, 1).normalized();
   EXPECT_NEAR(unseen.dot(posterior.Gain() * unseen), 1, 1e-6);
   EXPECT_NEAR(posterior.Gain().trace(), 1, 1e-6);
@@ -48,8 +55,9 @@ TEST(Posterior, KeepsWhatOnlyThePriorKnows) {
 
 TEST(Posterior, ParametersWithoutPriorHaveTheDatas) {
   std::mt19937_64 random(2);
-  const MatrixXd data = RandomInformation(3, 8, &random);
-  const Posterior posterior(data, MatrixXd::Zero(3, 3), {0, 1, 2});
+  const MatrixXd A = RandomRows(3, 8, &random);
+  const MatrixXd data = A.transpose() * A;
+  const Posterior posterior(A, MatrixXd::Zero(3, 3), {0, 1, 2});
   EXPECT_LT((posterior.Gain() - data.inverse()).norm(),
             1e-6 * data.inverse().norm());
 }
