@@ -3,11 +3,11 @@
 #include <ceres/manifold.h>
 #include <ceres/normal_prior.h>
 #include <ceres/problem.h>
-#include <ceres/solver.h>
 
 #include <cmath>
 
 #include "calib/link_start.h"
+#include "problems/dense_solver.h"
 #include "problems/inertial_coordinates.h"
 #include "problems/inertial_manifold.h"
 #include "problems/inertial_prior.h"
@@ -86,6 +86,54 @@ LinkEquations WithTermPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
   return all;
 }
 
+void AddTorques(const ArmUnknowns& unknowns, const LinkEquations& equations,
+                Blocks* blocks, ceres::Problem* problem) {
+  ArmValues& v = blocks->value;
+  std::vector<double*> all;
+  for (Vector10d& c : blocks->links) all.push_back(c.data());
+  all.insert(all.end(),
+             {v.terms.data(), v.tilt.data(), v.poses.geometry.data()});
+  problem->AddResidualBlock(
+      new TorqueFactorResidual(equations.R.leftCols(unknowns.other_begin()),
+                               equations.z, unknowns.num_links(),
+                               {static_cast<int>(v.terms.size()), 2,
+                                static_cast<int>(v.poses.geometry.size())}),
+      nullptr, all);
+}
+
+void AddPriors(const ArmUnknowns& unknowns, const ArmTrust& trust,
+               Blocks* blocks, ceres::Problem* problem) {
+  const ArmValues& nominal = unknowns.nominal();
+  for (int i = 0; i < unknowns.num_links(); ++i) {
+    double* const c = blocks->links[i].data();
+    problem->AddResidualBlock(
+        new InertialPrior(nominal.links.segment<10>(10 * i), trust.inertia),
+        nullptr, c);
+    problem->SetManifold(c, new InertialManifold);
+  }
+  AddNormalPrior(unknowns, trust, unknowns.tilt_begin(), nominal.tilt,
+                 blocks->value.tilt.data(), problem);
+  AddNormalPrior(unknowns, trust, unknowns.geometry_begin(),
+                 nominal.poses.geometry, blocks->value.poses.geometry.data(),
+                 problem);
+}
+
+// What is held, and friction and armature not below 0.
+void AddLimits(const ArmUnknowns& unknowns, Blocks* blocks,
+               ceres::Problem* problem) {
+  ArmValues& v = blocks->value;
+  const int num_terms = static_cast<int>(v.terms.size());
+  Hold(unknowns, unknowns.terms_begin(), num_terms, v.terms.data(), problem);
+  for (int t = 0; t < num_terms; ++t) {
+    if (!IsPositive(unknowns, t)) continue;
+    problem->SetParameterLowerBound(v.terms.data(), t, 0);
+  }
+  Hold(unknowns, unknowns.tilt_begin(), 2, v.tilt.data(), problem);
+  Hold(unknowns, unknowns.geometry_begin(),
+       static_cast<int>(v.poses.geometry.size()), v.poses.geometry.data(),
+       problem);
+}
+
 }  // namespace
 
 ArmFit::ArmFit(const ArmUnknowns& unknowns, const ArmTrust& trust,
@@ -125,51 +173,14 @@ ArmFit::End ArmFit::Solve(const LinkEquations& torques,
                           ArmValues* values) const {
   const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
   Blocks blocks(*values);
-  ArmValues& v = blocks.value;
-  std::vector<double*> all;
-  for (Vector10d& c : blocks.links) all.push_back(c.data());
-  const int num_terms = static_cast<int>(v.terms.size());
-  const int num_geometry = static_cast<int>(v.poses.geometry.size());
-  all.insert(all.end(),
-             {v.terms.data(), v.tilt.data(), v.poses.geometry.data()});
   ceres::Problem problem;
-  problem.AddResidualBlock(
-      new TorqueFactorResidual(equations.R.leftCols(unknowns_.other_begin()),
-                               equations.z, unknowns_.num_links(),
-                               {num_terms, 2, num_geometry}),
-      nullptr, all);
-  const ArmValues& nominal = unknowns_.nominal();
-  for (size_t i = 0; i < blocks.links.size(); ++i) {
-    problem.AddResidualBlock(
-        new InertialPrior(nominal.links.segment<10>(10 * i), trust_.inertia),
-        nullptr, all[i]);
-    problem.SetManifold(all[i], new InertialManifold);
+  AddTorques(unknowns_, equations, &blocks, &problem);
+  AddPriors(unknowns_, trust_, &blocks, &problem);
+  if (poses_ != nullptr) {
+    poses_->AddResiduals(poses_->AllRows(), &blocks.value.poses, &problem);
   }
-  double* const g = v.poses.geometry.data();
-  AddNormalPrior(unknowns_, trust_, unknowns_.tilt_begin(), nominal.tilt,
-                 v.tilt.data(), &problem);
-  AddNormalPrior(unknowns_, trust_, unknowns_.geometry_begin(),
-                 nominal.poses.geometry, g, &problem);
-  if (poses_ != nullptr)
-    poses_->AddResiduals(poses_->AllRows(), &v.poses, &problem);
-  Hold(unknowns_, unknowns_.terms_begin(), num_terms, v.terms.data(), &problem);
-  for (int t = 0; t < num_terms; ++t) {
-    if (IsPositive(unknowns_, t)) {
-      problem.SetParameterLowerBound(v.terms.data(), t, 0);
-    }
-  }
-  Hold(unknowns_, unknowns_.tilt_begin(), 2, v.tilt.data(), &problem);
-  Hold(unknowns_, unknowns_.geometry_begin(), num_geometry, g, &problem);
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 300;
-  options.function_tolerance = 1e-9;
-  // Gauss-Newton unless it fails: the usual damping, relative to the data,
-  // stops directions that only the prior determines where they started.
-  options.initial_trust_region_radius = 1e16;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  AddLimits(unknowns_, &blocks, &problem);
+  const ceres::Solver::Summary summary = SolveDense(1e-9, &problem);
   const ArmValues result = blocks.Values();
   End end;
   end.reason = ceres::TerminationTypeToString(summary.termination_type);

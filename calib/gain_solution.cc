@@ -2,11 +2,12 @@
 
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
-#include <ceres/solver.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "problems/dense_solver.h"
 
 namespace armcal {
 namespace {
@@ -114,14 +115,7 @@ bool RefineGains(const std::vector<CurrentEquations>& equations,
   } else {
     problem.SetParameterBlockConstant(g);
   }
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 100;
-  options.function_tolerance = 1e-12;
-  options.parameter_tolerance = 1e-12;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const ceres::Solver::Summary summary = SolveDense(1e-12, &problem);
   return summary.IsSolutionUsable() && estimate->g.allFinite() &&
          estimate->x.allFinite() && estimate->p.allFinite();
 }

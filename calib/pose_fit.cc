@@ -2,7 +2,6 @@
 
 #include <ceres/manifold.h>
 #include <ceres/normal_prior.h>
-#include <ceres/solver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "calib/pose_start.h"
 #include "model/column_basis.h"
+#include "problems/dense_solver.h"
 
 namespace armcal {
 namespace {
@@ -133,16 +133,7 @@ bool PoseFit::Solve(const std::vector<bool>& free, const std::vector<int>& rows,
     problem.SetManifold(unknowns->geometry.data(),
                         new ceres::SubsetManifold(geometry_->size(), constant));
   }
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = 200;
-  solver.function_tolerance = 1e-12;
-  // Gauss-Newton unless it fails: the usual damping would stop directions that
-  // the prior determines where they started.
-  solver.initial_trust_region_radius = 1e16;
-  solver.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
+  const ceres::Solver::Summary summary = SolveDense(1e-12, &problem);
   return summary.IsSolutionUsable() && unknowns->geometry.allFinite() &&
          unknowns->other.allFinite();
 }
