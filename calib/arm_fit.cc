@@ -51,11 +51,6 @@ void Hold(const ArmUnknowns& unknowns, int begin, int size, double* block,
   }
 }
 
-bool IsPositive(const ArmUnknowns& unknowns, int term) {
-  return unknowns.is_free(unknowns.terms_begin() + term) &&
-         unknowns.terms()[term].term != JointTerm::kOffset;
-}
-
 void AddNormalPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
                     int begin, const VectorXd& mean, double* block,
                     ceres::Problem* problem) {
@@ -125,7 +120,7 @@ void AddLimits(const ArmUnknowns& unknowns, Blocks* blocks,
   const int num_terms = static_cast<int>(v.terms.size());
   Hold(unknowns, unknowns.terms_begin(), num_terms, v.terms.data(), problem);
   for (int t = 0; t < num_terms; ++t) {
-    if (!IsPositive(unknowns, t)) continue;
+    if (!unknowns.is_positive(unknowns.terms_begin() + t)) continue;
     problem->SetParameterLowerBound(v.terms.data(), t, 0);
   }
   Hold(unknowns, unknowns.tilt_begin(), 2, v.tilt.data(), problem);
@@ -152,7 +147,8 @@ bool ArmFit::Start(const LinkEquations& torques, ArmValues* values) const {
   x.tail(values->terms.size()) = values->terms;
   std::vector<TermRange> ranges;
   for (int t = 0; t < values->terms.size(); ++t) {
-    ranges.push_back(IsPositive(unknowns_, t) ? TermRange::kPositive
+    ranges.push_back(unknowns_.is_positive(unknowns_.terms_begin() + t)
+                         ? TermRange::kPositive
                      : unknowns_.is_free(unknowns_.terms_begin() + t)
                          ? TermRange::kFree
                          : TermRange::kHeld);

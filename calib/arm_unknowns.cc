@@ -131,6 +131,11 @@ std::vector<int> ArmUnknowns::FreeIndices() const {
   return indices;
 }
 
+bool ArmUnknowns::is_positive(int k) const {
+  return k >= terms_begin() && k < tilt_begin() && free_[k] &&
+         terms_[k - terms_begin()].term != JointTerm::kOffset;
+}
+
 double ArmUnknowns::NormalPrior(int k, const ArmTrust& trust) const {
   if (k < terms_begin()) return 0;
   if (k < tilt_begin()) {

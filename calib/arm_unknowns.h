@@ -54,6 +54,8 @@ class ArmUnknowns {
   const std::string& name(int k) const { return names_[k]; }
   const std::string& unit(int k) const { return units_[k]; }
   bool is_free(int k) const { return free_[k]; }
+  // Friction and armature that are estimated.
+  bool is_positive(int k) const;
   std::vector<int> FreeIndices() const;
   bool refines_geometry() const { return !torque_geometry_.empty(); }
   bool has_poses() const { return has_poses_; }

@@ -164,6 +164,8 @@ void NonlinearCalibrator::Report(const ArmCovariance& covariance,
     out.identifiable = covariance.identifiable[k];
     out.held = !unknowns_.is_free(k);
     out.geometry = geometry;
+    out.at_bound = unknowns_.is_positive(k) &&
+                   value[k] < 1e-6 * unknowns_.NormalPrior(k, options_.trust);
     out.stddev = out.identifiable ? std::sqrt(covariance.covariance(k, k))
                                   : std::numeric_limits<double>::infinity();
     result->parameters.push_back(out);

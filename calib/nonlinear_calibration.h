@@ -32,8 +32,9 @@ struct PhysicalParameter {
   double stddev;  // infinite where the data do not determine it
   double prior;   // the robot file's value
   bool identifiable;
-  bool held;      // not estimated: one with another parameter
-  bool geometry;  // of the arm, its base, tool, instrument or targets
+  bool held;              // not estimated: one with another parameter
+  bool geometry;          // of the arm, its base, tool, instrument or targets
+  bool at_bound = false;  // friction or armature that would be negative
 };
 
 // Measured poses at an estimate.

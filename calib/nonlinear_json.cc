@@ -17,7 +17,8 @@ json ParameterJson(const PhysicalParameter& p) {
           {"stddev", JsonNumber(p.stddev)},
           {"prior", JsonNumber(p.prior)},
           {"identifiable", p.identifiable},
-          {"held", p.held}};
+          {"held", p.held},
+          {"at_bound", p.at_bound}};
 }
 
 // Geometry, poses and correlations in calibration.json.

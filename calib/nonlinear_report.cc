@@ -28,6 +28,7 @@ std::string Value(const PhysicalParameter& p) {
   const std::string value = Format("%9.4g ", p.value);
   return Padded(value + (p.held           ? "(held)"
                          : p.identifiable ? Format("+- %.2g", p.stddev)
+                         : p.at_bound     ? "(bound)"
                                           : "(prior)"),
                 kValueWidth);
 }

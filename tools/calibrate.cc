@@ -233,10 +233,12 @@ std::vector<std::string> FlagNames() {
 }  // namespace
 
 Command CalibrateCommand() {
-  return {"calibrate",
-          "model parameters of an arm from logs of its joint positions and "
-          "torques, with standard deviations, ranks and a held-out check",
-          FlagNames(), &RunCalibrate};
+  return {
+      "calibrate",
+      "dynamics and geometry of an arm from logs of its joint positions and "
+      "torques, and from measured poses, with standard deviations, ranks, "
+      "a held-out check and a robot file for simulators",
+      FlagNames(), &RunCalibrate};
 }
 
 }  // namespace armcal
