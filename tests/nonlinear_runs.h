@@ -85,20 +85,26 @@ struct NonlinearRun {
   NonlinearCalibration physical;
 };
 
-// Calibrates on one log and validates on another, both with noise of `noise`
-// times the torque.
-inline NonlinearRun Calibrate(const SimulatedArm& arm, double noise,
+// Of logs, times the torque.
+struct LogNoise {
+  double training, validation;
+};
+
+// Calibrates on one log and validates on another.
+inline NonlinearRun Calibrate(const SimulatedArm& arm, const LogNoise& noise,
                               const NonlinearCalibrationOptions& options,
                               std::mt19937_64* random) {
   LogReaderOptions reader;
   reader.joint_names = arm.file.JointNames();
-  const auto write = [&](double duration, const std::string& name) {
+  const auto write = [&](double duration, double size,
+                         const std::string& name) {
     Log log = MoveArm(arm.truth, duration, random);
-    AddNoise(random, noise * ColumnRms(log.tau), &log.tau);
+    AddNoise(random, size * ColumnRms(log.tau), &log.tau);
     return WriteFile(LogCsv(log), name);
   };
-  LogSet training({write(30, "training.csv")}, reader, {});
-  LogSet validation({write(10, "validation.csv")}, reader, {});
+  LogSet training({write(30, noise.training, "training.csv")}, reader, {});
+  LogSet validation({write(10, noise.validation, "validation.csv")}, reader,
+                    {});
   LinearCalibrationOptions linear;
   linear.transition = kTransition;
   linear.bandwidth_hz = 0;
@@ -107,6 +113,13 @@ inline NonlinearRun Calibrate(const SimulatedArm& arm, double noise,
   NonlinearCalibration physical =
       CalibrateNonlinear(arm.file, start, options, &training, &validation);
   return {std::move(start), std::move(physical)};
+}
+
+// The same noise in both.
+inline NonlinearRun Calibrate(const SimulatedArm& arm, double noise,
+                              const NonlinearCalibrationOptions& options,
+                              std::mt19937_64* random) {
+  return Calibrate(arm, LogNoise{noise, noise}, options, random);
 }
 
 // The value of a parameter in `robot`: "<link>.mass", "<joint>.viscous".

@@ -8,6 +8,7 @@
 #include "calib/pose_report.h"
 #include "calib/verdict.h"
 #include "model/pose_reader.h"
+#include "model/urdf_update.h"
 #include "model/urdf_writer.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command.h"

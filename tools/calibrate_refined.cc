@@ -6,6 +6,7 @@
 
 #include "calib/nonlinear_report.h"
 #include "model/input_text.h"
+#include "model/urdf_update.h"
 #include "model/urdf_writer.h"
 #include "tools/command.h"
 #include "tools/input_flags.h"

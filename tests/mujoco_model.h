@@ -1,0 +1,95 @@
+#pragma once
+
+// A robot in MuJoCo, from the URDF that MakeUrdf writes: a referee that shares
+// no code.
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "calib/nonlinear_calibration.h"
+#include "model/robot_reader.h"
+#include "model/urdf_writer.h"
+#include "tests/temp_file.h"
+
+namespace armcal {
+
+using MujocoModel = std::unique_ptr<mjModel, void (*)(mjModel*)>;
+using MujocoData = std::unique_ptr<mjData, void (*)(mjData*)>;
+
+// Null, and a failure of the test, where MuJoCo refuses the file. Gravity,
+// which URDF cannot say, is the robot's.
+inline MujocoModel LoadInMujoco(const Robot& robot) {
+  const std::string path = WriteFile(MakeUrdf(robot), "mujoco.urdf");
+  char error[1000] = "";
+  MujocoModel model(mj_loadXML(path.c_str(), nullptr, error, sizeof(error)),
+                    mj_deleteModel);
+  EXPECT_NE(model, nullptr) << error;
+  if (model == nullptr) return model;
+  EXPECT_EQ(model->nv, robot.num_joints());
+  mju_copy3(model->opt.gravity, robot.gravity.data());
+  return model;
+}
+
+// Where MuJoCo keeps the joints, in the robot's order: in qpos, in qvel.
+struct MujocoJoints {
+  std::vector<int> q, v;
+
+  MujocoJoints(const Robot& robot, const mjModel& model) {
+    for (const Link& link : robot.links) {
+      const int id = mj_name2id(&model, mjOBJ_JOINT, link.joint.name.c_str());
+      EXPECT_GE(id, 0) << link.joint.name;
+      if (id < 0) return;
+      q.push_back(model.jnt_qposadr[id]);
+      v.push_back(model.jnt_dofadr[id]);
+    }
+  }
+
+  void SetMotion(const Eigen::VectorXd& position,
+                 const Eigen::VectorXd& velocity,
+                 const Eigen::VectorXd& acceleration, mjData* data) const {
+    for (size_t j = 0; j < v.size(); ++j) {
+      const auto k = static_cast<Eigen::Index>(j);
+      data->qpos[q[j]] = position[k];
+      data->qvel[v[j]] = velocity[k];
+      data->qacc[v[j]] = acceleration[k];
+    }
+  }
+
+  // A vector over MuJoCo's degrees of freedom, in the robot's order.
+  Eigen::VectorXd Read(const mjtNum* of_dofs) const {
+    Eigen::VectorXd x(v.size());
+    for (size_t j = 0; j < v.size(); ++j) {
+      x[static_cast<Eigen::Index>(j)] = of_dofs[v[j]];
+    }
+    return x;
+  }
+};
+
+// The physically consistent robot of a log of shared/data; currents where
+// torque constants are given.
+inline Robot CalibratedRobot(const std::string& folder, const std::string& log,
+                             double bandwidth_hz,
+                             const std::vector<double>& torque_constants) {
+  const std::string data = SHARED_DIR "/data/" + folder;
+  const Robot robot = ReadRobot(data + "robot.urdf", {});
+  LogReaderOptions reader;
+  reader.joint_names = robot.JointNames();
+  reader.torque_constants = torque_constants;
+  LogSet logs({data + log}, reader, {});
+  LinearCalibrationOptions options;
+  options.bandwidth_hz = bandwidth_hz;
+  const auto linear = CalibrateLinear(robot, options, &logs, nullptr);
+  return CalibrateNonlinear(robot, linear, {}, &logs, nullptr).robot;
+}
+
+inline Robot CalibratedUr10e() {
+  return CalibratedRobot("ur10e_free/", "id_30s.csv", 6,
+                         {14.87, 13.26, 11.13, 10.62, 11.03, 11.47});
+}
+
+}  // namespace armcal
