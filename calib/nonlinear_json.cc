@@ -35,7 +35,9 @@ void AddGeometry(const NonlinearCalibration& result, json* calibration) {
   }
   if (!geometry.empty()) {
     if (c.contains("geometry")) c["linear"]["geometry"] = c["geometry"];
-    c["geometry"] = geometry;
+    // Lengths that the linear calibration recovered are this robot's too.
+    if (result.lengths.empty()) c["geometry"] = json::array();
+    for (const json& entry : geometry) c["geometry"].push_back(entry);
   }
   if (result.poses) {
     c["poses"] = {{"unit", "m"},
@@ -116,9 +118,14 @@ void AddRefined(const NonlinearCalibration& result, json* calibration) {
                                 {"correlations", CorrelationsJson(result)},
                                 {"unidentifiable", result.unseen}};
   AddGeometry(result, calibration);
+  json exact = json::array();
+  for (const RecoveredLength& l : result.lengths) {
+    if (l.identifiable) exact.push_back(l.name);
+  }
   c["refined"] = {{"converged", result.converged()},
                   {"reason", result.reason},
-                  {"iterations", result.iterations}};
+                  {"iterations", result.iterations},
+                  {"exact_lengths", exact}};
 }
 
 std::string ParametersCovarianceCsv(const NonlinearCalibration& result) {

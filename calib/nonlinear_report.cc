@@ -102,6 +102,24 @@ std::string GeometryTable(const NonlinearCalibration& result) {
   return "\ngeometry                        file       estimate\n" + text;
 }
 
+// Which lengths of the linear calibration this robot has.
+std::string LengthText(const NonlinearCalibration& result) {
+  std::string taken, kept;
+  for (const RecoveredLength& l : result.lengths) {
+    std::string& list = l.identifiable ? taken : kept;
+    list += (list.empty() ? "" : ", ") + l.name;
+  }
+  std::string text;
+  if (!taken.empty()) {
+    text += "\nlengths    " + taken + " as estimated above; the links are " +
+            "estimated with these taken for exact";
+  }
+  if (!kept.empty()) {
+    text += "\nlengths    " + kept + " as in the file: not seen alone";
+  }
+  return text;
+}
+
 std::string PoseText(const NonlinearCalibration& result) {
   if (!result.poses) return "";
   const PoseFigures& poses = *result.poses;
@@ -146,7 +164,7 @@ std::string NonlinearReport(const Robot& nominal,
                      GeometryTable(result) + "\nresidual of this robot " +
                      Percent(*result.training);
   if (result.validation) text += ", held out " + Percent(*result.validation);
-  text += PoseText(result) + CertaintyText(result);
+  text += LengthText(result) + PoseText(result) + CertaintyText(result);
   if (!result.converged()) {
     text += "\nnot converged: " + result.reason + " after " +
             std::to_string(result.iterations) + " iterations";

@@ -83,13 +83,15 @@ inline Log MoveArm(const Robot& truth, double duration,
 struct NonlinearRun {
   LinearCalibration linear;
   NonlinearCalibration physical;
+  std::string held_out;  // path of the log it was validated on
 };
 
 // Calibrates on one log and validates on another, both with noise of `noise`
 // times the torque.
-inline NonlinearRun Calibrate(const SimulatedArm& arm, double noise,
-                              const NonlinearCalibrationOptions& options,
-                              std::mt19937_64* random) {
+inline NonlinearRun Calibrate(
+    const SimulatedArm& arm, double noise,
+    const NonlinearCalibrationOptions& options, std::mt19937_64* random,
+    GeometryKnowledge geometry = GeometryKnowledge::kKnown) {
   LogReaderOptions reader;
   reader.joint_names = arm.file.JointNames();
   const auto write = [&](double duration, const std::string& name) {
@@ -98,15 +100,17 @@ inline NonlinearRun Calibrate(const SimulatedArm& arm, double noise,
     return WriteFile(LogCsv(log), name);
   };
   LogSet training({write(30, "training.csv")}, reader, {});
-  LogSet validation({write(10, "validation.csv")}, reader, {});
+  const std::string held_out = write(10, "validation.csv");
+  LogSet validation({held_out}, reader, {});
   LinearCalibrationOptions linear;
+  linear.geometry = geometry;
   linear.transition = kTransition;
   linear.bandwidth_hz = 0;
   LinearCalibration start =
       CalibrateLinear(arm.file, linear, &training, &validation);
   NonlinearCalibration physical =
       CalibrateNonlinear(arm.file, start, options, &training, &validation);
-  return {std::move(start), std::move(physical)};
+  return {std::move(start), std::move(physical), held_out};
 }
 
 // The value of a parameter in `robot`: "<link>.mass", "<joint>.viscous".
