@@ -28,16 +28,15 @@ bool HasUnknownLengths(const LinearCalibration& linear) {
   return !linear.parameters.unknown_lengths().empty();
 }
 
-// The file's robot with the lengths that the linear calibration determined.
+// The file's robot with the lengths of the linear calibration.
 Robot WithRecoveredLengths(const Robot& robot,
                            const LinearCalibration& linear) {
   std::vector<Length> lengths;
   for (size_t l = 0; l < linear.lengths.size(); ++l) {
-    if (!linear.lengths[l].identifiable) continue;
     lengths.push_back(linear.parameters.unknown_lengths()[l]);
     lengths.back().value = linear.lengths[l].value;
   }
-  return lengths.empty() ? robot : WithLengths(robot, lengths);
+  return WithLengths(robot, lengths);
 }
 
 // How well each of the linear estimate's parameters is to be met. With a known
@@ -247,8 +246,9 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
   result.robot = unknowns_.Apply(values_);
   result.refined_geometry =
       unknowns_.refines_geometry() || poses != nullptr ||
-      std::any_of(result.lengths.begin(), result.lengths.end(),
-                  [](const RecoveredLength& l) { return l.identifiable; });
+      std::any_of(
+          result.lengths.begin(), result.lengths.end(),
+          [](const RecoveredLength& l) { return l.value != l.nominal; });
   result.training = Evaluate(result.robot, training);
   if (validation != nullptr) {
     result.validation = Evaluate(result.robot, validation);

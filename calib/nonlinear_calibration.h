@@ -58,8 +58,7 @@ struct NonlinearCalibration {
   std::optional<TorqueResidual> training;
   std::optional<TorqueResidual> validation;
   std::optional<PoseFigures> poses;
-  // Of the linear calibration: robot has the identifiable ones, taken for
-  // exact, and the file's value of the others.
+  // Of the linear calibration: robot has them, taken for exact.
   std::vector<RecoveredLength> lengths;
   bool refined_geometry = false;  // or the tool: robot's is not the file's
 };

@@ -104,15 +104,22 @@ std::string GeometryTable(const NonlinearCalibration& result) {
 
 // Which lengths of the linear calibration this robot has.
 std::string LengthText(const NonlinearCalibration& result) {
-  std::string taken, kept;
+  std::string seen, moved, kept;
   for (const RecoveredLength& l : result.lengths) {
-    std::string& list = l.identifiable ? taken : kept;
+    std::string& list = l.identifiable         ? seen
+                        : l.value != l.nominal ? moved
+                                               : kept;
     list += (list.empty() ? "" : ", ") + l.name;
+    if (&list == &moved) list += Format(" (%.6f m)", l.value);
   }
   std::string text;
-  if (!taken.empty()) {
-    text += "\nlengths    " + taken + " as estimated above; the links are " +
+  if (!seen.empty()) {
+    text += "\nlengths    " + seen + " as estimated above; the links are " +
             "estimated with these taken for exact";
+  }
+  if (!moved.empty()) {
+    text += "\nlengths    " + moved + ": only their sums are seen; as near " +
+            "the file's as these allow";
   }
   if (!kept.empty()) {
     text += "\nlengths    " + kept + " as in the file: not seen alone";
