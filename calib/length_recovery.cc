@@ -122,7 +122,8 @@ struct Step {
 Step Decompose(const MatrixXd& J) {
   Step step;
   step.scale = J.colwise().norm();
-  for (double& s : step.scale) s = s > 0 ? s : 1;
+  const double largest = step.scale.maxCoeff();
+  for (double& s : step.scale) s = s > 0 ? s : largest > 0 ? largest : 1;
   step.svd.compute(J * step.scale.cwiseInverse().asDiagonal(),
                    Eigen::ComputeThinU | Eigen::ComputeFullV);
   step.svd.setThreshold(1e-9);
@@ -188,7 +189,7 @@ VectorXd UnseenChange(const Step& step, const VectorXd& theta,
   VectorXd wished = theta;
   wished.tail(nominal.size()) = nominal;
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> lengths;
-  lengths.setThreshold(1e-6);
+  lengths.setThreshold(1e-9);
   lengths.compute(N(unseen, Eigen::all));
   return N * lengths.solve((wished - theta)(unseen));
 }
