@@ -118,14 +118,9 @@ void AddRefined(const NonlinearCalibration& result, json* calibration) {
                                 {"correlations", CorrelationsJson(result)},
                                 {"unidentifiable", result.unseen}};
   AddGeometry(result, calibration);
-  json exact = json::array();
-  for (const RecoveredLength& l : result.lengths) {
-    if (l.identifiable) exact.push_back(l.name);
-  }
   c["refined"] = {{"converged", result.converged()},
                   {"reason", result.reason},
-                  {"iterations", result.iterations},
-                  {"exact_lengths", exact}};
+                  {"iterations", result.iterations}};
 }
 
 std::string ParametersCovarianceCsv(const NonlinearCalibration& result) {

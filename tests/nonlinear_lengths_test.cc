@@ -162,11 +162,6 @@ TEST(NonlinearLengths, StayInTheGeometryOfTheJson) {
   nlohmann::json with_tool = c;
   AddRefined(run.physical, &c);
   EXPECT_EQ(c["geometry"], recovered);
-  std::vector<std::string> names;
-  for (const RecoveredLength& l : run.physical.lengths) {
-    if (l.identifiable) names.push_back(l.name);
-  }
-  EXPECT_EQ(c["refined"]["exact_lengths"], names);
   PhysicalParameter tool = run.physical.parameters[0];
   tool.name = "tool.x";
   tool.geometry = true;
