@@ -122,17 +122,22 @@ struct Step {
 Step Decompose(const MatrixXd& J) {
   Step step;
   step.scale = J.colwise().norm();
-  for (double& s : step.scale) s = s > 0 ? s : 1;
+  const double largest = step.scale.maxCoeff();
+  for (double& s : step.scale) s = s > 0 ? s : largest > 0 ? largest : 1;
   step.svd.compute(J * step.scale.cwiseInverse().asDiagonal(),
                    Eigen::ComputeThinU | Eigen::ComputeFullV);
   step.svd.setThreshold(1e-9);
   return step;
 }
 
-VectorXd Solve(const Whitened& w, const Bilinear& model) {
-  const VectorXd x_full =
-      w.matrix.completeOrthogonalDecomposition().solve(w.value);
-  VectorXd theta = model.Start(x_full);
+// What of parameter k no data of a rank-deficient step tell, 0 to 1.
+double Unseen(const Step& step, Eigen::Index k) {
+  const Eigen::Index beyond = step.svd.matrixV().cols() - step.svd.rank();
+  return step.svd.matrixV().row(k).tail(beyond).squaredNorm();
+}
+constexpr double kSeen = 1e-8;
+
+VectorXd GaussNewton(const Whitened& w, const Bilinear& model, VectorXd theta) {
   double cost = (w.matrix * model.Value(theta) - w.value).squaredNorm();
   for (int iteration = 0; iteration < 100; ++iteration) {
     const Step step = Decompose(w.matrix * model.Jacobian(theta));
@@ -153,6 +158,69 @@ VectorXd Solve(const Whitened& w, const Bilinear& model) {
   return theta;
 }
 
+VectorXd Solve(const Whitened& w, const Bilinear& model) {
+  const VectorXd x_full =
+      w.matrix.completeOrthogonalDecomposition().solve(w.value);
+  return GaussNewton(w, model, model.Start(x_full));
+}
+
+VectorXd Nominal(const ModelParameters& parameters) {
+  const std::vector<Length>& lengths = parameters.unknown_lengths();
+  VectorXd nominal(lengths.size());
+  for (size_t l = 0; l < lengths.size(); ++l) {
+    nominal[static_cast<int>(l)] = lengths[l].value;
+  }
+  return nominal;
+}
+
+// The change of theta that no data tell, first order, and that takes its unseen
+// lengths nearest to `nominal`; nothing where all lengths are seen.
+VectorXd UnseenChange(const Step& step, const VectorXd& theta,
+                      const VectorXd& nominal) {
+  const Eigen::Index begin = theta.size() - nominal.size();
+  std::vector<Eigen::Index> unseen;
+  for (Eigen::Index k = begin; k < theta.size(); ++k) {
+    if (Unseen(step, k) >= kSeen) unseen.push_back(k);
+  }
+  if (unseen.empty()) return VectorXd::Zero(theta.size());
+  const MatrixXd N =
+      step.scale.cwiseInverse().asDiagonal() *
+      step.svd.matrixV().rightCols(theta.size() - step.svd.rank());
+  VectorXd wished = theta;
+  wished.tail(nominal.size()) = nominal;
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> lengths;
+  lengths.setThreshold(1e-9);
+  lengths.compute(N(unseen, Eigen::all));
+  return N * lengths.solve((wished - theta)(unseen));
+}
+
+// Of all lengths that fit like those of `theta`, the nearest to `nominal`: data
+// may tell a sum of lengths and none of them. Along the directions that no data
+// tell and back onto the fit; lengths that are free become nominal.
+VectorXd NearestLengths(const Whitened& w, const Bilinear& model,
+                        const VectorXd& nominal, const VectorXd& theta) {
+  constexpr double kSame = 1e-9;  // m
+  const auto cost = [&](const VectorXd& at) {
+    return (w.matrix * model.Value(at) - w.value).squaredNorm();
+  };
+  VectorXd near = theta;
+  double moved = 1;
+  for (int iteration = 0; iteration < 50 && moved > kSame / 10; ++iteration) {
+    const VectorXd d =
+        UnseenChange(Decompose(w.matrix * model.Jacobian(near)), near, nominal);
+    moved = d.tail(nominal.size()).norm();
+    if (moved > 0) near = GaussNewton(w, model, near + d);
+  }
+  const bool fits =
+      cost(near) <= cost(theta) + 1e-6 * (1 + 1e-6 * w.value.squaredNorm());
+  if (!fits || !(moved <= kSame)) return nominal;
+  VectorXd lengths = near.tail(nominal.size());
+  for (Eigen::Index l = 0; l < lengths.size(); ++l) {
+    if (std::abs(lengths[l] - nominal[l]) < kSame) lengths[l] = nominal[l];
+  }
+  return lengths;
+}
+
 }  // namespace
 
 std::vector<RecoveredLength> RecoverLengths(const ModelParameters& parameters,
@@ -167,11 +235,12 @@ std::vector<RecoveredLength> RecoverLengths(const ModelParameters& parameters,
   if (w.value.size() == 0) {  // Eigen's SVD takes no matrix without rows
     for (const Length& length : parameters.unknown_lengths()) {
       result.push_back({length.owner_name, length.name, length.value,
-                        std::nan(""), std::nan(""), false});
+                        length.value, std::nan(""), false});
     }
     return result;
   }
   const VectorXd theta = Solve(w, model);
+  const VectorXd near = NearestLengths(w, model, Nominal(parameters), theta);
   const Step step = Decompose(w.matrix * model.Jacobian(theta));
   const Eigen::Index rank = step.svd.rank();
   const VectorXd& s = step.svd.singularValues();
@@ -180,18 +249,14 @@ std::vector<RecoveredLength> RecoverLengths(const ModelParameters& parameters,
     const Eigen::Index k = model.length_begin() + static_cast<int>(l);
     // theta_k moves by `gain` times the errors of the whitened x.
     VectorXd gain = VectorXd::Zero(w.value.size());
-    double unseen = 0;
-    for (Eigen::Index d = 0; d < step.svd.matrixV().cols(); ++d) {
-      const double v = step.svd.matrixV()(k, d);
-      if (d < rank) {
-        gain += v / s[d] * step.svd.matrixU().col(d);
-      } else {
-        unseen += v * v;
-      }
+    for (Eigen::Index d = 0; d < rank; ++d) {
+      gain += step.svd.matrixV()(k, d) / s[d] * step.svd.matrixU().col(d);
     }
-    result.push_back({length.owner_name, length.name, length.value, theta[k],
+    const bool seen = Unseen(step, k) < kSeen;
+    result.push_back({length.owner_name, length.name, length.value,
+                      seen ? theta[k] : near[static_cast<int>(l)],
                       std::sqrt(gain.dot(w.noise * gain)) / step.scale[k],
-                      unseen < 1e-8});
+                      seen});
   }
   return result;
 }

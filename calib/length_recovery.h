@@ -14,7 +14,9 @@ struct RecoveredLength {
   double nominal;      // m, the robot file's
   double value;        // m
   double stddev;       // m
-  bool identifiable;   // false where only products with moments are seen
+  // False where only products with moments or sums of lengths are seen: then
+  // values are those nearest to the robot file's of all that fit as well.
+  bool identifiable;
 };
 
 // The unknown lengths from estimated model parameters: every first moment

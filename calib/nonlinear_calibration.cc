@@ -9,6 +9,7 @@
 #include "calib/arm_fit.h"
 #include "calib/link_equations.h"
 #include "calib/pose_fit.h"
+#include "model/robot_lengths.h"
 
 namespace armcal {
 namespace {
@@ -22,6 +23,35 @@ constexpr int kMostRounds = 20;
 // have what is left of the filters pull the geometry off exact poses.
 constexpr double kLeastNoise = 1e-5;
 constexpr double kSettled = 0.05;  // noise deviations, rms over parameters
+
+bool HasUnknownLengths(const LinearCalibration& linear) {
+  return !linear.parameters.unknown_lengths().empty();
+}
+
+// The file's robot with the lengths of the linear calibration.
+Robot WithRecoveredLengths(const Robot& robot,
+                           const LinearCalibration& linear) {
+  std::vector<Length> lengths;
+  for (size_t l = 0; l < linear.lengths.size(); ++l) {
+    lengths.push_back(linear.parameters.unknown_lengths()[l]);
+    lengths.back().value = linear.lengths[l].value;
+  }
+  return WithLengths(robot, lengths);
+}
+
+// How well each of the linear estimate's parameters is to be met. With a known
+// geometry all can be. Moments times lengths are parameters of their own where
+// lengths are unknown, and not all of them together with one set of lengths.
+VectorXd Weights(const LinearCalibration& linear) {
+  constexpr double kExact = 1e-9;  // relative error of a certain parameter
+  VectorXd weights = VectorXd::Ones(linear.x.size());
+  if (!HasUnknownLengths(linear)) return weights;
+  for (Eigen::Index k = 0; k < weights.size(); ++k) {
+    const double error = std::hypot(linear.stddev[k], kExact * linear.x[k]);
+    weights[k] = linear.identifiable[k] && error > 0 ? 1 / error : 0;
+  }
+  return weights;
+}
 
 // Links (of no body) and terms that have the linear estimate's torques.
 ArmValues LinearValues(const ArmUnknowns& unknowns,
@@ -37,7 +67,10 @@ ArmValues LinearValues(const ArmUnknowns& unknowns,
                            : unit.terms[k - unit.links.size()]) = 1;
     K.col(k) = linear.parameters.Values(unknowns.WithInertia(unit));
   }
-  const VectorXd x = K.completeOrthogonalDecomposition().solve(linear.x);
+  const VectorXd weights = Weights(linear);
+  K = weights.asDiagonal() * K;
+  const VectorXd x =
+      K.completeOrthogonalDecomposition().solve(weights.cwiseProduct(linear.x));
   values.links = x.head(values.links.size());
   values.terms = x.tail(values.terms.size());
   return values;
@@ -114,6 +147,8 @@ std::string NonlinearCalibrator::StartPoses(const PoseMeasurements& measured,
 bool NonlinearCalibrator::Solve(LogSet* training, const ArmFit& fit,
                                 NonlinearCalibration* result) {
   LinkPass pass(unknowns_, linear_, options_.progress, training);
+  // Weights of equations are then those at a robot that has the lengths.
+  const bool again = unknowns_.refines_geometry() || HasUnknownLengths(linear_);
   ArmValues about = LinearValues(unknowns_, linear_);
   SetTerms(unknowns_, linear_, &values_.terms);
   for (int round = 0; round < kMostRounds; ++round) {
@@ -124,7 +159,7 @@ bool NonlinearCalibrator::Solve(LogSet* training, const ArmFit& fit,
         result->reason = "the numbers of the logs overflow";
         return false;
       }
-      if (unknowns_.refines_geometry()) {
+      if (again) {
         about = values_;
         continue;
       }
@@ -193,6 +228,7 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
                                               LogSet* validation) {
   NonlinearCalibration result;
   result.robot = unknowns_.robot();
+  result.lengths = linear_.lengths;
   result.reason = linear_.reason;
   if (!linear_.solved) return result;
   if (poses != nullptr) {
@@ -210,7 +246,11 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
                                         fit.PriorInformation(options_.trust))),
       &result);
   result.robot = unknowns_.Apply(values_);
-  result.refined_geometry = unknowns_.refines_geometry() || poses != nullptr;
+  result.refined_geometry =
+      unknowns_.refines_geometry() || poses != nullptr ||
+      std::any_of(
+          result.lengths.begin(), result.lengths.end(),
+          [](const RecoveredLength& l) { return l.value != l.nominal; });
   result.training = Evaluate(result.robot, training);
   if (validation != nullptr) {
     result.validation = Evaluate(result.robot, validation);
@@ -230,7 +270,8 @@ NonlinearCalibration CalibrateNonlinear(
     const Robot& robot, const LinearCalibration& linear,
     const NonlinearCalibrationOptions& options, LogSet* training,
     LogSet* validation, const PoseMeasurements* poses) {
-  return NonlinearCalibrator(robot, linear, options, poses)
+  return NonlinearCalibrator(WithRecoveredLengths(robot, linear), linear,
+                             options, poses)
       .Run(poses, training, validation);
 }
 

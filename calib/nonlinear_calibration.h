@@ -59,13 +59,16 @@ struct NonlinearCalibration {
   std::optional<TorqueResidual> training;
   std::optional<TorqueResidual> validation;
   std::optional<PoseFigures> poses;
+  // Of the linear calibration: robot has them, taken for exact.
+  std::vector<RecoveredLength> lengths;
   bool refined_geometry = false;  // or the tool: robot's is not the file's
 };
 
 // Estimates links' inertial parameters (log-Cholesky, hence physically
 // consistent), joint terms and, where asked for, the geometry from the torque
 // equations of the logs, weighted as the linear calibration found them, and
-// from measured poses, if any (null: none), with the robot file as prior.
+// from measured poses, if any (null: none), with the robot file as prior. Where
+// the linear calibration recovered lengths, the arm has these.
 NonlinearCalibration CalibrateNonlinear(
     const Robot& robot, const LinearCalibration& linear,
     const NonlinearCalibrationOptions& options, LogSet* training,

@@ -36,7 +36,9 @@ void AddGeometry(const NonlinearCalibration& result, json* calibration) {
   }
   if (!geometry.empty()) {
     if (c.contains("geometry")) c["linear"]["geometry"] = c["geometry"];
-    c["geometry"] = geometry;
+    // Lengths that the linear calibration recovered are this robot's too.
+    if (result.lengths.empty()) c["geometry"] = json::array();
+    for (const json& entry : geometry) c["geometry"].push_back(entry);
   }
   if (result.poses) {
     c["poses"] = {{"unit", "m"},

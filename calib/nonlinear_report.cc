@@ -103,6 +103,31 @@ std::string GeometryTable(const NonlinearCalibration& result) {
   return "\ngeometry                        file       estimate\n" + text;
 }
 
+// Which lengths of the linear calibration this robot has.
+std::string LengthText(const NonlinearCalibration& result) {
+  std::string seen, moved, kept;
+  for (const RecoveredLength& l : result.lengths) {
+    std::string& list = l.identifiable         ? seen
+                        : l.value != l.nominal ? moved
+                                               : kept;
+    list += (list.empty() ? "" : ", ") + l.name;
+    if (&list == &moved) list += Format(" (%.6f m)", l.value);
+  }
+  std::string text;
+  if (!seen.empty()) {
+    text += "\nlengths    " + seen + " as estimated above; the links are " +
+            "estimated with these taken for exact";
+  }
+  if (!moved.empty()) {
+    text += "\nlengths    " + moved + ": only their sums are seen; as near " +
+            "the file's as these allow";
+  }
+  if (!kept.empty()) {
+    text += "\nlengths    " + kept + " as in the file: not seen alone";
+  }
+  return text;
+}
+
 std::string PoseText(const NonlinearCalibration& result) {
   if (!result.poses) return "";
   const PoseFigures& poses = *result.poses;
@@ -147,7 +172,7 @@ std::string NonlinearReport(const Robot& nominal,
                      GeometryTable(result) + "\nresidual of this robot " +
                      Percent(*result.training);
   if (result.validation) text += ", held out " + Percent(*result.validation);
-  text += PoseText(result) + CertaintyText(result);
+  text += LengthText(result) + PoseText(result) + CertaintyText(result);
   if (!result.converged()) {
     text += "\nnot converged: " + result.reason + " after " +
             std::to_string(result.iterations) + " iterations";

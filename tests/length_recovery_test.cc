@@ -108,6 +108,32 @@ TEST(LengthRecovery, AllLengthsFromExactTorque) {
   ExpectExact("Panda 7R", GeometryKnowledge::kAllLengths, kPanda);
 }
 
+// Exact torque of the true arm, lengths from the structure of an arm with other
+// ones: sums are the truth's, and shared so that all change as little as can
+// be.
+TEST(LengthRecovery, SumsOfLengthsNearestToTheFile) {
+  const Lengths truth("UR5 6R", GeometryKnowledge::kAllLengths, 0);
+  Robot file = truth.robot;
+  for (Link& link : file.links) link.X_ML.translation() *= 1.08;
+  ModelParameters::Options options;
+  options.geometry = GeometryKnowledge::kAllLengths;
+  const ModelParameters parameters(file, options);
+  ASSERT_EQ(parameters.size(), truth.parameters.size());
+  const double change = -.08 * .10915 / 3;
+  const std::map<std::string, double> expected = {
+      {"d1", 1.08 * .089159},
+      {"d2", change},
+      {"d3", change},
+      {"d4", 1.08 * .10915 + change}};
+  for (const RecoveredLength& l : RecoverLengths(
+           parameters, parameters.Values(truth.robot), truth.covariance,
+           truth.covariance, truth.solution.identifiable)) {
+    EXPECT_EQ(l.identifiable, expected.count(l.symbol) == 0) << l.symbol;
+    if (l.identifiable) continue;
+    EXPECT_NEAR(l.value, expected.at(l.symbol), 1e-7) << l.symbol;
+  }
+}
+
 TEST(LengthRecovery, NothingToRecover) {
   const Lengths c("PUMA560 6R", GeometryKnowledge::kKnown, 0);
   EXPECT_TRUE(c.Recover(c.solution.x).empty());

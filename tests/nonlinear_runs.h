@@ -83,6 +83,7 @@ inline Log MoveArm(const Robot& truth, double duration,
 struct NonlinearRun {
   LinearCalibration linear;
   NonlinearCalibration physical;
+  std::string held_out;  // path of the log it was validated on
 };
 
 // Of logs, times the torque.
@@ -91,9 +92,10 @@ struct LogNoise {
 };
 
 // Calibrates on one log and validates on another.
-inline NonlinearRun Calibrate(const SimulatedArm& arm, const LogNoise& noise,
-                              const NonlinearCalibrationOptions& options,
-                              std::mt19937_64* random) {
+inline NonlinearRun Calibrate(
+    const SimulatedArm& arm, const LogNoise& noise,
+    const NonlinearCalibrationOptions& options, std::mt19937_64* random,
+    GeometryKnowledge geometry = GeometryKnowledge::kKnown) {
   LogReaderOptions reader;
   reader.joint_names = arm.file.JointNames();
   const auto write = [&](double duration, double size,
@@ -103,23 +105,25 @@ inline NonlinearRun Calibrate(const SimulatedArm& arm, const LogNoise& noise,
     return WriteFile(LogCsv(log), name);
   };
   LogSet training({write(30, noise.training, "training.csv")}, reader, {});
-  LogSet validation({write(10, noise.validation, "validation.csv")}, reader,
-                    {});
+  const std::string held_out = write(10, noise.validation, "validation.csv");
+  LogSet validation({held_out}, reader, {});
   LinearCalibrationOptions linear;
+  linear.geometry = geometry;
   linear.transition = kTransition;
   linear.bandwidth_hz = 0;
   LinearCalibration start =
       CalibrateLinear(arm.file, linear, &training, &validation);
   NonlinearCalibration physical =
       CalibrateNonlinear(arm.file, start, options, &training, &validation);
-  return {std::move(start), std::move(physical)};
+  return {std::move(start), std::move(physical), held_out};
 }
 
 // The same noise in both.
-inline NonlinearRun Calibrate(const SimulatedArm& arm, double noise,
-                              const NonlinearCalibrationOptions& options,
-                              std::mt19937_64* random) {
-  return Calibrate(arm, LogNoise{noise, noise}, options, random);
+inline NonlinearRun Calibrate(
+    const SimulatedArm& arm, double noise,
+    const NonlinearCalibrationOptions& options, std::mt19937_64* random,
+    GeometryKnowledge geometry = GeometryKnowledge::kKnown) {
+  return Calibrate(arm, LogNoise{noise, noise}, options, random, geometry);
 }
 
 // The value of a parameter in `robot`: "<link>.mass", "<joint>.viscous".

@@ -42,9 +42,8 @@ double PositiveFlag(const std::string& name, double value,
 
 std::string WhyNotRefined(const Robot& robot,
                           const LinearCalibrationOptions& options) {
-  if (options.identification != Identification::kWeak ||
-      options.geometry != GeometryKnowledge::kKnown) {
-    return "it takes the weak form and a known geometry";
+  if (options.identification != Identification::kWeak) {
+    return "it takes the weak form";
   }
   for (const Link& link : robot.links) {
     if (link.inertial.mass > 0) continue;
