@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -85,15 +86,12 @@ struct NonlinearRun {
   NonlinearCalibration physical;
 };
 
-// Of logs, times the torque.
-struct LogNoise {
-  double training, validation;
-};
-
-// Calibrates on one log and validates on another.
-inline NonlinearRun Calibrate(const SimulatedArm& arm, const LogNoise& noise,
+// Calibrates on one log and validates on another, both with noise of `noise`
+// times the torque unless the validation log's is given.
+inline NonlinearRun Calibrate(const SimulatedArm& arm, double noise,
                               const NonlinearCalibrationOptions& options,
-                              std::mt19937_64* random) {
+                              std::mt19937_64* random,
+                              std::optional<double> validation_noise = {}) {
   LogReaderOptions reader;
   reader.joint_names = arm.file.JointNames();
   const auto write = [&](double duration, double size,
@@ -102,9 +100,10 @@ inline NonlinearRun Calibrate(const SimulatedArm& arm, const LogNoise& noise,
     AddNoise(random, size * ColumnRms(log.tau), &log.tau);
     return WriteFile(LogCsv(log), name);
   };
-  LogSet training({write(30, noise.training, "training.csv")}, reader, {});
-  LogSet validation({write(10, noise.validation, "validation.csv")}, reader,
-                    {});
+  LogSet training({write(30, noise, "training.csv")}, reader, {});
+  LogSet validation(
+      {write(10, validation_noise.value_or(noise), "validation.csv")}, reader,
+      {});
   LinearCalibrationOptions linear;
   linear.transition = kTransition;
   linear.bandwidth_hz = 0;
@@ -113,13 +112,6 @@ inline NonlinearRun Calibrate(const SimulatedArm& arm, const LogNoise& noise,
   NonlinearCalibration physical =
       CalibrateNonlinear(arm.file, start, options, &training, &validation);
   return {std::move(start), std::move(physical)};
-}
-
-// The same noise in both.
-inline NonlinearRun Calibrate(const SimulatedArm& arm, double noise,
-                              const NonlinearCalibrationOptions& options,
-                              std::mt19937_64* random) {
-  return Calibrate(arm, LogNoise{noise, noise}, options, random);
 }
 
 // The value of a parameter in `robot`: "<link>.mass", "<joint>.viscous".
