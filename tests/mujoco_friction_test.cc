@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -48,20 +47,6 @@ class MujocoFriction : public testing::Test {
  protected:
   void Load(const Robot& robot);
   void SetArmature();  // that URDF has no field for
-
-  // Per joint, of the last mj_inverse or mj_forward: whether dry friction is
-  // saturated. A joint without has no constraint, and nothing to saturate.
-  std::vector<bool> Saturated() const {
-    std::vector<bool> saturated(robot_.num_joints(), true);
-    for (int i = 0; i < data_->nefc; ++i) {
-      if (data_->efc_type[i] != mjCNSTR_FRICTION_DOF) continue;
-      const auto joint =
-          std::find(joints_->v.begin(), joints_->v.end(), data_->efc_id[i]);
-      saturated[joint - joints_->v.begin()] =
-          data_->efc_state[i] != mjCNSTRSTATE_QUADRATIC;
-    }
-    return saturated;
-  }
 
   // Friction in the direction of a motor's torque, N m or N.
   VectorXd MujocoTorque() const {
@@ -106,7 +91,7 @@ void MujocoFriction::SetArmature() {
 bool MujocoFriction::ExpectSameFriction(const VectorXd& qd) {
   const VectorXd theirs = MujocoTorque();
   const VectorXd ours = Friction(robot_, qd);
-  const std::vector<bool> saturated = Saturated();
+  const std::vector<bool> saturated = joints_->Saturated(*data_);
   bool all = true;
   for (int j = 0; j < robot_.num_joints(); ++j) {
     const bool moves = std::abs(qd[j]) > kSlowest;
@@ -149,7 +134,7 @@ void MujocoFriction::ExpectMostSaturated() const {
 }
 
 void MujocoFriction::Count(const VectorXd& qd) {
-  const std::vector<bool> saturated = Saturated();
+  const std::vector<bool> saturated = joints_->Saturated(*data_);
   for (int j = 0; j < robot_.num_joints(); ++j) {
     if (std::abs(qd[j]) <= kSlowest) continue;
     ++moving_[j];
