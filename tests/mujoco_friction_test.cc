@@ -46,22 +46,7 @@ VectorXd Friction(const Robot& robot, const VectorXd& qd) {
 class MujocoFriction : public testing::Test {
  protected:
   void Load(const Robot& robot);
-  // By hand what UrdfLosses says URDF has no field for.
-  void SetArmature();
-
-  // Per joint, of the last mj_inverse or mj_forward: whether dry friction is
-  // saturated. A joint without has no constraint, and nothing to saturate.
-  std::vector<bool> Saturated() const {
-    std::vector<bool> saturated(robot_.num_joints(), true);
-    for (int j = 0; j < robot_.num_joints(); ++j) {
-      for (int i = 0; i < data_->nefc; ++i) {
-        if (data_->efc_type[i] != mjCNSTR_FRICTION_DOF) continue;
-        if (data_->efc_id[i] != joints_->v[j]) continue;
-        saturated[j] = data_->efc_state[i] != mjCNSTRSTATE_QUADRATIC;
-      }
-    }
-    return saturated;
-  }
+  void SetArmature();  // that URDF has no field for
 
   // Friction in the direction of a motor's torque, N m or N.
   VectorXd MujocoTorque() const {
@@ -73,6 +58,7 @@ class MujocoFriction : public testing::Test {
   bool ExpectSameFriction(const VectorXd& qd);
   void ExpectSameAcceleration(const VectorXd& tau, const VectorXd& qd,
                               const VectorXd& qdd);
+  void Count(const VectorXd& qd);
   void Run();
   void ExpectMostSaturated() const;
   void PrintCounts() const;
@@ -105,7 +91,7 @@ void MujocoFriction::SetArmature() {
 bool MujocoFriction::ExpectSameFriction(const VectorXd& qd) {
   const VectorXd theirs = MujocoTorque();
   const VectorXd ours = Friction(robot_, qd);
-  const std::vector<bool> saturated = Saturated();
+  const std::vector<bool> saturated = joints_->Saturated(*data_);
   bool all = true;
   for (int j = 0; j < robot_.num_joints(); ++j) {
     const bool moves = std::abs(qd[j]) > kSlowest;
@@ -140,10 +126,19 @@ void MujocoFriction::ExpectSameAcceleration(const VectorXd& tau,
   EXPECT_LE(torque.norm(), 1e-6 * tau.norm());
 }
 
-// How often a joint that moves is saturated; there is nothing to compare else.
+// Else there is nothing to compare.
 void MujocoFriction::ExpectMostSaturated() const {
   for (int j = 0; j < robot_.num_joints(); ++j) {
     EXPECT_GT(saturated_[j], moving_[j] / 2) << robot_.links[j].joint.name;
+  }
+}
+
+void MujocoFriction::Count(const VectorXd& qd) {
+  const std::vector<bool> saturated = joints_->Saturated(*data_);
+  for (int j = 0; j < robot_.num_joints(); ++j) {
+    if (std::abs(qd[j]) <= kSlowest) continue;
+    ++moving_[j];
+    saturated_[j] += saturated[j];
   }
 }
 
@@ -177,12 +172,7 @@ void MujocoFriction::Run() {
     joints_->SetMotion(q, qd, qdd, data_.get());
     mj_inverse(model_.get(), data_.get());
     const bool all = ExpectSameFriction(qd);
-    const std::vector<bool> saturated = Saturated();
-    for (int j = 0; j < n; ++j) {
-      if (std::abs(qd[j]) <= kSlowest) continue;
-      ++moving_[j];
-      saturated_[j] += saturated[j];
-    }
+    Count(qd);
     if (!all) continue;
     ++all_saturated_;
     VectorXd ours = InverseDynamics(robot_, q, qd, qdd) + Friction(robot_, qd);

@@ -7,6 +7,7 @@
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -67,6 +68,19 @@ struct MujocoJoints {
       x[static_cast<Eigen::Index>(j)] = of_dofs[v[j]];
     }
     return x;
+  }
+
+  // Per joint, of the last mj_inverse or mj_forward: whether dry friction is
+  // saturated. A joint without has no constraint, and nothing to saturate.
+  std::vector<bool> Saturated(const mjData& data) const {
+    std::vector<bool> saturated(v.size(), true);
+    for (int i = 0; i < data.nefc; ++i) {
+      if (data.efc_type[i] != mjCNSTR_FRICTION_DOF) continue;
+      const auto joint = std::find(v.begin(), v.end(), data.efc_id[i]);
+      saturated[joint - v.begin()] =
+          data.efc_state[i] != mjCNSTRSTATE_QUADRATIC;
+    }
+    return saturated;
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "calib/nonlinear_report.h"
 #include "model/urdf_reader.h"
+#include "model/urdf_update.h"
 #include "model/urdf_writer.h"
 #include "problems/identification_rows.h"
 #include "tests/nonlinear_runs.h"

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -86,16 +87,13 @@ struct NonlinearRun {
   std::string held_out;  // path of the log it was validated on
 };
 
-// Of logs, times the torque.
-struct LogNoise {
-  double training, validation;
-};
-
-// Calibrates on one log and validates on another.
+// Calibrates on one log and validates on another, both with noise of `noise`
+// times the torque unless the validation log's is given.
 inline NonlinearRun Calibrate(
-    const SimulatedArm& arm, const LogNoise& noise,
+    const SimulatedArm& arm, double noise,
     const NonlinearCalibrationOptions& options, std::mt19937_64* random,
-    GeometryKnowledge geometry = GeometryKnowledge::kKnown) {
+    GeometryKnowledge geometry = GeometryKnowledge::kKnown,
+    std::optional<double> validation_noise = {}) {
   LogReaderOptions reader;
   reader.joint_names = arm.file.JointNames();
   const auto write = [&](double duration, double size,
@@ -104,8 +102,9 @@ inline NonlinearRun Calibrate(
     AddNoise(random, size * ColumnRms(log.tau), &log.tau);
     return WriteFile(LogCsv(log), name);
   };
-  LogSet training({write(30, noise.training, "training.csv")}, reader, {});
-  const std::string held_out = write(10, noise.validation, "validation.csv");
+  LogSet training({write(30, noise, "training.csv")}, reader, {});
+  const std::string held_out =
+      write(10, validation_noise.value_or(noise), "validation.csv");
   LogSet validation({held_out}, reader, {});
   LinearCalibrationOptions linear;
   linear.geometry = geometry;
@@ -116,14 +115,6 @@ inline NonlinearRun Calibrate(
   NonlinearCalibration physical =
       CalibrateNonlinear(arm.file, start, options, &training, &validation);
   return {std::move(start), std::move(physical), held_out};
-}
-
-// The same noise in both.
-inline NonlinearRun Calibrate(
-    const SimulatedArm& arm, double noise,
-    const NonlinearCalibrationOptions& options, std::mt19937_64* random,
-    GeometryKnowledge geometry = GeometryKnowledge::kKnown) {
-  return Calibrate(arm, LogNoise{noise, noise}, options, random, geometry);
 }
 
 // The value of a parameter in `robot`: "<link>.mass", "<joint>.viscous".

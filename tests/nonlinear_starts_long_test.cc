@@ -88,7 +88,8 @@ HeldOut Fit(const Robot& truth, Start start, double noise, double trust) {
     const SimulatedArm arm{FileOf(truth, start, &files), truth};
     NonlinearCalibrationOptions options;
     options.trust.inertia = trust;
-    const NonlinearRun run = Calibrate(arm, LogNoise{noise, 0}, options, &logs);
+    const NonlinearRun run =
+        Calibrate(arm, noise, options, &logs, GeometryKnowledge::kKnown, 0);
     EXPECT_TRUE(run.physical.converged()) << run.physical.reason;
     if (!run.physical.validation) return held_out;
     for (const Link& link : run.physical.robot.links) {
