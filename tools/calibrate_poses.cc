@@ -42,9 +42,10 @@ int CalibratePosesFromFlags(const Robot& robot) {
   OutputFolder out(OutFromFlags());
   out.Add("calibration.json", PoseJson(robot, measured, result).dump(2) + "\n");
   if (result.solved) {
-    out.Add("robot.urdf", robot.dh_convention ? MakeUrdf(result.robot)
-                                              : UpdateUrdf(RobotPathFromFlags(),
-                                                           result.robot, true));
+    out.Add("robot.urdf", robot.dh_convention
+                              ? MakeUrdf(result.robot)
+                              : UpdateUrdf(RobotPathFromFlags(), result.robot,
+                                           true, BaseFromFlags()));
   }
   out.Write();
   std::cout << PoseReport(robot, measured, result);

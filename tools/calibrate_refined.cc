@@ -58,7 +58,8 @@ void AddRobotFiles(const std::string& robot_path, const Robot& robot,
     out->Add("robot.urdf", MakeUrdf(robot));
     return;
   }
-  out->Add("robot.urdf", UpdateUrdf(robot_path, robot, geometry));
+  out->Add("robot.urdf",
+           UpdateUrdf(robot_path, robot, geometry, BaseFromFlags()));
   out->Add("robot_without_meshes.urdf", MakeUrdf(robot));
 }
 

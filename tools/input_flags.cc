@@ -230,5 +230,6 @@ std::optional<RobustLoss> LossFromFlags() {
 }
 
 std::string OutFromFlags() { return FLAGS_out; }
+std::string BaseFromFlags() { return FLAGS_base; }
 
 }  // namespace armcal

@@ -27,6 +27,7 @@ TimeRange ValidationCropFromFlags();                 // --validate_crop
 void CheckLogsApart();
 std::optional<double> BandwidthFromFlags();  // --bandwidth
 std::string OutFromFlags();                  // --out
+std::string BaseFromFlags();                 // --base
 // --loss; nothing: what suits the measurement.
 std::optional<RobustLoss> LossFromFlags();
 
