@@ -35,7 +35,7 @@ std::string OutlierText(const PoseMeasurements& measured,
                         const PoseCalibration& result) {
   if (result.outliers.empty()) return "";
   std::string text = "outliers   " + std::to_string(result.outliers.size()) +
-                     " poses given up (Tukey's limit), rows";
+                     " poses beyond Tukey's limit, rows";
   constexpr size_t kShown = 12;
   for (size_t k = 0; k < std::min(kShown, result.outliers.size()); ++k) {
     text += " " + std::to_string(measured.row[result.outliers[k]]);
