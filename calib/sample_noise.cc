@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr long kKept = 400000;     // samples of all logs
+constexpr long kKept = 60000;  // samples of all logs, so that memory is bounded
 constexpr int kLeastStretch = 20;  // samples
 constexpr long kLeastSamples = 100;
 constexpr double kLeastLag = 0.5;  // s
