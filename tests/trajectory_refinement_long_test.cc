@@ -125,7 +125,8 @@ void ExpectCoverage(const char* what, const MonteCarlo& result) {
       Median(result.honesty()));
   EXPECT_GT(result.coverage(), 93 - Slack(result.runs, 15)) << what;
   EXPECT_LT(result.coverage(), 97 + Slack(result.runs, 15)) << what;
-  EXPECT_GE(result.least_coverage(), 88 - Slack(result.runs, 65)) << what;
+  // Three standard errors of a share of .88, as the least of many scatters.
+  EXPECT_GE(result.least_coverage(), 88 - Slack(result.runs, 97.5)) << what;
 }
 
 class NoisyEncoders : public testing::TestWithParam<Setting> {};
