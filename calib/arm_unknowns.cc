@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "calib/pose_fit.h"
 #include "problems/link_functions.h"
 
 namespace armcal {
@@ -141,12 +142,10 @@ double ArmUnknowns::NormalPrior(int k, const ArmTrust& trust) const {
   if (k < tilt_begin()) {
     return trust.joint_terms * torque_rms_[terms_[k - terms_begin()].joint];
   }
-  const int g = k - geometry_begin();
-  const bool tilt = k >= tilt_begin() && k < geometry_begin();
-  const bool own = k >= geometry_begin() && k < other_begin() &&
-                   !ArmGeometry::IsBase(g) && !geometry_.IsTool(g);
-  if (!tilt && !own) return 0;
-  return units_[k] == "m" ? trust.length : trust.angle;
+  if (k < geometry_begin()) return trust.angle;
+  if (k >= other_begin()) return 0;
+  return GeometryPrior(geometry_, k - geometry_begin(), trust.length,
+                       trust.angle);
 }
 
 std::vector<int> ArmUnknowns::TorqueColumns() const {

@@ -42,7 +42,6 @@ PoseFit::PoseFit(const Robot& robot, const PoseMeasurements& measured,
       options_(options),
       geometry_(std::make_shared<ArmGeometry>(robot)),
       names_(geometry_->Names()),
-      units_(geometry_->Units()),
       nominal_(geometry_->Values()) {}
 
 std::vector<int> PoseFit::AllRows() const {
@@ -51,9 +50,15 @@ std::vector<int> PoseFit::AllRows() const {
   return rows;
 }
 
+double GeometryPrior(const ArmGeometry& geometry, int k, double length,
+                     double angle) {
+  if (ArmGeometry::IsBase(k) || geometry.IsTool(k)) return 0;
+  return geometry.Units()[k] == "m" ? length : angle;
+}
+
 double PoseFit::PriorOf(int k) const {
-  if (ArmGeometry::IsBase(k) || geometry_->IsTool(k)) return 0;
-  return units_[k] == "m" ? options_.prior_length : options_.prior_angle;
+  return GeometryPrior(*geometry_, k, options_.prior_length,
+                       options_.prior_angle);
 }
 
 MatrixXd PoseFit::Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,

@@ -16,6 +16,11 @@ namespace armcal {
 double Median(std::vector<double> values);  // 0 of none
 double Rms(const std::vector<double>& values);
 
+// Standard deviation of the robot file's prior on parameter k of the geometry,
+// given those of its lengths (m) and angles (rad); 0: none, of base and tool.
+double GeometryPrior(const ArmGeometry& geometry, int k, double length,
+                     double angle);
+
 // Fits of measured poses with some of the geometry's parameters free, and what
 // there is to be fitted. `rows` are indices of poses, `free` flags of the
 // geometry's parameters.
@@ -83,7 +88,7 @@ class PoseFit {
   const PoseMeasurements& measured_;
   const PoseCalibrationOptions& options_;
   std::shared_ptr<const ArmGeometry> geometry_;
-  std::vector<std::string> names_, units_;
+  std::vector<std::string> names_;
   Eigen::VectorXd nominal_;
   PoseNoise noise_;
 };
