@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "model/arm_dynamics.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// A robot's rigid dynamics by Simbody 3.7, which shares no code with ours.
+// Vectors have n entries in the robot's joint order; units as in model/. Links
+// may be massless; friction and armature are not included. Keeps scratch, so
+// use one per thread.
+class SimbodyArm : public ArmDynamics {
+ public:
+  // Throws InputError, which names the link, where Simbody refuses a link's
+  // mass or inertia.
+  explicit SimbodyArm(const Robot& robot);
+  ~SimbodyArm() override;
+  SimbodyArm(SimbodyArm&&) noexcept;
+
+  int num_joints() const override;
+  void Evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+                const std::vector<Attachment>& attachments,
+                ArmTerms* terms) override;
+
+  Eigen::VectorXd InverseDynamics(const Eigen::VectorXd& q,
+                                  const Eigen::VectorXd& qd,
+                                  const Eigen::VectorXd& qdd);
+  Eigen::MatrixXd MassMatrix(const Eigen::VectorXd& q);
+  Eigen::VectorXd GravityTorque(const Eigen::VectorXd& q);  // holds the arm
+  // J; the potential energy's zero is that of masses at Wo.
+  double KineticEnergy(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
+  double PotentialEnergy(const Eigen::VectorXd& q);
+
+  // Lets the arm swing without torque or friction for `duration` s from (q, qd)
+  // by Simbody's own Runge-Kutta-Merson integrator, whose relative local
+  // error is `accuracy`. False where that fails (a massless tip).
+  bool Swing(double duration, double accuracy, Eigen::VectorXd* q,
+             Eigen::VectorXd* qd);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace armcal
