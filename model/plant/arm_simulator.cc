@@ -1,0 +1,288 @@
+#include "model/plant/arm_simulator.h"
+
+#include <glog/logging.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "model/input_error.h"
+
+namespace armcal {
+
+namespace {
+
+constexpr int kFewestSubsteps = 4;
+constexpr int kMostSubsteps = 64;
+
+}  // namespace
+
+ArmSimulator::ArmSimulator(const SimulatedRobot& robot,
+                           const Eigen::VectorXd& q0,
+                           const ArmSimulatorOptions& options,
+                           ArmDynamics* dynamics)
+    : robot_(robot),
+      dynamics_(dynamics),
+      step_(options.step),
+      n_(robot.robot.num_joints()) {
+  CHECK_EQ(dynamics->num_joints(), n_);
+  CHECK_EQ(q0.size(), n_);
+  CHECK_GT(step_, 0);
+  SetLayout();
+  SetInitialState(q0);
+  substeps_ = options.substeps > 0 ? options.substeps : NeededSubsteps();
+}
+
+void ArmSimulator::SetLayout() {
+  armature_.resize(n_);
+  transmission_of_.assign(n_, -1);
+  for (int j = 0; j < n_; ++j) {
+    armature_[j] = robot_.robot.links[j].joint.armature;
+  }
+  rigid_armature_ = armature_;
+  for (size_t k = 0; k < robot_.transmissions.size(); ++k) {
+    const int j = robot_.transmissions[k].joint;
+    CHECK_EQ(transmission_of_[j], -1) << "two transmissions on one joint";
+    transmission_of_[j] = static_cast<int>(k);
+    rigid_armature_[j] = 0;
+    if (armature_[j] > 0) continue;
+    throw InputError(robot_.robot.name,
+                     "joint " + robot_.robot.links[j].joint.name, "",
+                     "a transmission that yields needs the motor's own "
+                     "inertia: give the joint an armature above 0");
+  }
+  int size = 2 * n_;
+  const auto place = [&size](const auto& laws, int* begin, auto num_states) {
+    *begin = size;
+    for (const auto& law : laws) size += num_states(law);
+  };
+  const auto of_vector = [](const auto& law) {
+    return static_cast<int>(law.initial_state.size());
+  };
+  place(robot_.transmissions, &layout_.motors, [](const auto&) { return 2; });
+  place(robot_.joint_laws, &layout_.joint_laws, of_vector);
+  place(robot_.transmissions, &layout_.transmissions, of_vector);
+  place(robot_.wrenches, &layout_.wrenches,
+        [](const WrenchLaw& law) { return law.num_states; });
+  place(robot_.actuators, &layout_.actuators, of_vector);
+  layout_.temperature = size;
+  layout_.size = size + n_;
+  for (const WrenchLaw& law : robot_.wrenches) {
+    attachments_.push_back(law.attachment);
+  }
+}
+
+void ArmSimulator::SetInitialState(const Eigen::VectorXd& q0) {
+  dynamics_->Evaluate(q0, Eigen::VectorXd::Zero(n_), attachments_, &end_);
+  x_ = Eigen::VectorXd::Zero(layout_.size);
+  x_.head(n_) = q0;
+  instant_.load = end_.bias;
+  int transmission = layout_.transmissions;
+  for (size_t k = 0; k < robot_.transmissions.size(); ++k) {
+    const Transmission& law = robot_.transmissions[k];
+    const double load = end_.bias[law.joint];
+    const double k0 = law.initial_stiffness;
+    x_[layout_.motors + 2 * k] = q0[law.joint] + (k0 > 0 ? load / k0 : 0);
+    x_.segment(transmission, law.initial_state.size()) = law.initial_state;
+    transmission += law.initial_state.size();
+  }
+  int at = layout_.joint_laws;
+  for (const JointLaw& law : robot_.joint_laws) {
+    x_.segment(at, law.initial_state.size()) = law.initial_state;
+    at += law.initial_state.size();
+  }
+  at = layout_.wrenches;
+  for (size_t k = 0; k < robot_.wrenches.size(); ++k) {
+    const WrenchLaw& law = robot_.wrenches[k];
+    if (law.num_states == 0) continue;
+    x_.segment(at, law.num_states) = law.initial_state(end_.points[k].X_WP);
+    at += law.num_states;
+  }
+  at = layout_.actuators;
+  for (const ActuatorMap& map : robot_.actuators) {
+    x_.segment(at, map.initial_state.size()) = map.initial_state;
+    at += map.initial_state.size();
+  }
+  qdd_ = Eigen::VectorXd::Zero(n_);
+  commanded_ = Eigen::VectorXd::Zero(n_);
+  ReadInstant(x_, 0);
+}
+
+void ArmSimulator::ReadInstant(const Eigen::VectorXd& x, double t) {
+  instant_.t = t;
+  instant_.link_position = x.head(n_);
+  instant_.link_velocity = x.segment(n_, n_);
+  instant_.position = instant_.link_position;
+  instant_.velocity = instant_.link_velocity;
+  for (size_t k = 0; k < robot_.transmissions.size(); ++k) {
+    const int j = robot_.transmissions[k].joint;
+    instant_.position[j] = x[layout_.motors + 2 * k];
+    instant_.velocity[j] = x[layout_.motors + 2 * k + 1];
+  }
+  instant_.temperature = x.tail(n_);
+}
+
+void ArmSimulator::Interpolate(double share) {
+  now_.mass_matrix =
+      begin_.mass_matrix + share * (end_.mass_matrix - begin_.mass_matrix);
+  now_.mass_matrix.diagonal() += rigid_armature_;
+  now_.bias = begin_.bias + share * (end_.bias - begin_.bias);
+  now_.points.resize(attachments_.size());
+  for (size_t k = 0; k < attachments_.size(); ++k) {
+    const ArmTerms::Point& a = begin_.points[k];
+    const ArmTerms::Point& b = end_.points[k];
+    now_.points[k].jacobian = a.jacobian + share * (b.jacobian - a.jacobian);
+    now_.points[k].X_WP.matrix() =
+        a.X_WP.matrix() + share * (b.X_WP.matrix() - a.X_WP.matrix());
+  }
+}
+
+void ArmSimulator::AddActuators(const Eigen::VectorXd& x) {
+  motor_torque_ = commanded_;
+  int at = layout_.actuators;
+  for (const ActuatorMap& map : robot_.actuators) {
+    map.apply(instant_, x.data() + at, rate_.data() + at, &motor_torque_);
+    at += map.initial_state.size();
+  }
+  // Nothing drives them, whatever a map made of their zero.
+  motor_torque_.head(robot_.num_passive).setZero();
+}
+
+void ArmSimulator::AddJointLaws(const Eigen::VectorXd& x) {
+  heat_.setZero(n_);
+  int at = layout_.joint_laws;
+  for (const JointLaw& law : robot_.joint_laws) {
+    const double torque =
+        law.torque(instant_, x.data() + at, rate_.data() + at);
+    motor_torque_[law.joint] += torque;
+    if (law.heats) heat_[law.joint] -= torque * instant_.velocity[law.joint];
+    at += law.initial_state.size();
+  }
+  rate_.tail(n_) = (heat_ - instant_.temperature / robot_.thermal.resistance) /
+                   robot_.thermal.capacity;
+}
+
+void ArmSimulator::AddTransmissions(const Eigen::VectorXd& x) {
+  link_torque_ = motor_torque_;
+  int at = layout_.transmissions;
+  for (size_t k = 0; k < robot_.transmissions.size(); ++k) {
+    const Transmission& law = robot_.transmissions[k];
+    const int j = law.joint;
+    const double torque =
+        law.torque(instant_.position[j] - instant_.link_position[j],
+                   instant_.velocity[j] - instant_.link_velocity[j],
+                   x.data() + at, rate_.data() + at);
+    link_torque_[j] = torque;
+    const int motor = layout_.motors + 2 * static_cast<int>(k);
+    rate_[motor] = instant_.velocity[j];
+    rate_[motor + 1] = (motor_torque_[j] - torque) / armature_[j];
+    at += law.initial_state.size();
+  }
+  next_load_ = link_torque_;
+}
+
+void ArmSimulator::AddWrenches(const Eigen::VectorXd& x, double t) {
+  int at = layout_.wrenches;
+  for (size_t k = 0; k < robot_.wrenches.size(); ++k) {
+    const WrenchLaw& law = robot_.wrenches[k];
+    const ArmTerms::Point& point = now_.points[k];
+    const Eigen::Matrix<double, 6, 1> twist =
+        point.jacobian * instant_.link_velocity;
+    const Wrench wrench =
+        law.wrench({t, point.X_WP, twist.head<3>(), twist.tail<3>()},
+                   x.data() + at, rate_.data() + at);
+    link_torque_.noalias() +=
+        point.jacobian.topRows<3>().transpose() * wrench.moment +
+        point.jacobian.bottomRows<3>().transpose() * wrench.force;
+    at += law.num_states;
+  }
+}
+
+void ArmSimulator::Derivative(const Eigen::VectorXd& x, double t,
+                              double share) {
+  rate_.setZero(layout_.size);
+  ReadInstant(x, t);
+  Interpolate(share);
+  AddActuators(x);
+  AddJointLaws(x);
+  AddTransmissions(x);
+  AddWrenches(x, t);
+  cholesky_.compute(now_.mass_matrix);
+  qdd_ = cholesky_.solve(link_torque_ - now_.bias);
+  next_load_ -= rigid_armature_.cwiseProduct(qdd_);
+  rate_.head(n_) = instant_.link_velocity;
+  rate_.segment(n_, n_) = qdd_;
+}
+
+void ArmSimulator::Substep(double t, double share, double h) {
+  const double half = h / 2, ds = h / step_;
+  Derivative(x_, t, share);
+  const Eigen::VectorXd load = next_load_;
+  k1_ = rate_;
+  x_stage_ = x_ + half * k1_;
+  Derivative(x_stage_, t + half, share + ds / 2);
+  k2_ = rate_;
+  x_stage_ = x_ + half * k2_;
+  Derivative(x_stage_, t + half, share + ds / 2);
+  k3_ = rate_;
+  x_stage_ = x_ + h * k3_;
+  Derivative(x_stage_, t + h, share + ds);
+  x_ += h / 6 * (k1_ + 2 * (k2_ + k3_) + rate_);
+  // Held over a substep, so that its four stages are of one law.
+  instant_.load = load;
+}
+
+void ArmSimulator::Step(const Eigen::VectorXd& commanded) {
+  const int passive = robot_.num_passive;
+  CHECK_EQ(commanded.size(), n_ - passive);
+  commanded_.tail(n_ - passive) = commanded;
+  const double t = step_index_ * step_;
+  std::swap(begin_, end_);
+  end_ = begin_;
+  Derivative(x_, t, 0);
+  const Eigen::VectorXd qd = x_.segment(n_, n_);
+  dynamics_->Evaluate(x_.head(n_) + step_ * qd + step_ * step_ / 2 * qdd_,
+                      qd + step_ * qdd_, attachments_, &end_);
+  for (int k = 0; k < substeps_; ++k) {
+    Substep(t + k * step_ / substeps_, k / static_cast<double>(substeps_),
+            step_ / substeps_);
+  }
+  ++step_index_;
+  ReadInstant(x_, step_index_ * step_);
+}
+
+// Of the fastest mode at the start, 1/s: dampers and springs between motors,
+// links and ground, linearised at rest.
+double ArmSimulator::Stiffness() {
+  begin_ = end_;
+  const double dx = 1e-7;
+  Derivative(x_, 0, 0);
+  const Eigen::VectorXd rate = rate_;
+  Eigen::MatrixXd A(layout_.size, layout_.size);
+  for (int k = 0; k < layout_.size; ++k) {
+    Eigen::VectorXd x = x_;
+    x[k] += dx;
+    Derivative(x, 0, 0);
+    A.col(k) = (rate_ - rate) / dx;
+  }
+  ReadInstant(x_, 0);
+  return Eigen::EigenSolver<Eigen::MatrixXd>(A, false)
+      .eigenvalues()
+      .cwiseAbs()
+      .maxCoeff();
+}
+
+int ArmSimulator::NeededSubsteps() {
+  // Fourth-order Runge-Kutta is stable to 2.78 along the real axis. The arm's
+  // inertia elsewhere may be smaller than at the start.
+  const double wanted = std::ceil(step_ * Stiffness() / 1.2);
+  if (!(wanted <= kMostSubsteps)) {
+    throw InputError(robot_.robot.name, "", "",
+                     "its laws are too stiff to simulate: expected time "
+                     "constants above 0.02 steps; give joints more armature "
+                     "or friction a wider transition through zero velocity");
+  }
+  return std::max(kFewestSubsteps, static_cast<int>(wanted));
+}
+
+}  // namespace armcal

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "model/arm_dynamics.h"
+#include "model/simulated_robot.h"
+
+namespace armcal {
+
+struct ArmSimulatorOptions {
+  double step = 1e-3;  // s; the engine is asked once per step
+  // Runge-Kutta steps (fourth order) of all laws per step; 0: as many as the
+  // stiffest law needs.
+  int substeps = 0;
+};
+
+// Integrates a SimulatedRobot. Friction and transmissions are stiff but cheap,
+// the arm's dynamics smooth but dear: so mass matrix, bias and Jacobians come
+// from the engine once per step, at the end that the step is predicted to have,
+// and are interpolated between while the laws run in substeps. The error is of
+// second order in `step`.
+class ArmSimulator {
+ public:
+  // Starts at rest with the links at q0 (all joints, passive ones included).
+  // Keeps references to both; `dynamics` is of robot.robot. Throws InputError
+  // where a transmission's joint has no armature, or a law is too stiff for 64
+  // substeps.
+  ArmSimulator(const SimulatedRobot& robot, const Eigen::VectorXd& q0,
+               const ArmSimulatorOptions& options, ArmDynamics* dynamics);
+
+  // Advances by options.step with the torques commanded to the driven joints.
+  void Step(const Eigen::VectorXd& commanded);
+
+  const ArmInstant& instant() const { return instant_; }
+  const Eigen::VectorXd& link_acceleration() const { return qdd_; }
+  int substeps() const { return substeps_; }
+  bool finite() const { return x_.allFinite(); }
+
+ private:
+  // Where things are in the state vector.
+  struct Layout {
+    int motors = 0;  // position and velocity of each transmission's motor
+    int joint_laws = 0, transmissions = 0, wrenches = 0, actuators = 0;
+    int temperature = 0;
+    int size = 0;
+  };
+
+  void SetLayout();
+  void SetInitialState(const Eigen::VectorXd& q0);
+  int NeededSubsteps();
+  double Stiffness();
+  void ReadInstant(const Eigen::VectorXd& x, double t);
+  void Interpolate(double share);
+  void Derivative(const Eigen::VectorXd& x, double t, double share);
+  void AddActuators(const Eigen::VectorXd& x);
+  void AddJointLaws(const Eigen::VectorXd& x);
+  void AddTransmissions(const Eigen::VectorXd& x);
+  void AddWrenches(const Eigen::VectorXd& x, double t);
+  void Substep(double t, double share, double h);
+
+  const SimulatedRobot& robot_;
+  ArmDynamics* dynamics_;
+  double step_;
+  int substeps_;
+  int n_;
+  std::vector<int> transmission_of_;  // per joint, -1: rigid
+  std::vector<Attachment> attachments_;
+  Eigen::VectorXd armature_;        // n
+  Eigen::VectorXd rigid_armature_;  // of joints without a transmission
+  Layout layout_;
+
+  long step_index_ = 0;
+  Eigen::VectorXd x_;
+  ArmInstant instant_;
+  Eigen::VectorXd qdd_;
+  ArmTerms begin_, end_, now_;
+  Eigen::VectorXd commanded_;
+
+  // Scratch of Derivative.
+  Eigen::VectorXd motor_torque_, link_torque_, heat_, rate_;
+  Eigen::VectorXd next_load_;
+  Eigen::VectorXd k1_, k2_, k3_, x_stage_;
+  Eigen::LLT<Eigen::MatrixXd> cholesky_;
+};
+
+}  // namespace armcal
