@@ -38,6 +38,9 @@ struct LogReader::Impl {
     if (options.want_acceleration && columns.HasAll(Signal::kAcceleration)) {
       qdd = row.Use(columns.Find(Signal::kAcceleration));
     }
+    if (options.want_reference && columns.HasAll(Signal::kReference)) {
+      qref = row.Use(columns.Find(Signal::kReference));
+    }
     if (!options.need_torque) return;
     const TorqueColumns torque = FindTorqueColumns(path, columns, options);
     torque_source = torque.source;
@@ -118,6 +121,7 @@ struct LogReader::Impl {
     log->qd = Signals(qd);
     log->qdd = Signals(qdd);
     log->tau = Signals(tau);
+    log->qref = Signals(qref);
     return true;
   }
 
@@ -145,6 +149,7 @@ struct LogReader::Impl {
   int time_column;
   LogRow row;
   int q = kUnused, qd = kUnused, qdd = kUnused, tau = kUnused;  // in a row
+  int qref = kUnused;
   std::string torque_source;
 
   std::vector<double> times;   // of the rows of one Read()

@@ -26,13 +26,15 @@ struct LogReaderOptions {
   // Columns that are in the log and not wanted are not looked at.
   bool want_velocity = false;
   bool want_acceleration = false;
+  bool want_reference = false;
 };
 
 // Reads a CSV or gzipped CSV log block by block in constant memory.
 //
 // Header: `t` (or time, timestamp, __time) and per joint either by number
-// (1-based) q1 qd1 qdd1 tau1 i1 or by name shoulder/position|velocity|
-// acceleration|effort|current, also with a leading path
+// (1-based) q1 qd1 qdd1 tau1 i1 qref1 temp1 or by name shoulder/position|
+// velocity|acceleration|effort|current|reference|temperature, also with a
+// leading path
 // (/joint_states/shoulder/position). A unit suffix is honoured: [s] [ms] [us]
 // [ns] [rad] [deg] [rad/s] [deg/s] [rad/s^2] [deg/s^2] [m] [mm] [m/s] [mm/s]
 // [m/s^2] [mm/s^2] [Nm] [N] [mNm] [kNm] [A] [mA]; without one the unit is SI.

@@ -34,6 +34,10 @@ const SignalNames& NamesOf(Signal signal) {
        "effort",
        {{"Nm", 1}, {"N m", 1}, {"N", 1}, {"mNm", 1e-3}, {"kNm", 1e3}}},
       {"i", "current", {{"A", 1}, {"mA", 1e-3}}},
+      {"qref",
+       "reference",
+       {{"rad", 1}, {"deg", kDegree}, {"m", 1}, {"mm", 1e-3}}},
+      {"temp", "temperature", {{"degC", 1}, {"deg C", 1}, {"C", 1}}},
   };
   return (*names)[static_cast<int>(signal)];
 }

@@ -8,11 +8,21 @@ namespace armcal {
 // What a log may hold for each joint. kCurrent is a motor current, also where
 // an effort column says so by its unit ("shoulder/effort [A]", as UR robots
 // report).
-enum class Signal { kPosition, kVelocity, kAcceleration, kEffort, kCurrent };
+// kReference is the position that a controller was told to take.
+enum class Signal {
+  kPosition,
+  kVelocity,
+  kAcceleration,
+  kEffort,
+  kCurrent,
+  kReference,
+  kTemperature
+};
 
-constexpr Signal kSignals[] = {Signal::kPosition, Signal::kVelocity,
+constexpr Signal kSignals[] = {Signal::kPosition,     Signal::kVelocity,
                                Signal::kAcceleration, Signal::kEffort,
-                               Signal::kCurrent};
+                               Signal::kCurrent,      Signal::kReference,
+                               Signal::kTemperature};
 
 struct Unit {
   std::string_view name;

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "model/log.h"
+#include "model/plant/arm_simulator.h"
+#include "model/plant/joint_controller.h"
+#include "model/plant/reference_motion.h"
+#include "model/plant/sensors.h"
+#include "model/simulated_robot.h"
+
+namespace armcal {
+
+struct ClosedLoopOptions {
+  ControllerOptions controller;
+  SensorOptions sensors;
+  double step = 1e-3;  // s, of ArmSimulator; at most the control period
+  // How long the loop holds the first position before the log begins, s.
+  double settle = 1;
+  std::function<void(double share)> progress;  // may be empty
+};
+
+struct ClosedLoopRun {
+  // Of the driven joints: stamps, measured q, the controller's qd, torque as
+  // recorded, qref and temperature.
+  Log log;
+  bool finite = true;          // false: it diverged, and the log ends there
+  double saturated_share = 0;  // of control periods, some torque at its limit
+  // Root mean square of qref - q, n entries, rad or m.
+  Eigen::VectorXd tracking_rms;
+};
+
+// Lets a controller, which knows `model`, move the simulated robot along a
+// motion and keeps the log. `dynamics` is of robot.robot. Throws InputError
+// where the log's rate does not divide the controller's.
+ClosedLoopRun RunClosedLoop(const SimulatedRobot& robot, const Robot& model,
+                            const ReferenceMotion& motion,
+                            const ClosedLoopOptions& options,
+                            ArmDynamics* dynamics);
+
+}  // namespace armcal

@@ -1,0 +1,91 @@
+#include "model/plant/motion_reader.h"
+
+#include <boost/math/interpolators/quintic_hermite.hpp>
+#include <memory>
+#include <vector>
+
+#include "model/input_error.h"
+#include "model/log_reader.h"
+
+namespace armcal {
+
+namespace {
+
+using Samples = std::vector<double>;
+using Spline = boost::math::interpolators::quintic_hermite<Samples>;
+
+Log ReadAll(const std::string& path, const Robot& robot) {
+  LogReaderOptions options;
+  options.joint_names = robot.JointNames();
+  options.need_torque = false;
+  options.want_velocity = true;
+  options.want_acceleration = true;
+  Log log;
+  LogReader reader(path, options);
+  Log block;
+  reader.Read(1 << 20, &log);
+  if (reader.Read(1, &block)) {
+    throw InputError(path, "", "", "expected a motion of at most 1048576 rows");
+  }
+  return log;
+}
+
+void CheckTimes(const std::string& path, const Log& log) {
+  if (log.size() < 4) {
+    throw InputError(path, "", std::to_string(log.size()) + " rows",
+                     "expected at least 4 to follow");
+  }
+  for (int k = 1; k < log.size(); ++k) {
+    if (log.t[k] > log.t[k - 1]) continue;
+    throw InputError(path, "row " + std::to_string(log.first_row + k), "",
+                     "its time is that of the row before; expected a motion "
+                     "whose times rise");
+  }
+}
+
+// Differences over the two neighbours, one at the ends.
+Samples Rate(const Samples& t, const Samples& x) {
+  const size_t n = t.size();
+  Samples rate(n);
+  for (size_t k = 0; k < n; ++k) {
+    const size_t a = k == 0 ? 0 : k - 1, b = std::min(k + 1, n - 1);
+    rate[k] = (x[b] - x[a]) / (t[b] - t[a]);
+  }
+  return rate;
+}
+
+Samples ToSamples(const Eigen::VectorXd& v) {
+  return Samples(v.data(), v.data() + v.size());
+}
+
+Spline MakeSpline(const Log& log, int joint) {
+  Samples t = ToSamples(log.t), q = ToSamples(log.q.col(joint));
+  Samples qd = log.qd.size() ? ToSamples(log.qd.col(joint)) : Rate(t, q);
+  Samples qdd = log.qdd.size() ? ToSamples(log.qdd.col(joint)) : Rate(t, qd);
+  return Spline(std::move(t), std::move(q), std::move(qd), std::move(qdd));
+}
+
+}  // namespace
+
+ReferenceMotion ReadReferenceMotion(const std::string& path,
+                                    const Robot& robot) {
+  const Log log = ReadAll(path, robot);
+  CheckTimes(path, log);
+  const int n = robot.num_joints();
+  auto splines = std::make_shared<std::vector<Spline>>();
+  for (int j = 0; j < n; ++j) splines->push_back(MakeSpline(log, j));
+  const auto at = [splines, n](double t) {
+    ReferencePoint point{Eigen::VectorXd(n), Eigen::VectorXd(n),
+                         Eigen::VectorXd(n)};
+    for (int j = 0; j < n; ++j) {
+      const Spline& spline = (*splines)[j];
+      point.q[j] = spline(t);
+      point.qd[j] = spline.prime(t);
+      point.qdd[j] = spline.double_prime(t);
+    }
+    return point;
+  };
+  return {log.t[log.size() - 1], at};
+}
+
+}  // namespace armcal

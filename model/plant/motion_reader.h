@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "model/plant/reference_motion.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// A motion from a CSV in the log format: t, q1.. and, where it has them, qd1..
+// and qdd1..; rates that it lacks are differences. Between rows Hermite splines
+// of fifth order. Throws InputError, also for fewer than four rows and times
+// that do not rise.
+ReferenceMotion ReadReferenceMotion(const std::string& path,
+                                    const Robot& robot);
+
+}  // namespace armcal

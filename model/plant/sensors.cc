@@ -1,0 +1,108 @@
+#include "model/plant/sensors.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+
+namespace {
+
+constexpr int kLongestGap = 5;
+
+Eigen::VectorXd OrZero(const Eigen::VectorXd& values, int n) {
+  if (values.size() == 0) return Eigen::VectorXd::Zero(n);
+  CHECK_EQ(values.size(), n);
+  return values;
+}
+
+Eigen::VectorXd Normals(int n, std::mt19937_64* random) {
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd values(n);
+  for (int j = 0; j < n; ++j) values[j] = normal(*random);
+  return values;
+}
+
+}  // namespace
+
+std::mt19937_64 NoiseStream(uint64_t seed, NoiseChannel channel) {
+  std::seed_seq sequence{static_cast<uint32_t>(seed),
+                         static_cast<uint32_t>(seed >> 32),
+                         static_cast<uint32_t>(channel)};
+  return std::mt19937_64(sequence);
+}
+
+Encoders::Encoders(const SensorOptions& options, int num_joints)
+    : resolution_(OrZero(options.encoder_resolution, num_joints)),
+      noise_(OrZero(options.encoder_noise, num_joints)),
+      random_(NoiseStream(options.seed, NoiseChannel::kEncoder)) {}
+
+Eigen::VectorXd Encoders::Measure(const Eigen::VectorXd& position) {
+  const int n = static_cast<int>(noise_.size());
+  Eigen::VectorXd measured =
+      position + noise_.cwiseProduct(Normals(n, &random_));
+  for (int j = 0; j < n; ++j) {
+    if (resolution_[j] == 0) continue;
+    measured[j] = std::round(measured[j] / resolution_[j]) * resolution_[j];
+  }
+  return measured;
+}
+
+TorqueNoise::TorqueNoise(const SensorOptions& options, int num_joints)
+    : white_(OrZero(options.torque_noise, num_joints)),
+      coloured_(OrZero(options.coloured_noise, num_joints)),
+      correlation_(options.noise_correlation),
+      random_(NoiseStream(options.seed, NoiseChannel::kTorque)),
+      random_coloured_(NoiseStream(options.seed, NoiseChannel::kColoured)) {
+  state_ = coloured_.cwiseProduct(Normals(num_joints, &random_coloured_));
+}
+
+Eigen::VectorXd TorqueNoise::Next(double dt) {
+  const int n = static_cast<int>(white_.size());
+  const double decay = std::exp(-dt / correlation_);
+  state_ = decay * state_ +
+           std::sqrt(1 - decay * decay) *
+               coloured_.cwiseProduct(Normals(n, &random_coloured_));
+  return state_ + white_.cwiseProduct(Normals(n, &random_));
+}
+
+SamplingClock::SamplingClock(const SensorOptions& options, int periods,
+                             double control_rate)
+    : periods_(periods),
+      jitter_periods_(options.jitter * control_rate),
+      lost_share_(options.lost_share),
+      random_(NoiseStream(options.seed, NoiseChannel::kJitter)),
+      random_loss_(NoiseStream(options.seed, NoiseChannel::kLoss)) {
+  Schedule();
+}
+
+void SamplingClock::Schedule() {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const long last = next_tick_;
+  do {
+    ++sample_;
+    // Gaps have 1 to 5 samples, 3 in the mean.
+    if (lost_ > 0) {
+      --lost_;
+    } else if (uniform(random_loss_) <
+               lost_share_ / ((1 + kLongestGap) / 2. * (1 - lost_share_))) {
+      lost_ = static_cast<int>(uniform(random_loss_) * kLongestGap);
+    } else {
+      break;
+    }
+  } while (true);
+  const double late =
+      jitter_periods_ == 0 ? 0 : std::round(jitter_periods_ * normal(random_));
+  next_tick_ = std::max(last + (sample_ > 0 ? 1 : 0),
+                        sample_ * periods_ + static_cast<long>(late));
+}
+
+bool SamplingClock::Samples(long tick) {
+  if (tick != next_tick_) return false;
+  Schedule();
+  return true;
+}
+
+}  // namespace armcal
