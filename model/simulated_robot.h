@@ -118,7 +118,7 @@ struct SimulatedRobot {
   std::vector<SensorMap> sensors;
   // The stamp that the log gives to time t, s. Empty: t itself.
   std::function<double(double)> clock;
-  JointThermal thermal;
+  std::vector<JointThermal> thermal;  // per joint; empty: the default
   double ambient = 25;      // deg C
   bool tachometer = false;  // else velocities are differences of positions
 };

@@ -34,6 +34,8 @@ ArmSimulator::ArmSimulator(const SimulatedRobot& robot,
 }
 
 void ArmSimulator::SetLayout() {
+  CHECK(robot_.thermal.empty() ||
+        robot_.thermal.size() == static_cast<size_t>(n_));
   armature_.resize(n_);
   transmission_of_.assign(n_, -1);
   for (int j = 0; j < n_; ++j) {
@@ -158,8 +160,13 @@ void ArmSimulator::AddJointLaws(const Eigen::VectorXd& x) {
     if (law.heats) heat_[law.joint] -= torque * instant_.velocity[law.joint];
     at += law.initial_state.size();
   }
-  rate_.tail(n_) = (heat_ - instant_.temperature / robot_.thermal.resistance) /
-                   robot_.thermal.capacity;
+  for (int j = 0; j < n_; ++j) {
+    const JointThermal thermal =
+        robot_.thermal.empty() ? JointThermal() : robot_.thermal[j];
+    rate_[layout_.temperature + j] =
+        (heat_[j] - instant_.temperature[j] / thermal.resistance) /
+        thermal.capacity;
+  }
 }
 
 void ArmSimulator::AddTransmissions(const Eigen::VectorXd& x) {
