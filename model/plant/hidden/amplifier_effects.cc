@@ -1,0 +1,121 @@
+#include "model/plant/hidden/amplifier_effects.h"
+
+#include <cmath>
+
+namespace armcal {
+
+namespace {
+
+using Draw = EffectParameter::Draw;
+using Scope = HiddenEffect::Scope;
+
+// A map of this joint's torque alone.
+template <typename Map>
+void AddMap(const EffectSite& site, const Map& map) {
+  const int k = site.from_tip();
+  site.robot->actuators.push_back(
+      {{},
+       [=](const ArmInstant&, const double*, double*, Eigen::VectorXd* torque) {
+         double& tau = FromTip(torque, k);
+         tau = map(tau);
+       }});
+}
+
+// given = commanded - b: the amplifier's zero is off.
+HiddenEffect TorqueOffset() {
+  return {"torque_offset",
+          true,
+          Scope::kJoint,
+          "An amplifier whose zero is off: the log holds a constant torque "
+          "that the motor never gave.",
+          {{"offset", "1", .05, .005, .2, Draw::kLogEitherSign}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const double b = site.p[0] * site.torque();
+            AddMap(site, [=](double tau) { return tau - b; });
+            return {{"offset", site.effort_unit(), b}};
+          },
+          nullptr};
+}
+
+// given = commanded / (1 + g).
+HiddenEffect TorqueGain() {
+  return {"torque_gain",
+          true,
+          Scope::kJoint,
+          "A motor constant other than assumed: logged torques are (1 + gain) "
+          "of what the motor gave.",
+          {{"gain", "1", .05, .01, .2, Draw::kLogEitherSign}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const double g = site.p[0];
+            AddMap(site, [=](double tau) { return tau / (1 + g); });
+            return {{"gain", "1", g}};
+          },
+          nullptr};
+}
+
+// given = commanded (1 - 2 f x^2 / (1 + x^2)), x = commanded / 2 T: the motor
+// constant has fallen by the share f at twice the joint's torque scale T.
+HiddenEffect TorqueNonlinearity() {
+  return {
+      "torque_nonlinearity",
+      true,
+      Scope::kJoint,
+      "Iron that saturates: the motor constant falls with the current.",
+      {{"fall", "1", .05, .01, .2, Draw::kLog}},
+      [](const EffectSite& site) -> std::vector<EffectValue> {
+        const double f = site.p[0], peak = 2 * site.torque();
+        AddMap(site, [=](double tau) {
+          const double x2 = (tau / peak) * (tau / peak);
+          return tau * (1 - 2 * f * x2 / (1 + x2));
+        });
+        return {{"fall", "1", f}, {"fall_torque", site.effort_unit(), peak}};
+      },
+      nullptr};
+}
+
+// given = commanded / (1 + |commanded / L|^12)^(1/12): a soft knee, 6 % below
+// the limit at it.
+HiddenEffect TorqueSaturation() {
+  return {"torque_saturation",
+          true,
+          Scope::kJoint,
+          "A current limit: torques beyond it are commanded but not given.",
+          {{"limit", "1", 1.2, .7, 2, Draw::kLog}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const double L = site.p[0] * site.torque();
+            AddMap(site, [=](double tau) {
+              return tau /
+                     std::pow(1 + std::pow(std::abs(tau / L), 12), 1. / 12);
+            });
+            return {{"limit", site.effort_unit(), L}};
+          },
+          nullptr};
+}
+
+// given = commanded (1 - d / sqrt(commanded^2 + d^2)): flat at zero, d short of
+// the command far from it.
+HiddenEffect TorqueDeadband() {
+  return {"torque_deadband",
+          true,
+          Scope::kJoint,
+          "An amplifier that ignores small commands: the motor gives less than "
+          "asked by a constant, and nothing near zero.",
+          {{"deadband", "1", .03, .005, .1, Draw::kLog}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const double d = site.p[0] * site.torque();
+            AddMap(site, [=](double tau) {
+              return tau * (1 - d / std::hypot(tau, d));
+            });
+            return {{"deadband", site.effort_unit(), d}};
+          },
+          nullptr};
+}
+
+}  // namespace
+
+std::vector<HiddenEffect> AmplifierEffects() {
+  return {TorqueOffset(), TorqueGain(), TorqueNonlinearity(),
+          TorqueSaturation(), TorqueDeadband()};
+}
+
+}  // namespace armcal

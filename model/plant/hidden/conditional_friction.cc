@@ -1,0 +1,152 @@
+#include "model/plant/hidden/conditional_friction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/plant/hidden/neighbour_joint.h"
+#include "model/plant/hidden/zero_velocity.h"
+
+namespace armcal {
+
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+
+using Draw = EffectParameter::Draw;
+using Scope = HiddenEffect::Scope;
+
+// tau = -mu (sqrt(load^2 + P^2) - P) sign(v): teeth preloaded by P, 0.2 of the
+// joint's torque scale, feel small loads little.
+HiddenEffect LoadFriction() {
+  return {"load_friction",
+          true,
+          Scope::kJoint,
+          "Gear teeth pressed together by the load: friction that grows with "
+          "the torque that the joint carries.",
+          {{"coefficient", "1", .05, .005, .2, Draw::kLog}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const double mu = site.p[0], P = .2 * site.torque();
+            const double w = site.width();
+            const int k = site.from_tip();
+            site.AddFriction([=](const ArmInstant& at, const double*, double*) {
+              const double load = std::hypot(FromTip(at.load, k), P) - P;
+              return -mu * load * ZeroVelocitySign(FromTip(at.velocity, k), w);
+            });
+            return {{"load_friction", "1", mu}};
+          },
+          nullptr};
+}
+
+// tau = -F exp(cos(n q - f) - 1) sign(v): tight spots, n per turn.
+HiddenEffect PositionFriction() {
+  return {"position_friction",
+          true,
+          Scope::kJoint,
+          "A bent shaft or worn teeth: friction that is larger at some "
+          "positions than at others.",
+          {{"friction", "1", .1, .01, .3, Draw::kLog},
+           {"harmonic", "1", 1, 1, 4, Draw::kUniform},
+           {"phase", "rad", 1, 0, kTwoPi, Draw::kUniform}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const double F = site.p[0] * site.torque(), w = site.width();
+            const double n = std::floor(site.p[1]) / site.radian();
+            const double phase = site.p[2];
+            const int k = site.from_tip();
+            site.AddFriction([=](const ArmInstant& at, const double*, double*) {
+              const double q = FromTip(at.position, k);
+              return -F * std::exp(std::cos(n * q - phase) - 1) *
+                     ZeroVelocitySign(FromTip(at.velocity, k), w);
+            });
+            return {{"friction", site.effort_unit(), F},
+                    {"harmonic", "1/" + site.position_unit(), n},
+                    {"phase", "rad", phase}};
+          },
+          nullptr};
+}
+
+// A bearing between two motors' shafts turns with u = v / S + r v' / S' (S the
+// joints' speeds): tau = -G asinh(u / u0) / asinh(1 / u0), u0 = 0.3, on this
+// joint and its share r S / S' of that on the neighbour, so that no motion
+// gains energy.
+HiddenEffect CoupledFriction() {
+  return {"coupled_friction",
+          true,
+          Scope::kJoint,
+          "A hollow shaft that turns in another, as in wrists: friction here "
+          "that depends on the neighbour's velocity as well.",
+          {{"friction", "1", .1, .01, .3, Draw::kLog},
+           {"ratio", "1", .7, .3, 1, Draw::kLogEitherSign}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const EffectSite other = NeighbourJoint(site);
+            const double S = site.speed(), S2 = other.speed(), r = site.p[1];
+            // The weaker of the two bears it.
+            const double power =
+                std::min(site.torque() * S, other.torque() * S2);
+            const double G = site.p[0] * power / S;
+            const int k = site.from_tip(), k2 = other.from_tip();
+            const auto torque = [=](const ArmInstant& at) {
+              const double u = FromTip(at.velocity, k) / S +
+                               r * FromTip(at.velocity, k2) / S2;
+              return -G * std::asinh(u / .3) / std::asinh(1 / .3);
+            };
+            site.AddFriction([=](const ArmInstant& at, const double*, double*) {
+              return torque(at);
+            });
+            other.AddFriction([=](const ArmInstant& at, const double*,
+                                  double*) { return r * S / S2 * torque(at); });
+            return {{"friction", site.effort_unit(), G},
+                    {"ratio", "1", r * S / S2},
+                    {"neighbour", "1", other.joint + 1.}};
+          },
+          WhyNoNeighbour};
+}
+
+// The joint's viscous friction times exp(-beta dT) (Reynolds' law of
+// viscosity) and its Coulomb friction times exp(-beta dT / 3): a torque with
+// the motion that takes from the ordinary friction what warmth took. The
+// joint's heat capacity is such that it warms by `rise` at its usual speed.
+HiddenEffect ThermalFriction() {
+  return {
+      "thermal_friction",
+      true,
+      Scope::kJoint,
+      "Oil that thins as the joint warms up with its own friction: the "
+      "joint's friction falls over minutes of motion.",
+      {{"beta", "1/K", .025, .01, .05, Draw::kLog},
+       {"rise", "K", 20, 8, 30, Draw::kUniform},
+       {"time_constant", "1", .5, .2, 2, Draw::kLog}},
+      [](const EffectSite& site) -> std::vector<EffectValue> {
+        const double viscous = site.link().joint.viscous;
+        const double coulomb = site.link().joint.coulomb;
+        const double beta = site.p[0], S = site.speed(), w = site.width();
+        const double power = (viscous * S + coulomb) * S;
+        const double time_constant = site.p[2] * site.context->duration;
+        std::vector<JointThermal>& thermal = site.robot->thermal;
+        thermal.resize(site.robot->robot.num_joints());
+        thermal[site.index()].resistance = site.p[1] / power;
+        thermal[site.index()].capacity = time_constant * power / site.p[1];
+        const int k = site.from_tip();
+        site.AddFriction([=](const ArmInstant& at, const double*, double*) {
+          const double v = FromTip(at.velocity, k);
+          const double warm = -beta * FromTip(at.temperature, k);
+          return -viscous * v * std::expm1(warm) -
+                 coulomb * ZeroVelocitySign(v, w) * std::expm1(warm / 3);
+        });
+        return {{"beta", "1/K", beta}, {"time_constant", "s", time_constant}};
+      },
+      [](const SimulatedRobot& robot, int joint) -> std::string {
+        const Joint& of = robot.robot.links[robot.num_passive + joint].joint;
+        return of.viscous > 0 || of.coulomb > 0
+                   ? ""
+                   : "the joint has no friction that warmth could change";
+      }};
+}
+
+}  // namespace
+
+std::vector<HiddenEffect> ConditionalFriction() {
+  return {LoadFriction(), PositionFriction(), CoupledFriction(),
+          ThermalFriction()};
+}
+
+}  // namespace armcal

@@ -1,0 +1,133 @@
+#include "model/plant/hidden/rigid_body_effects.h"
+
+#include <cmath>
+
+namespace armcal {
+
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+
+using Draw = EffectParameter::Draw;
+using Scope = HiddenEffect::Scope;
+using Eigen::Vector3d;
+
+HiddenEffect Armature() {
+  return {
+      "armature",
+      true,
+      Scope::kJoint,
+      "A motor with more inertia than assumed: torque for accelerations.",
+      {{"inertia", "1", .2, .03, 1, Draw::kLog}},
+      [](const EffectSite& site) -> std::vector<EffectValue> {
+        const double I = site.p[0] * site.context->inertia[site.joint];
+        site.link().joint.armature += I;
+        return {{"armature", IsRotational(site.type()) ? "kg m^2" : "kg", I}};
+      },
+      nullptr};
+}
+
+// From the joint's axis to the next joint's, in the joint's moved frame M;
+// across the axis of a revolute joint, which cannot feel more.
+Vector3d LengthDirection(const Link& link, const Link& next) {
+  Vector3d p = (link.X_ML * next.X_PF).translation();
+  if (IsRotational(link.joint.type)) p.z() = 0;
+  return p.norm() > 1e-3 ? p.normalized().eval() : Vector3d::UnitX();
+}
+
+HiddenEffect LinkLength() {
+  return {"link_length",
+          true,
+          Scope::kJoint,
+          "A link longer than in the robot file: all that it carries sits "
+          "further out.",
+          {{"length", "m", .02, .005, .05, Draw::kLogEitherSign}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            Link& next = site.robot->robot.links[site.index() + 1];
+            next.X_PF.pretranslate(site.p[0] *
+                                   (site.link().X_ML.linear().transpose() *
+                                    LengthDirection(site.link(), next)));
+            return {{"length", "m", site.p[0]}};
+          },
+          [](const SimulatedRobot& robot, int joint) -> std::string {
+            return robot.num_passive + joint + 1 < robot.robot.num_joints()
+                       ? ""
+                       : "the last link carries no joint";
+          }};
+}
+
+// Turns gravity about an axis across it: exact, however large.
+HiddenEffect BaseTilt() {
+  return {"base_tilt",
+          true,
+          Scope::kRobot,
+          "A base that is not level: gravity pulls from another direction.",
+          {{"tilt", "rad", .02, .003, .1, Draw::kLog},
+           {"direction", "rad", 1, 0, kTwoPi, Draw::kUniform}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            Vector3d& g = site.robot->robot.gravity;
+            const Vector3d x = g.unitOrthogonal();
+            const Vector3d axis =
+                Eigen::AngleAxisd(site.p[1], g.normalized()) * x;
+            g = Eigen::AngleAxisd(site.p[0], axis) * g;
+            return {{"tilt", "rad", site.p[0]},
+                    {"gravity_x", "m/s^2", g.x()},
+                    {"gravity_y", "m/s^2", g.y()},
+                    {"gravity_z", "m/s^2", g.z()}};
+          },
+          [](const SimulatedRobot& robot, int) -> std::string {
+            return robot.robot.gravity.norm() > 0 ? "" : "there is no gravity";
+          }};
+}
+
+// A solid steel ball about its own centre, at a place near the tool.
+HiddenEffect Payload() {
+  return {"payload",
+          true,
+          Scope::kRobot,
+          "Something in the gripper: mass at the tool.",
+          {{"mass", "1", .03, .005, .1, Draw::kLog},
+           {"x", "m", .03, -.1, .1, Draw::kUniform},
+           {"y", "m", -.02, -.1, .1, Draw::kUniform},
+           {"z", "m", .05, 0, .15, Draw::kUniform}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            Robot& robot = site.robot->robot;
+            const double mass = site.p[0] * site.moving_mass();
+            const Vector3d com = robot.X_LT * site.p.tail<3>().eval();
+            const double radius = std::cbrt(mass / (kTwoPi * 2 / 3 * 7850));
+            robot.links.back().inertial += InertialParameters::FromCenterOfMass(
+                mass, com,
+                .4 * mass * radius * radius * Eigen::Matrix3d::Identity());
+            return {{"mass", "kg", mass},
+                    {"com_x", "m", com.x()},
+                    {"com_y", "m", com.y()},
+                    {"com_z", "m", com.z()}};
+          },
+          nullptr};
+}
+
+HiddenEffect LinkInertia() {
+  return {
+      "link_inertia",
+      true,
+      Scope::kJoint,
+      "A link heavier or lighter than in the robot file by one share of "
+      "its mass, first moment and inertia.",
+      {{"share", "1", .1, .03, .3, Draw::kLogEitherSign}},
+      [](const EffectSite& site) -> std::vector<EffectValue> {
+        InertialParameters& link = site.link().inertial;
+        const double mass = link.mass;
+        link =
+            InertialParameters::FromVector((1 + site.p[0]) * link.ToVector());
+        return {{"share", "1", site.p[0]}, {"mass", "kg", site.p[0] * mass}};
+      },
+      nullptr};
+}
+
+}  // namespace
+
+std::vector<HiddenEffect> RigidBodyEffects() {
+  return {Armature(), LinkLength(), BaseTilt(), Payload(), LinkInertia()};
+}
+
+}  // namespace armcal

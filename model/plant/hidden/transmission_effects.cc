@@ -1,0 +1,142 @@
+#include "model/plant/hidden/transmission_effects.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+
+namespace {
+
+using Draw = EffectParameter::Draw;
+using Scope = HiddenEffect::Scope;
+
+// A motor that yields against its link needs an inertia of its own: 0.3 of the
+// joint's where the robot gives none.
+double MotorInertia(const EffectSite& site) {
+  double& armature = site.link().joint.armature;
+  if (armature <= 0) armature = .3 * site.context->inertia[site.joint];
+  return armature;
+}
+
+EffectValue MotorValue(const EffectSite& site) {
+  return {"armature", IsRotational(site.type()) ? "kg m^2" : "kg",
+          site.link().joint.armature};
+}
+
+std::string WhyTransmitted(const SimulatedRobot& robot, int joint) {
+  for (const Transmission& transmission : robot.transmissions) {
+    if (transmission.joint == robot.num_passive + joint) {
+      return "the joint has a transmission that yields already";
+    }
+  }
+  return "";
+}
+
+// tau = k d (1 + (d / 4 d0)^2) + c d', d0 the wind-up at the joint's torque
+// scale: a harmonic drive stiffens as it winds up, here by 6 %. With the
+// motor's own inertia it rings at sqrt(k (1/Im + 1/Il)): 225 rad/s for 50 N m,
+// 1 mrad, 1 kg m^2 each.
+HiddenEffect Elasticity() {
+  return {"elasticity",
+          true,
+          Scope::kJoint,
+          "A gear that winds up: the link lags its motor and rings after "
+          "every reversal.",
+          {{"windup", "1", .002, 3e-4, .01, Draw::kLog},
+           {"damping_ratio", "1", .05, .02, .1, Draw::kLog}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const double I = MotorInertia(site);
+            const double d0 = site.p[0] * site.radian();
+            const double k = site.torque() / d0;
+            const double c = 2 * site.p[1] * std::sqrt(k * I);
+            site.robot->transmissions.push_back(
+                {site.index(),
+                 {},
+                 [=](double d, double rate, const double*, double*) {
+                   const double u = d / (4 * d0);
+                   return k * d * (1 + u * u) + c * rate;
+                 },
+                 k});
+            const std::string unit =
+                site.effort_unit() + "/" + site.position_unit();
+            return {{"stiffness", unit, k},
+                    {"damping",
+                     site.effort_unit() + " s/" + site.position_unit(), c},
+                    MotorValue(site)};
+          },
+          WhyTransmitted};
+}
+
+// A dead zone: tau = k x (1 + l x') while the flanks are pressed in by x > 0,
+// never a pull (Hunt and Crossley 1975); nothing between the flanks. A tenth
+// of the gap yields at the joint's torque scale.
+HiddenEffect Backlash() {
+  return {"backlash",
+          true,
+          Scope::kJoint,
+          "Play in the gear: the link crosses a gap whenever its load changes "
+          "sign, and only then.",
+          {{"gap", "1", .005, 5e-4, .02, Draw::kLog}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            MotorInertia(site);
+            const double gap = site.p[0] * site.radian();
+            const double yield = std::max(.1 * gap, 2e-4 * site.radian());
+            const double k = site.torque() / yield;
+            const double l = 2 / site.speed();
+            const auto flank = [=](double x, double rate) {
+              return x <= 0 ? 0 : k * x * std::max(0., 1 + l * rate);
+            };
+            site.robot->transmissions.push_back(
+                {site.index(),
+                 {},
+                 [=](double d, double rate, const double*, double*) {
+                   return flank(d - gap / 2, rate) - flank(-d - gap / 2, -rate);
+                 },
+                 // Starts pressed onto a flank.
+                 site.torque() / (gap / 2 + yield)});
+            return {{"backlash", site.position_unit(), gap},
+                    {"contact_stiffness",
+                     site.effort_unit() + "/" + site.position_unit(), k},
+                    MotorValue(site)};
+          },
+          WhyTransmitted};
+}
+
+// tau = k (d - s) + c d', s' = r (tau_spring / T)^3: the belt creeps over its
+// pulley, and motor and link lose each other for good.
+HiddenEffect BeltSlip() {
+  return {"belt_slip",
+          false,
+          Scope::kJoint,
+          "A belt that creeps under load: the link drifts away from the motor "
+          "that its encoder watches.",
+          {{"creep", "1", .001, 1e-4, .005, Draw::kLog},
+           {"windup", "1", .002, 3e-4, .01, Draw::kLog}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const double I = MotorInertia(site), T = site.torque();
+            const double creep = site.p[0] * site.speed();
+            const double k = T / (site.p[1] * site.radian());
+            const double c = .1 * std::sqrt(k * I);
+            site.robot->transmissions.push_back(
+                {site.index(), Eigen::VectorXd::Zero(1),
+                 [=](double d, double rate, const double* state, double* slip) {
+                   const double spring = k * (d - state[0]);
+                   slip[0] = creep * std::pow(spring / T, 3);
+                   return spring + c * rate;
+                 },
+                 k});
+            return {{"creep", site.position_unit() + "/s", creep},
+                    {"stiffness",
+                     site.effort_unit() + "/" + site.position_unit(), k},
+                    MotorValue(site)};
+          },
+          WhyTransmitted};
+}
+
+}  // namespace
+
+std::vector<HiddenEffect> TransmissionEffects() {
+  return {Elasticity(), Backlash(), BeltSlip()};
+}
+
+}  // namespace armcal
