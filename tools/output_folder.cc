@@ -14,16 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void Refuse(const fs::path& path, const std::string& why) {
-  throw InputError(path.string(), "--out", "", "cannot be written: " + why);
+[[noreturn]] void Refuse(const fs::path& path, const std::string& flag,
+                         const std::string& why) {
+  throw InputError(path.string(), flag, "", "cannot be written: " + why);
 }
 
-void WriteFile(const fs::path& path, const std::string& content) {
+void WriteFile(const fs::path& path, const std::string& flag,
+               const std::string& content) {
   errno = 0;
   std::ofstream file(path, std::ios::binary);
   file << content;
   file.close();
-  if (!file) Refuse(path, std::strerror(errno));
+  if (!file) Refuse(path, flag, std::strerror(errno));
 }
 
 }  // namespace
@@ -37,15 +39,15 @@ void OutputFolder::Write() const {
   std::error_code error;
   const fs::path folder(path_);
   fs::create_directories(folder, error);
-  if (error) Refuse(folder, error.message());
+  if (error) Refuse(folder, flag_, error.message());
   const std::string ending = ".tmp" + std::to_string(getpid());
   try {
     for (const auto& [name, content] : files_) {
-      WriteFile(folder / (name + ending), content);
+      WriteFile(folder / (name + ending), flag_, content);
     }
     for (const auto& file : files_) {
       fs::rename(folder / (file.first + ending), folder / file.first, error);
-      if (error) Refuse(folder / file.first, error.message());
+      if (error) Refuse(folder / file.first, flag_, error.message());
     }
   } catch (...) {
     for (const auto& file : files_) {

@@ -12,14 +12,16 @@ namespace armcal {
 class OutputFolder {
  public:
   // Empty `path`: nothing is written.
-  explicit OutputFolder(const std::string& path) : path_(path) {}
+  explicit OutputFolder(const std::string& path,
+                        const std::string& flag = "--out")
+      : path_(path), flag_(flag) {}
 
   void Add(const std::string& name, std::string content);
-  // Creates the folder if need be. Throws InputError naming --out.
+  // Creates the folder if need be. Throws InputError naming the flag.
   void Write() const;
 
  private:
-  std::string path_;
+  std::string path_, flag_;
   std::vector<std::pair<std::string, std::string>> files_;
 };
 

@@ -70,8 +70,8 @@ ControllerOptions ReadController(const std::string& path, const Robot& robot,
   const YamlNode node = YamlNode::ReadFile(path);
   node.ExpectKeys({"rate", "bandwidth", "kp", "kd", "ki", "torque_limit",
                    "velocity_filter", "feedforward"});
-  ControllerOptions options =
-      DefaultController(robot, q, ReadPositive(node, "bandwidth", "Hz", 8));
+  ControllerOptions options = DefaultController(
+      robot, q, ReadPositive(node, "bandwidth", "Hz", kUsualBandwidthHz));
   options.rate_hz = ReadPositive(node, "rate", "Hz", options.rate_hz);
   options.velocity_filter_hz =
       ReadPositive(node, "velocity_filter", "Hz", options.velocity_filter_hz);

@@ -31,6 +31,8 @@ struct ControllerOptions {
   Feedforward feedforward = Feedforward::kInverseDynamics;
 };
 
+constexpr double kUsualBandwidthHz = 8;
+
 // Gains that place each joint's closed loop at `bandwidth_hz`, damping ratio 1,
 // for the mass matrix (armature included) at q; torque limits are the robot's.
 ControllerOptions DefaultController(const Robot& robot,

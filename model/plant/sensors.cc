@@ -44,7 +44,9 @@ Eigen::VectorXd Encoders::Measure(const Eigen::VectorXd& position) {
       position + noise_.cwiseProduct(Normals(n, &random_));
   for (int j = 0; j < n; ++j) {
     if (resolution_[j] == 0) continue;
-    measured[j] = std::round(measured[j] / resolution_[j]) * resolution_[j];
+    // + 0: logs have no minus zero.
+    measured[j] =
+        std::round(measured[j] / resolution_[j]) * resolution_[j] + 0.0;
   }
   return measured;
 }

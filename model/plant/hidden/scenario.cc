@@ -1,0 +1,50 @@
+#include "model/plant/hidden/scenario.h"
+
+#include "model/input_error.h"
+#include "model/plant/hidden/joint_friction.h"
+#include "model/plant/robot_variation.h"
+#include "model/plant/simbody_arm.h"
+
+namespace armcal {
+
+namespace {
+
+void CheckFits(const ChosenEffect& effect, const SimulatedRobot& robot,
+               const EffectContext& context) {
+  const std::string why = WhyNotApplicable(*effect.kind, robot, effect.joint,
+                                           effect.parameters, context);
+  if (why.empty()) return;
+  throw InputError(
+      robot.robot.name,
+      "effect " + effect.kind->name +
+          (effect.joint < 0 ? ""
+                            : " on joint " + std::to_string(effect.joint + 1)),
+      "", why);
+}
+
+}  // namespace
+
+ScenarioRun RunScenario(const Scenario& scenario) {
+  ScenarioRun result;
+  result.robot = VaryRobot(scenario.model, scenario.robot_error, scenario.seed);
+  SimulatedRobot robot;
+  robot.robot = result.robot;
+  EffectContext context = TypicalContext(scenario.model, scenario.seed);
+  context.duration = scenario.motion.duration;
+  // Friction first: it is the arm's own, and effects that put joints under the
+  // base know how to move it.
+  AddJointFriction(scenario.zero_velocity, &robot);
+  for (const ChosenEffect& effect : scenario.effects) {
+    CheckFits(effect, robot, context);
+    result.effects.push_back(
+        {effect.kind->name, effect.joint, effect.kind->in_catalogue,
+         ApplyHiddenEffect(*effect.kind, &robot, effect.joint,
+                           effect.parameters, context)});
+  }
+  SimbodyArm dynamics(robot.robot);
+  result.run = RunClosedLoop(robot, scenario.model, scenario.motion,
+                             scenario.loop, &dynamics);
+  return result;
+}
+
+}  // namespace armcal

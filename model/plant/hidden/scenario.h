@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/plant/closed_loop.h"
+#include "model/plant/hidden/hidden_effects.h"
+#include "model/plant/reference_motion.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+struct ChosenEffect {
+  const HiddenEffect* kind = nullptr;
+  int joint = -1;              // from 0; -1: the whole robot
+  Eigen::VectorXd parameters;  // in the order of kind->parameters
+};
+
+// A real robot that somebody else's model is to be calibrated on.
+struct Scenario {
+  Robot model;             // the robot file: what its controller knows
+  double robot_error = 0;  // how far the true robot is from it, VaryRobot
+  // Speed within which friction changes sign, rad/s (0.3 of it in m/s).
+  double zero_velocity = .005;
+  std::vector<ChosenEffect> effects;
+  ReferenceMotion motion;
+  ClosedLoopOptions loop;
+  uint64_t seed = 0;  // of the robot's errors and of what effects draw
+};
+
+struct AppliedEffect {
+  std::string name;
+  int joint;
+  bool in_catalogue;
+  std::vector<EffectValue> values;
+};
+
+struct ScenarioRun {
+  ClosedLoopRun run;
+  Robot robot;  // the true one, without the effects
+  std::vector<AppliedEffect> effects;
+};
+
+// The log of the scenario, by Simbody. Throws InputError where an effect does
+// not fit the robot or the robot cannot be simulated.
+ScenarioRun RunScenario(const Scenario& scenario);
+
+}  // namespace armcal

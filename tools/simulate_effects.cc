@@ -1,0 +1,130 @@
+#include "tools/simulate_effects.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/input_text.h"
+#include "tools/command.h"
+#include "tools/usage.h"
+
+namespace armcal {
+
+namespace {
+
+[[noreturn]] void Refuse(const std::string& found,
+                         const std::string& expected) {
+  throw UsageError("--effects: found '" + found + "', expected " + expected);
+}
+
+std::vector<std::string> Split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  size_t begin = 0;
+  while (begin <= text.size()) {
+    const size_t end = std::min(text.find(at, begin), text.size());
+    parts.emplace_back(Trim(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+const HiddenEffect& FindKind(const std::string& name) {
+  const HiddenEffect* kind = FindHiddenEffect(name);
+  if (kind) return *kind;
+  std::vector<std::string> names;
+  for (const HiddenEffect& effect : HiddenEffects()) {
+    names.push_back(effect.name);
+  }
+  const std::string nearest = NearestName(name, names);
+  Refuse(name, nearest.empty() ? "an effect; --list_effects shows them"
+                               : "an effect, such as " + nearest);
+}
+
+int FindJoint(const std::string& text, const Robot& robot) {
+  const std::vector<std::string> names = robot.JointNames();
+  const auto named = std::find(names.begin(), names.end(), text);
+  if (named != names.end()) return static_cast<int>(named - names.begin());
+  const std::optional<double> number = ParseNumber(text);
+  if (number && *number >= 1 && *number <= robot.num_joints() &&
+      *number == std::floor(*number)) {
+    return static_cast<int>(*number) - 1;
+  }
+  Refuse(text, "a joint, 1 to " + std::to_string(robot.num_joints()) +
+                   " or one of " + JoinNames(names));
+}
+
+void SetParameter(const std::string& text, ChosenEffect* effect) {
+  const auto& parameters = effect->kind->parameters;
+  const size_t equals = std::min(text.find('='), text.size());
+  const std::string name = text.substr(0, equals);
+  std::vector<std::string> names;
+  for (size_t k = 0; k < parameters.size(); ++k) {
+    names.push_back(parameters[k].name);
+    if (parameters[k].name != name) continue;
+    const std::optional<double> value = ParseNumber(
+        std::string_view(text).substr(std::min(equals + 1, text.size())));
+    if (!value || !std::isfinite(*value)) Refuse(text, name + "=NUMBER");
+    effect->parameters[k] = *value;
+    return;
+  }
+  Refuse(text,
+         "a parameter of " + effect->kind->name + ": " + JoinNames(names));
+}
+
+ChosenEffect ParseEffect(const std::string& text, const Robot& robot) {
+  const size_t colon = std::min(text.find(':'), text.size());
+  const std::vector<std::string> place = Split(text.substr(0, colon), '@');
+  ChosenEffect effect;
+  effect.kind = &FindKind(place[0]);
+  effect.parameters = UsualParameters(*effect.kind);
+  const bool of_joint = effect.kind->scope == HiddenEffect::Scope::kJoint;
+  if (place.size() != (of_joint ? 2 : 1)) {
+    Refuse(text.substr(0, colon),
+           of_joint ? place[0] + "@JOINT, an effect of one joint"
+                    : place[0] + " without a joint, it is of the whole robot");
+  }
+  if (of_joint) effect.joint = FindJoint(place[1], robot);
+  if (colon == text.size()) return effect;
+  for (const std::string& part : Split(text.substr(colon + 1), ',')) {
+    SetParameter(part, &effect);
+  }
+  return effect;
+}
+
+std::string Line(const HiddenEffect& effect) {
+  std::string text = "  " + effect.name;
+  if (effect.scope == HiddenEffect::Scope::kJoint) text += "@JOINT";
+  text += "\n      " + effect.sentence + "\n";
+  for (const EffectParameter& parameter : effect.parameters) {
+    const bool either = parameter.draw == EffectParameter::Draw::kLogEitherSign;
+    text += "      " + parameter.name + "=" + NumberText(parameter.usual) +
+            "  " + (either ? "+-" : "") + NumberText(parameter.low) + " to " +
+            NumberText(parameter.high) +
+            (parameter.unit == "1" ? "" : " " + parameter.unit) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<ChosenEffect> ParseEffects(const std::string& text,
+                                       const Robot& robot) {
+  std::vector<ChosenEffect> effects;
+  if (Trim(text).empty()) return effects;
+  for (const std::string& part : Split(text, ';')) {
+    effects.push_back(ParseEffect(part, robot));
+  }
+  return effects;
+}
+
+std::string EffectList() {
+  std::string known, unknown;
+  for (const HiddenEffect& effect : HiddenEffects()) {
+    (effect.in_catalogue ? known : unknown) += Line(effect);
+  }
+  return "Effects that armcal diagnose has a name for. Numbers without a unit "
+         "are shares of\nthe joint's usual torque, speed, inertia or radian; "
+         "truth.json has SI values.\n\n" +
+         known + "\nEffects that it has none for:\n\n" + unknown;
+}
+
+}  // namespace armcal

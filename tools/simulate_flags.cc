@@ -1,0 +1,139 @@
+#include "tools/simulate_flags.h"
+
+#include <gflags/gflags.h>
+
+#include "model/input_error.h"
+#include "model/input_text.h"
+#include "model/plant/motion_reader.h"
+#include "tools/command.h"
+#include "tools/input_flags.h"
+#include "tools/simulate_effects.h"
+#include "tools/simulation_flags.h"
+
+DEFINE_string(effects, "",
+              "hidden effects, NAME[@JOINT][:PARAMETER=VALUE,..] with a "
+              "semicolon between them; --list_effects shows all");
+DEFINE_double(robot_error, 0,
+              "relative standard deviation by which the real robot's masses, "
+              "inertias and friction differ from the robot file");
+DEFINE_double(friction_width, 0.005,
+              "speed within which friction changes sign, rad/s");
+DEFINE_string(motion, "fourier",
+              "what to follow: fourier, points (rests between moves), or a CSV "
+              "with t,q1..[,qd1..,qdd1..]");
+DEFINE_double(duration, 20, "of fourier and points, s");
+DEFINE_double(size, 0.8, "share of the joints' range that they use");
+DEFINE_double(speed, 1, "share of the joints' speed that they use");
+DEFINE_string(joints, "", "that they move, such as 1,2; default: all");
+DEFINE_double(standstill, 1, "before and after the motion, s");
+DEFINE_string(encoder_resolution, "5e-6",
+              "rad or m, one number or one per joint; 0: exact");
+DEFINE_string(encoder_noise, "3e-6", "standard deviation, the same way");
+DEFINE_string(torque_noise, "0.01",
+              "white, share of each joint's usual torque, one number or one "
+              "per joint");
+DEFINE_string(coloured_noise, "0.005", "correlated, the same way");
+DEFINE_double(noise_correlation, 0.05, "of the correlated noise, s");
+DEFINE_double(torque_delay, 0, "of the log's torques behind positions, s");
+DEFINE_double(log_rate, 250, "Hz; has to divide the controller's rate");
+DEFINE_double(jitter, 0, "of the sampling instants, standard deviation, s");
+DEFINE_double(lost, 0, "share of samples that are lost");
+DEFINE_double(step, 1e-3, "of the integration, s");
+
+namespace armcal {
+
+namespace {
+
+double NotNegative(const char* flag, double value, double most = 1e9) {
+  if (value >= 0 && value <= most) return value;
+  throw UsageError("--" + std::string(flag) + ": found '" + NumberText(value) +
+                   "', expected a number from 0 to " + NumberText(most));
+}
+
+double Positive(const char* flag, double value) {
+  if (value > 0 && value <= 1e6) return value;
+  throw UsageError("--" + std::string(flag) + ": found '" + NumberText(value) +
+                   "', expected a number above 0");
+}
+
+std::vector<int> MovingJoints(int n) {
+  std::vector<int> joints;
+  for (const double number : ParseNumbers("joints", FLAGS_joints)) {
+    const int joint = static_cast<int>(number);
+    if (joint != number || joint < 1 || joint > n) {
+      throw UsageError("--joints: found '" + FLAGS_joints +
+                       "', expected numbers from 1 to " + std::to_string(n));
+    }
+    joints.push_back(joint - 1);
+  }
+  return joints;
+}
+
+ReferenceMotion MotionFromFlags(const Robot& robot) {
+  MotionOptions options;
+  options.duration = Positive("duration", FLAGS_duration);
+  options.size = NotNegative("size", FLAGS_size, 1);
+  options.speed = NotNegative("speed", FLAGS_speed, 1);
+  options.joints = MovingJoints(robot.num_joints());
+  options.seed = SeedFromFlags();
+  const double rest = NotNegative("standstill", FLAGS_standstill);
+  if (FLAGS_motion == "fourier") {
+    return WithStandstill(FourierMotion(robot, options), rest, rest);
+  }
+  if (FLAGS_motion == "points") {
+    return WithStandstill(PointToPointMotion(robot, options), rest, rest);
+  }
+  return WithStandstill(ReadReferenceMotion(FLAGS_motion, robot), rest, rest);
+}
+
+SensorOptions SensorsFromFlags(const Robot& robot) {
+  const int n = robot.num_joints();
+  const Eigen::VectorXd usual = TypicalContext(robot, SeedFromFlags()).torque;
+  SensorOptions options;
+  options.encoder_resolution =
+      ParsePerJoint("encoder_resolution", FLAGS_encoder_resolution, n);
+  options.encoder_noise =
+      ParsePerJoint("encoder_noise", FLAGS_encoder_noise, n);
+  options.torque_noise =
+      ParsePerJoint("torque_noise", FLAGS_torque_noise, n).cwiseProduct(usual);
+  options.coloured_noise =
+      ParsePerJoint("coloured_noise", FLAGS_coloured_noise, n)
+          .cwiseProduct(usual);
+  options.noise_correlation =
+      Positive("noise_correlation", FLAGS_noise_correlation);
+  options.torque_delay = NotNegative("torque_delay", FLAGS_torque_delay, 1);
+  options.log_rate_hz = Positive("log_rate", FLAGS_log_rate);
+  options.jitter = NotNegative("jitter", FLAGS_jitter, 1);
+  options.lost_share = NotNegative("lost", FLAGS_lost, .5);
+  options.seed = SeedFromFlags();
+  return options;
+}
+
+void RequireMasses(const Robot& robot) {
+  for (const Link& link : robot.links) {
+    if (link.has_inertial) continue;
+    throw InputError(RobotPathFromFlags(), "link " + link.name, "",
+                     "it has no mass; expected a robot file whose links have "
+                     "inertias, to simulate");
+  }
+}
+
+}  // namespace
+
+Scenario ScenarioFromFlags() {
+  Scenario scenario;
+  scenario.model = RobotFromFlags();
+  RequireMasses(scenario.model);
+  scenario.effects = ParseEffects(FLAGS_effects, scenario.model);
+  scenario.robot_error = NotNegative("robot_error", FLAGS_robot_error, .5);
+  scenario.zero_velocity = Positive("friction_width", FLAGS_friction_width);
+  scenario.motion = MotionFromFlags(scenario.model);
+  scenario.loop.controller =
+      ControllerFromFlags(scenario.model, scenario.motion.at(0).q);
+  scenario.loop.sensors = SensorsFromFlags(scenario.model);
+  scenario.loop.step = Positive("step", FLAGS_step);
+  scenario.seed = SeedFromFlags();
+  return scenario;
+}
+
+}  // namespace armcal

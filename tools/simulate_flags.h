@@ -1,0 +1,11 @@
+#pragma once
+
+#include "model/plant/hidden/scenario.h"
+
+namespace armcal {
+
+// The robot, motion, sensors and hidden effects that the flags of armcal
+// simulate ask for. Throws UsageError and InputError.
+Scenario ScenarioFromFlags();
+
+}  // namespace armcal

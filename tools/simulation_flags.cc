@@ -1,0 +1,38 @@
+#include "tools/simulation_flags.h"
+
+#include <gflags/gflags.h>
+
+#include "tools/command.h"
+#include "tools/input_flags.h"
+
+DEFINE_uint64(seed, 0, "of everything that is drawn at random");
+DEFINE_string(controller, "",
+              "YAML with the controller's rate, kp, kd, ki, torque_limit, "
+              "velocity_filter, feedforward; default: 8 Hz per joint");
+
+namespace armcal {
+
+uint64_t SeedFromFlags() { return FLAGS_seed; }
+
+ControllerOptions ControllerFromFlags(const Robot& robot,
+                                      const Eigen::VectorXd& q) {
+  if (!FLAGS_controller.empty()) {
+    return ReadController(FLAGS_controller, robot, q);
+  }
+  return DefaultController(robot, q, kUsualBandwidthHz);
+}
+
+// One number for all joints, or one for each; none of them negative.
+Eigen::VectorXd ParsePerJoint(const std::string& flag, const std::string& text,
+                              int n) {
+  std::vector<double> numbers = ParseNumbers(flag, text);
+  if (numbers.size() == 1) numbers.assign(n, numbers[0]);
+  const Eigen::VectorXd values =
+      Eigen::Map<Eigen::VectorXd>(numbers.data(), numbers.size());
+  if (values.size() == n && values.minCoeff() >= 0) return values;
+  throw UsageError("--" + flag + ": found '" + text +
+                   "', expected one number or " + std::to_string(n) +
+                   ", none of them negative");
+}
+
+}  // namespace armcal

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+
+#include "model/plant/joint_controller.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// The flags that commands which simulate share. Throw UsageError for a value
+// that is not what the flag takes.
+uint64_t SeedFromFlags();  // --seed
+// --controller, or one that suits the robot at q.
+ControllerOptions ControllerFromFlags(const Robot& robot,
+                                      const Eigen::VectorXd& q);
+
+// One number for all of n joints, or one for each; none of them negative.
+Eigen::VectorXd ParsePerJoint(const std::string& flag, const std::string& text,
+                              int n);
+
+}  // namespace armcal
