@@ -119,7 +119,7 @@ struct SimulatedRobot {
   // The stamp that the log gives to time t, s. Empty: t itself.
   std::function<double(double)> clock;
   std::vector<JointThermal> thermal;  // per joint; empty: the default
-  double ambient = 25;      // deg C
+  double ambient = 25;                // deg C
   bool tachometer = false;  // else velocities are differences of positions
 };
 

@@ -12,7 +12,7 @@
 #include "tools/progress_bar.h"
 #include "tools/simulate_effects.h"
 #include "tools/simulate_flags.h"
-#include "tools/simulate_truth.h"
+#include "model/plant/hidden/truth_json.h"
 #include "tools/simulation_flags.h"
 
 DECLARE_string(torque_constants);

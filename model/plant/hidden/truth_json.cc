@@ -1,4 +1,4 @@
-#include "tools/simulate_truth.h"
+#include "model/plant/hidden/truth_json.h"
 
 #include <cmath>
 
@@ -15,26 +15,6 @@ json Numbers(const Eigen::VectorXd& values) {
     list.push_back(std::isfinite(x) ? json(x) : json(nullptr));
   }
   return list;
-}
-
-json EffectsJson(const ScenarioRun& run) {
-  json effects = json::array();
-  for (const AppliedEffect& effect : run.effects) {
-    json values = json::array();
-    for (const EffectValue& value : effect.values) {
-      values.push_back(
-          {{"name", value.name}, {"unit", value.unit}, {"value", value.value}});
-    }
-    json entry = {{"effect", effect.name},
-                  {"joint_index", effect.joint + 1},
-                  {"in_catalogue", effect.in_catalogue},
-                  {"values", values}};
-    if (effect.joint >= 0) {
-      entry["joint"] = run.robot.links[effect.joint].joint.name;
-    }
-    effects.push_back(entry);
-  }
-  return effects;
 }
 
 // The names and units of calibration.json.
@@ -86,12 +66,32 @@ json SensorsJson(const SensorOptions& options) {
 
 }  // namespace
 
+json EffectJson(const AppliedEffect& effect, const Robot& robot) {
+  json values = json::array();
+  for (const EffectValue& value : effect.values) {
+    values.push_back(
+        {{"name", value.name}, {"unit", value.unit}, {"value", value.value}});
+  }
+  json entry = {{"effect", effect.name},
+                {"joint_index", effect.joint + 1},
+                {"in_catalogue", effect.in_catalogue},
+                {"values", values}};
+  if (effect.joint >= 0) {
+    entry["joint"] = robot.links[effect.joint].joint.name;
+  }
+  return entry;
+}
+
 json TruthJson(const Scenario& scenario, const ScenarioRun& run) {
+  json effects = json::array();
+  for (const AppliedEffect& effect : run.effects) {
+    effects.push_back(EffectJson(effect, run.robot));
+  }
   return {{"seed", scenario.seed},
           {"robot", run.robot.name},
           {"robot_error", scenario.robot_error},
           {"zero_velocity", scenario.zero_velocity},
-          {"effects", EffectsJson(run)},
+          {"effects", effects},
           {"parameters", ParametersJson(run.robot)},
           {"controller", ControllerJson(scenario.loop.controller)},
           {"sensors", SensorsJson(scenario.loop.sensors)},
