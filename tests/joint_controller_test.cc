@@ -69,18 +69,18 @@ TEST(JointController, IntegralStopsAtTheLimit) {
   EXPECT_NEAR(tau[1], -20 * .1, 1e-9);
 }
 
+// Critically damped at 5 Hz for the inertia that the outer joint feels, which
+// is the textbook's m2 lc2^2 + I2, plus its armature.
 TEST(JointController, DefaultGainsPlaceTheLoop) {
-  Robot robot = TwoLinkArm().ToRobot();
-  const Vector2d q(.3, .7);
-  const ControllerOptions options = DefaultController(robot, q, 5);
-  // Critically damped: kd^2 = 4 kp J.
+  const TwoLinkArm arm;
+  Robot robot = arm.ToRobot();
+  robot.links[1].joint.armature = .1;
+  const ControllerOptions options =
+      DefaultController(robot, Vector2d(.3, .7), 5);
   const double omega = 2 * M_PI * 5;
-  for (int j = 0; j < 2; ++j) {
-    const double inertia = options.kp[j] / (omega * omega);
-    EXPECT_GT(inertia, 0);
-    EXPECT_NEAR(options.kd[j] * options.kd[j], 4 * options.kp[j] * inertia,
-                1e-9 * options.kd[j]);
-  }
+  const double inertia = arm.m2 * arm.lc2 * arm.lc2 + arm.I2 + .1;
+  EXPECT_NEAR(options.kp[1], omega * omega * inertia, 1e-9);
+  EXPECT_NEAR(options.kd[1], 2 * omega * inertia, 1e-9);
 }
 
 TEST(ReadController, ReadsEveryKey) {

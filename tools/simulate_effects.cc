@@ -93,7 +93,7 @@ ChosenEffect ParseEffect(const std::string& text, const Robot& robot) {
 std::string Line(const HiddenEffect& effect) {
   std::string text = "  " + effect.name;
   if (effect.scope == HiddenEffect::Scope::kJoint) text += "@JOINT";
-  text += "\n      " + effect.sentence + "\n";
+  text += "\n      " + Wrapped(effect.sentence, 6);
   for (const EffectParameter& parameter : effect.parameters) {
     const bool either = parameter.draw == EffectParameter::Draw::kLogEitherSign;
     text += "      " + parameter.name + "=" + NumberText(parameter.usual) +
@@ -121,10 +121,13 @@ std::string EffectList() {
   for (const HiddenEffect& effect : HiddenEffects()) {
     (effect.in_catalogue ? known : unknown) += Line(effect);
   }
-  return "Effects that armcal diagnose has a name for. Numbers without a unit "
-         "are shares of\nthe joint's usual torque, speed, inertia or radian; "
-         "truth.json has SI values.\n\n" +
-         known + "\nEffects that it has none for:\n\n" + unknown;
+  return Wrapped(
+             "Effects that armcal diagnose has a name for, with usual values "
+             "and ranges. Numbers without a unit are shares of the joint's "
+             "usual torque, speed or inertia, or of a radian; the report and "
+             "truth.json have SI values.",
+             0) +
+         "\n" + known + "\nEffects that it has none for:\n\n" + unknown;
 }
 
 }  // namespace armcal

@@ -6,27 +6,10 @@
 #include <sstream>
 #include <vector>
 
+#include "model/input_text.h"
+
 namespace armcal {
 namespace {
-
-// `text` broken into lines of at most `width`, the first starting at `column`.
-std::string Wrapped(const std::string& text, size_t column, size_t width) {
-  std::istringstream words(text);
-  std::string result, word;
-  size_t at = column;
-  while (words >> word) {
-    if (at > column && at + 1 + word.size() > width) {
-      result += "\n" + std::string(column, ' ');
-      at = column;
-    } else if (at > column) {
-      result += " ";
-      ++at;
-    }
-    result += word;
-    at += word.size();
-  }
-  return result + "\n";
-}
 
 size_t EditDistance(const std::string& a, const std::string& b) {
   std::vector<size_t> row(b.size() + 1);
@@ -73,7 +56,31 @@ void SetFlag(const Command& command, const std::string& name,
                    TypeText(info.type));
 }
 
+// "0.8", where gflags says 0.80000000000000004.
+std::string DefaultText(const gflags::CommandLineFlagInfo& info) {
+  return info.type == "double" ? NumberText(std::stod(info.default_value))
+                               : info.default_value;
+}
+
 }  // namespace
+
+std::string Wrapped(const std::string& text, size_t column, size_t width) {
+  std::istringstream words(text);
+  std::string result, word;
+  size_t at = column;
+  while (words >> word) {
+    if (at > column && at + 1 + word.size() > width) {
+      result += "\n" + std::string(column, ' ');
+      at = column;
+    } else if (at > column) {
+      result += " ";
+      ++at;
+    }
+    result += word;
+    at += word.size();
+  }
+  return result + "\n";
+}
 
 std::string NearestName(const std::string& name,
                         const std::vector<std::string>& names) {
@@ -95,14 +102,14 @@ std::string GeneralHelp() {
   for (const Command& command : Commands()) {
     text += "  " + std::string(command.name) +
             std::string(12 - std::string(command.name).size(), ' ') +
-            Wrapped(command.summary, 14, 80);
+            Wrapped(command.summary, 14);
   }
   return text + "\narmcal COMMAND --help lists its flags.\n";
 }
 
 std::string CommandHelp(const Command& command) {
   std::string text = "armcal " + std::string(command.name) + " --flags\n\n  " +
-                     Wrapped(command.summary, 2, 80) + "\n";
+                     Wrapped(command.summary, 2) + "\n";
   for (const std::string& flag : command.flags) {
     gflags::CommandLineFlagInfo info;
     gflags::GetCommandLineFlagInfo(flag.c_str(), &info);
@@ -111,8 +118,8 @@ std::string CommandHelp(const Command& command) {
                              : "\n" + std::string(24, ' ');
     const bool plain = info.default_value.empty();
     text += Wrapped(info.description +
-                        (plain ? "" : " (default " + info.default_value + ")"),
-                    24, 80);
+                        (plain ? "" : " (default " + DefaultText(info) + ")"),
+                    24);
   }
   return text;
 }

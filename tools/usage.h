@@ -7,6 +7,10 @@
 
 namespace armcal {
 
+// `text` broken into lines of at most `width` and indented by `column`, but for
+// the first, which is to begin there.
+std::string Wrapped(const std::string& text, size_t column, size_t width = 80);
+
 std::string GeneralHelp();
 std::string CommandHelp(const Command& command);
 

@@ -1,0 +1,113 @@
+# armcal simulate: logs that armcal calibrate reads, truth apart, refusals.
+
+file(WRITE ${WORK_DIR}/arm.yaml "name: arm
+gravity: [0, -9.81, 0]
+convention: standard
+links:
+  - {joint: revolute, a: .4, mass: 5, com: [-.2, 0, 0], inertia: [.01, .07, .07],
+     viscous: 2, coulomb: 3, armature: .3}
+  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
+     viscous: 1, coulomb: 2, armature: .2}
+")
+
+run("a log and its truth" simulate --robot=arm.yaml --duration=12 --out=out
+    --effects=stribeck@2 --truth=secret)
+expect_code(0)
+expect_text(out "simulated arm: 3501 samples, 14 s" "stribeck on joint2")
+expect_empty(err)
+if(EXISTS ${WORK_DIR}/out/truth.json)
+  fail("the truth must not lie beside the log")
+endif()
+file(READ ${WORK_DIR}/secret/truth.json truth)
+string(JSON effect GET "${truth}" effects 0 effect)
+string(JSON joint GET "${truth}" effects 0 joint_index)
+if(NOT "${effect}@${joint}" STREQUAL "stribeck@2")
+  fail("truth.json must name the effect, not ${effect}@${joint}")
+endif()
+file(READ ${WORK_DIR}/out/log.csv log)
+if(log MATCHES "stribeck")
+  fail("the log must not name the effect")
+endif()
+file(RENAME ${WORK_DIR}/out ${WORK_DIR}/first)
+
+run("the same seed, the same bytes" simulate --robot=arm.yaml --duration=12
+    --out=out --effects=stribeck@2)
+file(READ ${WORK_DIR}/out/log.csv again)
+if(NOT again STREQUAL log)
+  fail("the log differs from that of the same command")
+endif()
+run("another seed, other bytes" simulate --robot=arm.yaml --duration=12
+    --out=out --effects=stribeck@2 --seed=1)
+file(READ ${WORK_DIR}/out/log.csv again)
+if(again STREQUAL log)
+  fail("the log is that of another seed")
+endif()
+
+# What simulate writes, calibrate takes; as currents and with lost, jittering
+# samples too.
+run("currents" simulate --robot=arm.yaml --duration=12 --out=out
+    --torque_constants=2,3 --temperature --jitter=0.0005 --lost=0.01)
+expect_code(0)
+file(STRINGS ${WORK_DIR}/out/log.csv header LIMIT_COUNT 1)
+if(NOT header STREQUAL "t,q1,q2,qd1,qd2,i1,i2,qref1,qref2,temp1,temp2")
+  fail("the header is ${header}")
+endif()
+file(RENAME ${WORK_DIR}/out ${WORK_DIR}/second)
+run("calibrate reads it" calibrate --robot=arm.yaml --log=second/log.csv
+    --torque_constants=2,3 --bandwidth=8)
+expect_code(0)
+expect_text(out "currents times 2 3 N m/A")
+
+run("the list" simulate --list_effects)
+expect_code(0)
+expect_text(out "viscous_friction@JOINT" "payload" "has none for" "gyroscope")
+
+run("point to point along a file's motion" simulate --robot=arm.yaml
+    --motion=first/log.csv --out=out --encoder_noise=0 --torque_noise=0)
+expect_code(0)
+
+# Refusals.
+macro(refuse name code)
+  run("${name}" simulate --robot=arm.yaml --out=out ${ARGN})
+endmacro()
+refuse("unknown effect" 2 --effects=stribek@2)
+expect_refusal(2 "--effects: found 'stribek', expected an effect, such as stribeck")
+refuse("effect without its joint" 2 --effects=stribeck)
+expect_refusal(2 "expected stribeck@JOINT")
+refuse("effect with a joint too many" 2 --effects=base_tilt@1)
+expect_refusal(2 "expected base_tilt without a joint")
+refuse("no such joint" 2 --effects=stribeck@3)
+expect_refusal(2 "found '3', expected a joint, 1 to 2")
+refuse("no such parameter" 2 --effects=stribeck@1:size=3)
+expect_refusal(2 "found 'size=3', expected a parameter of stribeck")
+refuse("a parameter that is no number" 2 --effects=payload:mass=heavy)
+expect_refusal(2 "found 'mass=heavy', expected mass=NUMBER")
+refuse("a parameter out of range" 3 --effects=payload:mass=50)
+expect_refusal(3 "effect payload" "mass = 50: expected")
+refuse("a rate that does not divide" 3 --log_rate=300)
+expect_refusal(3 "found '300" "divides the controller's rate")
+refuse("a negative duration" 2 --duration=-1)
+expect_refusal(2 "--duration: found '-1', expected a number above 0")
+refuse("too large a motion" 2 --size=2)
+expect_refusal(2 "--size: found '2', expected a number from 0 to 1")
+refuse("joints that are not there" 2 --joints=1,3)
+expect_refusal(2 "--joints: found '1,3', expected numbers from 1 to 2")
+refuse("noise for one joint too many" 2 --torque_noise=1,2,3)
+expect_refusal(2 "--torque_noise: found '1,2,3', expected one number or 2")
+refuse("a motion that is not there" 3 --motion=nowhere.csv)
+expect_refusal(3 "nowhere.csv")
+run("no folder" simulate --robot=arm.yaml)
+expect_refusal(2 "--out=DIR is needed")
+file(WRITE ${WORK_DIR}/light.yaml "convention: standard
+links:
+  - {joint: revolute, a: .4}
+")
+run("a robot without masses" simulate --robot=light.yaml --out=out)
+expect_refusal(3 "light.yaml: link link1" "it has no mass")
+file(WRITE ${WORK_DIR}/flat.yaml "name: flat
+convention: standard
+links:
+  - {joint: revolute, a: .4, mass: 2, com: [0, 0, 0], inertia: [.01, .01, .9]}
+")
+run("an inertia that cannot be" simulate --robot=flat.yaml --out=out)
+expect_refusal(3 "flat: link link1: Simbody cannot simulate it")
