@@ -126,9 +126,13 @@ uint64_t BlindCaseSeed(BlindSet set, uint32_t seed, uint32_t index) {
   return bit | (static_cast<uint64_t>(seed & 0x7fffffff) << 32) | index;
 }
 
-BlindCase DrawBlindCase(uint64_t seed) {
+bool Follows(const ClosedLoopRun& run) {
+  return run.finite && run.tracking_rms.maxCoeff() < .05;
+}
+
+BlindCase DrawBlindCase(uint64_t seed, uint32_t attempt) {
   std::seed_seq sequence{static_cast<uint32_t>(seed),
-                         static_cast<uint32_t>(seed >> 32)};
+                         static_cast<uint32_t>(seed >> 32), attempt};
   std::mt19937_64 random(sequence);
   BlindCase blind;
   blind.seed = seed;

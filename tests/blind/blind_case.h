@@ -38,7 +38,11 @@ struct BlindCase {
   SensorOptions sensors;
 };
 
-BlindCase DrawBlindCase(uint64_t seed);
+// `attempt`: another draw for the same seed, where the first was of no use.
+BlindCase DrawBlindCase(uint64_t seed, uint32_t attempt = 0);
+// Whether the arm follows its motion: a robot that does not would have stopped
+// with an error and left no log to diagnose.
+bool Follows(const ClosedLoopRun& run);
 
 enum class BlindLog { kTraining, kValidation, kReference };
 // The scenario of one log of the case with the effects `effects` of it (all, or

@@ -37,13 +37,11 @@ void WriteText(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-ScenarioRun WriteLog(const BlindCase& blind, BlindLog log,
-                     const fs::path& path) {
+void WriteLog(const BlindCase& blind, BlindLog log, const fs::path& path) {
   const auto& effects =
       log == BlindLog::kReference ? std::vector<ChosenEffect>() : blind.effects;
-  ScenarioRun run = RunScenario(BlindScenario(blind, log, effects));
-  WriteText(path, LogText(run.run.log));
-  return run;
+  WriteText(path,
+            LogText(RunScenario(BlindScenario(blind, log, effects)).run.log));
 }
 
 json Label(const BlindCase& blind, const ScenarioRun& training) {
@@ -51,7 +49,6 @@ json Label(const BlindCase& blind, const ScenarioRun& training) {
       BlindScenario(blind, BlindLog::kTraining, blind.effects), training);
   label["arm"] = blind.arm;
   label["excitation"] = ExcitationName(blind.excitation);
-  label["finite"] = training.run.finite;
   const std::vector<EffectSize> sizes = EffectSizes(blind);
   for (size_t k = 0; k < sizes.size(); ++k) {
     json& entry = label["effects"][k];
@@ -63,15 +60,25 @@ json Label(const BlindCase& blind, const ScenarioRun& training) {
   return label;
 }
 
+// The first draw whose arm follows its motion, with its training log.
+std::pair<BlindCase, ScenarioRun> DrawCase(uint64_t seed) {
+  for (uint32_t attempt = 0;; ++attempt) {
+    BlindCase blind = DrawBlindCase(seed, attempt);
+    ScenarioRun training =
+        RunScenario(BlindScenario(blind, BlindLog::kTraining, blind.effects));
+    if (Follows(training.run)) return {blind, training};
+  }
+}
+
 void WriteCase(BlindSet set, uint32_t index) {
-  const BlindCase blind = DrawBlindCase(BlindCaseSeed(set, FLAGS_seed, index));
+  const auto& [blind, training] =
+      DrawCase(BlindCaseSeed(set, FLAGS_seed, index));
   char name[32];
   std::snprintf(name, sizeof name, "case_%04u", index);
   const fs::path folder = fs::path(FLAGS_logs) / name;
   fs::create_directories(folder);
   WriteText(folder / "robot.yaml", blind.robot_yaml);
-  const ScenarioRun training =
-      WriteLog(blind, BlindLog::kTraining, folder / "training.csv");
+  WriteText(folder / "training.csv", LogText(training.run.log));
   WriteLog(blind, BlindLog::kValidation, folder / "validation.csv");
   if (blind.has_reference) {
     WriteLog(blind, BlindLog::kReference, folder / "reference.csv");
