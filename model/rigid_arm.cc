@@ -1,0 +1,48 @@
+#include "model/rigid_arm.h"
+
+#include "model/forward_dynamics.h"
+#include "model/inverse_dynamics.h"
+#include "model/kinematics.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+ArmTerms::Point PointAt(const Robot& robot, const std::vector<Isometry3d>& X_WL,
+                        const Attachment& attachment) {
+  ArmTerms::Point point;
+  point.X_WP = X_WL[attachment.link];
+  point.X_WP.translation() = point.X_WP * attachment.p_LP;
+  point.jacobian.setZero(6, robot.num_joints());
+  for (int j = 0; j <= attachment.link; ++j) {
+    const Isometry3d X_WM = X_WL[j] * robot.links[j].X_ML.inverse();
+    const Vector3d axis = X_WM.linear().col(2);
+    if (IsRotational(robot.links[j].joint.type)) {
+      point.jacobian.col(j) << axis,
+          axis.cross(point.X_WP.translation() - X_WM.translation());
+    } else {
+      point.jacobian.col(j).tail<3>() = axis;
+    }
+  }
+  return point;
+}
+
+}  // namespace
+
+void RigidArm::Evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+                        const std::vector<Attachment>& attachments,
+                        ArmTerms* terms) {
+  terms->mass_matrix = MassMatrix(robot_, q);
+  terms->bias =
+      InverseDynamics(robot_, q, qd, Eigen::VectorXd::Zero(num_joints()));
+  terms->points.clear();
+  if (attachments.empty()) return;
+  const std::vector<Isometry3d> X_WL = LinkPoses(robot_, q);
+  for (const Attachment& attachment : attachments) {
+    terms->points.push_back(PointAt(robot_, X_WL, attachment));
+  }
+}
+
+}  // namespace armcal
