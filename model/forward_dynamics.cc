@@ -3,6 +3,7 @@
 #include <glog/logging.h>
 
 #include <Eigen/Cholesky>
+#include <limits>
 #include <vector>
 
 #include "model/inverse_dynamics.h"
@@ -13,6 +14,9 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+
+// Of the largest, an inertia that is rounding.
+constexpr double kNoInertia = 1e-15;
 
 // X_PM(q) of joint i, where P is the moved frame M of the joint before (W for
 // the first).
@@ -84,7 +88,13 @@ VectorXd ForwardDynamics(const Robot& robot, const VectorXd& q,
   CHECK_EQ(tau.size(), n);
   Eigen::MatrixXd M = MassMatrix(robot, q);
   for (int i = 0; i < n; ++i) M(i, i) += robot.links[i].joint.armature;
-  return M.ldlt().solve(tau - InverseDynamics(robot, q, qd, VectorXd::Zero(n)));
+  const Eigen::LDLT<Eigen::MatrixXd> factor(M);
+  // Eigen's solution for a pivot of zero would be a joint that does not move.
+  const VectorXd pivots = factor.vectorD().cwiseAbs();
+  if (!(pivots.minCoeff() > kNoInertia * pivots.maxCoeff())) {
+    return VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  }
+  return factor.solve(tau - InverseDynamics(robot, q, qd, VectorXd::Zero(n)));
 }
 
 ArmEnergy Energy(const Robot& robot, const VectorXd& q, const VectorXd& qd) {

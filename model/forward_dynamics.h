@@ -16,8 +16,8 @@ Eigen::MatrixXd MassMatrix(const Robot& robot, const Eigen::VectorXd& q);
 // The torque that holds the arm at rest at q.
 Eigen::VectorXd GravityTorque(const Robot& robot, const Eigen::VectorXd& q);
 
-// qdd that `tau` gives the links and their joints' armature at (q, qd). Not
-// finite where no inertia resists a joint.
+// qdd that `tau` gives the links and their joints' armature at (q, qd). NaN
+// where no inertia resists a joint.
 Eigen::VectorXd ForwardDynamics(const Robot& robot, const Eigen::VectorXd& q,
                                 const Eigen::VectorXd& qd,
                                 const Eigen::VectorXd& tau);

@@ -76,6 +76,16 @@ TEST(ForwardDynamics, UndoesInverseDynamicsWithArmature) {
   }
 }
 
+TEST(ForwardDynamics, NothingToMoveIsNotANumber) {
+  TwoLinkArm arm;
+  arm.m2 = arm.I2 = 0;
+  Robot robot = arm.ToRobot();
+  const Vector2d q(.3, .4), zero = Vector2d::Zero();
+  EXPECT_FALSE(ForwardDynamics(robot, q, zero, zero).allFinite());
+  robot.links[1].joint.armature = .1;
+  EXPECT_NEAR(ForwardDynamics(robot, q, zero, Vector2d(0, .2))[1], 2, 1e-12);
+}
+
 // d/dt of the energy along any motion is the power of its torque.
 TEST(ForwardDynamics, EnergyChangesByThePower) {
   std::mt19937_64 random(3);

@@ -1,0 +1,113 @@
+#include "calib/verification.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/sample_motion.h"
+#include "tests/sample_robots.h"
+#include "tests/temp_file.h"
+
+namespace armcal {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+void ExpectPassed(const Verification& result) {
+  EXPECT_TRUE(result.passed());
+  for (const VerificationCheck& check : result.Checks()) {
+    EXPECT_TRUE(check.passed()) << check.name << " " << check.value;
+  }
+}
+
+// Prismatic joints, a tilted base and a tool among them.
+class KnownArms : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(All, KnownArms,
+                         testing::Values("SCARA RRPR", "PUMA560 6R", "UR5 6R",
+                                         "Panda 7R"));
+TEST_P(KnownArms, AreTheSameInSimbody) {
+  std::mt19937_64 random(3);
+  Robot robot = SampleRobot(GetParam());
+  SetRandomInertials(&random, &robot);
+  robot.gravity = {2, -1, -9};
+  robot.X_LT.translation() << .1, .2, .3;
+  VerificationOptions options;
+  options.swing_s = 10;
+  const Verification result = Verify(robot, options, nullptr);
+  ExpectPassed(result);
+  EXPECT_EQ(result.random_states, 1000);
+}
+
+TEST(Verify, StatesOfALog) {
+  std::mt19937_64 random(4);
+  Robot robot = SampleRobot("3R elbow");
+  SetRandomInertials(&random, &robot);
+  Log log = RecordMotion(RandomMultisine(&random, 3), 20, .01);
+  AddTorque(robot, &log);
+  LogReaderOptions reader;
+  reader.joint_names = robot.JointNames();
+  LogSet logs({WriteFile(LogCsv(log))}, reader, {});
+  logs.Prepare(8, 0);
+  VerificationOptions options;
+  options.log_states = 300;
+  options.random_states = 10;
+  const Verification result = Verify(robot, options, &logs);
+  ExpectPassed(result);
+  EXPECT_NEAR(result.log_states, 300, 5);
+}
+
+// The published third link of the PUMA 560 cannot exist (ECOSYSTEM.md 1.3).
+TEST(Verify, RefusedLinksAreNamedAndTheRestIsChecked) {
+  std::mt19937_64 random(5);
+  Robot robot = SampleRobot("PUMA560 6R");
+  robot.name = "puma";
+  SetRandomInertials(&random, &robot);
+  robot.links[2].inertial = InertialParameters::FromCenterOfMass(
+      4.8, {0, 0, .07}, Eigen::Vector3d(.066, .086, .0125).asDiagonal());
+  robot.links[4].inertial = robot.links[2].inertial;
+  const Verification result = Verify(robot, {}, nullptr);
+  EXPECT_FALSE(result.passed());
+  EXPECT_THAT(result.reasons,
+              ElementsAre(HasSubstr("puma: link link3: Simbody cannot"),
+                          HasSubstr("puma: link link5: Simbody cannot")));
+  EXPECT_THAT(result.reasons[0], HasSubstr("principal moments"));
+  EXPECT_TRUE(std::isnan(result.torque_max_rel));
+  EXPECT_LT(result.own_consistency_rel, 1e-8);
+  EXPECT_LT(result.own_energy_drift_rel, 1e-6);
+}
+
+// Nothing resists the last joint.
+TEST(Verify, MasslessTipCannotSwing) {
+  std::mt19937_64 random(6);
+  Robot robot = SampleRobot("3R elbow");
+  SetRandomInertials(&random, &robot);
+  robot.links[2].inertial = {};
+  const Verification result = Verify(robot, {}, nullptr);
+  EXPECT_FALSE(result.passed());
+  EXPECT_THAT(
+      result.reasons,
+      ElementsAre(HasSubstr("Simbody cannot follow a passive swing"),
+                  HasSubstr("our dynamics cannot follow a passive swing")));
+  EXPECT_LT(result.torque_max_rel, 1e-10);
+}
+
+// Random states and the swing start are drawn from the seed alone.
+TEST(Verify, SameSeedSameFigures) {
+  std::mt19937_64 random(7);
+  Robot robot = SampleRobot("UR5 6R");
+  SetRandomInertials(&random, &robot);
+  VerificationOptions options;
+  options.random_states = 20;
+  options.swing_s = .5;
+  const auto figures = [&](std::uint64_t seed) {
+    options.seed = seed;
+    const Verification v = Verify(robot, options, nullptr);
+    return std::make_pair(v.torque_max_rel, v.own_energy_drift_rel);
+  };
+  EXPECT_EQ(figures(1), figures(1));
+  EXPECT_NE(figures(1), figures(2));
+}
+
+}  // namespace
+}  // namespace armcal
