@@ -130,6 +130,8 @@ json GeometryJson(const LinearCalibration& result) {
                     {"nominal", l.nominal},
                     {"value", l.identifiable ? JsonNumber(l.value) : nullptr},
                     {"stddev", l.identifiable ? JsonNumber(l.stddev) : nullptr},
+                    // What the refined robot has, seen or not.
+                    {"used", JsonNumber(l.value)},
                     {"identifiable", l.identifiable}});
   }
   return list;

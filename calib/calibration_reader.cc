@@ -1,0 +1,291 @@
+#include "calib/calibration_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "calib/arm_unknowns.h"
+#include "model/arm_geometry.h"
+#include "model/input_error.h"
+#include "model/input_text.h"
+#include "model/proximal_chain.h"
+#include "model/robot_lengths.h"
+
+namespace armcal {
+namespace {
+
+using nlohmann::json;
+
+constexpr long kMostBytes = 100'000'000;
+constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
+                                JointTerm::kOffset, JointTerm::kArmature};
+
+// A value of the file and the key it stands at.
+class Value {
+ public:
+  Value(const std::string& file, const std::string& key, const json& value)
+      : file_(file), key_(key), value_(value) {}
+
+  const std::string& file() const { return file_; }
+  [[noreturn]] void Refuse(const std::string& expected) const {
+    std::string text =
+        value_.dump(-1, ' ', false, json::error_handler_t::replace);
+    throw InputError(file_, key_.empty() ? "" : "key " + key_,
+                     std::string(OneLine(text)), expected);
+  }
+  bool Has(const std::string& key) const {
+    return value_.is_object() && value_.contains(key);
+  }
+  Value At(const std::string& key) const {
+    if (!value_.is_object()) Refuse("expected an object");
+    const std::string path = key_.empty() ? key : key_ + "." + key;
+    if (!value_.contains(key)) {
+      throw InputError(file_, "key " + path, "",
+                       "is missing; expected a calibration.json of armcal "
+                       "calibrate");
+    }
+    return Value(file_, path, value_.at(key));
+  }
+  std::vector<Value> Entries() const {
+    if (!value_.is_array()) Refuse("expected a list");
+    std::vector<Value> entries;
+    for (size_t k = 0; k < value_.size(); ++k) {
+      entries.emplace_back(file_, key_ + "[" + std::to_string(k) + "]",
+                           value_[k]);
+    }
+    return entries;
+  }
+  std::string Text() const {
+    if (!value_.is_string()) Refuse("expected a text");
+    return value_.get<std::string>();
+  }
+  double Number() const {
+    if (!value_.is_number() || !std::isfinite(value_.get<double>())) {
+      Refuse("expected a finite number");
+    }
+    return value_.get<double>();
+  }
+  bool Bool() const {
+    if (!value_.is_boolean()) Refuse("expected true or false");
+    return value_.get<bool>();
+  }
+  void Expect(const std::string& text, const std::string& why) const {
+    if (Text() != text) Refuse("expected '" + text + "'" + why);
+  }
+
+ private:
+  const std::string& file_;
+  std::string key_;
+  const json& value_;
+};
+
+json Parse(const std::string& path) {
+  const std::string text = ReadTextFile(path, kMostBytes);
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& error) {
+    throw InputError(path, "byte " + std::to_string(error.byte), "",
+                     "expected JSON, as armcal calibrate writes it");
+  }
+}
+
+// A number of the robot that a file may set.
+struct Slot {
+  std::string unit;
+  double nominal;
+  std::function<void(double)> set;
+  bool was_set = false;
+};
+using Slots = std::map<std::string, Slot>;
+
+// Inertial parameters as vectors until all are known.
+struct Links {
+  explicit Links(const Robot& robot) {
+    for (const Link& link : robot.links) {
+      values.push_back(link.inertial.ToVector());
+    }
+  }
+  void ApplyTo(Robot* robot) const {
+    for (size_t i = 0; i < values.size(); ++i) {
+      robot->links[i].inertial = InertialParameters::FromVector(values[i]);
+      robot->links[i].has_inertial = true;
+    }
+  }
+  std::vector<Vector10d> values;
+};
+
+void AddDynamics(Links* links, Robot* robot, Slots* slots) {
+  for (size_t i = 0; i < robot->links.size(); ++i) {
+    Link& link = robot->links[i];
+    for (int k = 0; k < 10; ++k) {
+      double* value = &links->values[i][k];
+      (*slots)[link.name + "." + InertialName(k)] = {
+          InertialUnit(k), *value, [value](double x) { *value = x; }};
+    }
+    for (const JointTerm term : kTerms) {
+      double* value = TermOf(term, &link.joint);
+      (*slots)[link.joint.name + "." + JointTermName(term)] = {
+          JointTermUnit(term, link.joint.type), *value,
+          [value](double x) { *value = x; }};
+    }
+  }
+}
+
+// The geometry's own parameters and, of the base, what torques see of it.
+void AddGeometry(const ArmGeometry& geometry, Eigen::VectorXd* values,
+                 Slots* slots) {
+  const std::vector<std::string> names = geometry.Names();
+  for (int k = 0; k < geometry.size(); ++k) {
+    const bool tilt = names[k] == "base.pitch" || names[k] == "base.roll";
+    if (ArmGeometry::IsBase(k) && !tilt) continue;
+    double* value = &(*values)[k];
+    (*slots)[names[k]] = {geometry.Units()[k], *value,
+                          [value](double x) { *value = x; }};
+  }
+}
+
+bool SameNumber(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)) + 1e-12;
+}
+
+void Check(const Value& root, const Robot& robot) {
+  root.At("format").Expect("armcal calibration 1",
+                           ", the format this version reads");
+  const std::string other =
+      ", the robot of --robot: this is a calibration of another robot";
+  root.At("robot").Expect(robot.name, other);
+  const Value joints = root.At("joints");
+  const std::vector<Value> entries = joints.Entries();
+  if (static_cast<int>(entries.size()) != robot.num_joints()) {
+    joints.Refuse("expected " + std::to_string(robot.num_joints()) +
+                  " joints, as the robot of --robot has");
+  }
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    entries[j].At("name").Expect(robot.links[j].joint.name, other);
+  }
+  const Value estimate = root.At("estimate");
+  if (estimate.Text() != "refined") {
+    estimate.Refuse(
+        "expected 'refined': a simulation needs links that can exist; run "
+        "armcal calibrate --estimate=refined with a robot file that gives "
+        "every link a mass");
+  }
+}
+
+std::vector<CoulombTransition> ReadTransitions(const Value& root,
+                                               const Robot& robot) {
+  using Law = CoulombTransition::Law;
+  std::vector<CoulombTransition> transitions(robot.num_joints());
+  const std::vector<Value> joints = root.At("joints").Entries();
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    if (!joints[j].Has("coulomb_transition")) continue;  // without friction
+    const Value entry = joints[j].At("coulomb_transition");
+    const std::string law = entry.At("law").Text();
+    if (law != "velocity" && law != "displacement") {
+      entry.At("law").Refuse("expected 'velocity' or 'displacement'");
+    }
+    const bool velocity = law == "velocity";
+    entry.At("unit").Expect(PositionUnit(robot.links[j].joint.type) +
+                                std::string(velocity ? "/s" : ""),
+                            "");
+    const double width = entry.At("width").Number();
+    if (!(width > 0)) entry.At("width").Refuse("expected a width above 0");
+    transitions[j] = {velocity ? Law::kVelocity : Law::kDisplacement, width};
+  }
+  return transitions;
+}
+
+// With the lengths that the linear calibration recovered.
+Robot WithLengthsOf(const Value& root, const Robot& nominal) {
+  const std::vector<Length> known = MakeProximalChain(nominal).lengths;
+  std::vector<Length> lengths;
+  for (const Value& entry : root.At("geometry").Entries()) {
+    if (!entry.Has("symbol")) continue;
+    const std::string symbol = entry.At("symbol").Text();
+    const auto length =
+        std::find_if(known.begin(), known.end(),
+                     [&symbol](const Length& l) { return l.name == symbol; });
+    if (length == known.end() ||
+        !SameNumber(length->value, entry.At("nominal").Number())) {
+      entry.Refuse("expected a length of the robot file, as it has it");
+    }
+    lengths.push_back(*length);
+    lengths.back().value = entry.At("used").Number();
+  }
+  return lengths.empty() ? nominal : WithLengths(nominal, lengths);
+}
+
+// Parameters of where the instrument and its targets are.
+bool BelongsToPoses(const std::string& name) {
+  for (const char* owner : {"instrument.", "target", "wire."}) {
+    if (name.rfind(owner, 0) == 0) return true;
+  }
+  return false;
+}
+
+void SetFrom(const Value& entry, Slots* slots) {
+  const Value name = entry.At("name");
+  const auto slot = slots->find(name.Text());
+  if (slot == slots->end()) {
+    if (BelongsToPoses(name.Text())) return;
+    name.Refuse("expected a parameter of the robot of --robot");
+  }
+  if (slot->second.was_set) name.Refuse("expected every parameter only once");
+  entry.At("unit").Expect(slot->second.unit, ", the unit of " + name.Text());
+  const Value prior = entry.At("prior");
+  if (!SameNumber(prior.Number(), slot->second.nominal)) {
+    prior.Refuse("expected " + NumberText(slot->second.nominal) + " of " +
+                 name.Text() +
+                 ", as the robot file has it: give the file that was "
+                 "calibrated, or calibrate again");
+  }
+  slot->second.set(entry.At("value").Number());
+  slot->second.was_set = true;
+}
+
+Robot ReadRobotOf(const Value& root, const Robot& nominal) {
+  Robot robot = WithLengthsOf(root, nominal);
+  ArmGeometry geometry(robot);
+  const Eigen::VectorXd file = geometry.Values();
+  Eigen::VectorXd values = file;
+  Links links(robot);
+  Slots slots;
+  AddDynamics(&links, &robot, &slots);
+  const Slots dynamics = slots;  // which all have to be there
+  AddGeometry(geometry, &values, &slots);
+  const Value parameters = root.At("parameters");
+  for (const Value& entry : parameters.Entries()) SetFrom(entry, &slots);
+  for (const auto& [name, slot] : dynamics) {
+    if (slots.at(name).was_set) continue;
+    throw InputError(root.file(), "key parameters", "",
+                     "expected an entry for " + name);
+  }
+  links.ApplyTo(&robot);
+  if (values == file) return robot;
+  geometry.SetValues(values);
+  return geometry.ApplyTo(robot);
+}
+
+}  // namespace
+
+CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal) {
+  const json parsed = Parse(path);
+  const Value root(path, "", parsed);
+  Check(root, nominal);
+  CalibratedRobot result;
+  result.transitions = ReadTransitions(root, nominal);
+  result.robot = ReadRobotOf(root, nominal);
+  result.bandwidth_hz = root.At("bandwidth_hz").Number();
+  if (result.bandwidth_hz < 0) {
+    root.At("bandwidth_hz").Refuse("expected a frequency in Hz, or 0");
+  }
+  result.converged = root.At("refined").At("converged").Bool();
+  for (const Value& log : root.At("logs").Entries()) {
+    result.logs.push_back(log.At("file").Text());
+  }
+  return result;
+}
+
+}  // namespace armcal

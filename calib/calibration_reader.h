@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/joint_term.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// What a calibration.json says of a robot.
+struct CalibratedRobot {
+  Robot robot;  // the robot file's, with the refined parameters
+  // How each joint's Coulomb friction changes sign.
+  std::vector<CoulombTransition> transitions;
+  double bandwidth_hz = 0;
+  bool converged = false;
+  std::vector<std::string> logs;  // it was calibrated on, as they were named
+};
+
+// Reads the calibration.json that `armcal calibrate` wrote for `nominal`, the
+// robot of the same robot file. Lengths that were recovered and geometry that
+// was refined are applied as the inertial parameters and the joints' terms are;
+// where the instrument of pose measurements stood is not the robot's.
+//
+// Throws InputError with the file, the key, its value and what was expected:
+// text that is no JSON or none of ours, a key that is missing or of another
+// type, a linear estimate only, other joints or links than the robot's, a
+// prior that is not the robot file's value (the file has changed since), a unit
+// or a name that is not known.
+CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal);
+
+}  // namespace armcal

@@ -1,0 +1,195 @@
+#include "calib/rollout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr int kDraws = 2000;
+
+class Roller {
+ public:
+  Roller(const std::vector<TorqueReplay*>& models,
+         const RolloutOptions& options)
+      : models_(models), options_(options), states_(models.size()) {
+    integration_.relative = integration_.absolute = options.tolerance;
+    integration_.max_steps = options.max_steps;
+    for (const double window_s : options.windows_s) {
+      rollouts_.push_back({window_s, {}, 0});
+    }
+  }
+
+  void Add(int log, const Trajectory& trajectory) {
+    for (size_t m = 0; m < models_.size(); ++m) {
+      states_[m] = models_[m]->Follow(trajectory);
+    }
+    for (Rollouts& rollouts : rollouts_) {
+      const int length = std::max(
+          1, static_cast<int>(std::lround(rollouts.window_s / trajectory.dt)));
+      for (int k = trajectory.core_begin; k < trajectory.core_end; ++k) {
+        if ((trajectory.first_index + k) % length != 0) continue;
+        if (k + length >= trajectory.size()) continue;
+        if (2 * trajectory.standstill.segment(k, length + 1).count() > length) {
+          ++rollouts.standstill;
+          continue;
+        }
+        rollouts.windows.push_back(Simulate(log, trajectory, k, k + length));
+      }
+    }
+  }
+
+  std::vector<Rollouts> TakeRollouts() { return std::move(rollouts_); }
+
+ private:
+  RolloutWindow Simulate(int log, const Trajectory& trajectory, int first,
+                         int last) {
+    const int n = trajectory.num_joints();
+    const Eigen::Index size = static_cast<Eigen::Index>(models_.size());
+    RolloutWindow window{log, trajectory.time(first),
+                         MatrixXd::Constant(size, n, kInfinity),
+                         MatrixXd::Constant(size, n, kInfinity)};
+    for (Eigen::Index m = 0; m < size; ++m) {
+      const Integration run = models_[m]->Run(
+          trajectory, first, last, states_[m].row(first), integration_);
+      if (!run.finished) continue;
+      const auto rms = [&](Eigen::Index column, const MatrixXd& recorded) {
+        return ((run.x.middleCols(column, n) -
+                 recorded.middleRows(first + 1, last - first))
+                    .colwise()
+                    .norm() /
+                std::sqrt(last - first))
+            .eval();
+      };
+      window.q.row(m) = rms(0, trajectory.q);
+      window.qd.row(m) = rms(n, trajectory.qd);
+    }
+    return window;
+  }
+
+  const std::vector<TorqueReplay*>& models_;
+  const RolloutOptions& options_;
+  IntegrationOptions integration_;
+  std::vector<MatrixXd> states_;  // of Coulomb friction, per model
+  std::vector<Rollouts> rollouts_;
+};
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return kNaN;
+  const size_t half = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + half, values.end());
+  if (values.size() % 2 == 1) return values[half];
+  const double below = *std::max_element(values.begin(), values.begin() + half);
+  return (below + values[half]) / 2;
+}
+
+// `statistic` of all windows, and its interval by circular moving blocks.
+RolloutFigure Bootstrap(
+    int windows, std::uint64_t seed,
+    const std::function<double(const std::vector<int>&)>& statistic) {
+  std::vector<int> chosen(windows);
+  for (int k = 0; k < windows; ++k) chosen[k] = k;
+  RolloutFigure figure{statistic(chosen), kNaN, kNaN};
+  if (windows < 2) return figure;
+  const int block = std::max(1, static_cast<int>(std::cbrt(windows)));
+  std::mt19937_64 random(seed);
+  std::vector<double> draws;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    for (int k = 0; k < windows; ++k) {
+      chosen[k] = k % block == 0 ? static_cast<int>(random() % windows)
+                                 : (chosen[k - 1] + 1) % windows;
+    }
+    const double value = statistic(chosen);
+    // Of two models that both diverge nothing is known.
+    draws.push_back(std::isnan(value) ? kInfinity : value);
+  }
+  std::sort(draws.begin(), draws.end());
+  figure.low = draws[kDraws / 40];
+  figure.high = draws[kDraws - 1 - kDraws / 40];
+  return figure;
+}
+
+std::vector<double> Errors(const Rollouts& rollouts, int model,
+                           const std::vector<int>& joints) {
+  std::vector<double> errors;
+  for (const RolloutWindow& window : rollouts.windows) {
+    errors.push_back(window.Error(model, joints));
+  }
+  return errors;
+}
+
+double MedianOf(const std::vector<double>& errors,
+                const std::vector<int>& chosen) {
+  std::vector<double> values;
+  for (const int k : chosen) values.push_back(errors[k]);
+  return Median(std::move(values));
+}
+
+}  // namespace
+
+bool RolloutWindow::diverged(int model) const {
+  return !q.row(model).allFinite();
+}
+
+double RolloutWindow::Error(int model, const std::vector<int>& joints) const {
+  double sum = 0;
+  for (const int j : joints) sum += q(model, j) * q(model, j);
+  return std::sqrt(sum / static_cast<double>(joints.size()));
+}
+
+int Rollouts::NumDiverged(int model) const {
+  return static_cast<int>(std::count_if(
+      windows.begin(), windows.end(),
+      [model](const RolloutWindow& w) { return w.diverged(model); }));
+}
+
+std::vector<Rollouts> RollOut(const std::vector<TorqueReplay*>& models,
+                              const RolloutOptions& options,
+                              double bandwidth_hz, LogSet* logs) {
+  const double longest =
+      *std::max_element(options.windows_s.begin(), options.windows_s.end());
+  logs->Prepare(bandwidth_hz, longest);
+  Roller roller(models, options);
+  logs->ForEach("rollouts", options.progress,
+                [&roller](int log, const Trajectory& trajectory) {
+                  roller.Add(log, trajectory);
+                });
+  return roller.TakeRollouts();
+}
+
+std::vector<int> JointsWithUnit(const Robot& robot, const std::string& unit) {
+  std::vector<int> joints;
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    if (PositionUnit(robot.links[j].joint.type) == unit) joints.push_back(j);
+  }
+  return joints;
+}
+
+RolloutFigure MedianError(const Rollouts& rollouts, int model,
+                          const std::vector<int>& joints, std::uint64_t seed) {
+  const std::vector<double> errors = Errors(rollouts, model, joints);
+  return Bootstrap(static_cast<int>(errors.size()), seed,
+                   [&errors](const std::vector<int>& chosen) {
+                     return MedianOf(errors, chosen);
+                   });
+}
+
+RolloutFigure MedianRatio(const Rollouts& rollouts, int a, int b,
+                          const std::vector<int>& joints, std::uint64_t seed) {
+  const std::vector<double> of_a = Errors(rollouts, a, joints);
+  const std::vector<double> of_b = Errors(rollouts, b, joints);
+  return Bootstrap(static_cast<int>(of_a.size()), seed,
+                   [&](const std::vector<int>& chosen) {
+                     return MedianOf(of_a, chosen) / MedianOf(of_b, chosen);
+                   });
+}
+
+}  // namespace armcal

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "calib/log_set.h"
+#include "model/torque_replay.h"
+
+namespace armcal {
+
+struct RolloutOptions {
+  std::vector<double> windows_s = {0.2, 0.5, 1};
+  // Local error of the integration, rad (m), rad/s (m/s).
+  double tolerance = 1e-7;
+  long max_steps = 50'000;  // per window
+  Progress progress;
+};
+
+// A stretch of a log that every model was simulated over from the log's own
+// (low-passed) state with the logged torque. Models in rows, joints in columns;
+// rms over the stretch of simulated minus recorded, infinite where the
+// simulation did not come to its end.
+struct RolloutWindow {
+  int log;
+  double begin;        // s since the log's first row
+  Eigen::MatrixXd q;   // rad or m
+  Eigen::MatrixXd qd;  // rad/s or m/s
+
+  bool diverged(int model) const;
+  // rms over the joints `joints`, all of one unit.
+  double Error(int model, const std::vector<int>& joints) const;
+};
+
+// Windows side by side, of one length.
+struct Rollouts {
+  double window_s;
+  std::vector<RolloutWindow> windows;  // in the order of time
+  int standstill = 0;                  // windows that stand still, left out
+
+  int NumDiverged(int model) const;
+};
+
+// Simulates every model over the windows of the logs (multiple shooting). A
+// window that stands still for half of its samples or more is left out. The
+// logs are prepared with the given bandwidth.
+std::vector<Rollouts> RollOut(const std::vector<TorqueReplay*>& models,
+                              const RolloutOptions& options,
+                              double bandwidth_hz, LogSet* logs);
+
+// The joints of a robot whose positions have the unit "rad", "m".
+std::vector<int> JointsWithUnit(const Robot& robot, const std::string& unit);
+
+// A figure with its interval of 95 %, of the bootstrap with moving blocks of
+// windows (Kuensch 1989), which follow each other in time and are not
+// independent: blocks of the cube root of their number, 2000 draws.
+struct RolloutFigure {
+  double value;
+  double low, high;
+};
+// The median over windows of a model's rms error of these joints.
+RolloutFigure MedianError(const Rollouts& rollouts, int model,
+                          const std::vector<int>& joints, std::uint64_t seed);
+// Median of model `a` over that of model `b`, of the same windows.
+RolloutFigure MedianRatio(const Rollouts& rollouts, int a, int b,
+                          const std::vector<int>& joints, std::uint64_t seed);
+
+}  // namespace armcal
