@@ -1,0 +1,129 @@
+// Real robots simulated over stretches of held-out time, from their measured
+// states and with their torque: our refined calibration against what else one
+// would simulate them with. Skipped where shared/data is absent.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "calib/linear_calibration.h"
+#include "calib/nonlinear_calibration.h"
+#include "calib/rollout.h"
+#include "model/plant/simbody_arm.h"
+#include "model/robot_reader.h"
+#include "tests/rollout_rivals.h"
+
+namespace armcal {
+namespace {
+
+const std::string kData = SHARED_DIR "/data/";
+
+struct Rival {
+  std::string name;
+  Robot robot;
+};
+
+struct Setup {
+  std::string folder;
+  std::vector<std::string> training;
+  TimeRange training_crop;
+  std::vector<std::string> held_out;
+  TimeRange held_out_crop;
+  double bandwidth_hz;
+  std::vector<double> torque_constants;
+};
+
+class Contest {
+ public:
+  explicit Contest(const Setup& setup)
+      : setup_(setup),
+        file_(ReadRobot(kData + setup.folder + "/robot.urdf", {})),
+        training_(Open(setup.training, setup.training_crop)),
+        held_out_(Open(setup.held_out, setup.held_out_crop)) {
+    LinearCalibrationOptions options;
+    options.bandwidth_hz = setup.bandwidth_hz;
+    const LinearCalibration linear =
+        CalibrateLinear(file_, options, &training_, nullptr);
+    transitions_ = linear.transitions;
+    refined_ = CalibrateNonlinear(file_, linear, {}, &training_, nullptr).robot;
+  }
+
+  const Robot& file() const { return file_; }
+
+  // `links` with friction fitted to the training log, with and without offset
+  // and armature.
+  void AddFitted(const std::string& name, const Robot& links) {
+    using T = JointTerm;
+    for (const auto& terms : std::vector<std::vector<T>>{
+             {T::kViscous, T::kCoulomb},
+             {T::kViscous, T::kCoulomb, T::kOffset},
+             {T::kViscous, T::kCoulomb, T::kArmature},
+             {T::kViscous, T::kCoulomb, T::kOffset, T::kArmature}}) {
+      std::string text = name + " with fitted";
+      for (const T term : terms) text += std::string(" ") + JointTermName(term);
+      rivals_.push_back({text, WithFittedTerms(links, transitions_, terms,
+                                               setup_.bandwidth_hz,
+                                               &training_)});
+    }
+  }
+  void Add(const Rival& rival) { rivals_.push_back(rival); }
+
+  void Run() {
+    std::vector<Robot> robots = {refined_};
+    for (const Rival& rival : rivals_) robots.push_back(rival.robot);
+    std::vector<std::unique_ptr<SimbodyArm>> engines;
+    std::vector<std::unique_ptr<TorqueReplay>> replays;
+    std::vector<TorqueReplay*> models;
+    for (const Robot& robot : robots) {
+      engines.push_back(std::make_unique<SimbodyArm>(robot));
+      replays.push_back(std::make_unique<TorqueReplay>(robot, transitions_,
+                                                       engines.back().get()));
+      models.push_back(replays.back().get());
+    }
+    const auto all =
+        RollOut(models, {}, setup_.bandwidth_hz, &held_out_);
+    for (const Rollouts& r : all) {
+      const auto joints = JointsWithUnit(file_, "rad");
+      printf("%g s: %zu windows, %d standstill\n", r.window_s, r.windows.size(), r.standstill);
+      for (int m=0;m<(int)models.size();++m) {
+        const auto f = MedianError(r, m, joints, 1); const auto q=MedianRatio(r,0,m,joints,1);
+        printf("   %-60s %.5f [%.5f %.5f] div %d  ours/this %.3f [%.3f %.3f]\n", m?rivals_[m-1].name.c_str():"ours", f.value,f.low,f.high, r.NumDiverged(m), q.value,q.low,q.high);
+      }
+    }
+  }
+
+ private:
+  LogSet Open(const std::vector<std::string>& names, const TimeRange& crop) {
+    std::vector<std::string> paths;
+    for (const auto& name : names) {
+      paths.push_back(kData + setup_.folder + "/" + name);
+    }
+    LogReaderOptions options;
+    options.joint_names = file_.JointNames();
+    options.torque_constants = setup_.torque_constants;
+    return LogSet(paths, options, crop);
+  }
+
+  Setup setup_;
+  Robot file_;
+  LogSet training_, held_out_;
+  std::vector<CoulombTransition> transitions_;
+  Robot refined_;
+  std::vector<Rival> rivals_;
+};
+
+TEST(Ur10e, RolloutsAreNearerTheLog) {
+  Contest contest({"ur10e_free", {"id_50s.csv"}, {}, {"val_ptp.csv", "id_30s.csv"}, {}, 6, {14.87, 13.26, 11.13, 10.62, 11.03, 11.47}});
+  contest.AddFitted("the file", contest.file());
+  contest.Run();
+}
+
+TEST(Panda, RolloutsAreNearerTheLog) {
+  Contest contest({"panda", {"log.csv"}, {0, 14}, {"log.csv"}, {14, 21}, 8, {}});
+  contest.AddFitted("the file", contest.file());
+  contest.Run();
+}
+
+}  // namespace
+}  // namespace armcal
