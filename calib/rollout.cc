@@ -117,6 +117,12 @@ RolloutFigure Bootstrap(
   return figure;
 }
 
+double RmsOver(const Eigen::RowVectorXd& rms, const std::vector<int>& joints) {
+  double sum = 0;
+  for (const int j : joints) sum += rms[j] * rms[j];
+  return std::sqrt(sum / static_cast<double>(joints.size()));
+}
+
 std::vector<double> Errors(const Rollouts& rollouts, int model,
                            const std::vector<int>& joints) {
   std::vector<double> errors;
@@ -140,9 +146,12 @@ bool RolloutWindow::diverged(int model) const {
 }
 
 double RolloutWindow::Error(int model, const std::vector<int>& joints) const {
-  double sum = 0;
-  for (const int j : joints) sum += q(model, j) * q(model, j);
-  return std::sqrt(sum / static_cast<double>(joints.size()));
+  return RmsOver(q.row(model), joints);
+}
+
+double RolloutWindow::VelocityError(int model,
+                                    const std::vector<int>& joints) const {
+  return RmsOver(qd.row(model), joints);
 }
 
 int Rollouts::NumDiverged(int model) const {
@@ -180,6 +189,15 @@ RolloutFigure MedianError(const Rollouts& rollouts, int model,
                    [&errors](const std::vector<int>& chosen) {
                      return MedianOf(errors, chosen);
                    });
+}
+
+double MedianVelocityError(const Rollouts& rollouts, int model,
+                           const std::vector<int>& joints) {
+  std::vector<double> errors;
+  for (const RolloutWindow& window : rollouts.windows) {
+    errors.push_back(window.VelocityError(model, joints));
+  }
+  return Median(std::move(errors));
 }
 
 RolloutFigure MedianRatio(const Rollouts& rollouts, int a, int b,

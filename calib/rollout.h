@@ -13,7 +13,7 @@ namespace armcal {
 struct RolloutOptions {
   std::vector<double> windows_s = {0.2, 0.5, 1};
   // Local error of the integration, rad (m), rad/s (m/s).
-  double tolerance = 1e-7;
+  double tolerance = 1e-6;
   long max_steps = 50'000;  // per window
   Progress progress;
 };
@@ -29,8 +29,9 @@ struct RolloutWindow {
   Eigen::MatrixXd qd;  // rad/s or m/s
 
   bool diverged(int model) const;
-  // rms over the joints `joints`, all of one unit.
+  // rms of positions and of velocities over joints of one unit.
   double Error(int model, const std::vector<int>& joints) const;
+  double VelocityError(int model, const std::vector<int>& joints) const;
 };
 
 // Windows side by side, of one length.
@@ -62,6 +63,9 @@ struct RolloutFigure {
 // The median over windows of a model's rms error of these joints.
 RolloutFigure MedianError(const Rollouts& rollouts, int model,
                           const std::vector<int>& joints, std::uint64_t seed);
+// Of velocities, without an interval, rad/s or m/s.
+double MedianVelocityError(const Rollouts& rollouts, int model,
+                           const std::vector<int>& joints);
 // Median of model `a` over that of model `b`, of the same windows.
 RolloutFigure MedianRatio(const Rollouts& rollouts, int a, int b,
                           const std::vector<int>& joints, std::uint64_t seed);

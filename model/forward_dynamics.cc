@@ -82,19 +82,25 @@ VectorXd GravityTorque(const Robot& robot, const VectorXd& q) {
   return InverseDynamics(robot, q, rest, rest);
 }
 
+VectorXd SolveInertia(const Eigen::MatrixXd& M, const VectorXd& tau) {
+  const Eigen::LDLT<Eigen::MatrixXd> factor(M);
+  // Eigen's solution for a pivot of zero would be a joint that does not move.
+  const VectorXd pivots = factor.vectorD().cwiseAbs();
+  if (!(pivots.minCoeff() > kNoInertia * pivots.maxCoeff())) {
+    return VectorXd::Constant(tau.size(),
+                              std::numeric_limits<double>::quiet_NaN());
+  }
+  return factor.solve(tau);
+}
+
 VectorXd ForwardDynamics(const Robot& robot, const VectorXd& q,
                          const VectorXd& qd, const VectorXd& tau) {
   const int n = robot.num_joints();
   CHECK_EQ(tau.size(), n);
   Eigen::MatrixXd M = MassMatrix(robot, q);
   for (int i = 0; i < n; ++i) M(i, i) += robot.links[i].joint.armature;
-  const Eigen::LDLT<Eigen::MatrixXd> factor(M);
-  // Eigen's solution for a pivot of zero would be a joint that does not move.
-  const VectorXd pivots = factor.vectorD().cwiseAbs();
-  if (!(pivots.minCoeff() > kNoInertia * pivots.maxCoeff())) {
-    return VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
-  }
-  return factor.solve(tau - InverseDynamics(robot, q, qd, VectorXd::Zero(n)));
+  return SolveInertia(M,
+                      tau - InverseDynamics(robot, q, qd, VectorXd::Zero(n)));
 }
 
 ArmEnergy Energy(const Robot& robot, const VectorXd& q, const VectorXd& qd) {

@@ -16,6 +16,11 @@ Eigen::MatrixXd MassMatrix(const Robot& robot, const Eigen::VectorXd& q);
 // The torque that holds the arm at rest at q.
 Eigen::VectorXd GravityTorque(const Robot& robot, const Eigen::VectorXd& q);
 
+// M^-1 tau of a mass matrix with whatever was added to it, n x n; NaN where no
+// inertia resists a joint.
+Eigen::VectorXd SolveInertia(const Eigen::MatrixXd& M,
+                             const Eigen::VectorXd& tau);
+
 // qdd that `tau` gives the links and their joints' armature at (q, qd). NaN
 // where no inertia resists a joint.
 Eigen::VectorXd ForwardDynamics(const Robot& robot, const Eigen::VectorXd& q,

@@ -2,9 +2,10 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "model/forward_dynamics.h"
 
 namespace armcal {
 namespace {
@@ -60,7 +61,7 @@ void TorqueReplay::Rate(const VectorXd& tau, const VectorXd& x,
     (*rate)[2 * n + j] = moves ? qd[j] / transitions_[j].width : 0;
   }
   rate->head(n) = qd;
-  rate->segment(n, n) = terms_.mass_matrix.ldlt().solve(net);
+  rate->segment(n, n) = SolveInertia(terms_.mass_matrix, net);
 }
 
 Integration TorqueReplay::Run(const Trajectory& trajectory, int first, int last,

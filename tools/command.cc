@@ -2,12 +2,13 @@
 
 #include "tools/calibrate.h"
 #include "tools/simulate.h"
+#include "tools/verify.h"
 
 namespace armcal {
 
 const std::vector<Command>& Commands() {
-  static const std::vector<Command> kCommands = {CalibrateCommand(),
-                                                 SimulateCommand()};
+  static const std::vector<Command> kCommands = {
+      CalibrateCommand(), SimulateCommand(), VerifyCommand()};
   return kCommands;
 }
 

@@ -15,7 +15,8 @@ DEFINE_string(tip, "", "URDF link the arm ends at; default: the only one");
 DEFINE_string(gravity, "",
               "gravity vector in the base frame, m/s^2, such as 0,0,-9.81; "
               "default: the robot file's, for URDF 0,0,-9.81");
-DEFINE_string(log, "", "logs to calibrate on, CSV or CSV.gz: A[,B...]");
+DEFINE_string(
+    log, "", "logs to calibrate on or to verify with, CSV or CSV.gz: A[,B...]");
 DEFINE_string(validate, "", "logs held out to check the result: C[,D...]");
 DEFINE_string(torque_constants, "",
               "per joint, N m/A: torque = constant x gear ratio x current");

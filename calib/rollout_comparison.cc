@@ -1,0 +1,97 @@
+#include "calib/rollout_comparison.h"
+
+#include <limits>
+#include <memory>
+
+#include "model/input_error.h"
+#include "model/plant/simbody_arm.h"
+#include "model/rigid_arm.h"
+
+namespace armcal {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// A robot with the engine that simulates it.
+class Model {
+ public:
+  Model(const Robot& robot, const std::vector<CoulombTransition>& transitions)
+      : engine_(MakeEngine(robot)),
+        replay_(robot, transitions, engine_.get()) {}
+
+  bool in_simbody() const { return in_simbody_; }
+  TorqueReplay* replay() { return &replay_; }
+
+ private:
+  std::unique_ptr<ArmDynamics> MakeEngine(const Robot& robot) {
+    try {
+      return std::make_unique<SimbodyArm>(robot);
+    } catch (const InputError&) {  // verification.h tells of it
+      in_simbody_ = false;
+      return std::make_unique<RigidArm>(robot);
+    }
+  }
+
+  bool in_simbody_ = true;
+  std::unique_ptr<ArmDynamics> engine_;
+  TorqueReplay replay_;
+};
+
+RolloutComparison Compare(const Robot& robot, const Rollouts& rollouts,
+                          const std::string& unit, bool calibrated,
+                          std::uint64_t seed) {
+  const std::vector<int> joints = JointsWithUnit(robot, unit);
+  RolloutComparison c;
+  c.window_s = rollouts.window_s;
+  c.unit = unit;
+  c.windows = static_cast<int>(rollouts.windows.size());
+  c.standstill = rollouts.standstill;
+  c.before_diverged = rollouts.NumDiverged(0);
+  c.before = MedianError(rollouts, 0, joints, seed);
+  c.before_velocity_rms = MedianVelocityError(rollouts, 0, joints);
+  c.after_velocity_rms = kNaN;
+  if (calibrated) {
+    c.after_diverged = rollouts.NumDiverged(1);
+    c.after = MedianError(rollouts, 1, joints, seed);
+    c.ratio = MedianRatio(rollouts, 1, 0, joints, seed);
+    c.after_velocity_rms = MedianVelocityError(rollouts, 1, joints);
+  }
+  for (const int j : joints) {
+    c.joints.push_back(
+        {robot.links[j].joint.name, MedianError(rollouts, 0, {j}, seed).value,
+         calibrated ? MedianError(rollouts, 1, {j}, seed).value : kNaN});
+  }
+  return c;
+}
+
+}  // namespace
+
+RolloutComparisons CompareRollouts(const Robot& file,
+                                   const CalibratedRobot* calibrated,
+                                   const RolloutOptions& options,
+                                   double bandwidth_hz, std::uint64_t seed,
+                                   LogSet* logs) {
+  std::vector<CoulombTransition> transitions(file.num_joints());
+  if (calibrated != nullptr) transitions = calibrated->transitions;
+  Model before(file, transitions);
+  std::vector<TorqueReplay*> models = {before.replay()};
+  RolloutComparisons result;
+  result.before_in_simbody = before.in_simbody();
+  std::unique_ptr<Model> after;
+  if (calibrated != nullptr) {
+    after = std::make_unique<Model>(calibrated->robot, transitions);
+    models.push_back(after->replay());
+    result.after_in_simbody = after->in_simbody();
+  }
+  for (const Rollouts& rollouts :
+       RollOut(models, options, bandwidth_hz, logs)) {
+    for (const char* unit : {"rad", "m"}) {
+      if (JointsWithUnit(file, unit).empty()) continue;
+      result.windows.push_back(
+          Compare(file, rollouts, unit, calibrated != nullptr, seed));
+    }
+  }
+  return result;
+}
+
+}  // namespace armcal

@@ -1,0 +1,210 @@
+#include "calib/verification_report.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "calib/json_figures.h"
+#include "model/input_text.h"
+
+namespace armcal {
+namespace {
+
+using nlohmann::json;
+
+template <typename... Args>
+std::string Format(const char* format, Args... args) {
+  char text[256];
+  std::snprintf(text, sizeof(text), format, args...);
+  return text;
+}
+
+// What a check is called on a terminal.
+std::string CheckTitle(const std::string& name) {
+  if (name == "torque_max_rel") return "torque";
+  if (name == "mass_matrix_max_rel") return "mass matrix";
+  if (name == "gravity_max_rel") return "gravity torque";
+  if (name == "energy_max_rel") return "energy";
+  if (name == "energy_drift_rel") return "energy drift, Simbody";
+  if (name == "own_energy_drift_rel") return "energy drift, ours";
+  if (name == "own_consistency_rel") return "forward, then inverse";
+  return name;
+}
+
+std::string CheckTable(const VerificationReport& report) {
+  std::string text =
+      "\nours against Simbody      largest relative difference   at most\n";
+  for (const VerificationCheck& check : report.verification.Checks()) {
+    const std::string value =
+        std::isnan(check.value) ? "not compared" : Format("%.2e", check.value);
+    text += Format("  %-24s %26s %9.0e%s\n", CheckTitle(check.name).c_str(),
+                   value.c_str(), check.threshold,
+                   check.passed() ? "" : "   missed");
+  }
+  return text;
+}
+
+std::string FigureText(const RolloutFigure& figure) {
+  if (!std::isfinite(figure.value)) return "diverges";
+  std::string text = Format("%.3g", figure.value);
+  if (std::isnan(figure.low)) return text;
+  return text + (std::isfinite(figure.high)
+                     ? Format(" [%.3g %.3g]", figure.low, figure.high)
+                     : Format(" [%.3g -]", figure.low));
+}
+
+std::string RolloutRow(const RolloutComparison& c) {
+  std::string row =
+      Format("  %4g s %4s %8d   %-26s", c.window_s, c.unit.c_str(), c.windows,
+             FigureText(c.before).c_str());
+  if (c.after) {
+    row += Format(" %-26s %s", FigureText(*c.after).c_str(),
+                  FigureText(*c.ratio).c_str());
+  }
+  row.erase(row.find_last_not_of(' ') + 1);
+  row += "\n";
+  if (c.before_diverged + c.after_diverged > 0) {
+    row += Format("         windows whose simulation ended early: %d before",
+                  c.before_diverged);
+    row += c.after ? Format(", %d after\n", c.after_diverged) : "\n";
+  }
+  return row;
+}
+
+std::string RolloutTable(const RolloutComparisons& rollouts) {
+  if (rollouts.windows.empty()) return "";
+  const bool calibrated = rollouts.windows[0].after.has_value();
+  std::string text =
+      "\nsimulated from the log's states with its torque; rms of positions, "
+      "median over windows [95 %]\n"
+      "  window     windows   the file's robot";
+  text += calibrated ? "           calibrated                 ratio\n" : "\n";
+  for (const RolloutComparison& c : rollouts.windows) text += RolloutRow(c);
+  const RolloutComparison& first = rollouts.windows[0];
+  if (first.standstill > 0) {
+    text += Format("  standstill left out: %d windows of %g s\n",
+                   first.standstill, first.window_s);
+  }
+  if (!rollouts.before_in_simbody || !rollouts.after_in_simbody) {
+    text += std::string("  with our own dynamics, as Simbody refuses ") +
+            (rollouts.after_in_simbody ? "the file's robot\n" : "links\n");
+  }
+  return text;
+}
+
+json FigureJson(const RolloutFigure& figure) {
+  return {JsonNumber(figure.low), JsonNumber(figure.high)};
+}
+
+json RolloutJson(const RolloutComparison& c) {
+  const double none = std::nan("");
+  // The interval is that of the last robot, the calibrated one if there is.
+  json out = {{"window_s", c.window_s},
+              {"unit", c.unit},
+              {"before_rms", JsonNumber(c.before.value)},
+              {"after_rms", JsonNumber(c.after ? c.after->value : none)},
+              {"ci95", FigureJson(c.after ? *c.after : c.before)},
+              {"before_ci95", FigureJson(c.before)},
+              {"ratio", JsonNumber(c.ratio ? c.ratio->value : none)},
+              {"windows", c.windows},
+              {"standstill", c.standstill},
+              {"before_diverged", c.before_diverged},
+              {"after_diverged", c.after_diverged},
+              {"before_velocity_rms", JsonNumber(c.before_velocity_rms)},
+              {"after_velocity_rms", JsonNumber(c.after_velocity_rms)},
+              {"joints", json::array()}};
+  if (c.ratio) out["ratio_ci95"] = FigureJson(*c.ratio);
+  for (const JointRollout& joint : c.joints) {
+    out["joints"].push_back({{"name", joint.name},
+                             {"before_rms", JsonNumber(joint.before_rms)},
+                             {"after_rms", JsonNumber(joint.after_rms)}});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<VerificationCheck> VerificationReport::Checks() const {
+  std::vector<VerificationCheck> checks = verification.Checks();
+  if (!rollouts) return checks;
+  for (const RolloutComparison& c : rollouts->windows) {
+    if (!c.ratio) continue;
+    checks.push_back(
+        {"rollout_ratio_low_" + NumberText(c.window_s) + "s_" + c.unit,
+         c.windows > 1 ? c.ratio->low : c.ratio->value, 1});
+  }
+  return checks;
+}
+
+std::vector<std::string> VerificationReport::Shortcomings() const {
+  std::vector<std::string> list = verification.reasons;
+  for (const VerificationCheck& check : Checks()) {
+    // Why nothing could be compared is one of the reasons.
+    const bool told = std::isnan(check.value) && !verification.reasons.empty();
+    if (check.passed() || told) continue;
+    list.push_back(robot.name + ": " + check.name + " is " +
+                   (std::isnan(check.value) ? std::string("unknown")
+                                            : NumberText(check.value)) +
+                   ", expected at most " + NumberText(check.threshold));
+  }
+  return list;
+}
+
+std::string FullReport(const VerificationReport& report) {
+  const Verification& v = report.verification;
+  std::string text =
+      "robot      " + report.robot.name + ", " +
+      std::to_string(report.robot.num_joints()) + " joints" +
+      (report.calibration.empty() ? std::string(", as its file has it")
+                                  : ", as " + report.calibration + " has it") +
+      "\n";
+  for (const std::string& log : report.logs) text += "log        " + log + "\n";
+  for (const std::string& log : report.seen_logs) {
+    text += "note       the calibration was fitted to " + log +
+            ": rollouts over it are no check on unseen data\n";
+  }
+  text += "states     " + std::to_string(v.random_states) + " random ones, " +
+          std::to_string(v.log_states) + " of the logs\n" + CheckTable(report);
+  if (report.rollouts) text += RolloutTable(*report.rollouts);
+  text += "\n";
+  const std::vector<std::string> shortcomings = report.Shortcomings();
+  for (const std::string& reason : shortcomings) {
+    text += "not verified: " + reason + "\n";
+  }
+  if (shortcomings.empty()) text += report.robot.name + ": verified\n";
+  return text;
+}
+
+json ToJson(const VerificationReport& report) {
+  const Verification& v = report.verification;
+  json out = {{"format", "armcal verification 1"},
+              {"robot", report.robot.name},
+              {"passed", report.passed()},
+              {"states", v.random_states + v.log_states},
+              {"random_states", v.random_states},
+              {"log_states", v.log_states},
+              {"seed", report.seed},
+              {"logs", report.logs},
+              {"seen_logs", report.seen_logs},
+              {"reasons", report.Shortcomings()},
+              {"rollout", json::array()},
+              {"checks", json::array()}};
+  out["calibration"] =
+      report.calibration.empty() ? json(nullptr) : json(report.calibration);
+  for (const VerificationCheck& check : v.Checks()) {
+    out[check.name] = JsonNumber(check.value);
+  }
+  for (const VerificationCheck& check : report.Checks()) {
+    out["checks"].push_back({{"name", check.name},
+                             {"value", JsonNumber(check.value)},
+                             {"threshold", check.threshold},
+                             {"passed", check.passed()}});
+  }
+  if (report.rollouts) {
+    for (const RolloutComparison& c : report.rollouts->windows) {
+      out["rollout"].push_back(RolloutJson(c));
+    }
+  }
+  return out;
+}
+
+}  // namespace armcal

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "calib/rollout_comparison.h"
+#include "calib/verification.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// A verification with what it was asked of.
+struct VerificationReport {
+  Robot robot;  // that was verified
+  Verification verification;
+  std::optional<RolloutComparisons> rollouts;  // where a log was given
+  std::uint64_t seed = 1;
+  std::string calibration;        // path; empty: the robot file as it is
+  std::vector<std::string> logs;  // replayed
+  // Logs that the calibration was fitted to: no held-out check.
+  std::vector<std::string> seen_logs;
+
+  // The verification's, and that the calibrated robot's rollouts are not
+  // farther from the log than the file's: the lower end of their ratio's
+  // interval is at most 1.
+  std::vector<VerificationCheck> Checks() const;
+  // Sentences, one for each thing that is wrong.
+  std::vector<std::string> Shortcomings() const;
+  bool passed() const { return Shortcomings().empty(); }
+};
+
+std::string FullReport(const VerificationReport& report);
+// verification.json (DESIGN.md, Files).
+nlohmann::json ToJson(const VerificationReport& report);
+
+}  // namespace armcal

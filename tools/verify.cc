@@ -1,0 +1,99 @@
+#include "tools/verify.h"
+
+#include <gflags/gflags.h>
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+
+#include "calib/calibration_reader.h"
+#include "calib/verification_report.h"
+#include "tools/input_flags.h"
+#include "tools/output_folder.h"
+#include "tools/progress_bar.h"
+#include "tools/simulation_flags.h"
+
+DECLARE_string(log);
+
+DEFINE_string(calibration, "",
+              "calibration.json of armcal calibrate for --robot: its refined "
+              "parameters are verified; default: the robot file's own");
+
+namespace armcal {
+namespace {
+
+double BandwidthFor(const std::optional<CalibratedRobot>& calibrated,
+                    const LogSet& logs) {
+  const std::optional<double> given = BandwidthFromFlags();
+  if (given) return *given;
+  return calibrated ? calibrated->bandwidth_hz
+                    : DefaultBandwidth(logs.time_bases());
+}
+
+std::vector<std::string> SeenLogs(
+    const std::optional<CalibratedRobot>& calibrated,
+    const std::vector<std::string>& logs) {
+  std::vector<std::string> seen;
+  for (const std::string& log : logs) {
+    if (calibrated &&
+        std::count(calibrated->logs.begin(), calibrated->logs.end(), log) > 0) {
+      seen.push_back(log);
+    }
+  }
+  return seen;
+}
+
+int RunVerify() {
+  const Robot file = RobotFromFlags();
+  std::optional<CalibratedRobot> calibrated;
+  if (!FLAGS_calibration.empty()) {
+    calibrated = ReadCalibration(FLAGS_calibration, file);
+  }
+  VerificationReport report;
+  report.robot = calibrated ? calibrated->robot : file;
+  report.calibration = FLAGS_calibration;
+  VerificationOptions options;
+  options.seed = report.seed = SeedFromFlags();
+  ProgressBar bar;
+  options.progress = [&bar](const std::string& stage, double fraction) {
+    bar.Show(stage, fraction);
+  };
+  std::optional<LogSet> logs;
+  if (!FLAGS_log.empty()) {
+    report.logs = LogsFromFlags();
+    report.seen_logs = SeenLogs(calibrated, report.logs);
+    logs.emplace(report.logs, LogOptionsFromFlags(file), CropFromFlags());
+    logs->Prepare(BandwidthFor(calibrated, *logs), 0);
+  }
+  report.verification = Verify(report.robot, options, logs ? &*logs : nullptr);
+  if (logs) {
+    RolloutOptions rollouts;
+    rollouts.progress = options.progress;
+    report.rollouts =
+        CompareRollouts(file, calibrated ? &*calibrated : nullptr, rollouts,
+                        logs->bandwidth_hz(), report.seed, &*logs);
+  }
+  OutputFolder out(OutFromFlags());
+  out.Add("verification.json", ToJson(report).dump(2) + "\n");
+  out.Write();
+  for (const std::string& note : file.notes) {
+    std::cout << "note       " << note << "\n";
+  }
+  std::cout << FullReport(report);
+  return report.passed() ? kExitOk : kExitNegative;
+}
+
+}  // namespace
+
+Command VerifyCommand() {
+  return {"verify",
+          "a robot, or a calibration of it, against an independent engine "
+          "(Simbody): torques, mass matrix, gravity, energy; and simulated "
+          "over stretches of a log, before and after calibration",
+          {"robot", "calibration", "log", "crop", "bandwidth", "out", "seed",
+           "base", "tip", "gravity", "torque_kind", "torque_constants",
+           "gear_ratios"},
+          &RunVerify};
+}
+
+}  // namespace armcal
