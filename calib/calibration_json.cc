@@ -32,6 +32,8 @@ json LogsJson(const LogSet& logs) {
     result.push_back({{"file", logs.path(k)},
                       {"samples", base.samples},
                       {"seconds", base.range.end - base.range.begin},
+                      {"begin_s", base.range.begin},
+                      {"end_s", base.range.end},
                       {"resampled", !base.uniform},
                       {"gaps", base.gaps.size()}});
   }

@@ -270,6 +270,17 @@ Robot ReadRobotOf(const Value& root, const Robot& nominal) {
 
 }  // namespace
 
+bool CalibratedRobot::Saw(const std::string& log,
+                          const TimeRange& range) const {
+  for (size_t k = 0; k < logs.size(); ++k) {
+    if (logs[k] == log && range.begin < log_ranges[k].end &&
+        range.end > log_ranges[k].begin) {
+      return true;
+    }
+  }
+  return false;
+}
+
 CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal) {
   const json parsed = Parse(path);
   const Value root(path, "", parsed);
@@ -284,6 +295,8 @@ CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal) {
   result.converged = root.At("refined").At("converged").Bool();
   for (const Value& log : root.At("logs").Entries()) {
     result.logs.push_back(log.At("file").Text());
+    result.log_ranges.push_back(
+        {log.At("begin_s").Number(), log.At("end_s").Number()});
   }
   return result;
 }

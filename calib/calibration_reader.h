@@ -5,6 +5,7 @@
 
 #include "model/joint_term.h"
 #include "model/robot.h"
+#include "model/time_base.h"
 
 namespace armcal {
 
@@ -15,7 +16,12 @@ struct CalibratedRobot {
   std::vector<CoulombTransition> transitions;
   double bandwidth_hz = 0;
   bool converged = false;
-  std::vector<std::string> logs;  // it was calibrated on, as they were named
+  // It was calibrated on: as they were named, and the part of their time.
+  std::vector<std::string> logs;
+  std::vector<TimeRange> log_ranges;
+
+  // Whether it was fitted to some of this part of a log.
+  bool Saw(const std::string& log, const TimeRange& range) const;
 };
 
 // Reads the calibration.json that `armcal calibrate` wrote for `nominal`, the

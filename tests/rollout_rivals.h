@@ -4,6 +4,8 @@
 // friction fitted to the same log.
 
 #include <Eigen/QR>
+#include <algorithm>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -14,22 +16,19 @@
 
 namespace armcal {
 
-// `robot` with joint terms fitted by least squares to what its links leave of
-// the torque of `logs`, both low-passed, without standstill. Friction and
-// armature that would be negative are left out. Coulomb friction changes sign
-// as `transitions` say.
-inline Robot WithFittedTerms(const Robot& robot,
-                             const std::vector<CoulombTransition>& transitions,
-                             const std::vector<JointTerm>& terms,
-                             double bandwidth_hz, LogSet* logs) {
+// Per joint, a row per moving sample: the torque of each term's unit parameter,
+// then what `robot`'s links leave of the recorded torque, all low-passed.
+inline std::vector<Eigen::MatrixXd> TermRows(
+    const Robot& robot, const std::vector<CoulombTransition>& transitions,
+    const std::vector<JointTerm>& terms, double bandwidth_hz, LogSet* logs) {
   const int n = robot.num_joints();
+  const int m = static_cast<int>(terms.size());
   std::vector<JointTermColumn> coulomb;
   for (int j = 0; j < n; ++j) {
     coulomb.push_back({j, JointTerm::kCoulomb, transitions[j]});
   }
   CoulombStates states(coulomb);
-  // Per joint: a column per term, then what the links leave.
-  std::vector<std::vector<Eigen::RowVectorXd>> rows(n);
+  std::vector<Eigen::MatrixXd> rows(n, Eigen::MatrixXd(0, m + 1));
   logs->Prepare(bandwidth_hz, 0);
   logs->ForEach("", nullptr, [&](int, const Trajectory& t) {
     const Eigen::MatrixXd c = states.Follow(t);
@@ -39,49 +38,118 @@ inline Robot WithFittedTerms(const Robot& robot,
           InverseDynamics(robot, t.q.row(k), t.qd.row(k), t.qdd.row(k));
     }
     for (int j = 0; j < n; ++j) {
-      Eigen::MatrixXd columns(t.size(), terms.size() + 1);
-      for (size_t p = 0; p < terms.size(); ++p) {
-        for (int k = 0; k < t.size(); ++k) {
-          columns(k, p) = JointTermColumn{j, terms[p], {}}.Torque(
+      Eigen::MatrixXd all(t.size(), m + 1);
+      for (int k = 0; k < t.size(); ++k) {
+        for (int p = 0; p < m; ++p) {
+          all(k, p) = JointTermColumn{j, terms[p], {}}.Torque(
               t.qd(k, j), t.qdd(k, j), c(k, j));
         }
+        all(k, m) = left(k, j);
       }
-      columns.rightCols<1>() = left.col(j);
-      columns = ZeroPhaseLowPass(columns, 1 / t.dt, bandwidth_hz);
+      all = ZeroPhaseLowPass(all, 1 / t.dt, bandwidth_hz);
       for (int k = t.core_begin; k < t.core_end; ++k) {
-        if (!t.standstill[k]) rows[j].push_back(columns.row(k));
+        if (t.standstill[k]) continue;
+        rows[j].conservativeResize(rows[j].rows() + 1, Eigen::NoChange);
+        rows[j].bottomRows<1>() = all.row(k);
       }
     }
   });
-  Robot fitted = robot;
-  for (int j = 0; j < n; ++j) {
-    Eigen::MatrixXd A(rows[j].size(), terms.size() + 1);
-    for (size_t k = 0; k < rows[j].size(); ++k) A.row(k) = rows[j][k];
-    std::vector<JointTerm> used = terms;
-    for (;;) {
-      Eigen::MatrixXd B(A.rows(), used.size());
-      for (size_t p = 0; p < used.size(); ++p) {
-        const auto at = std::find(terms.begin(), terms.end(), used[p]);
-        B.col(p) = A.col(at - terms.begin());
-      }
-      const Eigen::VectorXd x = B.colPivHouseholderQr().solve(
-          Eigen::VectorXd(A.rightCols<1>()));
-      size_t worst = used.size();
-      for (size_t p = 0; p < used.size(); ++p) {
-        if (used[p] == JointTerm::kOffset || x[p] >= 0) continue;
-        worst = p;
-      }
-      if (worst < used.size()) {
-        used.erase(used.begin() + worst);
-        continue;
-      }
-      Joint& joint = fitted.links[j].joint;
-      for (const JointTerm term : terms) *TermOf(term, &joint) = 0;
-      for (size_t p = 0; p < used.size(); ++p) *TermOf(used[p], &joint) = x[p];
-      break;
+  return rows;
+}
+
+// Least squares of the last column on the others; of the terms, friction and
+// armature that would be negative are zero.
+inline Eigen::VectorXd FitTerms(const Eigen::MatrixXd& rows,
+                                const std::vector<JointTerm>& terms) {
+  std::vector<int> used(terms.size());
+  std::iota(used.begin(), used.end(), 0);
+  for (;;) {
+    Eigen::MatrixXd A(rows.rows(), used.size());
+    for (size_t p = 0; p < used.size(); ++p) A.col(p) = rows.col(used[p]);
+    const Eigen::VectorXd y = rows.rightCols<1>();
+    const Eigen::VectorXd x = A.colPivHouseholderQr().solve(y);
+    const auto negative =
+        std::find_if(used.begin(), used.end(), [&](const int& p) {
+          return terms[p] != JointTerm::kOffset && x[&p - used.data()] < 0;
+        });
+    if (negative != used.end()) {
+      used.erase(negative);
+      continue;
     }
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(terms.size());
+    for (size_t p = 0; p < used.size(); ++p) all[used[p]] = x[p];
+    return all;
+  }
+}
+
+// `robot` with joint terms fitted to what its links leave of the torque of
+// `logs`, without standstill. Coulomb friction changes sign as `transitions`
+// say.
+inline Robot WithFittedTerms(const Robot& robot,
+                             const std::vector<CoulombTransition>& transitions,
+                             const std::vector<JointTerm>& terms,
+                             double bandwidth_hz, LogSet* logs) {
+  Robot fitted = robot;
+  const auto rows = TermRows(robot, transitions, terms, bandwidth_hz, logs);
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    const Eigen::VectorXd x = FitTerms(rows[j], terms);
+    Joint& joint = fitted.links[j].joint;
+    joint.viscous = joint.coulomb = joint.offset = joint.armature = 0;
+    for (size_t p = 0; p < terms.size(); ++p) *TermOf(terms[p], &joint) = x[p];
   }
   return fitted;
+}
+
+// What shared/data/panda/SOURCE.md has of Gaz et al. 2019: four gravity terms,
+// which the file's links meet once their centres of mass are moved (as little
+// as possible, bodies otherwise as they are), and the friction. It was fitted
+// to the whole log, the held-out part included.
+inline Robot WithPublishedGravity(const Robot& file) {
+  Robot robot = file;
+  const auto mass = [&file](int first) {  // of links first .. 7
+    double sum = 0;
+    for (int i = first; i <= 7; ++i) sum += file.links[i - 1].inertial.mass;
+    return sum;
+  };
+  const auto h = [&file](int link) {
+    return file.links[link - 1].inertial.first_moment;
+  };
+  const double a = -3.1363 - (h(2).y() - .316 * mass(3) - h(3).z());
+  const double b = 1.7517 - (.384 * mass(5) + h(4).y() + h(5).z());
+  const double c = -.4726 - (-.0825 * mass(5) + h(4).x());
+  const double d = .1637 - (.088 * mass(7) + h(6).x());
+  const auto move = [&robot](int link, const Eigen::Vector3d& moment) {
+    InertialParameters& body = robot.links[link - 1].inertial;
+    const Eigen::Vector3d com = body.first_moment / body.mass;
+    const Eigen::Matrix3d central =
+        body.inertia -
+        body.mass * (com.squaredNorm() * Eigen::Matrix3d::Identity() -
+                     com * com.transpose());
+    body = InertialParameters::FromCenterOfMass(
+        body.mass, com + moment / body.mass, central);
+  };
+  move(2, {0, a / 2, 0});
+  move(3, {0, 0, -a / 2});
+  move(4, {c, b / 2, 0});
+  move(5, {0, 0, b / 2});
+  move(6, {d, 0, 0});
+  return robot;
+}
+
+inline Robot WithPublishedFriction(const Robot& file) {
+  constexpr double kViscous[] = {.0665, .1987,  .0399, .2257,
+                                 .1023, -.0132, .0638};
+  constexpr double kCoulomb[] = {.2450, .1523, .1827, .3591,
+                                 .2669, .1658, .2109};
+  constexpr double kOffset[] = {-.1073, -.1566, -.0686, -.2522,
+                                .0045,  .0910,  -.0127};
+  Robot robot = file;
+  for (int j = 0; j < 7; ++j) {
+    robot.links[j].joint.viscous = kViscous[j];
+    robot.links[j].joint.coulomb = kCoulomb[j];
+    robot.links[j].joint.offset = kOffset[j];
+  }
+  return robot;
 }
 
 }  // namespace armcal

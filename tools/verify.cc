@@ -2,7 +2,6 @@
 
 #include <gflags/gflags.h>
 
-#include <algorithm>
 #include <iostream>
 #include <optional>
 
@@ -30,14 +29,12 @@ double BandwidthFor(const std::optional<CalibratedRobot>& calibrated,
                     : DefaultBandwidth(logs.time_bases());
 }
 
-std::vector<std::string> SeenLogs(
-    const std::optional<CalibratedRobot>& calibrated,
-    const std::vector<std::string>& logs) {
+std::vector<std::string> SeenLogs(const CalibratedRobot& calibrated,
+                                  const LogSet& logs) {
   std::vector<std::string> seen;
-  for (const std::string& log : logs) {
-    if (calibrated &&
-        std::count(calibrated->logs.begin(), calibrated->logs.end(), log) > 0) {
-      seen.push_back(log);
+  for (int k = 0; k < logs.size(); ++k) {
+    if (calibrated.Saw(logs.path(k), logs.time_bases()[k].range)) {
+      seen.push_back(logs.path(k));
     }
   }
   return seen;
@@ -61,8 +58,8 @@ int RunVerify() {
   std::optional<LogSet> logs;
   if (!FLAGS_log.empty()) {
     report.logs = LogsFromFlags();
-    report.seen_logs = SeenLogs(calibrated, report.logs);
     logs.emplace(report.logs, LogOptionsFromFlags(file), CropFromFlags());
+    if (calibrated) report.seen_logs = SeenLogs(*calibrated, *logs);
     logs->Prepare(BandwidthFor(calibrated, *logs), 0);
   }
   report.verification = Verify(report.robot, options, logs ? &*logs : nullptr);
