@@ -55,7 +55,9 @@ std::vector<int> JointsWithUnit(const Robot& robot, const std::string& unit);
 
 // A figure with its interval of 95 %, of the bootstrap with moving blocks of
 // windows (Kuensch 1989), which follow each other in time and are not
-// independent: blocks of the cube root of their number, 2000 draws.
+// independent: blocks of the cube root of their number, 2000 draws. Of 60
+// windows whose errors come in runs of three it holds the median in 9 of 10
+// cases (rollout_test).
 struct RolloutFigure {
   double value;
   double low, high;

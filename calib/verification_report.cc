@@ -11,6 +11,9 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kJudged = 8;            // windows that make an interval
+constexpr double kIntegrated = 1e-5;  // rad, m: of RolloutOptions::tolerance
+
 template <typename... Args>
 std::string Format(const char* format, Args... args) {
   char text[256];
@@ -127,10 +130,11 @@ std::vector<VerificationCheck> VerificationReport::Checks() const {
   std::vector<VerificationCheck> checks = verification.Checks();
   if (!rollouts) return checks;
   for (const RolloutComparison& c : rollouts->windows) {
-    if (!c.ratio) continue;
+    if (!c.ratio || c.windows < kJudged) continue;
+    if (c.after->value < kIntegrated && c.before.value < kIntegrated) continue;
     checks.push_back(
         {"rollout_ratio_low_" + NumberText(c.window_s) + "s_" + c.unit,
-         c.windows > 1 ? c.ratio->low : c.ratio->value, 1});
+         c.ratio->low, 1});
   }
   return checks;
 }

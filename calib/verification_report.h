@@ -23,7 +23,8 @@ struct VerificationReport {
 
   // The verification's, and that the calibrated robot's rollouts are not
   // farther from the log than the file's: the lower end of their ratio's
-  // interval is at most 1.
+  // interval is at most 1. Not judged by less than eight windows, nor where
+  // the errors are the integration's.
   std::vector<VerificationCheck> Checks() const;
   // Sentences, one for each thing that is wrong.
   std::vector<std::string> Shortcomings() const;
