@@ -236,10 +236,9 @@ void SetFrom(const Value& entry, Slots* slots) {
   entry.At("unit").Expect(slot->second.unit, ", the unit of " + name.Text());
   const Value prior = entry.At("prior");
   if (!SameNumber(prior.Number(), slot->second.nominal)) {
-    prior.Refuse("expected " + NumberText(slot->second.nominal) + " of " +
-                 name.Text() +
-                 ", as the robot file has it: give the file that was "
-                 "calibrated, or calibrate again");
+    prior.Refuse("expected " + NumberText(slot->second.nominal) +
+                 ", what the robot file has for " + name.Text() +
+                 ": give the file that was calibrated, or calibrate again");
   }
   slot->second.set(entry.At("value").Number());
   slot->second.was_set = true;

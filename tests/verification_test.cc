@@ -7,6 +7,7 @@
 #include "tests/sample_motion.h"
 #include "tests/sample_robots.h"
 #include "tests/temp_file.h"
+#include "tests/urdf_text.h"
 
 namespace armcal {
 namespace {
@@ -33,10 +34,38 @@ TEST_P(KnownArms, AreTheSameInSimbody) {
   robot.gravity = {2, -1, -9};
   robot.X_LT.translation() << .1, .2, .3;
   VerificationOptions options;
-  options.swing_s = 10;
   const Verification result = Verify(robot, options, nullptr);
   ExpectPassed(result);
   EXPECT_EQ(result.random_states, 1000);
+}
+
+// One branch of a tree, with a link that is lumped into another, odd axes and
+// products of inertia.
+TEST(Verify, ChainOutOfABranchingUrdf) {
+  const std::string body =
+      "<inertial><origin xyz='.1 .02 -.03' rpy='.3 .2 1'/>"
+      "<mass value='2'/><inertia ixx='.03' ixy='.002' "
+      "ixz='-.001' iyy='.04' iyz='.003' izz='.02'/>"
+      "</inertial>";
+  RobotReaderOptions options;
+  options.tip = "hand";
+  const Robot robot = Read(
+      LinkXml("base") + LinkXml("a", body) + LinkXml("plate", body) +
+          LinkXml("b", body) + LinkXml("hand", body) + LinkXml("eye", body) +
+          JointXml(
+              "j1", "continuous", "base", "a",
+              "<origin xyz='0 .1 .3' rpy='.4 0 1'/><axis xyz='.6 0 .8'/>") +
+          JointXml("f", "fixed", "a", "plate", "<origin xyz='.2 0 .1'/>") +
+          JointXml("j2", "prismatic", "plate", "b",
+                   "<axis xyz='0 -1 0'/><limit lower='-.3' upper='.4' "
+                   "effort='9' velocity='1'/>") +
+          JointXml("j3", "revolute", "b", "hand",
+                   "<origin xyz='0 .2 0'/><axis xyz='1 1 1'/><limit "
+                   "lower='-2' upper='1' effort='9' velocity='3'/>") +
+          JointXml("j4", "continuous", "b", "eye", "<axis xyz='1 0 0'/>"),
+      options);
+  ASSERT_EQ(robot.num_joints(), 3);
+  ExpectPassed(Verify(robot, {}, nullptr));
 }
 
 TEST(Verify, StatesOfALog) {

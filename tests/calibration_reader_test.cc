@@ -1,0 +1,175 @@
+#include "calib/calibration_reader.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "calib/calibration_report.h"
+#include "calib/nonlinear_report.h"
+#include "model/input_error.h"
+#include "tests/bent_arm.h"
+#include "tests/same_robot.h"
+
+namespace armcal {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+struct Written {
+  Robot file;       // that was calibrated
+  Robot estimated;  // what it became
+  json calibration;
+};
+
+Written CalibrateAndWrite(BentArm* arm, GeometryKnowledge geometry,
+                          RefineGeometry refine,
+                          const PoseMeasurements* poses) {
+  arm->file.name = "arm";
+  LogReaderOptions reader;
+  reader.joint_names = arm->file.JointNames();
+  LogSet training({arm->Record(20)}, reader, {});
+  LinearCalibrationOptions linear;
+  linear.geometry = geometry;
+  linear.transition = BentArm::kWidth;
+  const LinearCalibration start =
+      CalibrateLinear(arm->file, linear, &training, nullptr);
+  NonlinearCalibrationOptions options;
+  options.refine = refine;
+  const NonlinearCalibration result =
+      CalibrateNonlinear(arm->file, start, options, &training, nullptr, poses);
+  EXPECT_TRUE(result.solved) << result.reason;
+  json calibration = ToJson(arm->file, training, nullptr, start);
+  AddRefined(result, &calibration);
+  return {arm->file, result.robot, calibration};
+}
+
+CalibratedRobot Read(const Written& written) {
+  return ReadCalibration(
+      WriteFile(written.calibration.dump(2), "calibration.json"), written.file);
+}
+
+// All that a simulation needs comes back: ExpectSameRobot lets armature, offset
+// and gravity differ.
+void ExpectReadBack(const Written& written) {
+  const Robot robot = Read(written).robot;
+  ExpectSameRobot(written.estimated, robot);
+  EXPECT_LT((robot.gravity - written.estimated.gravity).norm(), 1e-9);
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const Joint& a = robot.links[i].joint;
+    const Joint& b = written.estimated.links[i].joint;
+    EXPECT_EQ(a.armature, b.armature);
+    EXPECT_EQ(a.offset, b.offset);
+  }
+}
+
+TEST(ReadCalibration, DynamicsComeBack) {
+  BentArm arm("3R elbow", 1);
+  const Written written = CalibrateAndWrite(&arm, GeometryKnowledge::kKnown,
+                                            RefineGeometry::kNothing, nullptr);
+  ExpectReadBack(written);
+  const CalibratedRobot read = Read(written);
+  EXPECT_TRUE(read.converged);
+  EXPECT_GT(read.bandwidth_hz, 1);
+  ASSERT_EQ(read.transitions.size(), 3u);
+  EXPECT_EQ(read.transitions[1].law, BentArm::kWidth.law);
+  EXPECT_EQ(read.transitions[1].width, BentArm::kWidth.width);
+  EXPECT_TRUE(read.Saw(read.logs[0], {3, 5}));
+  EXPECT_FALSE(read.Saw(read.logs[0], {25, 30}));
+  EXPECT_FALSE(read.Saw("other.csv", {3, 5}));
+}
+
+TEST(ReadCalibration, RefinedGeometryAndTiltComeBack) {
+  BentArm arm("3R elbow", 2);
+  const PoseMeasurements poses = arm.Measure(Instrument::kTargets, 40, 5e-5);
+  const Written written = CalibrateAndWrite(&arm, GeometryKnowledge::kKnown,
+                                            RefineGeometry::kAll, &poses);
+  EXPECT_GT((written.estimated.gravity - written.file.gravity).norm(), 1e-4);
+  ExpectReadBack(written);
+}
+
+TEST(ReadCalibration, RecoveredLengthsComeBack) {
+  BentArm arm("3R elbow", 3);
+  for (Link& link : arm.file.links) link.X_ML.translation() *= 1.08;
+  const Written written =
+      CalibrateAndWrite(&arm, GeometryKnowledge::kNonzeroLengths,
+                        RefineGeometry::kNothing, nullptr);
+  ASSERT_FALSE(written.calibration["geometry"].empty());
+  ExpectReadBack(written);
+}
+
+// Each change of a good file is refused, with the key.
+TEST(ReadCalibration, Refusals) {
+  BentArm arm("3R elbow", 4);
+  const Written good = CalibrateAndWrite(&arm, GeometryKnowledge::kKnown,
+                                         RefineGeometry::kNothing, nullptr);
+  const auto refusal = [&good](const std::function<void(json*)>& change) {
+    Written changed = good;
+    change(&changed.calibration);
+    const std::string path =
+        WriteFile(changed.calibration.dump(), "changed.json");
+    return MessageOf<InputError>(path,
+                                 [&] { ReadCalibration(path, changed.file); });
+  };
+  const auto set = [&refusal](const std::string& pointer, const json& value) {
+    return refusal([&](json* c) { (*c)[json::json_pointer(pointer)] = value; });
+  };
+  EXPECT_EQ(refusal([](json*) {}), "");
+  EXPECT_EQ(set("/format", "armcal verification 1"),
+            "FILE: key format: found '\"armcal verification 1\"': expected "
+            "'armcal calibration 1', the format this version reads");
+  EXPECT_THAT(set("/robot", "ur5"),
+              AllOf(HasSubstr("key robot: found '\"ur5\"'"),
+                    HasSubstr("a calibration of another robot")));
+  EXPECT_THAT(set("/joints/1/name", "elbow"),
+              AllOf(HasSubstr("key joints[1].name"), HasSubstr("'joint2'")));
+  EXPECT_THAT(refusal([](json* c) { (*c)["joints"].erase(2); }),
+              HasSubstr("expected 3 joints"));
+  EXPECT_THAT(set("/estimate", "linear"),
+              HasSubstr("run armcal calibrate --estimate=refined"));
+  EXPECT_THAT(set("/parameters/0/prior", 77),
+              AllOf(HasSubstr("key parameters[0].prior: found '77'"),
+                    HasSubstr("what the robot file has for link1.mass")));
+  EXPECT_THAT(set("/parameters/0/unit", "g"),
+              HasSubstr("expected 'kg', the unit of link1.mass"));
+  EXPECT_THAT(set("/parameters/3/value", nullptr),
+              AllOf(HasSubstr("key parameters[3].value: found 'null'"),
+                    HasSubstr("expected a finite number")));
+  EXPECT_THAT(set("/parameters/3/value", "2"), HasSubstr("a finite number"));
+  EXPECT_THAT(set("/parameters/3/name", "link9.mass"),
+              HasSubstr("expected a parameter of the robot of --robot"));
+  EXPECT_THAT(set("/parameters/3/name", "link1.mass"),
+              HasSubstr("expected every parameter only once"));
+  EXPECT_THAT(refusal([](json* c) { (*c)["parameters"].erase(3); }),
+              HasSubstr("key parameters: expected an entry for link1.hz"));
+  EXPECT_THAT(refusal([](json* c) { c->erase("parameters"); }),
+              HasSubstr("key parameters: is missing"));
+  EXPECT_THAT(set("/parameters", 3), HasSubstr("expected a list"));
+  EXPECT_THAT(set("/joints/0/coulomb_transition/width", 0),
+              HasSubstr("expected a width above 0"));
+  EXPECT_THAT(set("/joints/0/coulomb_transition/law", "sign"),
+              HasSubstr("expected 'velocity' or 'displacement'"));
+  EXPECT_THAT(set("/joints/0/coulomb_transition/unit", "m/s"),
+              HasSubstr("expected 'rad/s'"));
+  EXPECT_THAT(set("/bandwidth_hz", -1), HasSubstr("expected a frequency"));
+  EXPECT_THAT(set("/refined/converged", 1),
+              HasSubstr("expected true or false"));
+  EXPECT_THAT(set("", json::array()), HasSubstr("expected an object"));
+}
+
+TEST(ReadCalibration, TextThatIsNoJson) {
+  const Robot robot = SampleRobot("3R elbow");
+  for (const char* text : {"{\"format\": ", "t,q1,tau1\n0,1,2\n", "\xff\xfe"}) {
+    const std::string path = WriteFile(text, "no.json");
+    EXPECT_THAT(
+        MessageOf<InputError>(path, [&] { ReadCalibration(path, robot); }),
+        HasSubstr("FILE"))
+        << text;
+  }
+  EXPECT_THROW(ReadCalibration("no_such_file.json", robot), InputError);
+}
+
+}  // namespace
+}  // namespace armcal
