@@ -39,6 +39,17 @@ TEST_P(KnownArms, AreTheSameInSimbody) {
   EXPECT_EQ(result.random_states, 1000);
 }
 
+// Gravity along the axes, but for rounding.
+TEST(Verify, ArmThatGravityDoesNotLoad) {
+  std::mt19937_64 random(8);
+  Robot robot = SampleRobot("2R planar (horizontal)");
+  SetRandomInertials(&random, &robot);
+  const Eigen::Matrix3d R = RotationFromRpy({.3, -.7, 1.1});
+  robot.links[0].X_PF.linear() = R * robot.links[0].X_PF.linear();
+  robot.gravity = R * robot.gravity;
+  ExpectPassed(Verify(robot, {}, nullptr));
+}
+
 // One branch of a tree, with a link that is lumped into another, odd axes and
 // products of inertia.
 TEST(Verify, ChainOutOfABranchingUrdf) {
