@@ -3,9 +3,7 @@
 #include <limits>
 #include <memory>
 
-#include "model/input_error.h"
-#include "model/plant/simbody_arm.h"
-#include "model/rigid_arm.h"
+#include "calib/arm_engine.h"
 
 namespace armcal {
 namespace {
@@ -13,28 +11,13 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A robot with the engine that simulates it.
-class Model {
- public:
+struct Model {
   Model(const Robot& robot, const std::vector<CoulombTransition>& transitions)
-      : engine_(MakeEngine(robot)),
-        replay_(robot, transitions, engine_.get()) {}
+      : engine(MakeArmEngine(robot)),
+        replay(robot, transitions, engine.dynamics.get()) {}
 
-  bool in_simbody() const { return in_simbody_; }
-  TorqueReplay* replay() { return &replay_; }
-
- private:
-  std::unique_ptr<ArmDynamics> MakeEngine(const Robot& robot) {
-    try {
-      return std::make_unique<SimbodyArm>(robot);
-    } catch (const InputError&) {  // verification.h tells of it
-      in_simbody_ = false;
-      return std::make_unique<RigidArm>(robot);
-    }
-  }
-
-  bool in_simbody_ = true;
-  std::unique_ptr<ArmDynamics> engine_;
-  TorqueReplay replay_;
+  ArmEngine engine;
+  TorqueReplay replay;
 };
 
 RolloutComparison Compare(const Robot& robot, const Rollouts& rollouts,
@@ -74,14 +57,14 @@ RolloutComparisons CompareRollouts(const Robot& file,
   std::vector<CoulombTransition> transitions(file.num_joints());
   if (calibrated != nullptr) transitions = calibrated->transitions;
   Model before(file, transitions);
-  std::vector<TorqueReplay*> models = {before.replay()};
+  std::vector<TorqueReplay*> models = {&before.replay};
   RolloutComparisons result;
-  result.before_in_simbody = before.in_simbody();
+  result.before_in_simbody = before.engine.is_simbody;
   std::unique_ptr<Model> after;
   if (calibrated != nullptr) {
     after = std::make_unique<Model>(calibrated->robot, transitions);
-    models.push_back(after->replay());
-    result.after_in_simbody = after->in_simbody();
+    models.push_back(&after->replay);
+    result.after_in_simbody = after->engine.is_simbody;
   }
   for (const Rollouts& rollouts :
        RollOut(models, options, bandwidth_hz, logs)) {

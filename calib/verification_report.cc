@@ -94,6 +94,43 @@ std::string RolloutTable(const RolloutComparisons& rollouts) {
   return text;
 }
 
+std::string ClosedLoopTable(const ClosedLoopComparison& loop) {
+  std::string text =
+      "\nclosed loop along the logged command; rms of simulated minus "
+      "recorded\n"
+      "  joint              position: file  calibrated       torque: file  "
+      "calibrated  recorded\n";
+  const auto number = [](double x) {
+    return std::isfinite(x) ? Format("%.3g", x) : std::string("-");
+  };
+  for (const ClosedLoopJoint& joint : loop.joints) {
+    text += Format("  %-20s %12s %11s %-4s %13s %11s %9s\n", joint.name.c_str(),
+                   number(joint.before_rms).c_str(),
+                   number(joint.after_rms).c_str(), joint.unit.c_str(),
+                   number(joint.before_torque_rms).c_str(),
+                   number(joint.after_torque_rms).c_str(),
+                   number(joint.torque_rms).c_str());
+  }
+  return text;
+}
+
+json ClosedLoopJson(const ClosedLoopComparison& loop) {
+  json joints = json::array();
+  for (const ClosedLoopJoint& joint : loop.joints) {
+    joints.push_back(
+        {{"name", joint.name},
+         {"unit", joint.unit},
+         {"before_rms", JsonNumber(joint.before_rms)},
+         {"after_rms", JsonNumber(joint.after_rms)},
+         {"before_torque_rms", JsonNumber(joint.before_torque_rms)},
+         {"after_torque_rms", JsonNumber(joint.after_torque_rms)},
+         {"torque_rms", JsonNumber(joint.torque_rms)}});
+  }
+  return {{"before_finite", loop.before_finite},
+          {"after_finite", loop.after_finite},
+          {"joints", joints}};
+}
+
 json FigureJson(const RolloutFigure& figure) {
   return {JsonNumber(figure.low), JsonNumber(figure.high)};
 }
@@ -141,6 +178,9 @@ std::vector<VerificationCheck> VerificationReport::Checks() const {
 
 std::vector<std::string> VerificationReport::Shortcomings() const {
   std::vector<std::string> list = verification.reasons;
+  if (closed_loop && !closed_loop->after_finite) {
+    list.push_back(robot.name + ": its closed loop is not stable");
+  }
   for (const VerificationCheck& check : Checks()) {
     // Why nothing could be compared is one of the reasons.
     const bool told = std::isnan(check.value) && !verification.reasons.empty();
@@ -169,6 +209,7 @@ std::string FullReport(const VerificationReport& report) {
   text += "states     " + std::to_string(v.random_states) + " random ones, " +
           std::to_string(v.log_states) + " of the logs\n" + CheckTable(report);
   if (report.rollouts) text += RolloutTable(*report.rollouts);
+  if (report.closed_loop) text += ClosedLoopTable(*report.closed_loop);
   text += "\n";
   const std::vector<std::string> shortcomings = report.Shortcomings();
   for (const std::string& reason : shortcomings) {
@@ -208,6 +249,8 @@ json ToJson(const VerificationReport& report) {
       out["rollout"].push_back(RolloutJson(c));
     }
   }
+  if (report.closed_loop)
+    out["closed_loop"] = ClosedLoopJson(*report.closed_loop);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/closed_loop_comparison.h"
 #include "calib/rollout_comparison.h"
 #include "calib/verification.h"
 #include "model/robot.h"
@@ -15,6 +16,8 @@ struct VerificationReport {
   Robot robot;  // that was verified
   Verification verification;
   std::optional<RolloutComparisons> rollouts;  // where a log was given
+  // Where a controller was given, a loop that follows the logged command.
+  std::optional<ClosedLoopComparison> closed_loop;
   std::uint64_t seed = 1;
   std::string calibration;        // path; empty: the robot file as it is
   std::vector<std::string> logs;  // replayed

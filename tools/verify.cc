@@ -12,6 +12,7 @@
 #include "tools/progress_bar.h"
 #include "tools/simulation_flags.h"
 
+DECLARE_string(controller);
 DECLARE_string(log);
 
 DEFINE_string(calibration, "",
@@ -40,7 +41,21 @@ std::vector<std::string> SeenLogs(const CalibratedRobot& calibrated,
   return seen;
 }
 
+// Of the first log; the engine refuses what Verify() tells of.
+std::optional<ClosedLoopComparison> CloseLoop(
+    const Robot& file, const CalibratedRobot* calibrated,
+    const std::vector<std::string>& logs) {
+  const Log log =
+      ReadCommandedLog(logs[0], LogOptionsFromFlags(file), CropFromFlags());
+  const ControllerOptions controller =
+      ControllerFromFlags(file, log.qref.row(0));
+  return CompareClosedLoop(file, calibrated, controller, logs[0], log);
+}
+
 int RunVerify() {
+  if (!FLAGS_controller.empty() && LogsFromFlags().size() != 1) {
+    throw UsageError("--controller follows the command of one log: --log=FILE");
+  }
   const Robot file = RobotFromFlags();
   std::optional<CalibratedRobot> calibrated;
   if (!FLAGS_calibration.empty()) {
@@ -70,6 +85,10 @@ int RunVerify() {
         CompareRollouts(file, calibrated ? &*calibrated : nullptr, rollouts,
                         logs->bandwidth_hz(), report.seed, &*logs);
   }
+  if (!FLAGS_controller.empty()) {
+    report.closed_loop =
+        CloseLoop(file, calibrated ? &*calibrated : nullptr, report.logs);
+  }
   OutputFolder out(OutFromFlags());
   out.Add("verification.json", ToJson(report).dump(2) + "\n");
   out.Write();
@@ -87,9 +106,9 @@ Command VerifyCommand() {
           "a robot, or a calibration of it, against an independent engine "
           "(Simbody): torques, mass matrix, gravity, energy; and simulated "
           "over stretches of a log, before and after calibration",
-          {"robot", "calibration", "log", "crop", "bandwidth", "out", "seed",
-           "base", "tip", "gravity", "torque_kind", "torque_constants",
-           "gear_ratios"},
+          {"robot", "calibration", "log", "controller", "crop", "bandwidth",
+           "out", "seed", "base", "tip", "gravity", "torque_kind",
+           "torque_constants", "gear_ratios"},
           &RunVerify};
 }
 

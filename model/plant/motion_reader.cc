@@ -67,11 +67,9 @@ Spline MakeSpline(const Log& log, int joint) {
 
 }  // namespace
 
-ReferenceMotion ReadReferenceMotion(const std::string& path,
-                                    const Robot& robot) {
-  const Log log = ReadAll(path, robot);
+ReferenceMotion MotionThrough(const std::string& path, const Log& log) {
   CheckTimes(path, log);
-  const int n = robot.num_joints();
+  const int n = static_cast<int>(log.q.cols());
   auto splines = std::make_shared<std::vector<Spline>>();
   for (int j = 0; j < n; ++j) splines->push_back(MakeSpline(log, j));
   const auto at = [splines, n](double t) {
@@ -86,6 +84,11 @@ ReferenceMotion ReadReferenceMotion(const std::string& path,
     return point;
   };
   return {log.t[log.size() - 1], at};
+}
+
+ReferenceMotion ReadReferenceMotion(const std::string& path,
+                                    const Robot& robot) {
+  return MotionThrough(path, ReadAll(path, robot));
 }
 
 }  // namespace armcal

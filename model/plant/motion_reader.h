@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "model/log.h"
 #include "model/plant/reference_motion.h"
 #include "model/robot.h"
 
@@ -13,5 +14,9 @@ namespace armcal {
 // that do not rise.
 ReferenceMotion ReadReferenceMotion(const std::string& path,
                                     const Robot& robot);
+
+// The same through the rows of `log`, whose times begin at 0; `path` is named
+// in messages.
+ReferenceMotion MotionThrough(const std::string& path, const Log& log);
 
 }  // namespace armcal

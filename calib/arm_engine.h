@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+
+#include "model/arm_dynamics.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// A robot's rigid dynamics by Simbody or, where it refuses a link, by our own.
+struct ArmEngine {
+  std::unique_ptr<ArmDynamics> dynamics;
+  bool is_simbody;
+};
+ArmEngine MakeArmEngine(const Robot& robot);
+
+}  // namespace armcal
