@@ -76,7 +76,11 @@ HiddenEffect BaseTilt() {
                     {"gravity_z", "m/s^2", g.z()}};
           },
           [](const SimulatedRobot& robot, int) -> std::string {
-            return robot.robot.gravity.norm() > 0 ? "" : "there is no gravity";
+            if (robot.robot.gravity.isZero()) return "there is no gravity";
+            return robot.wrenches.empty()
+                       ? ""
+                       : "expected before effects that act on links, which "
+                         "feel gravity as it is then";
           }};
 }
 
