@@ -39,9 +39,10 @@ struct HiddenPlant {
     values.insert(values.end(), added.begin(), added.end());
   }
 
+  // Of the effect added last that has it.
   double Value(const std::string& name) const {
-    for (const EffectValue& value : values) {
-      if (value.name == name) return value.value;
+    for (auto value = values.rbegin(); value != values.rend(); ++value) {
+      if (value->name == name) return value->value;
     }
     ADD_FAILURE() << "no value " << name;
     return 0;
