@@ -120,7 +120,9 @@ HiddenEffect Gyroscope() {
                    return {(at.X_WP.linear() * H_L).cross(at.w_WP),
                            Vector3d::Zero()};
                  }});
-            return {{"momentum", "N m s", H}};
+            return {{"momentum_x", "N m s", H_L.x()},
+                    {"momentum_y", "N m s", H_L.y()},
+                    {"momentum_z", "N m s", H_L.z()}};
           },
           WhyTurnsAboutOneAxis};
 }
@@ -150,7 +152,10 @@ HiddenEffect LooseBolt() {
                    return {moment * c / std::hypot(c, .1) * u.cross(down),
                            Vector3d::Zero()};
                  }});
-            return {{"moment", "N m", moment}};
+            return {{"moment", "N m", moment},
+                    {"axis_x", "1", u_L.x()},
+                    {"axis_y", "1", u_L.y()},
+                    {"axis_z", "1", u_L.z()}};
           },
           WhyGravityIsAlongItsAxes};
 }

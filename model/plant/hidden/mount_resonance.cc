@@ -13,14 +13,25 @@ using Scope = HiddenEffect::Scope;
 using Eigen::Vector3d;
 
 // The arm's moment of inertia about a level axis through the base, stretched
-// out: its links on a rod as long as all offsets together, m L^2 / 3.
+// out: a rod as long as all offsets to the tool together, m L^2 / 3.
 double ArmInertia(const EffectSite& site) {
-  double length = .1;
+  double length = .1 + site.robot->robot.X_LT.translation().norm();
   for (int j = site.robot->num_passive; j < site.robot->robot.num_joints();
        ++j) {
     length += site.robot->robot.links[j].X_PL(0).translation().norm();
   }
   return site.moving_mass() * length * length / 3;
+}
+
+Vector3d Upright(const Vector3d& gravity) {
+  if (gravity.isZero()) return Vector3d::UnitZ();
+  return -gravity.normalized();
+}
+// The world's x axis made level, or where it is upright the y axis.
+Vector3d LevelAxis(const Vector3d& up) {
+  const Vector3d x = Vector3d::UnitX() - up.x() * up;
+  return x.norm() > .1 ? x.normalized()
+                       : Vector3d::UnitZ().cross(up).normalized();
 }
 
 // A base plate that turns about the axis `z` in W on a spring and damper.
@@ -49,8 +60,8 @@ void InsertUnderBase(const Link& link, SimulatedRobot* robot) {
   }
 }
 
-// Two level axes through the base, each with tau = -k q - c q'. The plate has
-// a tenth of the arm's inertia.
+// Two level axes through the base, x below y, each with tau = -k q - c q'. The
+// plate has a tenth of the arm's inertia.
 HiddenEffect Mount() {
   return {
       "mount_resonance",
@@ -65,13 +76,9 @@ HiddenEffect Mount() {
         const double omega = kTwoPi * site.p[0];
         const double k = (I + plate) * omega * omega;
         const double c = 2 * site.p[1] * (I + plate) * omega;
-        const Vector3d x = site.robot->robot.gravity.isZero()
-                               ? Vector3d::UnitX().eval()
-                               : site.robot->robot.gravity.unitOrthogonal();
-        const Vector3d y =
-            site.robot->robot.gravity.isZero()
-                ? Vector3d::UnitY().eval()
-                : site.robot->robot.gravity.normalized().cross(x).eval();
+        const Vector3d up = Upright(site.robot->robot.gravity);
+        const Vector3d x = LevelAxis(up);
+        const Vector3d y = up.cross(x);
         InsertUnderBase(BasePlate("mount_y", y, plate / 2), site.robot);
         InsertUnderBase(BasePlate("mount_x", x, plate / 2), site.robot);
         for (const int joint : {0, 1}) {
