@@ -29,10 +29,10 @@ TEST(HiddenDrives, AmplifiersByHand) {
   EXPECT_NEAR(Given({"torque_gain", 1, {.1}}, 11), 10, 1e-12);
   EXPECT_NEAR(Given({"torque_nonlinearity", 1, {.1}}, 20), 18, 1e-12);
   EXPECT_NEAR(Given({"torque_nonlinearity", 1, {.1}}, -2), -2, .005);
-  const HiddenPlant limited("torque_saturation", 1, {1});
-  EXPECT_NEAR(Given(limited, 5), 5, 2e-4);
-  EXPECT_NEAR(Given(limited, -10), -9.439, 1e-3);  // 10 / 2^(1/12)
-  EXPECT_NEAR(Given(limited, 40), 10, 1e-6);
+  const HiddenPlant limited("torque_saturation", 1, {1.5});
+  EXPECT_NEAR(Given(limited, 5), 5, 1e-5);
+  EXPECT_NEAR(Given(limited, -15), -14.158, 1e-3);  // 15 / 2^(1/12)
+  EXPECT_NEAR(Given(limited, 60), 15, 1e-6);
   const HiddenPlant dead("torque_deadband", 1, {.05});
   EXPECT_EQ(Given(dead, 0), 0);
   EXPECT_LT(std::abs(Given(dead, .05)), .001);
