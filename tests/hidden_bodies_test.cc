@@ -25,27 +25,27 @@ TEST(HiddenBodies, ArmatureIsAShareOfTheInertia) {
 
 // The distance to the next joint grows by what was asked for, along itself.
 TEST(HiddenBodies, LinksGrowLonger) {
-  for (const std::string name : {"UR5 6R", "PUMA560 6R", "SCARA RRPR"}) {
+  // PUMA's third link is twisted.
+  for (const auto& [name, j] :
+       {std::pair("UR5 6R", 1), {"PUMA560 6R", 2}, {"SCARA RRPR", 1}}) {
     HiddenPlant plant(name);
+    plant.robot.robot.links[j + 1].X_PF.translation() << .1, -.2, .3;  // URDF
     const Robot before = plant.robot.robot;
-    plant.Add("link_length", 1, {.03});
-    const auto next = [](const Robot& robot) -> Vector3d {
-      const Link& link = robot.links[1];
-      return (link.X_ML * robot.links[2].X_PF).translation();
+    plant.Add("link_length", j, {.03});
+    const Robot& after = plant.robot.robot;
+    const auto next = [j = j](const Robot& robot) -> Vector3d {
+      return (robot.links[j].X_ML * robot.links[j + 1].X_PF).translation();
     };
-    Vector3d old = next(before), grown = next(plant.robot.robot) - old;
+    Vector3d old = next(before), grown = next(after) - old;
     EXPECT_NEAR(grown.norm(), .03, 1e-12) << name;
     EXPECT_NEAR(grown.z(), 0, 1e-12) << name;
     old.z() = 0;
     EXPECT_NEAR(grown.dot(old), .03 * old.norm(), 1e-12) << name;
-    // Only that changed: the link itself has its weight where it was.
-    const Robot& after = plant.robot.robot;
-    EXPECT_EQ(
-        (after.links[1].X_ML.matrix() - before.links[1].X_ML.matrix()).norm(),
-        0);
-    EXPECT_EQ(Held(after, SomePose(after.num_joints()))[2] -
-                  Held(before, SomePose(after.num_joints()))[2],
-              0);
+    // Only that changed: the link itself has its weight where it was, and the
+    // next joint holds what it held.
+    EXPECT_EQ(after.links[j].X_ML.matrix(), before.links[j].X_ML.matrix());
+    const VectorXd q = SomePose(after.num_joints());
+    EXPECT_NEAR(Held(after, q)[j + 1], Held(before, q)[j + 1], 1e-12) << name;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/plant/hidden/scenario.h"
 #include "tests/hidden_runs.h"
 
 namespace armcal {
@@ -41,6 +42,29 @@ TEST(HiddenFrictionPhysics, OfTheVelocity) {
               .01);
   CheckEffect("stribeck", "torque at ten times that, gone", run.Plateau(0),
               1 / 101., .01);
+}
+
+// At the velocity of the scenario's width the friction is F / sqrt(2), the
+// arm's own and an effect's alike.
+TEST(HiddenFrictionPhysics, PassesZeroVelocityAsTheScenarioSays) {
+  Scenario scenario;
+  scenario.model = Wheel();
+  scenario.model.links[0].joint.coulomb = 3;
+  scenario.zero_velocity = .05;
+  const Profile profile = Plateaus({.05}, 1);
+  scenario.motion = {profile.duration, [&profile](double t) {
+                       const Eigen::Vector3d at = profile.at(t);
+                       return ReferencePoint{at.segment(0, 1), at.segment(1, 1),
+                                             at.segment(2, 1)};
+                     }};
+  scenario.loop.controller =
+      DefaultController(scenario.model, VectorXd::Zero(1), 10);
+  scenario.effects = {
+      {FindHiddenEffect("coulomb_friction"), 0, VectorXd::Constant(1, .3)}};
+  const ScenarioRun run = RunScenario(scenario);
+  const double both = 3 + run.effects[0].values[0].value;
+  EXPECT_GT(both, 3.5);
+  EXPECT_NEAR(run.run.log.tau(280, 0), both / std::sqrt(2), .005 * both);
 }
 
 // Up less down at one position: twice the friction, without gravity.
