@@ -201,22 +201,5 @@ TEST(HiddenFriction, ApproachFrictionFadesWithTheWay) {
   EXPECT_NEAR(plant.Torque(0, &state, &rate), -std::exp(-1), 1e-4);
 }
 
-TEST(HiddenFriction, BrakeDragsForItsShareOfTheTime) {
-  HiddenPlant plant("dragging_brake", 0, {.1, .2});
-  plant.at.velocity[0] = 1;
-  double sum = 0;
-  int free = 0, full = 0;
-  for (int k = 0; k < 4000; ++k) {
-    plant.at.t = .01 * k;
-    const double drag = -plant.Torque();
-    sum += drag / 4000;
-    free += drag < .01;
-    full += drag > .99;
-  }
-  EXPECT_NEAR(sum, .2, .005);
-  EXPECT_GT(free, .75 * 4000);
-  EXPECT_GT(full, .15 * 4000);
-}
-
 }  // namespace
 }  // namespace armcal
