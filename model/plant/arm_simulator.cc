@@ -24,6 +24,7 @@ ArmSimulator::ArmSimulator(const SimulatedRobot& robot,
     : robot_(robot),
       dynamics_(dynamics),
       step_(options.step),
+      begin_time_(options.begin),
       n_(robot.robot.num_joints()) {
   CHECK_EQ(dynamics->num_joints(), n_);
   CHECK_EQ(q0.size(), n_);
@@ -107,7 +108,7 @@ void ArmSimulator::SetInitialState(const Eigen::VectorXd& q0) {
   }
   qdd_ = Eigen::VectorXd::Zero(n_);
   commanded_ = Eigen::VectorXd::Zero(n_);
-  ReadInstant(x_, 0);
+  ReadInstant(x_, begin_time_);
 }
 
 void ArmSimulator::ReadInstant(const Eigen::VectorXd& x, double t) {
@@ -243,7 +244,7 @@ void ArmSimulator::Step(const Eigen::VectorXd& commanded) {
   const int passive = robot_.num_passive;
   CHECK_EQ(commanded.size(), n_ - passive);
   commanded_.tail(n_ - passive) = commanded;
-  const double t = step_index_ * step_;
+  const double t = begin_time_ + step_index_ * step_;
   std::swap(begin_, end_);
   end_ = begin_;
   Derivative(x_, t, 0);
@@ -255,7 +256,7 @@ void ArmSimulator::Step(const Eigen::VectorXd& commanded) {
             step_ / substeps_);
   }
   ++step_index_;
-  ReadInstant(x_, step_index_ * step_);
+  ReadInstant(x_, begin_time_ + step_index_ * step_);
 }
 
 // Of the fastest mode at the start, 1/s: dampers and springs between motors,
@@ -263,16 +264,16 @@ void ArmSimulator::Step(const Eigen::VectorXd& commanded) {
 double ArmSimulator::Stiffness() {
   begin_ = end_;
   const double dx = 1e-7;
-  Derivative(x_, 0, 0);
+  Derivative(x_, begin_time_, 0);
   const Eigen::VectorXd rate = rate_;
   Eigen::MatrixXd A(layout_.size, layout_.size);
   for (int k = 0; k < layout_.size; ++k) {
     Eigen::VectorXd x = x_;
     x[k] += dx;
-    Derivative(x, 0, 0);
+    Derivative(x, begin_time_, 0);
     A.col(k) = (rate_ - rate) / dx;
   }
-  ReadInstant(x_, 0);
+  ReadInstant(x_, begin_time_);
   return Eigen::EigenSolver<Eigen::MatrixXd>(A, false)
       .eigenvalues()
       .cwiseAbs()

@@ -13,6 +13,7 @@ struct ArmSimulatorOptions {
   // Runge-Kutta steps (fourth order) of all laws per step; 0: as many as the
   // stiffest law needs.
   int substeps = 0;
+  double begin = 0;  // s, what clocks say at the start
 };
 
 // Integrates a SimulatedRobot. Friction and transmissions are stiff but cheap,
@@ -61,7 +62,7 @@ class ArmSimulator {
 
   const SimulatedRobot& robot_;
   ArmDynamics* dynamics_;
-  double step_;
+  double step_, begin_time_;
   int substeps_;
   int n_;
   std::vector<int> transmission_of_;  // per joint, -1: rigid

@@ -122,7 +122,10 @@ class Loop {
         n_(model.num_joints()),
         period_(1 / options.controller.rate_hz),
         steps_(static_cast<int>(std::ceil(period_ / options.step - 1e-9))),
-        simulator_(robot, Start(), {period_ / steps_, 0}, dynamics),
+        settle_(std::lround(options.settle / period_)),
+        // Laws see the time of the log.
+        simulator_(robot, Start(), {period_ / steps_, 0, -settle_ * period_},
+                   dynamics),
         controller_(options.controller, model),
         encoders_(options.sensors, n_),
         recorder_(robot, options, n_),
@@ -131,12 +134,11 @@ class Loop {
   }
 
   ClosedLoopRun Run() {
-    const long settle = std::lround(options_.settle / period_);
     const long end = std::lround(motion_.duration / period_);
     ClosedLoopRun run;
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(n_);
     long saturated = 0;
-    for (long tick = -settle; tick <= end; ++tick) {
+    for (long tick = -settle_; tick <= end; ++tick) {
       const bool at_limit = Tick(tick, tick >= 0 && recorder_.Wants(tick));
       run.finite = simulator_.finite();
       if (!run.finite) break;
@@ -198,7 +200,8 @@ class Loop {
   const ClosedLoopOptions& options_;
   int n_;
   double period_;
-  int steps_;  // of the simulator per control period
+  int steps_;    // of the simulator per control period
+  long settle_;  // control periods before the log
   ArmSimulator simulator_;
   JointController controller_;
   Encoders encoders_;

@@ -35,13 +35,18 @@ Robot ReadYaml(const std::string& text, uint64_t seed) {
   return robot;
 }
 
-// An effect of the wanted sort that this robot can show.
+// An effect of the wanted sort that this robot can show, beside `first` where
+// there is one.
 ChosenEffect DrawEffect(const Robot& robot, bool in_catalogue,
-                        std::mt19937_64* random) {
+                        const ChosenEffect* first, std::mt19937_64* random) {
   const auto& kinds = HiddenEffects();
   const EffectContext context = TypicalContext(robot, 0);
   SimulatedRobot plant;
   plant.robot = robot;
+  if (first) {
+    ApplyHiddenEffect(*first->kind, &plant, first->joint, first->parameters,
+                      context);
+  }
   while (true) {
     ChosenEffect effect;
     effect.kind = &kinds[Pick(random, static_cast<int>(kinds.size()))];
@@ -64,12 +69,13 @@ std::vector<ChosenEffect> DrawEffects(const Robot& robot,
                                       std::mt19937_64* random) {
   if (Uniform(random, 0, 1) < .2) return {};
   const double sort = Uniform(random, 0, 1);
-  if (sort < .25) return {DrawEffect(robot, false, random)};
-  std::vector<ChosenEffect> effects = {DrawEffect(robot, true, random)};
+  if (sort < .25) return {DrawEffect(robot, false, nullptr, random)};
+  std::vector<ChosenEffect> effects = {
+      DrawEffect(robot, true, nullptr, random)};
   if (sort < .75) return effects;
   do {
     effects.resize(1);
-    effects.push_back(DrawEffect(robot, true, random));
+    effects.push_back(DrawEffect(robot, true, &effects[0], random));
   } while (effects[0].kind == effects[1].kind);
   return effects;
 }

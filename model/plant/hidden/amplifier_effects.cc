@@ -80,7 +80,7 @@ HiddenEffect TorqueSaturation() {
           true,
           Scope::kJoint,
           "A current limit: torques beyond it are commanded but not given.",
-          {{"limit", "1", 1.2, .7, 2, Draw::kLog}},
+          {{"limit", "1", 1.6, 1.3, 2.5, Draw::kLog}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double L = site.p[0] * site.torque();
             AddMap(site, [=](double tau) {

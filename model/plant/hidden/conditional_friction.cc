@@ -116,15 +116,14 @@ HiddenEffect ThermalFriction() {
        {"rise", "K", 20, 8, 30, Draw::kUniform},
        {"time_constant", "1", .5, .2, 2, Draw::kLog}},
       [](const EffectSite& site) -> std::vector<EffectValue> {
-        const double viscous = site.link().joint.viscous;
-        const double coulomb = site.link().joint.coulomb;
+        const Joint& joint = site.link().joint;
+        const double viscous = joint.viscous, coulomb = joint.coulomb;
         const double beta = site.p[0], S = site.speed(), w = site.width();
         const double power = (viscous * S + coulomb) * S;
         const double time_constant = site.p[2] * site.context->duration;
-        std::vector<JointThermal>& thermal = site.robot->thermal;
-        thermal.resize(site.robot->robot.num_joints());
-        thermal[site.index()].resistance = site.p[1] / power;
-        thermal[site.index()].capacity = time_constant * power / site.p[1];
+        site.robot->thermal.resize(site.robot->robot.num_joints());
+        site.robot->thermal[site.index()] = {time_constant * power / site.p[1],
+                                             site.p[1] / power};
         const int k = site.from_tip();
         site.AddFriction([=](const ArmInstant& at, const double*, double*) {
           const double v = FromTip(at.velocity, k);

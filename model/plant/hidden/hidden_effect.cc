@@ -9,8 +9,37 @@ namespace armcal {
 
 using Eigen::VectorXd;
 
+namespace {
+
+constexpr int kStates = 200;
+
+// Mean squares of the rigid arm's torque and means of its inertia.
+void AddRigidScales(const Robot& robot, EffectContext* context) {
+  const int n = robot.num_joints();
+  std::mt19937_64 random(1);  // scales are the robot's, whatever the seed
+  const auto draw = [&](double size) {
+    VectorXd v(n);
+    for (int j = 0; j < n; ++j) {
+      v[j] = size * context->speed[j] * DrawUniform(-1, 1, &random);
+    }
+    return v;
+  };
+  const VectorXd zero = VectorXd::Zero(n);
+  for (int k = 0; k < kStates; ++k) {
+    const VectorXd q = draw(1.5), qd = draw(1.7), qdd = draw(5);
+    context->torque += InverseDynamics(robot, q, qd, qdd).cwiseAbs2() / kStates;
+    const VectorXd held = InverseDynamics(robot, q, zero, zero);
+    for (int j = 0; j < n; ++j) {
+      const VectorXd unit = VectorXd::Unit(n, j);
+      context->inertia[j] +=
+          (InverseDynamics(robot, q, zero, unit) - held)[j] / kStates;
+    }
+  }
+}
+
+}  // namespace
+
 EffectContext TypicalContext(const Robot& robot, std::uint64_t seed) {
-  constexpr int kStates = 200;
   const int n = robot.num_joints();
   EffectContext context;
   context.seed = seed;
@@ -19,25 +48,7 @@ EffectContext TypicalContext(const Robot& robot, std::uint64_t seed) {
     context.speed[j] = IsRotational(robot.links[j].joint.type) ? 1 : .3;
   }
   context.torque = context.inertia = VectorXd::Zero(n);
-  std::mt19937_64 random(1);  // scales are the robot's, whatever the seed
-  const auto draw = [&](double size) {
-    VectorXd v(n);
-    for (int j = 0; j < n; ++j) {
-      v[j] = size * context.speed[j] * DrawUniform(-1, 1, &random);
-    }
-    return v;
-  };
-  const VectorXd zero = VectorXd::Zero(n);
-  for (int k = 0; k < kStates; ++k) {
-    const VectorXd q = draw(1.5), qd = draw(1.7), qdd = draw(5);
-    context.torque += InverseDynamics(robot, q, qd, qdd).cwiseAbs2() / kStates;
-    const VectorXd held = InverseDynamics(robot, q, zero, zero);
-    for (int j = 0; j < n; ++j) {
-      const VectorXd unit = VectorXd::Unit(n, j);
-      context.inertia[j] +=
-          (InverseDynamics(robot, q, zero, unit) - held)[j] / kStates;
-    }
-  }
+  AddRigidScales(robot, &context);
   for (int j = 0; j < n; ++j) {
     const Joint& joint = robot.links[j].joint;
     const double friction = joint.coulomb + joint.viscous * context.speed[j];

@@ -97,6 +97,8 @@ struct HiddenEffect {
   std::function<std::vector<EffectValue>(const EffectSite& site)> apply;
   // Empty, or why this joint of this robot cannot show it.
   std::function<std::string(const SimulatedRobot& robot, int joint)> unfit;
+  // Of the rigid robot itself: to be applied before effects that act on it.
+  bool changes_robot = false;
 };
 
 }  // namespace armcal

@@ -106,6 +106,8 @@ std::vector<EffectValue> ApplyHiddenEffect(const HiddenEffect& effect,
   const std::string why =
       WhyNotApplicable(effect, *robot, joint, parameters, context);
   CHECK(why.empty()) << effect.name << ": " << why;
+  CHECK(!effect.changes_robot || robot->wrenches.empty())
+      << effect.name << " before effects that act on links, please";
   return effect.apply({robot, joint, parameters, &context});
 }
 

@@ -23,7 +23,7 @@ std::string WhyNotApplicable(const HiddenEffect& effect,
 
 // Fills slots of the robot. joint: of the driven ones, from 0; -1 for an effect
 // of the whole robot. CHECKs WhyNotApplicable. Several effects may be applied
-// one after the other; those that change the robot (RigidBodyEffects) first.
+// one after the other, those with changes_robot first.
 std::vector<EffectValue> ApplyHiddenEffect(const HiddenEffect& effect,
                                            SimulatedRobot* robot, int joint,
                                            const Eigen::VectorXd& parameters,

@@ -60,6 +60,29 @@ HiddenEffect ExternalContact() {
 
 // A mass on a spring at the tool, both isotropic:
 // m x'' = m g - k (x - p) - c (x' - v); the tool feels the spring and damper.
+WrenchLaw SprungMass(const SimulatedRobot& robot, double m, double k,
+                     double c) {
+  const Vector3d g = robot.robot.gravity;
+  WrenchLaw law;
+  law.attachment = Tool(robot);
+  law.num_states = 6;  // x, x' in W; hangs at first
+  law.initial_state = [=](const Eigen::Isometry3d& X_WP) -> VectorXd {
+    VectorXd state(6);
+    state << X_WP.translation() + m * g / k, Vector3d::Zero();
+    return state;
+  };
+  law.wrench = [=](const PointInstant& at, const double* state,
+                   double* rate) -> Wrench {
+    const Eigen::Map<const Vector3d> x(state), v(state + 3);
+    const Vector3d force = k * (x - at.X_WP.translation()) + c * (v - at.v_WP);
+    const Vector3d acceleration = g - force / m;
+    std::copy_n(v.data(), 3, rate);
+    std::copy_n(acceleration.data(), 3, rate + 3);
+    return {Vector3d::Zero(), force};
+  };
+  return law;
+}
+
 HiddenEffect Slosh() {
   return {"slosh",
           false,
@@ -72,26 +95,9 @@ HiddenEffect Slosh() {
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double m = site.p[0] * site.moving_mass();
             const double omega = kTwoPi * site.p[1];
-            const double k = m * omega * omega, c = 2 * site.p[2] * m * omega;
-            const Vector3d g = site.robot->robot.gravity;
+            const double k = m * omega * omega;
             site.robot->wrenches.push_back(
-                {Tool(*site.robot),
-                 [=](const Eigen::Isometry3d& X_WP) -> VectorXd {
-                   VectorXd state(6);
-                   state << X_WP.translation() + m * g / k, Vector3d::Zero();
-                   return state;
-                 },
-                 6,
-                 [=](const PointInstant& at, const double* state,
-                     double* rate) -> Wrench {
-                   const Eigen::Map<const Vector3d> x(state), v(state + 3);
-                   const Vector3d force =
-                       k * (x - at.X_WP.translation()) + c * (v - at.v_WP);
-                   const Vector3d acceleration = g - force / m;
-                   std::copy_n(v.data(), 3, rate);
-                   std::copy_n(acceleration.data(), 3, rate + 3);
-                   return {Vector3d::Zero(), force};
-                 }});
+                SprungMass(*site.robot, m, k, 2 * site.p[2] * m * omega));
             return {{"mass", "kg", m},
                     {"frequency", "Hz", site.p[1]},
                     {"stiffness", "N/m", k}};
@@ -120,7 +126,9 @@ HiddenEffect Gyroscope() {
                    return {(at.X_WP.linear() * H_L).cross(at.w_WP),
                            Vector3d::Zero()};
                  }});
-            return {{"momentum", "N m s", H}};
+            return {{"momentum_x", "N m s", H_L.x()},
+                    {"momentum_y", "N m s", H_L.y()},
+                    {"momentum_z", "N m s", H_L.z()}};
           },
           WhyTurnsAboutOneAxis};
 }
@@ -150,7 +158,10 @@ HiddenEffect LooseBolt() {
                    return {moment * c / std::hypot(c, .1) * u.cross(down),
                            Vector3d::Zero()};
                  }});
-            return {{"moment", "N m", moment}};
+            return {{"moment", "N m", moment},
+                    {"axis_x", "1", u_L.x()},
+                    {"axis_y", "1", u_L.y()},
+                    {"axis_z", "1", u_L.z()}};
           },
           WhyGravityIsAlongItsAxes};
 }

@@ -13,14 +13,25 @@ using Scope = HiddenEffect::Scope;
 using Eigen::Vector3d;
 
 // The arm's moment of inertia about a level axis through the base, stretched
-// out: its links on a rod as long as all offsets together, m L^2 / 3.
+// out: a rod as long as all offsets to the tool together, m L^2 / 3.
 double ArmInertia(const EffectSite& site) {
-  double length = .1;
+  double length = .1 + site.robot->robot.X_LT.translation().norm();
   for (int j = site.robot->num_passive; j < site.robot->robot.num_joints();
        ++j) {
     length += site.robot->robot.links[j].X_PL(0).translation().norm();
   }
   return site.moving_mass() * length * length / 3;
+}
+
+Vector3d Upright(const Vector3d& gravity) {
+  if (gravity.isZero()) return Vector3d::UnitZ();
+  return -gravity.normalized();
+}
+// The world's x axis made level, or where it is upright the y axis.
+Vector3d LevelAxis(const Vector3d& up) {
+  const Vector3d x = Vector3d::UnitX() - up.x() * up;
+  return x.norm() > .1 ? x.normalized()
+                       : Vector3d::UnitZ().cross(up).normalized();
 }
 
 // A base plate that turns about the axis `z` in W on a spring and damper.
@@ -49,47 +60,44 @@ void InsertUnderBase(const Link& link, SimulatedRobot* robot) {
   }
 }
 
-// Two level axes through the base, each with tau = -k q - c q'. The plate has
-// a tenth of the arm's inertia.
+// A joint under the base with tau = -k q - c q'.
+void Sway(const std::string& name, const Vector3d& axis, double inertia,
+          double k, double c, SimulatedRobot* robot) {
+  InsertUnderBase(BasePlate(name, axis, inertia), robot);
+  const int above = robot->robot.num_joints();
+  robot->joint_laws.push_back(
+      {0, {}, false, [=](const ArmInstant& at, const double*, double*) {
+         return -k * FromTip(at.position, above) -
+                c * FromTip(at.velocity, above);
+       }});
+}
+
+// Two level axes through the base, x below y, a plate on each as heavy to turn
+// as the arm: a stand much lighter would let the joints' loops shake it.
 HiddenEffect Mount() {
-  return {
-      "mount_resonance",
-      false,
-      Scope::kRobot,
-      "A stand that sways: the whole arm rocks on its mount, which no "
-      "encoder sees.",
-      {{"frequency", "Hz", 8, 4, 15, Draw::kLog},
-       {"damping_ratio", "1", .03, .02, .1, Draw::kLog}},
-      [](const EffectSite& site) -> std::vector<EffectValue> {
-        const double I = ArmInertia(site), plate = .1 * I;
-        const double omega = kTwoPi * site.p[0];
-        const double k = (I + plate) * omega * omega;
-        const double c = 2 * site.p[1] * (I + plate) * omega;
-        const Vector3d x = site.robot->robot.gravity.isZero()
-                               ? Vector3d::UnitX().eval()
-                               : site.robot->robot.gravity.unitOrthogonal();
-        const Vector3d y =
-            site.robot->robot.gravity.isZero()
-                ? Vector3d::UnitY().eval()
-                : site.robot->robot.gravity.normalized().cross(x).eval();
-        InsertUnderBase(BasePlate("mount_y", y, plate / 2), site.robot);
-        InsertUnderBase(BasePlate("mount_x", x, plate / 2), site.robot);
-        for (const int joint : {0, 1}) {
-          const int above = site.robot->robot.num_joints() - joint;
-          site.robot->joint_laws.push_back(
-              {joint,
-               {},
-               false,
-               [=](const ArmInstant& at, const double*, double*) {
-                 return -k * FromTip(at.position, above) -
-                        c * FromTip(at.velocity, above);
-               }});
-        }
-        return {{"stiffness", "N m/rad", k}, {"frequency", "Hz", site.p[0]}};
-      },
-      [](const SimulatedRobot& robot, int) -> std::string {
-        return robot.num_passive == 0 ? "" : "the base sways already";
-      }};
+  return {"mount_resonance",
+          false,
+          Scope::kRobot,
+          "A stand that sways: the whole arm rocks on its mount, which no "
+          "encoder sees.",
+          {{"frequency", "Hz", 8, 4, 15, Draw::kLog},
+           {"damping_ratio", "1", .03, .02, .1, Draw::kLog}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const double I = ArmInertia(site), omega = kTwoPi * site.p[0];
+            const double ratio = site.p[1];
+            const Vector3d up = Upright(site.robot->robot.gravity);
+            const Vector3d x = LevelAxis(up);
+            // What turns about y: the arm and a plate; about x: one plate more.
+            Sway("mount_y", up.cross(x), I, 2 * I * omega * omega,
+                 4 * ratio * I * omega, site.robot);
+            Sway("mount_x", x, I, 3 * I * omega * omega, 6 * ratio * I * omega,
+                 site.robot);
+            return {{"frequency", "Hz", site.p[0]},
+                    {"stiffness", "N m/rad", 2 * I * omega * omega}};
+          },
+          [](const SimulatedRobot& robot, int) -> std::string {
+            return robot.num_passive == 0 ? "" : "the base sways already";
+          }};
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ HiddenEffect BaseTilt() {
                     {"gravity_z", "m/s^2", g.z()}};
           },
           [](const SimulatedRobot& robot, int) -> std::string {
-            return robot.robot.gravity.norm() > 0 ? "" : "there is no gravity";
+            return robot.robot.gravity.isZero() ? "there is no gravity" : "";
           }};
 }
 
@@ -127,7 +127,10 @@ HiddenEffect LinkInertia() {
 }  // namespace
 
 std::vector<HiddenEffect> RigidBodyEffects() {
-  return {Armature(), LinkLength(), BaseTilt(), Payload(), LinkInertia()};
+  std::vector<HiddenEffect> effects = {Armature(), LinkLength(), BaseTilt(),
+                                       Payload(), LinkInertia()};
+  for (HiddenEffect& effect : effects) effect.changes_robot = true;
+  return effects;
 }
 
 }  // namespace armcal

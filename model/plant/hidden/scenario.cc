@@ -34,12 +34,18 @@ ScenarioRun RunScenario(const Scenario& scenario) {
   // Friction first: it is the arm's own, and effects that put joints under the
   // base know how to move it.
   AddJointFriction(scenario.zero_velocity, &robot);
-  for (const ChosenEffect& effect : scenario.effects) {
-    CheckFits(effect, robot, context);
-    result.effects.push_back(
-        {effect.kind->name, effect.joint, effect.kind->in_catalogue,
-         ApplyHiddenEffect(*effect.kind, &robot, effect.joint,
-                           effect.parameters, context)});
+  context.zero_velocity = scenario.zero_velocity;
+  result.effects.resize(scenario.effects.size());
+  for (const bool changes_robot : {true, false}) {
+    for (size_t k = 0; k < scenario.effects.size(); ++k) {
+      const ChosenEffect& effect = scenario.effects[k];
+      if (effect.kind->changes_robot != changes_robot) continue;
+      CheckFits(effect, robot, context);
+      result.effects[k] = {effect.kind->name, effect.joint,
+                           effect.kind->in_catalogue,
+                           ApplyHiddenEffect(*effect.kind, &robot, effect.joint,
+                                             effect.parameters, context)};
+    }
   }
   SimbodyArm dynamics(robot.robot);
   result.run = RunClosedLoop(robot, scenario.model, scenario.motion,

@@ -50,8 +50,9 @@ HiddenEffect Coulomb() {
           nullptr};
 }
 
-// tau = -|a| v (1 + sgn(a) v / sqrt(v^2 + w^2)): drag of 2 |a| one way only,
-// |a| v of it viscous friction and a |v| asymmetry.
+// tau = -|a| e (1 + sgn(a) v / sqrt(v^2 + w^2)), e = v0 asinh(v / v0), v0 three
+// times the joint's speed: drag of a thinning lubricant, 2 |a| one way only;
+// about |a| v of it is viscous friction and a |v| asymmetry.
 HiddenEffect Asymmetric() {
   return {"asymmetric_friction",
           true,
@@ -61,11 +62,12 @@ HiddenEffect Asymmetric() {
           {{"asymmetry", "1", .05, .005, .2, Draw::kLogEitherSign}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double a = site.p[0] * site.torque() / site.speed();
-            const double w = site.width();
+            const double v0 = 3 * site.speed(), w = site.width();
             const int k = site.from_tip();
             site.AddFriction([=](const ArmInstant& at, const double*, double*) {
               const double v = FromTip(at.velocity, k);
-              return -std::abs(a) * v - a * v * ZeroVelocitySign(v, w);
+              return -(std::abs(a) + a * ZeroVelocitySign(v, w)) * v0 *
+                     std::asinh(v / v0);
             });
             const std::string unit =
                 site.effort_unit() + " s/" + site.position_unit();
