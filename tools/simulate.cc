@@ -6,13 +6,13 @@
 
 #include "model/input_text.h"
 #include "model/log_writer.h"
+#include "model/plant/hidden/truth_json.h"
 #include "tools/command.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
 #include "tools/simulate_effects.h"
 #include "tools/simulate_flags.h"
-#include "model/plant/hidden/truth_json.h"
 #include "tools/simulation_flags.h"
 
 DECLARE_string(torque_constants);
@@ -116,6 +116,7 @@ Command SimulateCommand() {
            "lost",
            "step",
            "seed",
+           "run",
            "out",
            "truth",
            "base",

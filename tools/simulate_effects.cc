@@ -5,6 +5,7 @@
 
 #include "model/input_text.h"
 #include "tools/command.h"
+#include "tools/simulate_sizes.h"
 #include "tools/usage.h"
 
 namespace armcal {
@@ -52,25 +53,40 @@ int FindJoint(const std::string& text, const Robot& robot) {
                    " or one of " + JoinNames(names));
 }
 
-void SetParameter(const std::string& text, ChosenEffect* effect) {
+void SetParameter(const std::string& name, const std::string& number,
+                  ChosenEffect* effect) {
   const auto& parameters = effect->kind->parameters;
-  const size_t equals = std::min(text.find('='), text.size());
-  const std::string name = text.substr(0, equals);
   std::vector<std::string> names;
   for (size_t k = 0; k < parameters.size(); ++k) {
     names.push_back(parameters[k].name);
     if (parameters[k].name != name) continue;
-    const std::optional<double> value = ParseNumber(
-        std::string_view(text).substr(std::min(equals + 1, text.size())));
-    if (!value || !std::isfinite(*value)) Refuse(text, name + "=NUMBER");
+    const std::optional<double> value = ParseNumber(number);
+    if (!value || !std::isfinite(*value)) {
+      Refuse(name + "=" + number, name + "=NUMBER");
+    }
     effect->parameters[k] = *value;
     return;
   }
-  Refuse(text,
-         "a parameter of " + effect->kind->name + ": " + JoinNames(names));
+  Refuse(name, "a parameter of " + effect->kind->name + ": " +
+                   JoinNames(names) + "; or one of its values with a unit");
 }
 
-ChosenEffect ParseEffect(const std::string& text, const Robot& robot) {
+// "mass=0.03", a parameter, or "mass=2kg", a value in SI units.
+void SetSize(const std::string& text, const Scenario& scenario,
+             ChosenEffect* effect) {
+  const size_t equals = std::min(text.find('='), text.size());
+  const std::string name = text.substr(0, equals);
+  const std::string size = text.substr(std::min(equals + 1, text.size()));
+  const size_t unit =
+      std::min(size.find_first_not_of("0123456789.+-eE"), size.size());
+  const std::optional<double> value = ParseNumber(size.substr(0, unit));
+  const std::string unit_text(Trim(std::string_view(size).substr(unit)));
+  if (unit_text.empty() || !value) return SetParameter(name, size, effect);
+  SetEffectSize(name, *value, unit_text, TrueRobot(scenario),
+                ContextOf(scenario), effect);
+}
+
+ChosenEffect ParseEffect(const std::string& text, const Scenario& scenario) {
   const size_t colon = std::min(text.find(':'), text.size());
   const std::vector<std::string> place = Split(text.substr(0, colon), '@');
   ChosenEffect effect;
@@ -82,10 +98,10 @@ ChosenEffect ParseEffect(const std::string& text, const Robot& robot) {
            of_joint ? place[0] + "@JOINT, an effect of one joint"
                     : place[0] + " without a joint, it is of the whole robot");
   }
-  if (of_joint) effect.joint = FindJoint(place[1], robot);
+  if (of_joint) effect.joint = FindJoint(place[1], scenario.model);
   if (colon == text.size()) return effect;
   for (const std::string& part : Split(text.substr(colon + 1), ',')) {
-    SetParameter(part, &effect);
+    SetSize(part, scenario, &effect);
   }
   return effect;
 }
@@ -107,11 +123,11 @@ std::string Line(const HiddenEffect& effect) {
 }  // namespace
 
 std::vector<ChosenEffect> ParseEffects(const std::string& text,
-                                       const Robot& robot) {
+                                       const Scenario& scenario) {
   std::vector<ChosenEffect> effects;
   if (Trim(text).empty()) return effects;
   for (const std::string& part : Split(text, ';')) {
-    effects.push_back(ParseEffect(part, robot));
+    effects.push_back(ParseEffect(part, scenario));
   }
   return effects;
 }
@@ -124,8 +140,9 @@ std::string EffectList() {
   return Wrapped(
              "Effects that armcal diagnose has a name for, with usual values "
              "and ranges. Numbers without a unit are shares of the joint's "
-             "usual torque, speed or inertia, or of a radian; the report and "
-             "truth.json have SI values.",
+             "usual torque, speed or inertia, or of a radian. The report and "
+             "truth.json have values in SI units, and these may be given "
+             "instead, with their unit: payload:mass=2kg.",
              0) +
          "\n" + known + "\nEffects that it has none for:\n\n" + unknown;
 }

@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "model/plant/hidden/scenario.h"
-#include "model/robot.h"
 
 namespace armcal {
 
-// "elasticity@2:stiffness=20,damping=.02;base_tilt": effects with a semicolon
-// between them, the joint by number or name, parameters that are not given as
-// usual. Throws UsageError.
+// "elasticity@2:windup=.003;payload:mass=2kg": effects with a semicolon between
+// them, the joint by number or name, parameters that are not given as usual. A
+// number with a unit is the size of one of the effect's values on the robot of
+// the scenario. Throws UsageError.
 std::vector<ChosenEffect> ParseEffects(const std::string& text,
-                                       const Robot& robot);
+                                       const Scenario& scenario);
 
 // All kinds with their parameters, for people.
 std::string EffectList();

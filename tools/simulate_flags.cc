@@ -38,6 +38,9 @@ DEFINE_double(torque_delay, 0, "of the log's torques behind positions, s");
 DEFINE_double(log_rate, 250, "Hz; has to divide the controller's rate");
 DEFINE_double(jitter, 0, "of the sampling instants, standard deviation, s");
 DEFINE_double(lost, 0, "share of samples that are lost");
+DEFINE_uint64(run, 0,
+              "which log of the robot that --seed draws: its motion, noise and "
+              "what comes and goes are drawn anew");
 DEFINE_double(step, 1e-3, "of the integration, s");
 
 namespace armcal {
@@ -69,13 +72,16 @@ std::vector<int> MovingJoints(int n) {
   return joints;
 }
 
+// Of what differs from log to log.
+uint64_t RunSeed() { return SeedFromFlags() + (FLAGS_run << 32); }
+
 ReferenceMotion MotionFromFlags(const Robot& robot) {
   MotionOptions options;
   options.duration = Positive("duration", FLAGS_duration);
   options.size = NotNegative("size", FLAGS_size, 1);
   options.speed = NotNegative("speed", FLAGS_speed, 1);
   options.joints = MovingJoints(robot.num_joints());
-  options.seed = SeedFromFlags();
+  options.seed = RunSeed();
   const double rest = NotNegative("standstill", FLAGS_standstill);
   if (FLAGS_motion == "fourier") {
     return WithStandstill(FourierMotion(robot, options), rest, rest);
@@ -105,7 +111,7 @@ SensorOptions SensorsFromFlags(const Robot& robot) {
   options.log_rate_hz = Positive("log_rate", FLAGS_log_rate);
   options.jitter = NotNegative("jitter", FLAGS_jitter, 1);
   options.lost_share = NotNegative("lost", FLAGS_lost, .5);
-  options.seed = SeedFromFlags();
+  options.seed = RunSeed();
   return options;
 }
 
@@ -124,7 +130,6 @@ Scenario ScenarioFromFlags() {
   Scenario scenario;
   scenario.model = RobotFromFlags();
   RequireMasses(scenario.model);
-  scenario.effects = ParseEffects(FLAGS_effects, scenario.model);
   scenario.robot_error = NotNegative("robot_error", FLAGS_robot_error, .5);
   scenario.zero_velocity = Positive("friction_width", FLAGS_friction_width);
   scenario.motion = MotionFromFlags(scenario.model);
@@ -133,6 +138,8 @@ Scenario ScenarioFromFlags() {
   scenario.loop.sensors = SensorsFromFlags(scenario.model);
   scenario.loop.step = Positive("step", FLAGS_step);
   scenario.seed = SeedFromFlags();
+  scenario.run = FLAGS_run;
+  scenario.effects = ParseEffects(FLAGS_effects, scenario);
   return scenario;
 }
 

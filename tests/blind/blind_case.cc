@@ -169,6 +169,7 @@ Scenario BlindScenario(const BlindCase& blind, BlindLog log,
   scenario.loop.sensors = blind.sensors;
   scenario.loop.sensors.seed = blind.seed + 7 * static_cast<int>(log);
   scenario.seed = blind.seed;
+  scenario.run = static_cast<uint64_t>(log);
   return scenario;
 }
 

@@ -85,7 +85,7 @@ HiddenEffect DraggingBrake() {
         constexpr int kSpans = 4;
         const double F = site.p[0] * site.torque(), w = site.width();
         const double D = site.context->duration;
-        std::mt19937_64 random = site.Random("dragging_brake");
+        std::mt19937_64 random = site.RandomInTime("dragging_brake");
         const RandomSpans spans(kSpans, site.p[1] * D / kSpans, D, &random);
         const int k = site.from_tip();
         site.AddFriction([=](const ArmInstant& at, const double*, double*) {

@@ -66,14 +66,30 @@ double EffectSite::moving_mass() const {
   return mass;
 }
 
-std::mt19937_64 EffectSite::Random(const std::string& kind) const {
-  std::vector<std::uint32_t> words = {
-      static_cast<std::uint32_t>(context->seed),
-      static_cast<std::uint32_t>(context->seed >> 32),
-      static_cast<std::uint32_t>(joint + 1)};
+namespace {
+
+std::mt19937_64 Stream(const std::vector<std::uint64_t>& seeds,
+                       const std::string& kind) {
+  std::vector<std::uint32_t> words;
+  for (const std::uint64_t seed : seeds) {
+    words.push_back(static_cast<std::uint32_t>(seed));
+    words.push_back(static_cast<std::uint32_t>(seed >> 32));
+  }
   words.insert(words.end(), kind.begin(), kind.end());
   std::seed_seq sequence(words.begin(), words.end());
   return std::mt19937_64(sequence);
+}
+
+}  // namespace
+
+std::mt19937_64 EffectSite::Random(const std::string& kind) const {
+  return Stream({context->seed, static_cast<std::uint64_t>(joint + 1)}, kind);
+}
+
+std::mt19937_64 EffectSite::RandomInTime(const std::string& kind) const {
+  return Stream(
+      {context->seed, static_cast<std::uint64_t>(joint + 1), context->run},
+      kind);
 }
 
 void EffectSite::AddFriction(const JointTorque& torque,

@@ -24,6 +24,7 @@ struct EffectContext {
   // Share of its speed within which a joint's friction changes sign.
   double zero_velocity = .005;
   std::uint64_t seed = 0;  // of whatever an effect draws when applied
+  std::uint64_t run = 0;   // of what differs from one log to the next
 };
 // From the rigid robot at random states of 1 rad/s and 3 rad/s^2 (0.3 m/s and
 // 0.9 m/s^2), and its joint friction.
@@ -70,8 +71,10 @@ struct EffectSite {
   std::string effort_unit() const { return EffortUnit(type()); }
   std::string position_unit() const { return PositionUnit(type()); }
   double moving_mass() const;  // kg, of the driven links
-  // Of its own for each kind and joint.
+  // Of its own for each kind and joint: for what stays as it is, and for what
+  // comes and goes in time, which no two logs have alike.
   std::mt19937_64 Random(const std::string& kind) const;
+  std::mt19937_64 RandomInTime(const std::string& kind) const;
   // A law on this joint: friction, whose power warms it, or another torque.
   void AddFriction(const JointTorque& torque,
                    const Eigen::VectorXd& initial_state = {}) const;

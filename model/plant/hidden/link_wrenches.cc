@@ -43,7 +43,7 @@ HiddenEffect ExternalContact() {
             const double F = site.p[0] * 9.81 * site.moving_mass();
             const double t0 = site.p[1] * site.context->duration;
             const double width = site.p[2];
-            std::mt19937_64 random = site.Random("external_contact");
+            std::mt19937_64 random = site.RandomInTime("external_contact");
             const Vector3d force = F * DrawDirection(&random);
             site.robot->wrenches.push_back(
                 {Tool(*site.robot), nullptr, 0,

@@ -24,17 +24,27 @@ void CheckFits(const ChosenEffect& effect, const SimulatedRobot& robot,
 
 }  // namespace
 
-ScenarioRun RunScenario(const Scenario& scenario) {
-  ScenarioRun result;
-  result.robot = VaryRobot(scenario.model, scenario.robot_error, scenario.seed);
+SimulatedRobot TrueRobot(const Scenario& scenario) {
   SimulatedRobot robot;
-  robot.robot = result.robot;
-  EffectContext context = TypicalContext(scenario.model, scenario.seed);
-  context.duration = scenario.motion.duration;
-  // Friction first: it is the arm's own, and effects that put joints under the
-  // base know how to move it.
+  robot.robot = VaryRobot(scenario.model, scenario.robot_error, scenario.seed);
+  // The arm's own; effects that put joints under the base know how to move it.
   AddJointFriction(scenario.zero_velocity, &robot);
+  return robot;
+}
+
+EffectContext ContextOf(const Scenario& scenario) {
+  EffectContext context = TypicalContext(scenario.model, scenario.seed);
+  context.run = scenario.run;
+  context.duration = scenario.motion.duration;
   context.zero_velocity = scenario.zero_velocity;
+  return context;
+}
+
+ScenarioRun RunScenario(const Scenario& scenario) {
+  SimulatedRobot robot = TrueRobot(scenario);
+  const EffectContext context = ContextOf(scenario);
+  ScenarioRun result;
+  result.robot = robot.robot;
   result.effects.resize(scenario.effects.size());
   for (const bool changes_robot : {true, false}) {
     for (size_t k = 0; k < scenario.effects.size(); ++k) {

@@ -28,7 +28,12 @@ struct Scenario {
   ReferenceMotion motion;
   ClosedLoopOptions loop;
   uint64_t seed = 0;  // of the robot's errors and of what effects draw
+  uint64_t run = 0;   // of what effects draw anew for each log of that robot
 };
+
+// The robot without its effects, and what their sizes are relative to.
+SimulatedRobot TrueRobot(const Scenario& scenario);
+EffectContext ContextOf(const Scenario& scenario);
 
 struct AppliedEffect {
   std::string name;

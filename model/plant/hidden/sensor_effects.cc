@@ -40,7 +40,7 @@ HiddenEffect WanderingEncoder() {
           {{"wander", "1", .002, 3e-4, .005, Draw::kLog}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double A = site.p[0] * site.radian();
-            std::mt19937_64 random = site.Random("wandering_encoder");
+            std::mt19937_64 random = site.RandomInTime("wandering_encoder");
             const RandomSignal wander(.03, .5, &random);
             const int k = site.from_tip();
             site.robot->sensors.push_back(

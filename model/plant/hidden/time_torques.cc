@@ -44,7 +44,7 @@ HiddenEffect Vibration() {
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double A = site.p[0] * site.torque();
             const double omega = kTwoPi * site.p[1];
-            std::mt19937_64 random = site.Random("vibration");
+            std::mt19937_64 random = site.RandomInTime("vibration");
             const double phase = DrawUniform(0, kTwoPi, &random);
             const RandomSignal wander(.02, .2, &random);
             site.AddTorque([=](const ArmInstant& at, const double*, double*) {
@@ -64,7 +64,7 @@ HiddenEffect RandomTorque() {
           {{"torque", "1", .05, .01, .2, Draw::kLog}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double A = site.p[0] * site.torque();
-            std::mt19937_64 random = site.Random("random_torque");
+            std::mt19937_64 random = site.RandomInTime("random_torque");
             const RandomSignal signal(.05, 5, &random);
             site.AddTorque([=](const ArmInstant& at, const double*, double*) {
               return A * signal(at.t);

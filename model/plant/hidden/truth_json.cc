@@ -88,6 +88,7 @@ json TruthJson(const Scenario& scenario, const ScenarioRun& run) {
     effects.push_back(EffectJson(effect, run.robot));
   }
   return {{"seed", scenario.seed},
+          {"run", scenario.run},
           {"robot", run.robot.name},
           {"robot_error", scenario.robot_error},
           {"zero_velocity", scenario.zero_velocity},
