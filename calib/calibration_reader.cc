@@ -4,9 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "calib/arm_unknowns.h"
+#include "calib/json_value.h"
 #include "model/arm_geometry.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
@@ -16,80 +16,8 @@
 namespace armcal {
 namespace {
 
-using nlohmann::json;
-
-constexpr long kMostBytes = 100'000'000;
 constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
                                 JointTerm::kOffset, JointTerm::kArmature};
-
-// A value of the file and the key it stands at.
-class Value {
- public:
-  Value(const std::string& file, const std::string& key, const json& value)
-      : file_(file), key_(key), value_(value) {}
-
-  const std::string& file() const { return file_; }
-  [[noreturn]] void Refuse(const std::string& expected) const {
-    std::string text =
-        value_.dump(-1, ' ', false, json::error_handler_t::replace);
-    throw InputError(file_, key_.empty() ? "" : "key " + key_,
-                     std::string(OneLine(text)), expected);
-  }
-  bool Has(const std::string& key) const {
-    return value_.is_object() && value_.contains(key);
-  }
-  Value At(const std::string& key) const {
-    if (!value_.is_object()) Refuse("expected an object");
-    const std::string path = key_.empty() ? key : key_ + "." + key;
-    if (!value_.contains(key)) {
-      throw InputError(file_, "key " + path, "",
-                       "is missing; expected a calibration.json of armcal "
-                       "calibrate");
-    }
-    return Value(file_, path, value_.at(key));
-  }
-  std::vector<Value> Entries() const {
-    if (!value_.is_array()) Refuse("expected a list");
-    std::vector<Value> entries;
-    for (size_t k = 0; k < value_.size(); ++k) {
-      entries.emplace_back(file_, key_ + "[" + std::to_string(k) + "]",
-                           value_[k]);
-    }
-    return entries;
-  }
-  std::string Text() const {
-    if (!value_.is_string()) Refuse("expected a text");
-    return value_.get<std::string>();
-  }
-  double Number() const {
-    if (!value_.is_number() || !std::isfinite(value_.get<double>())) {
-      Refuse("expected a finite number");
-    }
-    return value_.get<double>();
-  }
-  bool Bool() const {
-    if (!value_.is_boolean()) Refuse("expected true or false");
-    return value_.get<bool>();
-  }
-  void Expect(const std::string& text, const std::string& why) const {
-    if (Text() != text) Refuse("expected '" + text + "'" + why);
-  }
-
- private:
-  const std::string& file_;
-  std::string key_;
-  const json& value_;
-};
-
-json Parse(const std::string& path) {
-  const std::string text = ReadTextFile(path, kMostBytes);
-  try {
-    return json::parse(text);
-  } catch (const json::parse_error& error) {
-    throw InputError(path, "byte " + std::to_string(error.byte), "",
-                     "expected JSON, as armcal calibrate writes it");
-  }
-}
 
 // A number of the robot that a file may set.
 struct Slot {
@@ -150,14 +78,14 @@ bool SameNumber(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)) + 1e-12;
 }
 
-void Check(const Value& root, const Robot& robot) {
+void Check(const JsonValue& root, const Robot& robot) {
   root.At("format").Expect("armcal calibration 1",
                            ", the format this version reads");
   const std::string other =
       ", the robot of --robot: this is a calibration of another robot";
   root.At("robot").Expect(robot.name, other);
-  const Value joints = root.At("joints");
-  const std::vector<Value> entries = joints.Entries();
+  const JsonValue joints = root.At("joints");
+  const std::vector<JsonValue> entries = joints.Entries();
   if (static_cast<int>(entries.size()) != robot.num_joints()) {
     joints.Refuse("expected " + std::to_string(robot.num_joints()) +
                   " joints, as the robot of --robot has");
@@ -165,7 +93,7 @@ void Check(const Value& root, const Robot& robot) {
   for (int j = 0; j < robot.num_joints(); ++j) {
     entries[j].At("name").Expect(robot.links[j].joint.name, other);
   }
-  const Value estimate = root.At("estimate");
+  const JsonValue estimate = root.At("estimate");
   if (estimate.Text() != "refined") {
     estimate.Refuse(
         "expected 'refined': a simulation needs links that can exist; run "
@@ -174,14 +102,14 @@ void Check(const Value& root, const Robot& robot) {
   }
 }
 
-std::vector<CoulombTransition> ReadTransitions(const Value& root,
+std::vector<CoulombTransition> ReadTransitions(const JsonValue& root,
                                                const Robot& robot) {
   using Law = CoulombTransition::Law;
   std::vector<CoulombTransition> transitions(robot.num_joints());
-  const std::vector<Value> joints = root.At("joints").Entries();
+  const std::vector<JsonValue> joints = root.At("joints").Entries();
   for (int j = 0; j < robot.num_joints(); ++j) {
     if (!joints[j].Has("coulomb_transition")) continue;  // without friction
-    const Value entry = joints[j].At("coulomb_transition");
+    const JsonValue entry = joints[j].At("coulomb_transition");
     const std::string law = entry.At("law").Text();
     if (law != "velocity" && law != "displacement") {
       entry.At("law").Refuse("expected 'velocity' or 'displacement'");
@@ -198,10 +126,10 @@ std::vector<CoulombTransition> ReadTransitions(const Value& root,
 }
 
 // With the lengths that the linear calibration recovered.
-Robot WithLengthsOf(const Value& root, const Robot& nominal) {
+Robot WithLengthsOf(const JsonValue& root, const Robot& nominal) {
   const std::vector<Length> known = MakeProximalChain(nominal).lengths;
   std::vector<Length> lengths;
-  for (const Value& entry : root.At("geometry").Entries()) {
+  for (const JsonValue& entry : root.At("geometry").Entries()) {
     if (!entry.Has("symbol")) continue;
     const std::string symbol = entry.At("symbol").Text();
     const auto length =
@@ -225,8 +153,8 @@ bool BelongsToPoses(const std::string& name) {
   return false;
 }
 
-void SetFrom(const Value& entry, Slots* slots) {
-  const Value name = entry.At("name");
+void SetFrom(const JsonValue& entry, Slots* slots) {
+  const JsonValue name = entry.At("name");
   const auto slot = slots->find(name.Text());
   if (slot == slots->end()) {
     if (BelongsToPoses(name.Text())) return;
@@ -234,7 +162,7 @@ void SetFrom(const Value& entry, Slots* slots) {
   }
   if (slot->second.was_set) name.Refuse("expected every parameter only once");
   entry.At("unit").Expect(slot->second.unit, ", the unit of " + name.Text());
-  const Value prior = entry.At("prior");
+  const JsonValue prior = entry.At("prior");
   if (!SameNumber(prior.Number(), slot->second.nominal)) {
     prior.Refuse("expected " + NumberText(slot->second.nominal) +
                  ", what the robot file has for " + name.Text() +
@@ -244,7 +172,7 @@ void SetFrom(const Value& entry, Slots* slots) {
   slot->second.was_set = true;
 }
 
-Robot ReadRobotOf(const Value& root, const Robot& nominal) {
+Robot ReadRobotOf(const JsonValue& root, const Robot& nominal) {
   Robot robot = WithLengthsOf(root, nominal);
   ArmGeometry geometry(robot);
   const Eigen::VectorXd file = geometry.Values();
@@ -254,8 +182,8 @@ Robot ReadRobotOf(const Value& root, const Robot& nominal) {
   AddDynamics(&links, &robot, &slots);
   const Slots dynamics = slots;  // which all have to be there
   AddGeometry(geometry, &values, &slots);
-  const Value parameters = root.At("parameters");
-  for (const Value& entry : parameters.Entries()) SetFrom(entry, &slots);
+  const JsonValue parameters = root.At("parameters");
+  for (const JsonValue& entry : parameters.Entries()) SetFrom(entry, &slots);
   for (const auto& [name, slot] : dynamics) {
     if (slots.at(name).was_set) continue;
     throw InputError(root.file(), "key parameters", "",
@@ -281,8 +209,8 @@ bool CalibratedRobot::Saw(const std::string& log,
 }
 
 CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal) {
-  const json parsed = Parse(path);
-  const Value root(path, "", parsed);
+  const nlohmann::json parsed = ReadJson(path);
+  const JsonValue root(path, "", parsed);
   Check(root, nominal);
   CalibratedRobot result;
   result.transitions = ReadTransitions(root, nominal);
@@ -292,7 +220,7 @@ CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal) {
     root.At("bandwidth_hz").Refuse("expected a frequency in Hz, or 0");
   }
   result.converged = root.At("refined").At("converged").Bool();
-  for (const Value& log : root.At("logs").Entries()) {
+  for (const JsonValue& log : root.At("logs").Entries()) {
     result.logs.push_back(log.At("file").Text());
     result.log_ranges.push_back(
         {log.At("begin_s").Number(), log.At("end_s").Number()});

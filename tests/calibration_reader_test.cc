@@ -101,62 +101,76 @@ TEST(ReadCalibration, RecoveredLengthsComeBack) {
 }
 
 // Each change of a good file is refused, with the key.
-TEST(ReadCalibration, Refusals) {
-  BentArm arm("3R elbow", 4);
-  const Written good = CalibrateAndWrite(&arm, GeometryKnowledge::kKnown,
-                                         RefineGeometry::kNothing, nullptr);
-  const auto refusal = [&good](const std::function<void(json*)>& change) {
-    Written changed = good;
-    change(&changed.calibration);
-    const std::string path =
-        WriteFile(changed.calibration.dump(), "changed.json");
+class ChangedCalibration : public testing::Test {
+ protected:
+  ChangedCalibration()
+      : arm_("3R elbow", 4),
+        good_(CalibrateAndWrite(&arm_, GeometryKnowledge::kKnown,
+                                RefineGeometry::kNothing, nullptr)) {}
+
+  std::string RefusalAfter(const std::function<void(json*)>& change) {
+    json changed = good_.calibration;
+    change(&changed);
+    const std::string path = WriteFile(changed.dump(), "changed.json");
     return MessageOf<InputError>(path,
-                                 [&] { ReadCalibration(path, changed.file); });
-  };
-  const auto set = [&refusal](const std::string& pointer, const json& value) {
-    return refusal([&](json* c) { (*c)[json::json_pointer(pointer)] = value; });
-  };
-  EXPECT_EQ(refusal([](json*) {}), "");
-  EXPECT_EQ(set("/format", "armcal verification 1"),
+                                 [&] { ReadCalibration(path, good_.file); });
+  }
+  std::string RefusalOf(const std::string& pointer, const json& value) {
+    return RefusalAfter(
+        [&](json* c) { (*c)[json::json_pointer(pointer)] = value; });
+  }
+
+  BentArm arm_;
+  Written good_;
+};
+
+TEST_F(ChangedCalibration, OfAnotherRobotOrKind) {
+  EXPECT_EQ(RefusalAfter([](json*) {}), "");
+  EXPECT_EQ(RefusalOf("/format", "armcal verification 1"),
             "FILE: key format: found '\"armcal verification 1\"': expected "
             "'armcal calibration 1', the format this version reads");
-  EXPECT_THAT(set("/robot", "ur5"),
+  EXPECT_THAT(RefusalOf("/robot", "ur5"),
               AllOf(HasSubstr("key robot: found '\"ur5\"'"),
                     HasSubstr("a calibration of another robot")));
-  EXPECT_THAT(set("/joints/1/name", "elbow"),
+  EXPECT_THAT(RefusalOf("/joints/1/name", "elbow"),
               AllOf(HasSubstr("key joints[1].name"), HasSubstr("'joint2'")));
-  EXPECT_THAT(refusal([](json* c) { (*c)["joints"].erase(2); }),
+  EXPECT_THAT(RefusalAfter([](json* c) { (*c)["joints"].erase(2); }),
               HasSubstr("expected 3 joints"));
-  EXPECT_THAT(set("/estimate", "linear"),
+  EXPECT_THAT(RefusalOf("/estimate", "linear"),
               HasSubstr("run armcal calibrate --estimate=refined"));
-  EXPECT_THAT(set("/parameters/0/prior", 77),
+}
+
+TEST_F(ChangedCalibration, ParametersAndFriction) {
+  EXPECT_THAT(RefusalOf("/parameters/0/prior", 77),
               AllOf(HasSubstr("key parameters[0].prior: found '77'"),
                     HasSubstr("what the robot file has for link1.mass")));
-  EXPECT_THAT(set("/parameters/0/unit", "g"),
+  EXPECT_THAT(RefusalOf("/parameters/0/unit", "g"),
               HasSubstr("expected 'kg', the unit of link1.mass"));
-  EXPECT_THAT(set("/parameters/3/value", nullptr),
+  EXPECT_THAT(RefusalOf("/parameters/3/value", nullptr),
               AllOf(HasSubstr("key parameters[3].value: found 'null'"),
                     HasSubstr("expected a finite number")));
-  EXPECT_THAT(set("/parameters/3/value", "2"), HasSubstr("a finite number"));
-  EXPECT_THAT(set("/parameters/3/name", "link9.mass"),
+  EXPECT_THAT(RefusalOf("/parameters/3/value", "2"),
+              HasSubstr("a finite number"));
+  EXPECT_THAT(RefusalOf("/parameters/3/name", "link9.mass"),
               HasSubstr("expected a parameter of the robot of --robot"));
-  EXPECT_THAT(set("/parameters/3/name", "link1.mass"),
+  EXPECT_THAT(RefusalOf("/parameters/3/name", "link1.mass"),
               HasSubstr("expected every parameter only once"));
-  EXPECT_THAT(refusal([](json* c) { (*c)["parameters"].erase(3); }),
+  EXPECT_THAT(RefusalAfter([](json* c) { (*c)["parameters"].erase(3); }),
               HasSubstr("key parameters: expected an entry for link1.hz"));
-  EXPECT_THAT(refusal([](json* c) { c->erase("parameters"); }),
+  EXPECT_THAT(RefusalAfter([](json* c) { c->erase("parameters"); }),
               HasSubstr("key parameters: is missing"));
-  EXPECT_THAT(set("/parameters", 3), HasSubstr("expected a list"));
-  EXPECT_THAT(set("/joints/0/coulomb_transition/width", 0),
+  EXPECT_THAT(RefusalOf("/parameters", 3), HasSubstr("expected a list"));
+  EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/width", 0),
               HasSubstr("expected a width above 0"));
-  EXPECT_THAT(set("/joints/0/coulomb_transition/law", "sign"),
+  EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/law", "sign"),
               HasSubstr("expected 'velocity' or 'displacement'"));
-  EXPECT_THAT(set("/joints/0/coulomb_transition/unit", "m/s"),
+  EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/unit", "m/s"),
               HasSubstr("expected 'rad/s'"));
-  EXPECT_THAT(set("/bandwidth_hz", -1), HasSubstr("expected a frequency"));
-  EXPECT_THAT(set("/refined/converged", 1),
+  EXPECT_THAT(RefusalOf("/bandwidth_hz", -1),
+              HasSubstr("expected a frequency"));
+  EXPECT_THAT(RefusalOf("/refined/converged", 1),
               HasSubstr("expected true or false"));
-  EXPECT_THAT(set("", json::array()), HasSubstr("expected an object"));
+  EXPECT_THAT(RefusalOf("", json::array()), HasSubstr("expected an object"));
 }
 
 TEST(ReadCalibration, TextThatIsNoJson) {

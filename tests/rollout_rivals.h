@@ -21,8 +21,7 @@ namespace armcal {
 inline std::vector<Eigen::MatrixXd> TermRows(
     const Robot& robot, const std::vector<CoulombTransition>& transitions,
     const std::vector<JointTerm>& terms, double bandwidth_hz, LogSet* logs) {
-  const int n = robot.num_joints();
-  const int m = static_cast<int>(terms.size());
+  const int n = robot.num_joints(), m = static_cast<int>(terms.size());
   std::vector<JointTermColumn> coulomb;
   for (int j = 0; j < n; ++j) {
     coulomb.push_back({j, JointTerm::kCoulomb, transitions[j]});

@@ -22,8 +22,7 @@ DEFINE_string(calibration, "",
 namespace armcal {
 namespace {
 
-double BandwidthFor(const std::optional<CalibratedRobot>& calibrated,
-                    const LogSet& logs) {
+double BandwidthFor(const CalibratedRobot* calibrated, const LogSet& logs) {
   const std::optional<double> given = BandwidthFromFlags();
   if (given) return *given;
   return calibrated ? calibrated->bandwidth_hz
@@ -52,6 +51,34 @@ std::optional<ClosedLoopComparison> CloseLoop(
   return CompareClosedLoop(file, calibrated, controller, logs[0], log);
 }
 
+int Finish(const Robot& file, const VerificationReport& report) {
+  OutputFolder out(OutFromFlags());
+  out.Add("verification.json", ToJson(report).dump(2) + "\n");
+  out.Write();
+  for (const std::string& note : file.notes) {
+    std::cout << "note       " << note << "\n";
+  }
+  std::cout << FullReport(report);
+  return report.passed() ? kExitOk : kExitNegative;
+}
+
+// What logs say, where there are any.
+void VerifyOnLogs(const Robot& file, const CalibratedRobot* calibrated,
+                  const VerificationOptions& options,
+                  VerificationReport* report) {
+  report->logs = LogsFromFlags();
+  LogSet logs(report->logs, LogOptionsFromFlags(file), CropFromFlags());
+  if (calibrated != nullptr) report->seen_logs = SeenLogs(*calibrated, logs);
+  logs.Prepare(BandwidthFor(calibrated, logs), 0);
+  report->verification = Verify(report->robot, options, &logs);
+  RolloutOptions rollouts;
+  rollouts.progress = options.progress;
+  report->rollouts = CompareRollouts(file, calibrated, rollouts,
+                                     logs.bandwidth_hz(), report->seed, &logs);
+  if (FLAGS_controller.empty()) return;
+  report->closed_loop = CloseLoop(file, calibrated, report->logs);
+}
+
 int RunVerify() {
   if (!FLAGS_controller.empty() && LogsFromFlags().size() != 1) {
     throw UsageError("--controller follows the command of one log: --log=FILE");
@@ -70,33 +97,12 @@ int RunVerify() {
   options.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
   };
-  std::optional<LogSet> logs;
-  if (!FLAGS_log.empty()) {
-    report.logs = LogsFromFlags();
-    logs.emplace(report.logs, LogOptionsFromFlags(file), CropFromFlags());
-    if (calibrated) report.seen_logs = SeenLogs(*calibrated, *logs);
-    logs->Prepare(BandwidthFor(calibrated, *logs), 0);
+  if (FLAGS_log.empty()) {
+    report.verification = Verify(report.robot, options, nullptr);
+  } else {
+    VerifyOnLogs(file, calibrated ? &*calibrated : nullptr, options, &report);
   }
-  report.verification = Verify(report.robot, options, logs ? &*logs : nullptr);
-  if (logs) {
-    RolloutOptions rollouts;
-    rollouts.progress = options.progress;
-    report.rollouts =
-        CompareRollouts(file, calibrated ? &*calibrated : nullptr, rollouts,
-                        logs->bandwidth_hz(), report.seed, &*logs);
-  }
-  if (!FLAGS_controller.empty()) {
-    report.closed_loop =
-        CloseLoop(file, calibrated ? &*calibrated : nullptr, report.logs);
-  }
-  OutputFolder out(OutFromFlags());
-  out.Add("verification.json", ToJson(report).dump(2) + "\n");
-  out.Write();
-  for (const std::string& note : file.notes) {
-    std::cout << "note       " << note << "\n";
-  }
-  std::cout << FullReport(report);
-  return report.passed() ? kExitOk : kExitNegative;
+  return Finish(file, report);
 }
 
 }  // namespace
