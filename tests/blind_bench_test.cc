@@ -15,6 +15,7 @@ BlindCase RichCase(const std::string& arm) {
   for (uint64_t seed = 0;; ++seed) {
     BlindCase blind = DrawBlindCase(seed);
     if (blind.arm != arm || blind.excitation != Excitation::kRich) continue;
+    if (blind.points) continue;
     blind.has_reference = false;
     return blind;
   }

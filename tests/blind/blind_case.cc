@@ -149,6 +149,7 @@ BlindCase DrawBlindCase(uint64_t seed, uint32_t attempt) {
   blind.trust = LogUniform(&random, .01, .06);
   blind.has_reference = Uniform(&random, 0, 1) < .4;
   blind.excitation = DrawExcitation(&random);
+  blind.points = Uniform(&random, 0, 1) < .25;
   blind.zero_velocity = LogUniform(&random, .003, .012);
   blind.sensors = DrawSensors(blind.robot, &random);
   blind.effects = DrawEffects(blind.robot, &random);
@@ -162,8 +163,13 @@ Scenario BlindScenario(const BlindCase& blind, BlindLog log,
   scenario.robot_error = blind.trust;
   scenario.zero_velocity = blind.zero_velocity;
   scenario.effects = effects;
+  // What is held out is a motion of the other kind.
+  const bool points = blind.points != (log == BlindLog::kValidation);
+  const MotionOptions motion = Motion(blind, log);
   scenario.motion =
-      WithStandstill(FourierMotion(blind.robot, Motion(blind, log)), 3, 1);
+      WithStandstill(points ? PointToPointMotion(blind.robot, motion)
+                            : FourierMotion(blind.robot, motion),
+                     3, 1);
   scenario.loop.controller = DefaultController(
       blind.robot, scenario.motion.at(0).q, kUsualBandwidthHz);
   scenario.loop.sensors = blind.sensors;

@@ -33,6 +33,7 @@ struct BlindCase {
   double trust = .03;          // relative error of the robot file
   bool has_reference = false;  // a log of the robot before the effects
   Excitation excitation = Excitation::kRich;
+  bool points = false;  // moves between points, not Fourier motion
   double zero_velocity = .005;  // rad/s
   std::vector<ChosenEffect> effects;
   SensorOptions sensors;

@@ -49,6 +49,7 @@ json Label(const BlindCase& blind, const ScenarioRun& training) {
       BlindScenario(blind, BlindLog::kTraining, blind.effects), training);
   label["arm"] = blind.arm;
   label["excitation"] = ExcitationName(blind.excitation);
+  label["motion"] = blind.points ? "points" : "fourier";
   const std::vector<EffectSize> sizes = EffectSizes(blind);
   for (size_t k = 0; k < sizes.size(); ++k) {
     json& entry = label["effects"][k];
