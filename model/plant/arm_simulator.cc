@@ -25,90 +25,42 @@ ArmSimulator::ArmSimulator(const SimulatedRobot& robot,
       dynamics_(dynamics),
       step_(options.step),
       begin_time_(options.begin),
-      n_(robot.robot.num_joints()) {
+      n_(robot.robot.num_joints()),
+      layout_(robot) {
   CHECK_EQ(dynamics->num_joints(), n_);
   CHECK_EQ(q0.size(), n_);
   CHECK_GT(step_, 0);
-  SetLayout();
-  SetInitialState(q0);
+  CHECK(robot.thermal.empty() ||
+        robot.thermal.size() == static_cast<size_t>(n_));
+  SetArmature();
+  for (const WrenchLaw& law : robot.wrenches) {
+    attachments_.push_back(law.attachment);
+  }
+  dynamics->Evaluate(q0, Eigen::VectorXd::Zero(n_), attachments_, &end_);
+  x_ = layout_.StateAtRest(robot, q0, end_);
+  instant_.load = end_.bias;
+  qdd_ = commanded_ = Eigen::VectorXd::Zero(n_);
+  ReadInstant(x_, begin_time_);
   substeps_ = options.substeps > 0 ? options.substeps : NeededSubsteps();
 }
 
-void ArmSimulator::SetLayout() {
-  CHECK(robot_.thermal.empty() ||
-        robot_.thermal.size() == static_cast<size_t>(n_));
+void ArmSimulator::SetArmature() {
   armature_.resize(n_);
-  transmission_of_.assign(n_, -1);
   for (int j = 0; j < n_; ++j) {
     armature_[j] = robot_.robot.links[j].joint.armature;
   }
   rigid_armature_ = armature_;
-  for (size_t k = 0; k < robot_.transmissions.size(); ++k) {
-    const int j = robot_.transmissions[k].joint;
-    CHECK_EQ(transmission_of_[j], -1) << "two transmissions on one joint";
-    transmission_of_[j] = static_cast<int>(k);
+  for (const Transmission& transmission : robot_.transmissions) {
+    const int j = transmission.joint;
+    if (armature_[j] <= 0) {
+      throw InputError(robot_.robot.name,
+                       "joint " + robot_.robot.links[j].joint.name, "",
+                       "a transmission that yields needs the motor's own "
+                       "inertia: give the joint an armature above 0");
+    }
+    CHECK_GT(rigid_armature_[j], 0) << "two transmissions on one joint";
     rigid_armature_[j] = 0;
-    if (armature_[j] > 0) continue;
-    throw InputError(robot_.robot.name,
-                     "joint " + robot_.robot.links[j].joint.name, "",
-                     "a transmission that yields needs the motor's own "
-                     "inertia: give the joint an armature above 0");
   }
-  int size = 2 * n_;
-  const auto place = [&size](const auto& laws, int* begin, auto num_states) {
-    *begin = size;
-    for (const auto& law : laws) size += num_states(law);
-  };
-  const auto of_vector = [](const auto& law) {
-    return static_cast<int>(law.initial_state.size());
-  };
-  place(robot_.transmissions, &layout_.motors, [](const auto&) { return 2; });
-  place(robot_.joint_laws, &layout_.joint_laws, of_vector);
-  place(robot_.transmissions, &layout_.transmissions, of_vector);
-  place(robot_.wrenches, &layout_.wrenches,
-        [](const WrenchLaw& law) { return law.num_states; });
-  place(robot_.actuators, &layout_.actuators, of_vector);
-  layout_.temperature = size;
-  layout_.size = size + n_;
-  for (const WrenchLaw& law : robot_.wrenches) {
-    attachments_.push_back(law.attachment);
-  }
-}
-
-void ArmSimulator::SetInitialState(const Eigen::VectorXd& q0) {
-  dynamics_->Evaluate(q0, Eigen::VectorXd::Zero(n_), attachments_, &end_);
-  x_ = Eigen::VectorXd::Zero(layout_.size);
-  x_.head(n_) = q0;
-  instant_.load = end_.bias;
-  int transmission = layout_.transmissions;
-  for (size_t k = 0; k < robot_.transmissions.size(); ++k) {
-    const Transmission& law = robot_.transmissions[k];
-    const double load = end_.bias[law.joint];
-    const double k0 = law.initial_stiffness;
-    x_[layout_.motors + 2 * k] = q0[law.joint] + (k0 > 0 ? load / k0 : 0);
-    x_.segment(transmission, law.initial_state.size()) = law.initial_state;
-    transmission += law.initial_state.size();
-  }
-  int at = layout_.joint_laws;
-  for (const JointLaw& law : robot_.joint_laws) {
-    x_.segment(at, law.initial_state.size()) = law.initial_state;
-    at += law.initial_state.size();
-  }
-  at = layout_.wrenches;
-  for (size_t k = 0; k < robot_.wrenches.size(); ++k) {
-    const WrenchLaw& law = robot_.wrenches[k];
-    if (law.num_states == 0) continue;
-    x_.segment(at, law.num_states) = law.initial_state(end_.points[k].X_WP);
-    at += law.num_states;
-  }
-  at = layout_.actuators;
-  for (const ActuatorMap& map : robot_.actuators) {
-    x_.segment(at, map.initial_state.size()) = map.initial_state;
-    at += map.initial_state.size();
-  }
-  qdd_ = Eigen::VectorXd::Zero(n_);
-  commanded_ = Eigen::VectorXd::Zero(n_);
-  ReadInstant(x_, begin_time_);
 }
 
 void ArmSimulator::ReadInstant(const Eigen::VectorXd& x, double t) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "model/arm_dynamics.h"
+#include "model/plant/simulator_layout.h"
 #include "model/simulated_robot.h"
 
 namespace armcal {
@@ -34,21 +35,10 @@ class ArmSimulator {
   void Step(const Eigen::VectorXd& commanded);
 
   const ArmInstant& instant() const { return instant_; }
-  const Eigen::VectorXd& link_acceleration() const { return qdd_; }
-  int substeps() const { return substeps_; }
   bool finite() const { return x_.allFinite(); }
 
  private:
-  // Where things are in the state vector.
-  struct Layout {
-    int motors = 0;  // position and velocity of each transmission's motor
-    int joint_laws = 0, transmissions = 0, wrenches = 0, actuators = 0;
-    int temperature = 0;
-    int size = 0;
-  };
-
-  void SetLayout();
-  void SetInitialState(const Eigen::VectorXd& q0);
+  void SetArmature();
   int NeededSubsteps();
   double Stiffness();
   void ReadInstant(const Eigen::VectorXd& x, double t);
@@ -65,11 +55,10 @@ class ArmSimulator {
   double step_, begin_time_;
   int substeps_;
   int n_;
-  std::vector<int> transmission_of_;  // per joint, -1: rigid
   std::vector<Attachment> attachments_;
   Eigen::VectorXd armature_;        // n
   Eigen::VectorXd rigid_armature_;  // of joints without a transmission
-  Layout layout_;
+  SimulatorLayout layout_;
 
   long step_index_ = 0;
   Eigen::VectorXd x_;
