@@ -72,16 +72,14 @@ std::vector<int> MovingJoints(int n) {
   return joints;
 }
 
-// Of what differs from log to log.
-uint64_t RunSeed() { return SeedFromFlags() + (FLAGS_run << 32); }
-
 ReferenceMotion MotionFromFlags(const Robot& robot) {
   MotionOptions options;
   options.duration = Positive("duration", FLAGS_duration);
   options.size = NotNegative("size", FLAGS_size, 1);
   options.speed = NotNegative("speed", FLAGS_speed, 1);
   options.joints = MovingJoints(robot.num_joints());
-  options.seed = RunSeed();
+  options.seed = SeedFromFlags();
+  options.run = FLAGS_run;
   const double rest = NotNegative("standstill", FLAGS_standstill);
   if (FLAGS_motion == "fourier") {
     return WithStandstill(FourierMotion(robot, options), rest, rest);
@@ -111,7 +109,8 @@ SensorOptions SensorsFromFlags(const Robot& robot) {
   options.log_rate_hz = Positive("log_rate", FLAGS_log_rate);
   options.jitter = NotNegative("jitter", FLAGS_jitter, 1);
   options.lost_share = NotNegative("lost", FLAGS_lost, .5);
-  options.seed = RunSeed();
+  options.seed = SeedFromFlags();
+  options.run = FLAGS_run;
   return options;
 }
 

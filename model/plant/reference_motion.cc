@@ -5,6 +5,8 @@
 #include <memory>
 #include <random>
 
+#include "model/plant/random_stream.h"
+
 namespace armcal {
 
 namespace {
@@ -122,7 +124,8 @@ ReferenceMotion FourierMotion(const Robot& robot,
                               const MotionOptions& options) {
   const int n = robot.num_joints();
   const auto ranges = Ranges(robot, options);
-  std::mt19937_64 random(options.seed);
+  std::mt19937_64 random =
+      RandomStream(options.seed, options.run, RandomPurpose::kMotion);
   std::uniform_real_distribution<double> uniform(0, 1);
   auto motion = std::make_shared<Fourier>();
   motion->duration = options.duration;
@@ -157,7 +160,8 @@ ReferenceMotion PointToPointMotion(const Robot& robot,
   constexpr double kPeakSpeed = 1.875;  // of a quintic, over the mean
   const int n = robot.num_joints();
   const auto ranges = Ranges(robot, options);
-  std::mt19937_64 random(options.seed);
+  std::mt19937_64 random =
+      RandomStream(options.seed, options.run, RandomPurpose::kMotion);
   std::uniform_real_distribution<double> uniform(-1, 1);
   auto moves = std::make_shared<std::vector<Move>>();
   Eigen::VectorXd at(n);

@@ -24,7 +24,8 @@ struct MotionOptions {
   // Of each joint's speed: its limit, at most 2 rad/s or 0.5 m/s.
   double speed = 1;
   std::vector<int> joints;  // that move, from 0; empty: all
-  uint64_t seed = 0;
+  uint64_t seed = 0;        // of the robot
+  uint64_t run = 0;         // which of its motions
 };
 
 // Five harmonics of a base frequency of 0.1 Hz, random amplitudes and phases, a

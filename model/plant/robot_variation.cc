@@ -3,6 +3,8 @@
 #include <cmath>
 #include <random>
 
+#include "model/plant/random_stream.h"
+
 namespace armcal {
 
 namespace {
@@ -32,7 +34,7 @@ InertialParameters FromPseudoInertia(const Eigen::Matrix4d& J) {
 }  // namespace
 
 Robot VaryRobot(const Robot& robot, double share, uint64_t seed) {
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random = RandomStream(seed, 0, RandomPurpose::kRobot);
   std::normal_distribution<double> normal(0, share);
   const auto factor = [&] { return std::exp(normal(random)); };
   Robot varied = robot;

@@ -5,11 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/plant/random_stream.h"
+
 namespace armcal {
 
 namespace {
 
 constexpr int kLongestGap = 5;
+
+// That a gap begins at a sample, for a share of lost samples: with gaps of g
+// samples in the mean, g p of 1 - p + g p are lost.
+double GapProbability(double share) {
+  constexpr double kMeanGap = (1 + kLongestGap) / 2.;
+  return share / (kMeanGap - (kMeanGap - 1) * share);
+}
 
 Eigen::VectorXd OrZero(const Eigen::VectorXd& values, int n) {
   if (values.size() == 0) return Eigen::VectorXd::Zero(n);
@@ -26,17 +35,11 @@ Eigen::VectorXd Normals(int n, std::mt19937_64* random) {
 
 }  // namespace
 
-std::mt19937_64 NoiseStream(uint64_t seed, NoiseChannel channel) {
-  std::seed_seq sequence{static_cast<uint32_t>(seed),
-                         static_cast<uint32_t>(seed >> 32),
-                         static_cast<uint32_t>(channel)};
-  return std::mt19937_64(sequence);
-}
-
 Encoders::Encoders(const SensorOptions& options, int num_joints)
     : resolution_(OrZero(options.encoder_resolution, num_joints)),
       noise_(OrZero(options.encoder_noise, num_joints)),
-      random_(NoiseStream(options.seed, NoiseChannel::kEncoder)) {}
+      random_(
+          RandomStream(options.seed, options.run, RandomPurpose::kEncoder)) {}
 
 Eigen::VectorXd Encoders::Measure(const Eigen::VectorXd& position) {
   const int n = static_cast<int>(noise_.size());
@@ -55,8 +58,9 @@ TorqueNoise::TorqueNoise(const SensorOptions& options, int num_joints)
     : white_(OrZero(options.torque_noise, num_joints)),
       coloured_(OrZero(options.coloured_noise, num_joints)),
       correlation_(options.noise_correlation),
-      random_(NoiseStream(options.seed, NoiseChannel::kTorque)),
-      random_coloured_(NoiseStream(options.seed, NoiseChannel::kColoured)) {
+      random_(RandomStream(options.seed, options.run, RandomPurpose::kTorque)),
+      random_coloured_(
+          RandomStream(options.seed, options.run, RandomPurpose::kColoured)) {
   state_ = coloured_.cwiseProduct(Normals(num_joints, &random_coloured_));
 }
 
@@ -74,8 +78,9 @@ SamplingClock::SamplingClock(const SensorOptions& options, int periods,
     : periods_(periods),
       jitter_periods_(options.jitter * control_rate),
       lost_share_(options.lost_share),
-      random_(NoiseStream(options.seed, NoiseChannel::kJitter)),
-      random_loss_(NoiseStream(options.seed, NoiseChannel::kLoss)) {
+      random_(RandomStream(options.seed, options.run, RandomPurpose::kJitter)),
+      random_loss_(
+          RandomStream(options.seed, options.run, RandomPurpose::kLoss)) {
   Schedule();
 }
 
@@ -85,11 +90,9 @@ void SamplingClock::Schedule() {
   const long last = next_tick_;
   do {
     ++sample_;
-    // Gaps have 1 to 5 samples, 3 in the mean.
     if (lost_ > 0) {
       --lost_;
-    } else if (uniform(random_loss_) <
-               lost_share_ / ((1 + kLongestGap) / 2. * (1 - lost_share_))) {
+    } else if (uniform(random_loss_) < GapProbability(lost_share_)) {
       lost_ = static_cast<int>(uniform(random_loss_) * kLongestGap);
     } else {
       break;

@@ -18,13 +18,9 @@ struct SensorOptions {
   double log_rate_hz = 250;
   double jitter = 0;  // s, standard deviation of sampling instants; stamps tell
   double lost_share = 0;  // of the samples, in gaps of up to 5
-  uint64_t seed = 0;
+  uint64_t seed = 0;      // of the robot
+  uint64_t run = 0;       // which of its logs
 };
-
-// An independent stream of random numbers per channel of one simulation, so
-// that switching one effect on leaves the others' noise as it was.
-enum class NoiseChannel { kEncoder, kTorque, kColoured, kJitter, kLoss };
-std::mt19937_64 NoiseStream(uint64_t seed, NoiseChannel channel);
 
 // What encoders report of true positions: noise, then resolution.
 class Encoders {

@@ -1,12 +1,14 @@
 #include "tests/blind/blind_case.h"
 
+#include <glog/logging.h>
+#include <unistd.h>
+
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <random>
 
-#include "model/plant/robot_variation.h"
+#include "model/plant/random_stream.h"
 #include "model/robot_reader.h"
 #include "tests/blind/blind_arms.h"
 
@@ -27,8 +29,9 @@ int Pick(std::mt19937_64* random, int count) {
 
 Robot ReadYaml(const std::string& text, uint64_t seed) {
   namespace fs = std::filesystem;
-  const fs::path path = fs::temp_directory_path() /
-                        ("armcal_blind_" + std::to_string(seed) + ".yaml");
+  const fs::path path =
+      fs::temp_directory_path() / ("armcal_blind_" + std::to_string(seed) +
+                                   "_" + std::to_string(getpid()) + ".yaml");
   std::ofstream(path) << text;
   const Robot robot = ReadRobot(path, {});
   fs::remove(path);
@@ -104,8 +107,9 @@ SensorOptions DrawSensors(const Robot& robot, std::mt19937_64* random) {
 
 MotionOptions Motion(const BlindCase& blind, BlindLog log) {
   MotionOptions motion;
-  motion.duration = log == BlindLog::kValidation ? 20 : 42;
-  motion.seed = blind.seed + 1000 * static_cast<int>(log);
+  motion.duration = log == BlindLog::kValidation ? 20 : blind.training_s;
+  motion.seed = blind.seed;
+  motion.run = static_cast<uint64_t>(log);
   motion.size = blind.excitation == Excitation::kSmall ? .2 : .9;
   motion.speed = blind.excitation == Excitation::kSlow ? .16 : 1;
   if (blind.excitation == Excitation::kTwoJoints) {
@@ -118,10 +122,6 @@ MotionOptions Motion(const BlindCase& blind, BlindLog log) {
 
 }  // namespace
 
-const char* BlindSetName(BlindSet set) {
-  return set == BlindSet::kCalibration ? "calibration" : "evaluation";
-}
-
 const char* ExcitationName(Excitation excitation) {
   const char* const names[] = {"rich", "slow", "small", "two_joints"};
   return names[static_cast<int>(excitation)];
@@ -129,7 +129,8 @@ const char* ExcitationName(Excitation excitation) {
 
 uint64_t BlindCaseSeed(BlindSet set, uint32_t seed, uint32_t index) {
   const uint64_t bit = set == BlindSet::kEvaluation ? 1ull << 63 : 0;
-  return bit | (static_cast<uint64_t>(seed & 0x7fffffff) << 32) | index;
+  CHECK_LT(seed, 1u << 31);
+  return bit | (static_cast<uint64_t>(seed) << 32) | index;
 }
 
 bool Follows(const ClosedLoopRun& run) {
@@ -137,9 +138,7 @@ bool Follows(const ClosedLoopRun& run) {
 }
 
 BlindCase DrawBlindCase(uint64_t seed, uint32_t attempt) {
-  std::seed_seq sequence{static_cast<uint32_t>(seed),
-                         static_cast<uint32_t>(seed >> 32), attempt};
-  std::mt19937_64 random(sequence);
+  std::mt19937_64 random = RandomStream(seed, 0, RandomPurpose::kCase);
   BlindCase blind;
   blind.seed = seed;
   const auto& arms = BlindArmNames();
@@ -153,6 +152,11 @@ BlindCase DrawBlindCase(uint64_t seed, uint32_t attempt) {
   blind.zero_velocity = LogUniform(&random, .003, .012);
   blind.sensors = DrawSensors(blind.robot, &random);
   blind.effects = DrawEffects(blind.robot, &random);
+  if (attempt == 0) return blind;
+  random = RandomStream(seed, attempt, RandomPurpose::kCase);
+  for (ChosenEffect& effect : blind.effects) {
+    effect.parameters = DrawParameters(*effect.kind, &random);
+  }
   return blind;
 }
 
@@ -173,7 +177,8 @@ Scenario BlindScenario(const BlindCase& blind, BlindLog log,
   scenario.loop.controller = DefaultController(
       blind.robot, scenario.motion.at(0).q, kUsualBandwidthHz);
   scenario.loop.sensors = blind.sensors;
-  scenario.loop.sensors.seed = blind.seed + 7 * static_cast<int>(log);
+  scenario.loop.sensors.seed = blind.seed;
+  scenario.loop.sensors.run = static_cast<uint64_t>(log);
   scenario.seed = blind.seed;
   scenario.run = static_cast<uint64_t>(log);
   return scenario;

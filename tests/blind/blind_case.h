@@ -11,9 +11,8 @@ namespace armcal {
 // Calibration cases are for setting thresholds, evaluation cases for judging,
 // once. No seed of one is a seed of the other.
 enum class BlindSet { kCalibration, kEvaluation };
-const char* BlindSetName(BlindSet set);
-// Of case `index` of the set drawn with `seed`: the top bit tells the sets
-// apart.
+// Of case `index` of the set drawn with `seed` (below 2^31): the top bit tells
+// the sets apart.
 uint64_t BlindCaseSeed(BlindSet set, uint32_t seed, uint32_t index);
 
 enum class Excitation {
@@ -33,13 +32,14 @@ struct BlindCase {
   double trust = .03;          // relative error of the robot file
   bool has_reference = false;  // a log of the robot before the effects
   Excitation excitation = Excitation::kRich;
-  bool points = false;  // moves between points, not Fourier motion
+  bool points = false;          // moves between points, not Fourier motion
+  double training_s = 42;       // of motion in training and reference logs
   double zero_velocity = .005;  // rad/s
   std::vector<ChosenEffect> effects;
   SensorOptions sensors;
 };
 
-// `attempt`: another draw for the same seed, where the first was of no use.
+// `attempt`: the same case with the sizes of its effects drawn again.
 BlindCase DrawBlindCase(uint64_t seed, uint32_t attempt = 0);
 // Whether the arm follows its motion: a robot that does not would have stopped
 // with an error and left no log to diagnose.

@@ -3,10 +3,13 @@
 #include <glog/logging.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "model/inverse_dynamics.h"
 #include "model/low_pass.h"
+#include "tests/blind/residual_noise.h"
 
 namespace armcal {
 namespace {
@@ -44,7 +47,8 @@ Motion MotionOf(const Log& log) {
   };
   Motion motion;
   motion.rate = SensorOptions().log_rate_hz;
-  motion.q = log.q;
+  motion.q =
+      ZeroPhaseLowPass(log.q, motion.rate, kBandwidthHz, Ends::kExtrapolate);
   motion.qd = rate(motion.q);
   motion.qdd = rate(motion.qd);
   return motion;
@@ -155,37 +159,42 @@ MatrixXd Absorbing(const BlindCase& blind, const Motion& fine) {
   return columns;
 }
 
-// Standard deviation of each joint's noise after the filter.
-VectorXd NoiseSpread(const BlindCase& blind, double rate) {
-  const int n = blind.robot.num_joints();
-  TorqueNoise noise(blind.sensors, n);
-  MatrixXd samples(static_cast<int>(100 * rate), n);
-  for (int k = 0; k < samples.rows(); ++k) {
-    samples.row(k) = noise.Next(1 / rate);
-  }
-  const MatrixXd thin = Thin(samples, rate);
-  return (thin.colwise().squaredNorm() / thin.rows()).cwiseSqrt();
-}
-
 struct Run {
   MatrixXd residual;  // filtered, samples x joints, N m or N
   Motion motion;
 };
 
-Run Simulate(const BlindCase& blind, BlindLog log,
-             const std::vector<ChosenEffect>& effects) {
-  const ScenarioRun run = RunScenario(QuietScenario(blind, log, effects));
+// Nothing where the arm does not follow.
+std::optional<Run> Simulate(const BlindCase& blind, const Scenario& scenario) {
+  const ScenarioRun run = RunScenario(scenario);
+  if (!Follows(run.run)) return std::nullopt;
   const Motion motion = MotionOf(run.run.log);
   const MatrixXd model = ModelTorque(run.robot, Widths(blind), motion);
-  return {Thin(run.run.log.tau - model, motion.rate), motion};
+  return Run{Thin(run.run.log.tau - model, motion.rate), motion};
 }
 
-// Divides each joint's block of rows by its noise.
-void Whiten(const VectorXd& spread, MatrixXd* columns) {
-  const long rows = columns->rows() / spread.size();
-  for (int j = 0; j < spread.size(); ++j) {
-    columns->middleRows(j * rows, rows) /= spread[j];
+// Of the residual: torque noise, and what encoders put into it by way of the
+// controller and the model.
+std::vector<ResidualNoise> NoiseOf(const MatrixXd& noisy,
+                                   const MatrixXd& quiet) {
+  std::vector<ResidualNoise> noise;
+  for (int j = 0; j < noisy.cols(); ++j) {
+    noise.push_back(ResidualNoise::Fit(noisy.col(j) - quiet.col(j)));
   }
+  return noise;
+}
+
+// Each joint's block of rows in units of its innovations.
+MatrixXd Whitened(const std::vector<ResidualNoise>& noise,
+                  const MatrixXd& columns) {
+  const long n = noise.size(), rows = columns.rows() / n;
+  const long left = rows - ResidualNoise::kOrder;
+  MatrixXd white(left * n, columns.cols());
+  for (int j = 0; j < n; ++j) {
+    white.middleRows(j * left, left) =
+        noise[j].Whiten(columns.middleRows(j * rows, rows));
+  }
+  return white;
 }
 
 // What of `d` is left when `columns`, each with a standard normal prior and
@@ -204,13 +213,11 @@ Left FitAway(const MatrixXd& columns, const MatrixXd& known,
   return {d - columns * x, d.squaredNorm() - gradient.dot(x)};
 }
 
-EffectSize SizeOf(const MatrixXd& difference, const VectorXd& spread,
-                  const MatrixXd& columns, const MatrixXd& known) {
-  MatrixXd d =
-      Eigen::Map<const MatrixXd>(difference.data(), difference.size(), 1);
-  Whiten(spread, &d);
+EffectSize SizeOf(const VectorXd& d, long n, const MatrixXd& columns,
+                  const MatrixXd& known) {
+  CHECK_EQ(d.size(), columns.rows());
   const Left left = FitAway(columns, known, d);
-  const long n = spread.size(), rows = difference.rows();
+  const long rows = d.size() / n;
   EffectSize size;
   size.raw = d.norm() / std::sqrt(rows);
   size.enr = std::sqrt(std::max(0.0, left.squared) / rows);
@@ -224,28 +231,51 @@ EffectSize SizeOf(const MatrixXd& difference, const VectorXd& spread,
   return size;
 }
 
+MatrixXd Stacked(const MatrixXd& x) {
+  return Eigen::Map<const MatrixXd>(x.data(), x.size(), 1);
+}
+
+// What a log of the robot before its effects tells of its parameters, as
+// information; empty where there is none.
+MatrixXd KnownBefore(const BlindCase& blind,
+                     const std::vector<ResidualNoise>& noise) {
+  if (!blind.has_reference) return {};
+  const auto before =
+      Simulate(blind, QuietScenario(blind, BlindLog::kReference, {}));
+  CHECK(before) << "an arm without effects follows";
+  const MatrixXd columns = Whitened(noise, Absorbing(blind, before->motion));
+  return columns.transpose() * columns;
+}
+
+// With noise, but sampled as without: their difference is taken by sample.
+Scenario NoisyScenario(const BlindCase& blind) {
+  Scenario scenario = BlindScenario(blind, BlindLog::kTraining, blind.effects);
+  scenario.loop.sensors.jitter = 0;
+  scenario.loop.sensors.lost_share = 0;
+  return scenario;
+}
+
 }  // namespace
 
-std::vector<EffectSize> EffectSizes(const BlindCase& blind) {
+std::optional<std::vector<EffectSize>> EffectSizes(const BlindCase& blind) {
   std::vector<EffectSize> sizes;
   if (blind.effects.empty()) return sizes;
-  const Run all = Simulate(blind, BlindLog::kTraining, blind.effects);
-  const VectorXd spread = NoiseSpread(blind, all.motion.rate);
-  MatrixXd columns = Absorbing(blind, all.motion);
-  Whiten(spread, &columns);
-  MatrixXd known;
-  if (blind.has_reference) {
-    const Run before = Simulate(blind, BlindLog::kReference, {});
-    MatrixXd reference = Absorbing(blind, before.motion);
-    Whiten(spread, &reference);
-    known = reference.transpose() * reference;
-  }
+  const auto all =
+      Simulate(blind, QuietScenario(blind, BlindLog::kTraining, blind.effects));
+  const auto noisy = Simulate(blind, NoisyScenario(blind));
+  if (!all || !noisy) return std::nullopt;
+  const auto noise = NoiseOf(noisy->residual, all->residual);
+  const MatrixXd columns = Whitened(noise, Absorbing(blind, all->motion));
+  const MatrixXd known = KnownBefore(blind, noise);
   for (size_t k = 0; k < blind.effects.size(); ++k) {
     std::vector<ChosenEffect> others = blind.effects;
     others.erase(others.begin() + k);
-    const Run without = Simulate(blind, BlindLog::kTraining, others);
-    sizes.push_back(
-        SizeOf(all.residual - without.residual, spread, columns, known));
+    const auto without =
+        Simulate(blind, QuietScenario(blind, BlindLog::kTraining, others));
+    if (!without) return std::nullopt;
+    const VectorXd d =
+        Whitened(noise, Stacked(all->residual - without->residual));
+    sizes.push_back(SizeOf(d, noise.size(), columns, known));
   }
   return sizes;
 }

@@ -5,6 +5,7 @@
 // they hide to another (tests/blind/README.md).
 
 #include <gflags/gflags.h>
+#include <glog/logging.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -34,67 +35,106 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 void WriteText(const fs::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  CHECK(file) << "cannot write " << path;
 }
 
-void WriteLog(const BlindCase& blind, BlindLog log, const fs::path& path) {
-  const auto& effects =
-      log == BlindLog::kReference ? std::vector<ChosenEffect>() : blind.effects;
-  WriteText(path,
-            LogText(RunScenario(BlindScenario(blind, log, effects)).run.log));
+struct DrawnCase {
+  BlindCase blind;
+  uint32_t attempt = 0;
+  ScenarioRun training, validation;
+  std::vector<EffectSize> sizes;
+};
+
+ScenarioRun Run(const BlindCase& blind, BlindLog log,
+                const std::vector<ChosenEffect>& effects) {
+  return RunScenario(BlindScenario(blind, log, effects));
 }
 
-json Label(const BlindCase& blind, const ScenarioRun& training) {
+// The first draw whose arm follows its motions.
+DrawnCase DrawCase(uint64_t seed) {
+  constexpr uint32_t kMostAttempts = 100;
+  for (uint32_t attempt = 0; attempt < kMostAttempts; ++attempt) {
+    DrawnCase drawn;
+    drawn.blind = DrawBlindCase(seed, attempt);
+    drawn.attempt = attempt;
+    const auto& effects = drawn.blind.effects;
+    drawn.training = Run(drawn.blind, BlindLog::kTraining, effects);
+    if (!Follows(drawn.training.run)) continue;
+    drawn.validation = Run(drawn.blind, BlindLog::kValidation, effects);
+    if (!Follows(drawn.validation.run)) continue;
+    const auto sizes = EffectSizes(drawn.blind);
+    if (!sizes) continue;
+    drawn.sizes = *sizes;
+    return drawn;
+  }
+  LOG(FATAL) << "case " << seed << ": its arm never follows";
+  return {};
+}
+
+json Label(const DrawnCase& drawn) {
+  const BlindCase& blind = drawn.blind;
   json label = TruthJson(
-      BlindScenario(blind, BlindLog::kTraining, blind.effects), training);
+      BlindScenario(blind, BlindLog::kTraining, blind.effects), drawn.training);
+  label["set"] = FLAGS_set;
   label["arm"] = blind.arm;
   label["excitation"] = ExcitationName(blind.excitation);
   label["motion"] = blind.points ? "points" : "fourier";
-  const std::vector<EffectSize> sizes = EffectSizes(blind);
-  for (size_t k = 0; k < sizes.size(); ++k) {
+  label["reference"] = blind.has_reference;
+  label["attempt"] = drawn.attempt;
+  for (size_t k = 0; k < drawn.sizes.size(); ++k) {
+    const EffectSize& size = drawn.sizes[k];
     json& entry = label["effects"][k];
-    entry["enr"] = sizes[k].enr;
-    entry["enr_raw"] = sizes[k].raw;
-    entry["enr_joints"] = std::vector<double>(sizes[k].joint_enr.begin(),
-                                              sizes[k].joint_enr.end());
+    entry["enr"] = size.enr;
+    entry["enr_raw"] = size.raw;
+    entry["enr_joints"] =
+        std::vector<double>(size.joint_enr.begin(), size.joint_enr.end());
   }
   return label;
 }
 
-// The first draw whose arm follows its motion, with its training log.
-std::pair<BlindCase, ScenarioRun> DrawCase(uint64_t seed) {
-  for (uint32_t attempt = 0;; ++attempt) {
-    BlindCase blind = DrawBlindCase(seed, attempt);
-    ScenarioRun training =
-        RunScenario(BlindScenario(blind, BlindLog::kTraining, blind.effects));
-    if (Follows(training.run)) return {blind, training};
-  }
-}
-
 void WriteCase(BlindSet set, uint32_t index) {
-  const auto& [blind, training] =
-      DrawCase(BlindCaseSeed(set, FLAGS_seed, index));
+  const DrawnCase drawn = DrawCase(BlindCaseSeed(set, FLAGS_seed, index));
+  const BlindCase& blind = drawn.blind;
   char name[32];
   std::snprintf(name, sizeof name, "case_%04u", index);
   const fs::path folder = fs::path(FLAGS_logs) / name;
   fs::create_directories(folder);
   WriteText(folder / "robot.yaml", blind.robot_yaml);
-  WriteText(folder / "training.csv", LogText(training.run.log));
-  WriteLog(blind, BlindLog::kValidation, folder / "validation.csv");
+  WriteText(folder / "training.csv", LogText(drawn.training.run.log));
+  WriteText(folder / "validation.csv", LogText(drawn.validation.run.log));
   if (blind.has_reference) {
-    WriteLog(blind, BlindLog::kReference, folder / "reference.csv");
+    WriteText(folder / "reference.csv",
+              LogText(Run(blind, BlindLog::kReference, {}).run.log));
   }
   WriteText(folder / "case.json",
             json({{"trust", blind.trust}, {"reference", blind.has_reference}})
                     .dump(2) +
                 "\n");
   WriteText(fs::path(FLAGS_labels) / (std::string(name) + ".json"),
-            Label(blind, training).dump(2) + "\n");
+            Label(drawn).dump(2) + "\n");
+}
+
+// What is wrong with the flags; empty where nothing is.
+std::string WhyNot() {
+  if (FLAGS_set != "calibration" && FLAGS_set != "evaluation") {
+    return "--set: expected calibration or evaluation";
+  }
+  if (FLAGS_seed >= 1u << 31) return "--seed: expected a number below 2^31";
+  if (FLAGS_jobs < 1) return "--jobs: expected a number of at least 1";
+  if (fs::weakly_canonical(FLAGS_logs) == fs::weakly_canonical(FLAGS_labels)) {
+    return "--labels: expected another folder than --logs, whose reader must "
+           "not see them";
+  }
+  return "";
 }
 
 int Main() {
-  if (FLAGS_set != "calibration" && FLAGS_set != "evaluation") {
-    std::fprintf(stderr, "--set: expected calibration or evaluation\n");
+  const std::string why = WhyNot();
+  if (!why.empty()) {
+    std::fprintf(stderr, "write_blind_cases: %s\n", why.c_str());
     return 2;
   }
   const BlindSet set = FLAGS_set == "calibration" ? BlindSet::kCalibration
