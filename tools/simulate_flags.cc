@@ -47,16 +47,13 @@ namespace armcal {
 
 namespace {
 
-double NotNegative(const char* flag, double value, double most = 1e9) {
-  if (value >= 0 && value <= most) return value;
-  throw UsageError("--" + std::string(flag) + ": found '" + NumberText(value) +
-                   "', expected a number from 0 to " + NumberText(most));
-}
+constexpr double kLongest = 1e4;  // s, of a motion or a rest
 
-double Positive(const char* flag, double value) {
-  if (value > 0 && value <= 1e6) return value;
+double Within(const char* flag, double value, double low, double high) {
+  if (value >= low && value <= high) return value;
   throw UsageError("--" + std::string(flag) + ": found '" + NumberText(value) +
-                   "', expected a number above 0");
+                   "', expected a number from " + NumberText(low) + " to " +
+                   NumberText(high));
 }
 
 std::vector<int> MovingJoints(int n) {
@@ -74,20 +71,26 @@ std::vector<int> MovingJoints(int n) {
 
 ReferenceMotion MotionFromFlags(const Robot& robot) {
   MotionOptions options;
-  options.duration = Positive("duration", FLAGS_duration);
-  options.size = NotNegative("size", FLAGS_size, 1);
-  options.speed = NotNegative("speed", FLAGS_speed, 1);
+  options.duration = Within("duration", FLAGS_duration, .1, kLongest);
+  options.size = Within("size", FLAGS_size, 0, 1);
+  options.speed = Within("speed", FLAGS_speed, 0, 1);
   options.joints = MovingJoints(robot.num_joints());
   options.seed = SeedFromFlags();
   options.run = FLAGS_run;
-  const double rest = NotNegative("standstill", FLAGS_standstill);
+  const double rest = Within("standstill", FLAGS_standstill, 0, kLongest);
   if (FLAGS_motion == "fourier") {
     return WithStandstill(FourierMotion(robot, options), rest, rest);
   }
   if (FLAGS_motion == "points") {
     return WithStandstill(PointToPointMotion(robot, options), rest, rest);
   }
-  return WithStandstill(ReadReferenceMotion(FLAGS_motion, robot), rest, rest);
+  const ReferenceMotion motion = ReadReferenceMotion(FLAGS_motion, robot);
+  if (motion.duration > kLongest) {
+    throw InputError(FLAGS_motion, "", NumberText(motion.duration) + " s",
+                     "expected a motion of at most " + NumberText(kLongest) +
+                         " s; is its time in ms?");
+  }
+  return WithStandstill(motion, rest, rest);
 }
 
 SensorOptions SensorsFromFlags(const Robot& robot) {
@@ -104,11 +107,11 @@ SensorOptions SensorsFromFlags(const Robot& robot) {
       ParsePerJoint("coloured_noise", FLAGS_coloured_noise, n)
           .cwiseProduct(usual);
   options.noise_correlation =
-      Positive("noise_correlation", FLAGS_noise_correlation);
-  options.torque_delay = NotNegative("torque_delay", FLAGS_torque_delay, 1);
-  options.log_rate_hz = Positive("log_rate", FLAGS_log_rate);
-  options.jitter = NotNegative("jitter", FLAGS_jitter, 1);
-  options.lost_share = NotNegative("lost", FLAGS_lost, .5);
+      Within("noise_correlation", FLAGS_noise_correlation, 1e-4, 1e4);
+  options.torque_delay = Within("torque_delay", FLAGS_torque_delay, 0, 1);
+  options.log_rate_hz = Within("log_rate", FLAGS_log_rate, 1, kFastestHz);
+  options.jitter = Within("jitter", FLAGS_jitter, 0, 1);
+  options.lost_share = Within("lost", FLAGS_lost, 0, .5);
   options.seed = SeedFromFlags();
   options.run = FLAGS_run;
   return options;
@@ -129,13 +132,14 @@ Scenario ScenarioFromFlags() {
   Scenario scenario;
   scenario.model = RobotFromFlags();
   RequireMasses(scenario.model);
-  scenario.robot_error = NotNegative("robot_error", FLAGS_robot_error, .5);
-  scenario.zero_velocity = Positive("friction_width", FLAGS_friction_width);
+  scenario.robot_error = Within("robot_error", FLAGS_robot_error, 0, .5);
+  scenario.zero_velocity =
+      Within("friction_width", FLAGS_friction_width, 1e-4, 1);
   scenario.motion = MotionFromFlags(scenario.model);
   scenario.loop.controller =
       ControllerFromFlags(scenario.model, scenario.motion.at(0).q);
   scenario.loop.sensors = SensorsFromFlags(scenario.model);
-  scenario.loop.step = Positive("step", FLAGS_step);
+  scenario.loop.step = Within("step", FLAGS_step, 1e-5, .01);
   scenario.seed = SeedFromFlags();
   scenario.run = FLAGS_run;
   scenario.effects = ParseEffects(FLAGS_effects, scenario);

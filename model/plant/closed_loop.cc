@@ -2,7 +2,9 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "model/input_error.h"
@@ -137,20 +139,22 @@ class Loop {
     const long end = std::lround(motion_.duration / period_);
     ClosedLoopRun run;
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(n_);
-    long saturated = 0;
+    long saturated = 0, periods = 0;
     for (long tick = -settle_; tick <= end; ++tick) {
       const bool at_limit = Tick(tick, tick >= 0 && recorder_.Wants(tick));
       run.finite = simulator_.finite();
       if (!run.finite) break;
       if (tick < 0) continue;
+      ++periods;
       squares += error_.cwiseAbs2();
       saturated += at_limit;
       if (options_.progress && tick % 1000 == 0) {
         options_.progress(tick / static_cast<double>(end + 1));
       }
     }
-    run.tracking_rms = (squares / (end + 1)).cwiseSqrt();
-    run.saturated_share = saturated / static_cast<double>(end + 1);
+    run.tracking_rms = (squares / periods).cwiseSqrt();
+    run.saturated_share =
+        saturated / std::max(1.0, static_cast<double>(periods));
     run.log = recorder_.Finish();
     return run;
   }

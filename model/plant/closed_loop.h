@@ -27,7 +27,8 @@ struct ClosedLoopRun {
   Log log;
   bool finite = true;          // false: it diverged, and the log ends there
   double saturated_share = 0;  // of control periods, some torque at its limit
-  // Root mean square of qref - q, n entries, rad or m.
+  // Root mean square of qref - q, n entries, rad or m; NaN where the log has
+  // no row.
   Eigen::VectorXd tracking_rms;
 };
 

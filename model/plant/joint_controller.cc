@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/input_text.h"
 #include "model/inverse_dynamics.h"
 #include "model/yaml_node.h"
 
@@ -73,6 +74,10 @@ ControllerOptions ReadController(const std::string& path, const Robot& robot,
   ControllerOptions options = DefaultController(
       robot, q, ReadPositive(node, "bandwidth", "Hz", kUsualBandwidthHz));
   options.rate_hz = ReadPositive(node, "rate", "Hz", options.rate_hz);
+  if (options.rate_hz < 1 || options.rate_hz > kFastestHz) {
+    node.RequiredChild("rate").Refuse("expected a rate from 1 to " +
+                                      NumberText(kFastestHz) + " Hz");
+  }
   options.velocity_filter_hz =
       ReadPositive(node, "velocity_filter", "Hz", options.velocity_filter_hz);
   ReadVector(node, "kp", "N m/rad (N/m)", &options.kp);

@@ -32,6 +32,7 @@ struct ControllerOptions {
 };
 
 constexpr double kUsualBandwidthHz = 8;
+constexpr double kFastestHz = 20000;  // that a controller is simulated at
 
 // Gains that place each joint's closed loop at `bandwidth_hz`, damping ratio 1,
 // for the mass matrix (armature included) at q; torque limits are the robot's.
@@ -41,7 +42,7 @@ ControllerOptions DefaultController(const Robot& robot,
 
 // Reads a controller in YAML over `defaults`, each key optional:
 //
-//   rate: 1000                    # Hz
+//   rate: 1000                    # Hz, 1 to kFastestHz
 //   bandwidth: 8                  # Hz; gains as DefaultController sets them
 //   kp: [4000, ..]                # per joint, N m/rad or N/m
 //   kd: [200, ..]

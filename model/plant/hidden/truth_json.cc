@@ -10,7 +10,7 @@ using nlohmann::json;
 
 json Numbers(const Eigen::VectorXd& values) {
   json list = json::array();
-  // JSON has no infinity: null, no limit.
+  // JSON has no infinity.
   for (const double x : values) {
     list.push_back(std::isfinite(x) ? json(x) : json(nullptr));
   }
@@ -41,15 +41,20 @@ json ParametersJson(const Robot& robot) {
   return list;
 }
 
+// As ReadController takes it; limits that the robot file has not are left out.
 json ControllerJson(const ControllerOptions& options) {
   const char* const names[] = {"none", "gravity", "inverse_dynamics"};
-  return {{"rate", options.rate_hz},
-          {"kp", Numbers(options.kp)},
-          {"kd", Numbers(options.kd)},
-          {"ki", Numbers(options.ki)},
-          {"velocity_filter", options.velocity_filter_hz},
-          {"torque_limit", Numbers(options.torque_limit)},
-          {"feedforward", names[static_cast<int>(options.feedforward)]}};
+  json controller = {
+      {"rate", options.rate_hz},
+      {"kp", Numbers(options.kp)},
+      {"kd", Numbers(options.kd)},
+      {"ki", Numbers(options.ki)},
+      {"velocity_filter", options.velocity_filter_hz},
+      {"feedforward", names[static_cast<int>(options.feedforward)]}};
+  if (options.torque_limit.allFinite()) {
+    controller["torque_limit"] = Numbers(options.torque_limit);
+  }
+  return controller;
 }
 
 json SensorsJson(const SensorOptions& options) {
