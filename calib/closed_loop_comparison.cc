@@ -14,26 +14,20 @@ namespace armcal {
 namespace {
 
 using Eigen::VectorXd;
-using Law = CoulombTransition::Law;
 
 constexpr double kCatchUp = 1;  // s
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kMostRows = 1 << 20;
 
 // The joint terms that a simulated robot does not have by itself.
 JointLaw TermsLaw(int j, const Joint& joint, const CoulombTransition& t) {
   JointLaw law;
   law.joint = j;
-  law.initial_state = VectorXd::Zero(t.law == Law::kDisplacement ? 1 : 0);
+  law.initial_state = VectorXd::Zero(1);  // of Coulomb friction
   law.torque = [j, joint, t](const ArmInstant& instant, const double* state,
                              double* rate) {
     const double qd = instant.velocity[j];
-    double c = std::tanh(qd / t.width);
-    if (t.law == Law::kDisplacement) {
-      c = std::clamp(state[0], -1.0, 1.0);
-      rate[0] = std::abs(state[0]) >= 1 && c * qd > 0 ? 0 : qd / t.width;
-    }
-    return -(joint.viscous * qd + joint.coulomb * c + joint.offset);
+    rate[0] = t.StateRate(qd, state[0]);
+    return -FrictionTorque(joint, t, qd, state[0]);
   };
   return law;
 }
@@ -112,9 +106,7 @@ Log ReadCommandedLog(const std::string& path, const LogReaderOptions& given,
                      const TimeRange& crop) {
   LogReaderOptions options = given;
   options.want_reference = true;
-  LogReader reader(path, options);
-  Log all;
-  reader.Read(kMostRows, &all);
+  const Log all = ReadWholeLog(path, options);
   if (all.qref.size() == 0) {
     throw InputError(path, "header", "",
                      "expected a column qref1.. for every joint, the command "

@@ -15,7 +15,8 @@
 namespace armcal {
 
 // The rows of a log within `crop`, its times from 0: positions, torque and
-// qref. Throws InputError where it has no qref columns or nothing is left.
+// qref. Throws InputError where it has no qref columns, more than 2^20 rows or
+// nothing is left.
 Log ReadCommandedLog(const std::string& path, const LogReaderOptions& options,
                      const TimeRange& crop);
 

@@ -49,11 +49,18 @@ class Integrator {
       }
       if (last) t_ = end;
       if (++steps_ > options_.max_steps) return TooManyText();
+      if (IsLost()) return "lost at t = " + std::to_string(t_) + " s";
     }
     return "";
   }
 
  private:
+  bool IsLost() {
+    if (!options_.is_lost) return false;
+    state_ = Eigen::Map<const VectorXd>(x_.data(), x_.size());
+    return options_.is_lost(t_, state_);
+  }
+
   // Takes a step or makes the next one shorter. The error estimate of a step
   // that is not finite compares as small, so that odeint would take it.
   bool TryStep(double dt) {

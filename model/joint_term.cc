@@ -33,6 +33,23 @@ std::string JointTermUnit(JointTerm term, JointType type) {
   return effort;
 }
 
+double CoulombTransition::C(double qd, double state) const {
+  return law == Law::kVelocity ? std::tanh(qd / width)
+                               : std::clamp(state, -1.0, 1.0);
+}
+
+double CoulombTransition::StateRate(double qd, double state) const {
+  // A Prandtl element that has yielded stays where it is.
+  const bool yields = std::abs(state) >= 1 && state * qd > 0;
+  return law == Law::kVelocity || yields ? 0 : qd / width;
+}
+
+double FrictionTorque(const Joint& joint, const CoulombTransition& transition,
+                      double qd, double state) {
+  return joint.viscous * qd + joint.coulomb * transition.C(qd, state) +
+         joint.offset;
+}
+
 double JointTermColumn::D(double qd, double c) const {
   switch (term) {
     case JointTerm::kViscous:

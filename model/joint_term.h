@@ -26,7 +26,16 @@ struct CoulombTransition {
   enum class Law { kVelocity, kDisplacement };
   Law law = Law::kVelocity;
   double width = 0.02;
+
+  // c at velocity qd. `state` is the displacement law's own, to be integrated
+  // at StateRate(); the velocity law has none, and its rate is 0.
+  double C(double qd, double state) const;
+  double StateRate(double qd, double state) const;
 };
+
+// A joint's viscous and Coulomb friction and its offset, N m or N.
+double FrictionTorque(const Joint& joint, const CoulombTransition& transition,
+                      double qd, double state);
 
 struct JointTermColumn {
   int joint;

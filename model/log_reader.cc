@@ -184,4 +184,17 @@ bool LogReader::Read(int max_rows, Log* log) {
 
 void LogReader::Rewind() { impl_->Rewind(); }
 
+Log ReadWholeLog(const std::string& path, const LogReaderOptions& options) {
+  constexpr int kMostRows = 1 << 20;
+  LogReader reader(path, options);
+  Log log, more;
+  reader.Read(kMostRows, &log);
+  if (reader.Read(1, &more)) {
+    throw InputError(path, "row " + std::to_string(more.first_row), "",
+                     "expected a log of at most " + std::to_string(kMostRows) +
+                         " rows, which all are kept in memory");
+  }
+  return log;
+}
+
 }  // namespace armcal

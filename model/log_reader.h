@@ -74,4 +74,8 @@ class LogReader {
   std::unique_ptr<Impl> impl_;
 };
 
+// All rows of a log that has to be in memory as a whole. Throws InputError,
+// also for more than 2^20 rows.
+Log ReadWholeLog(const std::string& path, const LogReaderOptions& options);
+
 }  // namespace armcal

@@ -10,8 +10,12 @@
 namespace armcal {
 namespace {
 
+// Far beyond what a simulation in use leaves, and near enough that an arm that
+// runs away is not followed in ever smaller steps.
+constexpr double kLostAngle = 100;  // rad
+constexpr double kLostLength = 10;  // m
+
 using Eigen::VectorXd;
-using Law = CoulombTransition::Law;
 
 std::vector<JointTermColumn> CoulombColumns(
     const std::vector<CoulombTransition>& transitions) {
@@ -36,13 +40,14 @@ TorqueReplay::TorqueReplay(const Robot& robot,
   CHECK_EQ(robot.num_joints(), static_cast<int>(transitions_.size()));
 }
 
-double TorqueReplay::Friction(int j, double qd, double c) const {
-  const Joint& joint = robot_.links[j].joint;
-  if (transitions_[j].law == Law::kVelocity) {
-    c = std::tanh(qd / transitions_[j].width);
+bool TorqueReplay::IsLost(const VectorXd& recorded, const VectorXd& x) const {
+  for (int j = 0; j < num_joints(); ++j) {
+    const bool turns = IsRotational(robot_.links[j].joint.type);
+    if (std::abs(x[j] - recorded[j]) >= (turns ? kLostAngle : kLostLength)) {
+      return true;
+    }
   }
-  return joint.viscous * qd + joint.coulomb * std::clamp(c, -1.0, 1.0) +
-         joint.offset;
+  return false;
 }
 
 void TorqueReplay::Rate(const VectorXd& tau, const VectorXd& x,
@@ -52,13 +57,11 @@ void TorqueReplay::Rate(const VectorXd& tau, const VectorXd& x,
   dynamics_->Evaluate(q, qd, {}, &terms_);
   VectorXd net = tau - terms_.bias;
   for (int j = 0; j < n; ++j) {
+    const Joint& joint = robot_.links[j].joint;
     const double c = x[2 * n + j];
-    net[j] -= Friction(j, qd[j], c);
-    terms_.mass_matrix(j, j) += robot_.links[j].joint.armature;
-    // A Prandtl element that has yielded stays where it is.
-    const bool yields = std::abs(c) >= 1 && c * qd[j] > 0;
-    const bool moves = transitions_[j].law == Law::kDisplacement && !yields;
-    (*rate)[2 * n + j] = moves ? qd[j] / transitions_[j].width : 0;
+    net[j] -= FrictionTorque(joint, transitions_[j], qd[j], c);
+    terms_.mass_matrix(j, j) += joint.armature;
+    (*rate)[2 * n + j] = transitions_[j].StateRate(qd[j], c);
   }
   rate->head(n) = qd;
   rate->segment(n, n) = SolveInertia(terms_.mass_matrix, net);
@@ -66,7 +69,7 @@ void TorqueReplay::Rate(const VectorXd& tau, const VectorXd& x,
 
 Integration TorqueReplay::Run(const Trajectory& trajectory, int first, int last,
                               const VectorXd& coulomb,
-                              const IntegrationOptions& options) {
+                              const IntegrationOptions& given) {
   CHECK(0 <= first && first < last && last < trajectory.size());
   const int n = num_joints();
   VectorXd x0(3 * n);
@@ -76,13 +79,18 @@ Integration TorqueReplay::Run(const Trajectory& trajectory, int first, int last,
   for (int k = first + 1; k <= last; ++k) {
     times.push_back((k - first) * trajectory.dt);
   }
+  const auto recorded = [&](const Eigen::MatrixXd& rows, double t) -> VectorXd {
+    const double at = first + t / trajectory.dt;
+    const int k = std::clamp(static_cast<int>(at), first, last - 1);
+    return (1 - (at - k)) * rows.row(k) + (at - k) * rows.row(k + 1);
+  };
+  IntegrationOptions options = given;
+  options.is_lost = [&](double t, const VectorXd& x) {
+    return IsLost(recorded(trajectory.q, t), x);
+  };
   return Integrate(
       [&](double t, const VectorXd& x, VectorXd* rate) {
-        const double at = first + t / trajectory.dt;
-        const int k = std::clamp(static_cast<int>(at), first, last - 1);
-        const VectorXd tau = (1 - (at - k)) * trajectory.tau.row(k) +
-                             (at - k) * trajectory.tau.row(k + 1);
-        Rate(tau, x, rate);
+        Rate(recorded(trajectory.tau, t), x, rate);
       },
       x0, 0, times, options);
 }

@@ -32,13 +32,14 @@ class TorqueReplay {
 
   // From the recorded state at row `first`, with `coulomb` of Follow(), to row
   // `last`; the torque is linear between samples. Rows of x: q, qd and the
-  // states of Coulomb friction at rows first + 1 .. last, as far as it came.
+  // states of Coulomb friction at rows first + 1 .. last, as far as it came: it
+  // ends where a joint is 100 rad (10 m) or more from the recorded position.
   Integration Run(const Trajectory& trajectory, int first, int last,
                   const Eigen::VectorXd& coulomb,
                   const IntegrationOptions& options);
 
  private:
-  double Friction(int j, double qd, double c) const;
+  bool IsLost(const Eigen::VectorXd& recorded, const Eigen::VectorXd& x) const;
   void Rate(const Eigen::VectorXd& tau, const Eigen::VectorXd& x,
             Eigen::VectorXd* rate);
 

@@ -87,6 +87,33 @@ TEST_F(CommandedLog, CropStartsItsOwnTime) {
       HasSubstr("FILE: expected more than a second"));
 }
 
+// A log that ends between two control periods, the nearer of which is after its
+// end; and one whose end is a rounding error before a period.
+TEST_F(CommandedLog, MayEndBetweenControlPeriods) {
+  for (const double end : {3.4997, 3.4992, std::nextafter(3.5, 0)}) {
+    Log log = ReadCommandedLog(path_, options_, {2, 5.5});
+    log.t *= end / log.t[log.size() - 1];
+    log.t[log.size() - 1] = end;
+    const ClosedLoopComparison loop =
+        CompareClosedLoop(file_, nullptr, controller_, path_, log);
+    EXPECT_TRUE(loop.before_finite);
+    for (const ClosedLoopJoint& joint : loop.joints) {
+      EXPECT_LT(joint.before_rms, 1e-2) << joint.name << " " << end;
+    }
+  }
+}
+
+TEST_F(CommandedLog, TooManyRowsAreRefusedNotCut) {
+  std::string text = "t,q1,tau1,qref1\n";
+  for (int k = 0; k <= 1 << 20; ++k) text += std::to_string(k) + ",0,0,0\n";
+  const std::string path = WriteFile(text, "long.csv");
+  options_.joint_names.resize(1);
+  EXPECT_THAT(MessageOf<InputError>(
+                  path, [&] { ReadCommandedLog(path, options_, {}); }),
+              HasSubstr("FILE: row 1048578: expected a log of at most 1048576 "
+                        "rows"));
+}
+
 TEST_F(CommandedLog, WithoutACommandItIsRefused) {
   const std::string path =
       WriteFile("t,q1,tau1,q2,tau2,q3,tau3\n0,0,0,0,0,0,0\n", "plain.csv");

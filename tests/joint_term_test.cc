@@ -60,6 +60,25 @@ TEST(JointTermColumn, MomentumAndForce) {
   }
 }
 
+// By hand: of 2 qd + 5 c + .3; c = tanh(1), or the state, which yields at 1.
+TEST(CoulombTransition, FrictionByHand) {
+  using Law = CoulombTransition::Law;
+  Joint joint;
+  joint.viscous = 2;
+  joint.coulomb = 5;
+  joint.offset = .3;
+  const CoulombTransition velocity = {Law::kVelocity, .1};
+  EXPECT_NEAR(FrictionTorque(joint, velocity, .1, 9),
+              .2 + 5 * 0.76159415595576485 + .3, 1e-12);
+  EXPECT_EQ(velocity.StateRate(.1, 0), 0);
+  const CoulombTransition displacement = {Law::kDisplacement, .1};
+  EXPECT_NEAR(FrictionTorque(joint, displacement, .1, -.5), -2, 1e-12);
+  EXPECT_NEAR(FrictionTorque(joint, displacement, -.1, 1.01), 5.1, 1e-12);
+  EXPECT_NEAR(displacement.StateRate(.1, .5), 1, 1e-12);
+  EXPECT_EQ(displacement.StateRate(.1, 1), 0);
+  EXPECT_NEAR(displacement.StateRate(-.1, 1), -1, 1e-12);
+}
+
 TEST(CoulombStates, VelocityLawIsTanh) {
   CoulombStates states({{1, JointTerm::kCoulomb, {Law::kVelocity, .02}}});
   Trajectory t = Stretch({0, 0, 0, 0});

@@ -118,6 +118,16 @@ TEST(ReadReferenceMotion, GoesThroughRowsAndIsSmoothBetween) {
   }
 }
 
+// Who steps along it passes its end by rounding.
+TEST(ReadReferenceMotion, StaysAtItsEnds) {
+  Robot robot = SampleRobot("SCARA RRPR");
+  robot.links.resize(1);
+  const ReferenceMotion motion =
+      ReadReferenceMotion(WriteFile("t,q1\n0,5\n1,6\n2,8\n3,9\n"), robot);
+  EXPECT_NEAR(motion.at(3.0005).q[0], 9, 1e-12);
+  EXPECT_NEAR(motion.at(-1e-9).q[0], 5, 1e-12);
+}
+
 TEST(ReadReferenceMotion, RefusesTimesThatStand) {
   const std::string path = WriteFile("t,q1\n0,0\n1,0\n1,.1\n2,.2\n3,.1\n");
   Robot robot = SampleRobot("SCARA RRPR");

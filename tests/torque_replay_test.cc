@@ -100,6 +100,20 @@ TEST(TorqueReplay, VelocityLawSettles) {
   EXPECT_NEAR(x[1], .3 * std::atanh(3.0 / 5), 1e-7);
 }
 
+// Pushed away from a log that stays at 0: x = F / m t^2 / 2 passes 10 m at 2 s,
+// and there it ends.
+TEST(TorqueReplay, EndsWhereItIsLost) {
+  const Robot robot = Block();
+  RigidArm arm(robot);
+  TorqueReplay replay(robot, {{}}, &arm);
+  const Trajectory pushed = Pushed(10, 5);
+  const Integration run = replay.Run(pushed, 0, pushed.size() - 1,
+                                     VectorXd::Zero(1), IntegrationOptions());
+  EXPECT_FALSE(run.finished);
+  EXPECT_NEAR(static_cast<double>(run.x.rows()), 200, 1);
+  EXPECT_LT(run.steps, 1000);
+}
+
 // The motion that a log's torque was made for, with all joint terms, comes
 // back; from our engine and from Simbody.
 TEST(TorqueReplay, ReturnsTheMotionOfItsTorque) {

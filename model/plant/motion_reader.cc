@@ -1,5 +1,6 @@
 #include "model/plant/motion_reader.h"
 
+#include <algorithm>
 #include <boost/math/interpolators/quintic_hermite.hpp>
 #include <memory>
 #include <vector>
@@ -20,14 +21,7 @@ Log ReadAll(const std::string& path, const Robot& robot) {
   options.need_torque = false;
   options.want_velocity = true;
   options.want_acceleration = true;
-  Log log;
-  LogReader reader(path, options);
-  Log block;
-  reader.Read(1 << 20, &log);
-  if (reader.Read(1, &block)) {
-    throw InputError(path, "", "", "expected a motion of at most 1048576 rows");
-  }
-  return log;
+  return ReadWholeLog(path, options);
 }
 
 void CheckTimes(const std::string& path, const Log& log) {
@@ -72,7 +66,10 @@ ReferenceMotion MotionThrough(const std::string& path, const Log& log) {
   const int n = static_cast<int>(log.q.cols());
   auto splines = std::make_shared<std::vector<Spline>>();
   for (int j = 0; j < n; ++j) splines->push_back(MakeSpline(log, j));
-  const auto at = [splines, n](double t) {
+  const double end = log.t[log.size() - 1];
+  const auto at = [splines, n, end](double time) {
+    // Control periods seldom divide a motion: the last may pass its end.
+    const double t = std::clamp(time, 0.0, end);
     ReferencePoint point{Eigen::VectorXd(n), Eigen::VectorXd(n),
                          Eigen::VectorXd(n)};
     for (int j = 0; j < n; ++j) {
@@ -83,7 +80,7 @@ ReferenceMotion MotionThrough(const std::string& path, const Log& log) {
     }
     return point;
   };
-  return {log.t[log.size() - 1], at};
+  return {end, at};
 }
 
 ReferenceMotion ReadReferenceMotion(const std::string& path,
