@@ -4,7 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <random>
+#include <numeric>
+
+#include "calib/block_bootstrap.h"
 
 namespace armcal {
 namespace {
@@ -14,7 +16,6 @@ using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kDraws = 2000;
 
 class Roller {
  public:
@@ -91,29 +92,19 @@ double Median(std::vector<double> values) {
   return (below + values[half]) / 2;
 }
 
-// `statistic` of all windows, and its interval by circular moving blocks.
-RolloutFigure Bootstrap(
-    int windows, std::uint64_t seed,
+// `statistic` of all windows, and its interval.
+RolloutFigure WithInterval(
+    int windows, double correlation_time, std::uint64_t seed,
     const std::function<double(const std::vector<int>&)>& statistic) {
-  std::vector<int> chosen(windows);
-  for (int k = 0; k < windows; ++k) chosen[k] = k;
-  RolloutFigure figure{statistic(chosen), kNaN, kNaN};
+  std::vector<int> all(windows);
+  std::iota(all.begin(), all.end(), 0);
+  RolloutFigure figure{statistic(all), kNaN, kNaN, windows};
   if (windows < 2) return figure;
-  const int block = std::max(1, static_cast<int>(std::cbrt(windows)));
-  std::mt19937_64 random(seed);
-  std::vector<double> draws;
-  for (int draw = 0; draw < kDraws; ++draw) {
-    for (int k = 0; k < windows; ++k) {
-      chosen[k] = k % block == 0 ? static_cast<int>(random() % windows)
-                                 : (chosen[k - 1] + 1) % windows;
-    }
-    const double value = statistic(chosen);
-    // Of two models that both diverge nothing is known.
-    draws.push_back(std::isnan(value) ? kInfinity : value);
-  }
-  std::sort(draws.begin(), draws.end());
-  figure.low = draws[kDraws / 40];
-  figure.high = draws[kDraws - 1 - kDraws / 40];
+  figure.block = BootstrapBlock(windows, correlation_time);
+  const BootstrapInterval interval =
+      BlockBootstrap(windows, figure.block, seed, statistic);
+  figure.low = interval.low;
+  figure.high = interval.high;
   return figure;
 }
 
@@ -185,10 +176,10 @@ std::vector<int> JointsWithUnit(const Robot& robot, const std::string& unit) {
 RolloutFigure MedianError(const Rollouts& rollouts, int model,
                           const std::vector<int>& joints, std::uint64_t seed) {
   const std::vector<double> errors = Errors(rollouts, model, joints);
-  return Bootstrap(static_cast<int>(errors.size()), seed,
-                   [&errors](const std::vector<int>& chosen) {
-                     return MedianOf(errors, chosen);
-                   });
+  return WithInterval(static_cast<int>(errors.size()), CorrelationTime(errors),
+                      seed, [&errors](const std::vector<int>& chosen) {
+                        return MedianOf(errors, chosen);
+                      });
 }
 
 double MedianVelocityError(const Rollouts& rollouts, int model,
@@ -204,10 +195,17 @@ RolloutFigure MedianRatio(const Rollouts& rollouts, int a, int b,
                           const std::vector<int>& joints, std::uint64_t seed) {
   const std::vector<double> of_a = Errors(rollouts, a, joints);
   const std::vector<double> of_b = Errors(rollouts, b, joints);
-  return Bootstrap(static_cast<int>(of_a.size()), seed,
-                   [&](const std::vector<int>& chosen) {
-                     return MedianOf(of_a, chosen) / MedianOf(of_b, chosen);
-                   });
+  std::vector<double> ratios;
+  for (size_t k = 0; k < of_a.size(); ++k) {
+    const double ratio = of_a[k] / of_b[k];
+    ratios.push_back(std::isnan(ratio) ? 1 : ratio);  // both diverge
+  }
+  const double time = std::max(
+      {CorrelationTime(of_a), CorrelationTime(of_b), CorrelationTime(ratios)});
+  return WithInterval(static_cast<int>(of_a.size()), time, seed,
+                      [&](const std::vector<int>& chosen) {
+                        return MedianOf(of_a, chosen) / MedianOf(of_b, chosen);
+                      });
 }
 
 }  // namespace armcal

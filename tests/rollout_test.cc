@@ -144,26 +144,19 @@ TEST(RolloutFigures, RatioIsOfPairs) {
   EXPECT_NEAR(ratio.high, .25, 1e-12);
 }
 
-// How often the interval holds the true median of 60 windows (exponential
-// errors of median log 2), independent or in runs of three: 95 % less what a
-// bootstrap of so few lacks.
-TEST(RolloutFigures, IntervalHoldsTheMedian) {
-  for (const int run : {1, 3}) {
-    std::mt19937_64 random(7);
-    int holds = 0;
-    constexpr int kTrials = 300;
-    for (int trial = 0; trial < kTrials; ++trial) {
-      std::vector<double> errors(60);
-      for (int k = 0; k < 60; ++k) {
-        errors[k] =
-            k % run == 0 ? -std::log(Uniform(&random, 0, 1)) : errors[k - 1];
-      }
-      const RolloutFigure f = MedianError(WithErrors(errors, 1), 0, {0}, trial);
-      holds += f.low <= std::log(2) && std::log(2) <= f.high;
-    }
-    EXPECT_GT(holds, .85 * kTrials) << run;
-    EXPECT_LT(holds, .995 * kTrials) << run;
+// A steady drift makes one block of all windows, however many there are.
+TEST(RolloutFigures, CorrelatedWindowsAreNotJudged) {
+  std::vector<double> drifting, independent;
+  std::mt19937_64 random(4);
+  for (int k = 0; k < 100; ++k) {
+    drifting.push_back(1 + .01 * k);
+    independent.push_back(Uniform(&random, 0, 1));
   }
+  EXPECT_FALSE(MedianError(WithErrors(drifting, 1), 0, {0}, 1).can_judge());
+  EXPECT_TRUE(MedianError(WithErrors(independent, 1), 0, {0}, 1).can_judge());
+  independent.resize(20);  // cube root 2.7: blocks of 3
+  EXPECT_FALSE(MedianError(WithErrors(independent, 1), 0, {0}, 1).can_judge());
+  EXPECT_FALSE(MedianError(WithErrors({}, 1), 0, {0}, 1).can_judge());
 }
 
 }  // namespace
