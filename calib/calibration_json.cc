@@ -72,6 +72,8 @@ json JointsJson(const Robot& robot, const LogSet& training,
     if (!result.transitions.empty()) {
       entry["coulomb_transition"] =
           TransitionJson(result.transitions[i], joint.type);
+    } else if (joint.coulomb != 0) {  // the file's, which was not estimated
+      entry["coulomb_transition"] = TransitionJson({}, joint.type);
     }
     joints.push_back(entry);
   }
@@ -150,15 +152,37 @@ json UnpoweredJson(const Robot& robot, const LogSet& training,
   return list;
 }
 
-}  // namespace
-
-json ToJson(const Robot& robot, const LogSet& training,
-            const LogSet* validation, const LinearCalibration& result) {
+json CovarianceJson(const LinearCalibration& result) {
   json names = json::array(), units = json::array();
   for (const ModelParameter& p : result.parameters.parameters()) {
     names.push_back(p.name);
     units.push_back(p.unit);
   }
+  return {{"names", names},
+          {"units", units},
+          {"file", "covariance.csv"},
+          {"method", result.covariance_method}};
+}
+
+// The residuals of all joints, and the validation logs they are of.
+void AddResiduals(const LogSet* validation, const LinearCalibration& result,
+                  json* out) {
+  if (result.training) {
+    (*out)["excluded_share"] = result.training->excluded_share();
+    (*out)["stacked_residual_percent"] =
+        JsonNumber(result.training->moving().stacked_percent);
+  }
+  if (validation != nullptr) (*out)["validation_logs"] = LogsJson(*validation);
+  if (result.validation) {
+    (*out)["validation_stacked_residual_percent"] =
+        JsonNumber(result.validation->moving().stacked_percent);
+  }
+}
+
+}  // namespace
+
+json ToJson(const Robot& robot, const LogSet& training,
+            const LogSet* validation, const LinearCalibration& result) {
   json out = {{"format", "armcal calibration 1"},
               {"robot", robot.name},
               {"estimate", "linear"},
@@ -178,25 +202,12 @@ json ToJson(const Robot& robot, const LogSet& training,
               {"verdict", VerdictJson(Shortcomings(robot, result))},
               {"rank", RankJson(result)},
               {"geometry", GeometryJson(result)},
-              {"covariance",
-               {{"names", names},
-                {"units", units},
-                {"file", "covariance.csv"},
-                {"method", result.covariance_method}}},
+              {"covariance", CovarianceJson(result)},
               {"termination",
                {{"converged", result.solved},
                 {"reason", result.reason},
                 {"iterations", result.passes}}}};
-  if (result.training) {
-    out["excluded_share"] = result.training->excluded_share();
-    out["stacked_residual_percent"] =
-        JsonNumber(result.training->moving().stacked_percent);
-  }
-  if (validation != nullptr) out["validation_logs"] = LogsJson(*validation);
-  if (result.validation) {
-    out["validation_stacked_residual_percent"] =
-        JsonNumber(result.validation->moving().stacked_percent);
-  }
+  AddResiduals(validation, result, &out);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 
@@ -195,13 +196,29 @@ Robot ReadRobotOf(const JsonValue& root, const Robot& nominal) {
   return geometry.ApplyTo(robot);
 }
 
+void CheckFriction(const JsonValue& root, const Robot& robot) {
+  const std::vector<JsonValue> joints = root.At("joints").Entries();
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    if (robot.links[j].joint.coulomb != 0) joints[j].At("coulomb_transition");
+  }
+}
+
+// `path` as it is where nothing of it can be looked up.
+std::string Canonical(const std::string& path) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(path, error);
+  if (error) return path;
+  const auto canonical = std::filesystem::weakly_canonical(absolute, error);
+  return error ? path : canonical.string();
+}
+
 }  // namespace
 
 bool CalibratedRobot::Saw(const std::string& log,
                           const TimeRange& range) const {
   for (size_t k = 0; k < logs.size(); ++k) {
-    if (logs[k] == log && range.begin < log_ranges[k].end &&
-        range.end > log_ranges[k].begin) {
+    if (Canonical(logs[k]) == Canonical(log) &&
+        range.begin < log_ranges[k].end && range.end > log_ranges[k].begin) {
       return true;
     }
   }
@@ -215,6 +232,7 @@ CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal) {
   CalibratedRobot result;
   result.transitions = ReadTransitions(root, nominal);
   result.robot = ReadRobotOf(root, nominal);
+  CheckFriction(root, result.robot);
   result.bandwidth_hz = root.At("bandwidth_hz").Number();
   if (result.bandwidth_hz < 0) {
     root.At("bandwidth_hz").Refuse("expected a frequency in Hz, or 0");

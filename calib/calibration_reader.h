@@ -20,7 +20,8 @@ struct CalibratedRobot {
   std::vector<std::string> logs;
   std::vector<TimeRange> log_ranges;
 
-  // Whether it was fitted to some of this part of a log.
+  // Whether it was fitted to some of this part of a log, the same file by
+  // whatever path from the current folder.
   bool Saw(const std::string& log, const TimeRange& range) const;
 };
 
@@ -31,7 +32,8 @@ struct CalibratedRobot {
 //
 // Throws InputError with the file, the key, its value and what was expected:
 // text that is no JSON or none of ours, a key that is missing or of another
-// type, a linear estimate only, other joints or links than the robot's, a
+// type, a linear estimate only, other joints or links than the robot's, Coulomb
+// friction without the way it changes sign, a
 // prior that is not the robot file's value (the file has changed since), a unit
 // or a name that is not known.
 CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal);

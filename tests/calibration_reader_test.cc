@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -79,6 +80,17 @@ TEST(ReadCalibration, DynamicsComeBack) {
   EXPECT_TRUE(read.Saw(read.logs[0], {3, 5}));
   EXPECT_FALSE(read.Saw(read.logs[0], {25, 30}));
   EXPECT_FALSE(read.Saw("other.csv", {3, 5}));
+}
+
+// The same file by another path; one that is not there, too.
+TEST(CalibratedRobot, SawTheFileByWhateverPath) {
+  CalibratedRobot robot;
+  robot.logs = {"a.csv", "./deep/../b.csv"};
+  robot.log_ranges = {{0, 10}, {0, 10}};
+  EXPECT_TRUE(robot.Saw("./a.csv", {3, 5}));
+  EXPECT_TRUE(robot.Saw(std::filesystem::absolute("a.csv"), {3, 5}));
+  EXPECT_TRUE(robot.Saw("b.csv", {3, 5}));
+  EXPECT_FALSE(robot.Saw("deep/a.csv", {3, 5}));
 }
 
 TEST(ReadCalibration, RefinedGeometryAndTiltComeBack) {
@@ -166,6 +178,10 @@ TEST_F(ChangedCalibration, ParametersAndFriction) {
               HasSubstr("expected 'velocity' or 'displacement'"));
   EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/unit", "m/s"),
               HasSubstr("expected 'rad/s'"));
+  EXPECT_THAT(RefusalAfter([](json* c) {
+                (*c)["joints"][1].erase("coulomb_transition");
+              }),
+              HasSubstr("key joints[1].coulomb_transition: is missing"));
   EXPECT_THAT(RefusalOf("/bandwidth_hz", -1),
               HasSubstr("expected a frequency"));
   EXPECT_THAT(RefusalOf("/refined/converged", 1),
