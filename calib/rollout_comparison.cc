@@ -8,6 +8,7 @@
 namespace armcal {
 namespace {
 
+constexpr double kIntegrated = 1e-5;  // rad, m: of RolloutOptions::tolerance
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A robot with the engine that simulates it.
@@ -48,6 +49,11 @@ RolloutComparison Compare(const Robot& robot, const Rollouts& rollouts,
 }
 
 }  // namespace
+
+bool RolloutComparison::is_judged() const {
+  return window_s == kJudgedWindow && ratio && ratio->can_judge() &&
+         (after->value >= kIntegrated || before.value >= kIntegrated);
+}
 
 RolloutComparisons CompareRollouts(const Robot& file,
                                    const CalibratedRobot* calibrated,

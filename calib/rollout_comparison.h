@@ -19,6 +19,9 @@ struct JointRollout {
   double after_rms;   // NaN without a calibration
 };
 
+// The windows that say which robot is nearer to the log, s.
+constexpr double kJudgedWindow = 0.5;
+
 // Windows of one length and the joints of one unit, before calibration and
 // after. Medians over windows, rms over the joints.
 struct RolloutComparison {
@@ -34,6 +37,10 @@ struct RolloutComparison {
   double before_velocity_rms;          // rad/s or m/s
   double after_velocity_rms;
   std::vector<JointRollout> joints;
+
+  // Whether these windows say it: there are enough of them, and the errors are
+  // not the integration's.
+  bool is_judged() const;
 };
 
 struct RolloutComparisons {

@@ -3,16 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "calib/json_figures.h"
 #include "model/input_text.h"
 
 namespace armcal {
 namespace {
-
-using nlohmann::json;
-
-constexpr int kJudged = 8;            // windows that make an interval
-constexpr double kIntegrated = 1e-5;  // rad, m: of RolloutOptions::tolerance
 
 template <typename... Args>
 std::string Format(const char* format, Args... args) {
@@ -47,6 +41,7 @@ std::string CheckTable(const VerificationReport& report) {
 }
 
 std::string FigureText(const RolloutFigure& figure) {
+  if (figure.windows == 0) return "no window";
   if (!std::isfinite(figure.value)) return "diverges";
   std::string text = Format("%.3g", figure.value);
   if (std::isnan(figure.low)) return text;
@@ -57,10 +52,10 @@ std::string FigureText(const RolloutFigure& figure) {
 
 std::string RolloutRow(const RolloutComparison& c) {
   std::string row =
-      Format("  %4g s %4s %8d   %-26s", c.window_s, c.unit.c_str(), c.windows,
+      Format("  %4g s %4s %8d   %-30s", c.window_s, c.unit.c_str(), c.windows,
              FigureText(c.before).c_str());
   if (c.after) {
-    row += Format(" %-26s %s", FigureText(*c.after).c_str(),
+    row += Format(" %-30s %s", FigureText(*c.after).c_str(),
                   FigureText(*c.ratio).c_str());
   }
   row.erase(row.find_last_not_of(' ') + 1);
@@ -73,15 +68,34 @@ std::string RolloutRow(const RolloutComparison& c) {
   return row;
 }
 
+// What the rollouts that are judged do not show.
+std::string JudgementText(const RolloutComparison& c) {
+  if (c.window_s != kJudgedWindow || !c.ratio || c.windows == 0) return "";
+  const std::string joints = "  joints in " + c.unit + ": ";
+  if (!c.ratio->can_judge()) {
+    return joints + "too few windows to judge\n" +
+           Format(
+               "         (%d of %g s, correlated over blocks of %d; ten "
+               "blocks are needed)\n",
+               c.windows, c.window_s, c.ratio->block);
+  }
+  if (!c.is_judged()) return joints + "no error above the integration's\n";
+  if (c.ratio->low > 1) return joints + "worse than the file\n";
+  return c.ratio->high < 1 ? ""
+                           : joints + "not shown to be better than the file\n";
+}
+
 std::string RolloutTable(const RolloutComparisons& rollouts) {
   if (rollouts.windows.empty()) return "";
   const bool calibrated = rollouts.windows[0].after.has_value();
   std::string text =
       "\nsimulated from the log's states with its torque; rms of positions, "
       "median over windows [95 %]\n"
-      "  window     windows   the file's robot";
-  text += calibrated ? "           calibrated                 ratio\n" : "\n";
+      "  window     windows     the file's robot";
+  text += calibrated ? "               calibrated                     ratio\n"
+                     : "\n";
   for (const RolloutComparison& c : rollouts.windows) text += RolloutRow(c);
+  for (const RolloutComparison& c : rollouts.windows) text += JudgementText(c);
   const RolloutComparison& first = rollouts.windows[0];
   if (first.standstill > 0) {
     text += Format("  standstill left out: %d windows of %g s\n",
@@ -114,51 +128,28 @@ std::string ClosedLoopTable(const ClosedLoopComparison& loop) {
   return text;
 }
 
-json ClosedLoopJson(const ClosedLoopComparison& loop) {
-  json joints = json::array();
-  for (const ClosedLoopJoint& joint : loop.joints) {
-    joints.push_back(
-        {{"name", joint.name},
-         {"unit", joint.unit},
-         {"before_rms", JsonNumber(joint.before_rms)},
-         {"after_rms", JsonNumber(joint.after_rms)},
-         {"before_torque_rms", JsonNumber(joint.before_torque_rms)},
-         {"after_torque_rms", JsonNumber(joint.after_torque_rms)},
-         {"torque_rms", JsonNumber(joint.torque_rms)}});
+// What was verified, on what.
+std::string Heading(const VerificationReport& report) {
+  const Verification& v = report.verification;
+  std::string text =
+      "robot      " + report.robot.name + ", " +
+      std::to_string(report.robot.num_joints()) + " joints" +
+      (report.calibration.empty() ? std::string(", as its file has it")
+                                  : ", as " + report.calibration + " has it") +
+      "\n";
+  for (const std::string& log : report.logs) text += "log        " + log + "\n";
+  for (const std::string& log : report.seen_logs) {
+    text += "note       the calibration was fitted to " + log +
+            ": rollouts over it are no check on unseen data\n";
   }
-  return {{"before_finite", loop.before_finite},
-          {"after_finite", loop.after_finite},
-          {"joints", joints}};
-}
-
-json FigureJson(const RolloutFigure& figure) {
-  return {JsonNumber(figure.low), JsonNumber(figure.high)};
-}
-
-json RolloutJson(const RolloutComparison& c) {
-  const double none = std::nan("");
-  // The interval is that of the last robot, the calibrated one if there is.
-  json out = {{"window_s", c.window_s},
-              {"unit", c.unit},
-              {"before_rms", JsonNumber(c.before.value)},
-              {"after_rms", JsonNumber(c.after ? c.after->value : none)},
-              {"ci95", FigureJson(c.after ? *c.after : c.before)},
-              {"before_ci95", FigureJson(c.before)},
-              {"ratio", JsonNumber(c.ratio ? c.ratio->value : none)},
-              {"windows", c.windows},
-              {"standstill", c.standstill},
-              {"before_diverged", c.before_diverged},
-              {"after_diverged", c.after_diverged},
-              {"before_velocity_rms", JsonNumber(c.before_velocity_rms)},
-              {"after_velocity_rms", JsonNumber(c.after_velocity_rms)},
-              {"joints", json::array()}};
-  if (c.ratio) out["ratio_ci95"] = FigureJson(*c.ratio);
-  for (const JointRollout& joint : c.joints) {
-    out["joints"].push_back({{"name", joint.name},
-                             {"before_rms", JsonNumber(joint.before_rms)},
-                             {"after_rms", JsonNumber(joint.after_rms)}});
+  if (!report.calibration_converged) {
+    text +=
+        "note       the calibration did not converge: its parameters are "
+        "those of its last step\n";
   }
-  return out;
+  text += "states     " + std::to_string(v.random_states) + " random ones, " +
+          std::to_string(v.log_states) + " of the logs\n";
+  return text;
 }
 
 }  // namespace
@@ -167,8 +158,7 @@ std::vector<VerificationCheck> VerificationReport::Checks() const {
   std::vector<VerificationCheck> checks = verification.Checks();
   if (!rollouts) return checks;
   for (const RolloutComparison& c : rollouts->windows) {
-    if (!c.ratio || c.windows < kJudged) continue;
-    if (c.after->value < kIntegrated && c.before.value < kIntegrated) continue;
+    if (!c.is_judged()) continue;
     checks.push_back(
         {"rollout_ratio_low_" + NumberText(c.window_s) + "s_" + c.unit,
          c.ratio->low, 1});
@@ -194,20 +184,7 @@ std::vector<std::string> VerificationReport::Shortcomings() const {
 }
 
 std::string FullReport(const VerificationReport& report) {
-  const Verification& v = report.verification;
-  std::string text =
-      "robot      " + report.robot.name + ", " +
-      std::to_string(report.robot.num_joints()) + " joints" +
-      (report.calibration.empty() ? std::string(", as its file has it")
-                                  : ", as " + report.calibration + " has it") +
-      "\n";
-  for (const std::string& log : report.logs) text += "log        " + log + "\n";
-  for (const std::string& log : report.seen_logs) {
-    text += "note       the calibration was fitted to " + log +
-            ": rollouts over it are no check on unseen data\n";
-  }
-  text += "states     " + std::to_string(v.random_states) + " random ones, " +
-          std::to_string(v.log_states) + " of the logs\n" + CheckTable(report);
+  std::string text = Heading(report) + CheckTable(report);
   if (report.rollouts) text += RolloutTable(*report.rollouts);
   if (report.closed_loop) text += ClosedLoopTable(*report.closed_loop);
   text += "\n";
@@ -217,41 +194,6 @@ std::string FullReport(const VerificationReport& report) {
   }
   if (shortcomings.empty()) text += report.robot.name + ": verified\n";
   return text;
-}
-
-json ToJson(const VerificationReport& report) {
-  const Verification& v = report.verification;
-  json out = {{"format", "armcal verification 1"},
-              {"robot", report.robot.name},
-              {"passed", report.passed()},
-              {"states", v.random_states + v.log_states},
-              {"random_states", v.random_states},
-              {"log_states", v.log_states},
-              {"seed", report.seed},
-              {"logs", report.logs},
-              {"seen_logs", report.seen_logs},
-              {"reasons", report.Shortcomings()},
-              {"rollout", json::array()},
-              {"checks", json::array()}};
-  out["calibration"] =
-      report.calibration.empty() ? json(nullptr) : json(report.calibration);
-  for (const VerificationCheck& check : v.Checks()) {
-    out[check.name] = JsonNumber(check.value);
-  }
-  for (const VerificationCheck& check : report.Checks()) {
-    out["checks"].push_back({{"name", check.name},
-                             {"value", JsonNumber(check.value)},
-                             {"threshold", check.threshold},
-                             {"passed", check.passed()}});
-  }
-  if (report.rollouts) {
-    for (const RolloutComparison& c : report.rollouts->windows) {
-      out["rollout"].push_back(RolloutJson(c));
-    }
-  }
-  if (report.closed_loop)
-    out["closed_loop"] = ClosedLoopJson(*report.closed_loop);
-  return out;
 }
 
 }  // namespace armcal

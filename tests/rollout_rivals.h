@@ -16,6 +16,16 @@
 
 namespace armcal {
 
+// What `robot`'s links leave of the recorded torque, samples x n.
+inline Eigen::MatrixXd TorqueLeft(const Robot& robot, const Trajectory& t) {
+  Eigen::MatrixXd left = t.tau;
+  for (int k = 0; k < t.size(); ++k) {
+    left.row(k) -=
+        InverseDynamics(robot, t.q.row(k), t.qd.row(k), t.qdd.row(k));
+  }
+  return left;
+}
+
 // Per joint, a row per moving sample: the torque of each term's unit parameter,
 // then what `robot`'s links leave of the recorded torque, all low-passed.
 inline std::vector<Eigen::MatrixXd> TermRows(
@@ -31,11 +41,7 @@ inline std::vector<Eigen::MatrixXd> TermRows(
   logs->Prepare(bandwidth_hz, 0);
   logs->ForEach("", nullptr, [&](int, const Trajectory& t) {
     const Eigen::MatrixXd c = states.Follow(t);
-    Eigen::MatrixXd left = t.tau;
-    for (int k = 0; k < t.size(); ++k) {
-      left.row(k) -=
-          InverseDynamics(robot, t.q.row(k), t.qd.row(k), t.qdd.row(k));
-    }
+    const Eigen::MatrixXd left = TorqueLeft(robot, t);
     for (int j = 0; j < n; ++j) {
       Eigen::MatrixXd all(t.size(), m + 1);
       for (int k = 0; k < t.size(); ++k) {

@@ -91,6 +91,7 @@ int RunVerify() {
   VerificationReport report;
   report.robot = calibrated ? calibrated->robot : file;
   report.calibration = FLAGS_calibration;
+  report.calibration_converged = !calibrated || calibrated->converged;
   VerificationOptions options;
   options.seed = report.seed = SeedFromFlags();
   ProgressBar bar;
