@@ -96,9 +96,10 @@ class Contest {
       const int model = static_cast<int>(k) + 1;
       const RolloutFigure theirs = MedianError(rollouts, model, joints, 1);
       const RolloutFigure ratio = MedianRatio(rollouts, 0, model, joints, 1);
-      std::printf("  %-62s %.4f [%.4f %.4f], ours / this %.2f [%.2f %.2f]\n",
+      std::printf("  %-62s %.4f [%.4f %.4f], ours / this %.2f [%.2f %.2f]%s\n",
                   rivals_[k].name.c_str(), theirs.value, theirs.low,
-                  theirs.high, ratio.value, ratio.low, ratio.high);
+                  theirs.high, ratio.value, ratio.low, ratio.high,
+                  ratio.can_judge() ? "" : ", too few to judge");
       EXPECT_LT(ratio.high, 1) << rivals_[k].name;
     }
   }
