@@ -26,8 +26,9 @@ struct Written {
 };
 
 Written CalibrateAndWrite(BentArm* arm, GeometryKnowledge geometry,
-                          RefineGeometry refine,
-                          const PoseMeasurements* poses) {
+                          RefineGeometry refine, const PoseMeasurements* poses,
+                          const std::vector<JointTerm>& terms =
+                              LinearCalibrationOptions().joint_terms) {
   arm->file.name = "arm";
   LogReaderOptions reader;
   reader.joint_names = arm->file.JointNames();
@@ -35,6 +36,7 @@ Written CalibrateAndWrite(BentArm* arm, GeometryKnowledge geometry,
   LinearCalibrationOptions linear;
   linear.geometry = geometry;
   linear.transition = BentArm::kWidth;
+  linear.joint_terms = terms;
   const LinearCalibration start =
       CalibrateLinear(arm->file, linear, &training, nullptr);
   NonlinearCalibrationOptions options;
@@ -91,6 +93,18 @@ TEST(CalibratedRobot, SawTheFileByWhateverPath) {
   EXPECT_TRUE(robot.Saw(std::filesystem::absolute("a.csv"), {3, 5}));
   EXPECT_TRUE(robot.Saw("b.csv", {3, 5}));
   EXPECT_FALSE(robot.Saw("deep/a.csv", {3, 5}));
+}
+
+// Friction of the file that is not estimated is in the model all the same.
+TEST(ReadCalibration, FrictionOfTheFileComesBack) {
+  BentArm arm("3R elbow", 1);
+  for (Link& link : arm.file.links) link.joint.coulomb = .1;
+  const Written written = CalibrateAndWrite(&arm, GeometryKnowledge::kKnown,
+                                            RefineGeometry::kNothing, nullptr,
+                                            {JointTerm::kViscous});
+  const CalibratedRobot read = Read(written);
+  EXPECT_EQ(read.robot.links[0].joint.coulomb, .1);
+  EXPECT_EQ(read.transitions[0].width, CoulombTransition().width);
 }
 
 TEST(ReadCalibration, RefinedGeometryAndTiltComeBack) {
