@@ -90,6 +90,15 @@ const char* InertialUnit(int index) {
   return index == 0 ? "kg" : index < 4 ? "kg m" : "kg m^2";
 }
 
+Eigen::Matrix4d PseudoInertia(const Vector10d& V) {
+  const auto inertial = InertialParameters::FromVector(V);
+  const Matrix3d& I = inertial.inertia;
+  Eigen::Matrix4d P;
+  P << I.trace() / 2 * Matrix3d::Identity() - I, inertial.first_moment,
+      inertial.first_moment.transpose(), inertial.mass;
+  return P;
+}
+
 std::string WhyUnphysical(const InertialParameters& parameters) {
   if (!parameters.ToVector().allFinite()) return "a parameter is not finite";
   if (!(parameters.mass > 0)) {

@@ -35,6 +35,13 @@ struct InertialParameters {
 const char* InertialName(int index);
 const char* InertialUnit(int index);
 
+// The second moments of mass, the integral of (p; 1) (p; 1)' dm over the body,
+//   [ tr(I)/2 1 - I   h ]
+//   [ h'              m ],
+// kg m^2, kg m, kg: linear in the parameters V of ToVector(), and positive
+// semidefinite for every body that can exist (Wensing, Kim, Slotine 2017).
+Eigen::Matrix4d PseudoInertia(const Vector10d& V);
+
 // An empty text where a rigid body with these parameters can exist (mass > 0,
 // and the inertia about the centre of mass positive semidefinite with its
 // principal moments meeting the triangle inequality, within 1e-9 relative);

@@ -54,8 +54,12 @@ struct Transmission {
   Eigen::VectorXd initial_state;
   std::function<double(double deflection, double deflection_rate,
                        const double* state, double* rate)>
-      torque;                    // N m or N
-  double initial_stiffness = 0;  // N m/rad: the start is at static deflection
+      torque;  // N m or N
+  // At rest under a load in N m or N, rad or m: where the start is. Empty: 0.
+  std::function<double(double load)> initial_deflection;
+  // Largest slope of the torque, N m/rad or N/m, of a law that stiffens, as a
+  // contact does. 0: it is about that at the start.
+  double stiffest = 0;
 };
 
 // Force and moment of the environment on a link, at an attachment.
@@ -91,7 +95,7 @@ struct ActuatorMap {
 // What sensors say, before resolution and noise.
 struct Reading {
   Eigen::VectorXd position;     // rad or m; the controller sees it too
-  Eigen::VectorXd velocity;     // rad/s or m/s, of a tachometer
+  Eigen::VectorXd velocity;     // rad/s or m/s; the controller sees it too
   Eigen::VectorXd torque;       // N m or N, as recorded
   Eigen::VectorXd temperature;  // deg C
 };
@@ -120,7 +124,6 @@ struct SimulatedRobot {
   std::function<double(double)> clock;
   std::vector<JointThermal> thermal;  // per joint; empty: the default
   double ambient = 25;                // deg C
-  bool tachometer = false;  // else velocities are differences of positions
 };
 
 }  // namespace armcal

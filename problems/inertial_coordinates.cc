@@ -9,13 +9,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Integral of x x' over the mass, from the inertia.
-Matrix3d SecondMoments(const Vector10d& V) {
-  Matrix3d I;
-  I << V[4], V[5], V[7], V[5], V[6], V[8], V[7], V[8], V[9];
-  return 0.5 * I.trace() * Matrix3d::Identity() - I;
-}
-
 // Upper triangular U with U U' = S, for S positive definite.
 Matrix3d UpperCholesky(const Matrix3d& S) {
   const Matrix3d flipped = S.rowwise().reverse().colwise().reverse();
@@ -25,22 +18,13 @@ Matrix3d UpperCholesky(const Matrix3d& S) {
 
 }  // namespace
 
-Eigen::Matrix4d PseudoInertia(const Vector10d& V) {
-  Eigen::Matrix4d P;
-  P.topLeftCorner<3, 3>() = SecondMoments(V);
-  P.topRightCorner<3, 1>() = V.segment<3>(1);
-  P.bottomLeftCorner<1, 3>() = V.segment<3>(1).transpose();
-  P(3, 3) = V[0];
-  return P;
-}
-
 Vector10d LogCholeskyFromInertial(const Vector10d& V, double margin,
                                   double least_mass) {
   const double mass = std::max(V[0], least_mass);
   const Vector3d com =
       V[0] > 0 ? Vector3d(V.segment<3>(1) / V[0]) : Vector3d(Vector3d::Zero());
-  const Matrix3d central =
-      SecondMoments(V) / mass - (V[0] / mass) * com * com.transpose();
+  const Matrix3d central = PseudoInertia(V).topLeftCorner<3, 3>() / mass -
+                           (V[0] / mass) * com * com.transpose();
   Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(central);
   const Vector3d values = eigen.eigenvalues().cwiseMax(margin * margin);
   const Matrix3d U = UpperCholesky(eigen.eigenvectors() * values.asDiagonal() *

@@ -54,10 +54,6 @@ Eigen::Matrix<T, 4, 4> LogCholeskyFactor(const T* c) {
   return U;
 }
 
-// The pseudo-inertia of (2.2), 4 x 4, linear in the parameters; kg m^2, kg m,
-// kg.
-Eigen::Matrix4d PseudoInertia(const Vector10d& V);
-
 // The coordinates of physically consistent parameters. Others are moved inside
 // first: eigenvalues of the central second moments are raised to at least
 // (margin m)^2 times the mass, the mass to at least `least_mass` kg.

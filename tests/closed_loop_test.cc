@@ -153,7 +153,7 @@ TEST(ClosedLoop, RefusesALogRateThatDoesNotDivide) {
   options.sensors.log_rate_hz = 300;
   EXPECT_THAT([&] { RunPuma(Plain(robot), robot, options, 1); },
               testing::ThrowsMessage<InputError>(testing::HasSubstr(
-                  "expected a log rate in Hz that divides the controller's")));
+                  "expected Hz that divide the controller's")));
 }
 
 }  // namespace

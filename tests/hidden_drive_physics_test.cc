@@ -153,7 +153,7 @@ TEST(HiddenSensorPhysics, PositionsThatAreWrong) {
 
 TEST(HiddenSensorPhysics, VelocitiesAndTimeThatAreWrong) {
   HiddenLoop loop(Wheel(), Plateaus({1}, 3));
-  loop.context.duration = 3;
+  loop.context.time_scale = 3;
   const HiddenRun old = loop.Run("aging_tachometer", 0, {.2});
   const double true_speed = (old.link(1490, 0) - old.link(1410, 0)) / .16;
   CheckEffect("aging_tachometer", "logged over true velocity at 2.9 s",

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "model/input_error.h"
 #include "model/plant/arm_simulator.h"
 #include "model/plant/hidden/joint_friction.h"
 #include "model/plant/simbody_arm.h"
@@ -91,6 +92,8 @@ TEST(HiddenEffects, SayWhatTheyAreAndDrawWithinTheirRange) {
     EXPECT_FALSE(effect.parameters.empty()) << effect.name;
     for (const EffectParameter& p : effect.parameters) {
       EXPECT_LT(p.low, p.high) << effect.name << " " << p.name;
+      EXPECT_LE(p.least, p.low) << effect.name << " " << p.name;
+      EXPECT_GE(p.most, p.high) << effect.name << " " << p.name;
       EXPECT_TRUE(p.low <= p.usual && p.usual <= p.high)
           << effect.name << " " << p.name;
       EXPECT_TRUE(p.draw == EffectParameter::Draw::kUniform || p.low > 0);
@@ -112,11 +115,11 @@ TEST(HiddenEffects, SayWhatTheyAreAndDrawWithinTheirRange) {
 
 // Whether the joint can show the effect; if so the arm falls for 50 ms with it
 // and stays finite.
-bool Swing(const HiddenEffect& effect, const Robot& robot, int joint) {
+bool Swing(const HiddenEffect& effect, const Robot& robot, int joint,
+           const VectorXd& p) {
   const EffectContext context = TypicalContext(robot, 5);
   SimulatedRobot simulated;
   simulated.robot = robot;
-  VectorXd p = UsualParameters(effect);
   const std::string why =
       WhyNotApplicable(effect, simulated, joint, p, context);
   if (!why.empty()) return false;
@@ -156,12 +159,36 @@ TEST(HiddenEffects, ApplyToSixRevoluteJointsAndToAScara) {
     std::set<std::string> unfit;
     for (const HiddenEffect& effect : HiddenEffects()) {
       for (const int joint : Joints(effect, robot)) {
-        if (Swing(effect, robot, joint)) continue;
+        if (Swing(effect, robot, joint, UsualParameters(effect))) continue;
         unfit.insert(effect.name + " " + std::to_string(joint));
       }
     }
     EXPECT_EQ(unfit, expected) << name;
   }
+}
+
+// The law keeps its sense at the ends of what is valid, or the simulator says
+// that it cannot integrate it.
+TEST(HiddenEffects, RunOrAreRefusedAtTheEndsOfTheirRange) {
+  const Robot robot = Arm("UR5 6R");
+  int refused = 0;
+  for (const HiddenEffect& effect : HiddenEffects()) {
+    const int joint = effect.scope == Scope::kRobot ? -1 : 2;
+    for (size_t k = 0; k < effect.parameters.size(); ++k) {
+      const EffectParameter& parameter = effect.parameters[k];
+      for (const double end : {parameter.least, parameter.most}) {
+        VectorXd p = UsualParameters(effect);
+        p[k] = end;
+        try {
+          EXPECT_TRUE(Swing(effect, robot, joint, p)) << effect.name;
+        } catch (const InputError& error) {
+          EXPECT_THAT(error.what(), testing::HasSubstr("too stiff"));
+          ++refused;
+        }
+      }
+    }
+  }
+  EXPECT_LT(refused, 8);
 }
 
 TEST(HiddenEffectsDeathTest, RefuseWhatIsOutOfRange) {
@@ -173,7 +200,7 @@ TEST(HiddenEffectsDeathTest, RefuseWhatIsOutOfRange) {
     const int joint = effect.scope == Scope::kRobot ? -1 : 2;
     for (int k = 0; k < static_cast<int>(effect.parameters.size()); ++k) {
       VectorXd p = UsualParameters(effect);
-      p[k] = 1.01 * effect.parameters[k].high;
+      p[k] = 1.01 * effect.parameters[k].most;
       EXPECT_THAT(WhyNotApplicable(effect, simulated, joint, p, context),
                   testing::HasSubstr(effect.parameters[k].name))
           << effect.name;
@@ -187,7 +214,7 @@ TEST(HiddenEffectsDeathTest, RefuseWhatIsOutOfRange) {
   const HiddenEffect& effect = *FindHiddenEffect("viscous_friction");
   EXPECT_DEATH(
       ApplyHiddenEffect(effect, &simulated, 0, VectorXd::Zero(1), context),
-      "drag = 0: expected 0.01 to 0.5");
+      "drag = 0: expected 0.001 to 2.5");
   EXPECT_EQ(FindHiddenEffect("viscosity"), nullptr);
 }
 

@@ -3,8 +3,6 @@
 // the form explains most of them.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/form_misfit.h"
 #include "tests/hidden_plant.h"
 

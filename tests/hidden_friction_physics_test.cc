@@ -144,7 +144,7 @@ TEST(HiddenFrictionPhysics, Warms) {
   HiddenLoop loop(robot, Plateaus({1}, 5));
   loop.friction = true;
   loop.log_links = false;
-  loop.context.duration = 5;
+  loop.context.time_scale = 5;
   const HiddenRun run = loop.Run("thermal_friction", 0, {.04, 20, .5});
   const auto at = [&run](const Eigen::MatrixXd& signal, double t) {
     return run.Mean(signal, t - .1, t + .1);

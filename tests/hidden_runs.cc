@@ -157,7 +157,18 @@ HiddenLoop::HiddenLoop(const Robot& robot, const Profile& profile, int moving)
   context.torque = VectorXd::Constant(n, 10);
   context.speed = VectorXd::Ones(n);
   context.inertia = VectorXd::Constant(n, kInertia + kMotor);
-  context.duration = profile.duration;
+  context.time_scale = context.duration = profile.duration;
+}
+
+ReferenceMotion HiddenLoop::Motion() const {
+  return {profile.duration, [this](double t) {
+            const Vector3d at = profile.at(std::clamp(t, 0., profile.duration));
+            ReferencePoint point{q0, 0 * q0, 0 * q0};
+            point.q[moving] += at[0];
+            point.qd[moving] = at[1];
+            point.qdd[moving] = at[2];
+            return point;
+          }};
 }
 
 HiddenRun HiddenLoop::Run(const std::string& effect, int joint,
@@ -181,15 +192,7 @@ HiddenRun HiddenLoop::Run(const std::string& effect, int joint,
   ClosedLoopOptions options;
   options.controller = DefaultController(robot, q0, bandwidth_hz);
   options.sensors.log_rate_hz = 500;
-  const ReferenceMotion motion = {
-      profile.duration, [this](double t) {
-        const Vector3d at = profile.at(std::clamp(t, 0., profile.duration));
-        ReferencePoint point{q0, 0 * q0, 0 * q0};
-        point.q[moving] += at[0];
-        point.qd[moving] = at[1];
-        point.qdd[moving] = at[2];
-        return point;
-      }};
+  const ReferenceMotion motion = Motion();
   SimbodyArm arm(plant.robot);
   ClosedLoopRun simulated = RunClosedLoop(plant, robot, motion, options, &arm);
   EXPECT_TRUE(simulated.finite) << effect;

@@ -6,6 +6,7 @@
 
 #include "model/log.h"
 #include "model/plant/hidden/hidden_effects.h"
+#include "model/plant/reference_motion.h"
 
 namespace armcal {
 
@@ -67,6 +68,8 @@ struct HiddenLoop {
   HiddenRun Run(const std::string& effect, int joint,
                 const std::vector<double>& parameters) const;
   HiddenRun Without() const { return Run("", 0, {}); }
+
+  ReferenceMotion Motion() const;  // refers to this
 
   Robot robot;
   Profile profile;

@@ -29,10 +29,9 @@ TEST(HiddenSensors, ByHand) {
   disc.at.position[2] = 2 * M_PI;
   EXPECT_NEAR(Read(disc).position[2] - 2 * M_PI, 0, 1e-12);
   HiddenPlant old("aging_tachometer", 2, {.2});
-  EXPECT_TRUE(old.robot.tachometer);
   old.at.velocity[2] = 3;
   EXPECT_EQ(Read(old).velocity[2], 3);
-  old.at.t = 20;  // half the log: 1 - 1/e of the loss
+  old.at.t = 20;  // half the time scale: 1 - 1/e of the loss
   EXPECT_NEAR(Read(old).velocity[2], 3 * (1 - .2 * (1 - std::exp(-1))), 1e-12);
   EXPECT_EQ(Read(old).position[2], 0);
 }

@@ -65,6 +65,25 @@ TEST(HiddenTransmissions, BacklashHasAGapAndNeverPulls) {
   EXPECT_NEAR(plant.Transmitted(-.006, -.25), -k * .001 * 1.5, 1e-9);
 }
 
+// Whatever the load, it starts at rest on the flank that bears it.
+TEST(HiddenTransmissions, BacklashStartsPressedOntoAFlank) {
+  for (const double gap : {5e-4, .01}) {
+    const HiddenPlant plant("backlash", 0, {gap});
+    const Transmission& law = plant.robot.transmissions[0];
+    for (const double load : {.01, 3., 8., 12., 40.}) {
+      EXPECT_NEAR(plant.Transmitted(law.initial_deflection(load), 0), load,
+                  1e-9 * load);
+      EXPECT_NEAR(plant.Transmitted(law.initial_deflection(-load), 0), -load,
+                  1e-9 * load);
+    }
+    EXPECT_EQ(law.initial_deflection(0), 0);
+    EXPECT_EQ(law.stiffest, plant.Value("contact_stiffness"));
+  }
+  // Flanks give way by 0.2 mrad at least.
+  EXPECT_NEAR(HiddenPlant("backlash", 0, {5e-4}).Value("contact_stiffness"),
+              10 / 2e-4, 1e-6);
+}
+
 TEST(HiddenTransmissions, BacklashTakesEnergyOnItsFlanks) {
   const HiddenPlant plant("backlash", 0, {.01});
   EXPECT_EQ(CycleWork(plant, .004, 30), 0);

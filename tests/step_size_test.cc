@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "model/plant/hidden/scenario.h"
 #include "tests/blind/blind_case.h"
@@ -11,13 +12,28 @@
 namespace armcal {
 namespace {
 
-// The bench's PUMA or whichever arm an effect fits.
-BlindCase CaseFor(const HiddenEffect& kind, int joint) {
-  for (uint64_t seed = 0;; ++seed) {
-    BlindCase blind = DrawBlindCase(seed);
-    if (blind.arm != "puma" || blind.excitation != Excitation::kRich) continue;
+// An arm of the bench, a joint and sizes drawn for each effect, `draw` of them.
+BlindCase CaseFor(const HiddenEffect& kind, uint32_t draw) {
+  uint32_t index = 0;
+  while (HiddenEffects()[index].name != kind.name) ++index;
+  std::seed_seq sequence{index, draw};
+  std::mt19937_64 random(sequence);
+  while (true) {
+    BlindCase blind = DrawBlindCase(random() >> 1);
+    if (blind.excitation != Excitation::kRich) continue;
     const bool of_joint = kind.scope == HiddenEffect::Scope::kJoint;
-    blind.effects = {{&kind, of_joint ? joint : -1, UsualParameters(kind)}};
+    const int n = blind.robot.num_joints();
+    const ChosenEffect effect = {&kind,
+                                 of_joint ? static_cast<int>(random() % n) : -1,
+                                 DrawParameters(kind, &random)};
+    SimulatedRobot plant;
+    plant.robot = blind.robot;
+    if (!WhyNotApplicable(kind, plant, effect.joint, effect.parameters,
+                          TypicalContext(blind.robot, 0))
+             .empty()) {
+      continue;
+    }
+    blind.effects = {effect};
     return blind;
   }
 }
@@ -32,21 +48,30 @@ Log Simulate(const BlindCase& blind, double step) {
   return RunScenario(scenario).run.log;
 }
 
+std::string Text(const BlindCase& blind) {
+  const ChosenEffect& effect = blind.effects[0];
+  std::ostringstream text;
+  text << blind.arm << " joint " << effect.joint + 1 << ", "
+       << effect.parameters.transpose();
+  return text.str();
+}
+
 class StepSize : public testing::TestWithParam<HiddenEffect> {};
 
 TEST_P(StepSize, MattersLessThanNoise) {
-  const BlindCase blind = CaseFor(GetParam(), 1);
+  const BlindCase blind = CaseFor(GetParam(), 0);
   const Log coarse = Simulate(blind, 1e-3);
   const Log fine = Simulate(blind, 5e-4);
   ASSERT_EQ(coarse.size(), fine.size());
   // A tenth of the quietest noise that the bench draws.
   const Eigen::VectorXd torque = TypicalContext(blind.robot, 0).torque;
-  for (int j = 0; j < 6; ++j) {
-    const double rows = coarse.size();
-    EXPECT_LT((coarse.q - fine.q).col(j).norm() / std::sqrt(rows), 1e-7) << j;
-    EXPECT_LT((coarse.tau - fine.tau).col(j).norm() / std::sqrt(rows),
-              5e-4 * torque[j])
-        << j;
+  const auto rms = [&](const Eigen::MatrixXd& difference, int j) {
+    return difference.col(j).norm() / std::sqrt(coarse.size());
+  };
+  for (int j = 0; j < blind.robot.num_joints(); ++j) {
+    EXPECT_LT(rms(coarse.q - fine.q, j), 1e-7) << j + 1 << ": " << Text(blind);
+    EXPECT_LT(rms(coarse.tau - fine.tau, j) / torque[j], 5e-4)
+        << j + 1 << ": " << Text(blind);
   }
 }
 

@@ -48,8 +48,8 @@ std::string Report(const Scenario& scenario, const ScenarioRun& run) {
   }
   if (!run.run.finite) {
     text +=
-        "the simulation diverged: the controller is unstable for this "
-        "robot; the log ends there\n";
+        "the simulation diverged; the log ends there: the controller is "
+        "unstable for this robot, or an effect too stiff for --step\n";
   }
   return text;
 }
@@ -60,6 +60,12 @@ int Simulate() {
     return kExitOk;
   }
   Scenario scenario = ScenarioFromFlags();
+  if (!LogRateFits(scenario.loop)) {
+    throw UsageError("--log_rate: found '" +
+                     NumberText(scenario.loop.sensors.log_rate_hz) +
+                     "', expected Hz that divide the controller's rate of " +
+                     NumberText(scenario.loop.controller.rate_hz));
+  }
   if (OutFromFlags().empty()) throw UsageError("--out=DIR is needed");
   ProgressBar bar;
   scenario.loop.progress = [&bar](double share) {
@@ -85,43 +91,45 @@ int Simulate() {
   return run.run.finite ? kExitOk : kExitNegative;
 }
 
+constexpr const char* kFlags[] = {"robot",
+                                  "effects",
+                                  "list_effects",
+                                  "robot_error",
+                                  "motion",
+                                  "duration",
+                                  "size",
+                                  "speed",
+                                  "joints",
+                                  "standstill",
+                                  "controller",
+                                  "friction_width",
+                                  "encoder_resolution",
+                                  "encoder_noise",
+                                  "torque_noise",
+                                  "coloured_noise",
+                                  "noise_correlation",
+                                  "torque_delay",
+                                  "torque_constants",
+                                  "temperature",
+                                  "log_rate",
+                                  "jitter",
+                                  "lost",
+                                  "step",
+                                  "seed",
+                                  "run",
+                                  "out",
+                                  "truth",
+                                  "base",
+                                  "tip",
+                                  "gravity"};
+
 }  // namespace
 
 Command SimulateCommand() {
   return {"simulate",
           "writes the log of a simulated robot with hidden effects, and the "
           "truth in a separate file",
-          {"robot",
-           "effects",
-           "list_effects",
-           "robot_error",
-           "motion",
-           "duration",
-           "size",
-           "speed",
-           "joints",
-           "standstill",
-           "controller",
-           "friction_width",
-           "encoder_resolution",
-           "encoder_noise",
-           "torque_noise",
-           "coloured_noise",
-           "noise_correlation",
-           "torque_delay",
-           "torque_constants",
-           "temperature",
-           "log_rate",
-           "jitter",
-           "lost",
-           "step",
-           "seed",
-           "run",
-           "out",
-           "truth",
-           "base",
-           "tip",
-           "gravity"},
+          {std::begin(kFlags), std::end(kFlags)},
           Simulate};
 }
 

@@ -54,7 +54,7 @@ int FindJoint(const std::string& text, const Robot& robot) {
 }
 
 void SetParameter(const std::string& name, const std::string& number,
-                  ChosenEffect* effect) {
+                  ChosenEffect* effect, std::vector<bool>* given) {
   const auto& parameters = effect->kind->parameters;
   std::vector<std::string> names;
   for (size_t k = 0; k < parameters.size(); ++k) {
@@ -64,7 +64,9 @@ void SetParameter(const std::string& name, const std::string& number,
     if (!value || !std::isfinite(*value)) {
       Refuse(name + "=" + number, name + "=NUMBER");
     }
+    if ((*given)[k]) Refuse(name + "=" + number, "each parameter once");
     effect->parameters[k] = *value;
+    (*given)[k] = true;
     return;
   }
   Refuse(name, "a parameter of " + effect->kind->name + ": " +
@@ -72,18 +74,27 @@ void SetParameter(const std::string& name, const std::string& number,
 }
 
 // "mass=0.03", a parameter, or "mass=2kg", a value in SI units.
-void SetSize(const std::string& text, const Scenario& scenario,
-             ChosenEffect* effect) {
-  const size_t equals = std::min(text.find('='), text.size());
-  const std::string name = text.substr(0, equals);
-  const std::string size = text.substr(std::min(equals + 1, text.size()));
-  const size_t unit =
-      std::min(size.find_first_not_of("0123456789.+-eE"), size.size());
-  const std::optional<double> value = ParseNumber(size.substr(0, unit));
-  const std::string unit_text(Trim(std::string_view(size).substr(unit)));
-  if (unit_text.empty() || !value) return SetParameter(name, size, effect);
-  SetEffectSize(name, *value, unit_text, TrueRobot(scenario),
-                ContextOf(scenario), effect);
+void SetParts(const std::vector<std::string>& parts, const Scenario& scenario,
+              ChosenEffect* effect) {
+  std::vector<bool> given(effect->parameters.size());
+  std::vector<EffectSize> sizes;
+  for (const std::string& text : parts) {
+    const size_t equals = std::min(text.find('='), text.size());
+    const std::string name = text.substr(0, equals);
+    const std::string size = text.substr(std::min(equals + 1, text.size()));
+    const size_t unit =
+        std::min(size.find_first_not_of("0123456789.+-eE"), size.size());
+    const std::optional<double> value = ParseNumber(size.substr(0, unit));
+    const std::string unit_text(Trim(std::string_view(size).substr(unit)));
+    if (unit_text.empty() || !value) {
+      SetParameter(name, size, effect, &given);
+    } else {
+      sizes.push_back({name, *value, unit_text});
+    }
+  }
+  if (sizes.empty()) return;
+  SetEffectSizes(sizes, given, TrueRobot(scenario), ContextOf(scenario),
+                 effect);
 }
 
 ChosenEffect ParseEffect(const std::string& text, const Scenario& scenario) {
@@ -100,9 +111,7 @@ ChosenEffect ParseEffect(const std::string& text, const Scenario& scenario) {
   }
   if (of_joint) effect.joint = FindJoint(place[1], scenario.model);
   if (colon == text.size()) return effect;
-  for (const std::string& part : Split(text.substr(colon + 1), ',')) {
-    SetSize(part, scenario, &effect);
-  }
+  SetParts(Split(text.substr(colon + 1), ','), scenario, &effect);
   return effect;
 }
 
@@ -113,8 +122,8 @@ std::string Line(const HiddenEffect& effect) {
   for (const EffectParameter& parameter : effect.parameters) {
     const bool either = parameter.draw == EffectParameter::Draw::kLogEitherSign;
     text += "      " + parameter.name + "=" + NumberText(parameter.usual) +
-            "  " + (either ? "+-" : "") + NumberText(parameter.low) + " to " +
-            NumberText(parameter.high) +
+            "  " + (either ? "+-" : "") + NumberText(parameter.least) + " to " +
+            NumberText(parameter.most) +
             (parameter.unit == "1" ? "" : " " + parameter.unit) + "\n";
   }
   return text;

@@ -3,6 +3,7 @@
 #include <glog/logging.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -37,9 +38,10 @@ ArmSimulator::ArmSimulator(const SimulatedRobot& robot,
     attachments_.push_back(law.attachment);
   }
   dynamics->Evaluate(q0, Eigen::VectorXd::Zero(n_), attachments_, &end_);
+  begin_ = middle_ = end_;
   x_ = layout_.StateAtRest(robot, q0, end_);
   instant_.load = end_.bias;
-  qdd_ = commanded_ = Eigen::VectorXd::Zero(n_);
+  qdd_ = jerk_ = commanded_ = Eigen::VectorXd::Zero(n_);
   ReadInstant(x_, begin_time_);
   substeps_ = options.substeps > 0 ? options.substeps : NeededSubsteps();
 }
@@ -78,17 +80,21 @@ void ArmSimulator::ReadInstant(const Eigen::VectorXd& x, double t) {
 }
 
 void ArmSimulator::Interpolate(double share) {
+  // Through begin, middle and end.
+  const double a = (1 - share) * (1 - 2 * share);
+  const double b = 4 * share * (1 - share), c = share * (2 * share - 1);
   now_.mass_matrix =
-      begin_.mass_matrix + share * (end_.mass_matrix - begin_.mass_matrix);
+      a * begin_.mass_matrix + b * middle_.mass_matrix + c * end_.mass_matrix;
   now_.mass_matrix.diagonal() += rigid_armature_;
-  now_.bias = begin_.bias + share * (end_.bias - begin_.bias);
+  now_.bias = a * begin_.bias + b * middle_.bias + c * end_.bias;
   now_.points.resize(attachments_.size());
   for (size_t k = 0; k < attachments_.size(); ++k) {
-    const ArmTerms::Point& a = begin_.points[k];
-    const ArmTerms::Point& b = end_.points[k];
-    now_.points[k].jacobian = a.jacobian + share * (b.jacobian - a.jacobian);
-    now_.points[k].X_WP.matrix() =
-        a.X_WP.matrix() + share * (b.X_WP.matrix() - a.X_WP.matrix());
+    now_.points[k].jacobian = a * begin_.points[k].jacobian +
+                              b * middle_.points[k].jacobian +
+                              c * end_.points[k].jacobian;
+    now_.points[k].X_WP.matrix() = a * begin_.points[k].X_WP.matrix() +
+                                   b * middle_.points[k].X_WP.matrix() +
+                                   c * end_.points[k].X_WP.matrix();
   }
 }
 
@@ -192,21 +198,31 @@ void ArmSimulator::Substep(double t, double share, double h) {
   instant_.load = load;
 }
 
+// The engine's terms `ahead` of the step's begin, where constant jerk leads.
+void ArmSimulator::Predict(double ahead, const Eigen::VectorXd& qdd,
+                           ArmTerms* terms) {
+  const double h = ahead;
+  const auto q = x_.head(n_), qd = x_.segment(n_, n_);
+  dynamics_->Evaluate(q + h * (qd + h / 2 * (qdd + h / 3 * jerk_)),
+                      qd + h * (qdd + h / 2 * jerk_), attachments_, terms);
+}
+
 void ArmSimulator::Step(const Eigen::VectorXd& commanded) {
   const int passive = robot_.num_passive;
   CHECK_EQ(commanded.size(), n_ - passive);
   commanded_.tail(n_ - passive) = commanded;
   const double t = begin_time_ + step_index_ * step_;
   std::swap(begin_, end_);
-  end_ = begin_;
   Derivative(x_, t, 0);
-  const Eigen::VectorXd qd = x_.segment(n_, n_);
-  dynamics_->Evaluate(x_.head(n_) + step_ * qd + step_ * step_ / 2 * qdd_,
-                      qd + step_ * qdd_, attachments_, &end_);
+  const Eigen::VectorXd qdd = qdd_;
+  Predict(step_ / 2, qdd, &middle_);
+  Predict(step_, qdd, &end_);
   for (int k = 0; k < substeps_; ++k) {
     Substep(t + k * step_ / substeps_, k / static_cast<double>(substeps_),
             step_ / substeps_);
   }
+  // Of within the step: commands jump between steps.
+  jerk_ = (qdd_ - qdd) / step_;
   ++step_index_;
   ReadInstant(x_, begin_time_ + step_index_ * step_);
 }
@@ -214,7 +230,7 @@ void ArmSimulator::Step(const Eigen::VectorXd& commanded) {
 // Of the fastest mode at the start, 1/s: dampers and springs between motors,
 // links and ground, linearised at rest.
 double ArmSimulator::Stiffness() {
-  begin_ = end_;
+  begin_ = middle_ = end_;
   const double dx = 1e-7;
   Derivative(x_, begin_time_, 0);
   const Eigen::VectorXd rate = rate_;
@@ -232,10 +248,26 @@ double ArmSimulator::Stiffness() {
       .maxCoeff();
 }
 
+// Of the fastest of the modes that laws declare but the start does not show,
+// 1/s: motor and link on the stiffest spring between them.
+double ArmSimulator::DeclaredStiffness() {
+  Eigen::MatrixXd inertia = end_.mass_matrix;
+  inertia.diagonal() += rigid_armature_;
+  const Eigen::MatrixXd mobility = inertia.inverse();
+  double fastest = 0;
+  for (const Transmission& law : robot_.transmissions) {
+    const int j = law.joint;
+    fastest =
+        std::max(fastest, law.stiffest * (1 / armature_[j] + mobility(j, j)));
+  }
+  return std::sqrt(fastest);
+}
+
 int ArmSimulator::NeededSubsteps() {
   // Fourth-order Runge-Kutta is stable to 2.78 along the real axis. The arm's
   // inertia elsewhere may be smaller than at the start.
-  const double wanted = std::ceil(step_ * Stiffness() / 1.2);
+  const double wanted =
+      std::ceil(step_ * std::max(Stiffness(), DeclaredStiffness()) / 1.2);
   if (!(wanted <= kMostSubsteps)) {
     throw InputError(robot_.robot.name, "", "",
                      "its laws are too stiff to simulate: expected time "

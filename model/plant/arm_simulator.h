@@ -10,7 +10,7 @@
 namespace armcal {
 
 struct ArmSimulatorOptions {
-  double step = 1e-3;  // s; the engine is asked once per step
+  double step = 1e-3;  // s; the engine is asked twice per step
   // Runge-Kutta steps (fourth order) of all laws per step; 0: as many as the
   // stiffest law needs.
   int substeps = 0;
@@ -19,9 +19,10 @@ struct ArmSimulatorOptions {
 
 // Integrates a SimulatedRobot. Friction and transmissions are stiff but cheap,
 // the arm's dynamics smooth but dear: so mass matrix, bias and Jacobians come
-// from the engine once per step, at the end that the step is predicted to have,
-// and are interpolated between while the laws run in substeps. The error is of
-// second order in `step`.
+// from the engine twice per step, at the middle and end that the step is
+// predicted to have, and are interpolated while the laws run in substeps. The
+// error is of third order in `step` where laws are smooth, and of first order
+// where friction depends on the load, which is held from the substep before.
 class ArmSimulator {
  public:
   // Starts at rest with the links at q0 (all joints, passive ones included).
@@ -41,6 +42,7 @@ class ArmSimulator {
   void SetArmature();
   int NeededSubsteps();
   double Stiffness();
+  double DeclaredStiffness();
   void ReadInstant(const Eigen::VectorXd& x, double t);
   void Interpolate(double share);
   void Derivative(const Eigen::VectorXd& x, double t, double share);
@@ -48,6 +50,7 @@ class ArmSimulator {
   void AddJointLaws(const Eigen::VectorXd& x);
   void AddTransmissions(const Eigen::VectorXd& x);
   void AddWrenches(const Eigen::VectorXd& x, double t);
+  void Predict(double ahead, const Eigen::VectorXd& qdd, ArmTerms* terms);
   void Substep(double t, double share, double h);
 
   const SimulatedRobot& robot_;
@@ -64,7 +67,8 @@ class ArmSimulator {
   Eigen::VectorXd x_;
   ArmInstant instant_;
   Eigen::VectorXd qdd_;
-  ArmTerms begin_, end_, now_;
+  Eigen::VectorXd jerk_;  // rad/s^3 or m/s^3, mean of the step before
+  ArmTerms begin_, middle_, end_, now_;
   Eigen::VectorXd commanded_;
 
   // Scratch of Derivative.

@@ -8,22 +8,18 @@
 #include <vector>
 
 #include "model/input_error.h"
+#include "model/input_text.h"
 
 namespace armcal {
 
 namespace {
 
-// Control periods per row of the log.
+// Control periods per row of the log; 0: not a whole number.
 int PeriodsPerSample(const ClosedLoopOptions& options) {
   const double ratio = options.controller.rate_hz / options.sensors.log_rate_hz;
   const double periods = std::round(ratio);
-  if (periods < 1 || std::abs(ratio - periods) > 1e-9 * periods) {
-    throw InputError("", "", std::to_string(options.sensors.log_rate_hz),
-                     "expected a log rate in Hz that divides the controller's "
-                     "rate of " +
-                         std::to_string(options.controller.rate_hz));
-  }
-  return static_cast<int>(periods);
+  const bool whole = std::abs(ratio - periods) <= 1e-9 * periods;
+  return periods >= 1 && whole ? static_cast<int>(periods) : 0;
 }
 
 // Rows of equal width that grow.
@@ -128,6 +124,7 @@ class Loop {
         // Laws see the time of the log.
         simulator_(robot, Start(), {period_ / steps_, 0, -settle_ * period_},
                    dynamics),
+        velocity_(options.controller),
         controller_(options.controller, model),
         encoders_(options.sensors, n_),
         recorder_(robot, options, n_),
@@ -166,11 +163,12 @@ class Loop {
     return q;
   }
 
-  // What sensors say while the motors' recorded torque is `torque`.
-  Reading Read(const Eigen::VectorXd& torque) const {
+  // What sensors make of a velocity that the controller has from positions and
+  // of the motors' recorded torque.
+  Reading Read(const Eigen::VectorXd& velocity,
+               const Eigen::VectorXd& torque) const {
     const ArmInstant& instant = simulator_.instant();
-    Reading reading{instant.position.tail(n_), instant.velocity.tail(n_),
-                    torque,
+    Reading reading{instant.position.tail(n_), velocity, torque,
                     instant.temperature.tail(n_).array() + robot_.ambient};
     for (const SensorMap& map : robot_.sensors) map.apply(instant, &reading);
     return reading;
@@ -180,17 +178,17 @@ class Loop {
   bool Tick(long tick, bool record) {
     const double t = std::max(0L, tick) * period_;
     const ReferencePoint reference = motion_.at(t);
-    const Reading seen = Read(Eigen::VectorXd::Zero(n_));
-    const Eigen::VectorXd position = encoders_.Measure(seen.position);
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
+    const Eigen::VectorXd position =
+        encoders_.Measure(Read(zero, zero).position);
+    const Eigen::VectorXd& differenced = velocity_.Update(position);
     const Eigen::VectorXd torque = controller_.Update(
-        reference, position,
-        robot_.tachometer ? seen.velocity : Eigen::VectorXd());
+        reference, position, Read(differenced, zero).velocity);
     history_.Push(torque);
     error_ = reference.q - position;
     if (record) {
-      Reading reading = Read(history_.Delayed());
+      Reading reading = Read(differenced, history_.Delayed());
       reading.position = position;
-      reading.velocity = controller_.velocity();
       recorder_.Add(t, reading, reference.q);
     }
     for (int k = 0; k < steps_; ++k) simulator_.Step(torque);
@@ -207,6 +205,7 @@ class Loop {
   int steps_;    // of the simulator per control period
   long settle_;  // control periods before the log
   ArmSimulator simulator_;
+  DifferencedVelocity velocity_;
   JointController controller_;
   Encoders encoders_;
   Recorder recorder_;
@@ -216,10 +215,20 @@ class Loop {
 
 }  // namespace
 
+bool LogRateFits(const ClosedLoopOptions& options) {
+  return PeriodsPerSample(options) > 0;
+}
+
 ClosedLoopRun RunClosedLoop(const SimulatedRobot& robot, const Robot& model,
                             const ReferenceMotion& motion,
                             const ClosedLoopOptions& options,
                             ArmDynamics* dynamics) {
+  if (!LogRateFits(options)) {
+    throw InputError("simulation", "log rate",
+                     NumberText(options.sensors.log_rate_hz),
+                     "expected Hz that divide the controller's rate of " +
+                         NumberText(options.controller.rate_hz));
+  }
   return Loop(robot, model, motion, options, dynamics).Run();
 }
 

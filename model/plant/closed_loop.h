@@ -32,9 +32,12 @@ struct ClosedLoopRun {
   Eigen::VectorXd tracking_rms;
 };
 
+// Whether the log's rate divides the controller's.
+bool LogRateFits(const ClosedLoopOptions& options);
+
 // Lets a controller, which knows `model`, move the simulated robot along a
 // motion and keeps the log. `dynamics` is of robot.robot. Throws InputError
-// where the log's rate does not divide the controller's.
+// where the log's rate does not fit.
 ClosedLoopRun RunClosedLoop(const SimulatedRobot& robot, const Robot& model,
                             const ReferenceMotion& motion,
                             const ClosedLoopOptions& options,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/forward_dynamics.h"
 #include "model/input_text.h"
 #include "model/inverse_dynamics.h"
 #include "model/yaml_node.h"
@@ -11,17 +12,11 @@ namespace armcal {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
-// Diagonal of the mass matrix: the torque of unit acceleration without gravity.
-Eigen::VectorXd JointInertia(Robot robot, const Eigen::VectorXd& q) {
-  const int n = robot.num_joints();
-  robot.gravity.setZero();
-  Eigen::VectorXd inertia(n);
-  for (int j = 0; j < n; ++j) {
-    inertia[j] = InverseDynamics(robot, q, Eigen::VectorXd::Zero(n),
-                                 Eigen::VectorXd::Unit(n, j))[j] +
-                 robot.links[j].joint.armature;
+// Of each joint alone, armature included.
+Eigen::VectorXd JointInertia(const Robot& robot, const Eigen::VectorXd& q) {
+  Eigen::VectorXd inertia = MassMatrix(robot, q).diagonal();
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    inertia[j] += robot.links[j].joint.armature;
   }
   return inertia;
 }
@@ -53,7 +48,7 @@ double ReadPositive(const YamlNode& node, const std::string& key,
 ControllerOptions DefaultController(const Robot& robot,
                                     const Eigen::VectorXd& q,
                                     double bandwidth_hz) {
-  const double omega = kTwoPi * bandwidth_hz;
+  const double omega = 2 * M_PI * bandwidth_hz;
   const Eigen::VectorXd inertia = JointInertia(robot, q);
   ControllerOptions options;
   options.kp = omega * omega * inertia;
@@ -94,33 +89,37 @@ ControllerOptions ReadController(const std::string& path, const Robot& robot,
   return options;
 }
 
+DifferencedVelocity::DifferencedVelocity(const ControllerOptions& options)
+    : rate_hz_(options.rate_hz),
+      decay_(
+          std::exp(-2 * M_PI * options.velocity_filter_hz / options.rate_hz)) {}
+
+const Eigen::VectorXd& DifferencedVelocity::Update(
+    const Eigen::VectorXd& position) {
+  if (last_position_.size() == 0) {
+    velocity_ = Eigen::VectorXd::Zero(position.size());
+  } else {
+    velocity_ = decay_ * velocity_ +
+                (1 - decay_) * rate_hz_ * (position - last_position_);
+  }
+  last_position_ = position;
+  return velocity_;
+}
+
 JointController::JointController(const ControllerOptions& options,
                                  const Robot& model)
     : options_(options),
       model_(model),
-      velocity_(Eigen::VectorXd::Zero(model.num_joints())),
       integral_(Eigen::VectorXd::Zero(model.num_joints())) {}
-
-void JointController::UpdateVelocity(const Eigen::VectorXd& position,
-                                     const Eigen::VectorXd& velocity) {
-  if (velocity.size() > 0) {
-    velocity_ = velocity;
-  } else if (last_position_.size() > 0) {
-    const double decay =
-        std::exp(-kTwoPi * options_.velocity_filter_hz / options_.rate_hz);
-    velocity_ = decay * velocity_ +
-                (1 - decay) * options_.rate_hz * (position - last_position_);
-  }
-  last_position_ = position;
-}
 
 Eigen::VectorXd JointController::FeedforwardTorque(
     const ReferencePoint& reference) const {
   const int n = model_.num_joints();
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
-  if (options_.feedforward == Feedforward::kNone) return zero;
+  if (options_.feedforward == Feedforward::kNone) {
+    return Eigen::VectorXd::Zero(n);
+  }
   if (options_.feedforward == Feedforward::kGravity) {
-    return InverseDynamics(model_, reference.q, zero, zero);
+    return GravityTorque(model_, reference.q);
   }
   Eigen::VectorXd tau =
       InverseDynamics(model_, reference.q, reference.qd, reference.qdd);
@@ -135,11 +134,10 @@ Eigen::VectorXd JointController::FeedforwardTorque(
 Eigen::VectorXd JointController::Update(const ReferencePoint& reference,
                                         const Eigen::VectorXd& position,
                                         const Eigen::VectorXd& velocity) {
-  UpdateVelocity(position, velocity);
   const Eigen::VectorXd error = reference.q - position;
   Eigen::VectorXd torque =
       FeedforwardTorque(reference) + options_.kp.cwiseProduct(error) +
-      options_.kd.cwiseProduct(reference.qd - velocity_) + integral_;
+      options_.kd.cwiseProduct(reference.qd - velocity) + integral_;
   for (int j = 0; j < torque.size(); ++j) {
     const double limit = options_.torque_limit[j];
     const bool pushes =

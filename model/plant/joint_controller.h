@@ -55,6 +55,18 @@ ControllerOptions DefaultController(const Robot& robot,
 ControllerOptions ReadController(const std::string& path, const Robot& robot,
                                  const Eigen::VectorXd& q);
 
+// Velocities from positions at the controller's rate: differences through a
+// first-order low pass, 0 at first.
+class DifferencedVelocity {
+ public:
+  explicit DifferencedVelocity(const ControllerOptions& options);
+  const Eigen::VectorXd& Update(const Eigen::VectorXd& position);
+
+ private:
+  double rate_hz_, decay_;
+  Eigen::VectorXd last_position_, velocity_;
+};
+
 // PD with integral and feedforward per joint, at a fixed rate. The integral
 // stops while the torque is at its limit and would push it further.
 class JointController {
@@ -62,23 +74,16 @@ class JointController {
   // `model` is what the controller knows of the robot.
   JointController(const ControllerOptions& options, const Robot& model);
 
-  // The torque until the next call, one period later. `velocity`: of a
-  // tachometer, or empty: positions are differenced.
+  // The torque until the next call, one period later.
   Eigen::VectorXd Update(const ReferencePoint& reference,
                          const Eigen::VectorXd& position,
                          const Eigen::VectorXd& velocity);
-  // The velocity that the last update used.
-  const Eigen::VectorXd& velocity() const { return velocity_; }
 
  private:
-  void UpdateVelocity(const Eigen::VectorXd& position,
-                      const Eigen::VectorXd& velocity);
   Eigen::VectorXd FeedforwardTorque(const ReferencePoint& reference) const;
 
   ControllerOptions options_;
   Robot model_;
-  Eigen::VectorXd last_position_;
-  Eigen::VectorXd velocity_;
   Eigen::VectorXd integral_;  // N m or N
 };
 

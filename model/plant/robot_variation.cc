@@ -9,19 +9,6 @@ namespace armcal {
 
 namespace {
 
-// The second moment of mass, integral of (p; 1)(p; 1)^T dm, which is positive
-// semidefinite for every body (Wensing, Kim, Slotine 2017).
-Eigen::Matrix4d PseudoInertia(const InertialParameters& inertial) {
-  Eigen::Matrix4d J;
-  J.topLeftCorner<3, 3>() =
-      inertial.inertia.trace() / 2 * Eigen::Matrix3d::Identity() -
-      inertial.inertia;
-  J.topRightCorner<3, 1>() = inertial.first_moment;
-  J.bottomLeftCorner<1, 3>() = inertial.first_moment.transpose();
-  J(3, 3) = inertial.mass;
-  return J;
-}
-
 InertialParameters FromPseudoInertia(const Eigen::Matrix4d& J) {
   InertialParameters inertial;
   const Eigen::Matrix3d second = J.topLeftCorner<3, 3>();
@@ -55,7 +42,8 @@ Robot VaryRobot(const Robot& robot, double share, uint64_t seed) {
       moved.topRightCorner<3, 1>() *= lever_factor;
       const Eigen::Matrix4d T = moved * A * X.inverse();
       link.inertial = FromPseudoInertia(
-          mass_factor * T * PseudoInertia(link.inertial) * T.transpose());
+          mass_factor * T * PseudoInertia(link.inertial.ToVector()) *
+          T.transpose());
     }
     link.joint.armature *= factor();
     link.joint.viscous *= factor();

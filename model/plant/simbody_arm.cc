@@ -50,9 +50,8 @@ SimTK::MassProperties ToMassProperties(const InertialParameters& inertial) {
 }
 
 // Simbody's messages end with the place in its source.
-std::string FirstLine(std::string text) {
-  text = text.substr(0, text.find('\n'));
-  return text;
+std::string FirstLine(const std::string& text) {
+  return text.substr(0, text.find('\n'));
 }
 
 }  // namespace

@@ -47,9 +47,10 @@ Eigen::VectorXd SimulatorLayout::StateAtRest(const SimulatedRobot& robot,
   x.head(q0.size()) = q0;
   for (size_t k = 0; k < robot.transmissions.size(); ++k) {
     const Transmission& law = robot.transmissions[k];
-    const double stiffness = law.initial_stiffness;
     x[motors + 2 * k] = q0[law.joint];
-    if (stiffness > 0) x[motors + 2 * k] += terms.bias[law.joint] / stiffness;
+    if (law.initial_deflection) {
+      x[motors + 2 * k] += law.initial_deflection(terms.bias[law.joint]);
+    }
   }
   Fill(robot.joint_laws, joint_laws, &x);
   Fill(robot.transmissions, transmissions, &x);

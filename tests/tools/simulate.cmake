@@ -60,6 +60,25 @@ if(NOT parameters1 STREQUAL parameters2)
   fail("two runs are of two robots")
 endif()
 
+# Sizes in SI units hold together, in any order, and beyond what is drawn.
+macro(expect_size effect index expected)
+  run("${effect}" simulate --robot=arm.yaml --duration=2 --out=out
+      "--effects=${effect}")
+  expect_code(0)
+  file(READ ${WORK_DIR}/out/truth.json truth)
+  string(JSON size GET "${truth}" effects 0 values ${index} value)
+  if(NOT size MATCHES "${expected}")
+    fail("${effect}: ${size} is in truth.json")
+  endif()
+endmacro()
+set(stiffness "stiffness=20000N m/rad")
+set(damping "damping=20N m s/rad")
+expect_size("elasticity@2:${stiffness},${damping}" 0 "^(20000|19999\\.999)")
+expect_size("elasticity@2:${stiffness},${damping}" 1 "^(20|19\\.9999)")
+expect_size("elasticity@2:${damping},${stiffness}" 0 "^(20000|19999\\.999)")
+expect_size("elasticity@2:${damping},${stiffness}" 1 "^(20|19\\.9999)")
+expect_size("payload:mass=3kg" 0 "^(3|2\\.9999)")
+
 # What simulate writes, calibrate takes; as currents and with lost, jittering
 # samples too.
 run("currents" simulate --robot=arm.yaml --duration=12 --out=out
@@ -103,10 +122,19 @@ refuse("a parameter out of range" 3 --effects=payload:mass=50)
 expect_refusal(3 "effect payload" "mass = 50: expected")
 refuse("a size that cannot be" 2 --effects=payload:mass=900kg)
 expect_refusal(2 "found 'mass=900kg', expected" "kg")
+refuse("a size that a parameter decides" 2
+       "--effects=elasticity@2:windup=.003,${stiffness}")
+expect_refusal(2 "stiffness=20000" "no parameter of elasticity")
+refuse("two sizes that one parameter decides" 2
+       "--effects=asymmetric_friction@1:asymmetric=1N m s/rad,viscous=2N m s/rad")
+expect_refusal(2 "viscous=2" "no parameter of asymmetric_friction")
+refuse("half a wave" 2 "--effects=torque_ripple@1:harmonic=20.4 1/rad")
+expect_refusal(2 "harmonic=20.4" "it can only be 20")
 refuse("a unit that it has not" 2 --effects=payload:mass=3Nm)
 expect_refusal(2 "payload has no mass in Nm; it has mass kg, com_x m")
-refuse("a rate that does not divide" 3 --log_rate=300)
-expect_refusal(3 "found '300" "divides the controller's rate")
+refuse("a rate that does not divide" 2 --log_rate=300)
+expect_refusal(2 "--log_rate: found '300'"
+               "expected Hz that divide the controller's rate of 1000")
 refuse("a negative duration" 2 --duration=-1)
 expect_refusal(2 "--duration: found '-1', expected a number from 0.1 to 10000")
 refuse("too large a motion" 2 --size=2)

@@ -28,7 +28,7 @@ HiddenEffect TorqueOffset() {
           Scope::kJoint,
           "An amplifier whose zero is off: the log holds a constant torque "
           "that the motor never gave.",
-          {{"offset", "1", .05, .005, .2, Draw::kLogEitherSign}},
+          {{"offset", "1", .05, .005, .2, Draw::kLogEitherSign, 5e-4, 1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double b = site.p[0] * site.torque();
             AddMap(site, [=](double tau) { return tau - b; });
@@ -44,7 +44,7 @@ HiddenEffect TorqueGain() {
           Scope::kJoint,
           "A motor constant other than assumed: logged torques are (1 + gain) "
           "of what the motor gave.",
-          {{"gain", "1", .05, .01, .2, Draw::kLogEitherSign}},
+          {{"gain", "1", .05, .01, .2, Draw::kLogEitherSign, 1e-3, .88}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double g = site.p[0];
             AddMap(site, [=](double tau) { return tau / (1 + g); });
@@ -61,7 +61,7 @@ HiddenEffect TorqueNonlinearity() {
       true,
       Scope::kJoint,
       "Iron that saturates: the motor constant falls with the current.",
-      {{"fall", "1", .05, .01, .2, Draw::kLog}},
+      {{"fall", "1", .05, .01, .2, Draw::kLog, 1e-3, .4}},
       [](const EffectSite& site) -> std::vector<EffectValue> {
         const double f = site.p[0], peak = 2 * site.torque();
         AddMap(site, [=](double tau) {
@@ -80,7 +80,7 @@ HiddenEffect TorqueSaturation() {
           true,
           Scope::kJoint,
           "A current limit: torques beyond it are commanded but not given.",
-          {{"limit", "1", 1.6, 1.3, 2.5, Draw::kLog}},
+          {{"limit", "1", 1.6, 1.3, 2.5, Draw::kLog, .8, 13}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double L = site.p[0] * site.torque();
             AddMap(site, [=](double tau) {
@@ -100,7 +100,7 @@ HiddenEffect TorqueDeadband() {
           Scope::kJoint,
           "An amplifier that ignores small commands: the motor gives less than "
           "asked by a constant, and nothing near zero.",
-          {{"deadband", "1", .03, .005, .1, Draw::kLog}},
+          {{"deadband", "1", .03, .005, .1, Draw::kLog, 5e-4, .5}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double d = site.p[0] * site.torque();
             AddMap(site, [=](double tau) {

@@ -10,8 +10,6 @@ namespace armcal {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
 using Draw = EffectParameter::Draw;
 using Scope = HiddenEffect::Scope;
 
@@ -23,7 +21,7 @@ HiddenEffect LoadFriction() {
           Scope::kJoint,
           "Gear teeth pressed together by the load: friction that grows with "
           "the torque that the joint carries.",
-          {{"coefficient", "1", .05, .005, .2, Draw::kLog}},
+          {{"coefficient", "1", .05, .005, .2, Draw::kLog, 5e-4, .8}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double mu = site.p[0], P = .2 * site.torque();
             const double w = site.width();
@@ -44,9 +42,9 @@ HiddenEffect PositionFriction() {
           Scope::kJoint,
           "A bent shaft or worn teeth: friction that is larger at some "
           "positions than at others.",
-          {{"friction", "1", .1, .01, .3, Draw::kLog},
+          {{"friction", "1", .1, .01, .3, Draw::kLog, 1e-3, 1.5},
            {"harmonic", "1", 1, 1, 4, Draw::kUniform},
-           {"phase", "rad", 1, 0, kTwoPi, Draw::kUniform}},
+           {"phase", "rad", 1, 0, 2 * M_PI, Draw::kUniform}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double F = site.p[0] * site.torque(), w = site.width();
             const double n = std::floor(site.p[1]) / site.radian();
@@ -74,8 +72,8 @@ HiddenEffect CoupledFriction() {
           Scope::kJoint,
           "A hollow shaft that turns in another, as in wrists: friction here "
           "that depends on the neighbour's velocity as well.",
-          {{"friction", "1", .1, .01, .3, Draw::kLog},
-           {"ratio", "1", .7, .3, 1, Draw::kLogEitherSign}},
+          {{"friction", "1", .1, .01, .3, Draw::kLog, 1e-3, 1.5},
+           {"ratio", "1", .7, .3, 1, Draw::kLogEitherSign, .1, 3}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const EffectSite other = NeighbourJoint(site);
             const double S = site.speed(), S2 = other.speed(), r = site.p[1];
@@ -112,15 +110,15 @@ HiddenEffect ThermalFriction() {
       Scope::kJoint,
       "Oil that thins as the joint warms up with its own friction: the "
       "joint's friction falls over minutes of motion.",
-      {{"beta", "1/K", .025, .01, .05, Draw::kLog},
-       {"rise", "K", 20, 8, 30, Draw::kUniform},
-       {"time_constant", "1", .5, .2, 2, Draw::kLog}},
+      {{"beta", "1/K", .025, .01, .05, Draw::kLog, .002, .2},
+       {"rise", "K", 20, 8, 30, Draw::kUniform, 1, 100},
+       {"time_constant", "1", .5, .2, 2, Draw::kLog, .02, 20}},
       [](const EffectSite& site) -> std::vector<EffectValue> {
         const Joint& joint = site.link().joint;
         const double viscous = joint.viscous, coulomb = joint.coulomb;
         const double beta = site.p[0], S = site.speed(), w = site.width();
         const double power = (viscous * S + coulomb) * S;
-        const double time_constant = site.p[2] * site.context->duration;
+        const double time_constant = site.p[2] * site.context->time_scale;
         site.robot->thermal.resize(site.robot->robot.num_joints());
         site.robot->thermal[site.index()] = {time_constant * power / site.p[1],
                                              site.p[1] / power};

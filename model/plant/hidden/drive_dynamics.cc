@@ -1,7 +1,5 @@
 #include "model/plant/hidden/drive_dynamics.h"
 
-#include <cmath>
-
 #include "model/plant/hidden/neighbour_joint.h"
 
 namespace armcal {
@@ -21,7 +19,7 @@ HiddenEffect Delay() {
       Scope::kRobot,
       "Current loops that take their time: the motors give what was asked "
       "for a little earlier.",
-      {{"delay", "s", .004, .001, .01, Draw::kLog}},
+      {{"delay", "s", .004, .001, .01, Draw::kLog, 2e-4, .05}},
       [](const EffectSite& site) -> std::vector<EffectValue> {
         const double lag = site.p[0] / 2;
         const int n = site.num_driven();
@@ -47,7 +45,7 @@ HiddenEffect TorqueCrosstalk() {
           Scope::kJoint,
           "A neighbour's current in this joint's current sensor: the logged "
           "torque holds a share of the neighbour's.",
-          {{"gain", "1", .03, .005, .2, Draw::kLogEitherSign}},
+          {{"gain", "1", .03, .005, .2, Draw::kLogEitherSign, 5e-4, 1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             constexpr double kLag = .003;  // s
             const EffectSite other = NeighbourJoint(site);
@@ -75,7 +73,7 @@ HiddenEffect SupplySag() {
       Scope::kRobot,
       "A weak supply: the torque of all joints falls while the arm as a "
       "whole takes power.",
-      {{"sag", "1", .1, .02, .4, Draw::kLog}},
+      {{"sag", "1", .1, .02, .4, Draw::kLog, 2e-3, .9}},
       [](const EffectSite& site) -> std::vector<EffectValue> {
         constexpr double kSmoothing = .05;  // s
         const double sag = site.p[0];
@@ -97,17 +95,18 @@ HiddenEffect SupplySag() {
 }
 
 // given = commanded (1 - f h), h' = ((commanded / T)^2 - h) / (D / 4): magnets
-// lose the share f at the joint's torque scale T, over a quarter of the log.
+// lose the share f at the joint's torque scale T, over a quarter of the
+// time scale D.
 HiddenEffect WarmingMotor() {
   return {"warming_motor",
           false,
           Scope::kJoint,
           "Magnets that weaken as the windings warm up: the same torque takes "
           "more and more current.",
-          {{"loss", "1", .05, .01, .1, Draw::kLog}},
+          {{"loss", "1", .05, .01, .1, Draw::kLog, 1e-3, .2}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double f = site.p[0], T = site.torque();
-            const double time_constant = site.context->duration / 4;
+            const double time_constant = site.context->time_scale / 4;
             const int k = site.from_tip();
             site.robot->actuators.push_back(
                 {VectorXd::Zero(1), [=](const ArmInstant&, const double* state,

@@ -23,8 +23,8 @@ HiddenEffect Presliding() {
           "Bristles that bend before they slip: friction that holds like a "
           "spring at standstill and builds up over a displacement after a "
           "reversal.",
-          {{"friction", "1", .1, .02, .3, Draw::kLog},
-           {"displacement", "1", .01, .002, .03, Draw::kLog}},
+          {{"friction", "1", .1, .02, .3, Draw::kLog, 1e-3, 1.5},
+           {"displacement", "1", .01, .002, .03, Draw::kLog, .002, .15}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double F = site.p[0] * site.torque();
             const double z = site.p[1] * site.radian();
@@ -52,8 +52,8 @@ HiddenEffect ApproachFriction() {
           Scope::kJoint,
           "A seal that rolls over: friction that is large after each reversal "
           "and fades with the distance from it.",
-          {{"friction", "1", .1, .02, .3, Draw::kLog},
-           {"distance", "1", .2, .05, .5, Draw::kLog}},
+          {{"friction", "1", .1, .02, .3, Draw::kLog, 1e-3, 1.5},
+           {"distance", "1", .2, .05, .5, Draw::kLog, .02, 2.5}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double F = site.p[0] * site.torque(), w = site.width();
             const double L = site.p[1] * site.radian();
@@ -79,8 +79,8 @@ HiddenEffect DraggingBrake() {
       Scope::kJoint,
       "A brake that does not always release: extra friction during some "
       "spans of time.",
-      {{"friction", "1", .1, .02, .3, Draw::kLog},
-       {"share", "1", .2, .05, .3, Draw::kLog}},
+      {{"friction", "1", .1, .02, .3, Draw::kLog, 1e-3, 1.5},
+       {"share", "1", .2, .05, .3, Draw::kLog, .005, .48}},
       [](const EffectSite& site) -> std::vector<EffectValue> {
         constexpr int kSpans = 4;
         const double F = site.p[0] * site.torque(), w = site.width();

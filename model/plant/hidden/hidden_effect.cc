@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/forward_dynamics.h"
 #include "model/inverse_dynamics.h"
 #include "model/plant/hidden/random_signal.h"
 
@@ -24,16 +25,10 @@ void AddRigidScales(const Robot& robot, EffectContext* context) {
     }
     return v;
   };
-  const VectorXd zero = VectorXd::Zero(n);
   for (int k = 0; k < kStates; ++k) {
     const VectorXd q = draw(1.5), qd = draw(1.7), qdd = draw(5);
     context->torque += InverseDynamics(robot, q, qd, qdd).cwiseAbs2() / kStates;
-    const VectorXd held = InverseDynamics(robot, q, zero, zero);
-    for (int j = 0; j < n; ++j) {
-      const VectorXd unit = VectorXd::Unit(n, j);
-      context->inertia[j] +=
-          (InverseDynamics(robot, q, zero, unit) - held)[j] / kStates;
-    }
+    context->inertia += MassMatrix(robot, q).diagonal() / kStates;
   }
 }
 

@@ -20,7 +20,11 @@ struct EffectContext {
   Eigen::VectorXd torque;   // N m or N, its rms in ordinary motion
   Eigen::VectorXd speed;    // rad/s or m/s
   Eigen::VectorXd inertia;  // kg m^2 or kg, that the joint feels
-  double duration = 40;     // s of the log
+  // What changes within minutes is scaled by this time, which is the robot's:
+  // all its logs have the same heat capacities and drifts.
+  double time_scale = 40;  // s
+  // Of this log, s: only for placing in it what comes and goes.
+  double duration = 40;
   // Share of its speed within which a joint's friction changes sign.
   double zero_velocity = .005;
   std::uint64_t seed = 0;  // of whatever an effect draws when applied
@@ -36,8 +40,11 @@ struct EffectParameter {
   std::string name;
   std::string unit;
   double usual;
-  double low, high;  // drawn from and valid in; with kLogEitherSign of |value|
+  double low, high;  // drawn from; with kLogEitherSign of |value|
   Draw draw;
+  // Valid in, as far as the law keeps its sense: sizes that users ask for may
+  // be rarer than those drawn.
+  double least = low, most = high;
 };
 
 // What was applied, in SI units, for the label of a log.

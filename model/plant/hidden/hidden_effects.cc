@@ -55,11 +55,11 @@ namespace {
 std::string WhyOutOfRange(const EffectParameter& parameter, double value) {
   const double size =
       parameter.draw == Draw::kLogEitherSign ? std::abs(value) : value;
-  if (size >= parameter.low && size <= parameter.high) return "";
+  if (size >= parameter.least && size <= parameter.most) return "";
   std::ostringstream text;
   text << parameter.name << " = " << value << ": expected "
        << (parameter.draw == Draw::kLogEitherSign ? "of either sign " : "")
-       << parameter.low << " to " << parameter.high << " " << parameter.unit;
+       << parameter.least << " to " << parameter.most << " " << parameter.unit;
   return text.str();
 }
 

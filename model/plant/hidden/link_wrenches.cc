@@ -10,8 +10,6 @@ namespace armcal {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
 using Draw = EffectParameter::Draw;
 using Scope = HiddenEffect::Scope;
 using Eigen::Vector3d;
@@ -24,7 +22,7 @@ Attachment Tool(const SimulatedRobot& robot) {
 // Evenly over the sphere.
 Vector3d DrawDirection(std::mt19937_64* random) {
   const double z = DrawUniform(-1, 1, random);
-  const double angle = DrawUniform(0, kTwoPi, random);
+  const double angle = DrawUniform(0, 2 * M_PI, random);
   const double r = std::sqrt(1 - z * z);
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
@@ -36,9 +34,9 @@ HiddenEffect ExternalContact() {
           Scope::kRobot,
           "A person who leans on the tool once: a force that swells and fades "
           "in time.",
-          {{"force", "1", .05, .01, .2, Draw::kLog},
-           {"time", "1", .5, .15, .85, Draw::kUniform},
-           {"width", "s", .4, .1, 1, Draw::kLog}},
+          {{"force", "1", .05, .01, .2, Draw::kLog, 1e-3, 1},
+           {"time", "1", .5, .15, .85, Draw::kUniform, 0, 1},
+           {"width", "s", .4, .1, 1, Draw::kLog, .03, 10}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double F = site.p[0] * 9.81 * site.moving_mass();
             const double t0 = site.p[1] * site.context->duration;
@@ -89,12 +87,12 @@ HiddenEffect Slosh() {
           Scope::kRobot,
           "A load that sloshes: a mass on a spring at the tool, which keeps "
           "swinging after the arm has stopped.",
-          {{"mass", "1", .03, .01, .1, Draw::kLog},
-           {"frequency", "Hz", 3, 1, 8, Draw::kLog},
-           {"damping_ratio", "1", .05, .02, .1, Draw::kLog}},
+          {{"mass", "1", .03, .01, .1, Draw::kLog, 1e-3, .5},
+           {"frequency", "Hz", 3, 1, 8, Draw::kLog, .3, 30},
+           {"damping_ratio", "1", .05, .02, .1, Draw::kLog, .002, 1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double m = site.p[0] * site.moving_mass();
-            const double omega = kTwoPi * site.p[1];
+            const double omega = 2 * M_PI * site.p[1];
             const double k = m * omega * omega;
             site.robot->wrenches.push_back(
                 SprungMass(*site.robot, m, k, 2 * site.p[2] * m * omega));
@@ -113,7 +111,7 @@ HiddenEffect Gyroscope() {
           Scope::kJoint,
           "A spindle that runs in a link: turning it pushes the joints "
           "sideways, with no power.",
-          {{"momentum", "1", .1, .02, .3, Draw::kLog}},
+          {{"momentum", "1", .1, .02, .3, Draw::kLog, 2e-3, 1.5}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             std::mt19937_64 random = site.Random("gyroscope");
             const double H = site.p[0] * site.torque() / site.speed();
@@ -142,7 +140,7 @@ HiddenEffect LooseBolt() {
           Scope::kJoint,
           "A weight on a loose bolt: a link's centre of mass jumps to the "
           "other side when the link turns over.",
-          {{"moment", "1", .05, .01, .2, Draw::kLog}},
+          {{"moment", "1", .05, .01, .2, Draw::kLog, 1e-3, 1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             std::mt19937_64 random = site.Random("loose_bolt");
             const Vector3d u_L = DrawDirection(&random);

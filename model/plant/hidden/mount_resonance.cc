@@ -6,8 +6,6 @@ namespace armcal {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
 using Draw = EffectParameter::Draw;
 using Scope = HiddenEffect::Scope;
 using Eigen::Vector3d;
@@ -80,10 +78,10 @@ HiddenEffect Mount() {
           Scope::kRobot,
           "A stand that sways: the whole arm rocks on its mount, which no "
           "encoder sees.",
-          {{"frequency", "Hz", 8, 4, 15, Draw::kLog},
-           {"damping_ratio", "1", .03, .02, .1, Draw::kLog}},
+          {{"frequency", "Hz", 8, 4, 15, Draw::kLog, 2, 60},
+           {"damping_ratio", "1", .03, .02, .1, Draw::kLog, .002, 1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
-            const double I = ArmInertia(site), omega = kTwoPi * site.p[0];
+            const double I = ArmInertia(site), omega = 2 * M_PI * site.p[0];
             const double ratio = site.p[1];
             const Vector3d up = Upright(site.robot->robot.gravity);
             const Vector3d x = LevelAxis(up);

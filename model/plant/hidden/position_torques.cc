@@ -6,8 +6,6 @@ namespace armcal {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
 using Draw = EffectParameter::Draw;
 using Scope = HiddenEffect::Scope;
 
@@ -18,8 +16,8 @@ HiddenEffect Spring() {
           true,
           Scope::kJoint,
           "A torsion spring, as of a balancer: a torque back to one position.",
-          {{"stiffness", "1", .1, .01, .5, Draw::kLog},
-           {"neutral", "1", .2, -.5, .5, Draw::kUniform}},
+          {{"stiffness", "1", .1, .01, .5, Draw::kLog, 1e-3, 2.5},
+           {"neutral", "1", .2, -.5, .5, Draw::kUniform, -3, 3}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double k0 = site.p[0] * site.torque() / site.radian();
             const double q0 = site.p[1] * site.radian();
@@ -43,16 +41,16 @@ HiddenEffect Cable() {
           Scope::kJoint,
           "A cable bundle that bends over as the joint turns past it: a torque "
           "of the position that saturates to both sides.",
-          {{"torque", "1", .05, .005, .2, Draw::kLog},
-           {"centre", "1", .1, -.5, .5, Draw::kUniform},
-           {"softness", "1", .3, .1, .6, Draw::kLog}},
+          {{"torque", "1", .05, .005, .2, Draw::kLog, 5e-4, 1},
+           {"centre", "1", .1, -.5, .5, Draw::kUniform, -3, 3},
+           {"softness", "1", .3, .1, .6, Draw::kLog, .02, 3}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double A = site.p[0] * site.torque();
             const double q0 = site.p[1] * site.radian();
             const double b = site.p[2] * site.radian();
             const int k = site.from_tip();
             site.AddTorque([=](const ArmInstant& at, const double*, double*) {
-              return -A * 4 / kTwoPi *
+              return -A * 2 / M_PI *
                      std::atan((FromTip(at.position, k) - q0) / b);
             });
             return {{"cable", site.effort_unit(), A},
@@ -70,9 +68,9 @@ HiddenEffect TorqueRipple() {
           Scope::kJoint,
           "Cogging of the motor or mesh of the gear: a torque that comes back "
           "every 1/n of a turn.",
-          {{"amplitude", "1", .02, .002, .1, Draw::kLog},
-           {"harmonic", "1", 20, 6, 60, Draw::kLog},
-           {"phase", "rad", 1, 0, kTwoPi, Draw::kUniform}},
+          {{"amplitude", "1", .02, .002, .1, Draw::kLog, 2e-4, .5},
+           {"harmonic", "1", 20, 6, 60, Draw::kLog, 1, 300},
+           {"phase", "rad", 1, 0, 2 * M_PI, Draw::kUniform}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double A = site.p[0] * site.torque();
             // Whole waves per turn, as teeth and poles have.

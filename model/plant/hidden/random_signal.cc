@@ -6,7 +6,6 @@ namespace armcal {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 constexpr int kSines = 16;
 constexpr double kFlank = .05;  // s
 
@@ -27,8 +26,8 @@ RandomSignal::RandomSignal(double low_hz, double high_hz,
   for (int k = 0; k < kSines; ++k) {
     // Jittered, so that the signal has no period.
     const double share = (k + DrawUniform(0, 1, random)) / kSines;
-    sines_.push_back({kTwoPi * low_hz * std::exp(share * ratio),
-                      DrawUniform(0, kTwoPi, random)});
+    sines_.push_back({2 * M_PI * low_hz * std::exp(share * ratio),
+                      DrawUniform(0, 2 * M_PI, random)});
   }
 }
 

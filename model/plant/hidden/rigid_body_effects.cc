@@ -6,8 +6,6 @@ namespace armcal {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
 using Draw = EffectParameter::Draw;
 using Scope = HiddenEffect::Scope;
 using Eigen::Vector3d;
@@ -18,7 +16,7 @@ HiddenEffect Armature() {
       true,
       Scope::kJoint,
       "A motor with more inertia than assumed: torque for accelerations.",
-      {{"inertia", "1", .2, .03, 1, Draw::kLog}},
+      {{"inertia", "1", .2, .03, 1, Draw::kLog, 3e-3, 5}},
       [](const EffectSite& site) -> std::vector<EffectValue> {
         const double I = site.p[0] * site.context->inertia[site.joint];
         site.link().joint.armature += I;
@@ -41,7 +39,7 @@ HiddenEffect LinkLength() {
           Scope::kJoint,
           "A link longer than in the robot file: all that it carries sits "
           "further out.",
-          {{"length", "m", .02, .005, .05, Draw::kLogEitherSign}},
+          {{"length", "m", .02, .005, .05, Draw::kLogEitherSign, 5e-4, .3}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             Link& next = site.robot->robot.links[site.index() + 1];
             next.X_PF.pretranslate(site.p[0] *
@@ -62,8 +60,8 @@ HiddenEffect BaseTilt() {
           true,
           Scope::kRobot,
           "A base that is not level: gravity pulls from another direction.",
-          {{"tilt", "rad", .02, .003, .1, Draw::kLog},
-           {"direction", "rad", 1, 0, kTwoPi, Draw::kUniform}},
+          {{"tilt", "rad", .02, .003, .1, Draw::kLog, 3e-4, 1.5},
+           {"direction", "rad", 1, 0, 2 * M_PI, Draw::kUniform}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             Vector3d& g = site.robot->robot.gravity;
             const Vector3d x = g.unitOrthogonal();
@@ -86,15 +84,15 @@ HiddenEffect Payload() {
           true,
           Scope::kRobot,
           "Something in the gripper: mass at the tool.",
-          {{"mass", "1", .03, .005, .1, Draw::kLog},
-           {"x", "m", .03, -.1, .1, Draw::kUniform},
-           {"y", "m", -.02, -.1, .1, Draw::kUniform},
-           {"z", "m", .05, 0, .15, Draw::kUniform}},
+          {{"mass", "1", .03, .005, .1, Draw::kLog, 5e-4, .6},
+           {"x", "m", .03, -.1, .1, Draw::kUniform, -.6, .6},
+           {"y", "m", -.02, -.1, .1, Draw::kUniform, -.6, .6},
+           {"z", "m", .05, 0, .15, Draw::kUniform, -.6, .6}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             Robot& robot = site.robot->robot;
             const double mass = site.p[0] * site.moving_mass();
             const Vector3d com = robot.X_LT * site.p.tail<3>().eval();
-            const double radius = std::cbrt(mass / (kTwoPi * 2 / 3 * 7850));
+            const double radius = std::cbrt(mass / (4 * M_PI / 3 * 7850));
             robot.links.back().inertial += InertialParameters::FromCenterOfMass(
                 mass, com,
                 .4 * mass * radius * radius * Eigen::Matrix3d::Identity());
@@ -113,7 +111,7 @@ HiddenEffect LinkInertia() {
       Scope::kJoint,
       "A link heavier or lighter than in the robot file by one share of "
       "its mass, first moment and inertia.",
-      {{"share", "1", .1, .03, .3, Draw::kLogEitherSign}},
+      {{"share", "1", .1, .03, .3, Draw::kLogEitherSign, 3e-3, .9}},
       [](const EffectSite& site) -> std::vector<EffectValue> {
         InertialParameters& link = site.link().inertial;
         const double mass = link.mass;

@@ -35,6 +35,7 @@ SimulatedRobot TrueRobot(const Scenario& scenario) {
 EffectContext ContextOf(const Scenario& scenario) {
   EffectContext context = TypicalContext(scenario.model, scenario.seed);
   context.run = scenario.run;
+  context.time_scale = scenario.effect_time;
   context.duration = scenario.motion.duration;
   context.zero_velocity = scenario.zero_velocity;
   return context;

@@ -24,6 +24,9 @@ struct Scenario {
   double robot_error = 0;  // how far the true robot is from it, VaryRobot
   // Speed within which friction changes sign, rad/s (0.3 of it in m/s).
   double zero_velocity = .005;
+  // The time in which effects that drift, warm up or age do so, s; not the
+  // motion's, since logs of one robot may differ in length.
+  double effect_time = 40;
   std::vector<ChosenEffect> effects;
   ReferenceMotion motion;
   ClosedLoopOptions loop;

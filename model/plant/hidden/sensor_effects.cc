@@ -8,8 +8,6 @@ namespace armcal {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
 using Draw = EffectParameter::Draw;
 using Scope = HiddenEffect::Scope;
 
@@ -19,7 +17,7 @@ HiddenEffect EncoderOffset() {
           Scope::kJoint,
           "A wrong zero of the encoder: positions in the log are off by a "
           "constant, and gravity does not fit them.",
-          {{"offset", "1", .01, .002, .05, Draw::kLogEitherSign}},
+          {{"offset", "1", .01, .002, .05, Draw::kLogEitherSign, 2e-4, .5}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double b = site.p[0] * site.radian();
             const int k = site.from_tip();
@@ -37,7 +35,7 @@ HiddenEffect WanderingEncoder() {
           false,
           Scope::kJoint,
           "An encoder that is loose on its shaft: positions wander slowly.",
-          {{"wander", "1", .002, 3e-4, .005, Draw::kLog}},
+          {{"wander", "1", .002, 3e-4, .005, Draw::kLog, 3e-5, .025}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double A = site.p[0] * site.radian();
             std::mt19937_64 random = site.RandomInTime("wandering_encoder");
@@ -58,8 +56,8 @@ HiddenEffect EncoderEccentricity() {
           false,
           Scope::kJoint,
           "An encoder disc off its axis: positions err by one wave per turn.",
-          {{"eccentricity", "1", .003, 1e-3, .02, Draw::kLog},
-           {"phase", "rad", 1, 0, kTwoPi, Draw::kUniform}},
+          {{"eccentricity", "1", .003, 1e-3, .02, Draw::kLog, 1e-4, .1},
+           {"phase", "rad", 1, 0, 2 * M_PI, Draw::kUniform}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double e = site.p[0] * site.radian(), f = site.p[1];
             const double radian = site.radian();
@@ -74,18 +72,17 @@ HiddenEffect EncoderEccentricity() {
           nullptr};
 }
 
-// reading = v (1 - g (1 - exp(-2 t / D))), D the log's duration.
+// reading = v (1 - g (1 - exp(-2 t / D))), D the time scale.
 HiddenEffect AgingTachometer() {
   return {"aging_tachometer",
           false,
           Scope::kJoint,
-          "A tachometer whose magnet ages: logged velocities shrink over the "
-          "log, positions do not.",
-          {{"loss", "1", .1, .02, .3, Draw::kLog}},
+          "A tachometer whose magnet ages: logged velocities shrink with "
+          "time, positions do not.",
+          {{"loss", "1", .1, .02, .3, Draw::kLog, 2e-3, .8}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
-            const double g = site.p[0], D = site.context->duration;
+            const double g = site.p[0], D = site.context->time_scale;
             const int k = site.from_tip();
-            site.robot->tachometer = true;
             site.robot->sensors.push_back(
                 {[=](const ArmInstant& at, Reading* reading) {
                   FromTip(&reading->velocity, k) *=
@@ -104,9 +101,9 @@ HiddenEffect TimeBase() {
           Scope::kRobot,
           "A clock that runs fast or slow: all velocities and accelerations "
           "come out wrong by its rate.",
-          {{"rate", "1", .002, 2e-4, .01, Draw::kLogEitherSign}},
+          {{"rate", "1", .002, 2e-4, .01, Draw::kLogEitherSign, 2e-5, .05}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
-            const double r = site.p[0], w = kTwoPi / 15;
+            const double r = site.p[0], w = 2 * M_PI / 15;
             site.robot->clock = [=](double t) {
               return t + r * (t + .3 * std::sin(w * t) / w);
             };

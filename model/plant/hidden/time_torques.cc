@@ -8,21 +8,19 @@ namespace armcal {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
 using Draw = EffectParameter::Draw;
 using Scope = HiddenEffect::Scope;
 
-// tau = -A 2 t / (t + D), D the log's duration: fast at first, A at its end.
+// tau = -A 2 t / (t + D), D the time scale: fast at first, A at D, never 2 A.
 HiddenEffect TimeDrift() {
   return {"time_drift",
           true,
           Scope::kJoint,
-          "A bias that settles: a torque that grows from zero over the log.",
-          {{"torque", "1", .05, .005, .2, Draw::kLogEitherSign}},
+          "A bias that settles: a torque that grows from zero, fast at first.",
+          {{"torque", "1", .05, .005, .2, Draw::kLogEitherSign, 5e-4, 1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double A = site.p[0] * site.torque();
-            const double D = site.context->duration;
+            const double D = site.context->time_scale;
             site.AddTorque([=](const ArmInstant& at, const double*, double*) {
               return -A * 2 * at.t / (at.t + D);
             });
@@ -39,13 +37,13 @@ HiddenEffect Vibration() {
           Scope::kJoint,
           "A fan or a press nearby: a torque at one frequency whatever the arm "
           "does.",
-          {{"amplitude", "1", .03, .005, .1, Draw::kLog},
-           {"frequency", "Hz", 8, 3, 30, Draw::kLog}},
+          {{"amplitude", "1", .03, .005, .1, Draw::kLog, 5e-4, .5},
+           {"frequency", "Hz", 8, 3, 30, Draw::kLog, .5, 100}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double A = site.p[0] * site.torque();
-            const double omega = kTwoPi * site.p[1];
+            const double omega = 2 * M_PI * site.p[1];
             std::mt19937_64 random = site.RandomInTime("vibration");
-            const double phase = DrawUniform(0, kTwoPi, &random);
+            const double phase = DrawUniform(0, 2 * M_PI, &random);
             const RandomSignal wander(.02, .2, &random);
             site.AddTorque([=](const ArmInstant& at, const double*, double*) {
               return A * std::sin(omega * at.t + phase + .3 * wander(at.t));
@@ -61,7 +59,7 @@ HiddenEffect RandomTorque() {
           false,
           Scope::kJoint,
           "A torque that wanders at random between 0.05 and 5 Hz.",
-          {{"torque", "1", .05, .01, .2, Draw::kLog}},
+          {{"torque", "1", .05, .01, .2, Draw::kLog, 1e-3, 1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double A = site.p[0] * site.torque();
             std::mt19937_64 random = site.RandomInTime("random_torque");

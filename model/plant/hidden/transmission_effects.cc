@@ -42,8 +42,8 @@ HiddenEffect Elasticity() {
           Scope::kJoint,
           "A gear that winds up: the link lags its motor and rings after "
           "every reversal.",
-          {{"windup", "1", .002, 3e-4, .01, Draw::kLog},
-           {"damping_ratio", "1", .05, .02, .1, Draw::kLog}},
+          {{"windup", "1", .002, 3e-4, .01, Draw::kLog, 5e-5, .05},
+           {"damping_ratio", "1", .05, .02, .1, Draw::kLog, .002, 1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double I = MotorInertia(site);
             const double d0 = site.p[0] * site.radian();
@@ -56,7 +56,7 @@ HiddenEffect Elasticity() {
                    const double u = d / (4 * d0);
                    return k * d * (1 + u * u) + c * rate;
                  },
-                 k});
+                 [=](double load) { return load / k; }});
             const std::string unit =
                 site.effort_unit() + "/" + site.position_unit();
             return {{"stiffness", unit, k},
@@ -69,14 +69,15 @@ HiddenEffect Elasticity() {
 
 // A dead zone: tau = k x (1 + l x') while the flanks are pressed in by x > 0,
 // never a pull (Hunt and Crossley 1975); nothing between the flanks. A tenth
-// of the gap yields at the joint's torque scale.
+// of the gap yields at the joint's torque scale, at least 0.2 mrad: flanks of
+// small gaps are no stiffer.
 HiddenEffect Backlash() {
   return {"backlash",
           true,
           Scope::kJoint,
           "Play in the gear: the link crosses a gap whenever its load changes "
           "sign, and only then.",
-          {{"gap", "1", .005, 5e-4, .02, Draw::kLog}},
+          {{"gap", "1", .005, 5e-4, .02, Draw::kLog, 5e-5, .1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             MotorInertia(site);
             const double gap = site.p[0] * site.radian();
@@ -92,8 +93,12 @@ HiddenEffect Backlash() {
                  [=](double d, double rate, const double*, double*) {
                    return flank(d - gap / 2, rate) - flank(-d - gap / 2, -rate);
                  },
-                 // Starts pressed onto a flank.
-                 site.torque() / (gap / 2 + yield)});
+                 // Starts pressed onto the flank that bears the load.
+                 [=](double load) {
+                   return load == 0 ? 0
+                                    : std::copysign(gap / 2, load) + load / k;
+                 },
+                 k});
             return {{"backlash", site.position_unit(), gap},
                     {"contact_stiffness",
                      site.effort_unit() + "/" + site.position_unit(), k},
@@ -110,8 +115,8 @@ HiddenEffect BeltSlip() {
           Scope::kJoint,
           "A belt that creeps under load: the link drifts away from the motor "
           "that its encoder watches.",
-          {{"creep", "1", .001, 1e-4, .005, Draw::kLog},
-           {"windup", "1", .002, 3e-4, .01, Draw::kLog}},
+          {{"creep", "1", .001, 1e-4, .005, Draw::kLog, 1e-5, .025},
+           {"windup", "1", .002, 3e-4, .01, Draw::kLog, 3e-4, .05}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double I = MotorInertia(site), T = site.torque();
             const double creep = site.p[0] * site.speed();
@@ -124,7 +129,7 @@ HiddenEffect BeltSlip() {
                    slip[0] = creep * std::pow(spring / T, 3);
                    return spring + c * rate;
                  },
-                 k});
+                 [=](double load) { return load / k; }});
             return {{"creep", site.position_unit() + "/s", creep},
                     {"stiffness",
                      site.effort_unit() + "/" + site.position_unit(), k},

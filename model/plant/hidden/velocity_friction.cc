@@ -18,7 +18,7 @@ HiddenEffect Viscous() {
           true,
           Scope::kJoint,
           "A thicker lubricant: drag in proportion to the velocity.",
-          {{"drag", "1", .1, .01, .5, Draw::kLog}},
+          {{"drag", "1", .1, .01, .5, Draw::kLog, 1e-3, 2.5}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double c = site.p[0] * site.torque() / site.speed();
             const double v0 = 10 * site.speed();
@@ -38,7 +38,7 @@ HiddenEffect Coulomb() {
           true,
           Scope::kJoint,
           "A tighter bearing: a constant torque against the motion.",
-          {{"friction", "1", .1, .01, .3, Draw::kLog}},
+          {{"friction", "1", .1, .01, .3, Draw::kLog, 1e-3, 1.5}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double F = site.p[0] * site.torque(), w = site.width();
             const int k = site.from_tip();
@@ -59,7 +59,7 @@ HiddenEffect Asymmetric() {
           Scope::kJoint,
           "A lip seal that drags in one direction: extra drag while the joint "
           "moves one way, none the other.",
-          {{"asymmetry", "1", .05, .005, .2, Draw::kLogEitherSign}},
+          {{"asymmetry", "1", .05, .005, .2, Draw::kLogEitherSign, 5e-4, 1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double a = site.p[0] * site.torque() / site.speed();
             const double v0 = 3 * site.speed(), w = site.width();
@@ -82,7 +82,7 @@ HiddenEffect Quadratic() {
           true,
           Scope::kJoint,
           "Oil that churns: drag that grows faster than the velocity.",
-          {{"drag", "1", .05, .005, .2, Draw::kLog}},
+          {{"drag", "1", .05, .005, .2, Draw::kLog, 5e-4, 1}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double T = site.p[0] * site.torque(), S = site.speed();
             const double w = site.width();
@@ -106,8 +106,8 @@ HiddenEffect Stribeck() {
           Scope::kJoint,
           "Boundary lubrication: more friction near standstill, which a film "
           "of oil relieves as the joint speeds up.",
-          {{"friction", "1", .05, .005, .2, Draw::kLog},
-           {"velocity", "1", .1, .04, .3, Draw::kLog}},
+          {{"friction", "1", .05, .005, .2, Draw::kLog, 5e-4, 1},
+           {"velocity", "1", .1, .04, .3, Draw::kLog, .02, 1.5}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
             const double F = site.p[0] * site.torque();
             const double vs = site.p[1] * site.speed(), w = site.width();

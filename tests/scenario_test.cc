@@ -1,0 +1,148 @@
+#include "model/plant/hidden/scenario.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/sample_robots.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::VectorXd;
+
+Scenario Arm(double duration, const std::vector<ChosenEffect>& effects) {
+  std::mt19937_64 random(3);
+  Scenario scenario;
+  scenario.model = SampleRobot("UR5 6R");
+  SetRandomInertials(&random, &scenario.model);
+  for (Link& link : scenario.model.links) {
+    link.joint.viscous = .4;
+    link.joint.coulomb = .6;
+    link.joint.armature = .1;
+  }
+  scenario.motion = {duration, [](double) -> ReferencePoint {
+                       const VectorXd zero = VectorXd::Zero(6);
+                       return {VectorXd::Constant(6, .3), zero, zero};
+                     }};
+  scenario.loop.controller =
+      DefaultController(scenario.model, scenario.motion.at(0).q, 8);
+  scenario.effects = effects;
+  return scenario;
+}
+
+// All that laws say at one instant, and what heats.
+VectorXd Physics(const Scenario& scenario, const ChosenEffect& effect,
+                 std::vector<EffectValue>* values) {
+  SimulatedRobot robot = TrueRobot(scenario);
+  *values = ApplyHiddenEffect(*effect.kind, &robot, effect.joint,
+                              effect.parameters, ContextOf(scenario));
+  const int n = robot.robot.num_joints();
+  ArmInstant at;
+  at.t = 15;
+  at.position = at.link_position = VectorXd::Constant(n, .4);
+  at.velocity = at.link_velocity = VectorXd::Constant(n, .7);
+  at.load = VectorXd::Constant(n, 3);
+  at.temperature = VectorXd::Constant(n, 12);
+  const VectorXd state = VectorXd::Constant(50, .01);
+  std::vector<double> all;
+  const auto keep = [&all](const VectorXd& x) {
+    all.insert(all.end(), x.begin(), x.end());
+  };
+  VectorXd rate = VectorXd::Zero(50);
+  for (const JointLaw& law : robot.joint_laws) {
+    all.push_back(law.torque(at, state.data(), rate.data()));
+    keep(rate);
+  }
+  for (const ActuatorMap& map : robot.actuators) {
+    VectorXd torque = VectorXd::Constant(n, 5);
+    map.apply(at, state.data(), rate.data(), &torque);
+    keep(torque);
+    keep(rate);
+  }
+  for (const SensorMap& map : robot.sensors) {
+    Reading reading{at.position, at.velocity, at.load, at.temperature};
+    map.apply(at, &reading);
+    keep(reading.position);
+    keep(reading.velocity);
+  }
+  for (const JointThermal& thermal : robot.thermal) {
+    all.push_back(thermal.capacity);
+    all.push_back(thermal.resistance);
+  }
+  return Eigen::Map<VectorXd>(all.data(), all.size());
+}
+
+// A robot does not know how long the log will be.
+TEST(Scenario, LogsOfAnyLengthAreOfOneRobot) {
+  for (const HiddenEffect& kind : HiddenEffects()) {
+    // Placed within the log: a contact and a brake come and go.
+    if (kind.name == "external_contact" || kind.name == "dragging_brake") {
+      continue;
+    }
+    const bool of_joint = kind.scope == HiddenEffect::Scope::kJoint;
+    const ChosenEffect effect = {&kind, of_joint ? 1 : -1,
+                                 UsualParameters(kind)};
+    std::vector<EffectValue> values, other;
+    const VectorXd brief = Physics(Arm(9, {}), effect, &values);
+    const VectorXd lengthy = Physics(Arm(42, {}), effect, &other);
+    ASSERT_EQ(brief.size(), lengthy.size());
+    EXPECT_EQ((brief - lengthy).norm(), 0) << kind.name;
+    for (size_t k = 0; k < values.size(); ++k) {
+      EXPECT_EQ(values[k].value, other[k].value) << kind.name;
+    }
+  }
+}
+
+// Nothing but the effect tells: at rest, where it scales next to nothing, the
+// log's velocities are as noisy as those of any robot.
+TEST(Scenario, AnAgingTachometerIsAsNoisyAsOthers) {
+  const auto noise = [](const std::vector<ChosenEffect>& effects) {
+    Scenario scenario = Arm(2, effects);
+    scenario.loop.sensors.encoder_noise = VectorXd::Constant(6, 3e-6);
+    const Eigen::MatrixXd qd = RunScenario(scenario).run.log.qd;
+    return VectorXd(qd.colwise().norm().transpose());
+  };
+  const HiddenEffect& kind = *FindHiddenEffect("aging_tachometer");
+  const VectorXd aging = noise({{&kind, 2, VectorXd::Constant(1, .1)}});
+  const VectorXd plain = noise({});
+  for (int j = 0; j < 6; ++j) {
+    EXPECT_NEAR(aging[j] / plain[j], 1, .02) << j;
+  }
+}
+
+// A finger of 2e-5 kg m^2 that swings in a gap of 0.5 mrad: its flanks are much
+// stiffer than anything at the start.
+TEST(Scenario, ALightLinkKeepsToItsGap) {
+  Scenario scenario;
+  Link link;
+  link.name = "finger";
+  link.joint.name = "knuckle";
+  link.X_PF.linear() =
+      Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX()).matrix();
+  link.inertial = InertialParameters::FromCenterOfMass(
+      .02, Eigen::Vector3d(.02, 0, 0),
+      (2e-5 - .02 * .02 * .02) * Eigen::Matrix3d::Identity());
+  link.has_inertial = true;
+  scenario.model.name = "hand";
+  scenario.model.links = {link};
+  scenario.motion = {3, [](double t) -> ReferencePoint {
+                       const double w = 2 * M_PI;
+                       const auto one = [](double x) {
+                         return VectorXd::Constant(1, x);
+                       };
+                       return {one(-M_PI / 2 + .5 * std::sin(w * t)),
+                               one(.5 * w * std::cos(w * t)),
+                               one(-.5 * w * w * std::sin(w * t))};
+                     }};
+  scenario.loop.controller =
+      DefaultController(scenario.model, scenario.motion.at(0).q, 8);
+  scenario.effects = {
+      {FindHiddenEffect("backlash"), 0, VectorXd::Constant(1, 5e-4)}};
+  const ScenarioRun run = RunScenario(scenario);
+  EXPECT_TRUE(run.run.finite);
+  EXPECT_LT(run.run.tracking_rms[0], .05);
+}
+
+}  // namespace
+}  // namespace armcal
