@@ -45,6 +45,7 @@ Log Simulate(const BlindCase& blind, double step) {
   motion.seed = 4;
   scenario.motion = WithStandstill(FourierMotion(blind.robot, motion), .2, .2);
   scenario.loop.step = step;
+  scenario.loop.settle = .1;
   return RunScenario(scenario).run.log;
 }
 

@@ -13,7 +13,9 @@ namespace armcal {
 
 namespace {
 
-constexpr int kFewestSubsteps = 4;
+// Friction that changes sign takes as many, or an arm that no feedback holds
+// (a motor at its limit) is off by more than 1e-7 rad after 2 s.
+constexpr int kFewestSubsteps = 12;
 constexpr int kMostSubsteps = 64;
 
 }  // namespace
