@@ -109,7 +109,7 @@ TEST(ArmSimulator, TwoMassesRingAtTheirFrequency) {
 // spring.
 TEST(ArmSimulator, ContactsAreStiffAlthoughTheStartIsNot) {
   SimulatedRobot robot = Flywheel(2e-5, 2e-5);
-  const double k = 4000, gap = 1e-3, T = .01;
+  const double k = 40000, gap = 1e-3, T = .01;
   Transmission flanks;
   flanks.torque = [=](double x, double, const double*, double*) {
     return k * (x - std::clamp(x, -gap / 2, gap / 2));

@@ -111,38 +111,5 @@ TEST(Scenario, AnAgingTachometerIsAsNoisyAsOthers) {
   }
 }
 
-// A finger of 2e-5 kg m^2 that swings in a gap of 0.5 mrad: its flanks are much
-// stiffer than anything at the start.
-TEST(Scenario, ALightLinkKeepsToItsGap) {
-  Scenario scenario;
-  Link link;
-  link.name = "finger";
-  link.joint.name = "knuckle";
-  link.X_PF.linear() =
-      Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX()).matrix();
-  link.inertial = InertialParameters::FromCenterOfMass(
-      .02, Eigen::Vector3d(.02, 0, 0),
-      (2e-5 - .02 * .02 * .02) * Eigen::Matrix3d::Identity());
-  link.has_inertial = true;
-  scenario.model.name = "hand";
-  scenario.model.links = {link};
-  scenario.motion = {3, [](double t) -> ReferencePoint {
-                       const double w = 2 * M_PI;
-                       const auto one = [](double x) {
-                         return VectorXd::Constant(1, x);
-                       };
-                       return {one(-M_PI / 2 + .5 * std::sin(w * t)),
-                               one(.5 * w * std::cos(w * t)),
-                               one(-.5 * w * w * std::sin(w * t))};
-                     }};
-  scenario.loop.controller =
-      DefaultController(scenario.model, scenario.motion.at(0).q, 8);
-  scenario.effects = {
-      {FindHiddenEffect("backlash"), 0, VectorXd::Constant(1, 5e-4)}};
-  const ScenarioRun run = RunScenario(scenario);
-  EXPECT_TRUE(run.run.finite);
-  EXPECT_LT(run.run.tracking_rms[0], .05);
-}
-
 }  // namespace
 }  // namespace armcal
