@@ -36,7 +36,7 @@ class SizeSearch {
  public:
   SizeSearch(const EffectSize& wanted, const SimulatedRobot& plant,
              const EffectContext& context, const ChosenEffect& effect)
-      : wanted_(wanted), plant_(plant), context_(context), effect_(effect) {
+      : wanted_(wanted), plant_(&plant), context_(&context), effect_(&effect) {
     const std::vector<EffectValue> values = Apply(effect.parameters);
     if (Find(values)) return;
     throw UsageError("--effects: " + effect.kind->name + " has no " +
@@ -48,7 +48,7 @@ class SizeSearch {
   // fewest others; false: there is none.
   bool Choose(const std::vector<bool>& taken) {
     parameter_ = -1;
-    for (int k = 0; k < effect_.parameters.size(); ++k) {
+    for (int k = 0; k < effect_->parameters.size(); ++k) {
       const int changed = taken[k] ? 0 : Changed(k);
       if (changed == 0 || (parameter_ >= 0 && changed >= changed_)) continue;
       parameter_ = k;
@@ -61,7 +61,7 @@ class SizeSearch {
 
   // What the parameter has to be while the others are as they are.
   double Solve() const {
-    const bool mirrored = effect_.kind->parameters[parameter_].draw ==
+    const bool mirrored = effect_->kind->parameters[parameter_].draw ==
                           EffectParameter::Draw::kLogEitherSign;
     std::optional<double> value = Bisect(wanted_.size);
     if (!value && mirrored) {
@@ -74,14 +74,14 @@ class SizeSearch {
   }
 
   bool Reached() const {
-    return std::abs(Value(effect_.parameters) - wanted_.size) <=
+    return std::abs(Value(effect_->parameters) - wanted_.size) <=
            kTolerance * std::abs(wanted_.size) + 1e-9;
   }
 
   std::string Text() const {
     return wanted_.name + "=" + NumberText(wanted_.size) + wanted_.unit;
   }
-  double ValueNow() const { return Value(effect_.parameters); }
+  double ValueNow() const { return Value(effect_->parameters); }
 
  private:
   // Values rise or fall with their parameter.
@@ -106,7 +106,7 @@ class SizeSearch {
 
   // How many values change over the parameter's range; 0 unless this one does.
   int Changed(int k) const {
-    const std::vector<EffectValue> now = Apply(effect_.parameters);
+    const std::vector<EffectValue> now = Apply(effect_->parameters);
     std::vector<bool> changes(now.size());
     for (const double bound : Bounds(k)) {
       const std::vector<EffectValue> there = Apply(With(k, bound));
@@ -127,9 +127,9 @@ class SizeSearch {
   }
 
   std::vector<EffectValue> Apply(const Eigen::VectorXd& parameters) const {
-    SimulatedRobot scratch = plant_;
-    return ApplyHiddenEffect(*effect_.kind, &scratch, effect_.joint, parameters,
-                             context_);
+    SimulatedRobot scratch = *plant_;
+    return ApplyHiddenEffect(*effect_->kind, &scratch, effect_->joint,
+                             parameters, *context_);
   }
 
   const EffectValue* Find(const std::vector<EffectValue>& values) const {
@@ -148,21 +148,21 @@ class SizeSearch {
   }
 
   Eigen::VectorXd With(int k, double value) const {
-    Eigen::VectorXd parameters = effect_.parameters;
+    Eigen::VectorXd parameters = effect_->parameters;
     parameters[k] = value;
     return parameters;
   }
 
   // Of a parameter of either sign, the positive ones.
   std::array<double, 2> Bounds(int k) const {
-    const EffectParameter& parameter = effect_.kind->parameters[k];
+    const EffectParameter& parameter = effect_->kind->parameters[k];
     return {parameter.least, parameter.most};
   }
 
   EffectSize wanted_;
-  const SimulatedRobot& plant_;
-  const EffectContext& context_;
-  const ChosenEffect& effect_;
+  const SimulatedRobot* plant_;
+  const EffectContext* context_;
+  const ChosenEffect* effect_;
   int parameter_ = -1, changed_ = 0;
 };
 
