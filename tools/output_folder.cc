@@ -28,31 +28,50 @@ void WriteFile(const fs::path& path, const std::string& flag,
   if (!file) Refuse(path, flag, std::strerror(errno));
 }
 
+fs::path Temporary(const std::string& folder, const std::string& name) {
+  return fs::path(folder) / (name + ".tmp" + std::to_string(getpid()));
+}
+
 }  // namespace
 
 void OutputFolder::Add(const std::string& name, std::string content) {
   files_.emplace_back(name, std::move(content));
 }
 
-void OutputFolder::Write() const {
+void OutputFolder::WriteTemporaries() const {
   if (path_.empty()) return;
   std::error_code error;
-  const fs::path folder(path_);
-  fs::create_directories(folder, error);
-  if (error) Refuse(folder, flag_, error.message());
-  const std::string ending = ".tmp" + std::to_string(getpid());
+  fs::create_directories(path_, error);
+  if (error) Refuse(path_, flag_, error.message());
+  for (const auto& [name, content] : files_) {
+    WriteFile(Temporary(path_, name), flag_, content);
+  }
+}
+
+void OutputFolder::RenameThem() const {
+  if (path_.empty()) return;
+  std::error_code error;
+  for (const auto& file : files_) {
+    const fs::path path = fs::path(path_) / file.first;
+    fs::rename(Temporary(path_, file.first), path, error);
+    if (error) Refuse(path, flag_, error.message());
+  }
+}
+
+void OutputFolder::RemoveThem() const {
+  std::error_code error;
+  for (const auto& file : files_) {
+    fs::remove(Temporary(path_, file.first), error);
+  }
+}
+
+void OutputFolder::WriteTogether(
+    const std::vector<const OutputFolder*>& folders) {
   try {
-    for (const auto& [name, content] : files_) {
-      WriteFile(folder / (name + ending), flag_, content);
-    }
-    for (const auto& file : files_) {
-      fs::rename(folder / (file.first + ending), folder / file.first, error);
-      if (error) Refuse(folder / file.first, flag_, error.message());
-    }
+    for (const OutputFolder* folder : folders) folder->WriteTemporaries();
+    for (const OutputFolder* folder : folders) folder->RenameThem();
   } catch (...) {
-    for (const auto& file : files_) {
-      fs::remove(folder / (file.first + ending), error);
-    }
+    for (const OutputFolder* folder : folders) folder->RemoveThem();
     throw;
   }
 }

@@ -18,9 +18,15 @@ class OutputFolder {
 
   void Add(const std::string& name, std::string content);
   // Creates the folder if need be. Throws InputError naming the flag.
-  void Write() const;
+  void Write() const { WriteTogether({this}); }
+  // All of several folders' files, or none.
+  static void WriteTogether(const std::vector<const OutputFolder*>& folders);
 
  private:
+  void WriteTemporaries() const;
+  void RenameThem() const;
+  void RemoveThem() const;
+
   std::string path_, flag_;
   std::vector<std::pair<std::string, std::string>> files_;
 };

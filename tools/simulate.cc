@@ -24,6 +24,20 @@ DEFINE_string(truth, "", "folder for truth.json; default: --out");
 namespace armcal {
 namespace {
 
+// Where the arm is far from what it was told, rad or m.
+std::string TrackingText(const ScenarioRun& run) {
+  constexpr double kFar = .05;
+  std::string text;
+  for (int j = 0; j < run.run.tracking_rms.size(); ++j) {
+    const double error = run.run.tracking_rms[j];
+    if (!(error > kFar)) continue;
+    const Joint& joint = run.robot.links[j].joint;
+    text += joint.name + " does not follow: " + NumberText(error) + " " +
+            PositionUnit(joint.type) + " rms off its reference\n";
+  }
+  return text;
+}
+
 std::string Report(const Scenario& scenario, const ScenarioRun& run) {
   const Log& log = run.run.log;
   std::string text = "simulated " + scenario.model.name + ": " +
@@ -43,15 +57,31 @@ std::string Report(const Scenario& scenario, const ScenarioRun& run) {
   }
   if (run.run.saturated_share > 0) {
     text += "a torque is at its limit in " +
-            NumberText(100 * run.run.saturated_share) +
-            " % of the time; --speed or --size below 1 moves more gently\n";
+            NumberText(100 * run.run.saturated_share) + " % of the time; " +
+            (run.run.saturated_share > .5
+                 ? "the limits or the controller do not suit this robot\n"
+                 : "--speed or --size below 1 moves more gently\n");
   }
+  text += TrackingText(run);
   if (!run.run.finite) {
     text +=
         "the simulation diverged; the log ends there: the controller is "
         "unstable for this robot, or an effect too stiff for --step\n";
   }
   return text;
+}
+
+LogWriterOptions WriterFromFlags(int num_joints) {
+  LogWriterOptions writer;
+  if (FLAGS_torque_constants.empty()) return writer;
+  const Eigen::VectorXd constants =
+      ParsePerJoint("torque_constants", FLAGS_torque_constants, num_joints);
+  if (constants.minCoeff() == 0) {
+    throw UsageError("--torque_constants: found '" + FLAGS_torque_constants +
+                     "', expected numbers above 0");
+  }
+  writer.torque_constants.assign(constants.begin(), constants.end());
+  return writer;
 }
 
 int Simulate() {
@@ -67,26 +97,18 @@ int Simulate() {
                      NumberText(scenario.loop.controller.rate_hz));
   }
   if (OutFromFlags().empty()) throw UsageError("--out=DIR is needed");
+  const LogWriterOptions writer = WriterFromFlags(scenario.model.num_joints());
   ProgressBar bar;
   scenario.loop.progress = [&bar](double share) {
     bar.Show("simulating", share);
   };
   ScenarioRun run = RunScenario(scenario);
   if (!FLAGS_temperature) run.run.log.temperature.resize(0, 0);
-  LogWriterOptions writer;
-  if (!FLAGS_torque_constants.empty()) {
-    const Eigen::VectorXd constants =
-        ParsePerJoint("torque_constants", FLAGS_torque_constants,
-                      scenario.model.num_joints());
-    writer.torque_constants.assign(constants.begin(), constants.end());
-  }
-  OutputFolder out(OutFromFlags());
+  OutputFolder out(OutFromFlags()), secret(FLAGS_truth, "--truth");
   out.Add("log.csv", LogText(run.run.log, writer));
-  OutputFolder secret(FLAGS_truth, "--truth");
   (FLAGS_truth.empty() ? out : secret)
       .Add("truth.json", TruthJson(scenario, run).dump(2) + "\n");
-  secret.Write();
-  out.Write();
+  OutputFolder::WriteTogether({&secret, &out});
   std::cout << Report(scenario, run);
   return run.run.finite ? kExitOk : kExitNegative;
 }

@@ -14,8 +14,8 @@ namespace armcal {
 namespace {
 
 // Friction that changes sign takes as many, or an arm that no feedback holds
-// (a motor at its limit) is off by more than 1e-7 rad after 2 s.
-constexpr int kFewestSubsteps = 12;
+// (a motor at its limit) is off by more than 3e-7 rad after 2 s.
+constexpr int kFewestSubsteps = 6;
 constexpr int kMostSubsteps = 64;
 
 }  // namespace
