@@ -17,6 +17,10 @@
 namespace armcal {
 namespace {
 
+// Of Coulomb friction's transition, rad(/s) or m(/s): below it a simulation
+// takes for ever, and no calibration finds it.
+constexpr double kLeastWidth = 1e-6;
+
 constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
                                 JointTerm::kOffset, JointTerm::kArmature};
 
@@ -120,7 +124,10 @@ std::vector<CoulombTransition> ReadTransitions(const JsonValue& root,
                                 std::string(velocity ? "/s" : ""),
                             "");
     const double width = entry.At("width").Number();
-    if (!(width > 0)) entry.At("width").Refuse("expected a width above 0");
+    if (!(width >= kLeastWidth)) {
+      entry.At("width").Refuse("expected a width of at least " +
+                               NumberText(kLeastWidth));
+    }
     transitions[j] = {velocity ? Law::kVelocity : Law::kDisplacement, width};
   }
   return transitions;
@@ -154,6 +161,12 @@ bool BelongsToPoses(const std::string& name) {
   return false;
 }
 
+bool IsNeverNegative(const std::string& name) {
+  const std::string term = name.substr(name.rfind('.') + 1);
+  return term == "mass" || term == "viscous" || term == "coulomb" ||
+         term == "armature";
+}
+
 void SetFrom(const JsonValue& entry, Slots* slots) {
   const JsonValue name = entry.At("name");
   const auto slot = slots->find(name.Text());
@@ -169,7 +182,11 @@ void SetFrom(const JsonValue& entry, Slots* slots) {
                  ", what the robot file has for " + name.Text() +
                  ": give the file that was calibrated, or calibrate again");
   }
-  slot->second.set(entry.At("value").Number());
+  const JsonValue value = entry.At("value");
+  if (IsNeverNegative(name.Text()) && value.Number() < 0) {
+    value.Refuse("expected a number of at least 0, as " + name.Text() + " is");
+  }
+  slot->second.set(value.Number());
   slot->second.was_set = true;
 }
 

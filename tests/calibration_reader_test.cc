@@ -177,6 +177,8 @@ TEST_F(ChangedCalibration, ParametersAndFriction) {
                     HasSubstr("expected a finite number")));
   EXPECT_THAT(RefusalOf("/parameters/3/value", "2"),
               HasSubstr("a finite number"));
+  EXPECT_THAT(RefusalOf("/parameters/0/value", -5),
+              HasSubstr("expected a number of at least 0, as link1.mass is"));
   EXPECT_THAT(RefusalOf("/parameters/3/name", "link9.mass"),
               HasSubstr("expected a parameter of the robot of --robot"));
   EXPECT_THAT(RefusalOf("/parameters/3/name", "link1.mass"),
@@ -186,8 +188,8 @@ TEST_F(ChangedCalibration, ParametersAndFriction) {
   EXPECT_THAT(RefusalAfter([](json* c) { c->erase("parameters"); }),
               HasSubstr("key parameters: is missing"));
   EXPECT_THAT(RefusalOf("/parameters", 3), HasSubstr("expected a list"));
-  EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/width", 0),
-              HasSubstr("expected a width above 0"));
+  EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/width", 1e-9),
+              HasSubstr("expected a width of at least 1e-06"));
   EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/law", "sign"),
               HasSubstr("expected 'velocity' or 'displacement'"));
   EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/unit", "m/s"),
