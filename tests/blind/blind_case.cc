@@ -15,6 +15,8 @@
 namespace armcal {
 namespace {
 
+constexpr uint32_t kAttemptsOfSize = 5;
+
 double Uniform(std::mt19937_64* random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(*random);
 }
@@ -154,6 +156,10 @@ BlindCase DrawBlindCase(uint64_t seed, uint32_t attempt) {
   blind.effects = DrawEffects(blind.robot, &random);
   if (attempt == 0) return blind;
   random = RandomStream(seed, attempt, RandomPurpose::kCase);
+  if (attempt >= kAttemptsOfSize) {
+    blind.effects = DrawEffects(blind.robot, &random);
+    return blind;
+  }
   for (ChosenEffect& effect : blind.effects) {
     effect.parameters = DrawParameters(*effect.kind, &random);
   }

@@ -39,7 +39,8 @@ struct BlindCase {
   SensorOptions sensors;
 };
 
-// `attempt`: the same case with the sizes of its effects drawn again.
+// `attempt`: the same case with the sizes of its effects drawn again, from the
+// fifth on with other effects.
 BlindCase DrawBlindCase(uint64_t seed, uint32_t attempt = 0);
 // Whether the arm follows its motion: a robot that does not would have stopped
 // with an error and left no log to diagnose.
