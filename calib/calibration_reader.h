@@ -32,10 +32,10 @@ struct CalibratedRobot {
 //
 // Throws InputError with the file, the key, its value and what was expected:
 // text that is no JSON or none of ours, a key that is missing or of another
-// type, a linear estimate only, other joints or links than the robot's, Coulomb
-// friction without the way it changes sign, a
-// prior that is not the robot file's value (the file has changed since), a unit
-// or a name that is not known.
+// type, a linear estimate only, other joints or links than the robot's, a
+// negative mass, friction or armature, Coulomb friction without the way it
+// changes sign, a prior that is not the robot file's value (the file has
+// changed since), a unit or a name that is not known.
 CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal);
 
 }  // namespace armcal

@@ -17,6 +17,23 @@ json Numbers(const Eigen::VectorXd& values) {
   return list;
 }
 
+// Name, joint and the values applied, in SI units.
+json EffectJson(const AppliedEffect& effect, const Robot& robot) {
+  json values = json::array();
+  for (const EffectValue& value : effect.values) {
+    values.push_back(
+        {{"name", value.name}, {"unit", value.unit}, {"value", value.value}});
+  }
+  json entry = {{"effect", effect.name},
+                {"joint_index", effect.joint + 1},
+                {"in_catalogue", effect.in_catalogue},
+                {"values", values}};
+  if (effect.joint >= 0) {
+    entry["joint"] = robot.links[effect.joint].joint.name;
+  }
+  return entry;
+}
+
 // The names and units of calibration.json.
 json ParametersJson(const Robot& robot) {
   json list = json::array();
@@ -70,22 +87,6 @@ json SensorsJson(const SensorOptions& options) {
 }
 
 }  // namespace
-
-json EffectJson(const AppliedEffect& effect, const Robot& robot) {
-  json values = json::array();
-  for (const EffectValue& value : effect.values) {
-    values.push_back(
-        {{"name", value.name}, {"unit", value.unit}, {"value", value.value}});
-  }
-  json entry = {{"effect", effect.name},
-                {"joint_index", effect.joint + 1},
-                {"in_catalogue", effect.in_catalogue},
-                {"values", values}};
-  if (effect.joint >= 0) {
-    entry["joint"] = robot.links[effect.joint].joint.name;
-  }
-  return entry;
-}
 
 json TruthJson(const Scenario& scenario, const ScenarioRun& run) {
   json effects = json::array();

@@ -9,7 +9,4 @@ namespace armcal {
 // truth.json: what a log of this scenario hides.
 nlohmann::json TruthJson(const Scenario& scenario, const ScenarioRun& run);
 
-// The entry of one effect: name, joint and the values applied, in SI units.
-nlohmann::json EffectJson(const AppliedEffect& effect, const Robot& robot);
-
 }  // namespace armcal
