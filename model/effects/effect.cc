@@ -1,0 +1,33 @@
+#include "model/effects/effect.h"
+
+namespace armcal {
+
+std::string ParameterUnit(const std::string& unit, JointType type) {
+  std::string text;
+  for (const char c : unit) {
+    if (c == 'E') {
+      text += EffortUnit(type);
+    } else if (c == 'P') {
+      text += PositionUnit(type);
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::vector<EffectEstimate> EstimatesOf(const Effect& effect,
+                                        const EffectSite& site,
+                                        const Eigen::VectorXd& p) {
+  if (effect.estimates) return effect.estimates(site, p);
+  const JointType type = site.joint < 0 ? JointType::kRevolute : site.at().type;
+  std::vector<EffectEstimate> estimates;
+  for (size_t k = 0; k < effect.parameters.size(); ++k) {
+    const EffectParameter& parameter = effect.parameters[k];
+    estimates.push_back(
+        {parameter.name, ParameterUnit(parameter.unit, type), p[k]});
+  }
+  return estimates;
+}
+
+}  // namespace armcal

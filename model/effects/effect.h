@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/robot.h"
+#include "model/simulated_robot.h"
+
+namespace armcal {
+
+// What the joints do on a log: what sizes, ranges and grids of effects are
+// relative to. One entry per joint.
+struct MotionScale {
+  Eigen::VectorXd torque;        // rms, N m or N
+  Eigen::VectorXd load;          // rms of what moves the links, N m or N
+  Eigen::VectorXd speed;         // rms while moving, rad/s or m/s
+  Eigen::VectorXd top_speed;     // rad/s or m/s
+  Eigen::VectorXd acceleration;  // rms, rad/s^2 or m/s^2
+  Eigen::VectorXd low, high;     // positions, rad or m
+  // The speed within which the joint's Coulomb friction changes sign, rad/s or
+  // m/s: tanh(qd / width).
+  Eigen::VectorXd width;
+  double begin = 0, end = 0;  // s
+};
+
+// Where an effect acts, on which robot and in which motion.
+struct EffectSite {
+  const Robot* robot;  // without the effect
+  int joint;           // from 0; -1: the whole robot
+  const MotionScale* scale;
+
+  const Joint& at() const { return robot->links[joint].joint; }
+};
+
+struct EffectParameter {
+  // How a diagnosis finds it. Torque is linear in kLinear parameters, and the
+  // effect is absent where all of them are 0; the others only shape it.
+  enum class Search {
+    kLinear,
+    kGrid,               // tried at the values of `grid`, then refined
+    kPositionFrequency,  // from the residual's spectrum over position, rad/rad
+    kTimeFrequency,      // from its spectrum over time, Hz
+    kTime,               // from where in time the residual is large, s
+    kDuration            // s
+  };
+  enum class Sign { kFree, kPositive };
+
+  std::string name;  // as in DESIGN.md
+  std::string unit;  // with E for the joint's effort (N m or N), P for its
+                     // position (rad or m): "E s/P"
+  Search search = Search::kLinear;
+  Sign sign = Sign::kFree;
+  // kLinear: a size that would matter, of the order of 5 % of what the joint
+  // does; columns are differences over this much. Others: a usual value.
+  std::function<double(const EffectSite&)> size;
+  // kGrid: values to try, rising; the first and last are the range.
+  std::function<std::vector<double>(const EffectSite&)> grid;
+};
+
+struct EffectEstimate {
+  std::string name;
+  std::string unit;
+  double value;
+};
+
+// A law that rigid bodies with viscous and Coulomb friction lack. One
+// description serves estimation (recorded_torque.h makes its columns from
+// `apply`), forward simulation and export.
+struct Effect {
+  enum class Scope { kJoint, kRobot };
+
+  std::string name;  // DESIGN.md's
+  Scope scope = Scope::kJoint;
+  std::string law;    // in symbols, a line
+  std::string shows;  // which motion makes it visible, a phrase
+  std::vector<EffectParameter> parameters;
+  // Fills slots of *robot, whose `robot` member is the site's; p has an entry
+  // per parameter, SI units.
+  std::function<void(const EffectSite& site, const Eigen::VectorXd& p,
+                     SimulatedRobot* robot)>
+      apply;
+  // What a report says, as functions of p (amplitude and phase of a sine and a
+  // cosine): empty for the parameters themselves.
+  std::function<std::vector<EffectEstimate>(const EffectSite& site,
+                                            const Eigen::VectorXd& p)>
+      estimates;
+  // Empty, or why this joint of this robot cannot show it at all.
+  std::function<std::string(const EffectSite& site)> unfit;
+  // How it is made visible: the experiment a report proposes.
+  std::string experiment;
+};
+
+// "N m s/rad" from "E s/P" for a revolute joint.
+std::string ParameterUnit(const std::string& unit, JointType type);
+// What the effect says of itself at p.
+std::vector<EffectEstimate> EstimatesOf(const Effect& effect,
+                                        const EffectSite& site,
+                                        const Eigen::VectorXd& p);
+
+}  // namespace armcal

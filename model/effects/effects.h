@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/effects/effect.h"
+
+namespace armcal {
+
+// Every effect that a diagnosis has a name for, in DESIGN.md's order. To add
+// one, write its file and its line in effect_list.h.
+const std::vector<Effect>& Effects();
+// nullptr where there is none of that name.
+const Effect* FindEffect(const std::string& name);
+
+}  // namespace armcal

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace armcal {
+
+// Motion of an arm at equally spaced instants, samples in rows, joints in
+// columns in the robot's order.
+struct Motion {
+  double t0 = 0;                // s, of row 0
+  double dt = 0;                // s
+  Eigen::MatrixXd q;            // rad or m
+  Eigen::MatrixXd qd;           // rad/s or m/s
+  Eigen::MatrixXd qdd;          // rad/s^2 or m/s^2
+  Eigen::MatrixXd temperature;  // deg C; empty: not recorded
+
+  int size() const { return static_cast<int>(q.rows()); }
+  int num_joints() const { return static_cast<int>(q.cols()); }
+  double time(int row) const { return t0 + row * dt; }
+};
+
+}  // namespace armcal
