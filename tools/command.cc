@@ -1,6 +1,7 @@
 #include "tools/command.h"
 
 #include "tools/calibrate.h"
+#include "tools/diagnose.h"
 #include "tools/simulate.h"
 #include "tools/verify.h"
 
@@ -8,7 +9,8 @@ namespace armcal {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> kCommands = {
-      CalibrateCommand(), SimulateCommand(), VerifyCommand()};
+      CalibrateCommand(), VerifyCommand(), DiagnoseCommand(),
+      SimulateCommand()};
   return kCommands;
 }
 

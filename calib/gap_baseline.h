@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "calib/gap_rows.h"
+#include "model/effects/effect.h"
+#include "model/joint_term.h"
+#include "model/recorded_torque.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// One thing that the model may vary, in units of its prior's standard
+// deviation: an inertial parameter, a joint term, or a nuisance (how friction
+// changes sign, how torque and position are shifted in time).
+struct BaselineColumn {
+  enum class Kind { kInertial, kTerm, kZeroVelocity, kTiming };
+  Kind kind;
+  int joint;      // or link; -1: all
+  int index = 0;  // inertial parameter or JointTerm or shape
+  double spread;  // SI units per prior standard deviation
+};
+
+// The model that a gap is judged against: the robot, and how far each of its
+// parameters may be from it. `trust` is the relative standard deviation of the
+// file's inertial parameters, armature and friction.
+struct BaselineOptions {
+  double trust = 0.05;
+  double timing_s = 5e-4;  // standard deviation, torque against position
+};
+
+class GapBaseline {
+ public:
+  GapBaseline(const Robot& robot, const BaselineOptions& options,
+              const Eigen::VectorXd& usual_torque);
+
+  const Robot& robot() const { return robot_; }
+  int size() const { return static_cast<int>(columns_.size()); }
+  const std::vector<BaselineColumn>& columns() const { return columns_; }
+  const std::vector<CoulombTransition>& transitions() const {
+    return transitions_;
+  }
+  // Torque of all columns at unit value, low-passed and thinned: n matrices of
+  // thinned samples x size(), of which row k column c is joint j's.
+  std::vector<Eigen::MatrixXd> ThinColumns(
+      const GapRows& rows, const std::vector<RecordedTorque>& torques) const;
+  // The robot with these values of the columns; nuisances have no place in it.
+  Robot With(const Eigen::VectorXd& x) const;
+
+ private:
+  void AddLink(int link, double trust);
+  void AddTerms(int joint, double trust, double usual_torque);
+
+  Robot robot_;
+  std::vector<BaselineColumn> columns_;
+  std::vector<CoulombTransition> transitions_;
+};
+
+// A RecordedTorque per segment.
+std::vector<RecordedTorque> RecordedTorques(const GapBaseline& baseline,
+                                            const GapRows& rows);
+
+}  // namespace armcal

@@ -1,0 +1,256 @@
+#include "calib/gap_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/gap_search.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Search = EffectParameter::Search;
+
+constexpr int kPeaks = 3;
+constexpr int kWindows = 3;
+constexpr double kHighestHarmonic = 130;                   // per rad
+const std::vector<double> kDurations = {.15, .4, 1, 2.5};  // s
+
+// What the residual proposes for the parameters that are looked for in it.
+class Proposals {
+ public:
+  Proposals(const GapRows& rows, const MatrixXd& residual)
+      : rows_(rows), residual_(residual) {
+    const int n = rows.num_joints();
+    q_.resize(rows.num_thin(), n);
+    t_.resize(rows.num_thin());
+    for (size_t s = 0; s < rows.segments().size(); ++s) {
+      const int begin = rows.thin_begin(static_cast<int>(s));
+      const MatrixXd q =
+          rows.Pick(static_cast<int>(s), rows.segments()[s].motion.q);
+      q_.middleRows(begin, q.rows()) = q;
+      for (int k = 0; k < q.rows(); ++k) {
+        t_[begin + k] = rows.thin_time(static_cast<int>(s), begin + k);
+      }
+    }
+    whitened_ = residual;
+    for (int j = 0; j < n; ++j) {
+      const double scale = rows.noise(j).stddev();
+      if (scale > 0) whitened_.col(j) /= scale;
+      std::vector<bool> moves(rows.num_thin(), false);
+      for (const int k : rows.SampleOfRow(j)) moves[k] = true;
+      for (int k = 0; k < rows.num_thin(); ++k) {
+        if (!moves[k]) whitened_(k, j) = 0;
+      }
+    }
+  }
+
+  std::vector<double> Harmonics(int joint) const {
+    if (joint < 0) return {};
+    const double range = q_.col(joint).maxCoeff() - q_.col(joint).minCoeff();
+    if (!(range > 0)) return {};
+    return PeakFrequencies(whitened_.col(joint), q_.col(joint),
+                           std::max(1.5, 2 * M_PI / range), kHighestHarmonic,
+                           kPeaks);
+  }
+  std::vector<double> Frequencies(int joint) const {
+    if (joint < 0) return {};
+    std::vector<double> f =
+        PeakFrequencies(whitened_.col(joint), t_, 2 * M_PI * .5,
+                        2 * M_PI * 1.2 * rows_.bandwidth_hz(), kPeaks);
+    for (double& x : f) x /= 2 * M_PI;
+    return f;
+  }
+  std::vector<TimeWindow> Windows(int* searched) const {
+    return StrongWindows(whitened_, t_, kDurations, kWindows, searched);
+  }
+
+ private:
+  const GapRows& rows_;
+  const MatrixXd& residual_;
+  MatrixXd q_, whitened_;
+  VectorXd t_;
+};
+
+// All combinations of values of the nonlinear parameters.
+std::vector<VectorXd> Shapes(const Effect& effect, const EffectSite& site,
+                             const Proposals& proposals, int* tried) {
+  std::vector<VectorXd> shapes = {VectorXd::Zero(effect.parameters.size())};
+  *tried = 1;
+  const auto expand = [&](int k, const std::vector<double>& values) {
+    std::vector<VectorXd> more;
+    for (const VectorXd& shape : shapes) {
+      for (const double value : values) {
+        more.push_back(shape);
+        more.back()[k] = value;
+      }
+    }
+    shapes = std::move(more);
+  };
+  int time = -1, duration = -1;
+  for (size_t i = 0; i < effect.parameters.size(); ++i) {
+    const int k = static_cast<int>(i);
+    const EffectParameter& parameter = effect.parameters[i];
+    switch (parameter.search) {
+      case Search::kLinear:
+        break;
+      case Search::kGrid:
+        expand(k, parameter.grid(site));
+        *tried *= static_cast<int>(parameter.grid(site).size());
+        break;
+      case Search::kPositionFrequency:
+        expand(k, proposals.Harmonics(site.joint));
+        *tried *= 200;
+        break;
+      case Search::kTimeFrequency:
+        expand(k, proposals.Frequencies(site.joint));
+        *tried *= 400;
+        break;
+      case Search::kTime:
+        time = k;
+        break;
+      case Search::kDuration:
+        duration = k;
+        break;
+    }
+  }
+  if (time < 0) return shapes;
+  int searched = 0;
+  std::vector<VectorXd> windows;
+  for (const TimeWindow& window : proposals.Windows(&searched)) {
+    for (VectorXd shape : shapes) {
+      shape[time] = window.centre;
+      if (duration >= 0) shape[duration] = window.duration;
+      windows.push_back(shape);
+    }
+  }
+  *tried *= std::max(1, searched);
+  return windows;
+}
+
+void AddCandidates(const Effect& effect, const EffectSite& site,
+                   const Proposals& proposals,
+                   std::vector<GapCandidate>* candidates) {
+  if (effect.unfit && !effect.unfit(site).empty()) return;
+  int tried = 1;
+  for (const VectorXd& shape : Shapes(effect, site, proposals, &tried)) {
+    GapCandidate candidate;
+    candidate.effect = &effect;
+    candidate.joint = site.joint;
+    candidate.p = shape;
+    candidate.tried = tried;
+    for (size_t k = 0; k < effect.parameters.size(); ++k) {
+      if (effect.parameters[k].search != Search::kLinear) continue;
+      candidate.linear.push_back(static_cast<int>(k));
+      candidate.size.conservativeResize(candidate.linear.size());
+      candidate.size[candidate.size.size() - 1] =
+          effect.parameters[k].size(site);
+    }
+    if (candidate.size.allFinite() && (candidate.size.array() > 0).all()) {
+      candidates->push_back(candidate);
+    }
+  }
+}
+
+}  // namespace
+
+std::string GapCandidate::place() const {
+  return effect->name + (joint < 0 ? "" : "@" + std::to_string(joint + 1));
+}
+
+MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
+                    const std::vector<RecordedTorque>& torques) {
+  const int n = rows.num_joints();
+  MotionScale scale;
+  scale.torque = scale.load = scale.speed = scale.top_speed =
+      scale.acceleration = scale.width = VectorXd::Zero(n);
+  scale.low = VectorXd::Constant(n, INFINITY);
+  scale.high = -scale.low;
+  double samples = 0;
+  VectorXd moving = VectorXd::Zero(n);
+  scale.begin = INFINITY;
+  for (size_t s = 0; s < torques.size(); ++s) {
+    const GapSegment& segment = rows.segments()[s];
+    const Motion& motion = segment.motion;
+    samples += motion.size();
+    scale.begin = std::min(scale.begin, motion.time(0));
+    scale.end = std::max(scale.end, motion.time(motion.size() - 1));
+    for (int j = 0; j < n; ++j) {
+      const auto move = (!segment.still.col(j)).cast<double>();
+      moving[j] += move.sum();
+      scale.torque[j] += segment.tau.col(j).squaredNorm();
+      scale.load[j] += torques[s].load().col(j).squaredNorm();
+      scale.speed[j] += (motion.qd.col(j).array().square() * move).sum();
+      scale.acceleration[j] +=
+          (motion.qdd.col(j).array().square() * move).sum();
+      scale.top_speed[j] =
+          std::max(scale.top_speed[j], motion.qd.col(j).cwiseAbs().maxCoeff());
+      scale.low[j] = std::min(scale.low[j], motion.q.col(j).minCoeff());
+      scale.high[j] = std::max(scale.high[j], motion.q.col(j).maxCoeff());
+    }
+  }
+  moving = moving.cwiseMax(1);
+  scale.torque = (scale.torque / samples).cwiseSqrt();
+  scale.load = (scale.load / samples).cwiseSqrt();
+  scale.speed = scale.speed.cwiseQuotient(moving).cwiseSqrt();
+  scale.acceleration = scale.acceleration.cwiseQuotient(moving).cwiseSqrt();
+  for (int j = 0; j < n; ++j) {
+    scale.width[j] = baseline.transitions()[j].width;
+  }
+  return scale;
+}
+
+std::vector<GapCandidate> ListCandidates(const GapBaseline& baseline,
+                                         const GapRows& rows,
+                                         const MotionScale& scale,
+                                         const MatrixXd& residual) {
+  const Proposals proposals(rows, residual);
+  std::vector<GapCandidate> candidates;
+  for (const Effect& effect : Effects()) {
+    const bool whole = effect.scope == Effect::Scope::kRobot;
+    for (int j = whole ? -1 : 0; j < (whole ? 0 : rows.num_joints()); ++j) {
+      AddCandidates(effect, {&baseline.robot(), j, &scale}, proposals,
+                    &candidates);
+    }
+  }
+  return candidates;
+}
+
+std::vector<JointRows> CandidateRows(const GapCandidate& candidate,
+                                     const GapBaseline& baseline,
+                                     const GapRows& rows,
+                                     const MotionScale& scale,
+                                     std::vector<RecordedTorque>* torques) {
+  const int n = rows.num_joints();
+  std::vector<JointRows> columns;
+  for (size_t k = 0; k < candidate.linear.size(); ++k) {
+    VectorXd p = candidate.p;
+    p[candidate.linear[k]] = candidate.size[k];
+    std::vector<VectorXd> thin(n, VectorXd::Zero(rows.num_thin()));
+    std::vector<bool> any(n, false);
+    for (size_t s = 0; s < torques->size(); ++s) {
+      SimulatedRobot changed;
+      changed.robot = baseline.robot();
+      candidate.effect->apply({&baseline.robot(), candidate.joint, &scale}, p,
+                              &changed);
+      const MatrixXd change = (*torques)[s].Change(changed);
+      const int begin = rows.thin_begin(static_cast<int>(s));
+      const int size = rows.thin_begin(static_cast<int>(s) + 1) - begin;
+      for (int j = 0; j < n; ++j) {
+        if ((change.col(j).array() == 0).all()) continue;
+        any[j] = true;
+        thin[j].segment(begin, size) =
+            rows.Thin(static_cast<int>(s), change.col(j));
+      }
+    }
+    JointRows column(n);
+    for (int j = 0; j < n; ++j) {
+      if (any[j]) column[j] = rows.Whiten(j, thin[j]);
+    }
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+}  // namespace armcal

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "calib/gap_baseline.h"
+#include "calib/gap_rows.h"
+#include "calib/gap_screen.h"
+#include "model/effects/effects.h"
+
+namespace armcal {
+
+// An effect at a place, its shape given: torque is linear in what is left.
+struct GapCandidate {
+  const Effect* effect = nullptr;
+  int joint = -1;            // from 0; -1: the whole robot
+  Eigen::VectorXd p;         // linear parameters 0
+  std::vector<int> linear;   // entries of p
+  Eigen::VectorXd size;      // of the linear ones: their column's unit
+  std::vector<int> columns;  // of the screen, in the order of `linear`
+  int tried = 1;             // shapes of the same effect at the same place
+  std::string place() const;
+};
+
+// What the joints do in these rows.
+MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
+                    const std::vector<RecordedTorque>& torques);
+
+// Every effect at every place, at every value of its grids. Shapes that are
+// found in the residual (frequencies, times) come from `residual`, thinned
+// samples x n.
+std::vector<GapCandidate> ListCandidates(const GapBaseline& baseline,
+                                         const GapRows& rows,
+                                         const MotionScale& scale,
+                                         const Eigen::MatrixXd& residual);
+
+// The torque of each linear parameter at its size, whitened.
+std::vector<JointRows> CandidateRows(const GapCandidate& candidate,
+                                     const GapBaseline& baseline,
+                                     const GapRows& rows,
+                                     const MotionScale& scale,
+                                     std::vector<RecordedTorque>* torques);
+
+}  // namespace armcal

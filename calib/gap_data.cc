@@ -1,0 +1,62 @@
+#include "calib/gap_data.h"
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
+                 double bandwidth_hz)
+    : segments_(std::move(segments)),
+      rows_(std::make_unique<GapRows>(segments_, bandwidth_hz)),
+      torques_(RecordedTorques(baseline, *rows_)) {
+  residual_.resize(rows_->num_thin(), rows_->num_joints());
+  for (size_t s = 0; s < segments_.size(); ++s) {
+    const int part = static_cast<int>(s);
+    const MatrixXd thin =
+        rows_->Thin(part, segments_[s].tau - torques_[s].nominal());
+    residual_.middleRows(rows_->thin_begin(part), thin.rows()) = thin;
+  }
+  columns_ = baseline.ThinColumns(*rows_, torques_);
+}
+
+MatrixXd GapData::ResidualWith(const VectorXd& x) const {
+  MatrixXd residual = residual_;
+  for (int j = 0; j < rows_->num_joints(); ++j) {
+    residual.col(j) -= columns_[j] * x;
+  }
+  return residual;
+}
+
+void GapData::SetNoise(std::vector<Autoregression> noise) {
+  rows_->SetNoise(std::move(noise));
+}
+
+std::vector<MatrixXd> GapData::WhitenedColumns() const {
+  std::vector<MatrixXd> white;
+  for (int j = 0; j < rows_->num_joints(); ++j) {
+    white.push_back(rows_->Whiten(j, columns_[j]));
+  }
+  return white;
+}
+
+std::vector<VectorXd> GapData::WhitenedResidual() const {
+  std::vector<VectorXd> white;
+  for (int j = 0; j < rows_->num_joints(); ++j) {
+    white.push_back(rows_->Whiten(j, residual_.col(j)));
+  }
+  return white;
+}
+
+VectorXd UsualTorque(const std::vector<GapSegment>& segments) {
+  double samples = 0;
+  VectorXd sum;
+  for (const GapSegment& segment : segments) {
+    if (sum.size() == 0) sum = VectorXd::Zero(segment.tau.cols());
+    sum += segment.tau.colwise().squaredNorm().transpose();
+    samples += segment.size();
+  }
+  return (sum / samples).cwiseSqrt();
+}
+
+}  // namespace armcal

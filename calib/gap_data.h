@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "calib/gap_baseline.h"
+#include "calib/gap_noise.h"
+#include "calib/gap_rows.h"
+#include "calib/gap_segments.h"
+
+namespace armcal {
+
+// Logs made ready for a diagnosis: motion, torque of the robot as its file has
+// it, what is left of the recorded torque, and the baseline's columns.
+class GapData {
+ public:
+  // `segments` are kept. `usual_torque`: n entries, N m or N.
+  GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
+          double bandwidth_hz);
+  GapData(const GapData&) = delete;
+  GapData& operator=(const GapData&) = delete;
+
+  const GapRows& rows() const { return *rows_; }
+  std::vector<RecordedTorque>* mutable_torques() { return &torques_; }
+  const std::vector<RecordedTorque>& torques() const { return torques_; }
+  // Recorded minus nominal torque, thinned samples x n, N m or N.
+  const Eigen::MatrixXd& residual() const { return residual_; }
+  // Per joint, thinned samples x baseline size.
+  const std::vector<Eigen::MatrixXd>& columns() const { return columns_; }
+  // What the baseline at x leaves.
+  Eigen::MatrixXd ResidualWith(const Eigen::VectorXd& x) const;
+
+  void SetNoise(std::vector<Autoregression> noise);
+  // Whitened, per joint.
+  std::vector<Eigen::MatrixXd> WhitenedColumns() const;
+  std::vector<Eigen::VectorXd> WhitenedResidual() const;
+
+ private:
+  std::vector<GapSegment> segments_;
+  std::unique_ptr<GapRows> rows_;
+  std::vector<RecordedTorque> torques_;
+  Eigen::MatrixXd residual_;
+  std::vector<Eigen::MatrixXd> columns_;
+};
+
+// rms of the recorded torque, n entries.
+Eigen::VectorXd UsualTorque(const std::vector<GapSegment>& segments);
+
+}  // namespace armcal

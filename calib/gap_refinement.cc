@@ -1,0 +1,280 @@
+#include "calib/gap_refinement.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Search = EffectParameter::Search;
+
+constexpr int kMostIterations = 12;
+
+// A parameter as Ceres sees it: p = centre + scale (u - 1), or
+// centre exp(scale (u - 1)) where it is a size that grows by factors. It starts
+// at u = 1, since numeric derivatives step by a share of u.
+struct Coordinate {
+  int effect;
+  int parameter;
+  double centre;
+  double scale;
+  bool by_factors = false;
+  double low = -std::numeric_limits<double>::infinity();  // of p
+  double high = std::numeric_limits<double>::infinity();
+
+  double Value(double u) const {
+    return by_factors ? centre * std::exp(scale * (u - 1))
+                      : centre + scale * (u - 1);
+  }
+  double Slope(double u) const { return by_factors ? scale * Value(u) : scale; }
+  double Inverse(double p) const {
+    return by_factors ? 1 + std::log(p / centre) / scale
+                      : 1 + (p - centre) / scale;
+  }
+};
+
+Coordinate GridCoordinate(const EffectParameter& parameter,
+                          const EffectSite& site, double value) {
+  Coordinate c{0, 0, value, 1};
+  const std::vector<double> grid = parameter.grid(site);
+  c.low = grid.front();
+  c.high = grid.back();
+  c.by_factors = c.low > 0 && value > 0;
+  c.scale = c.by_factors ? .3 : .2 * (c.high - c.low);
+  return c;
+}
+
+// Whole numbers (a neighbour's index, a harmonic of the joint) are not varied.
+bool IsChoice(const EffectParameter& parameter, const EffectSite& site) {
+  if (parameter.search != Search::kGrid) return false;
+  const std::vector<double> grid = parameter.grid(site);
+  return grid.size() < 2 || std::all_of(grid.begin(), grid.end(), [](double x) {
+           return x == std::round(x);
+         });
+}
+
+std::vector<Coordinate> Coordinates(const GapBaseline& baseline,
+                                    const MotionScale& scale,
+                                    const std::vector<GapCandidate>& effects) {
+  std::vector<Coordinate> coordinates;
+  for (size_t e = 0; e < effects.size(); ++e) {
+    const GapCandidate& effect = effects[e];
+    const EffectSite site = {&baseline.robot(), effect.joint, &scale};
+    int linear = 0;
+    for (size_t k = 0; k < effect.effect->parameters.size(); ++k) {
+      const EffectParameter& parameter = effect.effect->parameters[k];
+      const double value = effect.p[k];
+      Coordinate c{0, 0, value, 1};
+      switch (parameter.search) {
+        case Search::kLinear:
+          c.scale = effect.size[linear++];
+          if (parameter.sign == EffectParameter::Sign::kPositive) c.low = 0;
+          break;
+        case Search::kGrid:
+          if (IsChoice(parameter, site)) continue;
+          c = GridCoordinate(parameter, site, value);
+          break;
+        case Search::kPositionFrequency:
+          c.scale = 1 / (scale.high[effect.joint] - scale.low[effect.joint]);
+          break;
+        case Search::kTimeFrequency:
+          c.scale = .3 / (scale.end - scale.begin);
+          break;
+        case Search::kTime:
+          c.scale = .1;
+          break;
+        case Search::kDuration:
+          c.by_factors = true;
+          c.scale = .3;
+          break;
+      }
+      c.effect = static_cast<int>(e);
+      c.parameter = static_cast<int>(k);
+      coordinates.push_back(c);
+    }
+  }
+  return coordinates;
+}
+
+class ProjectedResidual {
+ public:
+  ProjectedResidual(const GapScreen& screen, const GapBaseline& baseline,
+                    const MotionScale& scale, std::vector<GapCandidate> effects,
+                    std::vector<Coordinate> coordinates, GapData* data)
+      : screen_(screen),
+        baseline_(baseline),
+        scale_(scale),
+        effects_(std::move(effects)),
+        coordinates_(std::move(coordinates)),
+        data_(data) {}
+
+  std::vector<GapCandidate> At(const double* u) const {
+    std::vector<GapCandidate> effects = effects_;
+    for (size_t k = 0; k < coordinates_.size(); ++k) {
+      const Coordinate& c = coordinates_[k];
+      effects[c.effect].p[c.parameter] = c.Value(u[k]);
+    }
+    return effects;
+  }
+  JointRows Torque(const double* u) const {
+    const MatrixXd thin = EffectTorque(baseline_, scale_, At(u), data_);
+    JointRows rows(thin.cols());
+    for (int j = 0; j < thin.cols(); ++j) {
+      rows[j] = data_->rows().Whiten(j, thin.col(j));
+    }
+    return rows;
+  }
+  bool operator()(double const* const* u, double* residuals) const {
+    const VectorXd r = screen_.ResidualBeside(Torque(u[0]));
+    if (!r.allFinite()) return false;
+    Eigen::Map<VectorXd>(residuals, r.size()) = r;
+    return true;
+  }
+
+ private:
+  const GapScreen& screen_;
+  const GapBaseline& baseline_;
+  const MotionScale& scale_;
+  std::vector<GapCandidate> effects_;
+  std::vector<Coordinate> coordinates_;
+  GapData* data_;
+};
+
+void SetBounds(const std::vector<Coordinate>& coordinates, double* u,
+               ceres::Problem* problem) {
+  for (size_t k = 0; k < coordinates.size(); ++k) {
+    const Coordinate& c = coordinates[k];
+    const int index = static_cast<int>(k);
+    if (std::isfinite(c.low)) {
+      u[k] = std::max(u[k], c.Inverse(c.low));
+      problem->SetParameterLowerBound(u, index, c.Inverse(c.low));
+    }
+    if (std::isfinite(c.high)) {
+      u[k] = std::min(u[k], c.Inverse(c.high));
+      problem->SetParameterUpperBound(u, index, c.Inverse(c.high));
+    }
+  }
+}
+
+// (J'J)^-1 in the units of p, without the directions that bounds hold.
+MatrixXd CovarianceAt(const ceres::CostFunction& cost,
+                      const std::vector<Coordinate>& coordinates,
+                      const VectorXd& u) {
+  const int size = static_cast<int>(u.size());
+  VectorXd residual(cost.num_residuals());
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J(
+      cost.num_residuals(), size);
+  const double* block = u.data();
+  double* jacobian = J.data();
+  MatrixXd covariance = MatrixXd::Zero(size, size);
+  if (!cost.Evaluate(&block, residual.data(), &jacobian)) return covariance;
+  std::vector<int> free;
+  for (int k = 0; k < size; ++k) {
+    const double p = coordinates[k].Value(u[k]);
+    const bool at_bound = p <= coordinates[k].low || p >= coordinates[k].high;
+    if (!at_bound && J.col(k).squaredNorm() > 0) free.push_back(k);
+  }
+  MatrixXd information(free.size(), free.size());
+  for (size_t a = 0; a < free.size(); ++a) {
+    for (size_t b = 0; b < free.size(); ++b) {
+      information(a, b) = J.col(free[a]).dot(J.col(free[b]));
+    }
+  }
+  const MatrixXd inverse =
+      information.completeOrthogonalDecomposition().pseudoInverse();
+  for (size_t a = 0; a < free.size(); ++a) {
+    for (size_t b = 0; b < free.size(); ++b) {
+      covariance(free[a], free[b]) = inverse(a, b) *
+                                     coordinates[free[a]].Slope(u[free[a]]) *
+                                     coordinates[free[b]].Slope(u[free[b]]);
+    }
+  }
+  return covariance;
+}
+
+// From coordinates to all parameters one after the other.
+MatrixXd Spread(const std::vector<GapCandidate>& effects,
+                const std::vector<Coordinate>& coordinates,
+                const MatrixXd& covariance) {
+  std::vector<int> begin = {0};
+  for (const GapCandidate& effect : effects) {
+    begin.push_back(begin.back() + static_cast<int>(effect.p.size()));
+  }
+  MatrixXd all = MatrixXd::Zero(begin.back(), begin.back());
+  for (size_t a = 0; a < coordinates.size(); ++a) {
+    for (size_t b = 0; b < coordinates.size(); ++b) {
+      all(begin[coordinates[a].effect] + coordinates[a].parameter,
+          begin[coordinates[b].effect] + coordinates[b].parameter) =
+          covariance(a, b);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+MatrixXd EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
+                      const std::vector<GapCandidate>& effects, GapData* data) {
+  const GapRows& rows = data->rows();
+  MatrixXd thin(rows.num_thin(), rows.num_joints());
+  SimulatedRobot changed;
+  changed.robot = baseline.robot();
+  for (const GapCandidate& effect : effects) {
+    effect.effect->apply({&baseline.robot(), effect.joint, &scale}, effect.p,
+                         &changed);
+  }
+  for (size_t s = 0; s < rows.segments().size(); ++s) {
+    const int part = static_cast<int>(s);
+    const MatrixXd torque =
+        rows.Thin(part, (*data->mutable_torques())[s].Change(changed));
+    thin.middleRows(rows.thin_begin(part), torque.rows()) = torque;
+  }
+  return thin;
+}
+
+RefinedEffects RefineEffects(const GapScreen& screen,
+                             const GapBaseline& baseline,
+                             const MotionScale& scale,
+                             std::vector<GapCandidate> effects, GapData* data) {
+  RefinedEffects refined;
+  refined.effects = effects;
+  const std::vector<Coordinate> coordinates =
+      Coordinates(baseline, scale, effects);
+  const int size = static_cast<int>(coordinates.size());
+  const auto residual = new ProjectedResidual(screen, baseline, scale, effects,
+                                              coordinates, data);
+  ceres::NumericDiffOptions steps;
+  steps.relative_step_size = 1e-4;
+  auto* cost = new ceres::DynamicNumericDiffCostFunction<ProjectedResidual,
+                                                         ceres::FORWARD>(
+      residual, ceres::TAKE_OWNERSHIP, steps);
+  VectorXd u = VectorXd::Ones(size);
+  cost->AddParameterBlock(size);
+  cost->SetNumResiduals(static_cast<int>(
+      screen.ResidualBeside(residual->Torque(u.data())).size()));
+  ceres::Problem problem;
+  problem.AddResidualBlock(cost, nullptr, u.data());
+  SetBounds(coordinates, u.data(), &problem);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = kMostIterations;
+  options.function_tolerance = 1e-5;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  refined.effects = residual->At(u.data());
+  refined.covariance =
+      Spread(effects, coordinates, CovarianceAt(*cost, coordinates, u));
+  refined.baseline = screen.BaselineBeside(residual->Torque(u.data()));
+  refined.drop =
+      screen.ResidualBeside(JointRows(screen.num_joints())).squaredNorm() -
+      2 * summary.final_cost;
+  return refined;
+}
+
+}  // namespace armcal

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/gap_candidates.h"
+#include "calib/gap_data.h"
+#include "calib/gap_screen.h"
+
+namespace armcal {
+
+// Effects with all their parameters fitted together, linear or not, the
+// baseline free beside them.
+struct RefinedEffects {
+  std::vector<GapCandidate> effects;  // p: all parameters
+  // Of all parameters one after the other, in SI units; a parameter at its
+  // bound has no variance.
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd baseline;
+  double drop = 0;  // of chi^2 against the baseline alone
+};
+
+// Variable projection by Ceres from the effects' p. All of them act on one
+// SimulatedRobot, whose torque is evaluated as it is, not linearised.
+RefinedEffects RefineEffects(const GapScreen& screen,
+                             const GapBaseline& baseline,
+                             const MotionScale& scale,
+                             std::vector<GapCandidate> effects, GapData* data);
+
+// What effects with these parameters add to the torque: thinned samples x n.
+Eigen::MatrixXd EffectTorque(const GapBaseline& baseline,
+                             const MotionScale& scale,
+                             const std::vector<GapCandidate>& effects,
+                             GapData* data);
+
+}  // namespace armcal

@@ -1,0 +1,128 @@
+#include "calib/gap_rows.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/low_pass.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+
+constexpr double kRateOverBandwidth = 2.5;
+constexpr double kPeriodsAtEnds = 4;  // of the bandwidth, bent by filters
+constexpr int kShortestRun = 3 * Autoregression::kOrder;
+
+}  // namespace
+
+GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz)
+    : segments_(segments), bandwidth_hz_(bandwidth_hz) {
+  CHECK_GT(bandwidth_hz, 0);
+  int begin = 0;
+  for (const GapSegment& segment : segments) {
+    const double rate = 1 / segment.motion.dt;
+    stride_.push_back(std::max(
+        1, static_cast<int>(
+               std::floor(rate / (kRateOverBandwidth * bandwidth_hz) + 1e-6))));
+    skip_.push_back(
+        static_cast<int>(std::ceil(kPeriodsAtEnds / bandwidth_hz * rate)));
+    thin_begin_.push_back(begin);
+    begin += std::max(
+        0, (segment.size() - 1 - 2 * skip_.back()) / stride_.back() + 1);
+  }
+  thin_begin_.push_back(begin);
+  MakeRuns();
+}
+
+void GapRows::MakeRuns() {
+  const int n = segments_.empty() ? 0 : segments_[0].motion.num_joints();
+  runs_.resize(n);
+  still_runs_.resize(n);
+  for (int j = 0; j < n; ++j) {
+    for (size_t s = 0; s < segments_.size(); ++s) {
+      const int end = thin_begin_[s + 1];
+      int begin = thin_begin_[s];
+      const auto still = [&](int k) {
+        return segments_[s].still(skip_[s] + (k - thin_begin_[s]) * stride_[s],
+                                  j);
+      };
+      for (int k = begin + 1; k <= end; ++k) {
+        if (k < end && still(k) == still(begin)) continue;
+        if (k - begin >= kShortestRun) {
+          (still(begin) ? still_runs_ : runs_)[j].push_back(
+              {static_cast<int>(s), begin, k - begin});
+        }
+        begin = k;
+      }
+    }
+  }
+}
+
+double GapRows::step(int segment) const {
+  return stride_[segment] * segments_[segment].motion.dt;
+}
+
+double GapRows::thin_time(int segment, int k) const {
+  return segments_[segment].motion.time(
+      skip_[segment] + (k - thin_begin_[segment]) * stride_[segment]);
+}
+
+MatrixXd GapRows::Pick(int segment, const MatrixXd& signal) const {
+  CHECK_EQ(signal.rows(), segments_[segment].size());
+  MatrixXd thin(thin_begin_[segment + 1] - thin_begin_[segment], signal.cols());
+  for (int k = 0; k < thin.rows(); ++k) {
+    thin.row(k) = signal.row(skip_[segment] + k * stride_[segment]);
+  }
+  return thin;
+}
+
+MatrixXd GapRows::Thin(int segment, const MatrixXd& signal) const {
+  return Pick(segment,
+              ZeroPhaseLowPass(signal, 1 / segments_[segment].motion.dt,
+                               bandwidth_hz_));
+}
+
+void GapRows::SetNoise(std::vector<Autoregression> noise) {
+  CHECK_EQ(static_cast<int>(noise.size()), num_joints());
+  noise_ = std::move(noise);
+}
+
+int GapRows::num_rows(int joint) const {
+  int rows = 0;
+  for (const Run& run : runs_[joint]) rows += run.size - Autoregression::kOrder;
+  return rows;
+}
+
+int GapRows::num_rows() const {
+  int rows = 0;
+  for (int j = 0; j < num_joints(); ++j) rows += num_rows(j);
+  return rows;
+}
+
+MatrixXd GapRows::Whiten(int joint, const MatrixXd& thin) const {
+  CHECK_EQ(thin.rows(), num_thin());
+  MatrixXd rows(num_rows(joint), thin.cols());
+  int at = 0;
+  for (const Run& run : runs_[joint]) {
+    const int size = run.size - Autoregression::kOrder;
+    rows.middleRows(at, size) =
+        noise_[joint].Whiten(thin.middleRows(run.begin, run.size));
+    at += size;
+  }
+  return rows;
+}
+
+std::vector<int> GapRows::SampleOfRow(int joint) const {
+  std::vector<int> samples;
+  for (const Run& run : runs_[joint]) {
+    for (int k = Autoregression::kOrder; k < run.size; ++k) {
+      samples.push_back(run.begin + k);
+    }
+  }
+  return samples;
+}
+
+}  // namespace armcal

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/autoregression.h"
+#include "calib/gap_segments.h"
+
+namespace armcal {
+
+// Rows of a regression on the torque of some logs: signals are low-passed at
+// the bandwidth, thinned to 2.5 times it, and whitened by each joint's noise.
+// Samples of which a joint stands still, and the ends that filters bend, have
+// no row.
+class GapRows {
+ public:
+  // References to segments are kept.
+  GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz);
+
+  int num_joints() const { return static_cast<int>(runs_.size()); }
+  double bandwidth_hz() const { return bandwidth_hz_; }
+  const std::vector<GapSegment>& segments() const { return segments_; }
+  double step(int segment) const;  // s, between thinned samples
+  // Thinned samples of all segments, one below the other.
+  int num_thin() const { return thin_begin_.back(); }
+  int thin_begin(int segment) const { return thin_begin_[segment]; }
+  double thin_time(int segment, int k) const;  // s since the log's first row
+
+  // A fine signal (samples x any) of a segment, low-passed and thinned.
+  Eigen::MatrixXd Thin(int segment, const Eigen::MatrixXd& signal) const;
+  // The same without the low pass.
+  Eigen::MatrixXd Pick(int segment, const Eigen::MatrixXd& signal) const;
+
+  // Uninterrupted thinned samples, [begin, begin + size) of all, of a segment.
+  struct Run {
+    int segment;
+    int begin;
+    int size;
+  };
+  const std::vector<Run>& runs(int joint) const { return runs_[joint]; }
+  // The same where the joint stands still.
+  const std::vector<Run>& still_runs(int joint) const {
+    return still_runs_[joint];
+  }
+
+  void SetNoise(std::vector<Autoregression> noise);
+  const Autoregression& noise(int joint) const { return noise_[joint]; }
+  int num_rows(int joint) const;
+  int num_rows() const;
+  // Whitened rows of thinned signals (num_thin() x any).
+  Eigen::MatrixXd Whiten(int joint, const Eigen::MatrixXd& thin) const;
+  // The thinned sample that each row is of.
+  std::vector<int> SampleOfRow(int joint) const;
+
+ private:
+  void MakeRuns();
+
+  const std::vector<GapSegment>& segments_;
+  double bandwidth_hz_;
+  std::vector<int> stride_;      // per segment
+  std::vector<int> skip_;        // fine samples at its ends
+  std::vector<int> thin_begin_;  // per segment, and the end
+  std::vector<std::vector<Run>> runs_, still_runs_;
+  std::vector<Autoregression> noise_;
+};
+
+}  // namespace armcal

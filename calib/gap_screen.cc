@@ -1,0 +1,142 @@
+#include "calib/gap_screen.h"
+
+#include <glog/logging.h>
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+GapScreen::GapScreen(std::vector<MatrixXd> baseline, JointRows target)
+    : baseline_(std::move(baseline)), target_(std::move(target)) {
+  CHECK_EQ(baseline_.size(), target_.size());
+  const Eigen::Index size = baseline_.at(0).cols();
+  information_ = MatrixXd::Identity(size, size);
+  gradient_ = VectorXd::Zero(size);
+  for (size_t j = 0; j < baseline_.size(); ++j) {
+    CHECK_EQ(baseline_[j].rows(), target_[j].size());
+    information_ += baseline_[j].transpose() * baseline_[j];
+    gradient_ += baseline_[j].transpose() * target_[j];
+    chi_squared_ += target_[j].squaredNorm();
+  }
+}
+
+void GapScreen::AddInformation(const MatrixXd& AtA, const VectorXd& Aty) {
+  information_ += AtA;
+  gradient_ += Aty;
+  // The root of a matrix that may be singular: A'A + eps = U'U.
+  MatrixXd regular = AtA;
+  regular.diagonal().array() += 1e-9;
+  known_root_ = regular.llt().matrixU();
+  known_ = known_root_.transpose().triangularView<Eigen::Lower>().solve(Aty);
+}
+
+int GapScreen::AddColumn(JointRows column) {
+  CHECK_EQ(column.size(), target_.size());
+  columns_.push_back(std::move(column));
+  return size() - 1;
+}
+
+void GapScreen::Factor() {
+  const int count = size();
+  factor_.compute(information_);
+  cross_ = MatrixXd::Zero(gradient_.size(), count);
+  G_ = MatrixXd::Zero(count, count);
+  g_ = VectorXd::Zero(count);
+  for (size_t j = 0; j < target_.size(); ++j) {
+    std::vector<int> here;
+    for (int c = 0; c < count; ++c) {
+      if (columns_[c][j].size() > 0) here.push_back(c);
+    }
+    MatrixXd C(target_[j].size(), here.size());
+    for (size_t k = 0; k < here.size(); ++k) C.col(k) = columns_[here[k]][j];
+    const MatrixXd products = C.transpose() * C;
+    const MatrixXd cross = baseline_[j].transpose() * C;
+    const VectorXd with_target = C.transpose() * target_[j];
+    for (size_t k = 0; k < here.size(); ++k) {
+      cross_.col(here[k]) += cross.col(k);
+      g_[here[k]] += with_target[k];
+      for (size_t l = 0; l < here.size(); ++l) {
+        G_(here[k], here[l]) += products(k, l);
+      }
+    }
+  }
+  raw_ = G_.diagonal();
+  const MatrixXd half = factor_.matrixL().solve(cross_);
+  const VectorXd known = factor_.matrixL().solve(gradient_);
+  G_ -= half.transpose() * half;
+  g_ -= half.transpose() * known;
+  chi_squared_ -= known.squaredNorm();
+}
+
+GapScreen::Fit GapScreen::Solve(const std::vector<int>& columns) const {
+  Fit fit;
+  fit.columns = columns;
+  const int size = static_cast<int>(columns.size());
+  MatrixXd G(size, size);
+  VectorXd g(size);
+  for (int k = 0; k < size; ++k) {
+    g[k] = g_[columns[k]];
+    for (int l = 0; l < size; ++l) G(k, l) = G_(columns[k], columns[l]);
+  }
+  if (size == 0) return fit;
+  // What the baseline absorbs wholly must not blow up.
+  for (int k = 0; k < size; ++k) G(k, k) += 1e-9 * raw_[columns[k]];
+  const Eigen::LLT<MatrixXd> factor(G);
+  fit.coefficients = factor.solve(g);
+  fit.covariance = factor.solve(MatrixXd::Identity(size, size));
+  fit.drop = g.dot(fit.coefficients);
+  return fit;
+}
+
+VectorXd GapScreen::Baseline(const Fit& fit) const {
+  VectorXd gradient = gradient_;
+  for (size_t k = 0; k < fit.columns.size(); ++k) {
+    gradient -= fit.coefficients[k] * cross_.col(fit.columns[k]);
+  }
+  return factor_.solve(gradient);
+}
+
+VectorXd GapScreen::Residual(int joint, const Fit& fit) const {
+  VectorXd residual = target_[joint] - baseline_[joint] * Baseline(fit);
+  for (size_t k = 0; k < fit.columns.size(); ++k) {
+    const VectorXd& column = columns_[fit.columns[k]][joint];
+    if (column.size() > 0) residual -= fit.coefficients[k] * column;
+  }
+  return residual;
+}
+
+VectorXd GapScreen::BaselineBeside(const JointRows& torque) const {
+  VectorXd gradient = gradient_;
+  for (size_t j = 0; j < target_.size(); ++j) {
+    if (torque[j].size() > 0) {
+      gradient -= baseline_[j].transpose() * torque[j];
+    }
+  }
+  return factor_.solve(gradient);
+}
+
+VectorXd GapScreen::ResidualBeside(const JointRows& torque) const {
+  const VectorXd x = BaselineBeside(torque);
+  Eigen::Index rows = x.size() + known_.size();
+  for (const VectorXd& target : target_) rows += target.size();
+  VectorXd residual(rows);
+  Eigen::Index at = 0;
+  for (size_t j = 0; j < target_.size(); ++j) {
+    auto here = residual.segment(at, target_[j].size());
+    here = target_[j] - baseline_[j] * x;
+    if (torque[j].size() > 0) here -= torque[j];
+    at += target_[j].size();
+  }
+  residual.segment(at, x.size()) = x;
+  if (known_.size() > 0) {
+    residual.tail(known_.size()) = known_root_ * x - known_;
+  }
+  return residual;
+}
+
+MatrixXd GapScreen::BaselineCovariance() const {
+  return factor_.solve(MatrixXd::Identity(gradient_.size(), gradient_.size()));
+}
+
+}  // namespace armcal

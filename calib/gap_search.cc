@@ -1,0 +1,103 @@
+#include "calib/gap_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Peak {
+  double at;
+  double power;
+};
+
+std::vector<Peak> Sorted(std::vector<Peak> peaks) {
+  std::sort(peaks.begin(), peaks.end(),
+            [](const Peak& a, const Peak& b) { return a.power > b.power; });
+  return peaks;
+}
+
+double Power(const VectorXd& residual, const VectorXd& place, double w) {
+  std::complex<double> sum = 0;
+  for (int k = 0; k < place.size(); ++k) {
+    sum += residual[k] * std::polar(1.0, -w * place[k]);
+  }
+  return std::norm(sum);
+}
+
+}  // namespace
+
+std::vector<double> PeakFrequencies(const VectorXd& residual,
+                                    const VectorXd& place, double low,
+                                    double high, int count) {
+  std::vector<double> found;
+  if (place.size() == 0) return found;
+  const double range = place.maxCoeff() - place.minCoeff();
+  if (!(range > 0) || !(high > low)) return found;
+  constexpr double kOversampling = 3;
+  constexpr int kMost = 4000;
+  const double step =
+      std::max(2 * M_PI / range / kOversampling, (high - low) / kMost);
+  std::vector<double> power;
+  for (double w = low; w <= high; w += step) {
+    power.push_back(Power(residual, place, w));
+  }
+  std::vector<Peak> peaks;
+  for (size_t k = 0; k < power.size(); ++k) {
+    if (k > 0 && power[k] < power[k - 1]) continue;
+    if (k + 1 < power.size() && power[k] <= power[k + 1]) continue;
+    peaks.push_back({low + k * step, power[k]});
+  }
+  for (const Peak& peak : Sorted(peaks)) {
+    if (static_cast<int>(found.size()) == count) break;
+    // Between the grid's points.
+    Peak best = peak;
+    for (double shift = -.75; shift <= .75; shift += .25) {
+      const double w = peak.at + shift * step;
+      const double here = Power(residual, place, w);
+      if (w > 0 && here > best.power) best = {w, here};
+    }
+    found.push_back(best.at);
+  }
+  return found;
+}
+
+std::vector<TimeWindow> StrongWindows(const MatrixXd& residual,
+                                      const VectorXd& t,
+                                      const std::vector<double>& durations,
+                                      int count, int* searched) {
+  std::vector<TimeWindow> windows;
+  *searched = 0;
+  if (t.size() < 2) return windows;
+  for (const double duration : durations) {
+    std::vector<Peak> found;
+    for (double c = t[0]; c < t[t.size() - 1]; c += duration / 4) {
+      ++*searched;
+      const Eigen::ArrayXd u = (t.array() - c) / (duration / 2);
+      const VectorXd weight = (1 - u.square()).max(0).square().matrix();
+      const double norm = weight.squaredNorm();
+      if (norm < 1) continue;
+      found.push_back(
+          {c, (residual.transpose() * weight).squaredNorm() / norm});
+    }
+    int kept = 0;
+    std::vector<double> centres;
+    for (const Peak& peak : Sorted(found)) {
+      if (kept == count) break;
+      const bool near = std::any_of(
+          centres.begin(), centres.end(),
+          [&](double c) { return std::abs(c - peak.at) < duration / 2; });
+      if (near) continue;
+      centres.push_back(peak.at);
+      windows.push_back({peak.at, duration});
+      ++kept;
+    }
+  }
+  return windows;
+}
+
+}  // namespace armcal

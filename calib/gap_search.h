@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace armcal {
+
+// Frequencies w (rad per unit of `place`) between `low` and `high` at which the
+// residual has the highest peaks of |sum_k r_k exp(-i w place_k)|^2, at most
+// `count`, the highest first.
+std::vector<double> PeakFrequencies(const Eigen::VectorXd& residual,
+                                    const Eigen::VectorXd& place, double low,
+                                    double high, int count);
+
+// A stretch of time.
+struct TimeWindow {
+  double centre;    // s
+  double duration;  // s
+};
+// Windows in which whitened residuals (samples x n, at times t) have a mean
+// that noise would not have, at most `count` of each duration, the strongest
+// first. *searched: how many were looked at.
+std::vector<TimeWindow> StrongWindows(const Eigen::MatrixXd& residual,
+                                      const Eigen::VectorXd& t,
+                                      const std::vector<double>& durations,
+                                      int count, int* searched);
+
+}  // namespace armcal

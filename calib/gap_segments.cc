@@ -1,0 +1,71 @@
+#include "calib/gap_segments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/standstill.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+
+constexpr double kShortest = 2;  // s
+
+void AppendRows(const MatrixXd& rows, MatrixXd* to) {
+  const Eigen::Index before = to->rows();
+  to->conservativeResize(before + rows.rows(), rows.cols());
+  to->bottomRows(rows.rows()) = rows;
+}
+
+void AppendCore(const Trajectory& trajectory, GapSegment* segment) {
+  const int begin = trajectory.core_begin;
+  const int rows = trajectory.core_end - begin;
+  Motion& motion = segment->motion;
+  if (motion.size() == 0) {
+    motion.t0 = trajectory.time(begin);
+    motion.dt = trajectory.dt;
+  }
+  AppendRows(trajectory.q.middleRows(begin, rows), &motion.q);
+  AppendRows(trajectory.qd.middleRows(begin, rows), &motion.qd);
+  AppendRows(trajectory.qdd.middleRows(begin, rows), &motion.qdd);
+  AppendRows(trajectory.tau.middleRows(begin, rows), &segment->tau);
+}
+
+// Joint by joint, on positions that are smooth already.
+void FindStillJoints(GapSegment* segment) {
+  const Motion& motion = segment->motion;
+  segment->still.resize(motion.size(), motion.num_joints());
+  const MatrixXd velocity = MeanVelocity(motion.q, motion.dt);
+  const int reach =
+      static_cast<int>(std::ceil(kStandstillMeanTime / 2 / motion.dt));
+  for (int j = 0; j < motion.num_joints(); ++j) {
+    segment->still.col(j) =
+        FindStandstill(velocity.col(j), motion.dt, reach).matrix().array();
+  }
+}
+
+}  // namespace
+
+std::vector<GapSegment> ReadSegments(const Progress& progress, LogSet* logs) {
+  std::vector<GapSegment> segments;
+  int log = -1, part = -1;
+  logs->ForEach("reading the logs", progress,
+                [&](int index, const Trajectory& trajectory) {
+                  if (index != log || trajectory.segment != part) {
+                    segments.emplace_back();
+                    segments.back().log = log = index;
+                    part = trajectory.segment;
+                  }
+                  AppendCore(trajectory, &segments.back());
+                });
+  const auto is_short = [](const GapSegment& segment) {
+    return segment.size() * segment.motion.dt < kShortest;
+  };
+  segments.erase(std::remove_if(segments.begin(), segments.end(), is_short),
+                 segments.end());
+  for (GapSegment& segment : segments) FindStillJoints(&segment);
+  return segments;
+}
+
+}  // namespace armcal

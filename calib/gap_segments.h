@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/log_set.h"
+#include "model/motion.h"
+
+namespace armcal {
+
+// A stretch of a log without gaps, in memory as a whole: what a diagnosis
+// works on, since effects with a memory (heat, bristles) run through all of it.
+struct GapSegment {
+  int log = 0;
+  Motion motion;        // low-passed at the bandwidth
+  Eigen::MatrixXd tau;  // N m or N, samples x n
+  // Where a joint stands still (model/standstill.h) its friction is an
+  // interval, not a value; samples x n.
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> still;
+
+  int size() const { return motion.size(); }
+};
+
+// The segments of the logs, in order; those shorter than 2 s are left out.
+// The logs are prepared with a bandwidth.
+std::vector<GapSegment> ReadSegments(const Progress& progress, LogSet* logs);
+
+}  // namespace armcal

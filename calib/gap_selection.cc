@@ -1,0 +1,231 @@
+#include "calib/gap_selection.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Of what the baseline and the chosen leave of a column, less than this share
+// is rounding and errors of form.
+constexpr double kVisible = 1e-4;
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+// Whether signs are as the effect has them.
+bool SignsHold(const GapCandidate& candidate, const VectorXd& coefficients) {
+  for (size_t k = 0; k < candidate.linear.size(); ++k) {
+    const EffectParameter& parameter =
+        candidate.effect->parameters[candidate.linear[k]];
+    if (parameter.sign == EffectParameter::Sign::kPositive &&
+        coefficients[k] < 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+double Price(const GapScreen& screen, const GapCandidate& candidate,
+             int num_joints) {
+  double rows = 0;
+  for (int j = 0; j < num_joints; ++j) {
+    if (candidate.joint < 0 || candidate.joint == j) rows += screen.num_rows(j);
+  }
+  return candidate.linear.size() * std::log(std::max(rows, 1.0)) +
+         2 * std::log(candidate.tried);
+}
+
+struct Conditioned {
+  MatrixXd half;  // G_SS^-1/2 G_S.
+  VectorXd g;
+};
+
+Conditioned Condition(const GapScreen& screen, const std::vector<int>& S) {
+  Conditioned c;
+  c.g = screen.g();
+  if (S.empty()) return c;
+  const int size = static_cast<int>(S.size());
+  MatrixXd G(size, size), cross(size, screen.size());
+  VectorXd g(size);
+  for (int k = 0; k < size; ++k) {
+    cross.row(k) = screen.G().row(S[k]);
+    g[k] = screen.g()[S[k]];
+    for (int l = 0; l < size; ++l) G(k, l) = screen.G()(S[k], S[l]);
+    G(k, k) += 1e-9 * screen.raw(S[k]);
+  }
+  const Eigen::LLT<MatrixXd> factor(G);
+  c.half = factor.matrixL().solve(cross);
+  c.g -= c.half.transpose() * factor.matrixL().solve(g);
+  return c;
+}
+
+// Drop of chi^2 when the candidate is added to S; 0 where its signs are wrong.
+double Drop(const GapScreen& screen, const Conditioned& c,
+            const GapCandidate& candidate) {
+  const int size = static_cast<int>(candidate.columns.size());
+  MatrixXd G(size, size);
+  VectorXd g(size);
+  for (int k = 0; k < size; ++k) {
+    const int a = candidate.columns[k];
+    g[k] = c.g[a];
+    for (int l = 0; l < size; ++l) {
+      const int b = candidate.columns[l];
+      G(k, l) = screen.G()(a, b);
+      if (c.half.size() > 0) G(k, l) -= c.half.col(a).dot(c.half.col(b));
+    }
+    if (!(G(k, k) > kVisible * screen.raw(a))) return 0;
+    G(k, k) += 1e-9 * screen.raw(a);
+  }
+  const VectorXd x = G.llt().solve(g);
+  return SignsHold(candidate, x) ? g.dot(x) : 0;
+}
+
+std::vector<int> Without(std::vector<int> chosen, int k) {
+  if (k >= 0) chosen.erase(chosen.begin() + k);
+  return chosen;
+}
+
+// The same thing at another shape is no second effect.
+bool SamePlace(const GapCandidate& a, const GapCandidate& b) {
+  return a.effect == b.effect && a.joint == b.joint;
+}
+
+int Best(const VectorXd& scores) {
+  int best;
+  scores.maxCoeff(&best);
+  return best;
+}
+
+// Each chosen one is replaced by what does better beside the others.
+void Swap(const GapScreen& screen, const std::vector<GapCandidate>& candidates,
+          const SelectionOptions& options, std::vector<int>* chosen) {
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    bool changed = false;
+    for (size_t k = 0; k < chosen->size(); ++k) {
+      const int best = Best(ScoresBeside(screen, candidates, options, *chosen,
+                                         static_cast<int>(k)));
+      changed |= best != (*chosen)[k];
+      (*chosen)[k] = best;
+    }
+    if (!changed) return;
+  }
+}
+
+void LeaveOut(const GapScreen& screen,
+              const std::vector<GapCandidate>& candidates,
+              const SelectionOptions& options, std::vector<int>* chosen) {
+  for (int k = 0; k < static_cast<int>(chosen->size());) {
+    const VectorXd scores =
+        ScoresBeside(screen, candidates, options, *chosen, k);
+    if (scores[(*chosen)[k]] < options.threshold) {
+      *chosen = Without(*chosen, k);
+    } else {
+      ++k;
+    }
+  }
+}
+
+double TotalDrop(const GapScreen& screen,
+                 const std::vector<GapCandidate>& candidates,
+                 const std::vector<int>& chosen) {
+  return screen.Solve(ColumnsOf(candidates, chosen)).drop;
+}
+
+Selection Describe(const GapScreen& screen,
+                   const std::vector<GapCandidate>& candidates,
+                   const SelectionOptions& options,
+                   const std::vector<int>& chosen) {
+  Selection selection;
+  const double total = TotalDrop(screen, candidates, chosen);
+  std::vector<double> drops, scores;
+  for (size_t k = 0; k < chosen.size(); ++k) {
+    drops.push_back(total - TotalDrop(screen, candidates,
+                                      Without(chosen, static_cast<int>(k))));
+    scores.push_back(ScoresBeside(screen, candidates, options, chosen,
+                                  static_cast<int>(k))[chosen[k]]);
+  }
+  std::vector<int> order(chosen.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return drops[a] > drops[b]; });
+  for (const int k : order) {
+    selection.chosen.push_back(chosen[k]);
+    selection.drops.push_back(drops[k]);
+    selection.scores.push_back(scores[k]);
+  }
+  return selection;
+}
+
+// Whether the last of the drops is large enough beside the first.
+bool IsLarge(const Selection& selection,
+             const std::vector<GapCandidate>& candidates,
+             const SelectionOptions& options, size_t k) {
+  const GapCandidate& first = candidates[selection.chosen[0]];
+  const GapCandidate& other = candidates[selection.chosen[k]];
+  const bool same =
+      first.joint < 0 || other.joint < 0 || first.joint == other.joint;
+  const double share =
+      same ? options.same_joint_share : options.other_joint_share;
+  return selection.drops[k] >= share * selection.drops[0];
+}
+
+}  // namespace
+
+std::vector<int> ColumnsOf(const std::vector<GapCandidate>& candidates,
+                           const std::vector<int>& chosen) {
+  std::vector<int> columns;
+  for (const int c : chosen) {
+    const auto& own = candidates[c].columns;
+    columns.insert(columns.end(), own.begin(), own.end());
+  }
+  return columns;
+}
+
+VectorXd ScoresBeside(const GapScreen& screen,
+                      const std::vector<GapCandidate>& candidates,
+                      const SelectionOptions& options,
+                      const std::vector<int>& chosen, int k) {
+  const std::vector<int> others = Without(chosen, k);
+  const Conditioned conditioned =
+      Condition(screen, ColumnsOf(candidates, others));
+  VectorXd scores(candidates.size());
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const bool taken = std::any_of(
+        others.begin(), others.end(),
+        [&](int other) { return SamePlace(candidates[other], candidates[i]); });
+    scores[i] =
+        taken ? kNever
+              : Drop(screen, conditioned, candidates[i]) / options.inflation -
+                    Price(screen, candidates[i], screen.num_joints());
+  }
+  return scores;
+}
+
+Selection SelectEffects(const GapScreen& screen,
+                        const std::vector<GapCandidate>& candidates,
+                        const SelectionOptions& options) {
+  std::vector<int> chosen;
+  while (static_cast<int>(chosen.size()) < options.most_effects) {
+    const VectorXd scores =
+        ScoresBeside(screen, candidates, options, chosen, -1);
+    const int best = Best(scores);
+    if (!(scores[best] >= options.threshold)) break;
+    std::vector<int> more = chosen;
+    more.push_back(best);
+    Swap(screen, candidates, options, &more);
+    LeaveOut(screen, candidates, options, &more);
+    if (more.size() <= chosen.size()) break;
+    const Selection selection = Describe(screen, candidates, options, more);
+    if (!IsLarge(selection, candidates, options, more.size() - 1)) break;
+    chosen = more;
+  }
+  return Describe(screen, candidates, options, chosen);
+}
+
+}  // namespace armcal

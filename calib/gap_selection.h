@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/gap_candidates.h"
+#include "calib/gap_screen.h"
+
+namespace armcal {
+
+struct SelectionOptions {
+  int most_effects = 3;
+  // An effect's score, drop of chi^2 - k ln N - 2 ln(shapes tried), has to
+  // exceed this.
+  double threshold = 25;
+  // A further effect has to explain this share of the strongest one's drop: on
+  // a joint that has one already (whose form is never quite right), elsewhere.
+  double same_joint_share = 0.03;
+  double other_joint_share = 0.004;
+  double inflation = 1;  // of noise variance: drops are divided by it
+};
+
+// A set of candidates (indices) that together explain the residual.
+struct Selection {
+  std::vector<int> chosen;     // in the order of their drops, strongest first
+  std::vector<double> drops;   // of chi^2 when each is left out
+  std::vector<double> scores;  // of these drops
+};
+
+// Scores of every candidate as a replacement of chosen[k] (-1: in addition to
+// all).
+Eigen::VectorXd ScoresBeside(const GapScreen& screen,
+                             const std::vector<GapCandidate>& candidates,
+                             const SelectionOptions& options,
+                             const std::vector<int>& chosen, int k);
+
+// Forward, each step followed by swaps of what was chosen before, and by
+// leaving out what is not needed any more.
+Selection SelectEffects(const GapScreen& screen,
+                        const std::vector<GapCandidate>& candidates,
+                        const SelectionOptions& options);
+
+// Columns of several candidates.
+std::vector<int> ColumnsOf(const std::vector<GapCandidate>& candidates,
+                           const std::vector<int>& chosen);
+
+}  // namespace armcal

@@ -1,0 +1,84 @@
+#include "calib/gap_shrink.h"
+
+#include <cmath>
+#include <limits>
+
+#include "calib/block_bootstrap.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct TimeSeries {
+  VectorXd sum;    // over joints
+  VectorXd count;  // of joints that moved
+};
+
+TimeSeries SumJoints(const MatrixXd& squares) {
+  TimeSeries series{VectorXd::Zero(squares.rows()),
+                    VectorXd::Zero(squares.rows())};
+  for (int j = 0; j < squares.cols(); ++j) {
+    for (int k = 0; k < squares.rows(); ++k) {
+      if (std::isnan(squares(k, j))) continue;
+      series.sum[k] += squares(k, j);
+      series.count[k] += 1;
+    }
+  }
+  return series;
+}
+
+double Removed(double from, double after) {
+  return from > 1 ? 100 * (from - after) / (from - 1)
+                  : std::numeric_limits<double>::quiet_NaN();
+}
+
+VectorXd RmsOfJoints(const MatrixXd& squares) {
+  VectorXd rms(squares.cols());
+  for (int j = 0; j < squares.cols(); ++j) {
+    const TimeSeries one = SumJoints(squares.col(j));
+    rms[j] = one.count.sum() > 0 ? std::sqrt(one.sum.sum() / one.count.sum())
+                                 : std::numeric_limits<double>::quiet_NaN();
+  }
+  return rms;
+}
+
+}  // namespace
+
+GapFigures ShrinkFigures(const HeldOutSquares& squares, std::uint64_t seed) {
+  GapFigures figures;
+  const TimeSeries nominal = SumJoints(squares.nominal);
+  const TimeSeries refit = SumJoints(squares.refit);
+  const TimeSeries after = SumJoints(squares.after);
+  const double count = refit.count.sum();
+  if (!(count > 0)) return figures;
+  figures.nominal = nominal.sum.sum() / count;
+  figures.refit = refit.sum.sum() / count;
+  figures.after = after.sum.sum() / count;
+  figures.removed_percent = Removed(figures.refit, figures.after);
+  figures.removed_from_nominal_percent =
+      Removed(figures.nominal, figures.after);
+  figures.joints.resize(squares.refit.cols(), 3);
+  figures.joints << RmsOfJoints(squares.nominal), RmsOfJoints(squares.refit),
+      RmsOfJoints(squares.after);
+  const int size = static_cast<int>(refit.sum.size());
+  std::vector<double> gain(size);
+  for (int k = 0; k < size; ++k) gain[k] = refit.sum[k] - after.sum[k];
+  const BootstrapInterval interval =
+      BlockBootstrap(size, BootstrapBlock(size, CorrelationTime(gain)), seed,
+                     [&](const std::vector<int>& drawn) {
+                       double from = 0, to = 0, all = 0;
+                       for (const int k : drawn) {
+                         from += refit.sum[k];
+                         to += after.sum[k];
+                         all += refit.count[k];
+                       }
+                       return Removed(from / all, to / all);
+                     });
+  figures.ci95[0] = interval.low;
+  figures.ci95[1] = interval.high;
+  return figures;
+}
+
+}  // namespace armcal

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace armcal {
+
+// How far a gap shrinks on data that nothing was chosen on. Squares of what is
+// left of the torque, in units of each joint's noise variance: samples (in
+// time) x joints; NaN where a joint stands still.
+struct HeldOutSquares {
+  Eigen::MatrixXd nominal;  // the robot as its file has it
+  Eigen::MatrixXd refit;    // with the baseline fitted
+  Eigen::MatrixXd after;    // with the effects
+};
+
+// Means over samples and joints: E of DESIGN.md. The floor is the noise: 1.
+struct GapFigures {
+  double nominal = 0;
+  double refit = 0;
+  double after = 0;
+  double floor = 1;
+  // 100 (refit - after) / (refit - floor); NaN where nothing can be removed.
+  double removed_percent = 0;
+  double removed_from_nominal_percent = 0;
+  double ci95[2] = {0, 0};  // of removed_percent
+  Eigen::MatrixXd joints;   // n x 3 rms: nominal, refit, after
+};
+
+GapFigures ShrinkFigures(const HeldOutSquares& squares, std::uint64_t seed);
+
+}  // namespace armcal

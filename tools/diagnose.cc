@@ -1,0 +1,66 @@
+#include "tools/diagnose.h"
+
+#include <gflags/gflags.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "calib/gap_diagnosis.h"
+#include "tools/input_flags.h"
+#include "tools/output_folder.h"
+#include "tools/progress_bar.h"
+
+DECLARE_double(trust);
+DECLARE_string(validate);
+DEFINE_string(reference, "",
+              "log of the same robot from before: the model is fitted to it "
+              "first, and the diagnosis says what has changed since");
+
+namespace armcal {
+namespace {
+
+int RunDiagnose() {
+  const Robot robot = RobotFromFlags();
+  const LogReaderOptions log_options = LogOptionsFromFlags(robot);
+  LogSet training(LogsFromFlags(), log_options, CropFromFlags());
+  DiagnosisOptions options;
+  ProgressBar bar;
+  options.progress = [&bar](const std::string& stage, double fraction) {
+    bar.Show(stage, fraction);
+  };
+  options.baseline.trust = FLAGS_trust;
+  options.bandwidth_hz =
+      BandwidthFromFlags().value_or(DefaultBandwidth(training.time_bases()));
+  training.Prepare(options.bandwidth_hz, 0);
+  std::unique_ptr<LogSet> reference, validation;
+  if (!FLAGS_reference.empty()) {
+    reference = std::make_unique<LogSet>(SplitAtCommas(FLAGS_reference),
+                                         log_options, TimeRange());
+    reference->Prepare(options.bandwidth_hz, 0);
+  }
+  const GapDiagnosis diagnosis =
+      DiagnoseGap(robot, options, &training, validation.get(), reference.get());
+  for (const DiagnosedEffect& found : diagnosis.effects) {
+    std::cout << found.effect->name << " joint " << found.joint + 1 << " score "
+              << found.score << " drop " << found.drop;
+    for (const EffectEstimate& e : found.estimates) {
+      std::cout << " " << e.name << "=" << e.value << e.unit;
+    }
+    std::cout << "\n";
+  }
+  return kExitOk;
+}
+
+}  // namespace
+
+Command DiagnoseCommand() {
+  return {"diagnose",
+          "where the sim-to-real gap lies, which effect causes it, and how far "
+          "it shrinks once that effect is in the model",
+          {"robot", "log", "validate", "reference", "trust", "bandwidth",
+           "crop", "out", "base", "tip", "gravity", "torque_kind",
+           "torque_constants", "gear_ratios", "seed"},
+          &RunDiagnose};
+}
+
+}  // namespace armcal

@@ -1,0 +1,9 @@
+#pragma once
+
+#include "tools/command.h"
+
+namespace armcal {
+
+Command DiagnoseCommand();
+
+}  // namespace armcal
