@@ -13,6 +13,9 @@ struct Motion {
   Eigen::MatrixXd qd;           // rad/s or m/s
   Eigen::MatrixXd qdd;          // rad/s^2 or m/s^2
   Eigen::MatrixXd temperature;  // deg C; empty: not recorded
+  // As the controller recorded it, N m or N, smooth; empty: not recorded.
+  // Wanted only where what is asked says more than what is given: at a limit.
+  Eigen::MatrixXd torque;
 
   int size() const { return static_cast<int>(q.rows()); }
   int num_joints() const { return static_cast<int>(q.cols()); }

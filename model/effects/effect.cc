@@ -1,6 +1,7 @@
 #include "model/effects/effect.h"
 
 namespace armcal {
+inline namespace effects {
 
 std::string ParameterUnit(const std::string& unit, JointType type) {
   std::string text;
@@ -30,4 +31,5 @@ std::vector<EffectEstimate> EstimatesOf(const Effect& effect,
   return estimates;
 }
 
+}  // namespace effects
 }  // namespace armcal

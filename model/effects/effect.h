@@ -9,6 +9,9 @@
 #include "model/simulated_robot.h"
 
 namespace armcal {
+// Inline, because the truth of blind tests (model/plant/hidden/) has classes of
+// the same names: linked into one program as one name they would be one class.
+inline namespace effects {
 
 // What the joints do on a log: what sizes, ranges and grids of effects are
 // relative to. One entry per joint.
@@ -99,4 +102,5 @@ std::vector<EffectEstimate> EstimatesOf(const Effect& effect,
                                         const EffectSite& site,
                                         const Eigen::VectorXd& p);
 
+}  // namespace effects
 }  // namespace armcal

@@ -6,6 +6,7 @@
 #include "model/effects/effect.h"
 
 namespace armcal {
+inline namespace effects {
 
 // Every effect that a diagnosis has a name for, in DESIGN.md's order. To add
 // one, write its file and its line in effect_list.h.
@@ -13,4 +14,5 @@ const std::vector<Effect>& Effects();
 // nullptr where there is none of that name.
 const Effect* FindEffect(const std::string& name);
 
+}  // namespace effects
 }  // namespace armcal

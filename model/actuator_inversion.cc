@@ -1,0 +1,158 @@
+#include "model/actuator_inversion.h"
+
+#include <cmath>
+
+#include "model/stiff_step.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostIterations = 8;
+// A step that leaves more than this share of what was missing did not help:
+// the map is (nearly) flat there.
+constexpr double kLeastProgress = .8;
+// Lags shorter than a sample follow the slope of what they are given.
+constexpr int kSubsteps = 4;
+// What stood before the first sample, s, in implicit steps.
+constexpr int kSettlingSteps = 10;
+constexpr double kSettlingStep = .1;
+
+int NumStates(const std::vector<ActuatorMap>& actuators) {
+  Eigen::Index size = 0;
+  for (const ActuatorMap& map : actuators) size += map.initial_state.size();
+  return static_cast<int>(size);
+}
+
+void Apply(const std::vector<ActuatorMap>& actuators, const ArmInstant& instant,
+           const double* state, double* rate, VectorXd* torque) {
+  for (const ActuatorMap& map : actuators) {
+    map.apply(instant, state, rate, torque);
+    state += map.initial_state.size();
+    rate += map.initial_state.size();
+  }
+}
+
+// Maps with states, along the motion.
+class ActuatorRun {
+ public:
+  ActuatorRun(const std::vector<ActuatorMap>& actuators,
+              const MotionTrack& track, const MatrixXd& commanded)
+      : actuators_(actuators),
+        track_(track),
+        commanded_(commanded.transpose()),
+        step_(NumStates(actuators)),
+        x_(NumStates(actuators)),
+        unused_(NumStates(actuators)) {
+    Eigen::Index at = 0;
+    for (const ActuatorMap& map : actuators) {
+      x_.segment(at, map.initial_state.size()) = map.initial_state;
+      at += map.initial_state.size();
+    }
+  }
+
+  MatrixXd Run() {
+    MatrixXd given(commanded_.rows(), commanded_.cols());
+    Settle();
+    for (int k = 0; k < track_.size(); ++k) {
+      track_.At(k, &instant_);
+      torque_ = commanded_.col(k);
+      Apply(actuators_, instant_, x_.data(), unused_.data(), &torque_);
+      given.col(k) = torque_;
+      if (k + 1 < track_.size()) Advance(k);
+    }
+    return given.transpose();
+  }
+
+ private:
+  void Settle() {
+    track_.At(0, &instant_);
+    const StiffStep::Rate rate = [this](double, const double* x, double* dx) {
+      torque_ = commanded_.col(0);
+      Apply(actuators_, instant_, x, dx, &torque_);
+    };
+    for (int i = 0; i < kSettlingSteps; ++i) {
+      step_.Advance(rate, 0, kSettlingStep, &x_);
+    }
+  }
+
+  // From sample k to the next.
+  void Advance(int k) {
+    const double begin = track_.t[k], dt = track_.t[k + 1] - begin;
+    const StiffStep::Rate rate = [&](double t, const double* x, double* dx) {
+      const double share = (t - begin) / dt;
+      track_.Between(k, share, &instant_);
+      InterpolateColumns(commanded_, k, share, &torque_);
+      Apply(actuators_, instant_, x, dx, &torque_);
+    };
+    for (int i = 0; i < kSubsteps; ++i) {
+      step_.Advance(rate, begin + i * dt / kSubsteps, dt / kSubsteps, &x_);
+    }
+  }
+
+  const std::vector<ActuatorMap>& actuators_;
+  const MotionTrack& track_;
+  MatrixXd commanded_;  // n x samples
+  StiffStep step_;
+  VectorXd x_, unused_, torque_;
+  ArmInstant instant_;
+};
+
+// By how much to change commands for `missing`, by the slope of the maps that
+// the last change `step` of the commands showed.
+void Secant(const MatrixXd& missing_before, const MatrixXd& missing,
+            MatrixXd* step) {
+  for (Eigen::Index i = 0; i < missing.size(); ++i) {
+    const double gained = missing_before(i) - missing(i);
+    double& s = (*step)(i);
+    s = gained == 0 ? missing(i) : missing(i) * s / gained;
+  }
+}
+
+}  // namespace
+
+MatrixXd GivenTorque(const std::vector<ActuatorMap>& actuators,
+                     const MotionTrack& track, const MatrixXd& commanded) {
+  if (NumStates(actuators) > 0) {
+    return ActuatorRun(actuators, track, commanded).Run();
+  }
+  MatrixXd given(commanded.rows(), commanded.cols());
+  ArmInstant instant;
+  VectorXd torque;
+  for (int k = 0; k < track.size(); ++k) {
+    track.At(k, &instant);
+    torque = commanded.row(k);
+    Apply(actuators, instant, nullptr, nullptr, &torque);
+    given.row(k) = torque;
+  }
+  return given;
+}
+
+MatrixXd CommandFor(const std::vector<ActuatorMap>& actuators,
+                    const MotionTrack& track, const MatrixXd& needed,
+                    const MatrixXd& guess) {
+  const bool memory = NumStates(actuators) > 0;
+  const double close = 1e-10 * needed.cwiseAbs().maxCoeff();
+  MatrixXd commanded = guess;
+  MatrixXd missing = needed - GivenTorque(actuators, track, commanded);
+  MatrixXd step = missing;
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> open =
+      missing.array().isFinite();
+  for (int i = 0; i < kMostIterations && open.any(); ++i) {
+    commanded += open.select(step, 0);
+    const MatrixXd before = missing;
+    missing = needed - GivenTorque(actuators, track, commanded);
+    open = open && missing.array().abs() > close &&
+           missing.array().abs() < kLeastProgress * before.array().abs();
+    if (memory) {
+      step = missing;
+    } else {
+      Secant(before, missing, &step);
+    }
+  }
+  return commanded;
+}
+
+}  // namespace armcal

@@ -1,0 +1,29 @@
+#include "model/joint_warmth.h"
+
+#include <glog/logging.h>
+
+#include <cmath>
+
+namespace armcal {
+
+Eigen::MatrixXd JointWarmth(const Eigen::MatrixXd& power, double dt,
+                            const std::vector<JointThermal>& thermal) {
+  const int n = static_cast<int>(power.cols());
+  CHECK_EQ(thermal.size(), static_cast<size_t>(n));
+  Eigen::MatrixXd warmth = Eigen::MatrixXd::Zero(n, power.rows());
+  for (int j = 0; j < n; ++j) {
+    const double R = thermal[j].resistance;
+    const double x = dt / (R * thermal[j].capacity);
+    const double decay = std::exp(-x);
+    // Of a power that rises from 0 to 1 W within dt, after dt, K/W.
+    const double rising = R * (1 - (1 - decay) / x);
+    const double falling = R * (1 - decay) - rising;
+    for (int k = 1; k < power.rows(); ++k) {
+      warmth(j, k) = decay * warmth(j, k - 1) + falling * power(k - 1, j) +
+                     rising * power(k, j);
+    }
+  }
+  return warmth;
+}
+
+}  // namespace armcal

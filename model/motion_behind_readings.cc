@@ -1,0 +1,119 @@
+#include "model/motion_behind_readings.h"
+
+#include <cmath>
+#include <functional>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Maps are near the identity: the error falls by their slope each time.
+constexpr int kIterations = 4;
+
+Reading EmptyReading(int n) {
+  const VectorXd zero = VectorXd::Zero(n);
+  return {zero, zero, zero, zero};
+}
+
+// Recorded position minus true one, samples x n.
+MatrixXd PositionErrors(const std::vector<SensorMap>& sensors,
+                        const MotionTrack& track) {
+  const int n = track.num_joints();
+  MatrixXd errors = MatrixXd::Zero(n, track.size());
+  ArmInstant instant;
+  Reading reading = EmptyReading(n);
+  for (int k = 0; k < track.size(); ++k) {
+    track.At(k, &instant);
+    for (int iteration = 0; iteration < kIterations; ++iteration) {
+      instant.position = track.position.col(k) - errors.col(k);
+      reading.position = instant.position;
+      reading.velocity = instant.velocity;
+      for (const SensorMap& map : sensors) map.apply(instant, &reading);
+      const VectorXd error = reading.position - instant.position;
+      if (error == errors.col(k)) break;
+      errors.col(k) = error;
+    }
+  }
+  return errors.transpose();
+}
+
+// Central differences, one-sided at the ends, per s.
+VectorXd Slope(const VectorXd& x, double dt) {
+  const Eigen::Index N = x.size();
+  VectorXd slope = VectorXd::Zero(N);
+  if (N < 2) return slope;
+  if (N > 2) {
+    slope.segment(1, N - 2) = (x.tail(N - 2) - x.head(N - 2)) / (2 * dt);
+  }
+  slope[0] = (x[1] - x[0]) / dt;
+  slope[N - 1] = (x[N - 1] - x[N - 2]) / dt;
+  return slope;
+}
+
+void TakePositionErrors(const MatrixXd& errors, Motion* motion) {
+  motion->q -= errors;
+  for (int j = 0; j < motion->num_joints(); ++j) {
+    if (errors.col(j).maxCoeff() == errors.col(j).minCoeff()) continue;
+    const VectorXd rate = Slope(errors.col(j), motion->dt);
+    motion->qd.col(j) -= rate;
+    motion->qdd.col(j) -= Slope(rate, motion->dt);
+  }
+}
+
+// From derivatives with respect to stamps to those with respect to time.
+void TakeClock(const std::function<double(double)>& clock, Motion* motion,
+               VectorXd* true_times) {
+  const double h = motion->dt;
+  for (int k = 0; k < motion->size(); ++k) {
+    const double stamp = motion->time(k);
+    double& t = (*true_times)[k];
+    for (int iteration = 0; iteration < kIterations; ++iteration) {
+      t -= clock(t) - stamp;
+    }
+    const double after = clock(t + h), before = clock(t - h);
+    const double rate = (after - before) / (2 * h);
+    const double change = (after - 2 * clock(t) + before) / (h * h);
+    motion->qdd.row(k) =
+        rate * rate * motion->qdd.row(k) + change * motion->qd.row(k);
+    motion->qd.row(k) *= rate;
+  }
+}
+
+}  // namespace
+
+bool MotionBehindReadings(const SimulatedRobot& changed, const Motion& recorded,
+                          const MotionTrack& track, Motion* motion,
+                          VectorXd* true_times) {
+  bool differs = static_cast<bool>(changed.clock);
+  MatrixXd errors;
+  if (!changed.sensors.empty()) {
+    errors = PositionErrors(changed.sensors, track);
+    differs = differs || !errors.isZero(0);
+  }
+  if (!differs) return false;
+  *motion = recorded;
+  *true_times = track.t;
+  if (errors.size() > 0) TakePositionErrors(errors, motion);
+  if (changed.clock) TakeClock(changed.clock, motion, true_times);
+  return true;
+}
+
+MatrixXd TorqueReadings(const std::vector<SensorMap>& sensors,
+                        const MotionTrack& track, const MatrixXd& torque) {
+  MatrixXd readings = torque;
+  ArmInstant instant;
+  Reading reading = EmptyReading(track.num_joints());
+  for (int k = 0; k < track.size(); ++k) {
+    track.At(k, &instant);
+    reading.position = instant.position;
+    reading.velocity = instant.velocity;
+    reading.torque = torque.row(k);
+    for (const SensorMap& map : sensors) map.apply(instant, &reading);
+    readings.row(k) = reading.torque;
+  }
+  return readings;
+}
+
+}  // namespace armcal
