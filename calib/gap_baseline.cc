@@ -28,6 +28,56 @@ double WidthUnit(const Joint& joint) {
   return IsRotational(joint.type) ? 1 : .3;
 }
 
+double& TermOf(JointTerm term, Joint* joint) {
+  switch (term) {
+    case JointTerm::kArmature:
+      return joint->armature;
+    case JointTerm::kViscous:
+      return joint->viscous;
+    case JointTerm::kCoulomb:
+      return joint->coulomb;
+    case JointTerm::kOffset:
+      break;
+  }
+  return joint->offset;
+}
+
+// Torque of joint j per unit of all links' inertial parameters: per joint,
+// samples x 10 n.
+std::vector<MatrixXd> InertialTorque(const Robot& robot, const Motion& motion) {
+  const int n = robot.num_joints();
+  LinkRegressor regressor(robot);
+  std::vector<MatrixXd> momentum(n, MatrixXd(motion.size(), 10 * n));
+  std::vector<MatrixXd> force = momentum;
+  MatrixXd P, D;
+  for (int k = 0; k < motion.size(); ++k) {
+    regressor.Momentum(motion.q.row(k), motion.qd.row(k), &P, &D);
+    for (int j = 0; j < n; ++j) {
+      momentum[j].row(k) = P.row(j);
+      force[j].row(k) = D.row(j);
+    }
+  }
+  for (int j = 0; j < n; ++j) {
+    momentum[j] = Differentiate(momentum[j], motion.dt) - force[j];
+  }
+  return momentum;
+}
+
+VectorXd TermTorque(JointTerm term, const CoulombTransition& transition,
+                    const Motion& motion, int j) {
+  switch (term) {
+    case JointTerm::kArmature:
+      return motion.qdd.col(j);
+    case JointTerm::kViscous:
+      return motion.qd.col(j);
+    case JointTerm::kCoulomb:
+      return (motion.qd.col(j).array() / transition.width).tanh();
+    case JointTerm::kOffset:
+      break;
+  }
+  return VectorXd::Ones(motion.size());
+}
+
 }  // namespace
 
 GapBaseline::GapBaseline(const Robot& robot, const BaselineOptions& options,
@@ -75,75 +125,52 @@ void GapBaseline::AddTerms(int j, double trust, double usual_torque) {
   }
 }
 
+// Joint j's torque per unit of a column; empty where it has none.
+VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
+                                 const MatrixXd& inertial,
+                                 const RecordedTorque& torque) const {
+  const Motion& motion = torque.motion();
+  const bool own = column.joint == j;
+  switch (column.kind) {
+    case BaselineColumn::Kind::kInertial:
+      if (column.joint < j) return {};
+      return inertial.col(10 * column.joint + column.index);
+    case BaselineColumn::Kind::kTerm:
+      if (!own) return {};
+      return TermTorque(static_cast<JointTerm>(column.index), transitions_[j],
+                        motion, j);
+    case BaselineColumn::Kind::kZeroVelocity: {
+      if (!own) return {};
+      CoulombTransition other;
+      other.width =
+          kOtherWidths[column.index] * WidthUnit(robot_.links[j].joint);
+      return TermTorque(JointTerm::kCoulomb, other, motion, j) -
+             TermTorque(JointTerm::kCoulomb, transitions_[j], motion, j);
+    }
+    case BaselineColumn::Kind::kTiming:
+      return -Differentiate(torque.nominal().col(j), motion.dt);
+  }
+  return {};
+}
+
 std::vector<MatrixXd> GapBaseline::ThinColumns(
     const GapRows& rows, const std::vector<RecordedTorque>& torques) const {
   const int n = robot_.num_joints();
-  std::vector<MatrixXd> thin(n, MatrixXd::Zero(rows.num_thin(), size()));
-  for (size_t s = 0; s < rows.segments().size(); ++s) {
-    const Motion& motion = rows.segments()[s].motion;
-    const int begin = rows.thin_begin(static_cast<int>(s));
-    const int size_s = rows.thin_begin(static_cast<int>(s) + 1) - begin;
-    const int samples = motion.size();
-    LinkRegressor regressor(robot_);
-    MatrixXd P, D;
-    // Momentum of joint j per unit of each inertial parameter of the links
-    // from j on; inertial columns are differentiated in time.
-    std::vector<MatrixXd> momentum(n), force(n);
+  std::vector<MatrixXd> thin(n, MatrixXd(rows.num_thin(), size()));
+  for (size_t i = 0; i < torques.size(); ++i) {
+    const int s = static_cast<int>(i);
+    const Motion& motion = torques[i].motion();
+    const std::vector<MatrixXd> inertial = InertialTorque(robot_, motion);
     for (int j = 0; j < n; ++j) {
-      momentum[j].resize(samples, 10 * n);
-      force[j].resize(samples, 10 * n);
-    }
-    for (int k = 0; k < samples; ++k) {
-      regressor.Momentum(motion.q.row(k), motion.qd.row(k), &P, &D);
-      for (int j = 0; j < n; ++j) {
-        momentum[j].row(k) = P.row(j);
-        force[j].row(k) = D.row(j);
-      }
-    }
-    const MatrixXd rate = Differentiate(torques[s].nominal(), motion.dt);
-    for (int j = 0; j < n; ++j) {
-      MatrixXd fine = MatrixXd::Zero(samples, size());
-      const MatrixXd torque = Differentiate(momentum[j], motion.dt) - force[j];
-      const double reference = transitions_[j].width;
+      MatrixXd fine = MatrixXd::Zero(motion.size(), size());
       for (int c = 0; c < size(); ++c) {
-        const BaselineColumn& column = columns_[c];
-        const auto qd = motion.qd.col(j).array();
-        switch (column.kind) {
-          case BaselineColumn::Kind::kInertial:
-            if (column.joint < j) break;
-            fine.col(c) = torque.col(10 * column.joint + column.index);
-            break;
-          case BaselineColumn::Kind::kTerm:
-            if (column.joint != j) break;
-            switch (static_cast<JointTerm>(column.index)) {
-              case JointTerm::kArmature:
-                fine.col(c) = motion.qdd.col(j);
-                break;
-              case JointTerm::kViscous:
-                fine.col(c) = motion.qd.col(j);
-                break;
-              case JointTerm::kCoulomb:
-                fine.col(c) = (qd / reference).tanh();
-                break;
-              case JointTerm::kOffset:
-                fine.col(c).setOnes();
-                break;
-            }
-            break;
-          case BaselineColumn::Kind::kZeroVelocity: {
-            if (column.joint != j) break;
-            const double width =
-                kOtherWidths[column.index] * WidthUnit(robot_.links[j].joint);
-            fine.col(c) = (qd / width).tanh() - (qd / reference).tanh();
-            break;
-          }
-          case BaselineColumn::Kind::kTiming:
-            fine.col(c) = -rate.col(j);
-            break;
-        }
-        fine.col(c) *= column.spread;
+        const VectorXd column =
+            FineColumn(columns_[c], j, inertial[j], torques[i]);
+        if (column.size() > 0) fine.col(c) = columns_[c].spread * column;
       }
-      thin[j].middleRows(begin, size_s) = rows.Thin(static_cast<int>(s), fine);
+      thin[j].middleRows(rows.thin_begin(s),
+                         rows.thin_begin(s + 1) - rows.thin_begin(s)) =
+          rows.Thin(s, fine);
     }
   }
   return thin;
@@ -160,21 +187,8 @@ Robot GapBaseline::With(const VectorXd& x) const {
       v[column.index] = value;
       robot.links[column.joint].inertial += InertialParameters::FromVector(v);
     } else if (column.kind == BaselineColumn::Kind::kTerm) {
-      Joint& joint = robot.links[column.joint].joint;
-      switch (static_cast<JointTerm>(column.index)) {
-        case JointTerm::kArmature:
-          joint.armature += value;
-          break;
-        case JointTerm::kViscous:
-          joint.viscous += value;
-          break;
-        case JointTerm::kCoulomb:
-          joint.coulomb += value;
-          break;
-        case JointTerm::kOffset:
-          joint.offset += value;
-          break;
-      }
+      TermOf(static_cast<JointTerm>(column.index),
+             &robot.links[column.joint].joint) += value;
     }
   }
   return robot;

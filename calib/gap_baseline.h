@@ -52,6 +52,9 @@ class GapBaseline {
  private:
   void AddLink(int link, double trust);
   void AddTerms(int joint, double trust, double usual_torque);
+  Eigen::VectorXd FineColumn(const BaselineColumn& column, int j,
+                             const Eigen::MatrixXd& inertial,
+                             const RecordedTorque& torque) const;
 
   Robot robot_;
   std::vector<BaselineColumn> columns_;

@@ -6,9 +6,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
-                 double bandwidth_hz)
+                 double bandwidth_hz, LogPart part)
     : segments_(std::move(segments)),
-      rows_(std::make_unique<GapRows>(segments_, bandwidth_hz)),
+      rows_(std::make_unique<GapRows>(segments_, bandwidth_hz, part)),
       torques_(RecordedTorques(baseline, *rows_)) {
   residual_.resize(rows_->num_thin(), rows_->num_joints());
   for (size_t s = 0; s < segments_.size(); ++s) {

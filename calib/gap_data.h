@@ -17,7 +17,7 @@ class GapData {
  public:
   // `segments` are kept. `usual_torque`: n entries, N m or N.
   GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
-          double bandwidth_hz);
+          double bandwidth_hz, LogPart part = LogPart::kAll);
   GapData(const GapData&) = delete;
   GapData& operator=(const GapData&) = delete;
 

@@ -18,8 +18,9 @@ constexpr int kShortestRun = 3 * Autoregression::kOrder;
 
 }  // namespace
 
-GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz)
-    : segments_(segments), bandwidth_hz_(bandwidth_hz) {
+GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
+                 LogPart part)
+    : segments_(segments), bandwidth_hz_(bandwidth_hz), part_(part) {
   CHECK_GT(bandwidth_hz, 0);
   int begin = 0;
   for (const GapSegment& segment : segments) {
@@ -37,23 +38,41 @@ GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz)
   MakeRuns();
 }
 
+// Tenths of a segment: of the third, sixth and ninth, whose edges are guarded.
+GapRows::Use GapRows::UseOf(int segment, int joint, int k) const {
+  const int within = k - thin_begin_[segment];
+  const int size = thin_begin_[segment + 1] - thin_begin_[segment];
+  if (part_ != LogPart::kAll) {
+    const double guard = kPeriodsAtEnds / bandwidth_hz_ / 2 / step(segment);
+    const double tenth = size / 10.0;
+    const int block = std::min(9, static_cast<int>(within / tenth));
+    const bool held_out = block % 3 == 2;
+    const double from_edge =
+        std::min(within - block * tenth, (block + 1) * tenth - within);
+    if (held_out != (part_ == LogPart::kHeldOut)) return Use::kNone;
+    if (held_out && from_edge < guard) return Use::kNone;
+  }
+  return segments_[segment].still(skip_[segment] + within * stride_[segment],
+                                  joint)
+             ? Use::kStill
+             : Use::kMoving;
+}
+
 void GapRows::MakeRuns() {
   const int n = segments_.empty() ? 0 : segments_[0].motion.num_joints();
   runs_.resize(n);
   still_runs_.resize(n);
   for (int j = 0; j < n; ++j) {
-    for (size_t s = 0; s < segments_.size(); ++s) {
+    for (size_t i = 0; i < segments_.size(); ++i) {
+      const int s = static_cast<int>(i);
       const int end = thin_begin_[s + 1];
       int begin = thin_begin_[s];
-      const auto still = [&](int k) {
-        return segments_[s].still(skip_[s] + (k - thin_begin_[s]) * stride_[s],
-                                  j);
-      };
       for (int k = begin + 1; k <= end; ++k) {
-        if (k < end && still(k) == still(begin)) continue;
-        if (k - begin >= kShortestRun) {
-          (still(begin) ? still_runs_ : runs_)[j].push_back(
-              {static_cast<int>(s), begin, k - begin});
+        const Use use = UseOf(s, j, begin);
+        if (k < end && UseOf(s, j, k) == use) continue;
+        if (k - begin >= kShortestRun && use != Use::kNone) {
+          (use == Use::kStill ? still_runs_ : runs_)[j].push_back(
+              {s, begin, k - begin});
         }
         begin = k;
       }

@@ -8,6 +8,11 @@
 
 namespace armcal {
 
+// Which samples of a log have rows: all; or, where no log is held out, seven
+// tenths of them for fitting and choosing, three tenths (the third, sixth and
+// ninth tenth of each segment) for judging, with guards between them.
+enum class LogPart { kAll, kFitted, kHeldOut };
+
 // Rows of a regression on the torque of some logs: signals are low-passed at
 // the bandwidth, thinned to 2.5 times it, and whitened by each joint's noise.
 // Samples of which a joint stands still, and the ends that filters bend, have
@@ -15,7 +20,8 @@ namespace armcal {
 class GapRows {
  public:
   // References to segments are kept.
-  GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz);
+  GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
+          LogPart part = LogPart::kAll);
 
   int num_joints() const { return static_cast<int>(runs_.size()); }
   double bandwidth_hz() const { return bandwidth_hz_; }
@@ -53,10 +59,13 @@ class GapRows {
   std::vector<int> SampleOfRow(int joint) const;
 
  private:
+  enum class Use { kMoving, kStill, kNone };
   void MakeRuns();
+  Use UseOf(int segment, int joint, int k) const;
 
   const std::vector<GapSegment>& segments_;
   double bandwidth_hz_;
+  LogPart part_;
   std::vector<int> stride_;      // per segment
   std::vector<int> skip_;        // fine samples at its ends
   std::vector<int> thin_begin_;  // per segment, and the end

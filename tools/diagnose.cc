@@ -4,14 +4,14 @@
 
 #include <cmath>
 #include <iostream>
+#include <memory>
 
-#include "calib/gap_diagnosis.h"
+#include "calib/gap_report.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
 
 DECLARE_double(trust);
-DECLARE_string(validate);
 DEFINE_string(reference, "",
               "log of the same robot from before: the model is fitted to it "
               "first, and the diagnosis says what has changed since");
@@ -40,14 +40,10 @@ int RunDiagnose() {
   }
   const GapDiagnosis diagnosis =
       DiagnoseGap(robot, options, &training, validation.get(), reference.get());
-  for (const DiagnosedEffect& found : diagnosis.effects) {
-    std::cout << found.effect->name << " joint " << found.joint + 1 << " score "
-              << found.score << " drop " << found.drop;
-    for (const EffectEstimate& e : found.estimates) {
-      std::cout << " " << e.name << "=" << e.value << e.unit;
-    }
-    std::cout << "\n";
-  }
+  OutputFolder out(OutFromFlags());
+  out.Add("diagnosis.json", ToJson(diagnosis).dump(2) + "\n");
+  out.Write();
+  std::cout << FullReport(diagnosis);
   return kExitOk;
 }
 

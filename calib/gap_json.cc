@@ -1,0 +1,122 @@
+#include <cmath>
+
+#include "calib/gap_report.h"
+#include "calib/json_figures.h"
+
+namespace armcal {
+namespace {
+
+using nlohmann::json;
+
+json PlaceJson(const PlacedEffect& place) {
+  return {{"effect", place.effect->name},
+          {"joint_index", place.joint + 1},
+          {"probability", JsonNumber(place.probability)}};
+}
+
+json PlacesJson(const std::vector<PlacedEffect>& places) {
+  json list = json::array();
+  for (const PlacedEffect& place : places) list.push_back(PlaceJson(place));
+  return list;
+}
+
+json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
+  json estimates = json::array();
+  for (size_t k = 0; k < found.estimates.size(); ++k) {
+    estimates.push_back({{"name", found.estimates[k].name},
+                         {"unit", found.estimates[k].unit},
+                         {"value", JsonNumber(found.estimates[k].value)},
+                         {"stddev", JsonNumber(found.stddev[k])}});
+  }
+  json windows = json::array();
+  for (const TimeRange& window : found.windows) {
+    windows.push_back({window.begin, window.end});
+  }
+  return {{"effect", found.effect->name},
+          {"joint", found.joint < 0 ? "" : diagnosis.joints[found.joint].name},
+          {"joint_index", found.joint + 1},
+          {"probability", JsonNumber(found.probability)},
+          {"score", JsonNumber(found.score)},
+          {"estimates", estimates},
+          {"equivalent", PlacesJson(found.equivalent)},
+          {"separate_by", found.separate_by},
+          {"removed_percent", JsonNumber(found.removed_percent)},
+          {"ci95", {JsonNumber(found.ci95[0]), JsonNumber(found.ci95[1])}},
+          {"time_windows", windows}};
+}
+
+json GapJson(const GapFigures& gap) {
+  return {{"nominal", JsonNumber(gap.nominal)},
+          {"refit", JsonNumber(gap.refit)},
+          {"after", JsonNumber(gap.after)},
+          {"floor", JsonNumber(gap.floor)},
+          {"removed_percent", JsonNumber(gap.removed_percent)},
+          {"removed_from_nominal_percent",
+           JsonNumber(gap.removed_from_nominal_percent)},
+          {"ci95", {JsonNumber(gap.ci95[0]), JsonNumber(gap.ci95[1])}}};
+}
+
+json WhereJson(const std::vector<JointGap>& joints) {
+  json list = json::array();
+  for (const JointGap& joint : joints) {
+    list.push_back({{"name", joint.name},
+                    {"unit", joint.unit},
+                    {"nominal_rms", JsonNumber(joint.nominal_rms)},
+                    {"refit_rms", JsonNumber(joint.refit_rms)},
+                    {"after_rms", JsonNumber(joint.after_rms)},
+                    {"floor_rms", JsonNumber(joint.floor_rms)},
+                    {"organised_by", joint.organised.by}});
+  }
+  return {{"joints", list}};
+}
+
+json MovedJson(const std::vector<MovedParameter>& moved) {
+  json list = json::array();
+  for (const MovedParameter& parameter : moved) {
+    list.push_back({{"name", parameter.name},
+                    {"unit", parameter.unit},
+                    {"nominal", JsonNumber(parameter.nominal)},
+                    {"value", JsonNumber(parameter.value)},
+                    {"stddev", JsonNumber(parameter.stddev)},
+                    {"prior_deviations", JsonNumber(parameter.deviations)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+json ToJson(const GapDiagnosis& diagnosis) {
+  json effects = json::array();
+  for (const FoundEffect& found : diagnosis.effects) {
+    effects.push_back(EffectJson(found, diagnosis));
+  }
+  json data = json::array();
+  for (const DataFinding& finding : diagnosis.data) {
+    data.push_back({{"finding", finding.finding},
+                    {"evidence", finding.evidence},
+                    {"flag", finding.flag}});
+  }
+  json untestable = json::array();
+  for (const UntestableEffect& effect : diagnosis.untestable) {
+    untestable.push_back({{"effect", effect.effect},
+                          {"joint", effect.joint},
+                          {"why", effect.why}});
+  }
+  json unexplained = {{"joint", diagnosis.unexplained.joint},
+                      {"organised_by", diagnosis.unexplained.organised_by},
+                      {"share", JsonNumber(diagnosis.unexplained.share)}};
+  return {{"verdict", GapVerdictName(diagnosis.verdict)},
+          {"sentence", BriefReport(diagnosis)},
+          {"data", data},
+          {"effects", effects},
+          {"candidates", PlacesJson(diagnosis.candidates)},
+          {"absorbed", MovedJson(diagnosis.moved)},
+          {"where", WhereJson(diagnosis.joints)},
+          {"untestable", untestable},
+          {"gap", {{"torque", GapJson(diagnosis.torque)}}},
+          {"floor_source", NoiseFloorName(diagnosis.floor)},
+          {"bandwidth_hz", JsonNumber(diagnosis.bandwidth_hz)},
+          {"unexplained", unexplained}};
+}
+
+}  // namespace armcal

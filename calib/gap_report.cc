@@ -1,0 +1,154 @@
+#include "calib/gap_report.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace armcal {
+namespace {
+
+template <typename... Args>
+std::string Format(const char* format, Args... args) {
+  char text[400];
+  std::snprintf(text, sizeof(text), format, args...);
+  return text;
+}
+
+// "payload", "stribeck on elbow".
+std::string Named(const Effect& effect, int joint,
+                  const GapDiagnosis& diagnosis) {
+  std::string text = effect.name;
+  for (char& c : text) {
+    if (c == '_') c = ' ';
+  }
+  if (joint >= 0) text += " on " + diagnosis.joints[joint].name;
+  return text;
+}
+
+std::string Estimates(const FoundEffect& found) {
+  std::string text;
+  for (size_t k = 0; k < found.estimates.size(); ++k) {
+    const EffectEstimate& estimate = found.estimates[k];
+    text += (k ? ", " : "") + estimate.name +
+            Format(" %.3g +- %.1g", estimate.value, found.stddev[k]) +
+            (estimate.unit == "1" ? "" : " " + estimate.unit);
+  }
+  return text;
+}
+
+std::string EffectLines(const FoundEffect& found,
+                        const GapDiagnosis& diagnosis) {
+  std::string text = Format("  %3.0f %%  ", 100 * found.probability) +
+                     Named(*found.effect, found.joint, diagnosis) + ": " +
+                     Estimates(found) + "\n";
+  for (const PlacedEffect& other : found.equivalent) {
+    text += Format("         or %.0f %% ", 100 * other.probability) +
+            Named(*other.effect, other.joint, diagnosis) + "\n";
+  }
+  if (!found.separate_by.empty()) {
+    text += "         told apart by: " + found.separate_by + "\n";
+  }
+  return text;
+}
+
+std::string WhereTable(const GapDiagnosis& diagnosis) {
+  std::string text =
+      "\nheld-out torque, rms        nominal      refit      after      noise"
+      "   organised by\n";
+  for (const JointGap& joint : diagnosis.joints) {
+    text += Format("  %-16s %4s %10.3g %10.3g %10.3g %10.3g   %s\n",
+                   joint.name.c_str(), joint.unit.c_str(), joint.nominal_rms,
+                   joint.refit_rms, joint.after_rms, joint.floor_rms,
+                   joint.organised.by.c_str());
+  }
+  return text;
+}
+
+std::string HowFar(const GapFigures& gap) {
+  return Format(
+             "\nheld-out gap, mean square over the noise's: nominal %.3g, "
+             "refitted %.3g, with the effects %.3g, noise 1\n",
+             gap.nominal, gap.refit, gap.after) +
+         (std::isfinite(gap.removed_percent)
+              ? Format("  removed %.0f %% of what refitting leaves (95 %%: "
+                       "%.0f to %.0f), %.0f %% of the file's gap\n",
+                       gap.removed_percent, gap.ci95[0], gap.ci95[1],
+                       gap.removed_from_nominal_percent)
+              : "");
+}
+
+}  // namespace
+
+std::string BriefReport(const GapDiagnosis& diagnosis) {
+  const std::string first = diagnosis.effects.empty()
+                                ? ""
+                                : Named(*diagnosis.effects[0].effect,
+                                        diagnosis.effects[0].joint, diagnosis);
+  switch (diagnosis.verdict) {
+    case GapVerdict::kNoiseFloor:
+      return "The model agrees with the log to within the noise.";
+    case GapVerdict::kAbsorbed:
+      return "Nothing is missing in the model but better values: refitting "
+             "its parameters brings it down to the noise.";
+    case GapVerdict::kExplained:
+    case GapVerdict::kPartlyExplained: {
+      std::string text = "The model lacks " + first;
+      for (size_t k = 1; k < diagnosis.effects.size(); ++k) {
+        text += (k + 1 < diagnosis.effects.size() ? ", " : " and ") +
+                Named(*diagnosis.effects[k].effect, diagnosis.effects[k].joint,
+                      diagnosis);
+      }
+      if (std::isfinite(diagnosis.torque.removed_percent)) {
+        text += Format(
+            ", which removes %.0f %% of the gap that refitting leaves on data "
+            "not used for choosing",
+            diagnosis.torque.removed_percent);
+      }
+      return text + (diagnosis.verdict == GapVerdict::kExplained
+                         ? "."
+                         : "; something else is left.");
+    }
+    case GapVerdict::kUnknown:
+      return "Something real is missing that no known effect explains" +
+             (diagnosis.unexplained.joint.empty()
+                  ? std::string(".")
+                  : ": most of it on " + diagnosis.unexplained.joint +
+                        (diagnosis.unexplained.organised_by.empty()
+                             ? "."
+                             : ", ordered by its " +
+                                   diagnosis.unexplained.organised_by + "."));
+    case GapVerdict::kNotTestable:
+      return "These data cannot carry a diagnosis.";
+  }
+  return "";
+}
+
+std::string FullReport(const GapDiagnosis& diagnosis) {
+  std::string text = BriefReport(diagnosis) + "\n";
+  for (const DataFinding& finding : diagnosis.data) {
+    text += "note       " + finding.finding + ": " + finding.evidence +
+            (finding.flag.empty() ? "" : " (" + finding.flag + ")") + "\n";
+  }
+  if (!diagnosis.effects.empty()) text += "\nwhich effect\n";
+  for (const FoundEffect& found : diagnosis.effects) {
+    text += EffectLines(found, diagnosis);
+  }
+  text += WhereTable(diagnosis) + HowFar(diagnosis.torque);
+  text += Format("  noise told from: %s\n", NoiseFloorName(diagnosis.floor));
+  if (!diagnosis.moved.empty()) text += "\nparameters far from the file's\n";
+  for (const MovedParameter& moved : diagnosis.moved) {
+    text +=
+        Format("  %-28s %10.4g -> %10.4g +- %.2g %s\n", moved.name.c_str(),
+               moved.nominal, moved.value, moved.stddev, moved.unit.c_str());
+  }
+  if (!diagnosis.untestable.empty()) {
+    text += "\nnot testable on these data\n";
+  }
+  for (const UntestableEffect& effect : diagnosis.untestable) {
+    text += "  " + effect.effect +
+            (effect.joint.empty() ? "" : " on " + effect.joint) + ": " +
+            effect.why + "\n";
+  }
+  return text;
+}
+
+}  // namespace armcal
