@@ -1,6 +1,21 @@
 #include "model/effects/effects.h"
 
+#include "model/effects/effect_list.h"
+
 namespace armcal {
+inline namespace effects {
+
+#define ARMCAL_DECLARE(function) Effect function();
+ARMCAL_EFFECTS(ARMCAL_DECLARE)
+#undef ARMCAL_DECLARE
+
+const std::vector<Effect>& Effects() {
+#define ARMCAL_CALL(function) function(),
+  static const std::vector<Effect>* const kEffects =
+      new std::vector<Effect>{ARMCAL_EFFECTS(ARMCAL_CALL)};
+#undef ARMCAL_CALL
+  return *kEffects;
+}
 
 const Effect* FindEffect(const std::string& name) {
   for (const Effect& effect : Effects()) {
@@ -9,4 +24,5 @@ const Effect* FindEffect(const std::string& name) {
   return nullptr;
 }
 
+}  // namespace effects
 }  // namespace armcal

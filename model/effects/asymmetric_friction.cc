@@ -1,0 +1,35 @@
+#include <cmath>
+
+#include "model/effects/effect_parts.h"
+
+namespace armcal {
+inline namespace effects {
+
+// tau = -asymmetric |v|: beside viscous friction, drag that differs between the
+// two directions.
+Effect AsymmetricFriction() {
+  Effect effect;
+  effect.name = "asymmetric_friction";
+  effect.law = "tau = asymmetric |v|";
+  effect.shows = "motion both ways at several speeds";
+  effect.parameters = {
+      Linear("asymmetric", "E s/P", [](const EffectSite& site) {
+        return .05 * TorqueScale(site) / SpeedScale(site);
+      })};
+  effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
+                    SimulatedRobot* robot) {
+    const int j = site.joint;
+    const double asymmetric = p[0];
+    AddFriction(
+        site,
+        [=](const ArmInstant& at) {
+          return -asymmetric * std::abs(at.velocity[j]);
+        },
+        robot);
+  };
+  effect.experiment = "the same constant velocities both ways, slow and fast";
+  return effect;
+}
+
+}  // namespace effects
+}  // namespace armcal

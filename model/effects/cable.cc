@@ -1,0 +1,44 @@
+#include <cmath>
+
+#include "model/effects/effect_parts.h"
+
+namespace armcal {
+inline namespace effects {
+
+// tau = cable tanh((q - centre) / softness): a bundle that lies over to one
+// side or the other; bounded, so that it does no harm beyond the data.
+Effect Cable() {
+  Effect effect;
+  effect.name = "cable";
+  effect.law = "tau = cable tanh((q - centre)/softness)";
+  effect.shows = "motion over the joint's whole range";
+  effect.parameters = {
+      Linear("cable", "E", ShareOfTorque(.05),
+             EffectParameter::Sign::kPositive),
+      Gridded("centre", "P",
+              [](const EffectSite& site) {
+                const double low = site.scale->low[site.joint];
+                const double range = site.scale->high[site.joint] - low;
+                return std::vector<double>{low + .25 * range, low + .5 * range,
+                                           low + .75 * range};
+              }),
+      Gridded("softness", "P", [](const EffectSite& site) {
+        return GeometricGrid(.1 * Radian(site), Radian(site), 3);
+      })};
+  effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
+                    SimulatedRobot* robot) {
+    const int j = site.joint;
+    const double cable = p[0], centre = p[1], softness = p[2];
+    AddTorque(
+        site,
+        [=](const ArmInstant& at) {
+          return -cable * std::tanh((at.position[j] - centre) / softness);
+        },
+        robot);
+  };
+  effect.experiment = "slow sweeps over the whole range, both ways";
+  return effect;
+}
+
+}  // namespace effects
+}  // namespace armcal

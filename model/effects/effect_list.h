@@ -1,0 +1,37 @@
+#pragma once
+
+// A line per effect, in DESIGN.md's order: X(function), which is the one of its
+// file.
+#define ARMCAL_EFFECTS(X) \
+  X(ViscousFriction)      \
+  X(CoulombFriction)      \
+  X(TorqueOffset)         \
+  X(AsymmetricFriction)   \
+  X(QuadraticFriction)    \
+  X(Stribeck)             \
+  X(LoadFriction)         \
+  X(PositionFriction)     \
+  X(CoupledFriction)      \
+  X(Presliding)           \
+  X(Armature)             \
+  X(Elasticity)           \
+  X(Backlash)             \
+  X(Spring)               \
+  X(Cable)                \
+  X(TorqueRipple)         \
+  X(TorqueGain)           \
+  X(TorqueNonlinearity)   \
+  X(TorqueSaturation)     \
+  X(TorqueDeadband)       \
+  X(TorqueCrosstalk)      \
+  X(Delay)                \
+  X(EncoderOffset)        \
+  X(LinkLength)           \
+  X(BaseTilt)             \
+  X(Payload)              \
+  X(LinkInertia)          \
+  X(ThermalFriction)      \
+  X(TimeDrift)            \
+  X(ExternalContact)      \
+  X(Vibration)            \
+  X(TimeBase)

@@ -1,0 +1,138 @@
+#include "model/effects/effect_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/forward_dynamics.h"
+
+namespace armcal {
+inline namespace effects {
+
+// A joint that does nothing has the scale of a very small one.
+double TorqueScale(const EffectSite& site) {
+  return std::max(site.scale->torque[site.joint], 1e-3);
+}
+
+double SpeedScale(const EffectSite& site) {
+  return std::max(site.scale->speed[site.joint], .01 * Radian(site));
+}
+
+double AccelerationScale(const EffectSite& site) {
+  return std::max(site.scale->acceleration[site.joint], .01 * Radian(site));
+}
+
+double Radian(const EffectSite& site) {
+  return IsRotational(site.at().type) ? 1 : .3;
+}
+
+double CarriedInertia(const EffectSite& site) {
+  const Eigen::VectorXd q = (site.scale->low + site.scale->high) / 2;
+  return MassMatrix(*site.robot, q)(site.joint, site.joint);
+}
+
+double MovingMass(const Robot& robot) {
+  double mass = 0;
+  for (const Link& link : robot.links) mass += link.inertial.mass;
+  return mass;
+}
+
+double Duration(const EffectSite& site) {
+  return std::max(site.scale->end - site.scale->begin, 1e-3);
+}
+
+SiteSize ShareOfTorque(double share) {
+  return [share](const EffectSite& site) { return share * TorqueScale(site); };
+}
+
+std::vector<double> GeometricGrid(double low, double high, int count) {
+  std::vector<double> grid;
+  for (int k = 0; k < count; ++k) {
+    grid.push_back(low * std::pow(high / low, k / (count - 1.)));
+  }
+  return grid;
+}
+
+EffectParameter Linear(const std::string& name, const std::string& unit,
+                       SiteSize size, EffectParameter::Sign sign) {
+  return {name, unit, EffectParameter::Search::kLinear, sign, std::move(size),
+          {}};
+}
+
+EffectParameter Gridded(const std::string& name, const std::string& unit,
+                        SiteGrid grid) {
+  const SiteSize size = [grid](const EffectSite& site) {
+    const std::vector<double> values = grid(site);
+    return values[values.size() / 2];
+  };
+  return {name,
+          unit,
+          EffectParameter::Search::kGrid,
+          EffectParameter::Sign::kFree,
+          size,
+          std::move(grid)};
+}
+
+EffectParameter Searched(const std::string& name, const std::string& unit,
+                         EffectParameter::Search search, SiteSize size) {
+  return {name, unit, search, EffectParameter::Sign::kPositive, std::move(size),
+          {}};
+}
+
+std::vector<int> Neighbours(const EffectSite& site) {
+  std::vector<int> any, alike;
+  for (const int k : {site.joint - 1, site.joint + 1}) {
+    if (k < 0 || k >= site.robot->num_joints()) continue;
+    any.push_back(k);
+    const JointType type = site.robot->links[k].joint.type;
+    if (IsRotational(type) == IsRotational(site.at().type)) alike.push_back(k);
+  }
+  return alike.empty() ? any : alike;
+}
+
+EffectParameter NeighbourParameter() {
+  return Gridded("neighbour", "1", [](const EffectSite& site) {
+    std::vector<double> numbers;
+    for (const int k : Neighbours(site)) numbers.push_back(k + 1);
+    return numbers;
+  });
+}
+
+std::string WhyNoNeighbour(const EffectSite& site) {
+  return Neighbours(site).empty() ? "the robot has one joint" : "";
+}
+
+void AddFriction(const EffectSite& site, const InstantTorque& torque,
+                 SimulatedRobot* robot) {
+  robot->joint_laws.push_back({site.joint,
+                               {},
+                               true,
+                               [torque](const ArmInstant& at, const double*,
+                                        double*) { return torque(at); }});
+}
+
+void AddTorque(const EffectSite& site, const InstantTorque& torque,
+               SimulatedRobot* robot) {
+  AddFriction(site, torque, robot);
+  robot->joint_laws.back().heats = false;
+}
+
+void AddActuator(const EffectSite& site,
+                 const std::function<double(double commanded)>& given,
+                 SimulatedRobot* robot) {
+  robot->actuators.push_back(
+      {{},
+       [given, j = site.joint](const ArmInstant&, const double*, double*,
+                               Eigen::VectorXd* torque) {
+         (*torque)[j] = given((*torque)[j]);
+       }});
+}
+
+double Amplitude(double a, double b) { return std::hypot(a, b); }
+double Phase(double a, double b) { return std::atan2(b, a); }
+
+std::string UnitAt(const EffectSite& site, const std::string& unit) {
+  return ParameterUnit(unit, site.at().type);
+}
+
+}  // namespace effects
+}  // namespace armcal

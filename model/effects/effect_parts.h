@@ -1,0 +1,68 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/effects/effect.h"
+
+namespace armcal {
+inline namespace effects {
+
+// What effects are made of.
+
+// Scales of the site's joint, never 0.
+double TorqueScale(const EffectSite& site);        // N m or N
+double SpeedScale(const EffectSite& site);         // rad/s or m/s
+double AccelerationScale(const EffectSite& site);  // rad/s^2 or m/s^2
+// The displacement that counts as one radian: 0.3 m of a prismatic joint, about
+// the lever by which revolute ones move things.
+double Radian(const EffectSite& site);
+// kg m^2 or kg, that the joint turns or pushes in the middle of its range with
+// the other joints in the middle of theirs, all held.
+double CarriedInertia(const EffectSite& site);
+double MovingMass(const Robot& robot);  // kg, of all links
+// The log's length, s, never 0.
+double Duration(const EffectSite& site);
+
+using SiteSize = std::function<double(const EffectSite&)>;
+using SiteGrid = std::function<std::vector<double>(const EffectSite&)>;
+SiteSize ShareOfTorque(double share);
+// `count` values in equal ratios.
+std::vector<double> GeometricGrid(double low, double high, int count);
+
+EffectParameter Linear(
+    const std::string& name, const std::string& unit, SiteSize size,
+    EffectParameter::Sign sign = EffectParameter::Sign::kFree);
+// Its usual value is the one in the middle of the grid.
+EffectParameter Gridded(const std::string& name, const std::string& unit,
+                        SiteGrid grid);
+EffectParameter Searched(const std::string& name, const std::string& unit,
+                         EffectParameter::Search search, SiteSize size);
+
+// The joints next to the site's, those of its own type if there are any.
+std::vector<int> Neighbours(const EffectSite& site);
+// Their numbers, from 1: a parameter of effects between two joints.
+EffectParameter NeighbourParameter();
+std::string WhyNoNeighbour(const EffectSite& site);
+
+// A law of the site's joint without states.
+using InstantTorque = std::function<double(const ArmInstant& instant)>;
+void AddFriction(const EffectSite& site, const InstantTorque& torque,
+                 SimulatedRobot* robot);
+void AddTorque(const EffectSite& site, const InstantTorque& torque,
+               SimulatedRobot* robot);
+// What the site's motor gives of a command, without states.
+void AddActuator(const EffectSite& site,
+                 const std::function<double(double commanded)>& given,
+                 SimulatedRobot* robot);
+
+// a sin(x) + b cos(x) = amplitude sin(x + phase).
+double Amplitude(double a, double b);
+double Phase(double a, double b);  // rad
+// A unit of the site's joint, as of ParameterUnit.
+std::string UnitAt(const EffectSite& site, const std::string& unit);
+
+}  // namespace effects
+}  // namespace armcal

@@ -1,0 +1,57 @@
+#include <cmath>
+
+#include "model/effects/effect_parts.h"
+
+namespace armcal {
+inline namespace effects {
+
+namespace {
+
+// tau = deflection / compliance + damping rate: of the link's mode with the
+// motor held, whose inertia is that of all beyond the joint.
+double Damping(const EffectSite& site, const Eigen::VectorXd& p) {
+  return 2 * p[1] * std::sqrt(CarriedInertia(site) / p[0]);
+}
+
+}  // namespace
+
+// Motor and link on a linear spring and damper (Spong 1987): the link lags its
+// motor by compliance times the load, and rings. `damping_ratio` is of the mode
+// with the motor held. A simulation needs an armature of the joint.
+Effect Elasticity() {
+  Effect effect;
+  effect.name = "elasticity";
+  effect.law = "tau = ID(q - compliance load) - ID(q)";
+  effect.shows = "fast motion and reversals";
+  effect.parameters = {Linear(
+                           "compliance", "P/E",
+                           [](const EffectSite& site) {
+                             return .001 * Radian(site) / TorqueScale(site);
+                           },
+                           EffectParameter::Sign::kPositive),
+                       Gridded("damping_ratio", "1", [](const EffectSite&) {
+                         return std::vector<double>{.03, .1, .3};
+                       })};
+  effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
+                    SimulatedRobot* robot) {
+    if (p[0] <= 0) return;
+    const double compliance = p[0], damping = Damping(site, p);
+    Transmission law;
+    law.joint = site.joint;
+    law.torque = [=](double deflection, double rate, const double*, double*) {
+      return deflection / compliance + damping * rate;
+    };
+    law.initial_deflection = [=](double load) { return compliance * load; };
+    robot->transmissions.push_back(law);
+  };
+  effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    return std::vector<EffectEstimate>{
+        {"stiffness", UnitAt(site, "E/P"), 1 / p[0]},
+        {"damping", UnitAt(site, "E s/P"), Damping(site, p)}};
+  };
+  effect.experiment = "fast motion and stops; an encoder at the link";
+  return effect;
+}
+
+}  // namespace effects
+}  // namespace armcal

@@ -1,0 +1,44 @@
+#include "model/effects/effect_parts.h"
+
+namespace armcal {
+inline namespace effects {
+
+namespace {
+
+// From the joint's axis to the next joint in the joint's moved frame M, across
+// the axis of a revolute joint, which feels nothing of what lies along it.
+Eigen::Vector3d LengthDirection(const Link& link, const Link& next) {
+  constexpr double kNoLength = 1e-3;  // m
+  Eigen::Vector3d p = (link.X_ML * next.X_PF).translation();
+  if (IsRotational(link.joint.type)) p.z() = 0;
+  if (p.norm() <= kNoLength) return Eigen::Vector3d::UnitX();
+  return p.normalized();
+}
+
+}  // namespace
+
+// All beyond the link sits `length` further out than in the robot file.
+Effect LinkLength() {
+  Effect effect;
+  effect.name = "link_length";
+  effect.law = "tau = ID(l + length) - ID(l)";
+  effect.shows = "motion of this joint and those beyond, gravity included";
+  effect.parameters = {
+      Linear("length", "m", [](const EffectSite&) { return .005; })};
+  effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
+                    SimulatedRobot* robot) {
+    const Link& link = site.robot->links[site.joint];
+    Link& next = robot->robot.links[site.joint + 1];
+    next.X_PF.pretranslate(link.X_ML.linear().transpose() *
+                           (p[0] * LengthDirection(link, next)));
+  };
+  effect.unfit = [](const EffectSite& site) -> std::string {
+    const bool last = site.joint + 1 == site.robot->num_joints();
+    return last ? "the last link carries no joint" : "";
+  };
+  effect.experiment = "poses seen by a tracker";
+  return effect;
+}
+
+}  // namespace effects
+}  // namespace armcal

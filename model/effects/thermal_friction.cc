@@ -1,0 +1,65 @@
+#include <cmath>
+
+#include "model/effects/effect_parts.h"
+
+namespace armcal {
+inline namespace effects {
+
+namespace {
+
+// Without a thermometer only beta times the rise is known: rises are those of
+// joints that their usual friction warms by this.
+constexpr double kUsualRise = 20;  // K
+
+// W, at the joint's usual speed.
+double FrictionPower(const EffectSite& site) {
+  const double v = SpeedScale(site);
+  return (site.at().viscous * v + site.at().coulomb) * v;
+}
+
+}  // namespace
+
+// tau = -(beta viscous v + coulomb_beta coulomb tanh(v / w)) warmth: friction
+// that falls as the joint warms up (Bittencourt et al. 2010; Simoni et al.
+// 2017). Warmth follows friction's power within time_constant, unless it was
+// recorded.
+Effect ThermalFriction() {
+  Effect effect;
+  effect.name = "thermal_friction";
+  effect.law = "tau = -(beta viscous v + coulomb_beta coulomb sign(v)) warmth";
+  effect.shows = "minutes of motion from cold";
+  const auto size = [](const EffectSite&) { return .005; };
+  effect.parameters = {
+      Linear("beta", "1/K", size, EffectParameter::Sign::kPositive),
+      Linear("coulomb_beta", "1/K", size, EffectParameter::Sign::kPositive),
+      Gridded("time_constant", "s", [](const EffectSite& site) {
+        return GeometricGrid(.1 * Duration(site), 3 * Duration(site), 4);
+      })};
+  effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
+                    SimulatedRobot* robot) {
+    const int j = site.joint;
+    const double viscous = p[0] * site.at().viscous;
+    const double coulomb = p[1] * site.at().coulomb;
+    const double w = site.scale->width[j];
+    const double resistance = kUsualRise / FrictionPower(site);
+    robot->thermal.resize(robot->robot.num_joints());
+    robot->thermal[j] = {p[2] / resistance, resistance};
+    AddFriction(
+        site,
+        [=](const ArmInstant& at) {
+          const double v = at.velocity[j];
+          return (viscous * v + coulomb * std::tanh(v / w)) * at.temperature[j];
+        },
+        robot);
+  };
+  effect.unfit = [](const EffectSite& site) -> std::string {
+    return site.at().viscous > 0 || site.at().coulomb > 0
+               ? ""
+               : "the joint has no friction that warmth could change";
+  };
+  effect.experiment = "the same motion again and again from cold";
+  return effect;
+}
+
+}  // namespace effects
+}  // namespace armcal

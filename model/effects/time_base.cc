@@ -1,0 +1,25 @@
+#include "model/effects/effect_parts.h"
+
+namespace armcal {
+inline namespace effects {
+
+// stamp = (1 + rate) t: a clock that runs fast.
+Effect TimeBase() {
+  Effect effect;
+  effect.name = "time_base";
+  effect.scope = Effect::Scope::kRobot;
+  effect.law = "tau = ID((1 + rate) qd, (1 + rate)^2 qdd) - ID(qd, qdd)";
+  effect.shows = "fast motion, against a robot whose masses are known";
+  effect.parameters = {
+      Linear("rate", "1", [](const EffectSite&) { return .005; })};
+  effect.apply = [](const EffectSite&, const Eigen::VectorXd& p,
+                    SimulatedRobot* robot) {
+    const double rate = p[0];
+    robot->clock = [=](double t) { return (1 + rate) * t; };
+  };
+  effect.experiment = "the log beside that of another clock";
+  return effect;
+}
+
+}  // namespace effects
+}  // namespace armcal

@@ -1,0 +1,25 @@
+#include "model/effects/effect_parts.h"
+
+namespace armcal {
+inline namespace effects {
+
+// logged = (1 + gain) given: a motor constant other than assumed.
+Effect TorqueGain() {
+  Effect effect;
+  effect.name = "torque_gain";
+  effect.law = "tau = gain tau_given";
+  effect.shows = "any motion, against a robot whose masses are known";
+  effect.parameters = {
+      Linear("gain", "1", [](const EffectSite&) { return .05; })};
+  effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
+                    SimulatedRobot* robot) {
+    const double gain = p[0];
+    AddActuator(
+        site, [=](double commanded) { return commanded / (1 + gain); }, robot);
+  };
+  effect.experiment = "a known payload, held and moved";
+  return effect;
+}
+
+}  // namespace effects
+}  // namespace armcal

@@ -1,0 +1,24 @@
+#include "model/effects/effect_parts.h"
+
+namespace armcal {
+inline namespace effects {
+
+// logged = given + offset: an amplifier or torque sensor whose zero is off.
+Effect TorqueOffset() {
+  Effect effect;
+  effect.name = "torque_offset";
+  effect.law = "tau = offset";
+  effect.shows = "any motion, beside gravity that changes sign";
+  effect.parameters = {Linear("offset", "E", ShareOfTorque(.05))};
+  effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
+                    SimulatedRobot* robot) {
+    const double offset = p[0];
+    AddActuator(
+        site, [=](double commanded) { return commanded - offset; }, robot);
+  };
+  effect.experiment = "poses in which gravity does not load the joint";
+  return effect;
+}
+
+}  // namespace effects
+}  // namespace armcal

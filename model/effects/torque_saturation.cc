@@ -1,0 +1,44 @@
+#include <algorithm>
+
+#include "model/effects/effect_parts.h"
+
+namespace armcal {
+inline namespace effects {
+
+// given = commanded - share (commanded - clip(commanded, -limit, limit)), share
+// about 1: a current limit. What was asked beyond it shows in recorded torque
+// alone (Motion::torque); without that the effect is invisible, and with a
+// share far from 1 it is another effect.
+Effect TorqueSaturation() {
+  Effect effect;
+  effect.name = "torque_saturation";
+  effect.law = "tau = share (tau_logged - clip(tau_logged, limit))";
+  effect.shows = "torques beyond the limit";
+  effect.parameters = {Linear(
+                           "share", "1", [](const EffectSite&) { return 1.; },
+                           EffectParameter::Sign::kPositive),
+                       Gridded("limit", "E", [](const EffectSite& site) {
+                         return GeometricGrid(TorqueScale(site),
+                                              3 * TorqueScale(site), 6);
+                       })};
+  effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
+                    SimulatedRobot* robot) {
+    const double share = p[0], limit = p[1];
+    AddActuator(
+        site,
+        [=](double commanded) {
+          return commanded -
+                 share * (commanded - std::clamp(commanded, -limit, limit));
+        },
+        robot);
+  };
+  effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    return std::vector<EffectEstimate>{{"limit", UnitAt(site, "E"), p[1]},
+                                       {"share", "1", p[0]}};
+  };
+  effect.experiment = "slow and fast accelerations of the same motion";
+  return effect;
+}
+
+}  // namespace effects
+}  // namespace armcal
