@@ -21,6 +21,12 @@ struct BaselineColumn {
   int joint;      // or link; -1: all
   int index = 0;  // inertial parameter or JointTerm or shape
   double spread;  // SI units per prior standard deviation
+
+  // Whether it is one of the changes of friction near zero velocity that show
+  // where that is doubtful: half and twice the usual width.
+  bool IsZeroVelocityDoubt() const {
+    return kind == Kind::kZeroVelocity && (index == 1 || index == 2);
+  }
 };
 
 // The model that a gap is judged against: the robot, and how far each of its

@@ -62,8 +62,21 @@ class Proposals {
     for (double& x : f) x /= 2 * M_PI;
     return f;
   }
-  std::vector<TimeWindow> Windows(int* searched) const {
-    return StrongWindows(whitened_, t_, kDurations, kWindows, searched);
+  int num_logs() const {
+    return rows_.segments().empty() ? 0 : rows_.segments().back().log + 1;
+  }
+  std::vector<TimeWindow> Windows(int log, int* searched) const {
+    std::vector<int> samples;
+    for (size_t s = 0; s < rows_.segments().size(); ++s) {
+      if (rows_.segments()[s].log != log) continue;
+      const int part = static_cast<int>(s);
+      for (int k = rows_.thin_begin(part); k < rows_.thin_begin(part + 1);
+           ++k) {
+        samples.push_back(k);
+      }
+    }
+    return StrongWindows(whitened_(samples, Eigen::all), t_(samples),
+                         kDurations, kWindows, searched);
   }
 
  private:
@@ -73,60 +86,83 @@ class Proposals {
   VectorXd t_;
 };
 
-// All combinations of values of the nonlinear parameters.
-std::vector<VectorXd> Shapes(const Effect& effect, const EffectSite& site,
-                             const Proposals& proposals, int* tried) {
-  std::vector<VectorXd> shapes = {VectorXd::Zero(effect.parameters.size())};
-  *tried = 1;
-  const auto expand = [&](int k, const std::vector<double>& values) {
-    std::vector<VectorXd> more;
-    for (const VectorXd& shape : shapes) {
-      for (const double value : values) {
-        more.push_back(shape);
-        more.back()[k] = value;
+// What the nonlinear parameters of an effect may be.
+struct Shape {
+  VectorXd p;
+  int log = -1;
+};
+
+std::vector<Shape> Expand(const std::vector<Shape>& shapes, int k,
+                          const std::vector<double>& values) {
+  std::vector<Shape> more;
+  for (const Shape& shape : shapes) {
+    for (const double value : values) {
+      more.push_back(shape);
+      more.back().p[k] = value;
+    }
+  }
+  return more;
+}
+
+// At the times that stand out, in the log they are of.
+std::vector<Shape> AtTimes(const Effect& effect, const Proposals& proposals,
+                           const std::vector<Shape>& shapes, int* tried) {
+  std::vector<Shape> windows;
+  int all = 0;
+  for (int log = 0; log < proposals.num_logs(); ++log) {
+    int searched = 0;
+    for (const TimeWindow& window : proposals.Windows(log, &searched)) {
+      for (Shape shape : shapes) {
+        for (size_t k = 0; k < effect.parameters.size(); ++k) {
+          const Search search = effect.parameters[k].search;
+          if (search == Search::kTime) shape.p[k] = window.centre;
+          if (search == Search::kDuration) shape.p[k] = window.duration / 2;
+        }
+        shape.log = log;
+        windows.push_back(shape);
       }
     }
-    shapes = std::move(more);
-  };
-  int time = -1, duration = -1;
+    all += searched;
+  }
+  *tried *= std::max(1, all);
+  return windows;
+}
+
+// All combinations of values of the nonlinear parameters.
+std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
+                          const Proposals& proposals, int* tried) {
+  // Frequencies that a search passes.
+  constexpr int kHarmonics = 200, kFrequencies = 400;
+  std::vector<Shape> shapes = {{VectorXd::Zero(effect.parameters.size())}};
+  *tried = 1;
+  bool happens_once = false;
   for (size_t i = 0; i < effect.parameters.size(); ++i) {
     const int k = static_cast<int>(i);
     const EffectParameter& parameter = effect.parameters[i];
     switch (parameter.search) {
       case Search::kLinear:
         break;
-      case Search::kGrid:
-        expand(k, parameter.grid(site));
-        *tried *= static_cast<int>(parameter.grid(site).size());
+      case Search::kGrid: {
+        const std::vector<double> grid = parameter.grid(site);
+        shapes = Expand(shapes, k, grid);
+        *tried *= static_cast<int>(grid.size());
         break;
+      }
       case Search::kPositionFrequency:
-        expand(k, proposals.Harmonics(site.joint));
-        *tried *= 200;
+        shapes = Expand(shapes, k, proposals.Harmonics(site.joint));
+        *tried *= kHarmonics;
         break;
       case Search::kTimeFrequency:
-        expand(k, proposals.Frequencies(site.joint));
-        *tried *= 400;
+        shapes = Expand(shapes, k, proposals.Frequencies(site.joint));
+        *tried *= kFrequencies;
         break;
       case Search::kTime:
-        time = k;
-        break;
       case Search::kDuration:
-        duration = k;
+        happens_once = true;
         break;
     }
   }
-  if (time < 0) return shapes;
-  int searched = 0;
-  std::vector<VectorXd> windows;
-  for (const TimeWindow& window : proposals.Windows(&searched)) {
-    for (VectorXd shape : shapes) {
-      shape[time] = window.centre;
-      if (duration >= 0) shape[duration] = window.duration;
-      windows.push_back(shape);
-    }
-  }
-  *tried *= std::max(1, searched);
-  return windows;
+  return happens_once ? AtTimes(effect, proposals, shapes, tried) : shapes;
 }
 
 void AddCandidates(const Effect& effect, const EffectSite& site,
@@ -134,11 +170,12 @@ void AddCandidates(const Effect& effect, const EffectSite& site,
                    std::vector<GapCandidate>* candidates) {
   if (effect.unfit && !effect.unfit(site).empty()) return;
   int tried = 1;
-  for (const VectorXd& shape : Shapes(effect, site, proposals, &tried)) {
+  for (const Shape& shape : Shapes(effect, site, proposals, &tried)) {
     GapCandidate candidate;
     candidate.effect = &effect;
     candidate.joint = site.joint;
-    candidate.p = shape;
+    candidate.p = shape.p;
+    candidate.log = shape.log;
     candidate.tried = tried;
     for (size_t k = 0; k < effect.parameters.size(); ++k) {
       if (effect.parameters[k].search != Search::kLinear) continue;
@@ -230,6 +267,7 @@ std::vector<JointRows> CandidateRows(const GapCandidate& candidate,
     std::vector<VectorXd> thin(n, VectorXd::Zero(rows.num_thin()));
     std::vector<bool> any(n, false);
     for (size_t s = 0; s < torques->size(); ++s) {
+      if (!candidate.IsIn(rows.segments()[s].log)) continue;
       SimulatedRobot changed;
       changed.robot = baseline.robot();
       candidate.effect->apply({&baseline.robot(), candidate.joint, &scale}, p,

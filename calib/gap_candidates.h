@@ -19,7 +19,9 @@ struct GapCandidate {
   std::vector<int> linear;   // entries of p
   Eigen::VectorXd size;      // of the linear ones: their column's unit
   std::vector<int> columns;  // of the screen, in the order of `linear`
-  int tried = 1;             // shapes of the same effect at the same place
+  int log = -1;   // the one it happened in, of what happens once; -1: all
+  int tried = 1;  // shapes of the same effect at the same place
+  bool IsIn(int other_log) const { return log < 0 || log == other_log; }
   std::string place() const;
 };
 

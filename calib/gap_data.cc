@@ -5,6 +5,9 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Of one prior standard deviation of the ways through zero velocity.
+constexpr double kDoubt = .15;
+
 GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
                  double bandwidth_hz, LogPart part)
     : segments_(std::move(segments)),
@@ -18,6 +21,21 @@ GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
     residual_.middleRows(rows_->thin_begin(part), thin.rows()) = thin;
   }
   columns_ = baseline.ThinColumns(*rows_, torques_);
+  doubt_ = MatrixXd::Zero(residual_.rows(), residual_.cols());
+  for (int c = 0; c < baseline.size(); ++c) {
+    const BaselineColumn& column = baseline.columns()[c];
+    if (!column.IsZeroVelocityDoubt()) continue;
+    auto doubt = doubt_.col(column.joint);
+    doubt = doubt.cwiseMax(kDoubt * columns_[column.joint].col(c).cwiseAbs());
+  }
+}
+
+std::vector<MatrixXd> GapData::FineResidual() const {
+  std::vector<MatrixXd> residual;
+  for (size_t s = 0; s < segments_.size(); ++s) {
+    residual.push_back(segments_[s].tau - torques_[s].nominal());
+  }
+  return residual;
 }
 
 MatrixXd GapData::ResidualWith(const VectorXd& x) const {
@@ -29,7 +47,7 @@ MatrixXd GapData::ResidualWith(const VectorXd& x) const {
 }
 
 void GapData::SetNoise(std::vector<Autoregression> noise) {
-  rows_->SetNoise(std::move(noise));
+  rows_->SetNoise(std::move(noise), doubt_);
 }
 
 std::vector<MatrixXd> GapData::WhitenedColumns() const {

@@ -26,11 +26,15 @@ class GapData {
   const std::vector<RecordedTorque>& torques() const { return torques_; }
   // Recorded minus nominal torque, thinned samples x n, N m or N.
   const Eigen::MatrixXd& residual() const { return residual_; }
+  // The same on the segments' own grids.
+  std::vector<Eigen::MatrixXd> FineResidual() const;
   // Per joint, thinned samples x baseline size.
   const std::vector<Eigen::MatrixXd>& columns() const { return columns_; }
   // What the baseline at x leaves.
   Eigen::MatrixXd ResidualWith(const Eigen::VectorXd& x) const;
 
+  // Friction near zero velocity is doubted beyond what the baseline's columns
+  // can vary: laws differ, and encoders do not see slow creep.
   void SetNoise(std::vector<Autoregression> noise);
   // Whitened, per joint.
   std::vector<Eigen::MatrixXd> WhitenedColumns() const;
@@ -42,6 +46,7 @@ class GapData {
   std::vector<RecordedTorque> torques_;
   Eigen::MatrixXd residual_;
   std::vector<Eigen::MatrixXd> columns_;
+  Eigen::MatrixXd doubt_;
 };
 
 // rms of the recorded torque, n entries.

@@ -37,7 +37,7 @@ VectorXd RefitBaseline(const GapData& data) {
 GapNoise NoiseOf(GapData* data) {
   data->SetNoise(WhiteNoise(data->residual()));
   const VectorXd x = RefitBaseline(*data);
-  return EstimateGapNoise(data->rows(), data->residual(),
+  return EstimateGapNoise(data->rows(), data->FineResidual(),
                           data->ResidualWith(x));
 }
 
@@ -63,10 +63,9 @@ std::vector<bool> Moves(const GapRows& rows, int j) {
 MatrixXd Squares(const GapRows& rows, const MatrixXd& residual) {
   MatrixXd squares = residual.cwiseAbs2();
   for (int j = 0; j < residual.cols(); ++j) {
-    const double sigma = rows.noise(j).stddev();
-    squares.col(j) /= sigma * sigma;
     const std::vector<bool> moves = Moves(rows, j);
     for (int k = 0; k < residual.rows(); ++k) {
+      squares(k, j) /= rows.variance(j, k);
       if (!moves[k]) squares(k, j) = std::numeric_limits<double>::quiet_NaN();
     }
   }
@@ -78,18 +77,21 @@ class Diagnoser {
   Diagnoser(const Robot& robot, const DiagnosisOptions& options,
             LogSet* training, LogSet* validation, LogSet* reference)
       : robot_(robot), options_(options) {
-    std::vector<GapSegment> segments = ReadSegments(options.progress, training);
+    std::vector<GapSegment> segments =
+        ReadSegments(options.bandwidth_hz, options.progress, training);
     baseline_.emplace(robot, options.baseline, UsualTorque(segments));
-    const bool split = validation == nullptr;
-    if (split) held_out_ = Data(segments, LogPart::kHeldOut);
-    data_ = Data(segments, split ? LogPart::kFitted : LogPart::kAll);
-    if (!split) {
+    split_ = validation == nullptr;
+    if (split_) held_out_ = Data(segments, LogPart::kHeldOut);
+    data_ = Data(segments, split_ ? LogPart::kFitted : LogPart::kAll);
+    if (!split_) {
       held_out_ =
-          Data(ReadSegments(options.progress, validation), LogPart::kAll);
+          Data(ReadSegments(options.bandwidth_hz, options.progress, validation),
+               LogPart::kAll);
     }
     if (reference != nullptr) {
       reference_ =
-          Data(ReadSegments(options.progress, reference), LogPart::kAll);
+          Data(ReadSegments(options.bandwidth_hz, options.progress, reference),
+               LogPart::kAll);
     }
   }
 
@@ -125,6 +127,7 @@ class Diagnoser {
 
   const Robot& robot_;
   const DiagnosisOptions& options_;
+  bool split_ = false;  // what is held out is of the same logs
   std::optional<GapBaseline> baseline_;
   std::unique_ptr<GapData> data_, held_out_, reference_;
   GapNoise noise_;
@@ -236,8 +239,8 @@ void Diagnoser::Shrink() {
   squares.refit = Squares(rows, held_out_->ResidualWith(refit_));
   MatrixXd after = held_out_->ResidualWith(refined_.baseline);
   if (!refined_.effects.empty()) {
-    after -=
-        EffectTorque(*baseline_, scale_, refined_.effects, held_out_.get());
+    after -= EffectTorque(*baseline_, scale_, refined_.effects, !split_,
+                          held_out_.get());
   }
   squares.after = Squares(rows, after);
   result_.torque = ShrinkFigures(squares, options_.seed);

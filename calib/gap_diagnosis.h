@@ -108,7 +108,7 @@ struct GapDiagnosis {
 // Diagnoses the gap between `robot` and the training logs; figures are of the
 // validation logs, or of parts of the training logs that are held out where
 // there are none. `reference`: logs of the robot before, which the baseline is
-// fitted to as well; null: none. Logs are prepared with the bandwidth.
+// fitted to as well; null: none.
 GapDiagnosis DiagnoseGap(const Robot& robot, const DiagnosisOptions& options,
                          LogSet* training, LogSet* validation,
                          LogSet* reference);

@@ -1,6 +1,8 @@
 #include "calib/gap_noise.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "calib/repeated_motion.h"
@@ -19,19 +21,66 @@ int CountRows(const std::vector<VectorXd>& stretches) {
   return rows;
 }
 
-// Of one joint, what differs from one repeat to the next, over root 2.
-std::vector<VectorXd> RepeatDifferences(const GapRows& rows, int joint,
-                                        const VectorXd& residual,
-                                        const std::vector<int>& lags) {
-  std::vector<VectorXd> stretches;
-  for (const GapRows::Run& run : rows.runs(joint)) {
-    const int lag = lags[run.segment];
-    if (lag == 0 || run.size <= lag) continue;
-    stretches.push_back((residual.segment(run.begin + lag, run.size - lag) -
-                         residual.segment(run.begin, run.size - lag)) /
-                        std::sqrt(2));
+// Lag of the motion's repeats in fine samples; 0: none. A log begins and ends
+// with what does not repeat: a start, a stop, a rest.
+int RepeatLag(const Motion& motion) {
+  constexpr double kShortestPeriod = 2;  // s
+  constexpr double kEnds = .12;          // of the log, at both ends
+  const int skip = static_cast<int>(kEnds * motion.size());
+  const int size = motion.size() - 2 * skip;
+  const RecordedMotion recorded{
+      VectorXd::LinSpaced(size, 0, (size - 1) * motion.dt),
+      motion.q.middleRows(skip, size)};
+  const auto lag = FindRepeat(recorded, recorded, kShortestPeriod);
+  return lag ? static_cast<int>(std::lround(*lag / motion.dt)) : 0;
+}
+
+// Whether the motion at each sample is that of `lag` samples later.
+std::vector<bool> Repeats(const Motion& motion, int lag) {
+  constexpr double kTolerance = .01;  // of a joint's rms position and velocity
+  const auto usual = [](const MatrixXd& x) -> Eigen::RowVectorXd {
+    return (x.colwise().squaredNorm() / x.rows()).cwiseSqrt();
+  };
+  const Eigen::RowVectorXd q =
+      kTolerance * usual(motion.q.rowwise() - motion.q.colwise().mean());
+  const Eigen::RowVectorXd qd = 3 * kTolerance * usual(motion.qd);
+  std::vector<bool> repeats(motion.size(), false);
+  for (int k = 0; k + lag < motion.size(); ++k) {
+    repeats[k] = ((motion.q.row(k + lag) - motion.q.row(k)).array().abs() <
+                  q.array() + 5e-4)
+                     .all() &&
+                 ((motion.qd.row(k + lag) - motion.qd.row(k)).array().abs() <
+                  qd.array() + 5e-3)
+                     .all();
   }
-  return stretches;
+  return repeats;
+}
+
+// What differs from one repeat to the next over root 2, thinned, all segments;
+// rows that have no repeat are NaN.
+MatrixXd RepeatDifferences(const GapRows& rows,
+                           const std::vector<MatrixXd>& residual) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  MatrixXd all = MatrixXd::Constant(rows.num_thin(), rows.num_joints(), kNone);
+  for (size_t i = 0; i < residual.size(); ++i) {
+    const int s = static_cast<int>(i);
+    const Motion& motion = rows.segments()[i].motion;
+    const int lag = RepeatLag(motion);
+    if (lag == 0) continue;
+    const int size = motion.size() - lag;
+    MatrixXd fine = MatrixXd::Zero(motion.size(), motion.num_joints());
+    fine.topRows(size) =
+        (residual[i].bottomRows(size) - residual[i].topRows(size)) /
+        std::sqrt(2);
+    MatrixXd known(motion.size(), 1);
+    const std::vector<bool> repeats = Repeats(motion, lag);
+    for (int k = 0; k < motion.size(); ++k) known(k, 0) = repeats[k];
+    const MatrixXd thin = rows.Thin(s, fine), pick = rows.Pick(s, known);
+    for (int k = 0; k < thin.rows(); ++k) {
+      if (pick(k, 0) > 0) all.row(rows.thin_begin(s) + k) = thin.row(k);
+    }
+  }
+  return all;
 }
 
 std::vector<VectorXd> Stretches(const std::vector<GapRows::Run>& runs,
@@ -41,6 +90,21 @@ std::vector<VectorXd> Stretches(const std::vector<GapRows::Run>& runs,
     stretches.push_back(residual.segment(run.begin, run.size));
   }
   return stretches;
+}
+
+// The parts of stretches that are known.
+std::vector<VectorXd> Known(const std::vector<VectorXd>& stretches) {
+  std::vector<VectorXd> parts;
+  for (const VectorXd& x : stretches) {
+    for (int begin = 0, k = 0; k <= x.size(); ++k) {
+      if (k < x.size() && !std::isnan(x[k])) continue;
+      if (k > begin + Autoregression::kOrder) {
+        parts.push_back(x.segment(begin, k - begin));
+      }
+      begin = k + 1;
+    }
+  }
+  return parts;
 }
 
 }  // namespace
@@ -57,35 +121,26 @@ const char* NoiseFloorName(NoiseFloor source) {
   return "";
 }
 
-int RepeatLag(const GapRows& rows, int segment) {
-  const Motion& motion = rows.segments()[segment].motion;
-  RecordedMotion recorded;
-  recorded.q = rows.Pick(segment, motion.q);
-  recorded.t.resize(recorded.q.rows());
-  for (int k = 0; k < recorded.t.size(); ++k) {
-    recorded.t[k] = k * rows.step(segment);
-  }
-  constexpr double kShortestPeriod = 2;  // s
-  const auto lag = FindRepeat(recorded, recorded, kShortestPeriod);
-  return lag ? static_cast<int>(std::lround(*lag / rows.step(segment))) : 0;
-}
-
-GapNoise EstimateGapNoise(const GapRows& rows, const MatrixXd& residual,
+GapNoise EstimateGapNoise(const GapRows& rows,
+                          const std::vector<MatrixXd>& residual,
                           const MatrixXd& assumed) {
   const int n = rows.num_joints();
-  std::vector<int> lags;
-  for (size_t s = 0; s < rows.segments().size(); ++s) {
-    lags.push_back(RepeatLag(rows, static_cast<int>(s)));
+  const MatrixXd differences = RepeatDifferences(rows, residual);
+  MatrixXd thin(rows.num_thin(), n);
+  for (size_t i = 0; i < residual.size(); ++i) {
+    const int s = static_cast<int>(i);
+    const MatrixXd part = rows.Thin(s, residual[i]);
+    thin.middleRows(rows.thin_begin(s), part.rows()) = part;
   }
   GapNoise noise;
   noise.source = NoiseFloor::kRepeats;
   for (int j = 0; j < n; ++j) {
-    const auto repeats = RepeatDifferences(rows, j, residual.col(j), lags);
+    const auto repeats = Known(Stretches(rows.runs(j), differences.col(j)));
     if (CountRows(repeats) >= kLeastRows) {
       noise.joints.push_back(FitAutoregression(repeats, false));
       continue;
     }
-    const auto still = Stretches(rows.still_runs(j), residual.col(j));
+    const auto still = Stretches(rows.still_runs(j), thin.col(j));
     if (CountRows(still) >= kLeastRows) {
       noise.joints.push_back(FitAutoregression(still, true));
       noise.source = std::max(noise.source, NoiseFloor::kStandstill);

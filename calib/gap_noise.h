@@ -21,13 +21,12 @@ struct GapNoise {
   NoiseFloor source = NoiseFloor::kAssumed;
 };
 
-// Noise of `residual` (thinned samples x n; of any model, since it only takes
-// differences and standstill): from repeats where the motion has them, else
-// from standstill. Joints with neither are left to `assumed` (n).
-GapNoise EstimateGapNoise(const GapRows& rows, const Eigen::MatrixXd& residual,
+// Noise of `residual` (per segment, fine samples x n; of any model, since only
+// differences and standstill are looked at): from repeats where the motion has
+// them, else from standstill. Joints with neither are left to `assumed`
+// (thinned samples x n).
+GapNoise EstimateGapNoise(const GapRows& rows,
+                          const std::vector<Eigen::MatrixXd>& residual,
                           const Eigen::MatrixXd& assumed);
-
-// Lag of the motion's repeats in thinned samples of a segment; 0: none.
-int RepeatLag(const GapRows& rows, int segment);
 
 }  // namespace armcal

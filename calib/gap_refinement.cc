@@ -122,7 +122,7 @@ class ProjectedResidual {
     return effects;
   }
   JointRows Torque(const double* u) const {
-    const MatrixXd thin = EffectTorque(baseline_, scale_, At(u), data_);
+    const MatrixXd thin = EffectTorque(baseline_, scale_, At(u), false, data_);
     JointRows rows(thin.cols());
     for (int j = 0; j < thin.cols(); ++j) {
       rows[j] = data_->rows().Whiten(j, thin.col(j));
@@ -219,17 +219,19 @@ MatrixXd Spread(const std::vector<GapCandidate>& effects,
 }  // namespace
 
 MatrixXd EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
-                      const std::vector<GapCandidate>& effects, GapData* data) {
+                      const std::vector<GapCandidate>& effects, bool other_logs,
+                      GapData* data) {
   const GapRows& rows = data->rows();
   MatrixXd thin(rows.num_thin(), rows.num_joints());
-  SimulatedRobot changed;
-  changed.robot = baseline.robot();
-  for (const GapCandidate& effect : effects) {
-    effect.effect->apply({&baseline.robot(), effect.joint, &scale}, effect.p,
-                         &changed);
-  }
   for (size_t s = 0; s < rows.segments().size(); ++s) {
-    const int part = static_cast<int>(s);
+    const int part = static_cast<int>(s), log = rows.segments()[s].log;
+    SimulatedRobot changed;
+    changed.robot = baseline.robot();
+    for (const GapCandidate& effect : effects) {
+      if (other_logs ? effect.log >= 0 : !effect.IsIn(log)) continue;
+      effect.effect->apply({&baseline.robot(), effect.joint, &scale}, effect.p,
+                           &changed);
+    }
     const MatrixXd torque =
         rows.Thin(part, (*data->mutable_torques())[s].Change(changed));
     thin.middleRows(rows.thin_begin(part), torque.rows()) = torque;

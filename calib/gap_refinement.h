@@ -28,9 +28,10 @@ RefinedEffects RefineEffects(const GapScreen& screen,
                              std::vector<GapCandidate> effects, GapData* data);
 
 // What effects with these parameters add to the torque: thinned samples x n.
+// What happened once is not in other logs than those it was found in.
 Eigen::MatrixXd EffectTorque(const GapBaseline& baseline,
                              const MotionScale& scale,
                              const std::vector<GapCandidate>& effects,
-                             GapData* data);
+                             bool other_logs, GapData* data);
 
 }  // namespace armcal

@@ -104,9 +104,18 @@ MatrixXd GapRows::Thin(int segment, const MatrixXd& signal) const {
                                bandwidth_hz_));
 }
 
-void GapRows::SetNoise(std::vector<Autoregression> noise) {
+void GapRows::SetNoise(std::vector<Autoregression> noise,
+                       const MatrixXd& doubt) {
   CHECK_EQ(static_cast<int>(noise.size()), num_joints());
+  CHECK_EQ(doubt.rows(), num_thin());
   noise_ = std::move(noise);
+  variance_ = doubt.cwiseAbs2();
+  weight_.resize(num_thin(), num_joints());
+  for (int j = 0; j < num_joints(); ++j) {
+    const double own = std::pow(noise_[j].stddev(), 2);
+    variance_.col(j).array() += own;
+    weight_.col(j) = (own / variance_.col(j).array()).sqrt();
+  }
 }
 
 int GapRows::num_rows(int joint) const {
@@ -128,6 +137,9 @@ MatrixXd GapRows::Whiten(int joint, const MatrixXd& thin) const {
   for (const Run& run : runs_[joint]) {
     const int size = run.size - Autoregression::kOrder;
     rows.middleRows(at, size) =
+        weight_.col(joint)
+            .segment(run.begin + Autoregression::kOrder, size)
+            .asDiagonal() *
         noise_[joint].Whiten(thin.middleRows(run.begin, run.size));
     at += size;
   }

@@ -49,8 +49,15 @@ class GapRows {
     return still_runs_[joint];
   }
 
-  void SetNoise(std::vector<Autoregression> noise);
+  // `doubt`: standard deviation of what else may be wrong with single samples
+  // (thinned samples x n, N m or N); rows count the less.
+  void SetNoise(std::vector<Autoregression> noise,
+                const Eigen::MatrixXd& doubt);
   const Autoregression& noise(int joint) const { return noise_[joint]; }
+  // Variance of a thinned sample: of the noise and the doubt.
+  double variance(int joint, int sample) const {
+    return variance_(sample, joint);
+  }
   int num_rows(int joint) const;
   int num_rows() const;
   // Whitened rows of thinned signals (num_thin() x any).
@@ -71,6 +78,7 @@ class GapRows {
   std::vector<int> thin_begin_;  // per segment, and the end
   std::vector<std::vector<Run>> runs_, still_runs_;
   std::vector<Autoregression> noise_;
+  Eigen::MatrixXd variance_, weight_;  // thinned samples x n
 };
 
 }  // namespace armcal

@@ -10,7 +10,8 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr double kShortest = 2;  // s
+constexpr double kShortest = 2;         // s
+constexpr double kMotionBandwidth = 3;  // of the torque's
 
 void AppendRows(const MatrixXd& rows, MatrixXd* to) {
   const Eigen::Index before = to->rows();
@@ -47,7 +48,9 @@ void FindStillJoints(GapSegment* segment) {
 
 }  // namespace
 
-std::vector<GapSegment> ReadSegments(const Progress& progress, LogSet* logs) {
+std::vector<GapSegment> ReadSegments(double bandwidth_hz,
+                                     const Progress& progress, LogSet* logs) {
+  logs->Prepare(kMotionBandwidth * bandwidth_hz, 0, true, .25 / bandwidth_hz);
   std::vector<GapSegment> segments;
   int log = -1, part = -1;
   logs->ForEach("reading the logs", progress,

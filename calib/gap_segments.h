@@ -22,7 +22,10 @@ struct GapSegment {
 };
 
 // The segments of the logs, in order; those shorter than 2 s are left out.
-// The logs are prepared with a bandwidth.
-std::vector<GapSegment> ReadSegments(const Progress& progress, LogSet* logs);
+// Motion is low-passed at three times the bandwidth of the torque residual:
+// what is computed from it passes that filter again, as the torque does, and
+// must not have been bent below it.
+std::vector<GapSegment> ReadSegments(double bandwidth_hz,
+                                     const Progress& progress, LogSet* logs);
 
 }  // namespace armcal

@@ -15,7 +15,9 @@ LogSet::LogSet(const std::vector<std::string>& paths,
   }
 }
 
-void LogSet::Prepare(double bandwidth_hz, double reach_s, bool remove_spikes) {
+void LogSet::Prepare(double bandwidth_hz, double reach_s, bool remove_spikes,
+                     double longest_gap_s) {
+  options_.longest_gap_s = longest_gap_s;
   options_.bandwidth_hz = bandwidth_hz;
   options_.reach_s = reach_s;
   options_.remove_spikes = remove_spikes;

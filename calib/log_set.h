@@ -31,8 +31,10 @@ class LogSet {
   const std::string& torque_source() const { return torque_source_; }
 
   // Sets how trajectories are made; before ForEach. Spikes of the torque are
-  // replaced or kept, and no outliers are known.
-  void Prepare(double bandwidth_hz, double reach_s, bool remove_spikes = true);
+  // replaced or kept, and no outliers are known. Longest gap as in
+  // TrajectoryOptions.
+  void Prepare(double bandwidth_hz, double reach_s, bool remove_spikes = true,
+               double longest_gap_s = 0);
   double bandwidth_hz() const { return options_.bandwidth_hz; }
   // From now on these torque samples are replaced, and none but these.
   void TakeOut(OutlierLists outliers) { outliers_ = std::move(outliers); }

@@ -19,12 +19,18 @@ constexpr double kNoise = 5e-4;          // rad or m: encoders, tracking
 constexpr double kLeastMotion = 0.02;    // rad or m, rms
 constexpr double kLeastActivity = 0.25;  // of the mean square speed
 
+// On the grid of the search, linear between samples: where a fast joint was at
+// the nearest sample differs by more than a repeat does.
 MatrixXd EverySteps(const RecordedMotion& motion) {
   const double length = motion.t[motion.t.size() - 1] - motion.t[0];
   MatrixXd q(static_cast<Index>(length / kStep) + 1, motion.q.cols());
+  Index at = 0;
   for (Index k = 0; k < q.rows(); ++k) {
-    q.row(k) = motion.q.row(
-        NearestSample(motion.t, motion.t[0] + static_cast<double>(k) * kStep));
+    const double t = motion.t[0] + static_cast<double>(k) * kStep;
+    while (at + 2 < motion.t.size() && motion.t[at + 1] <= t) ++at;
+    const double step = motion.t[at + 1] - motion.t[at];
+    const double share = step > 0 ? (t - motion.t[at]) / step : 0;
+    q.row(k) = (1 - share) * motion.q.row(at) + share * motion.q.row(at + 1);
   }
   return q;
 }

@@ -61,6 +61,7 @@ struct TrajectoryReader::Impl {
     if (bandwidth > 0) {
       largest_step = std::max(largest_step, 0.25 / bandwidth);
     }
+    largest_step = std::max(largest_step, options.longest_gap_s);
   }
 
   // Reads samples of the current segment until grid point `index` is within

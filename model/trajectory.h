@@ -54,6 +54,9 @@ struct TrajectoryOptions {
   // bandwidth is 0.
   const std::vector<TorqueOutlier>* outliers = nullptr;
   bool remove_spikes = true;
+  // The longest step between samples that is interpolated, s; 0: three steps,
+  // or a quarter period of the bandwidth where that is longer.
+  double longest_gap_s = 0;
   // No thinning, and the torque also sample by sample.
   bool every_sample = false;
 };
@@ -65,8 +68,8 @@ struct TrajectoryOptions {
 double DefaultBandwidth(const std::vector<TimeBase>& time_bases);
 
 // Cuts a log into trajectories of bounded length, so that a log of any length
-// needs the same memory. A gap longer than three steps and than a quarter
-// period of the bandwidth ends a segment; shorter ones are interpolated.
+// needs the same memory. A gap longer than longest_gap_s ends a segment;
+// shorter ones are interpolated.
 class TrajectoryReader {
  public:
   // `time_base` is the log's, of AuditTimeBase. Throws InputError.

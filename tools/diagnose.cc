@@ -31,12 +31,15 @@ int RunDiagnose() {
   options.baseline.trust = FLAGS_trust;
   options.bandwidth_hz =
       BandwidthFromFlags().value_or(DefaultBandwidth(training.time_bases()));
-  training.Prepare(options.bandwidth_hz, 0);
   std::unique_ptr<LogSet> reference, validation;
   if (!FLAGS_reference.empty()) {
     reference = std::make_unique<LogSet>(SplitAtCommas(FLAGS_reference),
                                          log_options, TimeRange());
-    reference->Prepare(options.bandwidth_hz, 0);
+  }
+  const std::vector<std::string> held_out = ValidationLogsFromFlags();
+  if (!held_out.empty()) {
+    validation = std::make_unique<LogSet>(held_out, log_options,
+                                          ValidationCropFromFlags());
   }
   const GapDiagnosis diagnosis =
       DiagnoseGap(robot, options, &training, validation.get(), reference.get());
