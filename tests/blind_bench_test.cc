@@ -15,9 +15,8 @@ namespace {
 
 BlindCase RichCase(const std::string& arm) {
   for (uint64_t seed = 0;; ++seed) {
-    BlindCase blind = DrawBlindCase(seed);
-    if (blind.arm != arm || blind.excitation != Excitation::kRich) continue;
-    if (blind.points) continue;
+    BlindCase blind = DrawBlindCase(seed, PlanCase(Stratum::kNoneRich, 0));
+    if (blind.arm != arm || blind.points) continue;
     blind.has_reference = false;
     blind.training_s = 12;
     return blind;
@@ -47,33 +46,29 @@ TEST(BlindBench, SetsShareNoSeed) {
 }
 
 TEST(BlindBench, CasesAreAsVariedAsTheyShouldBe) {
-  std::set<std::string> arms, excitations;
-  int none = 0, two = 0, unknown = 0;
-  std::set<std::string> effects;
-  for (uint64_t seed = 0; seed < 1000; ++seed) {
-    const BlindCase blind = DrawBlindCase(seed);
+  std::set<std::string> arms, joints;
+  int references = 0, points = 0;
+  constexpr int kCases = 400;
+  for (uint64_t seed = 0; seed < kCases; ++seed) {
+    const BlindCase blind =
+        DrawBlindCase(seed, PlanCase(Stratum::kOne, seed % 8));
     arms.insert(blind.arm);
-    excitations.insert(ExcitationName(blind.excitation));
-    none += blind.effects.empty();
-    two += blind.effects.size() == 2;
-    for (const ChosenEffect& effect : blind.effects) {
-      effects.insert(effect.kind->name);
-      unknown += !effect.kind->in_catalogue;
-    }
+    references += blind.has_reference;
+    points += blind.points;
+    EXPECT_EQ(blind.effects[0].kind, blind.plan.effect);
+    joints.insert(blind.arm + std::to_string(blind.effects[0].joint));
   }
   EXPECT_EQ(arms.size(), BlindArmNames().size());
-  EXPECT_EQ(excitations.size(), 4u);
-  EXPECT_EQ(effects.size(), HiddenEffects().size());
-  EXPECT_NEAR(none, 200, 50);
-  EXPECT_NEAR(two, 200, 50);
-  EXPECT_NEAR(unknown, 200, 50);
+  EXPECT_EQ(joints.size(), 4u + 3 + 6 + 6 + 7);  // each of each arm
+  EXPECT_NEAR(references, .4 * kCases, 40);
+  EXPECT_NEAR(points, .25 * kCases, 40);
 }
 
 TEST(BlindBench, SameSeedSameBytes) {
   const uint64_t seed = BlindCaseSeed(BlindSet::kCalibration, 9, 4);
   std::string texts[2];
   for (std::string& text : texts) {
-    const BlindCase blind = DrawBlindCase(seed);
+    const BlindCase blind = DrawBlindCase(seed, PlanCase(Stratum::kTwo, 3));
     text = blind.robot_yaml +
            LogText(RunScenario(BlindScenario(blind, BlindLog::kValidation,
                                              blind.effects))
