@@ -108,7 +108,7 @@ MatrixXd FileError(const BlindCase& blind, const PlantMotion& motion) {
 
 std::optional<ModelResidual> SimulateResidual(const BlindCase& blind,
                                               const Scenario& scenario) {
-  const ScenarioRun run = RunScenario(scenario);
+  const ScenarioRun run = RunScenario(scenario, ScenarioEngine::kRigidArm);
   if (!Follows(run.run)) return std::nullopt;
   const PlantMotion motion = MotionOf(run.run.log);
   const MatrixXd model =
