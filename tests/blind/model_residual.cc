@@ -14,6 +14,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kBandwidthHz = 10;
+// Of the motion that the model is given: friction changes sign within 50 ms,
+// and a velocity slower than that would leave torques several times the noise.
+constexpr double kMotionBandwidthHz = 40;
 
 // Coulomb friction as the plant has it, per unit of its size.
 double Coulomb(double v, double width) { return v / std::hypot(v, width); }
@@ -41,8 +44,8 @@ PlantMotion MotionOf(const Log& log) {
   };
   PlantMotion motion;
   motion.rate = SensorOptions().log_rate_hz;
-  motion.q =
-      ZeroPhaseLowPass(log.q, motion.rate, kBandwidthHz, Ends::kExtrapolate);
+  motion.q = ZeroPhaseLowPass(log.q, motion.rate, kMotionBandwidthHz,
+                              Ends::kExtrapolate);
   motion.qd = rate(motion.q);
   motion.qdd = rate(motion.qd);
   return motion;
