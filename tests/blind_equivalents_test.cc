@@ -62,7 +62,7 @@ TEST(Equivalents, HoldBothWaysOnTheirArm) {
                      "b": {"effect": "link_inertia", "joint_index": 1},
                      "cosine": 0.99}]})",
       "equivalents.json"));
-  const PlacedEffect armature{"armature", 1}, link{"link_inertia", 1};
+  const NamedEffect armature{"armature", 1}, link{"link_inertia", 1};
   EXPECT_TRUE(equivalents.Hold("scara", armature, link));
   EXPECT_TRUE(equivalents.Hold("scara", link, armature));
   EXPECT_FALSE(equivalents.Hold("puma", link, armature));

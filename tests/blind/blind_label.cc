@@ -17,13 +17,13 @@ std::optional<double> Figure(const json& object, const char* key) {
   return object.at(key).get<double>();
 }
 
-PlacedEffect Placed(const json& entry) {
+NamedEffect Placed(const json& entry) {
   return {entry.at("effect").get<std::string>(),
           entry.at("joint_index").get<int>()};
 }
 
-std::vector<PlacedEffect> PlacedList(const json& object, const char* key) {
-  std::vector<PlacedEffect> list;
+std::vector<NamedEffect> PlacedList(const json& object, const char* key) {
+  std::vector<NamedEffect> list;
   if (!object.contains(key)) return list;
   for (const json& entry : object.at(key)) list.push_back(Placed(entry));
   return list;
@@ -115,7 +115,7 @@ auto Checked(const std::string& path, const Read& read) {
 
 }  // namespace
 
-std::string PlacedEffect::Text() const {
+std::string NamedEffect::Text() const {
   return joint_index == 0 ? effect : effect + "@" + std::to_string(joint_index);
 }
 

@@ -7,13 +7,13 @@
 namespace armcal {
 
 // An effect and where: joints from 1, 0 for all or the whole robot.
-struct PlacedEffect {
+struct NamedEffect {
   std::string effect;
   int joint_index = 0;
 
   std::string Text() const;  // "stribeck@2"
 };
-inline bool operator==(const PlacedEffect& a, const PlacedEffect& b) {
+inline bool operator==(const NamedEffect& a, const NamedEffect& b) {
   return a.effect == b.effect && a.joint_index == b.joint_index;
 }
 
@@ -26,7 +26,7 @@ struct NamedValue {
 // What a case hides, as far as it is scored: its label.
 struct BlindLabel {
   struct Effect {
-    PlacedEffect placed;
+    NamedEffect placed;
     bool in_catalogue = true;
     double enr = 0;
     std::vector<NamedValue> values;  // the first is its size
@@ -50,10 +50,10 @@ BlindLabel ReadBlindLabel(const std::string& path);
 // What a diagnosis says of it (diagnosis.json).
 struct BlindAnswer {
   struct Effect {
-    PlacedEffect placed;
+    NamedEffect placed;
     double probability = 0;
     std::vector<NamedValue> estimates;
-    std::vector<PlacedEffect> equivalent;
+    std::vector<NamedEffect> equivalent;
   };
   // Held-out figures of the torque or of the simulated motion; nothing where
   // the diagnosis does not say.
@@ -64,7 +64,7 @@ struct BlindAnswer {
 
   std::string verdict;  // empty: there is no answer
   std::vector<Effect> effects;
-  std::vector<PlacedEffect> candidates;  // the 95 % set
+  std::vector<NamedEffect> candidates;  // the 95 % set
   Gap torque, forward;
 };
 // No file is no answer. Throws InputError where it is not as DESIGN.md has it.

@@ -6,8 +6,8 @@
 namespace armcal {
 namespace {
 
-Match MatchOf(const std::string& arm, const PlacedEffect& named,
-              const PlacedEffect& truth, const Equivalents& equivalents) {
+Match MatchOf(const std::string& arm, const NamedEffect& named,
+              const NamedEffect& truth, const Equivalents& equivalents) {
   if (named == truth) return Match::kRight;
   return equivalents.Hold(arm, named, truth) ? Match::kEquivalent
                                              : Match::kWrong;
@@ -28,7 +28,7 @@ CaseScore::CaseScore(const BlindLabel& label, const BlindAnswer& answer,
                                    : *std::max_element(row.begin(), row.end()));
     pairs_.push_back(row);
   }
-  for (const PlacedEffect& candidate : answer.candidates) {
+  for (const NamedEffect& candidate : answer.candidates) {
     candidates_hold_ |= !label.effects.empty() &&
                         MatchOf(label.arm, candidate, label.effects[0].placed,
                                 equivalents) != Match::kWrong;

@@ -30,7 +30,7 @@ class EffectSignals {
  private:
   static constexpr double kLeast = .01;  // ENR
   struct Signal {
-    PlacedEffect placed;
+    NamedEffect placed;
     Eigen::VectorXd torque, left;  // whitened
     double squared;                // of what is left
   };

@@ -5,7 +5,7 @@
 namespace armcal {
 namespace {
 
-PlacedEffect Read(const JsonValue& entry) {
+NamedEffect Read(const JsonValue& entry) {
   return {entry.At("effect").Text(),
           static_cast<int>(entry.At("joint_index").Number())};
 }
@@ -22,13 +22,13 @@ Equivalents::Equivalents(const std::string& path) {
   }
 }
 
-void Equivalents::Add(const std::string& arm, const PlacedEffect& a,
-                      const PlacedEffect& b, double cosine) {
+void Equivalents::Add(const std::string& arm, const NamedEffect& a,
+                      const NamedEffect& b, double cosine) {
   arms_[arm].push_back({a, b, cosine});
 }
 
-bool Equivalents::Hold(const std::string& arm, const PlacedEffect& a,
-                       const PlacedEffect& b) const {
+bool Equivalents::Hold(const std::string& arm, const NamedEffect& a,
+                       const NamedEffect& b) const {
   const auto found = arms_.find(arm);
   if (found == arms_.end()) return false;
   for (const Pair& pair : found->second) {

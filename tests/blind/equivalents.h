@@ -17,13 +17,13 @@ class Equivalents {
   // Throws InputError where the file is not as write_equivalents has it.
   explicit Equivalents(const std::string& path);
 
-  void Add(const std::string& arm, const PlacedEffect& a, const PlacedEffect& b,
+  void Add(const std::string& arm, const NamedEffect& a, const NamedEffect& b,
            double cosine);
-  bool Hold(const std::string& arm, const PlacedEffect& a,
-            const PlacedEffect& b) const;
+  bool Hold(const std::string& arm, const NamedEffect& a,
+            const NamedEffect& b) const;
 
   struct Pair {
-    PlacedEffect a, b;
+    NamedEffect a, b;
     double cosine;
   };
   const std::map<std::string, std::vector<Pair>>& arms() const { return arms_; }

@@ -41,7 +41,7 @@ BlindCase RichCase(const std::string& arm) {
   }
 }
 
-json PlacedJson(const PlacedEffect& placed) {
+json PlacedJson(const NamedEffect& placed) {
   return {{"effect", placed.effect}, {"joint_index", placed.joint_index}};
 }
 
