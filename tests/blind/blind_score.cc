@@ -61,6 +61,7 @@ void BlindScore::Add(const CaseScore& score) {
     AddShrink(score);
   }
   AddFault(score);
+  AddSizeLimits(score);
 }
 
 void BlindScore::AddNone(const CaseScore& score) {
@@ -197,6 +198,19 @@ void BlindScore::AddFault(const CaseScore& score) {
                      {"answer", AnswerText(score.answer())}});
 }
 
+void BlindScore::AddSizeLimits(const CaseScore& score) {
+  const BlindLabel& label = score.label();
+  for (const BlindLabel::Effect& effect : label.effects) {
+    if (effect.size_limit.empty()) continue;
+    size_limits_.push_back({{"case", label.name},
+                            {"arm", label.arm},
+                            {"truth", TruthText(label)},
+                            {"effect", effect.placed.Text()},
+                            {"enr", effect.enr},
+                            {"limit", effect.size_limit}});
+  }
+}
+
 std::string BlindScore::Text() const {
   std::string text;
   for (const ScoreTable* table :
@@ -212,13 +226,24 @@ std::string BlindScore::Text() const {
     }
     text.back() = '\n';
   }
-  text += "\n## Cases with a fault\n";
+  return text + ListsText();
+}
+
+std::string BlindScore::ListsText() const {
+  std::string text = "\n## Cases with a fault\n";
   for (const json& fault : faults_) {
     for (const char* key : {"case", "fault", "arm", "excitation"}) {
       text += fault.at(key).get<std::string>() + "; ";
     }
     text += fault.at("truth").get<std::string>() + " -> " +
             fault.at("answer").get<std::string>() + "\n";
+  }
+  text += "\n## Effects that could not have the planned size\n";
+  for (const json& entry : size_limits_) {
+    text += entry.at("case").get<std::string>() + "; " +
+            entry.at("arm").get<std::string>() + "; " +
+            entry.at("truth").get<std::string>() + ": " +
+            entry.at("limit").get<std::string>() + "\n";
   }
   return text;
 }

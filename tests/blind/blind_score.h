@@ -17,7 +17,8 @@ class BlindScore {
   void Add(const CaseScore& score);
 
   std::string Text() const;
-  // Every table, and the cases with a fault.
+  // Every table, the cases with a fault, and those whose effects could not have
+  // the planned size.
   nlohmann::json Json() const;
 
   // For tests.
@@ -39,6 +40,8 @@ class BlindScore {
   void AddSizes(const CaseScore& score);
   void AddShrink(const CaseScore& score);
   void AddFault(const CaseScore& score);
+  void AddSizeLimits(const CaseScore& score);
+  std::string ListsText() const;
 
   ScoreTable none_{"No effect"};
   ScoreTable one_{"One effect"};
@@ -51,6 +54,7 @@ class BlindScore {
   // Of cases with one effect and ENR >= 0.32: truth, then answer.
   std::map<std::string, std::map<std::string, int>> confusion_;
   nlohmann::json faults_ = nlohmann::json::array();
+  nlohmann::json size_limits_ = nlohmann::json::array();
 };
 
 }  // namespace armcal
