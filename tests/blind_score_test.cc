@@ -72,9 +72,11 @@ TEST(BlindScore, OneEffect) {
     score.Add(CaseScore(Label({True("spring", 1, enr)}), answer, equivalents));
   };
   add(.5, Answer("explained", {Claim("spring", 1, .95)}));
-  add(.5, Answer("explained", {Claim("cable", 1, .9)}));     // equivalent
-  add(.5, Answer("explained", {Claim("cable", 2, .9)}));     // wrong joint
-  add(.5, Answer("explained", {Claim("stribeck", 1, .5)}));  // wrong effect
+  add(.5, Answer("explained", {Claim("cable", 1, .9)}));  // equivalent
+  add(.5, Answer("explained", {Claim("cable", 2, .9)}));  // wrong joint
+  Named stribeck = Claim("stribeck", 1, .5);  // wrong effect, and knows it
+  stribeck.equivalent = {{"spring", 1}};
+  add(.5, Answer("explained", {stribeck}));
   add(.5, Answer("unknown"));
   add(.5, Answer("absorbed"));
   add(.5,
@@ -84,6 +86,8 @@ TEST(BlindScore, OneEffect) {
   EXPECT_EQ(Cell(one, "rich 0.32-1", "detected"), Counts(6, 7));
   EXPECT_EQ(Cell(one, "rich 0.32-1", "class and joint"), Counts(3, 7));
   EXPECT_EQ(Cell(one, "rich 0.32-1", "  of these an equivalent"), Counts(1, 7));
+  EXPECT_EQ(Cell(one, "rich 0.32-1", "or by its own equivalents"),
+            Counts(4, 7));
   EXPECT_EQ(Cell(one, "rich 0.32-1", "joint"), Counts(4, 7));
   EXPECT_EQ(Cell(one, "rich 0.32-1", "exactly that"), Counts(2, 7));
   EXPECT_EQ(Cell(one, "rich 0.32-1", "confident wrong name"), Counts(2, 7));

@@ -81,6 +81,7 @@ void BlindScore::AddOneRow(const CaseScore& score, const std::string& row) {
   one_.Count(row, "class and joint", score.top() != Match::kWrong);
   one_.Count(row, "  of these an equivalent",
              score.top() == Match::kEquivalent);
+  one_.Count(row, "or by its own equivalents", score.top_allows_truth());
   one_.Count(row, "joint", score.top_joint());
   one_.Count(row, "exactly that", score.exact());
   one_.Count(row, "confident wrong name", score.names_wrongly());

@@ -44,6 +44,13 @@ bool CaseScore::alarms() const {
   return detects() || answer_.verdict == "explained";
 }
 
+bool CaseScore::top_allows_truth() const {
+  if (top() != Match::kWrong) return true;
+  if (!claims() || label_.effects.empty()) return false;
+  const auto& own = answer_.effects[0].equivalent;
+  return std::count(own.begin(), own.end(), label_.effects[0].placed) > 0;
+}
+
 bool CaseScore::top_joint() const {
   if (!claims() || label_.effects.empty()) return false;
   return top() != Match::kWrong || answer_.effects[0].placed.joint_index ==

@@ -35,6 +35,8 @@ class CaseScore {
   // Each claimed effect against the effects of the case.
   const std::vector<Match>& matches() const { return matches_; }
   Match top() const { return claims() ? matches_[0] : Match::kWrong; }
+  // The strongest is right, or says itself that it may as well be the truth.
+  bool top_allows_truth() const;
   bool top_joint() const;            // the strongest is on the truth's joint
   bool FindsEffect(size_t k) const;  // effect k of the label is claimed
   bool finds_all() const;

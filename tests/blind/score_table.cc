@@ -61,12 +61,10 @@ double Quantile(std::vector<double> values, double q) {
 
 ScoreTable::Cell& ScoreTable::Make(const std::string& row,
                                    const std::string& column) {
-  const auto note = [](std::vector<std::string>* names,
-                       const std::string& name) {
-    if (!std::count(names->begin(), names->end(), name)) names->push_back(name);
-  };
-  note(&rows_, row);
-  note(&columns_, column);
+  rows_.insert(row);
+  if (!std::count(columns_.begin(), columns_.end(), column)) {
+    columns_.push_back(column);
+  }
   return cells_[{row, column}];
 }
 

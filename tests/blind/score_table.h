@@ -2,6 +2,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace armcal {
 // Fan 1996); NaN of none.
 double Quantile(std::vector<double> values, double q);
 
-// A table of a score: rows and columns in the order in which they first come.
-// A cell counts hits or collects values.
+// A table of a score: rows by their names, columns in the order in which they
+// first come. A cell counts hits or collects values.
 class ScoreTable {
  public:
   explicit ScoreTable(const std::string& title) : title_(title) {}
@@ -36,7 +37,8 @@ class ScoreTable {
   Cell& Make(const std::string& row, const std::string& column);
 
   std::string title_;
-  std::vector<std::string> rows_, columns_;
+  std::set<std::string> rows_;
+  std::vector<std::string> columns_;
   std::map<std::pair<std::string, std::string>, Cell> cells_;
 };
 
