@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <random>
 
 #include "model/plant/random_stream.h"
@@ -92,20 +91,18 @@ ChosenEffect DrawEffect(const BlindCase& blind, const HiddenEffect& kind,
   return effect;
 }
 
-// Log-uniform within a bin, a twentieth of it away from its ends.
+// Log-uniform within a bin, a twentieth of it away from its ends. What is
+// larger than that bin is made smaller, what is smaller may do.
 SizeAim DrawAim(const CasePlan& plan, std::mt19937_64* random) {
   constexpr double kLargest = 6;
   const int count = plan.highest_bin - plan.lowest_bin + 1;
   const int bin = plan.lowest_bin + Pick(random, count);
+  const bool last = bin + 1 == kNumEnrBins;
   const double low = std::log(kEnrBins[bin]);
-  const double high =
-      std::log(bin + 1 < kNumEnrBins ? kEnrBins[bin + 1] : kLargest);
+  const double high = std::log(last ? kLargest : kEnrBins[bin + 1]);
   const double margin = (high - low) / 20;
-  const double infinite = std::numeric_limits<double>::infinity();
   return {std::exp(Uniform(random, low + margin, high - margin)),
-          kEnrBins[plan.lowest_bin],
-          plan.highest_bin + 1 < kNumEnrBins ? kEnrBins[plan.highest_bin + 1]
-                                             : infinite};
+          plan.least_enr(), last ? plan.most_enr() : kEnrBins[bin + 1]};
 }
 
 // False where the robot cannot show the planned effect.

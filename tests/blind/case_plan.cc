@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace armcal {
 namespace {
@@ -56,6 +57,14 @@ int EnrBin(double enr) {
   int bin = 0;
   while (bin + 1 < kNumEnrBins && enr >= kEnrBins[bin + 1]) ++bin;
   return bin;
+}
+
+double CasePlan::least_enr() const { return kEnrBins[lowest_bin]; }
+
+double CasePlan::most_enr() const {
+  return highest_bin + 1 < kNumEnrBins
+             ? kEnrBins[highest_bin + 1]
+             : std::numeric_limits<double>::infinity();
 }
 
 uint32_t EvaluationCases() {

@@ -45,6 +45,10 @@ struct CasePlan {
   const HiddenEffect* effect = nullptr;
   // The bins to draw its ENR from, from the first to the last of them.
   int lowest_bin = 2, highest_bin = 4;
+
+  // Their ends.
+  double least_enr() const;
+  double most_enr() const;
 };
 
 // The plan of a case of the bench: strata as in the table of case_plan.cc, in

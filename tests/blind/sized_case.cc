@@ -43,11 +43,12 @@ bool SizeEffects(EffectSizer* sizer, SizedCase* sized) {
 
 // How far the sizes are from what they were to be, in log ENR.
 double Distance(const SizedCase& sized) {
+  const CasePlan& plan = sized.blind.plan;
   double distance = 0;
-  for (size_t k = 0; k < sized.sizes.size(); ++k) {
-    const double enr = std::max(sized.sizes[k].enr, 1e-6);
-    const SizeAim& aim = sized.blind.aims[k];
-    distance += std::log(std::max({1., aim.low / enr, enr / aim.high}));
+  for (const EffectSize& size : sized.sizes) {
+    const double enr = std::max(size.enr, 1e-6);
+    distance +=
+        std::log(std::max({1., plan.least_enr() / enr, enr / plan.most_enr()}));
   }
   return distance;
 }
@@ -56,9 +57,8 @@ double Distance(const SizedCase& sized) {
 // are no longer what they were.
 void NoteHidden(SizedCase* sized) {
   for (size_t k = 0; k < sized->sizes.size(); ++k) {
-    const SizeAim& aim = sized->blind.aims[k];
-    const double enr = sized->sizes[k].enr;
-    if (sized->limits[k].empty() && (enr < aim.low || enr >= aim.high)) {
+    if (sized->limits[k].empty() &&
+        sized->sizes[k].enr < sized->blind.plan.least_enr()) {
       sized->limits[k] = "changed by the other effect";
     }
   }
