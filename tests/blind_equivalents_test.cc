@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tests/blind/blind_arms.h"
 #include "tests/blind/effect_likeness.h"
 #include "tests/temp_file.h"
 
@@ -67,6 +68,21 @@ TEST(Equivalents, HoldBothWaysOnTheirArm) {
   EXPECT_TRUE(equivalents.Hold("scara", link, armature));
   EXPECT_FALSE(equivalents.Hold("puma", link, armature));
   EXPECT_FALSE(equivalents.Hold("scara", {"link_inertia", 2}, armature));
+}
+
+// The file that comes with the bench speaks of its arms and effects.
+TEST(Equivalents, OfTheBenchAreOfItsArms) {
+  const Equivalents equivalents(DATA_DIR "/../tests/blind/equivalents.json");
+  EXPECT_FALSE(equivalents.arms().empty());
+  for (const auto& [arm, pairs] : equivalents.arms()) {
+    const auto& names = BlindArmNames();
+    EXPECT_EQ(std::count(names.begin(), names.end(), arm), 1) << arm;
+    for (const Equivalents::Pair& pair : pairs) {
+      EXPECT_GE(pair.cosine, kAlike);
+      EXPECT_TRUE(FindHiddenEffect(pair.a.effect)) << pair.a.effect;
+      EXPECT_TRUE(FindHiddenEffect(pair.b.effect)) << pair.b.effect;
+    }
+  }
 }
 
 }  // namespace
