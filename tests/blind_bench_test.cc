@@ -7,33 +7,10 @@
 #include "model/plant/random_stream.h"
 #include "tests/blind/blind_arms.h"
 #include "tests/blind/blind_case.h"
-#include "tests/blind/effect_size.h"
 #include "tests/blind/residual_noise.h"
 
 namespace armcal {
 namespace {
-
-BlindCase RichCase(const std::string& arm) {
-  for (uint64_t seed = 0;; ++seed) {
-    BlindCase blind = DrawBlindCase(seed);
-    if (blind.arm != arm || blind.excitation != Excitation::kRich) continue;
-    if (blind.points) continue;
-    blind.has_reference = false;
-    blind.training_s = 12;
-    return blind;
-  }
-}
-
-ChosenEffect Usual(const std::string& name, int joint) {
-  const HiddenEffect* kind = FindHiddenEffect(name);
-  return {kind, joint, UsualParameters(*kind)};
-}
-
-std::vector<EffectSize> Sizes(const BlindCase& blind) {
-  const auto sizes = EffectSizes(blind);
-  EXPECT_TRUE(sizes) << "the arm does not follow";
-  return sizes.value_or(std::vector<EffectSize>(blind.effects.size()));
-}
 
 TEST(BlindBench, SetsShareNoSeed) {
   std::set<uint64_t> seeds;
@@ -47,33 +24,29 @@ TEST(BlindBench, SetsShareNoSeed) {
 }
 
 TEST(BlindBench, CasesAreAsVariedAsTheyShouldBe) {
-  std::set<std::string> arms, excitations;
-  int none = 0, two = 0, unknown = 0;
-  std::set<std::string> effects;
-  for (uint64_t seed = 0; seed < 1000; ++seed) {
-    const BlindCase blind = DrawBlindCase(seed);
+  std::set<std::string> arms, joints;
+  int references = 0, points = 0;
+  constexpr int kCases = 400;
+  for (uint64_t seed = 0; seed < kCases; ++seed) {
+    const BlindCase blind =
+        DrawBlindCase(seed, PlanCase(Stratum::kOne, seed % 8));
     arms.insert(blind.arm);
-    excitations.insert(ExcitationName(blind.excitation));
-    none += blind.effects.empty();
-    two += blind.effects.size() == 2;
-    for (const ChosenEffect& effect : blind.effects) {
-      effects.insert(effect.kind->name);
-      unknown += !effect.kind->in_catalogue;
-    }
+    references += blind.has_reference;
+    points += blind.points;
+    EXPECT_EQ(blind.effects[0].kind, blind.plan.effect);
+    joints.insert(blind.arm + std::to_string(blind.effects[0].joint));
   }
   EXPECT_EQ(arms.size(), BlindArmNames().size());
-  EXPECT_EQ(excitations.size(), 4u);
-  EXPECT_EQ(effects.size(), HiddenEffects().size());
-  EXPECT_NEAR(none, 200, 50);
-  EXPECT_NEAR(two, 200, 50);
-  EXPECT_NEAR(unknown, 200, 50);
+  EXPECT_EQ(joints.size(), 4u + 3 + 6 + 6 + 7);  // each of each arm
+  EXPECT_NEAR(references, .4 * kCases, 40);
+  EXPECT_NEAR(points, .25 * kCases, 40);
 }
 
 TEST(BlindBench, SameSeedSameBytes) {
   const uint64_t seed = BlindCaseSeed(BlindSet::kCalibration, 9, 4);
   std::string texts[2];
   for (std::string& text : texts) {
-    const BlindCase blind = DrawBlindCase(seed);
+    const BlindCase blind = DrawBlindCase(seed, PlanCase(Stratum::kTwo, 3));
     text = blind.robot_yaml +
            LogText(RunScenario(BlindScenario(blind, BlindLog::kValidation,
                                              blind.effects))
@@ -100,67 +73,6 @@ TEST(ResidualNoise, FindsAnAutoregressionAndWhitensIt) {
   EXPECT_NEAR(white.squaredNorm() / white.size(), 1, .03);
   EXPECT_NEAR(white.tail(40000).dot(white.segment(white.size() - 40001, 40000)),
               0, .02 * 40000);
-}
-
-// A ripple of amplitude A that no parameter of the model looks like has an rms
-// torque of A / sqrt(2). White noise of s at 250 Hz has a power of s^2 / 125
-// per Hz, of which whitened samples at 25 Hz see 12.5 Hz.
-TEST(EffectSize, OfARippleIsItsRmsOverTheNoise) {
-  BlindCase blind = RichCase("elbow");
-  blind.sensors.coloured_noise = Eigen::VectorXd();
-  blind.sensors.encoder_noise = Eigen::VectorXd();
-  blind.sensors.encoder_resolution = Eigen::VectorXd();
-  blind.effects = {Usual("torque_ripple", 1)};
-  const EffectSize size = Sizes(blind)[0];
-  const double torque = TypicalContext(blind.robot, 0).torque[1];
-  const double amplitude = blind.effects[0].parameters[0] * torque;
-  const double noise = blind.sensors.torque_noise[1] * std::sqrt(12.5 / 125);
-  EXPECT_NEAR(size.raw, amplitude / std::sqrt(2) / noise, .2 * size.raw);
-  EXPECT_GT(size.enr, .8 * size.raw);
-  EXPECT_GT(size.joint_enr[1], .9 * size.enr);
-}
-
-// Coarser encoders disturb the residual by way of the controller, so that the
-// same effect counts less.
-TEST(EffectSize, KnowsTheNoiseOfEncoders) {
-  BlindCase blind = RichCase("scara");
-  blind.effects = {Usual("stribeck", 1)};
-  blind.sensors.encoder_resolution = Eigen::VectorXd::Constant(4, 1e-6);
-  const double fine = Sizes(blind)[0].enr;
-  blind.sensors.encoder_resolution = Eigen::VectorXd::Constant(4, 5e-5);
-  EXPECT_LT(Sizes(blind)[0].enr, .7 * fine);
-}
-
-// Friction that is a little more of what the robot has is absorbed within its
-// prior: hardly anything of it is left. A log of the robot before tells.
-TEST(EffectSize, OfWhatTheModelHasIsAbsorbed) {
-  BlindCase blind = RichCase("elbow");
-  blind.trust = .06;
-  blind.effects = {Usual("viscous_friction", 2)};
-  blind.effects[0].parameters[0] = blind.effects[0].kind->parameters[0].low;
-  const EffectSize size = Sizes(blind)[0];
-  EXPECT_LT(size.enr, .2 * size.raw);
-  blind.has_reference = true;
-  EXPECT_GT(Sizes(blind)[0].enr, 2 * size.enr);
-}
-
-TEST(EffectSize, GrowsWithTheEffect) {
-  BlindCase blind = RichCase("scara");
-  blind.effects = {Usual("stribeck", 0)};
-  blind.effects[0].parameters[0] /= 2;
-  const double half = Sizes(blind)[0].enr;
-  blind.effects[0].parameters[0] *= 2;
-  EXPECT_NEAR(Sizes(blind)[0].enr / half, 2, .1);
-}
-
-// Of two effects each has the size that it has alone, where they act apart.
-TEST(EffectSize, OfTwoEffects) {
-  BlindCase blind = RichCase("elbow");
-  blind.effects = {Usual("torque_ripple", 2), Usual("stribeck", 0)};
-  const std::vector<EffectSize> both = Sizes(blind);
-  blind.effects.resize(1);
-  EXPECT_NEAR(both[0].enr, Sizes(blind)[0].enr, .1 * both[0].enr);
-  EXPECT_GT(both[1].joint_enr[0], .9 * both[1].enr);
 }
 
 // No two streams of random numbers begin alike, whatever they are for.

@@ -111,5 +111,23 @@ TEST(Scenario, AnAgingTachometerIsAsNoisyAsOthers) {
   }
 }
 
+// Two engines that share no code move the arm alike, with a wrench and another
+// rigid body in it.
+TEST(Scenario, BothEnginesWriteTheSameLog) {
+  const HiddenEffect* slosh = FindHiddenEffect("slosh");
+  const HiddenEffect* payload = FindHiddenEffect("payload");
+  Scenario scenario = Arm(0, {{slosh, -1, UsualParameters(*slosh)},
+                              {payload, -1, UsualParameters(*payload)}});
+  MotionOptions motion;
+  motion.duration = 2;
+  scenario.motion = FourierMotion(scenario.model, motion);
+  const Log simbody = RunScenario(scenario).run.log;
+  const Log own = RunScenario(scenario, ScenarioEngine::kRigidArm).run.log;
+  ASSERT_EQ(simbody.size(), own.size());
+  EXPECT_LT((simbody.q - own.q).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((simbody.tau - own.tau).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_GT(simbody.tau.cwiseAbs().maxCoeff(), 1);
+}
+
 }  // namespace
 }  // namespace armcal

@@ -3,6 +3,7 @@
 #include <glog/logging.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,11 +12,10 @@
 #include "model/plant/random_stream.h"
 #include "model/robot_reader.h"
 #include "tests/blind/blind_arms.h"
+#include "tests/blind/size_parameter.h"
 
 namespace armcal {
 namespace {
-
-constexpr uint32_t kAttemptsOfSize = 5;
 
 double Uniform(std::mt19937_64* random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(*random);
@@ -40,56 +40,92 @@ Robot ReadYaml(const std::string& text, uint64_t seed) {
   return robot;
 }
 
-// An effect of the wanted sort that this robot can show, beside `first` where
-// there is one.
-ChosenEffect DrawEffect(const Robot& robot, bool in_catalogue,
-                        const ChosenEffect* first, std::mt19937_64* random) {
-  const auto& kinds = HiddenEffects();
-  const EffectContext context = TypicalContext(robot, 0);
-  SimulatedRobot plant;
-  plant.robot = robot;
-  if (first) {
-    ApplyHiddenEffect(*first->kind, &plant, first->joint, first->parameters,
-                      context);
-  }
-  while (true) {
-    ChosenEffect effect;
-    effect.kind = &kinds[Pick(random, static_cast<int>(kinds.size()))];
-    if (effect.kind->in_catalogue != in_catalogue) continue;
-    effect.joint = effect.kind->scope == HiddenEffect::Scope::kJoint
-                       ? Pick(random, robot.num_joints())
-                       : -1;
-    effect.parameters = DrawParameters(*effect.kind, random);
-    if (WhyNotApplicable(*effect.kind, plant, effect.joint, effect.parameters,
-                         context)
-            .empty()) {
-      return effect;
+// The joints that a case moves; empty: all.
+std::vector<int> MovingJoints(const BlindCase& blind) {
+  if (blind.plan.excitation != Excitation::kTwoJoints) return {};
+  const int first =
+      static_cast<int>(blind.seed % (blind.robot.num_joints() - 1));
+  return {first, first + 1};
+}
+
+// The joints of the case where an effect can be beside those that the plant
+// has; -1: the whole robot. Those that move, where one of them can.
+std::vector<int> PossibleJoints(const BlindCase& blind,
+                                const HiddenEffect& kind,
+                                const SimulatedRobot& plant,
+                                const Eigen::VectorXd& parameters) {
+  const EffectContext context = TypicalContext(blind.robot, 0);
+  const bool whole = kind.scope == HiddenEffect::Scope::kRobot;
+  const std::vector<int> moving = MovingJoints(blind);
+  std::vector<int> joints, moved;
+  for (int j = whole ? -1 : 0; j < (whole ? 0 : blind.robot.num_joints());
+       ++j) {
+    if (!WhyNotApplicable(kind, plant, j, parameters, context).empty()) {
+      continue;
     }
+    joints.push_back(j);
+    if (std::count(moving.begin(), moving.end(), j)) moved.push_back(j);
   }
+  return moved.empty() ? joints : moved;
 }
 
-// None in 1 of 5 cases, one in 2 of 4 of the others, two or one that is out of
-// the catalogue in a quarter each.
-std::vector<ChosenEffect> DrawEffects(const Robot& robot,
-                                      std::mt19937_64* random) {
-  if (Uniform(random, 0, 1) < .2) return {};
-  const double sort = Uniform(random, 0, 1);
-  if (sort < .25) return {DrawEffect(robot, false, nullptr, random)};
-  std::vector<ChosenEffect> effects = {
-      DrawEffect(robot, true, nullptr, random)};
-  if (sort < .75) return effects;
-  do {
-    effects.resize(1);
-    effects.push_back(DrawEffect(robot, true, &effects[0], random));
-  } while (effects[0].kind == effects[1].kind);
-  return effects;
+// An effect of a kind at its usual size, in a form and on a joint drawn at
+// random; without a kind where this robot cannot show it beside its others.
+ChosenEffect DrawEffect(const BlindCase& blind, const HiddenEffect& kind,
+                        std::mt19937_64* random) {
+  SimulatedRobot plant;
+  plant.robot = blind.robot;
+  for (const ChosenEffect& other : blind.effects) {
+    ApplyHiddenEffect(*other.kind, &plant, other.joint, other.parameters,
+                      TypicalContext(blind.robot, 0));
+  }
+  ChosenEffect effect;
+  effect.parameters = DrawParameters(kind, random);
+  const int size = SizeParameterOf(kind).index;
+  effect.parameters[size] =
+      std::copysign(kind.parameters[size].usual, effect.parameters[size]);
+  const auto joints = PossibleJoints(blind, kind, plant, effect.parameters);
+  if (joints.empty()) return effect;
+  effect.kind = &kind;
+  effect.joint = joints[Pick(random, static_cast<int>(joints.size()))];
+  return effect;
 }
 
-Excitation DrawExcitation(std::mt19937_64* random) {
-  const double sort = Uniform(random, 0, 1);
-  if (sort < .7) return Excitation::kRich;
-  if (sort < .8) return Excitation::kSlow;
-  return sort < .9 ? Excitation::kSmall : Excitation::kTwoJoints;
+// Log-uniform within a bin, a twentieth of it away from its ends. What is
+// larger than that bin is made smaller, what is smaller may do.
+SizeAim DrawAim(const CasePlan& plan, std::mt19937_64* random) {
+  constexpr double kLargest = 6;
+  const int count = plan.highest_bin - plan.lowest_bin + 1;
+  const int bin = plan.lowest_bin + Pick(random, count);
+  const bool last = bin + 1 == kNumEnrBins;
+  const double low = std::log(kEnrBins[bin]);
+  const double high = std::log(last ? kLargest : kEnrBins[bin + 1]);
+  const double margin = (high - low) / 20;
+  return {std::exp(Uniform(random, low + margin, high - margin)),
+          plan.least_enr(), last ? plan.most_enr() : kEnrBins[bin + 1]};
+}
+
+// False where the robot cannot show the planned effect.
+bool DrawEffects(BlindCase* blind, std::mt19937_64* random) {
+  blind->effects.clear();
+  blind->aims.clear();
+  if (!blind->plan.effect) return true;
+  const auto& kinds = HiddenEffects();
+  const HiddenEffect* kind = blind->plan.effect;
+  const size_t count = blind->plan.stratum == Stratum::kTwo ? 2 : 1;
+  while (blind->effects.size() < count) {
+    const ChosenEffect effect = DrawEffect(*blind, *kind, random);
+    if (effect.kind) {
+      blind->effects.push_back(effect);
+      blind->aims.push_back(DrawAim(blind->plan, random));
+    } else if (blind->effects.empty()) {
+      return false;
+    }
+    do {
+      kind = &kinds[Pick(random, static_cast<int>(kinds.size()))];
+    } while (!kind->in_catalogue || kind == blind->plan.effect);
+  }
+  return true;
 }
 
 SensorOptions DrawSensors(const Robot& robot, std::mt19937_64* random) {
@@ -112,22 +148,13 @@ MotionOptions Motion(const BlindCase& blind, BlindLog log) {
   motion.duration = log == BlindLog::kValidation ? 20 : blind.training_s;
   motion.seed = blind.seed;
   motion.run = static_cast<uint64_t>(log);
-  motion.size = blind.excitation == Excitation::kSmall ? .2 : .9;
-  motion.speed = blind.excitation == Excitation::kSlow ? .16 : 1;
-  if (blind.excitation == Excitation::kTwoJoints) {
-    const int n = blind.robot.num_joints();
-    motion.joints = {static_cast<int>(blind.seed % (n - 1)),
-                     static_cast<int>(blind.seed % (n - 1)) + 1};
-  }
+  motion.size = blind.plan.excitation == Excitation::kSmall ? .2 : .9;
+  motion.speed = blind.plan.excitation == Excitation::kSlow ? .16 : 1;
+  motion.joints = MovingJoints(blind);
   return motion;
 }
 
 }  // namespace
-
-const char* ExcitationName(Excitation excitation) {
-  const char* const names[] = {"rich", "slow", "small", "two_joints"};
-  return names[static_cast<int>(excitation)];
-}
 
 uint64_t BlindCaseSeed(BlindSet set, uint32_t seed, uint32_t index) {
   const uint64_t bit = set == BlindSet::kEvaluation ? 1ull << 63 : 0;
@@ -139,29 +166,25 @@ bool Follows(const ClosedLoopRun& run) {
   return run.finite && run.tracking_rms.maxCoeff() < .05;
 }
 
-BlindCase DrawBlindCase(uint64_t seed, uint32_t attempt) {
+BlindCase DrawBlindCase(uint64_t seed, const CasePlan& plan, uint32_t attempt) {
   std::mt19937_64 random = RandomStream(seed, 0, RandomPurpose::kCase);
   BlindCase blind;
   blind.seed = seed;
-  const auto& arms = BlindArmNames();
-  blind.arm = arms[Pick(&random, static_cast<int>(arms.size()))];
-  blind.robot_yaml = BlindArmYaml(blind.arm, &random);
-  blind.robot = ReadYaml(blind.robot_yaml, seed);
+  blind.plan = plan;
   blind.trust = LogUniform(&random, .01, .06);
   blind.has_reference = Uniform(&random, 0, 1) < .4;
-  blind.excitation = DrawExcitation(&random);
   blind.points = Uniform(&random, 0, 1) < .25;
   blind.zero_velocity = LogUniform(&random, .003, .012);
-  blind.sensors = DrawSensors(blind.robot, &random);
-  blind.effects = DrawEffects(blind.robot, &random);
+  const auto& arms = BlindArmNames();
+  do {
+    blind.arm = arms[Pick(&random, static_cast<int>(arms.size()))];
+    blind.robot_yaml = BlindArmYaml(blind.arm, &random);
+    blind.robot = ReadYaml(blind.robot_yaml, seed);
+    blind.sensors = DrawSensors(blind.robot, &random);
+  } while (!DrawEffects(&blind, &random));
   if (attempt == 0) return blind;
   random = RandomStream(seed, attempt, RandomPurpose::kCase);
-  if (attempt >= kAttemptsOfSize) {
-    blind.effects = DrawEffects(blind.robot, &random);
-    return blind;
-  }
-  for (ChosenEffect& effect : blind.effects) {
-    effect.parameters = DrawParameters(*effect.kind, &random);
+  while (!DrawEffects(&blind, &random)) {
   }
   return blind;
 }

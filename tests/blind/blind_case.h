@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/plant/hidden/scenario.h"
+#include "tests/blind/case_plan.h"
 
 namespace armcal {
 
@@ -15,33 +16,33 @@ enum class BlindSet { kCalibration, kEvaluation };
 // the sets apart.
 uint64_t BlindCaseSeed(BlindSet set, uint32_t seed, uint32_t index);
 
-enum class Excitation {
-  kRich,      // all joints, most of their range and speed
-  kSlow,      // all joints at a sixth of their speed
-  kSmall,     // all joints, a fifth of their range
-  kTwoJoints  // the others stand still
+// The ENR that an effect is to have, and what is near enough.
+struct SizeAim {
+  double target, low, high;
 };
-const char* ExcitationName(Excitation excitation);
 
 // A robot, what it hides, how it moves and how it is measured.
 struct BlindCase {
   uint64_t seed = 0;
+  CasePlan plan;
   std::string arm;
-  std::string robot_yaml;      // what the diagnoser is given
-  Robot robot;                 // the same, read
-  double trust = .03;          // relative error of the robot file
-  bool has_reference = false;  // a log of the robot before the effects
-  Excitation excitation = Excitation::kRich;
+  std::string robot_yaml;       // what the diagnoser is given
+  Robot robot;                  // the same, read
+  double trust = .03;           // relative error of the robot file
+  bool has_reference = false;   // a log of the robot before the effects
   bool points = false;          // moves between points, not Fourier motion
   double training_s = 42;       // of motion in training and reference logs
   double zero_velocity = .005;  // rad/s
   std::vector<ChosenEffect> effects;
+  std::vector<SizeAim> aims;  // of each effect
   SensorOptions sensors;
 };
 
-// `attempt`: the same case with the sizes of its effects drawn again, from the
-// fifth on with other effects.
-BlindCase DrawBlindCase(uint64_t seed, uint32_t attempt = 0);
+// A case of that plan, its effects at their usual sizes. `attempt`: the same
+// case with its effects on other joints or in other forms, or with other
+// effects where the plan leaves them open.
+BlindCase DrawBlindCase(uint64_t seed, const CasePlan& plan,
+                        uint32_t attempt = 0);
 // Whether the arm follows its motion: a robot that does not would have stopped
 // with an error and left no log to diagnose.
 bool Follows(const ClosedLoopRun& run);

@@ -17,13 +17,15 @@
 
 #include "model/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
-#include "tests/blind/blind_case.h"
-#include "tests/blind/effect_size.h"
+#include "tests/blind/sized_case.h"
 
 DEFINE_string(set, "calibration", "calibration, or evaluation (open it once)");
 DEFINE_uint32(seed, 1, "of the set");
 DEFINE_uint32(first, 0, "index of the first case");
 DEFINE_uint32(cases, 100, "how many");
+DEFINE_string(plan, "evaluation",
+              "all strata in their shares, or one of them: none_rich, "
+              "none_poor, one, two, outside");
 DEFINE_string(logs, "blind/logs", "folder for robot files and logs");
 DEFINE_string(labels, "blind/labels", "folder for what they hide");
 DEFINE_int32(jobs, 2, "processes");
@@ -35,86 +37,86 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 void WriteText(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
+  const fs::path part = path.string() + ".part";  // a run may be interrupted
+  std::ofstream file(part, std::ios::binary);
   file << text;
   file.close();
-  CHECK(file) << "cannot write " << path;
+  CHECK(file) << "cannot write " << part;
+  fs::rename(part, path);
 }
 
-struct DrawnCase {
-  BlindCase blind;
-  uint32_t attempt = 0;
-  ScenarioRun training, validation;
-  std::vector<EffectSize> sizes;
-};
-
-ScenarioRun Run(const BlindCase& blind, BlindLog log,
-                const std::vector<ChosenEffect>& effects) {
-  return RunScenario(BlindScenario(blind, log, effects));
+std::vector<double> Numbers(const Eigen::VectorXd& x) {
+  return {x.begin(), x.end()};
 }
 
-// The first draw whose arm follows its motions.
-DrawnCase DrawCase(uint64_t seed) {
-  constexpr uint32_t kMostAttempts = 100;
-  for (uint32_t attempt = 0; attempt < kMostAttempts; ++attempt) {
-    DrawnCase drawn;
-    drawn.blind = DrawBlindCase(seed, attempt);
-    drawn.attempt = attempt;
-    const auto& effects = drawn.blind.effects;
-    drawn.training = Run(drawn.blind, BlindLog::kTraining, effects);
-    if (!Follows(drawn.training.run)) continue;
-    drawn.validation = Run(drawn.blind, BlindLog::kValidation, effects);
-    if (!Follows(drawn.validation.run)) continue;
-    const auto sizes = EffectSizes(drawn.blind);
-    if (!sizes) continue;
-    drawn.sizes = *sizes;
-    return drawn;
-  }
-  LOG(FATAL) << "case " << seed << ": its arm never follows";
-  return {};
+json OracleJson(const OracleGap& gap) {
+  return {{"nominal", Numbers(gap.nominal)},
+          {"refit", Numbers(gap.refit)},
+          {"after", Numbers(gap.after)},
+          {"floor", Numbers(gap.floor)},
+          {"removed_percent", gap.RemovedPercent()},
+          {"removed_from_nominal_percent", gap.RemovedFromNominalPercent()}};
 }
 
-json Label(const DrawnCase& drawn) {
-  const BlindCase& blind = drawn.blind;
+// Of what truth.json says of effect k, and what the bench knows of it.
+void AddSize(const SizedCase& sized, size_t k, json* entry) {
+  const SizeAim& aim = sized.blind.aims[k];
+  (*entry)["enr"] = sized.sizes[k].enr;
+  (*entry)["enr_raw"] = sized.sizes[k].raw;
+  (*entry)["enr_joints"] = Numbers(sized.sizes[k].joint_enr);
+  (*entry)["enr_target"] = aim.target;
+  (*entry)["size_limit"] = sized.limits[k];
+}
+
+json Label(const SizedCase& sized) {
+  const BlindCase& blind = sized.blind;
   json label = TruthJson(
-      BlindScenario(blind, BlindLog::kTraining, blind.effects), drawn.training);
+      BlindScenario(blind, BlindLog::kTraining, blind.effects), sized.training);
   label["set"] = FLAGS_set;
+  label["stratum"] = StratumName(blind.plan.stratum);
   label["arm"] = blind.arm;
-  label["excitation"] = ExcitationName(blind.excitation);
+  label["excitation"] = ExcitationName(blind.plan.excitation);
   label["motion"] = blind.points ? "points" : "fourier";
   label["reference"] = blind.has_reference;
-  label["attempt"] = drawn.attempt;
-  for (size_t k = 0; k < drawn.sizes.size(); ++k) {
-    const EffectSize& size = drawn.sizes[k];
-    json& entry = label["effects"][k];
-    entry["enr"] = size.enr;
-    entry["enr_raw"] = size.raw;
-    entry["enr_joints"] =
-        std::vector<double>(size.joint_enr.begin(), size.joint_enr.end());
+  label["attempt"] = sized.attempt;
+  for (size_t k = 0; k < sized.sizes.size(); ++k) {
+    AddSize(sized, k, &label["effects"][k]);
   }
+  if (sized.oracle) label["oracle"] = OracleJson(*sized.oracle);
   return label;
 }
 
+ScenarioRun Reference(const BlindCase& blind) {
+  return RunScenario(BlindScenario(blind, BlindLog::kReference, {}));
+}
+
+// As --plan says.
+CasePlan Plan(uint32_t index) {
+  const auto stratum = StratumOf(FLAGS_plan);
+  return stratum ? PlanCase(*stratum, index) : PlanCase(index);
+}
+
 void WriteCase(BlindSet set, uint32_t index) {
-  const DrawnCase drawn = DrawCase(BlindCaseSeed(set, FLAGS_seed, index));
-  const BlindCase& blind = drawn.blind;
   char name[32];
   std::snprintf(name, sizeof name, "case_%04u", index);
+  const fs::path label = fs::path(FLAGS_labels) / (std::string(name) + ".json");
+  if (fs::exists(label)) return;  // written last, so the case is complete
+  const SizedCase sized =
+      DrawSizedCase(BlindCaseSeed(set, FLAGS_seed, index), Plan(index));
+  const BlindCase& blind = sized.blind;
   const fs::path folder = fs::path(FLAGS_logs) / name;
   fs::create_directories(folder);
   WriteText(folder / "robot.yaml", blind.robot_yaml);
-  WriteText(folder / "training.csv", LogText(drawn.training.run.log));
-  WriteText(folder / "validation.csv", LogText(drawn.validation.run.log));
+  WriteText(folder / "training.csv", LogText(sized.training.run.log));
+  WriteText(folder / "validation.csv", LogText(sized.validation.run.log));
   if (blind.has_reference) {
-    WriteText(folder / "reference.csv",
-              LogText(Run(blind, BlindLog::kReference, {}).run.log));
+    WriteText(folder / "reference.csv", LogText(Reference(blind).run.log));
   }
   WriteText(folder / "case.json",
             json({{"trust", blind.trust}, {"reference", blind.has_reference}})
                     .dump(2) +
                 "\n");
-  WriteText(fs::path(FLAGS_labels) / (std::string(name) + ".json"),
-            Label(drawn).dump(2) + "\n");
+  WriteText(label, Label(sized).dump(2) + "\n");
 }
 
 // What is wrong with the flags; empty where nothing is.
@@ -123,6 +125,10 @@ std::string WhyNot() {
     return "--set: expected calibration or evaluation";
   }
   if (FLAGS_seed >= 1u << 31) return "--seed: expected a number below 2^31";
+  if (FLAGS_plan != "evaluation" && !StratumOf(FLAGS_plan)) {
+    return "--plan: expected evaluation, none_rich, none_poor, one, two or "
+           "outside";
+  }
   if (FLAGS_jobs < 1) return "--jobs: expected a number of at least 1";
   if (fs::weakly_canonical(FLAGS_logs) == fs::weakly_canonical(FLAGS_labels)) {
     return "--labels: expected another folder than --logs, whose reader must "

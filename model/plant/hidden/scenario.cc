@@ -1,9 +1,12 @@
 #include "model/plant/hidden/scenario.h"
 
+#include <memory>
+
 #include "model/input_error.h"
 #include "model/plant/hidden/joint_friction.h"
 #include "model/plant/robot_variation.h"
 #include "model/plant/simbody_arm.h"
+#include "model/rigid_arm.h"
 
 namespace armcal {
 
@@ -41,7 +44,7 @@ EffectContext ContextOf(const Scenario& scenario) {
   return context;
 }
 
-ScenarioRun RunScenario(const Scenario& scenario) {
+ScenarioRun RunScenario(const Scenario& scenario, ScenarioEngine engine) {
   SimulatedRobot robot = TrueRobot(scenario);
   const EffectContext context = ContextOf(scenario);
   ScenarioRun result;
@@ -58,9 +61,14 @@ ScenarioRun RunScenario(const Scenario& scenario) {
                                              effect.parameters, context)};
     }
   }
-  SimbodyArm dynamics(robot.robot);
+  std::unique_ptr<ArmDynamics> dynamics;
+  if (engine == ScenarioEngine::kSimbody) {
+    dynamics = std::make_unique<SimbodyArm>(robot.robot);
+  } else {
+    dynamics = std::make_unique<RigidArm>(robot.robot);
+  }
   result.run = RunClosedLoop(robot, scenario.model, scenario.motion,
-                             scenario.loop, &dynamics);
+                             scenario.loop, dynamics.get());
   return result;
 }
 

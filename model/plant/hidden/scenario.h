@@ -51,8 +51,11 @@ struct ScenarioRun {
   std::vector<AppliedEffect> effects;
 };
 
-// The log of the scenario, by Simbody. Throws InputError where an effect does
-// not fit the robot or the robot cannot be simulated.
-ScenarioRun RunScenario(const Scenario& scenario);
+// The log of the scenario, by Simbody unless our own, faster dynamics are asked
+// for. Throws InputError where an effect does not fit the robot or the robot
+// cannot be simulated.
+enum class ScenarioEngine { kSimbody, kRigidArm };
+ScenarioRun RunScenario(const Scenario& scenario,
+                        ScenarioEngine engine = ScenarioEngine::kSimbody);
 
 }  // namespace armcal

@@ -1,0 +1,33 @@
+// run_blind --armcal=FILE --logs=DIR --labels=DIR --answers=DIR
+//
+// Diagnoses cases of the blind bench in processes that cannot see what they
+// hide (tests/blind/README.md). Run again, it goes on where it stopped.
+
+#include <gflags/gflags.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "tests/blind/blind_runner.h"
+
+DEFINE_string(armcal, "build/armcal", "the program with `diagnose`");
+DEFINE_string(logs, "blind/logs", "the cases");
+DEFINE_string(labels, "blind/labels", "what to hide from it; may be absent");
+DEFINE_string(answers, "blind/answers", "CASE/diagnosis.json and run.json");
+DEFINE_int32(jobs, 2, "cases at a time");
+DEFINE_double(timeout, 300, "s, of a case");
+
+int main(int argc, char** argv) {
+  gflags::ParseCommandLineFlags(&argc, &argv, true);
+  try {
+    const armcal::BlindRunSummary summary =
+        armcal::RunBlindCases({FLAGS_armcal, FLAGS_logs, FLAGS_labels,
+                               FLAGS_answers, FLAGS_jobs, FLAGS_timeout});
+    std::printf("answered %d, failed %d, run before %d\n", summary.answered,
+                summary.failed, summary.kept);
+    return summary.failed == 0 ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "run_blind: %s\n", error.what());
+    return 3;
+  }
+}

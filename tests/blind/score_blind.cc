@@ -1,0 +1,73 @@
+// score_blind --labels=DIR --answers=DIR [--logs=DIR] [--equivalents=FILE]
+//   [--json=FILE]
+//
+// Scores the answers of a diagnoser to cases of the blind bench
+// (tests/blind/README.md). It alone reads the labels.
+
+#include <gflags/gflags.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "model/input_error.h"
+#include "tests/blind/blind_score.h"
+
+DEFINE_string(labels, "blind/labels", "what the cases hide");
+DEFINE_string(answers, "blind/answers", "CASE/diagnosis.json of each");
+DEFINE_string(logs, "", "score the cases of this folder; empty: all labels");
+DEFINE_string(equivalents, "tests/blind/equivalents.json",
+              "effects that cannot be told apart; empty: there are none");
+DEFINE_string(json, "", "the same as the printed tables, for programs");
+
+namespace armcal {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::set<std::string> Cases() {
+  std::set<std::string> cases;
+  if (!FLAGS_logs.empty()) {
+    for (const auto& entry : fs::directory_iterator(FLAGS_logs)) {
+      if (entry.is_directory()) cases.insert(entry.path().filename());
+    }
+    return cases;
+  }
+  for (const auto& entry : fs::directory_iterator(FLAGS_labels)) {
+    if (entry.path().extension() == ".json") cases.insert(entry.path().stem());
+  }
+  return cases;
+}
+
+int Main() {
+  const Equivalents equivalents = FLAGS_equivalents.empty()
+                                      ? Equivalents()
+                                      : Equivalents(FLAGS_equivalents);
+  BlindScore score;
+  const std::set<std::string> cases = Cases();
+  for (const std::string& name : cases) {
+    score.Add(CaseScore(
+        ReadBlindLabel(fs::path(FLAGS_labels) / (name + ".json")),
+        ReadBlindAnswer(fs::path(FLAGS_answers) / name / "diagnosis.json"),
+        equivalents));
+  }
+  std::printf("%zu cases\n\n%s", cases.size(), score.Text().c_str());
+  if (!FLAGS_json.empty()) {
+    std::ofstream(FLAGS_json) << score.Json().dump(2) << "\n";
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace armcal
+
+int main(int argc, char** argv) {
+  gflags::ParseCommandLineFlags(&argc, &argv, true);
+  try {
+    return armcal::Main();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "score_blind: %s\n", error.what());
+    return 3;
+  }
+}
