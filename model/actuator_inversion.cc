@@ -12,11 +12,12 @@ using Eigen::VectorXd;
 
 constexpr int kMostSteps = 8;
 constexpr int kLagSteps = 12;
+constexpr double kLagTolerance = 1e-5;
 // A step that leaves more than this share of what was missing did not help:
 // the map is (nearly) flat there.
 constexpr double kLeastProgress = .8;
 // Lags shorter than a sample follow the slope of what they are given.
-constexpr int kSubsteps = 4;
+constexpr int kSubsteps = 2;
 // What stood before the first sample, s, in implicit steps.
 constexpr int kSettlingSteps = 10;
 constexpr double kSettlingStep = .1;
@@ -160,7 +161,9 @@ MatrixXd InvertLag(const std::vector<ActuatorMap>& map,
                    const MotionTrack& track, const MatrixXd& needed) {
   MatrixXd commanded = needed;
   for (int i = 0; i < kLagSteps; ++i) {
-    commanded += needed - GivenTorque(map, track, commanded);
+    const MatrixXd missing = needed - GivenTorque(map, track, commanded);
+    commanded += missing;
+    if (missing.norm() <= kLagTolerance * needed.norm()) break;
   }
   return commanded;
 }
