@@ -16,7 +16,7 @@ constexpr double kPhasePerStep = .5;
 constexpr int kMostSubsteps = 40;
 // The link rests on its transmission at first: implicit steps of this length.
 constexpr int kSettlingSteps = 20;
-constexpr double kSettlingStep = .05;  // s
+constexpr double kSettlingStep = 1;  // s
 
 class DeflectionRun {
  public:
@@ -57,13 +57,14 @@ class DeflectionRun {
     dx[1] = (signal[0] - law_.torque(x[0], x[1], x + 2, dx + 2)) / signal[1];
   }
 
-  // At rest under the load of sample k.
+  // At rest under the load of sample k, with the law's own states as given.
   void Settle(int k) {
     const Eigen::Vector2d signal = signals_.col(k);
     const auto& start = law_.initial_deflection;
     x_ << (start ? start(signal[0]) : 0), 0, law_.initial_state;
     const StiffStep::Rate rate = [&](double, const double* x, double* dx) {
       Rate(signal, x, dx);
+      std::fill(dx + 2, dx + x_.size(), 0);
     };
     for (int i = 0; i < kSettlingSteps; ++i) {
       step_.Advance(rate, 0, kSettlingStep, &x_);

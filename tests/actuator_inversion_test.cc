@@ -66,6 +66,15 @@ TEST(ActuatorInversion, BelievesTheRecordAtALimit) {
   const VectorXd commanded =
       CommandFor({Stateless(clip)}, Rest(), asked.unaryExpr(clip), asked);
   EXPECT_LT((commanded - asked).cwiseAbs().maxCoeff(), 1e-9);
+  // What the model says wrongly of the limit is said once.
+  const VectorXd wrong_limit = asked.unaryExpr(clip) * 1.02;
+  const VectorXd changed =
+      CommandFor({Stateless(clip)}, Rest(), wrong_limit, asked) - asked;
+  for (int k = 0; k < kSamples; ++k) {
+    if (std::abs(asked[k]) > 5) {
+      EXPECT_NEAR(changed[k], std::copysign(.1, asked[k]), 1e-9) << k;
+    }
+  }
   // Elsewhere it is not believed.
   const VectorXd wrong = asked + VectorXd::Ones(kSamples);
   const VectorXd again = CommandFor({Stateless([](double x) { return x / 2; })},

@@ -180,20 +180,23 @@ TEST(RecordedTorque, FrictionWarmsTheJoint) {
   two.arm.viscous = .8;
   two.motion.qd.setConstant(.5);
   two.changed.robot = two.arm.ToRobot();
-  two.changed.thermal = {{3, 2}, {3, 2}};  // J/K, K/W
   two.changed.joint_laws.push_back(
       {1, {}, false, [](const ArmInstant& at, const double*, double*) {
          return -at.temperature[1];
        }});
-  const VectorXd change = two.Change().col(1);
-  const VectorXd recorded = VectorXd::LinSpaced(kSamples, 20, 30);
-  for (int k = 0; k < kSamples; ++k) {
-    EXPECT_NEAR(change[k], .2 * 2 * -std::expm1(-k * kStep / (2 * 3)), 1e-9);
+  RecordedTorque recorded = two.Recorded();
+  for (const double R : {2., 5., 2.}) {
+    two.changed.thermal = {{9, 1}, {3, R}};  // J/K, K/W
+    const VectorXd change = recorded.Change(two.changed).col(1);
+    for (int k = 0; k < kSamples; ++k) {
+      EXPECT_NEAR(change[k], .2 * R * -std::expm1(-k * kStep / (R * 3)), 1e-9);
+    }
   }
   // A thermometer knows better.
+  const VectorXd read = VectorXd::LinSpaced(kSamples, 20, 30);
   two.motion.temperature.resize(kSamples, 2);
-  two.motion.temperature << recorded, recorded;
-  EXPECT_LT(Worst(two.Change().col(1), recorded.array() - 20), 1e-12);
+  two.motion.temperature << read, read;
+  EXPECT_LT(Worst(two.Change().col(1), read.array() - 20), 1e-12);
 }
 
 // The same questions again, and others in between, have the same answers.
