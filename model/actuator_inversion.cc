@@ -10,12 +10,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostIterations = 8;
+constexpr int kMostSteps = 8;
+constexpr int kLagSteps = 12;
+constexpr double kLagTolerance = 1e-5;
 // A step that leaves more than this share of what was missing did not help:
 // the map is (nearly) flat there.
 constexpr double kLeastProgress = .8;
 // Lags shorter than a sample follow the slope of what they are given.
-constexpr int kSubsteps = 4;
+constexpr int kSubsteps = 2;
 // What stood before the first sample, s, in implicit steps.
 constexpr int kSettlingSteps = 10;
 constexpr double kSettlingStep = .1;
@@ -130,27 +132,53 @@ MatrixXd GivenTorque(const std::vector<ActuatorMap>& actuators,
   return given;
 }
 
+namespace {
+
+// Of one map without states, sample by sample.
+MatrixXd InvertMap(const std::vector<ActuatorMap>& map,
+                   const MotionTrack& track, const MatrixXd& needed,
+                   const MatrixXd& guess) {
+  const double close = 1e-10 * needed.cwiseAbs().maxCoeff();
+  MatrixXd commanded = guess;
+  MatrixXd missing = needed - GivenTorque(map, track, commanded);
+  MatrixXd step = missing;
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> open =
+      missing.array().abs() > close;
+  for (int i = 0; i < kMostSteps && open.any(); ++i) {
+    commanded += open.select(step, 0);
+    const MatrixXd before = missing;
+    missing = needed - GivenTorque(map, track, commanded);
+    open = open && missing.array().abs() > close &&
+           missing.array().abs() < kLeastProgress * before.array().abs();
+    Secant(before, missing, &step);
+  }
+  return commanded;
+}
+
+// Of one map with states, which lags: what is missing falls by the share of a
+// signal that the lag lets through, each time.
+MatrixXd InvertLag(const std::vector<ActuatorMap>& map,
+                   const MotionTrack& track, const MatrixXd& needed) {
+  MatrixXd commanded = needed;
+  for (int i = 0; i < kLagSteps; ++i) {
+    const MatrixXd missing = needed - GivenTorque(map, track, commanded);
+    commanded += missing;
+    if (missing.norm() <= kLagTolerance * needed.norm()) break;
+  }
+  return commanded;
+}
+
+}  // namespace
+
 MatrixXd CommandFor(const std::vector<ActuatorMap>& actuators,
                     const MotionTrack& track, const MatrixXd& needed,
                     const MatrixXd& guess) {
-  const bool memory = NumStates(actuators) > 0;
-  const double close = 1e-10 * needed.cwiseAbs().maxCoeff();
-  MatrixXd commanded = guess;
-  MatrixXd missing = needed - GivenTorque(actuators, track, commanded);
-  MatrixXd step = missing;
-  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> open =
-      missing.array().isFinite();
-  for (int i = 0; i < kMostIterations && open.any(); ++i) {
-    commanded += open.select(step, 0);
-    const MatrixXd before = missing;
-    missing = needed - GivenTorque(actuators, track, commanded);
-    open = open && missing.array().abs() > close &&
-           missing.array().abs() < kLeastProgress * before.array().abs();
-    if (memory) {
-      step = missing;
-    } else {
-      Secant(before, missing, &step);
-    }
+  MatrixXd commanded = needed;
+  for (auto map = actuators.rbegin(); map != actuators.rend(); ++map) {
+    commanded = map->initial_state.size() > 0
+                    ? InvertLag({*map}, track, commanded)
+                    : InvertMap({*map}, track, commanded,
+                                guess.size() > 0 ? guess : commanded);
   }
   return commanded;
 }

@@ -14,10 +14,11 @@ Eigen::MatrixXd GivenTorque(const std::vector<ActuatorMap>& actuators,
                             const MotionTrack& track,
                             const Eigen::MatrixXd& commanded);
 
-// The commands for which the motors give what is `needed`. Starts from `guess`;
-// where maps can be inverted the result is that of needed torque alone. Where
-// they lose what was asked, as at a limit, it is the guess plus what is missing
-// there: recorded torque is a good guess, and the needed one a poor.
+// The commands for which the motors give what is `needed`, map by map from the
+// last. Where a map can be inverted they are those of the needed torque alone.
+// Where it loses what was asked, as at a limit, they are the `guess` plus what
+// is missing then: the recorded torque, or (empty) the needed one, which is a
+// poor guess.
 Eigen::MatrixXd CommandFor(const std::vector<ActuatorMap>& actuators,
                            const MotionTrack& track,
                            const Eigen::MatrixXd& needed,

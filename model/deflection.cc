@@ -16,7 +16,7 @@ constexpr double kPhasePerStep = .5;
 constexpr int kMostSubsteps = 40;
 // The link rests on its transmission at first: implicit steps of this length.
 constexpr int kSettlingSteps = 20;
-constexpr double kSettlingStep = .05;  // s
+constexpr double kSettlingStep = 1;  // s
 
 class DeflectionRun {
  public:
@@ -29,46 +29,57 @@ class DeflectionRun {
         x_(2 + law.initial_state.size()),
         unused_(law.initial_state.size()) {
     signals_ << load.transpose(), inertia.transpose();
-    x_ << (law.initial_deflection ? law.initial_deflection(load[0]) : 0), 0,
-        law.initial_state;
   }
 
   Deflection Run() {
     const int samples = static_cast<int>(signals_.cols());
     Deflection result = {VectorXd(samples), VectorXd(samples),
                          VectorXd(samples)};
-    Settle();
-    const int substeps = NumSubsteps();
+    Begin();
+    const int half = NumSubsteps();
+    double before = x_[1];
     for (int k = 0; k < samples; ++k) {
       result.angle[k] = x_[0];
       result.rate[k] = x_[1];
-      result.acceleration[k] = Acceleration(signals_.col(k), x_.data());
-      if (k + 1 < samples) Advance(k, substeps);
+      const double begin = k == 0 ? 0 : .5, end = k + 1 == samples ? 0 : .5;
+      if (end > 0) Advance(k, 0, half);
+      result.acceleration[k] =
+          samples > 1 ? (x_[1] - before) / ((begin + end) * dt_) : 0;
+      before = x_[1];
+      if (end > 0) Advance(k, half, half);
     }
     return result;
   }
 
  private:
-  double Acceleration(const Eigen::Vector2d& signal, const double* x) {
-    return (signal[0] - law_.torque(x[0], x[1], x + 2, unused_.data())) /
-           signal[1];
-  }
-
   void Rate(const Eigen::Vector2d& signal, const double* x, double* dx) {
     dx[0] = x[1];
     dx[1] = (signal[0] - law_.torque(x[0], x[1], x + 2, dx + 2)) / signal[1];
   }
 
-  void Settle() {
-    const Eigen::Vector2d signal = signals_.col(0);
+  // At rest under the load of sample k, with the law's own states as given.
+  void Settle(int k) {
+    const Eigen::Vector2d signal = signals_.col(k);
+    const auto& start = law_.initial_deflection;
+    x_ << (start ? start(signal[0]) : 0), 0, law_.initial_state;
     const StiffStep::Rate rate = [&](double, const double* x, double* dx) {
       Rate(signal, x, dx);
+      std::fill(dx + 2, dx + x_.size(), 0);
     };
     for (int i = 0; i < kSettlingSteps; ++i) {
       step_.Advance(rate, 0, kSettlingStep, &x_);
     }
   }
 
+  // As if it had followed the load for long: otherwise it would ring.
+  void Begin() {
+    Settle(std::min<int>(1, signals_.cols() - 1));
+    const double next = x_[0];
+    Settle(0);
+    x_[1] = (next - x_[0]) / dt_;
+  }
+
+  // Per half a sample.
   int NumSubsteps() {
     const double dx = 1e-7;
     const double slope =
@@ -81,13 +92,17 @@ class DeflectionRun {
                                        1., 0. + kMostSubsteps));
   }
 
-  void Advance(int k, int substeps) {
-    const StiffStep::Rate rate = [&](double t, const double* x, double* dx) {
-      InterpolateColumns(signals_, k, t / dt_, &signal_);
+  // Substeps begin .. begin + half - 1 of 2 half from sample k on.
+  void Advance(int k, int begin, int half) {
+    const StiffStep::Rate rate = [&](double share, const double* x,
+                                     double* dx) {
+      InterpolateColumns(signals_, k, share, &signal_);
       Rate(signal_, x, dx);
+      for (Eigen::Index i = 0; i < x_.size(); ++i) dx[i] *= dt_;
     };
-    const double h = dt_ / substeps;
-    for (int i = 0; i < substeps; ++i) step_.Advance(rate, i * h, h, &x_);
+    const double h = .5 / half;
+    for (int i = begin; i < begin + half; ++i)
+      step_.Advance(rate, i * h, h, &x_);
   }
 
   const Transmission& law_;

@@ -6,11 +6,13 @@
 
 namespace armcal {
 
-// How far a motor is ahead of its link, samples, rad or m and per s, s^2.
+// How far a motor is ahead of its link, rad or m, at samples. Accelerations are
+// means over a sample, so that a flank that is struck between two samples is
+// not missed.
 struct Deflection {
   Eigen::VectorXd angle;
-  Eigen::VectorXd rate;
-  Eigen::VectorXd acceleration;
+  Eigen::VectorXd rate;          // rad/s or m/s
+  Eigen::VectorXd acceleration;  // rad/s^2 or m/s^2
 };
 
 // The deflection d of a joint whose motor moves as recorded and whose link

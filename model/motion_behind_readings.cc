@@ -3,6 +3,8 @@
 #include <cmath>
 #include <functional>
 
+#include "model/low_pass.h"
+
 namespace armcal {
 namespace {
 
@@ -39,26 +41,13 @@ MatrixXd PositionErrors(const std::vector<SensorMap>& sensors,
   return errors.transpose();
 }
 
-// Central differences, one-sided at the ends, per s.
-VectorXd Slope(const VectorXd& x, double dt) {
-  const Eigen::Index N = x.size();
-  VectorXd slope = VectorXd::Zero(N);
-  if (N < 2) return slope;
-  if (N > 2) {
-    slope.segment(1, N - 2) = (x.tail(N - 2) - x.head(N - 2)) / (2 * dt);
-  }
-  slope[0] = (x[1] - x[0]) / dt;
-  slope[N - 1] = (x[N - 1] - x[N - 2]) / dt;
-  return slope;
-}
-
 void TakePositionErrors(const MatrixXd& errors, Motion* motion) {
   motion->q -= errors;
   for (int j = 0; j < motion->num_joints(); ++j) {
     if (errors.col(j).maxCoeff() == errors.col(j).minCoeff()) continue;
-    const VectorXd rate = Slope(errors.col(j), motion->dt);
+    const MatrixXd rate = Differentiate(errors.col(j), motion->dt);
     motion->qd.col(j) -= rate;
-    motion->qdd.col(j) -= Slope(rate, motion->dt);
+    motion->qdd.col(j) -= Differentiate(rate, motion->dt);
   }
 }
 

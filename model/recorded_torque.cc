@@ -226,8 +226,7 @@ MatrixXd RecordedTorque::Recorded(const SimulatedRobot& changed,
                                   const MatrixXd& needed) const {
   MatrixXd tau = needed;
   if (!changed.actuators.empty()) {
-    tau = CommandFor(changed.actuators, track, needed,
-                     motion_.torque.size() > 0 ? motion_.torque : needed);
+    tau = CommandFor(changed.actuators, track, needed, motion_.torque);
   }
   if (!changed.sensors.empty()) {
     tau = TorqueReadings(changed.sensors, track, tau);

@@ -7,8 +7,8 @@ inline namespace effects {
 
 namespace {
 
-constexpr double kRounding = .05;     // of the gap: corners of the dead zone
-constexpr double kDampingRatio = .3;  // of a flank
+constexpr double kRounding = .05;    // of the gap: corners of the dead zone
+constexpr double kDampingRatio = 1;  // of a flank, with the motor held
 
 // ln(1 + e^x) and its slope.
 double SoftPlus(double x) { return x > 30 ? x : std::log1p(std::exp(x)); }

@@ -22,6 +22,8 @@ struct MotionScale {
   Eigen::VectorXd top_speed;     // rad/s or m/s
   Eigen::VectorXd acceleration;  // rms, rad/s^2 or m/s^2
   Eigen::VectorXd low, high;     // positions, rad or m
+  // As recorded, its largest, N m or N; empty: not known.
+  Eigen::VectorXd top_torque;
   // The speed within which the joint's Coulomb friction changes sign, rad/s or
   // m/s: tanh(qd / width).
   Eigen::VectorXd width;

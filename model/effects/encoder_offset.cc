@@ -1,7 +1,29 @@
 #include "model/effects/effect_parts.h"
+#include "model/inverse_dynamics.h"
 
 namespace armcal {
 inline namespace effects {
+
+namespace {
+
+// Whether any torque depends on the position of the joint, in a few states
+// without symmetry.
+bool IsFelt(const Robot& robot, int joint) {
+  constexpr int kStates = 3;
+  const int n = robot.num_joints();
+  for (int state = 0; state < kStates; ++state) {
+    const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(n, 1, n) + 10 * state;
+    Eigen::VectorXd q = (1.7 * x).sin();
+    const Eigen::VectorXd qd = (2.9 * x).sin(), qdd = (4.3 * x).sin();
+    const Eigen::VectorXd tau = InverseDynamics(robot, q, qd, qdd);
+    q[joint] += .1;
+    const Eigen::VectorXd other = InverseDynamics(robot, q, qd, qdd);
+    if ((other - tau).norm() > 1e-9 * tau.norm()) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 // logged q = q + offset: a wrong zero of the encoder.
 Effect EncoderOffset() {
@@ -20,14 +42,10 @@ Effect EncoderOffset() {
       reading->position[j] += offset;
     }});
   };
-  // The whole arm turned about gravity, or moved: nothing changes.
   effect.unfit = [](const EffectSite& site) -> std::string {
-    if (site.joint > 0) return "";
-    const Eigen::Vector3d axis = site.robot->links[0].X_PF.linear().col(2);
-    const bool turns = IsRotational(site.at().type);
-    const bool felt = turns && axis.cross(site.robot->gravity).norm() >
-                                   1e-6 * site.robot->gravity.norm();
-    return felt ? "" : "torques do not depend on the first joint's position";
+    return IsFelt(*site.robot, site.joint)
+               ? ""
+               : "torques do not depend on the joint's position";
   };
   effect.experiment = "poses around the joint's range, held";
   return effect;

@@ -17,9 +17,13 @@ Effect TorqueSaturation() {
   effect.parameters = {Linear(
                            "share", "1", [](const EffectSite&) { return 1.; },
                            EffectParameter::Sign::kPositive),
+                       // Within the torques that were asked for.
                        Gridded("limit", "E", [](const EffectSite& site) {
-                         return GeometricGrid(TorqueScale(site),
-                                              3 * TorqueScale(site), 6);
+                         const Eigen::VectorXd& tops = site.scale->top_torque;
+                         const double top = tops.size() > 0
+                                                ? tops[site.joint]
+                                                : 2 * TorqueScale(site);
+                         return GeometricGrid(.5 * top, .95 * top, 6);
                        })};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {

@@ -1,0 +1,162 @@
+#include "model/effects/effects.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "model/low_pass.h"
+#include "tests/effect_arm.h"
+
+namespace armcal {
+inline namespace effects {
+void PrintTo(const Effect& effect, std::ostream* out) { *out << effect.name; }
+}  // namespace effects
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Search = EffectParameter::Search;
+
+TEST(Effects, AreThoseOfTheDesignInItsOrder) {
+  std::vector<std::string> names;
+  for (const Effect& effect : Effects()) names.push_back(effect.name);
+  EXPECT_THAT(
+      names, testing::ElementsAre(
+                 "viscous_friction", "coulomb_friction", "torque_offset",
+                 "asymmetric_friction", "quadratic_friction", "stribeck",
+                 "load_friction", "position_friction", "coupled_friction",
+                 "presliding", "armature", "elasticity", "backlash", "spring",
+                 "cable", "torque_ripple", "torque_gain", "torque_nonlinearity",
+                 "torque_saturation", "torque_deadband", "torque_crosstalk",
+                 "delay", "encoder_offset", "link_length", "base_tilt",
+                 "payload", "link_inertia", "thermal_friction", "time_drift",
+                 "external_contact", "vibration", "time_base"));
+  EXPECT_EQ(FindEffect("payload")->name, "payload");
+  EXPECT_EQ(FindEffect("gremlins"), nullptr);
+}
+
+class EffectOf : public testing::TestWithParam<Effect> {
+ protected:
+  static const EffectArm& Arm(bool prismatic) {
+    static const auto* const kPuma = new EffectArm("PUMA560 6R");
+    static const auto* const kScara = new EffectArm("SCARA RRPR");
+    return prismatic ? *kScara : *kPuma;
+  }
+
+  // Calls f(arm, joint, sizes, recorded torque) wherever the effect can be.
+  template <typename F>
+  void Everywhere(const F& f) const {
+    for (const bool prismatic : {false, true}) {
+      const EffectArm& arm = Arm(prismatic);
+      RecordedTorque recorded = arm.Recorded();
+      for (const int joint : arm.Joints(GetParam())) {
+        SCOPED_TRACE(testing::Message() << arm.robot.name << joint + 1);
+        f(arm, joint, arm.Sizes(GetParam(), joint), &recorded);
+      }
+    }
+  }
+};
+
+TEST_P(EffectOf, ParametersSayWhatTheyAre) {
+  const Effect& effect = GetParam();
+  for (const std::string& text :
+       {effect.law, effect.shows, effect.experiment}) {
+    EXPECT_FALSE(text.empty());
+  }
+  ASSERT_FALSE(effect.parameters.empty());
+  EXPECT_EQ(effect.parameters[0].search, Search::kLinear);
+  std::set<std::string> names;
+  for (const EffectParameter& parameter : effect.parameters) {
+    EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
+    EXPECT_FALSE(parameter.unit.empty());
+    EXPECT_EQ(static_cast<bool>(parameter.grid),
+              parameter.search == Search::kGrid)
+        << parameter.name;
+  }
+}
+
+TEST_P(EffectOf, SizesAndGridsAreOfUse) {
+  Everywhere([&](const EffectArm& arm, int joint, const VectorXd& sizes,
+                 RecordedTorque*) {
+    EXPECT_TRUE(sizes.allFinite());
+    for (int k = 0; k < sizes.size(); ++k) {
+      const EffectParameter& parameter = GetParam().parameters[k];
+      if (parameter.search == Search::kLinear) EXPECT_GT(sizes[k], 0);
+      if (!parameter.grid) continue;
+      const std::vector<double> grid = parameter.grid(arm.Site(joint));
+      EXPECT_THAT(grid.size(),
+                  testing::AllOf(testing::Ge(1u), testing::Le(6u)));
+      EXPECT_TRUE(std::is_sorted(grid.begin(), grid.end(), std::less_equal<>()))
+          << parameter.name;
+      EXPECT_THAT(grid, testing::Contains(sizes[k]));
+    }
+    for (const EffectEstimate& estimate :
+         EstimatesOf(GetParam(), arm.Site(joint), sizes)) {
+      EXPECT_TRUE(std::isfinite(estimate.value)) << estimate.name;
+      EXPECT_THAT(estimate.unit, testing::Not(testing::HasSubstr("E")));
+    }
+  });
+}
+
+// At every corner of the grids the torque that the effect adds is finite, some,
+// and none where its linear parameters are 0.
+TEST_P(EffectOf, AddsTorqueAndNoneAtZero) {
+  Everywhere([&](const EffectArm& arm, int joint, const VectorXd& sizes,
+                 RecordedTorque* recorded) {
+    for (const bool last : {false, true}) {
+      VectorXd p = sizes, zero = sizes;
+      for (int k = 0; k < p.size(); ++k) {
+        const EffectParameter& parameter = GetParam().parameters[k];
+        if (parameter.search == Search::kLinear) zero[k] = 0;
+        if (!parameter.grid) continue;
+        const std::vector<double> grid = parameter.grid(arm.Site(joint));
+        p[k] = zero[k] = last ? grid.back() : grid.front();
+      }
+      const MatrixXd change = arm.Change(GetParam(), joint, p, recorded);
+      EXPECT_TRUE(change.allFinite());
+      EXPECT_GT(change.norm(), 1e-6 * recorded->nominal().norm());
+      EXPECT_LT(arm.Change(GetParam(), joint, zero, recorded).norm(),
+                1e-9 * change.norm());
+    }
+  });
+}
+
+// As far as a diagnosis looks: to 6 Hz, half a second after the start.
+TEST_P(EffectOf, IsLinearInItsLinearParameters) {
+  // Of which only a share near 1 is a limit.
+  if (GetParam().name == "torque_saturation") return;
+  // A wider gap takes longer to cross.
+  if (GetParam().name == "backlash") return;
+  // The mode of a softer gear rings slower.
+  const double tolerance = GetParam().name == "elasticity" ? .1 : .03;
+  Everywhere([&](const EffectArm& arm, int joint, const VectorXd& sizes,
+                 RecordedTorque* recorded) {
+    const auto slow = [&](const VectorXd& p) {
+      const MatrixXd change = ZeroPhaseLowPass(
+          arm.Change(GetParam(), joint, p, recorded), 1 / arm.motion.dt, 6);
+      return MatrixXd(change.middleRows(50, change.rows() - 100));
+    };
+    for (int k = 0; k < sizes.size(); ++k) {
+      if (GetParam().parameters[k].search != Search::kLinear) continue;
+      VectorXd once = sizes;
+      for (int i = 0; i < sizes.size(); ++i) {
+        const bool linear = GetParam().parameters[i].search == Search::kLinear;
+        if (linear && i != k) once[i] = 0;
+      }
+      VectorXd twice = once;
+      twice[k] *= 2;
+      const MatrixXd doubled = slow(twice);
+      EXPECT_LE((doubled - 2 * slow(once)).norm(), tolerance * doubled.norm())
+          << GetParam().parameters[k].name;
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, EffectOf, testing::ValuesIn(Effects()),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace armcal
