@@ -108,6 +108,12 @@ CommandedLog ReadCommandedLog(const std::string& path,
   return commanded;
 }
 
+int FirstCounted(const Log& log) {
+  int row = 0;
+  while (log.t[row] < kCatchUp) ++row;
+  return row;
+}
+
 ClosedLoopReplay ReplayClosedLoop(const SimulatedRobot& plant, double delay,
                                   const Robot& known,
                                   const ControllerOptions& controller,
@@ -129,13 +135,13 @@ ClosedLoopReplay ReplayClosedLoop(const SimulatedRobot& plant, double delay,
       RunClosedLoop(delayed, known, motion, options, engine.dynamics.get());
   ClosedLoopReplay replay;
   replay.finite = run.finite;
-  while (log.t[replay.first] < kCatchUp) ++replay.first;
   if (!run.finite) return replay;
-  const int size = log.size() - replay.first;
+  const int first = FirstCounted(log);
+  const int size = log.size() - first;
   replay.position.resize(size, n);
   replay.torque.resize(size, n);
   for (int k = 0; k < size; ++k) {
-    const int row = replay.first + k;
+    const int row = first + k;
     const double t = TrueTime(plant.clock, log.t[row]);
     replay.position.row(k) =
         At(run.log.q, controller.rate_hz, t) - log.q.row(row);

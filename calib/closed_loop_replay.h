@@ -24,13 +24,15 @@ CommandedLog ReadCommandedLog(const std::string& path,
                               const LogReaderOptions& options,
                               const TimeRange& crop);
 
+// The row from which on replays count: a log that does not begin at rest is
+// caught up with in its first second.
+int FirstCounted(const Log& log);
+
 // What a simulated robot did instead of the real one.
 struct ClosedLoopReplay {
   bool finite = true;  // the simulated loop is stable; else nothing follows
-  // The log's row from which on it counts: a log that does not begin at rest is
-  // caught up with in its first second.
-  int first = 0;
-  // Simulated minus recorded of these rows, samples x n, rad or m, N m or N.
+  // Simulated minus recorded from FirstCounted() on, samples x n, rad or m, N m
+  // or N.
   Eigen::MatrixXd position;
   Eigen::MatrixXd torque;
 };

@@ -1,6 +1,20 @@
 #include "calib/joint_term_laws.h"
 
+#include <algorithm>
+
 namespace armcal {
+namespace {
+
+// States of parts, none where friction remembers nothing.
+int NumStates(const std::vector<CoulombPart>& coulomb) {
+  const bool remembers =
+      std::any_of(coulomb.begin(), coulomb.end(), [](const CoulombPart& part) {
+        return part.transition.law == CoulombTransition::Law::kDisplacement;
+      });
+  return remembers ? static_cast<int>(coulomb.size()) : 0;
+}
+
+}  // namespace
 
 void AddJointTerms(int j, const std::vector<CoulombPart>& coulomb,
                    SimulatedRobot* plant) {
@@ -8,16 +22,18 @@ void AddJointTerms(int j, const std::vector<CoulombPart>& coulomb,
   JointLaw friction;
   friction.joint = j;
   friction.heats = true;
-  friction.initial_state = Eigen::VectorXd::Zero(coulomb.size());
-  friction.torque = [j, viscous = joint.viscous, coulomb](
+  const int states = NumStates(coulomb);
+  friction.initial_state = Eigen::VectorXd::Zero(states);
+  friction.torque = [j, viscous = joint.viscous, coulomb, states](
                         const ArmInstant& instant, const double* state,
                         double* rate) {
     const double qd = instant.velocity[j];
     double torque = viscous * qd;
     for (size_t k = 0; k < coulomb.size(); ++k) {
       const CoulombTransition& transition = coulomb[k].transition;
-      torque += coulomb[k].force * transition.C(qd, state[k]);
-      rate[k] = transition.StateRate(qd, state[k]);
+      const double at = states > 0 ? state[k] : 0;
+      torque += coulomb[k].force * transition.C(qd, at);
+      if (states > 0) rate[k] = transition.StateRate(qd, at);
     }
     return -torque;
   };
