@@ -17,8 +17,9 @@ constexpr double kVariance = 252;
 }  // namespace
 
 Eigen::VectorXd PositionNoise(const Eigen::MatrixXd& q) {
+  if (q.rows() <= kOrder) return Eigen::VectorXd::Zero(q.cols());
   Eigen::MatrixXd d = q;
-  for (int k = 0; k < kOrder && d.rows() > 1; ++k) {
+  for (int k = 0; k < kOrder; ++k) {
     d = (d.bottomRows(d.rows() - 1) - d.topRows(d.rows() - 1)).eval();
   }
   Eigen::VectorXd noise(q.cols());
