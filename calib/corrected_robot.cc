@@ -31,6 +31,21 @@ void GiveMotors(const MotionScale& scale, CorrectedRobot* corrected) {
   }
 }
 
+// How much of the plant is not its robot.
+size_t NumSlots(const SimulatedRobot& plant) {
+  return plant.joint_laws.size() + plant.transmissions.size() +
+         plant.wrenches.size() + plant.actuators.size() + plant.sensors.size() +
+         plant.thermal.size() + (plant.clock ? 1 : 0);
+}
+
+CarriedEffect Carry(const EffectSite& site, const GapCandidate& found,
+                    SimulatedRobot* plant) {
+  const size_t slots = NumSlots(*plant);
+  found.effect->apply(site, found.p, plant);
+  return {found, EstimatesOf(*found.effect, site, found.p),
+          NumSlots(*plant) == slots};
+}
+
 }  // namespace
 
 CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
@@ -39,12 +54,12 @@ CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
                                   const MotionScale& scale) {
   CorrectedRobot corrected;
   corrected.delay = baseline.DelayAt(x);
-  corrected.effects = effects;
+  corrected.width = scale.width;
   const Robot fitted = baseline.With(x);
   corrected.plant.robot = fitted;
   for (const GapCandidate& effect : effects) {
-    effect.effect->apply({&fitted, effect.joint, &scale}, effect.p,
-                         &corrected.plant);
+    corrected.effects.push_back(
+        Carry({&fitted, effect.joint, &scale}, effect, &corrected.plant));
   }
   for (int j = 0; j < fitted.num_joints(); ++j) {
     std::vector<CoulombPart> coulomb = baseline.CoulombAt(j, x);
@@ -52,6 +67,7 @@ CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
     coulomb.front().force += corrected.plant.robot.links[j].joint.coulomb -
                              fitted.links[j].joint.coulomb;
     AddJointTerms(j, coulomb, &corrected.plant);
+    corrected.coulomb.push_back(std::move(coulomb));
   }
   GiveMotors(scale, &corrected);
   return corrected;
