@@ -1,8 +1,7 @@
 #pragma once
 
 // A 3R arm whose robot file is wrong in ways that the baseline of a gap
-// diagnosis can take, written here by hand, and one effect beside them.
-
+// diagnosis can take, written by hand, and one effect beside them.
 #include <cmath>
 
 #include "calib/corrected_robot.h"
@@ -12,8 +11,7 @@
 
 namespace armcal {
 
-// Friction that falls with speed, of one parameter: its law here is the
-// effect's own, which nobody else has.
+// Friction that falls with speed, of one parameter.
 inline Effect FallingFriction() {
   Effect effect;
   effect.name = "falling_friction";
@@ -81,17 +79,14 @@ struct CorrectedArm {
     Eigen::VectorXd x = Eigen::VectorXd::Zero(baseline.size());
     for (int c = 0; c < baseline.size(); ++c) {
       const BaselineColumn& column = baseline.columns()[c];
-      const auto term = static_cast<JointTerm>(column.index);
-      double value = 0;
-      if (column.kind == Kind::kTiming) value = delay;
-      if (column.kind == Kind::kTerm) {
-        const double v = Viscous(column.joint) - 3;
-        const double f = Coulomb(column.joint) - 4;
-        value = term == JointTerm::kViscous    ? v
-                : term == JointTerm::kCoulomb  ? f
-                : term == JointTerm::kArmature ? kArmature - .3
-                                               : 0;
-      }
+      const auto is = [&](JointTerm term) {
+        return column.kind == Kind::kTerm &&
+               column.index == static_cast<int>(term);
+      };
+      double value = column.kind == Kind::kTiming ? delay : 0;
+      if (is(JointTerm::kViscous)) value = Viscous(column.joint) - 3;
+      if (is(JointTerm::kCoulomb)) value = Coulomb(column.joint) - 4;
+      if (is(JointTerm::kArmature)) value = kArmature - .3;
       // The third of the other widths, all of the friction.
       if (column.kind == Kind::kZeroVelocity && column.index == 2) {
         value = Coulomb(column.joint);
