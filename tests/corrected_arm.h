@@ -51,7 +51,6 @@ struct CorrectedArm {
   static constexpr double kWidth = .012;
   static constexpr double kArmature = .32;  // of all joints
   static constexpr double kSize = 2;        // N m, of the effect on joint 2
-
   SimulatedRobot Truth(bool with_effect) const {
     SimulatedRobot plant;
     plant.robot = file;
@@ -87,7 +86,7 @@ struct CorrectedArm {
       if (is(JointTerm::kViscous)) value = Viscous(column.joint) - 3;
       if (is(JointTerm::kCoulomb)) value = Coulomb(column.joint) - 4;
       if (is(JointTerm::kArmature)) value = kArmature - .3;
-      // The third of the other widths, all of the friction.
+      // The third of the other widths, all of it.
       if (column.kind == Kind::kZeroVelocity && column.index == 2) {
         value = Coulomb(column.joint);
       }
