@@ -1,12 +1,29 @@
 #include "calib/arm_engine.h"
 
+#include <algorithm>
+
 #include "model/input_error.h"
 #include "model/plant/simbody_arm.h"
 #include "model/rigid_arm.h"
 
 namespace armcal {
+namespace {
+
+// Simbody takes some of them and fails in a pose that it reaches later.
+bool HasImpossibleLink(const Robot& robot) {
+  return std::any_of(
+      robot.links.begin(), robot.links.end(), [](const Link& link) {
+        const InertialParameters& body = link.inertial;
+        return !body.ToVector().isZero(0) && !WhyUnphysical(body).empty();
+      });
+}
+
+}  // namespace
 
 ArmEngine MakeArmEngine(const Robot& robot) {
+  if (HasImpossibleLink(robot)) {
+    return {std::make_unique<RigidArm>(robot), false};
+  }
   try {
     return {std::make_unique<SimbodyArm>(robot), true};
   } catch (const InputError&) {  // Verify() tells of it

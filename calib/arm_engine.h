@@ -7,7 +7,8 @@
 
 namespace armcal {
 
-// A robot's rigid dynamics by Simbody or, where it refuses a link, by our own.
+// A robot's rigid dynamics by Simbody or, where a link cannot exist or Simbody
+// refuses it, by our own.
 struct ArmEngine {
   std::unique_ptr<ArmDynamics> dynamics;
   bool is_simbody;

@@ -142,8 +142,7 @@ VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
     case BaselineColumn::Kind::kZeroVelocity: {
       if (!own) return {};
       CoulombTransition other;
-      other.width =
-          kOtherWidths[column.index] * WidthUnit(robot_.links[j].joint);
+      other.width = WidthOf(column);
       return TermTorque(JointTerm::kCoulomb, other, motion, j) -
              TermTorque(JointTerm::kCoulomb, transitions_[j], motion, j);
     }
@@ -176,6 +175,11 @@ std::vector<MatrixXd> GapBaseline::ThinColumns(
   return thin;
 }
 
+double GapBaseline::WidthOf(const BaselineColumn& column) const {
+  return kOtherWidths[column.index] *
+         WidthUnit(robot_.links[column.joint].joint);
+}
+
 Robot GapBaseline::With(const VectorXd& x) const {
   CHECK_EQ(x.size(), size());
   Robot robot = robot_;
@@ -192,6 +196,33 @@ Robot GapBaseline::With(const VectorXd& x) const {
     }
   }
   return robot;
+}
+
+std::vector<CoulombPart> GapBaseline::CoulombAt(int j,
+                                                const VectorXd& x) const {
+  std::vector<CoulombPart> parts = {
+      {With(x).links[j].joint.coulomb, transitions_[j]}};
+  for (int c = 0; c < size(); ++c) {
+    const BaselineColumn& column = columns_[c];
+    if (column.kind != BaselineColumn::Kind::kZeroVelocity) continue;
+    if (column.joint != j) continue;
+    const double force = x[c] * column.spread;
+    if (force == 0) continue;
+    parts.front().force -= force;
+    parts.push_back(
+        {force, {CoulombTransition::Law::kVelocity, WidthOf(column)}});
+  }
+  return parts;
+}
+
+double GapBaseline::DelayAt(const VectorXd& x) const {
+  double delay = 0;
+  for (int c = 0; c < size(); ++c) {
+    if (columns_[c].kind == BaselineColumn::Kind::kTiming) {
+      delay += x[c] * columns_[c].spread;
+    }
+  }
+  return delay;
 }
 
 std::vector<RecordedTorque> RecordedTorques(const GapBaseline& baseline,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/gap_rows.h"
+#include "calib/joint_term_laws.h"
 #include "model/effects/effect.h"
 #include "model/joint_term.h"
 #include "model/recorded_torque.h"
@@ -54,9 +55,15 @@ class GapBaseline {
       const GapRows& rows, const std::vector<RecordedTorque>& torques) const;
   // The robot with these values of the columns; nuisances have no place in it.
   Robot With(const Eigen::VectorXd& x) const;
+  // Coulomb friction of joint j at x: the joint's own, as far as it changes
+  // sign as transitions() say, and what the nuisances give to other widths.
+  std::vector<CoulombPart> CoulombAt(int j, const Eigen::VectorXd& x) const;
+  // By how much recorded torque is later than the motion, s.
+  double DelayAt(const Eigen::VectorXd& x) const;
 
  private:
   void AddLink(int link, double trust);
+  double WidthOf(const BaselineColumn& column) const;  // of kZeroVelocity
   void AddTerms(int joint, double trust, double usual_torque);
   Eigen::VectorXd FineColumn(const BaselineColumn& column, int j,
                              const Eigen::MatrixXd& inertial,

@@ -44,6 +44,27 @@ VectorXd RmsOfJoints(const MatrixXd& squares) {
   return rms;
 }
 
+// The interval of what is removed between two of them.
+void SetInterval(const TimeSeries& from, const TimeSeries& after,
+                 std::uint64_t seed, double* ci95) {
+  const int size = static_cast<int>(from.sum.size());
+  std::vector<double> gain(size);
+  for (int k = 0; k < size; ++k) gain[k] = from.sum[k] - after.sum[k];
+  const BootstrapInterval interval =
+      BlockBootstrap(size, BootstrapBlock(size, CorrelationTime(gain)), seed,
+                     [&](const std::vector<int>& drawn) {
+                       double before = 0, left = 0, all = 0;
+                       for (const int k : drawn) {
+                         before += from.sum[k];
+                         left += after.sum[k];
+                         all += from.count[k];
+                       }
+                       return Removed(before / all, left / all);
+                     });
+  ci95[0] = interval.low;
+  ci95[1] = interval.high;
+}
+
 }  // namespace
 
 GapFigures ShrinkFigures(const HeldOutSquares& squares, std::uint64_t seed) {
@@ -62,22 +83,8 @@ GapFigures ShrinkFigures(const HeldOutSquares& squares, std::uint64_t seed) {
   figures.joints.resize(squares.refit.cols(), 3);
   figures.joints << RmsOfJoints(squares.nominal), RmsOfJoints(squares.refit),
       RmsOfJoints(squares.after);
-  const int size = static_cast<int>(refit.sum.size());
-  std::vector<double> gain(size);
-  for (int k = 0; k < size; ++k) gain[k] = refit.sum[k] - after.sum[k];
-  const BootstrapInterval interval =
-      BlockBootstrap(size, BootstrapBlock(size, CorrelationTime(gain)), seed,
-                     [&](const std::vector<int>& drawn) {
-                       double from = 0, to = 0, all = 0;
-                       for (const int k : drawn) {
-                         from += refit.sum[k];
-                         to += after.sum[k];
-                         all += refit.count[k];
-                       }
-                       return Removed(from / all, to / all);
-                     });
-  figures.ci95[0] = interval.low;
-  figures.ci95[1] = interval.high;
+  SetInterval(refit, after, seed, figures.ci95);
+  SetInterval(nominal, after, seed, figures.nominal_ci95);
   return figures;
 }
 

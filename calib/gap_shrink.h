@@ -24,8 +24,9 @@ struct GapFigures {
   // 100 (refit - after) / (refit - floor); NaN where nothing can be removed.
   double removed_percent = 0;
   double removed_from_nominal_percent = 0;
-  double ci95[2] = {0, 0};  // of removed_percent
-  Eigen::MatrixXd joints;   // n x 3 rms: nominal, refit, after
+  double ci95[2] = {0, 0};          // of removed_percent
+  double nominal_ci95[2] = {0, 0};  // of removed_from_nominal_percent
+  Eigen::MatrixXd joints;           // n x 3 rms: nominal, refit, after
 };
 
 GapFigures ShrinkFigures(const HeldOutSquares& squares, std::uint64_t seed);

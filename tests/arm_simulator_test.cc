@@ -64,6 +64,12 @@ TEST(ArmSimulator, SwingsAsSimbodyIntegratesItself) {
   EXPECT_LT(fine.norm(), 1e-4);
   // Third order in the step.
   EXPECT_NEAR(coarse.norm() / fine.norm(), 8, 1);
+  // And on from the midst of its swing.
+  ArmSimulator simulator(plant, q, {1e-3, 0, 0}, &arm);
+  simulator.SetMotors(q, qd);
+  for (int k = 0; k < 200; ++k) simulator.Step(none);
+  ASSERT_TRUE(arm.Swing(.2, 1e-10, &q, &qd));
+  EXPECT_LT((simulator.instant().position - q).norm(), 1e-4);
 }
 
 // Coulomb friction F on inertia J stops a wheel of speed w after w J / F,
@@ -163,6 +169,33 @@ TEST(ArmSimulator, ActuatorMapsHaveStates) {
   robot.actuators.push_back(lag);
   const ArmInstant end = Simulate(robot, One(0), One(1), .2);
   EXPECT_NEAR(end.velocity[0], (.2 - .05 * (1 - std::exp(-4))) / .5, 1e-8);
+}
+
+// Started in motion: two masses on a spring go on together, the motor as far
+// ahead as it hangs at rest.
+TEST(ArmSimulator, StartsInMotion) {
+  SimulatedRobot robot = Flywheel(.3, .1);
+  Transmission spring;
+  spring.torque = [](double x, double, const double*, double*) {
+    return 400 * x;
+  };
+  spring.initial_deflection = [](double) { return 0.; };
+  robot.transmissions.push_back(spring);
+  SimbodyArm arm(robot.robot);
+  ArmSimulator simulator(robot, One(0), {1e-3, 0, 2}, &arm);
+  simulator.SetMotors(One(.2), One(3));
+  EXPECT_EQ(simulator.instant().t, 2);
+  for (int k = 0; k < 500; ++k) simulator.Step(One(0));
+  EXPECT_NEAR(simulator.instant().position[0], .2 + 3 * .5, 1e-9);
+  EXPECT_NEAR(simulator.instant().link_position[0], .2 + 3 * .5, 1e-9);
+  // Under way the link stays where it is, and a copy goes its own way.
+  ArmSimulator copy = simulator;
+  copy.SetMotors(One(1.71), One(3));
+  EXPECT_EQ(copy.instant().link_position[0],
+            simulator.instant().link_position[0]);
+  copy.Step(One(0));
+  EXPECT_NEAR(copy.instant().load[0], 400 * .01, .1);
+  EXPECT_NEAR(simulator.instant().load[0], 0, 1e-6);
 }
 
 TEST(ArmSimulator, RefusesWhatItCannotIntegrate) {

@@ -18,9 +18,9 @@ using testing::HasSubstr;
 
 // A 3R arm with viscous friction, moved by a controller whose robot file knows
 // of none.
-class CommandedLog : public testing::Test {
+class CommandedArm : public testing::Test {
  protected:
-  CommandedLog() : file_(SampleRobot("3R elbow")) {
+  CommandedArm() : file_(SampleRobot("3R elbow")) {
     std::mt19937_64 random(5);
     SetRandomInertials(&random, &file_);
     for (Link& link : file_.links) link.joint.armature = .3;
@@ -54,13 +54,13 @@ class CommandedLog : public testing::Test {
 
 // With the friction the loop follows the log, in position and, ten times nearer
 // than without, in torque: a command of 250 Hz has been differenced twice.
-TEST_F(CommandedLog, TheTruthFollowsTheLog) {
-  const Log log = ReadCommandedLog(path_, options_, {});
+TEST_F(CommandedArm, TheTruthFollowsTheLog) {
+  const CommandedLog log = ReadCommandedLog(path_, options_, {});
   CalibratedRobot calibrated;
   calibrated.robot = truth_;
   calibrated.transitions.resize(3);
   const ClosedLoopComparison loop =
-      CompareClosedLoop(file_, &calibrated, controller_, path_, log);
+      CompareClosedLoop(file_, &calibrated, controller_, log);
   EXPECT_TRUE(loop.before_finite && loop.after_finite);
   ASSERT_EQ(loop.joints.size(), 3u);
   for (const ClosedLoopJoint& joint : loop.joints) {
@@ -70,13 +70,13 @@ TEST_F(CommandedLog, TheTruthFollowsTheLog) {
     EXPECT_GT(joint.before_torque_rms, .05 * joint.torque_rms) << joint.name;
   }
   const ClosedLoopComparison file =
-      CompareClosedLoop(file_, nullptr, controller_, path_, log);
+      CompareClosedLoop(file_, nullptr, controller_, log);
   EXPECT_TRUE(std::isnan(file.joints[0].after_rms));
   EXPECT_EQ(file.joints[0].before_rms, loop.joints[0].before_rms);
 }
 
-TEST_F(CommandedLog, CropStartsItsOwnTime) {
-  const Log log = ReadCommandedLog(path_, options_, {2, 5});
+TEST_F(CommandedArm, CropStartsItsOwnTime) {
+  const Log log = ReadCommandedLog(path_, options_, {2, 5}).log;
   EXPECT_EQ(log.t[0], 0);
   EXPECT_NEAR(log.t[log.size() - 1], 3, .01);
   EXPECT_THAT(
@@ -89,13 +89,14 @@ TEST_F(CommandedLog, CropStartsItsOwnTime) {
 
 // A log that ends between two control periods, the nearer of which is after its
 // end; and one whose end is a rounding error before a period.
-TEST_F(CommandedLog, MayEndBetweenControlPeriods) {
+TEST_F(CommandedArm, MayEndBetweenControlPeriods) {
   for (const double end : {3.4997, 3.4992, std::nextafter(3.5, 0)}) {
-    Log log = ReadCommandedLog(path_, options_, {2, 5.5});
-    log.t *= end / log.t[log.size() - 1];
-    log.t[log.size() - 1] = end;
+    CommandedLog log = ReadCommandedLog(path_, options_, {2, 5.5});
+    Eigen::VectorXd& t = log.log.t;
+    t *= end / t[t.size() - 1];
+    t[t.size() - 1] = end;
     const ClosedLoopComparison loop =
-        CompareClosedLoop(file_, nullptr, controller_, path_, log);
+        CompareClosedLoop(file_, nullptr, controller_, log);
     EXPECT_TRUE(loop.before_finite);
     for (const ClosedLoopJoint& joint : loop.joints) {
       EXPECT_LT(joint.before_rms, 1e-2) << joint.name << " " << end;
@@ -103,7 +104,7 @@ TEST_F(CommandedLog, MayEndBetweenControlPeriods) {
   }
 }
 
-TEST_F(CommandedLog, TooManyRowsAreRefusedNotCut) {
+TEST_F(CommandedArm, TooManyRowsAreRefusedNotCut) {
   std::string text = "t,q1,tau1,qref1\n";
   for (int k = 0; k <= 1 << 20; ++k) text += std::to_string(k) + ",0,0,0\n";
   const std::string path = WriteFile(text, "long.csv");
@@ -114,7 +115,7 @@ TEST_F(CommandedLog, TooManyRowsAreRefusedNotCut) {
                         "rows"));
 }
 
-TEST_F(CommandedLog, WithoutACommandItIsRefused) {
+TEST_F(CommandedArm, WithoutACommandItIsRefused) {
   const std::string path =
       WriteFile("t,q1,tau1,q2,tau2,q3,tau3\n0,0,0,0,0,0,0\n", "plain.csv");
   EXPECT_THAT(MessageOf<InputError>(

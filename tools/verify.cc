@@ -44,11 +44,11 @@ std::vector<std::string> SeenLogs(const CalibratedRobot& calibrated,
 std::optional<ClosedLoopComparison> CloseLoop(
     const Robot& file, const CalibratedRobot* calibrated,
     const std::vector<std::string>& logs) {
-  const Log log =
+  const CommandedLog log =
       ReadCommandedLog(logs[0], LogOptionsFromFlags(file), CropFromFlags());
   const ControllerOptions controller =
-      ControllerFromFlags(file, log.qref.row(0));
-  return CompareClosedLoop(file, calibrated, controller, logs[0], log);
+      ControllerFromFlags(file, log.log.qref.row(0));
+  return CompareClosedLoop(file, calibrated, controller, log);
 }
 
 int Finish(const Robot& file, const VerificationReport& report) {

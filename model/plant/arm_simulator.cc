@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "model/input_error.h"
+#include "model/plant/interpolated_terms.h"
 
 namespace armcal {
-
 namespace {
 
 // Friction that changes sign takes as many, or an arm that no feedback holds
@@ -48,6 +48,22 @@ ArmSimulator::ArmSimulator(const SimulatedRobot& robot,
   substeps_ = options.substeps > 0 ? options.substeps : NeededSubsteps();
 }
 
+void ArmSimulator::SetMotors(const Eigen::VectorXd& q,
+                             const Eigen::VectorXd& qd) {
+  CHECK(q.size() == n_ && qd.size() == n_);
+  Eigen::VectorXd link_q = q, link_qd = qd;
+  for (size_t k = 0; k < robot_.transmissions.size(); ++k) {
+    const int j = robot_.transmissions[k].joint;
+    const auto motor = x_.segment<2>(layout_.motors + 2 * k);
+    link_q[j] = step_index_ == 0 ? q[j] - (motor[0] - x_[j]) : x_[j];
+    if (step_index_ > 0) link_qd[j] = x_[n_ + j];
+    x_.segment<2>(layout_.motors + 2 * k) << q[j], qd[j];
+  }
+  x_.head(2 * n_) << link_q, link_qd;
+  dynamics_->Evaluate(link_q, link_qd, attachments_, &end_);
+  ReadInstant(x_, instant_.t);
+}
+
 void ArmSimulator::SetArmature() {
   armature_.resize(n_);
   for (int j = 0; j < n_; ++j) {
@@ -79,25 +95,6 @@ void ArmSimulator::ReadInstant(const Eigen::VectorXd& x, double t) {
     instant_.velocity[j] = x[layout_.motors + 2 * k + 1];
   }
   instant_.temperature = x.tail(n_);
-}
-
-void ArmSimulator::Interpolate(double share) {
-  // Through begin, middle and end.
-  const double a = (1 - share) * (1 - 2 * share);
-  const double b = 4 * share * (1 - share), c = share * (2 * share - 1);
-  now_.mass_matrix =
-      a * begin_.mass_matrix + b * middle_.mass_matrix + c * end_.mass_matrix;
-  now_.mass_matrix.diagonal() += rigid_armature_;
-  now_.bias = a * begin_.bias + b * middle_.bias + c * end_.bias;
-  now_.points.resize(attachments_.size());
-  for (size_t k = 0; k < attachments_.size(); ++k) {
-    now_.points[k].jacobian = a * begin_.points[k].jacobian +
-                              b * middle_.points[k].jacobian +
-                              c * end_.points[k].jacobian;
-    now_.points[k].X_WP.matrix() = a * begin_.points[k].X_WP.matrix() +
-                                   b * middle_.points[k].X_WP.matrix() +
-                                   c * end_.points[k].X_WP.matrix();
-  }
 }
 
 void ArmSimulator::AddActuators(const Eigen::VectorXd& x) {
@@ -170,7 +167,8 @@ void ArmSimulator::Derivative(const Eigen::VectorXd& x, double t,
                               double share) {
   rate_.setZero(layout_.size);
   ReadInstant(x, t);
-  Interpolate(share);
+  InterpolateTerms(begin_, middle_, end_, share, &now_);
+  now_.mass_matrix.diagonal() += rigid_armature_;
   AddActuators(x);
   AddJointLaws(x);
   AddTransmissions(x);

@@ -26,11 +26,18 @@ struct ArmSimulatorOptions {
 class ArmSimulator {
  public:
   // Starts at rest with the links at q0 (all joints, passive ones included).
-  // Keeps references to both; `dynamics` is of robot.robot. Throws InputError
+  // Keeps references to both; `dynamics` is of robot.robot. A copy goes on from
+  // the same state with the same engine. Throws InputError
   // where a transmission's joint has no armature, or a law is too stiff for 64
   // substeps.
   ArmSimulator(const SimulatedRobot& robot, const Eigen::VectorXd& q0,
                const ArmSimulatorOptions& options, ArmDynamics* dynamics);
+
+  // Puts the motors of all joints in this state, n entries each, rad or m and
+  // per s. Before the first step their links move with them, as far behind as
+  // they are at rest; later they stay where transmissions have let them go: so
+  // a recorded motion leads the motors while links and laws follow.
+  void SetMotors(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
 
   // Advances by options.step with the torques commanded to the driven joints.
   void Step(const Eigen::VectorXd& commanded);
@@ -44,7 +51,6 @@ class ArmSimulator {
   double Stiffness();
   double DeclaredStiffness();
   void ReadInstant(const Eigen::VectorXd& x, double t);
-  void Interpolate(double share);
   void Derivative(const Eigen::VectorXd& x, double t, double share);
   void AddActuators(const Eigen::VectorXd& x);
   void AddJointLaws(const Eigen::VectorXd& x);

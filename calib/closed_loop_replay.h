@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "model/log.h"
+#include "model/log_reader.h"
+#include "model/plant/joint_controller.h"
+#include "model/robot.h"
+#include "model/simulated_robot.h"
+#include "model/time_base.h"
+
+namespace armcal {
+
+// A log whose command qref can be followed, in memory as a whole.
+struct CommandedLog {
+  std::string path;
+  Log log;  // times from 0: positions, torque and qref
+};
+
+// The rows of a log within `crop`. Throws InputError where it has no qref
+// columns, more than 2^20 rows or nothing is left.
+CommandedLog ReadCommandedLog(const std::string& path,
+                              const LogReaderOptions& options,
+                              const TimeRange& crop);
+
+// The row from which on replays count: a log that does not begin at rest is
+// caught up with in its first second.
+int FirstCounted(const Log& log);
+
+// What a simulated robot did instead of the real one.
+struct ClosedLoopReplay {
+  bool finite = true;  // the simulated loop is stable; else nothing follows
+  // Simulated minus recorded from FirstCounted() on, samples x n, rad or m, N m
+  // or N.
+  Eigen::MatrixXd position;
+  Eigen::MatrixXd torque;
+};
+
+// Lets `plant` (arm_engine.h) follow the command of the log under a controller
+// that knows the robot `known`. `delay`: by how much recorded torque is later
+// than the motion, s. A positive one is the recording's, and the motion does
+// not feel it; a negative one that of the drives, as a first-order lag.
+ClosedLoopReplay ReplayClosedLoop(const SimulatedRobot& plant, double delay,
+                                  const Robot& known,
+                                  const ControllerOptions& controller,
+                                  const CommandedLog& commanded);
+
+}  // namespace armcal

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "calib/closed_loop_replay.h"
+#include "calib/corrected_robot.h"
+#include "calib/gap_segments.h"
+#include "calib/gap_shrink.h"
+#include "calib/window_replay.h"
+
+namespace armcal {
+
+// The robots of a forward-simulated gap, MakeCorrectedRobot of: the baseline at
+// 0; at its refit; at its fit beside the effects, with them.
+struct ForwardRobots {
+  CorrectedRobot nominal, refit, after;
+};
+
+// How far simulated positions are from recorded ones that nothing was chosen
+// on. E of DESIGN.md is the mean over samples and joints of squared deviations,
+// each joint's in units of what measurement noise alone would leave, so that
+// the floor is 1 and radians and metres can be added.
+struct ForwardGap {
+  bool closed_loop = true;
+  GapFigures figures;     // joints: rms in rad or m
+  Eigen::VectorXd floor;  // n, rms, rad or m
+  // Simulations of nominal, refit and after that did not stay finite, of loops
+  // or windows. Such a loop is infinitely far off; such a window is left out
+  // for all three.
+  int diverged[3] = {0, 0, 0};
+  int runs = 0;  // loops or windows that were simulated
+};
+
+// In closed loop along the logs' commands, by a controller that knows the robot
+// `known`. The floor is the noise of the recorded positions (position_noise.h);
+// what it makes of the motion by way of the controller is not in it.
+ForwardGap ForwardGapInLoop(const ForwardRobots& robots, const Robot& known,
+                            const ControllerOptions& controller,
+                            const std::vector<CommandedLog>& logs,
+                            std::uint64_t seed);
+
+// By multiple shooting over windows of kForwardWindow. The floor is simulated:
+// `after` with noise added to starts, torque and positions.
+constexpr double kForwardWindow = .5;  // s
+ForwardGap ForwardGapInWindows(const ForwardRobots& robots,
+                               const std::vector<GapSegment>& segments,
+                               const MeasurementNoise& noise,
+                               std::uint64_t seed);
+
+}  // namespace armcal

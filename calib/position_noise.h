@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace armcal {
+
+// Standard deviation of white noise of recorded positions (samples x n, equally
+// spaced), resolution included, n entries, rad or m: from their fifth
+// differences, of which motion below a twentieth of the sample rate has next to
+// nothing, by the median, so that friction's jerks do not count. Differences
+// that are 0, of an encoder that stands, tell nothing; 0 where all are.
+Eigen::VectorXd PositionNoise(const Eigen::MatrixXd& q);
+
+}  // namespace armcal
