@@ -120,10 +120,14 @@ class Diagnoser {
   void MakeScreen();
   void Choose();
   void Refine();
+  MatrixXd HeldOutWith(const std::vector<GapCandidate>& effects,
+                       const VectorXd& baseline);
+  MatrixXd HeldOutWithout(size_t k);
+  EffectEvidence EvidenceFor(size_t k, const std::vector<PlacedEffect>& all);
   void Shrink();
   void Where();
   void Judge();
-  FoundEffect Found(size_t k, const MatrixXd& covariance) const;
+  FoundEffect Found(size_t k, const MatrixXd& covariance);
 
   const Robot& robot_;
   const DiagnosisOptions& options_;
@@ -205,7 +209,67 @@ std::vector<double> EstimateDeviations(const GapCandidate& effect,
   return stddev;
 }
 
-FoundEffect Diagnoser::Found(size_t k, const MatrixXd& covariance) const {
+// Mean over samples and joints.
+double MeanSquare(const MatrixXd& squares) {
+  double sum = 0, count = 0;
+  for (const double x : squares.reshaped()) {
+    if (std::isnan(x)) continue;
+    sum += x;
+    count += 1;
+  }
+  return count > 0 ? sum / count : 1;
+}
+
+// The noise's variance is not known better than this.
+double NoiseTolerance(NoiseFloor floor) {
+  return floor == NoiseFloor::kRepeats ? .25 : .3;
+}
+
+// chi^2 beyond the noise that a fit leaves.
+double ExcessOf(const GapScreen& screen, const GapScreen::Fit& fit,
+                double tolerance) {
+  double excess = 0;
+  for (int j = 0; j < screen.num_joints(); ++j) {
+    const VectorXd residual = screen.Residual(j, fit);
+    excess += std::max(
+        0., residual.squaredNorm() - (1 + tolerance) * residual.size());
+  }
+  return excess;
+}
+
+EffectEvidence Diagnoser::EvidenceFor(size_t k,
+                                      const std::vector<PlacedEffect>& all) {
+  constexpr double kMostOdds = 12;
+  EffectEvidence evidence;
+  const GapCandidate& effect = refined_.effects[k];
+  double others = -1e300, own = -1e300;
+  for (const PlacedEffect& other : all) {
+    const bool same =
+        other.effect == effect.effect && other.joint == effect.joint;
+    (same ? own : others) = std::max(same ? own : others, other.score);
+  }
+  evidence.odds = std::clamp((own - others) / 8, -kMostOdds, kMostOdds);
+  evidence.strength = std::log(std::max(1., selection_.drops[k]));
+  double drops = 0;
+  for (const double drop : selection_.drops) drops += drop;
+  evidence.share = selection_.drops[k] / drops;
+  evidence.chosen = static_cast<int>(selection_.drops.size());
+  const GapScreen::Fit fit =
+      screen_->Solve(ColumnsOf(candidates_, selection_.chosen));
+  const double left = ExcessOf(*screen_, fit, NoiseTolerance(noise_.source));
+  evidence.left = left / (left + fit.drop);
+  const double refit = std::max(0., result_.torque.refit - 1);
+  const double after = std::max(0., result_.torque.after - 1.1);
+  evidence.held_out_left = after / std::max(.1, refit);
+  evidence.next =
+      std::max(0., ScoresBeside(*screen_, candidates_, options_.selection,
+                                selection_.chosen, -1)
+                       .maxCoeff());
+  evidence.gain = MeanSquare(HeldOutWithout(k)) - result_.torque.after;
+  return evidence;
+}
+
+FoundEffect Diagnoser::Found(size_t k, const MatrixXd& covariance) {
   const GapCandidate& effect = refined_.effects[k];
   const EffectSite site = {&robot_, effect.joint, &scale_};
   FoundEffect found;
@@ -224,6 +288,7 @@ FoundEffect Diagnoser::Found(size_t k, const MatrixXd& covariance) const {
       found.probability = other.probability;
     }
   }
+  found.evidence = EvidenceFor(k, all);
   for (const PlacedEffect& other : CredibleSet(all)) {
     if (other.effect != found.effect || other.joint != found.joint) {
       found.equivalent.push_back(other);
@@ -232,17 +297,37 @@ FoundEffect Diagnoser::Found(size_t k, const MatrixXd& covariance) const {
   return found;
 }
 
+// Held-out squares with some of the effects, the baseline fitted beside them.
+MatrixXd Diagnoser::HeldOutWith(const std::vector<GapCandidate>& effects,
+                                const VectorXd& baseline) {
+  MatrixXd residual = held_out_->ResidualWith(baseline);
+  if (!effects.empty()) {
+    residual -=
+        EffectTorque(*baseline_, scale_, effects, !split_, held_out_.get());
+  }
+  return Squares(held_out_->rows(), residual);
+}
+
+MatrixXd Diagnoser::HeldOutWithout(size_t k) {
+  std::vector<GapCandidate> others = refined_.effects;
+  others.erase(others.begin() + k);
+  JointRows torque(robot_.num_joints());
+  if (!others.empty()) {
+    const MatrixXd thin =
+        EffectTorque(*baseline_, scale_, others, false, data_.get());
+    for (int j = 0; j < thin.cols(); ++j) {
+      torque[j] = data_->rows().Whiten(j, thin.col(j));
+    }
+  }
+  return HeldOutWith(others, screen_->BaselineBeside(torque));
+}
+
 void Diagnoser::Shrink() {
   const GapRows& rows = held_out_->rows();
   HeldOutSquares squares;
   squares.nominal = Squares(rows, held_out_->residual());
-  squares.refit = Squares(rows, held_out_->ResidualWith(refit_));
-  MatrixXd after = held_out_->ResidualWith(refined_.baseline);
-  if (!refined_.effects.empty()) {
-    after -= EffectTorque(*baseline_, scale_, refined_.effects, !split_,
-                          held_out_.get());
-  }
-  squares.after = Squares(rows, after);
+  squares.refit = HeldOutWith({}, refit_);
+  squares.after = HeldOutWith(refined_.effects, refined_.baseline);
   result_.torque = ShrinkFigures(squares, options_.seed);
   for (int j = 0; j < robot_.num_joints(); ++j) {
     const Joint& joint = robot_.links[j].joint;

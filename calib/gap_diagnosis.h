@@ -35,6 +35,18 @@ enum class GapVerdict {
 };
 const char* GapVerdictName(GapVerdict verdict);
 
+// What speaks for an effect besides its score, and against the catalogue.
+struct EffectEvidence {
+  double odds = 0;      // ln of its softmax probability against all others'
+  double strength = 0;  // ln of its drop of chi^2
+  double share = 1;     // of the drops of all that were chosen
+  int chosen = 1;       // how many were
+  double left = 0;      // share of the excess that all leave, in sample
+  double held_out_left = 0;  // the same on what was held out
+  double next = 0;           // score of the best further candidate, at least 0
+  double gain = 0;           // by how much it lowers the held-out mean square
+};
+
 // One effect that was found.
 struct FoundEffect {
   const Effect* effect = nullptr;
@@ -42,6 +54,7 @@ struct FoundEffect {
   double probability = 0;
   double score = 0;
   double drop = 0;  // of chi^2 when it is left out
+  EffectEvidence evidence;
   Eigen::VectorXd p;
   std::vector<EffectEstimate> estimates;
   std::vector<double> stddev;  // of the estimates

@@ -20,6 +20,17 @@ json PlacesJson(const std::vector<PlacedEffect>& places) {
   return list;
 }
 
+json EvidenceJson(const EffectEvidence& evidence) {
+  return {{"odds", JsonNumber(evidence.odds)},
+          {"strength", JsonNumber(evidence.strength)},
+          {"share", JsonNumber(evidence.share)},
+          {"chosen", evidence.chosen},
+          {"left", JsonNumber(evidence.left)},
+          {"held_out_left", JsonNumber(evidence.held_out_left)},
+          {"next", JsonNumber(evidence.next)},
+          {"gain", JsonNumber(evidence.gain)}};
+}
+
 json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   json estimates = json::array();
   for (size_t k = 0; k < found.estimates.size(); ++k) {
@@ -37,6 +48,7 @@ json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
           {"joint_index", found.joint + 1},
           {"probability", JsonNumber(found.probability)},
           {"score", JsonNumber(found.score)},
+          {"evidence", EvidenceJson(found.evidence)},
           {"estimates", estimates},
           {"equivalent", PlacesJson(found.equivalent)},
           {"separate_by", found.separate_by},
