@@ -14,7 +14,8 @@ using Search = EffectParameter::Search;
 
 constexpr int kPeaks = 3;
 constexpr int kWindows = 3;
-constexpr double kHighestHarmonic = 130;                   // per rad
+// Per rad: slower ones are springs and cables.
+constexpr double kLowestHarmonic = 6, kHighestHarmonic = 130;
 const std::vector<double> kDurations = {.15, .4, 1, 2.5};  // s
 
 // What the residual proposes for the parameters that are looked for in it.
@@ -51,8 +52,8 @@ class Proposals {
     const double range = q_.col(joint).maxCoeff() - q_.col(joint).minCoeff();
     if (!(range > 0)) return {};
     return PeakFrequencies(whitened_.col(joint), q_.col(joint),
-                           std::max(1.5, 2 * M_PI / range), kHighestHarmonic,
-                           kPeaks);
+                           std::max(kLowestHarmonic, 2 * M_PI / range),
+                           kHighestHarmonic, kPeaks);
   }
   std::vector<double> Frequencies(int joint) const {
     if (joint < 0) return {};
@@ -165,9 +166,9 @@ std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
   return happens_once ? AtTimes(effect, proposals, shapes, tried) : shapes;
 }
 
-void AddCandidates(const Effect& effect, const EffectSite& site,
-                   const Proposals& proposals,
-                   std::vector<GapCandidate>* candidates) {
+void ListShapes(const Effect& effect, const EffectSite& site,
+                const Proposals& proposals,
+                std::vector<GapCandidate>* candidates) {
   if (effect.unfit && !effect.unfit(site).empty()) return;
   int tried = 1;
   for (const Shape& shape : Shapes(effect, site, proposals, &tried)) {
@@ -200,7 +201,7 @@ MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
                     const std::vector<RecordedTorque>& torques) {
   const int n = rows.num_joints();
   MotionScale scale;
-  scale.torque = scale.load = scale.speed = scale.top_speed =
+  scale.torque = scale.load = scale.speed = scale.top_speed = scale.top_torque =
       scale.acceleration = scale.width = VectorXd::Zero(n);
   scale.low = VectorXd::Constant(n, INFINITY);
   scale.high = -scale.low;
@@ -223,6 +224,8 @@ MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
           (motion.qdd.col(j).array().square() * move).sum();
       scale.top_speed[j] =
           std::max(scale.top_speed[j], motion.qd.col(j).cwiseAbs().maxCoeff());
+      scale.top_torque[j] = std::max(
+          scale.top_torque[j], motion.torque.col(j).cwiseAbs().maxCoeff());
       scale.low[j] = std::min(scale.low[j], motion.q.col(j).minCoeff());
       scale.high[j] = std::max(scale.high[j], motion.q.col(j).maxCoeff());
     }
@@ -247,48 +250,70 @@ std::vector<GapCandidate> ListCandidates(const GapBaseline& baseline,
   for (const Effect& effect : Effects()) {
     const bool whole = effect.scope == Effect::Scope::kRobot;
     for (int j = whole ? -1 : 0; j < (whole ? 0 : rows.num_joints()); ++j) {
-      AddCandidates(effect, {&baseline.robot(), j, &scale}, proposals,
-                    &candidates);
+      ListShapes(effect, {&baseline.robot(), j, &scale}, proposals,
+                 &candidates);
     }
   }
   return candidates;
 }
 
-std::vector<JointRows> CandidateRows(const GapCandidate& candidate,
-                                     const GapBaseline& baseline,
-                                     const GapRows& rows,
-                                     const MotionScale& scale,
-                                     std::vector<RecordedTorque>* torques) {
+namespace {
+
+JointRows ThinTorque(const GapCandidate& candidate, const VectorXd& p,
+                     const GapBaseline& baseline, const GapRows& rows,
+                     const MotionScale& scale,
+                     std::vector<RecordedTorque>* torques) {
   const int n = rows.num_joints();
-  std::vector<JointRows> columns;
-  for (size_t k = 0; k < candidate.linear.size(); ++k) {
-    VectorXd p = candidate.p;
-    p[candidate.linear[k]] = candidate.size[k];
-    std::vector<VectorXd> thin(n, VectorXd::Zero(rows.num_thin()));
-    std::vector<bool> any(n, false);
-    for (size_t s = 0; s < torques->size(); ++s) {
-      if (!candidate.IsIn(rows.segments()[s].log)) continue;
-      SimulatedRobot changed;
-      changed.robot = baseline.robot();
-      candidate.effect->apply({&baseline.robot(), candidate.joint, &scale}, p,
-                              &changed);
-      const MatrixXd change = (*torques)[s].Change(changed);
-      const int begin = rows.thin_begin(static_cast<int>(s));
-      const int size = rows.thin_begin(static_cast<int>(s) + 1) - begin;
-      for (int j = 0; j < n; ++j) {
-        if ((change.col(j).array() == 0).all()) continue;
-        any[j] = true;
-        thin[j].segment(begin, size) =
-            rows.Thin(static_cast<int>(s), change.col(j));
-      }
-    }
-    JointRows column(n);
+  JointRows thin(n);
+  SimulatedRobot changed;
+  changed.robot = baseline.robot();
+  candidate.effect->apply({&baseline.robot(), candidate.joint, &scale}, p,
+                          &changed);
+  for (size_t i = 0; i < torques->size(); ++i) {
+    const int s = static_cast<int>(i);
+    if (!candidate.IsIn(rows.segments()[i].log)) continue;
+    const MatrixXd change = (*torques)[i].Change(changed);
     for (int j = 0; j < n; ++j) {
-      if (any[j]) column[j] = rows.Whiten(j, thin[j]);
+      if ((change.col(j).array() == 0).all()) continue;
+      if (thin[j].size() == 0) thin[j] = VectorXd::Zero(rows.num_thin());
+      thin[j].segment(rows.thin_begin(s),
+                      rows.thin_begin(s + 1) - rows.thin_begin(s)) =
+          rows.Thin(s, change.col(j));
     }
-    columns.push_back(std::move(column));
   }
-  return columns;
+  return thin;
+}
+
+}  // namespace
+
+void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
+                        const MotionScale& scale,
+                        std::vector<RecordedTorque>* torques,
+                        std::vector<GapCandidate>* candidates) {
+  for (GapCandidate& candidate : *candidates) {
+    candidate.torque.clear();
+    for (size_t k = 0; k < candidate.linear.size(); ++k) {
+      VectorXd p = candidate.p;
+      p[candidate.linear[k]] = candidate.size[k];
+      candidate.torque.push_back(
+          ThinTorque(candidate, p, baseline, rows, scale, torques));
+    }
+  }
+}
+
+void AddCandidates(const GapRows& rows, std::vector<GapCandidate>* candidates,
+                   GapScreen* screen) {
+  for (GapCandidate& candidate : *candidates) {
+    candidate.columns.clear();
+    for (const JointRows& torque : candidate.torque) {
+      JointRows column(torque.size());
+      for (size_t j = 0; j < torque.size(); ++j) {
+        if (torque[j].size() == 0) continue;
+        column[j] = rows.Whiten(static_cast<int>(j), torque[j]);
+      }
+      candidate.columns.push_back(screen->AddColumn(std::move(column)));
+    }
+  }
 }
 
 }  // namespace armcal

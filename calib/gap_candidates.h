@@ -14,10 +14,13 @@ namespace armcal {
 // An effect at a place, its shape given: torque is linear in what is left.
 struct GapCandidate {
   const Effect* effect = nullptr;
-  int joint = -1;            // from 0; -1: the whole robot
-  Eigen::VectorXd p;         // linear parameters 0
-  std::vector<int> linear;   // entries of p
-  Eigen::VectorXd size;      // of the linear ones: their column's unit
+  int joint = -1;           // from 0; -1: the whole robot
+  Eigen::VectorXd p;        // linear parameters 0
+  std::vector<int> linear;  // entries of p
+  Eigen::VectorXd size;     // of the linear ones: their column's unit
+  // Torque of each of them at its size: per joint thinned samples, empty where
+  // it is zero.
+  std::vector<JointRows> torque;
   std::vector<int> columns;  // of the screen, in the order of `linear`
   int log = -1;   // the one it happened in, of what happens once; -1: all
   int tried = 1;  // shapes of the same effect at the same place
@@ -37,11 +40,14 @@ std::vector<GapCandidate> ListCandidates(const GapBaseline& baseline,
                                          const MotionScale& scale,
                                          const Eigen::MatrixXd& residual);
 
-// The torque of each linear parameter at its size, whitened.
-std::vector<JointRows> CandidateRows(const GapCandidate& candidate,
-                                     const GapBaseline& baseline,
-                                     const GapRows& rows,
-                                     const MotionScale& scale,
-                                     std::vector<RecordedTorque>* torques);
+// Fills in their torques.
+void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
+                        const MotionScale& scale,
+                        std::vector<RecordedTorque>* torques,
+                        std::vector<GapCandidate>* candidates);
+
+// Their columns, whitened as the rows are now.
+void AddCandidates(const GapRows& rows, std::vector<GapCandidate>* candidates,
+                   GapScreen* screen);
 
 }  // namespace armcal

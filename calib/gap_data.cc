@@ -7,6 +7,7 @@ using Eigen::VectorXd;
 
 // Of one prior standard deviation of the ways through zero velocity.
 constexpr double kDoubt = .15;
+constexpr double kNothing = 1e3;
 
 GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
                  double bandwidth_hz, LogPart part)
@@ -48,6 +49,17 @@ MatrixXd GapData::ResidualWith(const VectorXd& x) const {
 
 void GapData::SetNoise(std::vector<Autoregression> noise) {
   rows_->SetNoise(std::move(noise), doubt_);
+}
+
+void GapData::Mask(int log, const TimeRange& window) {
+  for (size_t i = 0; i < segments_.size(); ++i) {
+    if (segments_[i].log != log) continue;
+    const int s = static_cast<int>(i);
+    for (int k = rows_->thin_begin(s); k < rows_->thin_begin(s + 1); ++k) {
+      if (!window.Contains(rows_->thin_time(s, k))) continue;
+      doubt_.row(k) = kNothing * residual_.colwise().norm();
+    }
+  }
 }
 
 std::vector<MatrixXd> GapData::WhitenedColumns() const {

@@ -6,10 +6,13 @@
 #include <vector>
 
 #include "calib/gap_baseline.h"
+#include "calib/gap_evidence.h"
+#include "calib/gap_moved.h"
 #include "calib/gap_noise.h"
 #include "calib/gap_probability.h"
 #include "calib/gap_selection.h"
 #include "calib/gap_shrink.h"
+#include "calib/gap_testability.h"
 #include "calib/gap_where.h"
 #include "calib/log_set.h"
 #include "model/time_base.h"
@@ -34,18 +37,6 @@ enum class GapVerdict {
   kNotTestable
 };
 const char* GapVerdictName(GapVerdict verdict);
-
-// What speaks for an effect besides its score, and against the catalogue.
-struct EffectEvidence {
-  double odds = 0;      // ln of its softmax probability against all others'
-  double strength = 0;  // ln of its drop of chi^2
-  double share = 1;     // of the drops of all that were chosen
-  int chosen = 1;       // how many were
-  double left = 0;      // share of the excess that all leave, in sample
-  double held_out_left = 0;  // the same on what was held out
-  double next = 0;           // score of the best further candidate, at least 0
-  double gain = 0;           // by how much it lowers the held-out mean square
-};
 
 // One effect that was found.
 struct FoundEffect {
@@ -74,12 +65,6 @@ struct DataFinding {
   std::string flag;  // what to change, or empty
 };
 
-struct UntestableEffect {
-  std::string effect;
-  std::string joint;  // empty: the whole robot, or all joints
-  std::string why;
-};
-
 // What is left beside the effects that were found.
 struct Unexplained {
   std::string joint;
@@ -94,14 +79,6 @@ struct JointGap {
   double nominal_rms = 0, refit_rms = 0, after_rms = 0, floor_rms = 0;
   Organisation organised;  // of the refitted model's residual
   double unexplained = 0;  // chi^2 over rows after the effects, less 1
-};
-
-// A parameter of the baseline that is far from where it was said to be.
-struct MovedParameter {
-  std::string name;
-  std::string unit;
-  double nominal = 0, value = 0, stddev = 0;
-  double deviations = 0;  // of the prior
 };
 
 struct GapDiagnosis {

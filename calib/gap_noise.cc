@@ -115,6 +115,8 @@ const char* NoiseFloorName(NoiseFloor source) {
       return "repeats";
     case NoiseFloor::kStandstill:
       return "standstill";
+    case NoiseFloor::kReference:
+      return "reference";
     case NoiseFloor::kAssumed:
       return "assumed";
   }
@@ -149,6 +151,16 @@ GapNoise EstimateGapNoise(const GapRows& rows,
     noise.joints.push_back(
         FitAutoregression(Stretches(rows.runs(j), assumed.col(j)), false));
     noise.source = NoiseFloor::kAssumed;
+  }
+  return noise;
+}
+
+GapNoise ResidualNoise(const GapRows& rows, const MatrixXd& residual) {
+  GapNoise noise;
+  noise.source = NoiseFloor::kReference;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    noise.joints.push_back(
+        FitAutoregression(Stretches(rows.runs(j), residual.col(j)), false));
   }
   return noise;
 }

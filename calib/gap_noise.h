@@ -12,7 +12,8 @@ namespace armcal {
 enum class NoiseFloor {
   kRepeats,     // motion done twice: what the model lacks falls out
   kStandstill,  // the scatter while joints stand
-  kAssumed      // what a rich model leaves: holds what no law explains
+  kReference,  // what a model fitted to logs of the robot before leaves of them
+  kAssumed     // what a refit leaves: holds what the model lacks as well
 };
 const char* NoiseFloorName(NoiseFloor source);
 
@@ -28,5 +29,8 @@ struct GapNoise {
 GapNoise EstimateGapNoise(const GapRows& rows,
                           const std::vector<Eigen::MatrixXd>& residual,
                           const Eigen::MatrixXd& assumed);
+
+// That of a model's residual (thinned samples x n), whatever is in it.
+GapNoise ResidualNoise(const GapRows& rows, const Eigen::MatrixXd& residual);
 
 }  // namespace armcal

@@ -7,16 +7,15 @@
 namespace armcal {
 namespace {
 
-constexpr double kTemperature = 4;
 constexpr double kCredible = .95;
 
 }  // namespace
 
-std::vector<PlacedEffect> Alternatives(
-    const GapScreen& screen, const std::vector<GapCandidate>& candidates,
-    const SelectionOptions& options, const std::vector<int>& chosen, int k) {
+std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
+  const std::vector<GapCandidate>& candidates = fit.candidates();
   const Eigen::VectorXd scores =
-      ScoresBeside(screen, candidates, options, chosen, k);
+      ScoresBeside(fit.screen(), candidates, fit.selection_options(),
+                   fit.selection().chosen, static_cast<int>(k));
   std::map<std::pair<const Effect*, int>, double> best;
   for (size_t i = 0; i < candidates.size(); ++i) {
     if (!std::isfinite(scores[i])) continue;
@@ -24,6 +23,20 @@ std::vector<PlacedEffect> Alternatives(
         std::make_pair(candidates[i].effect, candidates[i].joint);
     const auto found = best.emplace(place, scores[i]).first;
     found->second = std::max(found->second, scores[i]);
+  }
+  // What fitting the shape of the chosen one gained, the others may have
+  // gained too where it was not tried.
+  if (!fit.rivals(k).empty()) {
+    double grid = 0, fitted = -1e300;
+    for (const RefinedScore& rival : fit.rivals(k)) {
+      if (rival.score <= fitted) continue;
+      fitted = rival.score;
+      grid = best[{rival.effect, rival.joint}];
+    }
+    for (auto& [place, score] : best) score += std::max(0., fitted - grid);
+    for (const RefinedScore& rival : fit.rivals(k)) {
+      best[{rival.effect, rival.joint}] = rival.score;
+    }
   }
   std::vector<PlacedEffect> all;
   for (const auto& [place, score] : best) {

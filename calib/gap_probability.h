@@ -3,9 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/gap_candidates.h"
-#include "calib/gap_screen.h"
-#include "calib/gap_selection.h"
+#include "calib/gap_fit.h"
 
 namespace armcal {
 
@@ -18,13 +16,15 @@ struct PlacedEffect {
   double score = 0;
 };
 
-// The effects that could stand in place of chosen[k], the most probable first,
-// as scores over the temperature say: P ~ exp(score / (2 kappa)). Neither
-// noise nor the catalogue's limits nor errors of form are as the score assumes:
-// kappa = 4 makes up for it on the blind bench's calibration cases (GAP.md B).
-std::vector<PlacedEffect> Alternatives(
-    const GapScreen& screen, const std::vector<GapCandidate>& candidates,
-    const SelectionOptions& options, const std::vector<int>& chosen, int k);
+// Divides scores: neither noise nor the catalogue nor forms are as a score
+// assumes (GAP.md B).
+constexpr double kTemperature = 4;
+
+// The effects that could stand in place of the k-th that was chosen, the most
+// probable first, as scores over the temperature say: P ~ exp(score / (2
+// kTemperature)). Scores of those whose shapes were fitted are set against each
+// other as such, those of the others are of their grids.
+std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k);
 
 // The first ones, up to 95 % together.
 std::vector<PlacedEffect> CredibleSet(const std::vector<PlacedEffect>& all);

@@ -17,7 +17,7 @@ GapScreen::GapScreen(std::vector<MatrixXd> baseline, JointRows target)
     CHECK_EQ(baseline_[j].rows(), target_[j].size());
     information_ += baseline_[j].transpose() * baseline_[j];
     gradient_ += baseline_[j].transpose() * target_[j];
-    chi_squared_ += target_[j].squaredNorm();
+    squares_ += target_[j].squaredNorm();
   }
 }
 
@@ -66,7 +66,7 @@ void GapScreen::Factor() {
   const VectorXd known = factor_.matrixL().solve(gradient_);
   G_ -= half.transpose() * half;
   g_ -= half.transpose() * known;
-  chi_squared_ -= known.squaredNorm();
+  chi_squared_ = squares_ - known.squaredNorm();
 }
 
 GapScreen::Fit GapScreen::Solve(const std::vector<int>& columns) const {

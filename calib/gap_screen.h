@@ -26,7 +26,7 @@ class GapScreen {
   void AddInformation(const Eigen::MatrixXd& AtA, const Eigen::VectorXd& Aty);
   // Returns the index of the column.
   int AddColumn(JointRows column);
-  // Solves; after that no more columns.
+  // Solves with the columns that there are.
   void Factor();
 
   int size() const { return static_cast<int>(columns_.size()); }
@@ -75,6 +75,7 @@ class GapScreen {
   Eigen::MatrixXd cross_;  // baseline' columns
   Eigen::MatrixXd G_;
   Eigen::VectorXd g_, raw_;
+  double squares_ = 0;  // of the target
   double chi_squared_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/low_pass.h"
 #include "model/standstill.h"
 
 namespace armcal {
@@ -10,8 +11,10 @@ namespace {
 
 using Eigen::MatrixXd;
 
+// A regressor must not hold the noise of what it explains.
+constexpr double kSmoothTorqueHz = 3;
 constexpr double kShortest = 2;         // s
-constexpr double kMotionBandwidth = 3;  // of the torque's
+constexpr double kMotionBandwidth = 5;  // of the torque's
 
 void AppendRows(const MatrixXd& rows, MatrixXd* to) {
   const Eigen::Index before = to->rows();
@@ -67,7 +70,11 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
   };
   segments.erase(std::remove_if(segments.begin(), segments.end(), is_short),
                  segments.end());
-  for (GapSegment& segment : segments) FindStillJoints(&segment);
+  for (GapSegment& segment : segments) {
+    FindStillJoints(&segment);
+    segment.motion.torque =
+        ZeroPhaseLowPass(segment.tau, 1 / segment.motion.dt, kSmoothTorqueHz);
+  }
   return segments;
 }
 

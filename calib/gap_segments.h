@@ -22,7 +22,7 @@ struct GapSegment {
 };
 
 // The segments of the logs, in order; those shorter than 2 s are left out.
-// Motion is low-passed at three times the bandwidth of the torque residual:
+// Motion is low-passed at five times the bandwidth of the torque residual:
 // what is computed from it passes that filter again, as the torque does, and
 // must not have been bent below it.
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,

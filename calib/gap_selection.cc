@@ -30,16 +30,6 @@ bool SignsHold(const GapCandidate& candidate, const VectorXd& coefficients) {
   return true;
 }
 
-double Price(const GapScreen& screen, const GapCandidate& candidate,
-             int num_joints) {
-  double rows = 0;
-  for (int j = 0; j < num_joints; ++j) {
-    if (candidate.joint < 0 || candidate.joint == j) rows += screen.num_rows(j);
-  }
-  return candidate.linear.size() * std::log(std::max(rows, 1.0)) +
-         2 * std::log(candidate.tried);
-}
-
 struct Conditioned {
   MatrixXd half;  // G_SS^-1/2 G_S.
   VectorXd g;
@@ -65,20 +55,28 @@ Conditioned Condition(const GapScreen& screen, const std::vector<int>& S) {
 }
 
 // Drop of chi^2 when the candidate is added to S; 0 where its signs are wrong.
+// Columns of which nothing is left to see have no part in it.
 double Drop(const GapScreen& screen, const Conditioned& c,
             const GapCandidate& candidate) {
   const int size = static_cast<int>(candidate.columns.size());
-  MatrixXd G(size, size);
-  VectorXd g(size);
+  MatrixXd G = MatrixXd::Identity(size, size);
+  VectorXd g = VectorXd::Zero(size);
+  const auto product = [&](int a, int b) {
+    return screen.G()(a, b) -
+           (c.half.size() > 0 ? c.half.col(a).dot(c.half.col(b)) : 0);
+  };
+  std::vector<bool> seen(size);
   for (int k = 0; k < size; ++k) {
+    const int a = candidate.columns[k];
+    seen[k] = product(a, a) > kVisible * screen.raw(a);
+  }
+  for (int k = 0; k < size; ++k) {
+    if (!seen[k]) continue;
     const int a = candidate.columns[k];
     g[k] = c.g[a];
     for (int l = 0; l < size; ++l) {
-      const int b = candidate.columns[l];
-      G(k, l) = screen.G()(a, b);
-      if (c.half.size() > 0) G(k, l) -= c.half.col(a).dot(c.half.col(b));
+      if (seen[l]) G(k, l) = product(a, candidate.columns[l]);
     }
-    if (!(G(k, k) > kVisible * screen.raw(a))) return 0;
     G(k, k) += 1e-9 * screen.raw(a);
   }
   const VectorXd x = G.llt().solve(g);
@@ -177,6 +175,15 @@ bool IsLarge(const Selection& selection,
 
 }  // namespace
 
+double Price(const GapScreen& screen, const GapCandidate& candidate) {
+  double rows = 0;
+  for (int j = 0; j < screen.num_joints(); ++j) {
+    if (candidate.joint < 0 || candidate.joint == j) rows += screen.num_rows(j);
+  }
+  return candidate.linear.size() * std::log(std::max(rows, 1.0)) +
+         2 * std::log(candidate.tried);
+}
+
 std::vector<int> ColumnsOf(const std::vector<GapCandidate>& candidates,
                            const std::vector<int>& chosen) {
   std::vector<int> columns;
@@ -202,7 +209,7 @@ VectorXd ScoresBeside(const GapScreen& screen,
     scores[i] =
         taken ? kNever
               : Drop(screen, conditioned, candidates[i]) / options.inflation -
-                    Price(screen, candidates[i], screen.num_joints());
+                    Price(screen, candidates[i]);
   }
   return scores;
 }

@@ -40,6 +40,10 @@ Selection SelectEffects(const GapScreen& screen,
                         const std::vector<GapCandidate>& candidates,
                         const SelectionOptions& options);
 
+// What has to be paid for a candidate's parameters and the shapes it was chosen
+// from: k ln N + 2 ln M.
+double Price(const GapScreen& screen, const GapCandidate& candidate);
+
 // Columns of several candidates.
 std::vector<int> ColumnsOf(const std::vector<GapCandidate>& candidates,
                            const std::vector<int>& chosen);

@@ -67,6 +67,12 @@ void SetInterval(const TimeSeries& from, const TimeSeries& after,
 
 }  // namespace
 
+double MeanSquare(const MatrixXd& squares) {
+  const TimeSeries series = SumJoints(squares);
+  const double count = series.count.sum();
+  return count > 0 ? series.sum.sum() / count : 1;
+}
+
 GapFigures ShrinkFigures(const HeldOutSquares& squares, std::uint64_t seed) {
   GapFigures figures;
   const TimeSeries nominal = SumJoints(squares.nominal);

@@ -29,6 +29,9 @@ struct GapFigures {
   Eigen::MatrixXd joints;           // n x 3 rms: nominal, refit, after
 };
 
+// Of all that are no NaN; 1 where there are none.
+double MeanSquare(const Eigen::MatrixXd& squares);
+
 GapFigures ShrinkFigures(const HeldOutSquares& squares, std::uint64_t seed);
 
 }  // namespace armcal

@@ -1,0 +1,197 @@
+#include "calib/gap_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Search = EffectParameter::Search;
+
+constexpr int kMostEvents = 12;
+// Of an event's width, how far to both sides it is taken out.
+constexpr double kEventReach = 2.5;
+
+std::vector<Autoregression> WhiteNoise(const MatrixXd& residual) {
+  std::vector<Autoregression> noise(residual.cols());
+  for (int j = 0; j < residual.cols(); ++j) {
+    noise[j].sigma =
+        std::max(residual.col(j).norm() / std::sqrt(residual.rows()), 1e-12);
+  }
+  return noise;
+}
+
+VectorXd RefitBaseline(const GapData& data) {
+  GapScreen screen(data.WhitenedColumns(), data.WhitenedResidual());
+  screen.Factor();
+  return screen.BaselineBeside(JointRows(data.rows().num_joints()));
+}
+
+void AddReference(const GapData& before, GapScreen* screen) {
+  const std::vector<MatrixXd> A = before.WhitenedColumns();
+  const std::vector<VectorXd> y = before.WhitenedResidual();
+  MatrixXd AtA = MatrixXd::Zero(A[0].cols(), A[0].cols());
+  VectorXd Aty = VectorXd::Zero(A[0].cols());
+  for (size_t j = 0; j < A.size(); ++j) {
+    AtA += A[j].transpose() * A[j];
+    Aty += A[j].transpose() * y[j];
+  }
+  screen->AddInformation(AtA, Aty);
+}
+
+// Where in time an event is.
+TimeRange WindowOf(const GapCandidate& event) {
+  double time = 0, width = 0;
+  for (size_t k = 0; k < event.effect->parameters.size(); ++k) {
+    const Search search = event.effect->parameters[k].search;
+    if (search == Search::kTime) time = event.p[k];
+    if (search == Search::kDuration) width = event.p[k];
+  }
+  return {time - kEventReach * width, time + kEventReach * width};
+}
+
+}  // namespace
+
+GapFit::GapFit(const GapBaseline& baseline, const GapFitOptions& options,
+               std::vector<GapSegment> training, LogPart part,
+               std::vector<GapSegment> reference)
+    : baseline_(baseline), options_(options) {
+  const double hz = options.bandwidth_hz;
+  data_ = std::make_unique<GapData>(std::move(training), baseline, hz, part);
+  if (!reference.empty()) {
+    reference_ = std::make_unique<GapData>(std::move(reference), baseline, hz);
+  }
+  EstimateNoise();
+  scale_ = ScaleOf(baseline, data_->rows(), data_->torques());
+}
+
+void GapFit::EstimateNoise() {
+  GapData* told_by = reference_ ? reference_.get() : data_.get();
+  told_by->SetNoise(WhiteNoise(told_by->residual()));
+  const MatrixXd left = told_by->ResidualWith(RefitBaseline(*told_by));
+  noise_ = reference_
+               ? ResidualNoise(reference_->rows(), left)
+               : EstimateGapNoise(data_->rows(), data_->FineResidual(), left);
+  if (reference_) reference_->SetNoise(noise_.joints);
+  data_->SetNoise(noise_.joints);
+}
+
+void GapFit::MakeScreen() {
+  data_->SetNoise(noise_.joints);
+  screen_.emplace(data_->WhitenedColumns(), data_->WhitenedResidual());
+  if (reference_) AddReference(*reference_, &*screen_);
+  screen_->Factor();
+  refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
+  if (candidates_.empty()) {
+    candidates_ = ListCandidates(baseline_, data_->rows(), scale_,
+                                 data_->ResidualWith(refit_));
+    EvaluateCandidates(baseline_, data_->rows(), scale_,
+                       data_->mutable_torques(), &candidates_);
+  }
+  AddCandidates(data_->rows(), &candidates_, &*screen_);
+  screen_->Factor();
+}
+
+std::vector<GapCandidate> GapFit::Chosen(const std::vector<int>& which) const {
+  std::vector<GapCandidate> chosen;
+  const GapScreen::Fit fit = screen_->Solve(ColumnsOf(candidates_, which));
+  int at = 0;
+  for (const int c : which) {
+    chosen.push_back(candidates_[c]);
+    GapCandidate& effect = chosen.back();
+    for (size_t l = 0; l < effect.linear.size(); ++l) {
+      effect.p[effect.linear[l]] = fit.coefficients[at++] * effect.size[l];
+    }
+  }
+  return chosen;
+}
+
+void GapFit::TakeOutEvent(size_t k) {
+  GapEvent event;
+  const RefinedEffects refined = RefineEffects(
+      *screen_, baseline_, scale_, {Chosen(selection_.chosen)[k]}, data_.get());
+  event.effect = refined.effects[0];
+  event.covariance = refined.covariance;
+  event.drop = selection_.drops[k];
+  event.score = selection_.scores[k];
+  event.window = WindowOf(event.effect);
+  data_->Mask(event.effect.log, event.window);
+  events_.push_back(event);
+  // What else stands out is looked for in what is left.
+  candidates_.clear();
+}
+
+void GapFit::Choose() {
+  while (true) {
+    MakeScreen();
+    selection_ = SelectEffects(*screen_, candidates_, options_.selection);
+    const auto event =
+        std::find_if(selection_.chosen.begin(), selection_.chosen.end(),
+                     [&](int c) { return candidates_[c].log >= 0; });
+    if (event == selection_.chosen.end() ||
+        static_cast<int>(events_.size()) == kMostEvents) {
+      break;
+    }
+    TakeOutEvent(event - selection_.chosen.begin());
+  }
+  rivals_.assign(selection_.chosen.size(), {});
+  for (size_t k = 0; k < selection_.chosen.size(); ++k) CompareRivals(k);
+  refined_.effects = Chosen(selection_.chosen);
+  refined_.baseline = refit_;
+  if (refined_.effects.empty()) return;
+  refined_ =
+      RefineEffects(*screen_, baseline_, scale_, refined_.effects, data_.get());
+}
+
+// A grid may be kinder to one effect than to another: those near the k-th in
+// score are compared with their shapes fitted, and the best takes its place.
+void GapFit::CompareRivals(size_t k) {
+  constexpr int kMostRivals = 3;
+  constexpr double kNear = .4;  // of the drop
+  VectorXd scores = ScoresBeside(*screen_, candidates_, options_.selection,
+                                 selection_.chosen, static_cast<int>(k));
+  const double least =
+      selection_.scores[k] - std::max(20., kNear * selection_.drops[k]);
+  std::vector<int> others = selection_.chosen;
+  others.erase(others.begin() + k);
+  const double by_others = screen_->Solve(ColumnsOf(candidates_, others)).drop;
+  double best_score = -1e300;
+  int best = selection_.chosen[k];
+  while (static_cast<int>(rivals_[k].size()) <= kMostRivals) {
+    int c;
+    if (!(scores.maxCoeff(&c) >= least)) break;
+    const GapCandidate& rival = candidates_[c];
+    std::vector<int> chosen = selection_.chosen;
+    chosen[k] = c;
+    const RefinedEffects refined =
+        RefineEffects(*screen_, baseline_, scale_, Chosen(chosen), data_.get());
+    const double score = refined.drop - by_others - Price(*screen_, rival);
+    rivals_[k].push_back({rival.effect, rival.joint, score});
+    if (score > best_score) best_score = score, best = c;
+    for (int i = 0; i < scores.size(); ++i) {
+      if (candidates_[i].effect == rival.effect &&
+          candidates_[i].joint == rival.joint) {
+        scores[i] = -1e300;
+      }
+    }
+  }
+  selection_.chosen[k] = best;
+}
+
+VectorXd GapFit::BaselineWithout(size_t k) const {
+  std::vector<GapCandidate> others = refined_.effects;
+  others.erase(others.begin() + k);
+  JointRows torque(data_->rows().num_joints());
+  if (!others.empty()) {
+    const MatrixXd thin =
+        EffectTorque(baseline_, scale_, others, false, data_.get());
+    for (int j = 0; j < thin.cols(); ++j) {
+      torque[j] = data_->rows().Whiten(j, thin.col(j));
+    }
+  }
+  return screen_->BaselineBeside(torque);
+}
+
+}  // namespace armcal

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "calib/gap_baseline.h"
+#include "calib/gap_candidates.h"
+#include "calib/gap_data.h"
+#include "calib/gap_noise.h"
+#include "calib/gap_refinement.h"
+#include "calib/gap_screen.h"
+#include "calib/gap_selection.h"
+
+namespace armcal {
+
+// Something that happened once: a contact, with its parameters as fitted.
+struct GapEvent {
+  GapCandidate effect;
+  Eigen::MatrixXd covariance;
+  TimeRange window;
+  double drop = 0;  // of chi^2
+  double score = 0;
+};
+
+// The score of an effect whose shape is fitted, not one of a grid.
+struct RefinedScore {
+  const Effect* effect = nullptr;
+  int joint = -1;
+  double score = 0;
+};
+
+struct GapFitOptions {
+  double bandwidth_hz = 0;
+  SelectionOptions selection;
+};
+
+// The regression of a diagnosis on its training logs, and what it chose.
+class GapFit {
+ public:
+  // `reference`: logs of the robot before, or none: the baseline is fitted to
+  // them as well, and what it leaves of them is the noise that anything new has
+  // to rise above.
+  GapFit(const GapBaseline& baseline, const GapFitOptions& options,
+         std::vector<GapSegment> training, LogPart part,
+         std::vector<GapSegment> reference);
+
+  // Chooses effects and refines them; events are taken out of the data one by
+  // one first, since nothing else can be told while they last.
+  void Choose();
+
+  const GapBaseline& baseline() const { return baseline_; }
+  const GapNoise& noise() const { return noise_; }
+  const MotionScale& scale() const { return scale_; }
+  const GapScreen& screen() const { return *screen_; }
+  const GapRows& rows() const { return data_->rows(); }
+  GapData* data() const { return data_.get(); }
+  const SelectionOptions& selection_options() const {
+    return options_.selection;
+  }
+  const std::vector<GapCandidate>& candidates() const { return candidates_; }
+  const Selection& selection() const { return selection_; }
+  const RefinedEffects& refined() const { return refined_; }
+  const std::vector<GapEvent>& events() const { return events_; }
+  // Scores of the k-th effect and its nearest rivals, each with its shape
+  // fitted beside the others.
+  const std::vector<RefinedScore>& rivals(size_t k) const { return rivals_[k]; }
+  // The baseline's values without any effect.
+  const Eigen::VectorXd& refit() const { return refit_; }
+  // The baseline beside the refined effects but for the k-th.
+  Eigen::VectorXd BaselineWithout(size_t k) const;
+
+ private:
+  void EstimateNoise();
+  void MakeScreen();
+  void TakeOutEvent(size_t k);
+  std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
+  void CompareRivals(size_t k);
+
+  const GapBaseline& baseline_;
+  GapFitOptions options_;
+  std::unique_ptr<GapData> data_, reference_;
+  GapNoise noise_;
+  MotionScale scale_;
+  std::optional<GapScreen> screen_;
+  std::vector<GapCandidate> candidates_;
+  Selection selection_;
+  RefinedEffects refined_;
+  std::vector<std::vector<RefinedScore>> rivals_;
+  std::vector<GapEvent> events_;
+  Eigen::VectorXd refit_;
+};
+
+}  // namespace armcal
