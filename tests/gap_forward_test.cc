@@ -148,8 +148,7 @@ TEST_F(ForwardGapTest, PartsThatDoNotCountAreNotSeen) {
       ForwardGapInLoop(robots, arm_.file, arm_.Controller(), {log_}, 1, late);
   EXPECT_GT(all.figures.after, 1e5);
   EXPECT_NEAR(part.figures.after, 1, .2);
-  EXPECT_EQ(ForwardGapInWindows(robots, {Segment()}, Noise(), 1, late).runs,
-            11);
+  EXPECT_EQ(ForwardGapInWindows(robots, {Segment()}, Noise(), 1, late).runs, 5);
 }
 
 // Of a log that is cut into parts, those whose rows are held out.
