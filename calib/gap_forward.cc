@@ -1,12 +1,15 @@
 #include "calib/gap_forward.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <future>
 #include <limits>
+#include <utility>
 
 #include "calib/position_noise.h"
 #include "model/input_error.h"
+#include "model/time_base.h"
 
 namespace armcal {
 namespace {
@@ -42,16 +45,14 @@ void Append(const MatrixXd& rows, MatrixXd* to) {
   to->bottomRows(rows.rows()) = rows;
 }
 
-// Mean squares over bins.
-MatrixXd Binned(const MatrixXd& deviation, int per_bin) {
-  const Eigen::Index bins = deviation.rows() / per_bin;
-  MatrixXd squares(bins, deviation.cols());
-  for (Eigen::Index k = 0; k < bins; ++k) {
-    squares.row(k) =
-        deviation.middleRows(k * per_bin, per_bin).colwise().squaredNorm() /
-        per_bin;
+// Where bins of a log begin that count.
+std::vector<int> Bins(const Log& log, int per_bin,
+                      const std::function<bool(double)>& counts) {
+  std::vector<int> bins;
+  for (int k = FirstCounted(log); k + per_bin <= log.size(); k += per_bin) {
+    if (counts(log.t[k])) bins.push_back(k);
   }
-  return squares;
+  return bins;
 }
 
 int RowsPerBin(const Log& log) {
@@ -70,6 +71,8 @@ std::vector<int> Rows(const MatrixXd& squares) {
 
 void SetFigures(const Squares& squares, const VectorXd& floor,
                 std::uint64_t seed, ForwardGap* gap) {
+  gap->has_figures = squares[0].rows() > 0;
+  if (!gap->has_figures) return;
   gap->floor = floor.cwiseMax(kLeastFloor);
   const VectorXd weight = gap->floor.cwiseAbs2().cwiseInverse();
   gap->figures = ShrinkFigures(
@@ -83,40 +86,82 @@ void SetFigures(const Squares& squares, const VectorXd& floor,
 
 // A robot that is too stiff to simulate, as an absurd fit may be, diverges.
 template <typename Simulate>
-MatrixXd OrDiverged(Eigen::Index rows, Eigen::Index columns, double what,
-                    const Simulate& simulate) try {
+MatrixXd OrDiverged(const MatrixXd& diverged, const Simulate& simulate) try {
   return simulate();
 } catch (const InputError&) {
-  return MatrixXd::Constant(rows, columns, what);
+  return diverged;
 }
 
-// Binned squares of a loop, infinite where it diverges.
+// Mean squares of a loop over bins, infinite where it diverges.
 MatrixXd LoopSquares(const CorrectedRobot& robot, const Robot& known,
                      const ControllerOptions& controller,
-                     const CommandedLog& log) {
-  const int per_bin = RowsPerBin(log.log);
-  const Eigen::Index bins = (log.log.size() - FirstCounted(log.log)) / per_bin;
-  const Eigen::Index n = known.num_joints();
-  return OrDiverged(bins, n, kInfinity, [&]() -> MatrixXd {
+                     const CommandedLog& log, const std::vector<int>& bins) {
+  const auto count = static_cast<Eigen::Index>(bins.size());
+  const MatrixXd infinite =
+      MatrixXd::Constant(count, known.num_joints(), kInfinity);
+  return OrDiverged(infinite, [&] {
     const ClosedLoopReplay replay =
         ReplayClosedLoop(robot.plant, robot.delay, known, controller, log);
-    return replay.finite ? Binned(replay.position, per_bin)
-                         : MatrixXd::Constant(bins, n, kInfinity);
+    if (!replay.finite) return infinite;
+    const int per_bin = RowsPerBin(log.log), first = FirstCounted(log.log);
+    MatrixXd squares = infinite;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      squares.row(k) = replay.position.middleRows(bins[k] - first, per_bin)
+                           .colwise()
+                           .squaredNorm() /
+                       per_bin;
+    }
+    return squares;
   });
+}
+
+// Windows of which begin and end count.
+ReplayWindows CountedWindows(const GapSegment& segment,
+                             const CountedTimes& counted) {
+  const ReplayWindows all = CutWindows(segment, kForwardWindow);
+  if (!counted) return all;
+  ReplayWindows windows{all.length, {}};
+  for (const int k : all.begin) {
+    if (counted(segment.log, segment.motion.time(k)) &&
+        counted(segment.log, segment.motion.time(k + all.length))) {
+      windows.begin.push_back(k);
+    }
+  }
+  return windows;
 }
 
 }  // namespace
 
+CountedTimes TimesWithRows(const GapRows& rows) {
+  std::vector<std::pair<int, TimeRange>> parts;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    for (const GapRows::Run& run : rows.runs(j)) {
+      const int k = run.begin - rows.thin_begin(run.segment);
+      parts.push_back({rows.segments()[run.segment].log,
+                       {rows.thin_time(run.segment, k),
+                        rows.thin_time(run.segment, k + run.size - 1)}});
+    }
+  }
+  return [parts](int log, double t) {
+    return std::any_of(parts.begin(), parts.end(), [=](const auto& part) {
+      return part.first == log && part.second.Contains(t);
+    });
+  };
+}
+
 ForwardGap ForwardGapInLoop(const ForwardRobots& robots, const Robot& known,
                             const ControllerOptions& controller,
                             const std::vector<CommandedLog>& logs,
-                            std::uint64_t seed) {
+                            std::uint64_t seed, const CountedTimes& counted) {
   ForwardGap gap;
   Squares squares;
   VectorXd floor = VectorXd::Zero(known.num_joints());  // squared
   for (const CommandedLog& log : logs) {
+    const std::vector<int> bins =
+        Bins(log.log, RowsPerBin(log.log),
+             [&](double t) { return !counted || counted(gap.runs, t); });
     const Squares found = OfAll(robots, [&](const CorrectedRobot& robot) {
-      return LoopSquares(robot, known, controller, log);
+      return LoopSquares(robot, known, controller, log, bins);
     });
     for (int m = 0; m < 3; ++m) {
       gap.diverged[m] += !found[m].allFinite();
@@ -132,24 +177,26 @@ ForwardGap ForwardGapInLoop(const ForwardRobots& robots, const Robot& known,
 ForwardGap ForwardGapInWindows(const ForwardRobots& robots,
                                const std::vector<GapSegment>& segments,
                                const MeasurementNoise& noise,
-                               std::uint64_t seed) {
+                               std::uint64_t seed,
+                               const CountedTimes& counted) {
   ForwardGap gap;
   gap.closed_loop = false;
   Squares squares;
   MatrixXd floor;
   for (const GapSegment& segment : segments) {
-    const ReplayWindows windows = CutWindows(segment, kForwardWindow);
+    const ReplayWindows windows = CountedWindows(segment, counted);
     if (windows.begin.empty()) continue;
     const auto count = static_cast<Eigen::Index>(windows.begin.size());
-    const Eigen::Index n = segment.tau.cols();
+    const MatrixXd nothing =
+        MatrixXd::Constant(count, segment.tau.cols(), kNaN);
     auto alone = std::async(std::launch::async, [&] {
-      return OrDiverged(count, n, kNaN, [&] {
+      return OrDiverged(nothing, [&] {
         return NoiseSquares(robots.after, segment, windows, noise,
                             seed + gap.runs);
       });
     });
     const Squares found = OfAll(robots, [&](const CorrectedRobot& robot) {
-      return OrDiverged(count, n, kNaN,
+      return OrDiverged(nothing,
                         [&] { return ReplaySquares(robot, segment, windows); });
     });
     Append(alone.get(), &floor);

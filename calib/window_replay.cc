@@ -20,6 +20,7 @@ using Eigen::VectorXd;
 
 constexpr double kLead = 1;     // s
 constexpr double kStep = 1e-3;  // s, of the simulator, at most
+constexpr double kLost = 100;   // rad or m
 constexpr int kIterations = 4;  // of sensor maps, which are near the identity
 
 // Signals with samples in columns.
@@ -126,7 +127,7 @@ class SegmentReplay {
 
 // Columns of `error` as a row of mean squares.
 Eigen::RowVectorXd MeanSquares(const MatrixXd& error) {
-  if (!error.allFinite()) {
+  if (!(error.cwiseAbs().maxCoeff() < kLost)) {
     return Eigen::RowVectorXd::Constant(
         error.rows(), std::numeric_limits<double>::quiet_NaN());
   }

@@ -31,7 +31,7 @@ struct MeasurementNoise {
 };
 
 // Mean square per window and joint of simulated minus recorded positions of the
-// motors, rad^2 or m^2; a window that does not stay finite is NaN. Between
+// motors, rad^2 or m^2; a window that gets 100 rad or m away is NaN. Between
 // windows the recorded motion leads the motors from the segment's begin on, so
 // that laws with states and links behind transmissions start a window where
 // that motion has brought them; heat starts at 0. Positions are those behind

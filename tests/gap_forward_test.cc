@@ -31,7 +31,7 @@ class ForwardGapTest : public testing::Test {
     sensors.encoder_noise = VectorXd::Constant(3, kEncoder);
     sensors.torque_noise = VectorXd::Constant(3, kTorque);
     sensors.log_rate_hz = rate_hz;
-    return arm_.Record(12, sensors);
+    return arm_.Record(8, sensors);
   }
 
   CorrectedRobot Make(const VectorXd& x, bool with_effect) const {
@@ -126,7 +126,7 @@ TEST_F(ForwardGapTest, InClosedLoopTheWayThroughZeroVelocityShows) {
 TEST_F(ForwardGapTest, InWindowsTheTruthLeavesWhatNoiseDoes) {
   const ForwardGap gap = ForwardGapInWindows(Robots(), {Segment()}, Noise(), 1);
   EXPECT_FALSE(gap.closed_loop);
-  EXPECT_EQ(gap.runs, 22);
+  EXPECT_EQ(gap.runs, 14);
   EXPECT_THAT(gap.diverged, testing::Each(0));
   const GapFigures& figures = gap.figures;
   EXPECT_GT(figures.after, .5);
@@ -135,6 +135,30 @@ TEST_F(ForwardGapTest, InWindowsTheTruthLeavesWhatNoiseDoes) {
   EXPECT_GT(figures.nominal, 10);
   EXPECT_GT(figures.removed_percent, 90);
   ExpectInterval(figures);
+}
+
+// Where only a part counts, what happened outside is nothing to it.
+TEST_F(ForwardGapTest, PartsThatDoNotCountAreNotSeen) {
+  const ForwardRobots robots = Robots();
+  const auto late = [](int, double t) { return t > 5; };
+  Log& log = log_.log;
+  log.q.middleRows(500, 500).array() += .1;  // 2 to 4 s
+  const ForwardGap all = InLoop(robots);
+  const ForwardGap part =
+      ForwardGapInLoop(robots, arm_.file, arm_.Controller(), {log_}, 1, late);
+  EXPECT_GT(all.figures.after, 1e5);
+  EXPECT_NEAR(part.figures.after, 1, .2);
+  EXPECT_EQ(ForwardGapInWindows(robots, {Segment()}, Noise(), 1, late).runs, 5);
+}
+
+// Of a log that is cut into parts, those whose rows are held out.
+TEST_F(ForwardGapTest, TimesOfHeldOutRowsCount) {
+  const std::vector<GapSegment> segments = {Segment()};
+  const GapRows rows(segments, kBandwidth, LogPart::kHeldOut);
+  const CountedTimes counted = TimesWithRows(rows);
+  EXPECT_TRUE(counted(0, 2));     // in the third tenth of 8 s
+  EXPECT_FALSE(counted(0, 1.2));  // in the second
+  EXPECT_FALSE(counted(1, 2));
 }
 
 // An unstable robot: infinitely far off, and nothing is thrown.
