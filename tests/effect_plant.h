@@ -80,6 +80,11 @@ class EffectPlant {
     return slow.middleRows(cut, slow.rows() - 2 * cut);
   }
 
+  // What effects added to a log.
+  Eigen::MatrixXd Measured(const Log& log) const {
+    return Judged(Unexplained(log) - background_);
+  }
+
   // By how much what the effect adds to the log differs
   // from the change that is expected, as a share of it in rms.
   double Disagreement(const Effect& effect, int joint) const {
@@ -90,7 +95,7 @@ class EffectPlant {
     SimulatedRobot robot = Bare();
     effect.apply(arm_.Site(joint), p, &robot);
     const Log log = Run(robot);
-    const Eigen::MatrixXd measured = Judged(Unexplained(log) - background_);
+    const Eigen::MatrixXd measured = Measured(log);
     RecordedTorque recorded(arm_.robot, arm_.transitions, MotionOf(log));
     const Eigen::MatrixXd expected =
         Judged(arm_.Change(effect, joint, p, &recorded));

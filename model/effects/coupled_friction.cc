@@ -6,6 +6,45 @@
 namespace armcal {
 inline namespace effects {
 
+namespace {
+
+std::vector<EffectParameter> CoupledParameters() {
+  return {Linear("friction", "E", ShareOfTorque(.05),
+                 EffectParameter::Sign::kPositive),
+          NeighbourParameter(),
+          Gridded("ratio", "1",
+                  [](const EffectSite& site) {
+                    // Between a turning and a sliding joint in rad/m or m/rad.
+                    const std::vector<int> next = Neighbours(site);
+                    EffectSite other = site;
+                    other.joint = next.empty() ? site.joint : next[0];
+                    const double r = Radian(site) / Radian(other);
+                    return std::vector<double>{-r, -.5 * r, .5 * r, r};
+                  }),
+          // Dry, or of a lubricated seal.
+          Gridded("width", "P/s", [](const EffectSite& site) {
+            const double dry = site.scale->width[site.joint];
+            return std::vector<double>{
+                dry, std::max(.5 * SpeedScale(site), 2 * dry)};
+          })};
+}
+
+void ApplyCoupled(const EffectSite& site, const Eigen::VectorXd& p,
+                  SimulatedRobot* robot) {
+  const int j = site.joint, k = static_cast<int>(p[1] + .5) - 1;
+  const double friction = p[0], ratio = p[2], w = p[3];
+  const InstantTorque torque = [=](const ArmInstant& at) {
+    return -friction * std::tanh((at.velocity[j] + ratio * at.velocity[k]) / w);
+  };
+  AddFriction(site, torque, robot);
+  EffectSite other = site;
+  other.joint = k;
+  AddFriction(
+      other, [=](const ArmInstant& at) { return ratio * torque(at); }, robot);
+}
+
+}  // namespace
+
 // tau = -friction tanh(u / width) on the joint and ratio times that on its
 // neighbour, u = v + ratio v_neighbour: a bearing between two shafts of a wrist
 // turns with u, and its torque's power is never positive.
@@ -16,39 +55,8 @@ Effect CoupledFriction() {
       "tau = friction sign(v + ratio v_neighbour), here and ratio "
       "times there";
   effect.shows = "neighbours that move one without the other and together";
-  effect.parameters = {
-      Linear("friction", "E", ShareOfTorque(.05),
-             EffectParameter::Sign::kPositive),
-      NeighbourParameter(),
-      Gridded("ratio", "1",
-              [](const EffectSite& site) {
-                // Between a turning and a sliding joint in rad/m or m/rad.
-                const std::vector<int> next = Neighbours(site);
-                EffectSite other = site;
-                other.joint = next.empty() ? site.joint : next[0];
-                const double r = Radian(site) / Radian(other);
-                return std::vector<double>{-r, -.5 * r, .5 * r, r};
-              }),
-      // Dry, or of a lubricated seal.
-      Gridded("width", "P/s", [](const EffectSite& site) {
-        const double dry = site.scale->width[site.joint];
-        return std::vector<double>{dry,
-                                   std::max(.5 * SpeedScale(site), 2 * dry)};
-      })};
-  effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
-                    SimulatedRobot* robot) {
-    const int j = site.joint, k = static_cast<int>(p[1] + .5) - 1;
-    const double friction = p[0], ratio = p[2], w = p[3];
-    const InstantTorque torque = [=](const ArmInstant& at) {
-      return -friction *
-             std::tanh((at.velocity[j] + ratio * at.velocity[k]) / w);
-    };
-    AddFriction(site, torque, robot);
-    EffectSite other = site;
-    other.joint = k;
-    AddFriction(
-        other, [=](const ArmInstant& at) { return ratio * torque(at); }, robot);
-  };
+  effect.parameters = CoupledParameters();
+  effect.apply = ApplyCoupled;
   effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return std::vector<EffectEstimate>{{"friction", UnitAt(site, "E"), p[0]},
                                        {"ratio", "1", p[2]},

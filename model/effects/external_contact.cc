@@ -5,6 +5,20 @@
 namespace armcal {
 inline namespace effects {
 
+namespace {
+
+std::vector<EffectEstimate> ContactEstimates(const EffectSite&,
+                                             const Eigen::VectorXd& p) {
+  return {{"force", "N", p.head<3>().norm()},
+          {"time", "s", p[3]},
+          {"width", "s", p[4]},
+          {"force_x", "N", p[0]},
+          {"force_y", "N", p[1]},
+          {"force_z", "N", p[2]}};
+}
+
+}  // namespace
+
 // force exp(-((t - time) / width)^2) on the tool's origin, in W, as the
 // environment acts on the arm: a push that comes and goes once.
 Effect ExternalContact() {
@@ -41,14 +55,7 @@ Effect ExternalContact() {
     };
     robot->wrenches.push_back(law);
   };
-  effect.estimates = [](const EffectSite&, const Eigen::VectorXd& p) {
-    return std::vector<EffectEstimate>{{"force", "N", p.head<3>().norm()},
-                                       {"time", "s", p[3]},
-                                       {"width", "s", p[4]},
-                                       {"force_x", "N", p[0]},
-                                       {"force_y", "N", p[1]},
-                                       {"force_z", "N", p[2]}};
-  };
+  effect.estimates = ContactEstimates;
   effect.experiment = "the same motion again";
   return effect;
 }

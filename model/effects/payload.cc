@@ -3,6 +3,21 @@
 namespace armcal {
 inline namespace effects {
 
+namespace {
+
+// In the last link's frame.
+std::vector<EffectEstimate> PayloadEstimates(const EffectSite& site,
+                                             const Eigen::VectorXd& p) {
+  const Eigen::Vector3d com =
+      site.robot->X_LT.translation() + p.segment<3>(1) / p[0];
+  return {{"mass", "kg", p[0]},
+          {"com_x", "m", com.x()},
+          {"com_y", "m", com.y()},
+          {"com_z", "m", com.z()}};
+}
+
+}  // namespace
+
 // A body on the tool: its mass, its first moments hx hy hz about the tool
 // frame's origin, in the last link's axes. Its inertia about that origin is
 // left out, which torques hardly show.
@@ -31,15 +46,7 @@ Effect Payload() {
         Eigen::Translation3d(robot->robot.X_LT.translation()));
     robot->robot.links.back().inertial += payload.ReexpressIn(X_LP);
   };
-  // In the last link's frame.
-  effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
-    const Eigen::Vector3d com =
-        site.robot->X_LT.translation() + p.segment<3>(1) / p[0];
-    return std::vector<EffectEstimate>{{"mass", "kg", p[0]},
-                                       {"com_x", "m", com.x()},
-                                       {"com_y", "m", com.y()},
-                                       {"com_z", "m", com.z()}};
-  };
+  effect.estimates = PayloadEstimates;
   effect.experiment = "poses of the wrist, held, and the arm swung";
   return effect;
 }

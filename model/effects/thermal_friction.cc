@@ -17,6 +17,12 @@ double FrictionPower(const EffectSite& site) {
   return (site.at().viscous * v + site.at().coulomb) * v;
 }
 
+std::string WhyNoFriction(const EffectSite& site) {
+  return site.at().viscous > 0 || site.at().coulomb > 0
+             ? ""
+             : "the joint has no friction that warmth could change";
+}
+
 }  // namespace
 
 // tau = -(beta viscous v + coulomb_beta coulomb tanh(v / w)) warmth: friction
@@ -52,11 +58,7 @@ Effect ThermalFriction() {
         },
         robot);
   };
-  effect.unfit = [](const EffectSite& site) -> std::string {
-    return site.at().viscous > 0 || site.at().coulomb > 0
-               ? ""
-               : "the joint has no friction that warmth could change";
-  };
+  effect.unfit = WhyNoFriction;
   effect.experiment = "the same motion again and again from cold";
   return effect;
 }
