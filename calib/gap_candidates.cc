@@ -16,7 +16,7 @@ constexpr int kPeaks = 3;
 constexpr int kWindows = 3;
 // Per rad: slower ones are springs and cables.
 constexpr double kLowestHarmonic = 6, kHighestHarmonic = 130;
-const std::vector<double> kDurations = {.15, .4, 1, 2.5};  // s
+const std::vector<double> kDurations = {.15, .4, 1};  // s
 
 // What the residual proposes for the parameters that are looked for in it.
 class Proposals {
@@ -257,29 +257,32 @@ std::vector<GapCandidate> ListCandidates(const GapBaseline& baseline,
   return candidates;
 }
 
+void AddThinned(const GapRows& rows, int segment, const MatrixXd& torque,
+                JointRows* thin) {
+  const int begin = rows.thin_begin(segment);
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    if ((torque.col(j).array() == 0).all()) continue;
+    VectorXd& all = (*thin)[j];
+    if (all.size() == 0) all = VectorXd::Zero(rows.num_thin());
+    all.segment(begin, rows.thin_begin(segment + 1) - begin) =
+        rows.Thin(segment, torque.col(j));
+  }
+}
+
 namespace {
 
 JointRows ThinTorque(const GapCandidate& candidate, const VectorXd& p,
                      const GapBaseline& baseline, const GapRows& rows,
                      const MotionScale& scale,
                      std::vector<RecordedTorque>* torques) {
-  const int n = rows.num_joints();
-  JointRows thin(n);
+  JointRows thin(rows.num_joints());
   SimulatedRobot changed;
   changed.robot = baseline.robot();
   candidate.effect->apply({&baseline.robot(), candidate.joint, &scale}, p,
                           &changed);
-  for (size_t i = 0; i < torques->size(); ++i) {
-    const int s = static_cast<int>(i);
-    if (!candidate.IsIn(rows.segments()[i].log)) continue;
-    const MatrixXd change = (*torques)[i].Change(changed);
-    for (int j = 0; j < n; ++j) {
-      if ((change.col(j).array() == 0).all()) continue;
-      if (thin[j].size() == 0) thin[j] = VectorXd::Zero(rows.num_thin());
-      thin[j].segment(rows.thin_begin(s),
-                      rows.thin_begin(s + 1) - rows.thin_begin(s)) =
-          rows.Thin(s, change.col(j));
-    }
+  for (size_t s = 0; s < torques->size(); ++s) {
+    if (!candidate.IsIn(rows.segments()[s].log)) continue;
+    AddThinned(rows, static_cast<int>(s), (*torques)[s].Change(changed), &thin);
   }
   return thin;
 }

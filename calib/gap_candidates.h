@@ -40,6 +40,11 @@ std::vector<GapCandidate> ListCandidates(const GapBaseline& baseline,
                                          const MotionScale& scale,
                                          const Eigen::MatrixXd& residual);
 
+// Low-passes and thins a torque (samples x n) of a segment into the thinned
+// samples of all, per joint; joints that it is zero of stay empty.
+void AddThinned(const GapRows& rows, int segment, const Eigen::MatrixXd& torque,
+                JointRows* thin);
+
 // Fills in their torques.
 void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
                         const MotionScale& scale,

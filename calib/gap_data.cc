@@ -6,7 +6,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Of one prior standard deviation of the ways through zero velocity.
-constexpr double kDoubt = .15;
+constexpr double kDoubt = .3;
 constexpr double kNothing = 1e3;
 
 GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,

@@ -55,6 +55,7 @@ class Diagnoser {
   JointGap JointFigures(int joint) const;
   JointCourse CourseOf(int joint) const;
   void ListEffects();
+  void Simulate(LogSet* held_out, bool split);
   void TellUnexplained();
   void Judge();
 
@@ -84,6 +85,7 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
     result_.joints.push_back(JointFigures(j));
   }
   ListEffects();
+  Simulate(split ? training : validation, split);
   result_.moved = ListMoved(*fit_, fit_->refined().baseline);
   result_.untestable = ListUntestable(*fit_);
   TellUnexplained();
@@ -182,8 +184,7 @@ FoundEffect Diagnoser::Contacts() const {
   std::sort(
       found.windows.begin(), found.windows.end(),
       [](const TimeRange& a, const TimeRange& b) { return a.begin < b.begin; });
-  found.evidence.strength = std::log(std::max(1., found.drop));
-  found.evidence.odds = 12;
+  found.evidence = EvidenceForEvents(*fit_, result_.torque);
   return found;
 }
 
@@ -202,6 +203,38 @@ void Diagnoser::ListEffects() {
     result_.candidates.insert(result_.candidates.end(),
                               found.equivalent.begin(), found.equivalent.end());
   }
+}
+
+// The held-out motion by the file's robot, the refitted one and the one with
+// the effects; events are not repeated.
+void Diagnoser::Simulate(LogSet* held_out, bool split) {
+  const RefinedEffects& refined = fit_->refined();
+  const auto robot = [&](const VectorXd& x,
+                         const std::vector<GapCandidate>& effects) {
+    return MakeCorrectedRobot(*baseline_, x, effects, fit_->scale());
+  };
+  result_.corrected = robot(refined.baseline, refined.effects);
+  if (!options_.forward) return;
+  const ForwardRobots robots = {robot(VectorXd::Zero(baseline_->size()), {}),
+                                robot(fit_->refit(), {}), result_.corrected};
+  CountedTimes counted;
+  if (split) counted = TimesWithRows(held_out_->rows());
+  if (options_.controller) {
+    result_.forward =
+        ForwardGapInLoop(robots, robot_, *options_.controller,
+                         options_.commanded, options_.seed, counted);
+    return;
+  }
+  if (held_out_->segments().empty()) return;
+  const RecordedPositions positions =
+      AuditPositions(options_.progress, held_out);
+  if (positions.noise.size() == 0) return;
+  result_.forward =
+      ForwardGapInWindows(robots, held_out_->segments(),
+                          {positions.noise, positions.rate_hz,
+                           MotionBandwidth(options_.bandwidth_hz),
+                           fit_->noise().joints, held_out_->rows().step(0)},
+                          options_.seed, counted);
 }
 
 // What no effect explains, in sample: its share of what a refit leaves beyond
@@ -249,6 +282,15 @@ GapDiagnosis DiagnoseGap(const Robot& robot, const DiagnosisOptions& options,
                          LogSet* training, LogSet* validation,
                          LogSet* reference) {
   return Diagnoser(robot, options).Run(training, validation, reference);
+}
+
+double DiagnosisBandwidth(const std::vector<TimeBase>& time_bases) {
+  constexpr double kLeast = 10, kShareOfRate = .125;
+  double hz = std::max(kLeast, DefaultBandwidth(time_bases));
+  for (const TimeBase& base : time_bases) {
+    hz = std::min(hz, kShareOfRate / base.dt);
+  }
+  return hz;
 }
 
 const char* GapVerdictName(GapVerdict verdict) {

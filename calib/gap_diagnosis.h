@@ -2,11 +2,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "calib/gap_baseline.h"
 #include "calib/gap_evidence.h"
+#include "calib/gap_forward.h"
 #include "calib/gap_moved.h"
 #include "calib/gap_noise.h"
 #include "calib/gap_probability.h"
@@ -24,6 +26,11 @@ struct DiagnosisOptions {
   double bandwidth_hz = 0;
   SelectionOptions selection;
   std::uint64_t seed = 1;
+  // Whether held-out logs are simulated as well; along their commands where
+  // these and the controller are given, else over windows.
+  bool forward = true;
+  std::optional<ControllerOptions> controller;
+  std::vector<CommandedLog> commanded;
   Progress progress;
 };
 
@@ -88,12 +95,18 @@ struct GapDiagnosis {
   std::vector<MovedParameter> moved;
   NoiseFloor floor = NoiseFloor::kAssumed;
   GapFigures torque;
+  std::optional<ForwardGap> forward;
+  CorrectedRobot corrected;
   std::vector<JointGap> joints;
   Unexplained unexplained;
   std::vector<DataFinding> data;
   std::vector<UntestableEffect> untestable;
   double bandwidth_hz = 0;
 };
+
+// Effects bend torques faster than motions go: at least 10 Hz, and at most an
+// eighth of every sample rate.
+double DiagnosisBandwidth(const std::vector<TimeBase>& time_bases);
 
 // Diagnoses the gap between `robot` and the training logs; figures are of the
 // validation logs, or of parts of the training logs that are held out where

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace armcal {
 namespace {
@@ -24,11 +23,42 @@ double Excess(const GapFit& fit, int joint, bool with_effects) {
                   residual.squaredNorm() - (1 + kTolerance) * residual.size());
 }
 
+namespace {
+
+constexpr double kMostOdds = 12;
+
+double SumOfDrops(const GapFit& fit) {
+  double sum = 0;
+  for (const double drop : fit.selection().drops) sum += drop;
+  for (const GapEvent& event : fit.events()) sum += event.drop;
+  return sum;
+}
+
+// What is said of all that was chosen.
+EffectEvidence Common(const GapFit& fit, const GapFigures& figures) {
+  EffectEvidence evidence;
+  evidence.chosen =
+      static_cast<int>(fit.selection().drops.size()) + !fit.events().empty();
+  double left = 0;
+  for (int j = 0; j < fit.rows().num_joints(); ++j) {
+    left += Excess(fit, j, true);
+  }
+  evidence.left = left / std::max(1., left + SumOfDrops(fit));
+  evidence.held_out_left =
+      std::max(0., figures.after - 1.1) / std::max(.1, figures.refit - 1);
+  evidence.next = std::max(
+      0., ScoresBeside(fit.screen(), fit.candidates(), fit.selection_options(),
+                       fit.selection().chosen, -1)
+              .maxCoeff());
+  return evidence;
+}
+
+}  // namespace
+
 EffectEvidence EvidenceFor(const GapFit& fit, const HeldOut& held_out,
                            const GapFigures& figures, size_t k,
                            const std::vector<PlacedEffect>& all) {
-  constexpr double kMostOdds = 12;
-  EffectEvidence evidence;
+  EffectEvidence evidence = Common(fit, figures);
   const GapCandidate& effect = fit.refined().effects[k];
   double others = -std::numeric_limits<double>::infinity(), own = others;
   for (const PlacedEffect& other : all) {
@@ -36,24 +66,23 @@ EffectEvidence EvidenceFor(const GapFit& fit, const HeldOut& held_out,
         other.effect == effect.effect && other.joint == effect.joint;
     (same ? own : others) = std::max(same ? own : others, other.score);
   }
+  const double drop = fit.selection().drops[k];
   evidence.odds =
       std::clamp((own - others) / (2 * kTemperature), -kMostOdds, kMostOdds);
-  const std::vector<double>& drops = fit.selection().drops;
-  evidence.strength = std::log(std::max(1., drops[k]));
-  evidence.share = drops[k] / std::accumulate(drops.begin(), drops.end(), 0.);
-  evidence.chosen = static_cast<int>(drops.size());
-  double left = 0;
-  for (int j = 0; j < fit.rows().num_joints(); ++j) {
-    left += Excess(fit, j, true);
-  }
-  evidence.left = left / (left + EffectsOf(fit).drop);
-  evidence.held_out_left =
-      std::max(0., figures.after - 1.1) / std::max(.1, figures.refit - 1);
-  evidence.next = std::max(
-      0., ScoresBeside(fit.screen(), fit.candidates(), fit.selection_options(),
-                       fit.selection().chosen, -1)
-              .maxCoeff());
+  evidence.strength = std::log(std::max(1., drop));
+  evidence.share = drop / SumOfDrops(fit);
   evidence.gain = held_out.Gain(k, figures.after);
+  return evidence;
+}
+
+EffectEvidence EvidenceForEvents(const GapFit& fit, const GapFigures& figures) {
+  EffectEvidence evidence = Common(fit, figures);
+  double drop = 0;
+  for (const GapEvent& event : fit.events()) drop += event.drop;
+  evidence.odds = kMostOdds;
+  evidence.strength = std::log(std::max(1., drop));
+  evidence.share = drop / SumOfDrops(fit);
+  evidence.events = static_cast<int>(fit.events().size());
   return evidence;
 }
 

@@ -18,6 +18,7 @@ struct EffectEvidence {
   double left = 0;           // share of the excess that all leave, in sample
   double held_out_left = 0;  // the same on what was held out
   double next = 0;           // score of the best further candidate, at least 0
+  int events = 0;            // windows of it, of what comes and goes
   double gain = 0;           // by how much it lowers the held-out mean square
 };
 
@@ -25,6 +26,9 @@ struct EffectEvidence {
 EffectEvidence EvidenceFor(const GapFit& fit, const HeldOut& held_out,
                            const GapFigures& figures, size_t k,
                            const std::vector<PlacedEffect>& all);
+
+// Of all events together, as one effect.
+EffectEvidence EvidenceForEvents(const GapFit& fit, const GapFigures& figures);
 
 // chi^2 of joint j beyond the noise's that the fit's effects leave, or with
 // none of them. The noise's variance is not known better than a quarter.

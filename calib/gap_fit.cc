@@ -110,8 +110,9 @@ std::vector<GapCandidate> GapFit::Chosen(const std::vector<int>& which) const {
 
 void GapFit::TakeOutEvent(size_t k) {
   GapEvent event;
-  const RefinedEffects refined = RefineEffects(
-      *screen_, baseline_, scale_, {Chosen(selection_.chosen)[k]}, data_.get());
+  const RefinedEffects refined =
+      RefineEffects(*screen_, baseline_, scale_, {Chosen(selection_.chosen)[k]},
+                    -1, data_.get());
   event.effect = refined.effects[0];
   event.covariance = refined.covariance;
   event.drop = selection_.drops[k];
@@ -141,15 +142,15 @@ void GapFit::Choose() {
   refined_.effects = Chosen(selection_.chosen);
   refined_.baseline = refit_;
   if (refined_.effects.empty()) return;
-  refined_ =
-      RefineEffects(*screen_, baseline_, scale_, refined_.effects, data_.get());
+  refined_ = RefineEffects(*screen_, baseline_, scale_, refined_.effects, -1,
+                           data_.get());
 }
 
 // A grid may be kinder to one effect than to another: those near the k-th in
 // score are compared with their shapes fitted, and the best takes its place.
 void GapFit::CompareRivals(size_t k) {
   constexpr int kMostRivals = 3;
-  constexpr double kNear = .4;  // of the drop
+  constexpr double kNear = .5;  // of the drop
   VectorXd scores = ScoresBeside(*screen_, candidates_, options_.selection,
                                  selection_.chosen, static_cast<int>(k));
   const double least =
@@ -159,14 +160,15 @@ void GapFit::CompareRivals(size_t k) {
   const double by_others = screen_->Solve(ColumnsOf(candidates_, others)).drop;
   double best_score = -1e300;
   int best = selection_.chosen[k];
-  while (static_cast<int>(rivals_[k].size()) <= kMostRivals) {
+  while (static_cast<int>(rivals_[k].size()) < 1 + kMostRivals) {
     int c;
     if (!(scores.maxCoeff(&c) >= least)) break;
     const GapCandidate& rival = candidates_[c];
     std::vector<int> chosen = selection_.chosen;
     chosen[k] = c;
     const RefinedEffects refined =
-        RefineEffects(*screen_, baseline_, scale_, Chosen(chosen), data_.get());
+        RefineEffects(*screen_, baseline_, scale_, Chosen(chosen),
+                      static_cast<int>(k), data_.get());
     const double score = refined.drop - by_others - Price(*screen_, rival);
     rivals_[k].push_back({rival.effect, rival.joint, score});
     if (score > best_score) best_score = score, best = c;
@@ -183,14 +185,9 @@ void GapFit::CompareRivals(size_t k) {
 VectorXd GapFit::BaselineWithout(size_t k) const {
   std::vector<GapCandidate> others = refined_.effects;
   others.erase(others.begin() + k);
-  JointRows torque(data_->rows().num_joints());
-  if (!others.empty()) {
-    const MatrixXd thin =
-        EffectTorque(baseline_, scale_, others, false, data_.get());
-    for (int j = 0; j < thin.cols(); ++j) {
-      torque[j] = data_->rows().Whiten(j, thin.col(j));
-    }
-  }
+  const JointRows torque =
+      WhitenEach(data_->rows(),
+                 EffectTorque(baseline_, scale_, others, false, data_.get()));
   return screen_->BaselineBeside(torque);
 }
 

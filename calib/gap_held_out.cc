@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/gap_search.h"
+
 namespace armcal {
 
 using Eigen::MatrixXd;
@@ -15,20 +17,73 @@ HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> segments,
       data_(std::make_unique<GapData>(std::move(segments), fit.baseline(),
                                       fit.rows().bandwidth_hz(), part)) {
   data_->SetNoise(fit.noise().joints);
-  if (other_logs) return;
-  for (const GapEvent& event : fit.events()) {
-    data_->Mask(event.effect.log, event.window);
+  if (fit.events().empty()) return;
+  if (other_logs) {
+    MaskEvents();
+  } else {
+    for (const GapEvent& event : fit.events()) {
+      data_->Mask(event.effect.log, event.window);
+    }
   }
   data_->SetNoise(fit.noise().joints);
 }
 
+// An arm that was touched in one log may have been in another: windows that
+// stand out from what the fitted effects leave are not judged by.
+void HeldOut::MaskEvents() {
+  constexpr int kMostWindows = 12;
+  constexpr double kReal = 100;                      // chi^2
+  const std::vector<double> durations = {.4, 1, 2};  // s
+  MatrixXd left = Deviations(fit_.refined().effects, fit_.refined().baseline);
+  for (int round = 0; round < kMostWindows; ++round) {
+    double most = kReal;
+    int log = -1;
+    TimeWindow worst{0, 0};
+    for (size_t i = 0; i < segments().size(); ++i) {
+      const int s = static_cast<int>(i), begin = rows().thin_begin(s);
+      const int size = rows().thin_begin(s + 1) - begin;
+      VectorXd t(size);
+      for (int k = 0; k < size; ++k) t[k] = rows().thin_time(s, begin + k);
+      int searched = 0;
+      for (const TimeWindow& window : StrongWindows(
+               left.middleRows(begin, size), t, durations, 1, &searched)) {
+        if (window.strength <= most) continue;
+        most = window.strength;
+        worst = window;
+        log = segments()[i].log;
+      }
+    }
+    if (log < 0) return;
+    const TimeRange range{worst.centre - worst.duration,
+                          worst.centre + worst.duration};
+    data_->Mask(log, range);
+    data_->SetNoise(fit_.noise().joints);
+    left = Deviations(fit_.refined().effects, fit_.refined().baseline);
+  }
+}
+
+// Residuals over standard deviations, 0 where a joint stands.
+MatrixXd HeldOut::Deviations(const std::vector<GapCandidate>& effects,
+                             const VectorXd& baseline) const {
+  return Squares(effects, baseline)
+      .unaryExpr([](double x) { return std::isnan(x) ? 0 : std::sqrt(x); })
+      .cwiseProduct(Residual(effects, baseline).cwiseSign());
+}
+
+MatrixXd HeldOut::Residual(const std::vector<GapCandidate>& effects,
+                           const VectorXd& baseline) const {
+  MatrixXd residual = data_->ResidualWith(baseline);
+  const JointRows torque = EffectTorque(fit_.baseline(), fit_.scale(), effects,
+                                        other_logs_, data_.get());
+  for (int j = 0; j < residual.cols(); ++j) {
+    if (torque[j].size() > 0) residual.col(j) -= torque[j];
+  }
+  return residual;
+}
+
 MatrixXd HeldOut::Squares(const std::vector<GapCandidate>& effects,
                           const VectorXd& baseline) const {
-  MatrixXd squares = data_->ResidualWith(baseline);
-  if (!effects.empty()) {
-    squares -= EffectTorque(fit_.baseline(), fit_.scale(), effects, other_logs_,
-                            data_.get());
-  }
+  MatrixXd squares = Residual(effects, baseline);
   for (int j = 0; j < squares.cols(); ++j) {
     std::vector<bool> moves(squares.rows(), false);
     for (const int k : rows().SampleOfRow(j)) moves[k] = true;

@@ -31,6 +31,13 @@ class HeldOut {
   double Gain(size_t k, double after) const;
 
  private:
+  void MaskEvents();
+  // Thinned samples x n, N m or N.
+  Eigen::MatrixXd Residual(const std::vector<GapCandidate>& effects,
+                           const Eigen::VectorXd& baseline) const;
+  Eigen::MatrixXd Deviations(const std::vector<GapCandidate>& effects,
+                             const Eigen::VectorXd& baseline) const;
+
   const GapFit& fit_;
   bool other_logs_;
   std::unique_ptr<GapData> data_;

@@ -28,6 +28,7 @@ json EvidenceJson(const EffectEvidence& evidence) {
           {"left", JsonNumber(evidence.left)},
           {"held_out_left", JsonNumber(evidence.held_out_left)},
           {"next", JsonNumber(evidence.next)},
+          {"events", evidence.events},
           {"gain", JsonNumber(evidence.gain)}};
 }
 
@@ -66,6 +67,27 @@ json GapJson(const GapFigures& gap) {
           {"removed_from_nominal_percent",
            JsonNumber(gap.removed_from_nominal_percent)},
           {"ci95", {JsonNumber(gap.ci95[0]), JsonNumber(gap.ci95[1])}}};
+}
+
+json ForwardJson(const GapDiagnosis& diagnosis) {
+  const ForwardGap& forward = *diagnosis.forward;
+  json gap = GapJson(forward.figures);
+  gap["method"] = forward.closed_loop ? "closed_loop" : "windows";
+  gap["runs"] = forward.runs;
+  gap["diverged"] = forward.diverged;
+  gap["nominal_ci95"] = {JsonNumber(forward.figures.nominal_ci95[0]),
+                         JsonNumber(forward.figures.nominal_ci95[1])};
+  gap["joints"] = json::array();
+  for (int j = 0; j < forward.figures.joints.rows(); ++j) {
+    gap["joints"].push_back(
+        {{"name", diagnosis.joints[j].name},
+         {"unit", diagnosis.joints[j].unit == "N" ? "m" : "rad"},
+         {"nominal_rms", JsonNumber(forward.figures.joints(j, 0))},
+         {"refit_rms", JsonNumber(forward.figures.joints(j, 1))},
+         {"after_rms", JsonNumber(forward.figures.joints(j, 2))},
+         {"floor_rms", JsonNumber(forward.floor[j])}});
+  }
+  return gap;
 }
 
 json WhereJson(const std::vector<JointGap>& joints) {
@@ -117,6 +139,10 @@ json ToJson(const GapDiagnosis& diagnosis) {
   json unexplained = {{"joint", diagnosis.unexplained.joint},
                       {"organised_by", diagnosis.unexplained.organised_by},
                       {"share", JsonNumber(diagnosis.unexplained.share)}};
+  json gap = {{"torque", GapJson(diagnosis.torque)}};
+  if (diagnosis.forward && diagnosis.forward->has_figures) {
+    gap["forward"] = ForwardJson(diagnosis);
+  }
   return {{"verdict", GapVerdictName(diagnosis.verdict)},
           {"sentence", BriefReport(diagnosis)},
           {"data", data},
@@ -125,7 +151,7 @@ json ToJson(const GapDiagnosis& diagnosis) {
           {"absorbed", MovedJson(diagnosis.moved)},
           {"where", WhereJson(diagnosis.joints)},
           {"untestable", untestable},
-          {"gap", {{"torque", GapJson(diagnosis.torque)}}},
+          {"gap", gap},
           {"floor_source", NoiseFloorName(diagnosis.floor)},
           {"bandwidth_hz", JsonNumber(diagnosis.bandwidth_hz)},
           {"unexplained", unexplained}};

@@ -14,6 +14,8 @@ using Eigen::VectorXd;
 using Search = EffectParameter::Search;
 
 constexpr int kMostIterations = 12;
+// What lasts longer is no touch; s.
+constexpr double kShortestEvent = .03, kLongestEvent = 1.2;
 
 // A parameter as Ceres sees it: p = centre + scale (u - 1), or
 // centre exp(scale (u - 1)) where it is a size that grows by factors. It starts
@@ -58,11 +60,14 @@ bool IsChoice(const EffectParameter& parameter, const EffectSite& site) {
          });
 }
 
+// Of effect `only`, or of all where that is -1.
 std::vector<Coordinate> Coordinates(const GapBaseline& baseline,
                                     const MotionScale& scale,
-                                    const std::vector<GapCandidate>& effects) {
+                                    const std::vector<GapCandidate>& effects,
+                                    int only) {
   std::vector<Coordinate> coordinates;
   for (size_t e = 0; e < effects.size(); ++e) {
+    if (only >= 0 && only != static_cast<int>(e)) continue;
     const GapCandidate& effect = effects[e];
     const EffectSite site = {&baseline.robot(), effect.joint, &scale};
     int linear = 0;
@@ -91,6 +96,8 @@ std::vector<Coordinate> Coordinates(const GapBaseline& baseline,
         case Search::kDuration:
           c.by_factors = true;
           c.scale = .3;
+          c.low = kShortestEvent;
+          c.high = kLongestEvent;
           break;
       }
       c.effect = static_cast<int>(e);
@@ -122,12 +129,8 @@ class ProjectedResidual {
     return effects;
   }
   JointRows Torque(const double* u) const {
-    const MatrixXd thin = EffectTorque(baseline_, scale_, At(u), false, data_);
-    JointRows rows(thin.cols());
-    for (int j = 0; j < thin.cols(); ++j) {
-      rows[j] = data_->rows().Whiten(j, thin.col(j));
-    }
-    return rows;
+    return WhitenEach(data_->rows(),
+                      EffectTorque(baseline_, scale_, At(u), false, data_));
   }
   bool operator()(double const* const* u, double* residuals) const {
     const VectorXd r = screen_.ResidualBeside(Torque(u[0]));
@@ -143,6 +146,11 @@ class ProjectedResidual {
   std::vector<GapCandidate> effects_;
   std::vector<Coordinate> coordinates_;
   GapData* data_;
+  struct Evaluation {
+    VectorXd p;
+    JointRows rows;
+  };
+  mutable std::vector<Evaluation> last_;
 };
 
 void SetBounds(const std::vector<Coordinate>& coordinates, double* u,
@@ -218,13 +226,13 @@ MatrixXd Spread(const std::vector<GapCandidate>& effects,
 
 }  // namespace
 
-MatrixXd EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
-                      const std::vector<GapCandidate>& effects, bool other_logs,
-                      GapData* data) {
+JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
+                       const std::vector<GapCandidate>& effects,
+                       bool other_logs, GapData* data) {
   const GapRows& rows = data->rows();
-  MatrixXd thin(rows.num_thin(), rows.num_joints());
-  for (size_t s = 0; s < rows.segments().size(); ++s) {
-    const int part = static_cast<int>(s), log = rows.segments()[s].log;
+  JointRows thin(rows.num_joints());
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i), log = rows.segments()[i].log;
     SimulatedRobot changed;
     changed.robot = baseline.robot();
     for (const GapCandidate& effect : effects) {
@@ -232,21 +240,29 @@ MatrixXd EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
       effect.effect->apply({&baseline.robot(), effect.joint, &scale}, effect.p,
                            &changed);
     }
-    const MatrixXd torque =
-        rows.Thin(part, (*data->mutable_torques())[s].Change(changed));
-    thin.middleRows(rows.thin_begin(part), torque.rows()) = torque;
+    AddThinned(rows, s, (*data->mutable_torques())[i].Change(changed), &thin);
   }
   return thin;
+}
+
+JointRows WhitenEach(const GapRows& rows, const JointRows& thin) {
+  JointRows white(thin.size());
+  for (size_t j = 0; j < thin.size(); ++j) {
+    if (thin[j].size() == 0) continue;
+    white[j] = rows.Whiten(static_cast<int>(j), thin[j]);
+  }
+  return white;
 }
 
 RefinedEffects RefineEffects(const GapScreen& screen,
                              const GapBaseline& baseline,
                              const MotionScale& scale,
-                             std::vector<GapCandidate> effects, GapData* data) {
+                             std::vector<GapCandidate> effects, int only,
+                             GapData* data) {
   RefinedEffects refined;
   refined.effects = effects;
   const std::vector<Coordinate> coordinates =
-      Coordinates(baseline, scale, effects);
+      Coordinates(baseline, scale, effects, only);
   const int size = static_cast<int>(coordinates.size());
   const auto residual = new ProjectedResidual(screen, baseline, scale, effects,
                                               coordinates, data);

@@ -20,18 +20,22 @@ struct RefinedEffects {
   double drop = 0;  // of chi^2 against the baseline alone
 };
 
-// Variable projection by Ceres from the effects' p. All of them act on one
-// SimulatedRobot, whose torque is evaluated as it is, not linearised.
+// Variable projection by Ceres from the effects' p, of effect `only` or (-1) of
+// all of them. Each one's torque is evaluated as it is, not linearised; what
+// one changes in the torque of another is left out.
 RefinedEffects RefineEffects(const GapScreen& screen,
                              const GapBaseline& baseline,
                              const MotionScale& scale,
-                             std::vector<GapCandidate> effects, GapData* data);
+                             std::vector<GapCandidate> effects, int only,
+                             GapData* data);
 
-// What effects with these parameters add to the torque: thinned samples x n.
-// What happened once is not in other logs than those it was found in.
-Eigen::MatrixXd EffectTorque(const GapBaseline& baseline,
-                             const MotionScale& scale,
-                             const std::vector<GapCandidate>& effects,
-                             bool other_logs, GapData* data);
+// What effects with these parameters add to the torque: per joint thinned
+// samples, empty where it is nothing. What happened once is not in other logs
+// than those it was found in.
+JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
+                       const std::vector<GapCandidate>& effects,
+                       bool other_logs, GapData* data);
+// Their rows.
+JointRows WhitenEach(const GapRows& rows, const JointRows& thin);
 
 }  // namespace armcal

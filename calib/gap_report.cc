@@ -76,6 +76,15 @@ std::string HowFar(const GapFigures& gap) {
               : "");
 }
 
+std::string Simulated(const ForwardGap& forward) {
+  const GapFigures& gap = forward.figures;
+  return Format(
+      "\nsimulated %s, mean square of positions over the noise's: nominal "
+      "%.3g, refitted %.3g, with the effects %.3g\n",
+      forward.closed_loop ? "along the command" : "over windows of 0.5 s",
+      gap.nominal, gap.refit, gap.after);
+}
+
 }  // namespace
 
 std::string BriefReport(const GapDiagnosis& diagnosis) {
@@ -133,6 +142,9 @@ std::string FullReport(const GapDiagnosis& diagnosis) {
     text += EffectLines(found, diagnosis);
   }
   text += WhereTable(diagnosis) + HowFar(diagnosis.torque);
+  if (diagnosis.forward && diagnosis.forward->has_figures) {
+    text += Simulated(*diagnosis.forward);
+  }
   text += Format("  noise told from: %s\n", NoiseFloorName(diagnosis.floor));
   if (!diagnosis.moved.empty()) text += "\nparameters far from the file's\n";
   for (const MovedParameter& moved : diagnosis.moved) {

@@ -93,7 +93,7 @@ std::vector<TimeWindow> StrongWindows(const MatrixXd& residual,
           [&](double c) { return std::abs(c - peak.at) < duration / 2; });
       if (near) continue;
       centres.push_back(peak.at);
-      windows.push_back({peak.at, duration});
+      windows.push_back({peak.at, duration, peak.power});
       ++kept;
     }
   }

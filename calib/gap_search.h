@@ -14,8 +14,9 @@ std::vector<double> PeakFrequencies(const Eigen::VectorXd& residual,
 
 // A stretch of time.
 struct TimeWindow {
-  double centre;    // s
-  double duration;  // s
+  double centre;        // s
+  double duration;      // s
+  double strength = 0;  // chi^2 of its mean, were the residual white
 };
 // Windows in which whitened residuals (samples x n, at times t) have a mean
 // that noise would not have, at most `count` of each duration, the strongest

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/position_noise.h"
 #include "model/low_pass.h"
 #include "model/standstill.h"
 
@@ -53,7 +54,7 @@ void FindStillJoints(GapSegment* segment) {
 
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                                      const Progress& progress, LogSet* logs) {
-  logs->Prepare(kMotionBandwidth * bandwidth_hz, 0, true, .25 / bandwidth_hz);
+  logs->Prepare(MotionBandwidth(bandwidth_hz), 0, true, .25 / bandwidth_hz);
   std::vector<GapSegment> segments;
   int log = -1, part = -1;
   logs->ForEach("reading the logs", progress,
@@ -76,6 +77,24 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
         ZeroPhaseLowPass(segment.tau, 1 / segment.motion.dt, kSmoothTorqueHz);
   }
   return segments;
+}
+
+double MotionBandwidth(double bandwidth_hz) {
+  return kMotionBandwidth * bandwidth_hz;
+}
+
+RecordedPositions AuditPositions(const Progress& progress, LogSet* logs) {
+  RecordedPositions recorded;
+  logs->Prepare(0, 0);
+  logs->ForEach("reading the logs", progress,
+                [&](int, const Trajectory& trajectory) {
+                  if (recorded.noise.size() > 0 || trajectory.size() < 100) {
+                    return;
+                  }
+                  recorded.noise = PositionNoise(trajectory.q);
+                  recorded.rate_hz = 1 / trajectory.dt;
+                });
+  return recorded;
 }
 
 }  // namespace armcal

@@ -28,4 +28,15 @@ struct GapSegment {
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                                      const Progress& progress, LogSet* logs);
 
+// Noise of the recorded positions (position_noise.h), n entries, and the rate
+// they were recorded at.
+struct RecordedPositions {
+  Eigen::VectorXd noise;  // rad or m
+  double rate_hz = 0;
+};
+RecordedPositions AuditPositions(const Progress& progress, LogSet* logs);
+
+// Of the motion of segments, Hz.
+double MotionBandwidth(double bandwidth_hz);
+
 }  // namespace armcal

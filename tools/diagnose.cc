@@ -6,18 +6,56 @@
 #include <iostream>
 #include <memory>
 
+#include "calib/corrected_robot_export.h"
 #include "calib/gap_report.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
+#include "tools/simulation_flags.h"
 
 DECLARE_double(trust);
+DECLARE_string(controller);
+
+DEFINE_bool(forward, true,
+            "simulate the held-out logs as well: along their commands with "
+            "--controller, else over windows of 0.5 s");
 DEFINE_string(reference, "",
               "log of the same robot from before: the model is fitted to it "
               "first, and the diagnosis says what has changed since");
 
 namespace armcal {
 namespace {
+
+// The commands of what is held out, for a controller to follow.
+void SetController(const Robot& robot, const LogReaderOptions& log_options,
+                   DiagnosisOptions* options) {
+  if (FLAGS_controller.empty()) return;
+  const bool held_out = !ValidationLogsFromFlags().empty();
+  for (const std::string& path :
+       held_out ? ValidationLogsFromFlags() : LogsFromFlags()) {
+    options->commanded.push_back(ReadCommandedLog(
+        path, log_options,
+        held_out ? ValidationCropFromFlags() : CropFromFlags()));
+  }
+  options->controller =
+      ControllerFromFlags(robot, options->commanded[0].log.qref.row(0));
+}
+
+int Finish(const Robot& robot, const GapDiagnosis& diagnosis) {
+  OutputFolder out(OutFromFlags());
+  const RobotExport corrected = ExportCorrectedRobot(
+      diagnosis.corrected, robot,
+      robot.dh_convention ? "" : RobotPathFromFlags(), BaseFromFlags());
+  nlohmann::json json = ToJson(diagnosis);
+  json["not_in_urdf"] = corrected.losses;
+  out.Add("diagnosis.json", json.dump(2) + "\n");
+  out.Add("robot.urdf", corrected.urdf);
+  out.Add("effects.json", corrected.effects.dump(2) + "\n");
+  out.Write();
+  std::cout << FullReport(diagnosis);
+  return diagnosis.verdict == GapVerdict::kNotTestable ? kExitNegative
+                                                       : kExitOk;
+}
 
 int RunDiagnose() {
   const Robot robot = RobotFromFlags();
@@ -30,7 +68,7 @@ int RunDiagnose() {
   };
   options.baseline.trust = FLAGS_trust;
   options.bandwidth_hz =
-      BandwidthFromFlags().value_or(DefaultBandwidth(training.time_bases()));
+      BandwidthFromFlags().value_or(DiagnosisBandwidth(training.time_bases()));
   std::unique_ptr<LogSet> reference, validation;
   if (!FLAGS_reference.empty()) {
     reference = std::make_unique<LogSet>(SplitAtCommas(FLAGS_reference),
@@ -41,13 +79,12 @@ int RunDiagnose() {
     validation = std::make_unique<LogSet>(held_out, log_options,
                                           ValidationCropFromFlags());
   }
+  SetController(robot, log_options, &options);
+  options.forward = FLAGS_forward;
+  options.seed = SeedFromFlags();
   const GapDiagnosis diagnosis =
       DiagnoseGap(robot, options, &training, validation.get(), reference.get());
-  OutputFolder out(OutFromFlags());
-  out.Add("diagnosis.json", ToJson(diagnosis).dump(2) + "\n");
-  out.Write();
-  std::cout << FullReport(diagnosis);
-  return kExitOk;
+  return Finish(robot, diagnosis);
 }
 
 }  // namespace
@@ -58,7 +95,7 @@ Command DiagnoseCommand() {
           "it shrinks once that effect is in the model",
           {"robot", "log", "validate", "reference", "trust", "bandwidth",
            "crop", "out", "base", "tip", "gravity", "torque_kind",
-           "torque_constants", "gear_ratios", "seed"},
+           "torque_constants", "gear_ratios", "seed", "controller", "forward"},
           &RunDiagnose};
 }
 

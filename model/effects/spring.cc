@@ -3,23 +3,33 @@
 namespace armcal {
 inline namespace effects {
 
-// tau = stiffness q: a spring of a balancer. Its neutral position is in the
-// joint's offset.
+// tau = stiffness q - preload: a spring of a balancer, stiffness times its
+// neutral position being the preload.
 Effect Spring() {
   Effect effect;
   effect.name = "spring";
-  effect.law = "tau = stiffness q";
+  effect.law = "tau = stiffness (q - neutral)";
   effect.shows = "slow motion over the joint's whole range";
-  effect.parameters = {Linear("stiffness", "E/P", [](const EffectSite& site) {
-    return .05 * TorqueScale(site) / Radian(site);
-  })};
+  effect.parameters = {Linear("stiffness", "E/P",
+                              [](const EffectSite& site) {
+                                return .05 * TorqueScale(site) / Radian(site);
+                              }),
+                       Linear("preload", "E", ShareOfTorque(.05))};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const int j = site.joint;
-    const double stiffness = p[0];
+    const double stiffness = p[0], preload = p[1];
     AddTorque(
-        site, [=](const ArmInstant& at) { return -stiffness * at.position[j]; },
+        site,
+        [=](const ArmInstant& at) {
+          return preload - stiffness * at.position[j];
+        },
         robot);
+  };
+  effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    return std::vector<EffectEstimate>{
+        {"stiffness", UnitAt(site, "E/P"), p[0]},
+        {"neutral", UnitAt(site, "P"), p[1] / p[0]}};
   };
   effect.experiment = "slow sweeps over the whole range, both ways";
   return effect;
