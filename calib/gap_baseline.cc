@@ -90,7 +90,7 @@ GapBaseline::GapBaseline(const Robot& robot, const BaselineOptions& options,
     transition.width = kReferenceWidth * WidthUnit(robot.links[j].joint);
     transitions_.push_back(transition);
     AddLink(j, options.trust);
-    AddTerms(j, options.trust, usual_torque[j]);
+    AddTerms(j, options.joint_trust.value_or(options.trust), usual_torque[j]);
   }
   columns_.push_back({BaselineColumn::Kind::kTiming, -1, 0, options.timing_s});
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct BaselineColumn {
 // file's inertial parameters, armature and friction.
 struct BaselineOptions {
   double trust = 0.05;
+  // The same of armature and friction, where these are not the file's.
+  std::optional<double> joint_trust;
   double timing_s = 5e-4;  // standard deviation, torque against position
 };
 

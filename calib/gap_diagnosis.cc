@@ -13,6 +13,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Relative standard deviation of joint terms that were fitted, not given.
+constexpr double kTrustInFitted = .5;
+constexpr double kTimingWithReference = .05;  // s
+
 // Standard deviations of the estimates by their derivatives at p.
 std::vector<double> EstimateDeviations(const GapCandidate& effect,
                                        const EffectSite& site,
@@ -54,6 +58,7 @@ class Diagnoser {
   FoundEffect Contacts() const;
   JointGap JointFigures(int joint) const;
   JointCourse CourseOf(int joint) const;
+  void ListFamilies();
   void ListEffects();
   void Simulate(LogSet* held_out, bool split);
   void TellUnexplained();
@@ -61,6 +66,7 @@ class Diagnoser {
 
   const Robot& robot_;
   const DiagnosisOptions& options_;
+  bool has_reference_ = false;
   std::optional<GapBaseline> baseline_;
   std::optional<GapFit> fit_;
   std::optional<HeldOut> held_out_;
@@ -70,8 +76,18 @@ class Diagnoser {
 GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
                             LogSet* reference) {
   const std::vector<GapSegment> segments = Read(training);
-  baseline_.emplace(robot_, options_.baseline, UsualTorque(segments));
+  const std::vector<GapSegment> before = Read(reference);
+  const LackedFamilies lacked =
+      FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
+                        before.empty() ? segments : before);
+  BaselineOptions trust = options_.baseline;
+  if (!lacked.families.empty()) trust.joint_trust = kTrustInFitted;
+  // How late a log's torque is, a reference tells.
+  if (!before.empty()) trust.timing_s = kTimingWithReference;
+  baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
+  result_.ladder = lacked;
   const bool split = validation == nullptr;
+  has_reference_ = reference != nullptr;
   fit_.emplace(
       *baseline_, GapFitOptions{options_.bandwidth_hz, options_.selection},
       segments, split ? LogPart::kFitted : LogPart::kAll, Read(reference));
@@ -188,7 +204,27 @@ FoundEffect Diagnoser::Contacts() const {
   return found;
 }
 
+// What the file gives no joint at all, as one effect each; with a reference
+// that is nothing new.
+void Diagnoser::ListFamilies() {
+  for (const LackedFamily& family : result_.ladder.families) {
+    FoundEffect found;
+    found.effect = family.effect;
+    found.probability = 1;
+    found.score = found.drop = family.drop;
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      const Joint& joint = robot_.links[j].joint;
+      found.estimates.push_back({joint.name + "." + JointTermName(family.term),
+                                 JointTermUnit(family.term, joint.type),
+                                 family.value[j]});
+      found.stddev.push_back(family.stddev[j]);
+    }
+    result_.effects.push_back(found);
+  }
+}
+
 void Diagnoser::ListEffects() {
+  if (!has_reference_) ListFamilies();
   if (!fit_->events().empty()) result_.effects.push_back(Contacts());
   for (size_t k = 0; k < fit_->refined().effects.size(); ++k) {
     result_.effects.push_back(Found(k));

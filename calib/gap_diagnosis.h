@@ -8,6 +8,7 @@
 
 #include "calib/gap_baseline.h"
 #include "calib/gap_evidence.h"
+#include "calib/gap_families.h"
 #include "calib/gap_forward.h"
 #include "calib/gap_moved.h"
 #include "calib/gap_noise.h"
@@ -96,6 +97,7 @@ struct GapDiagnosis {
   NoiseFloor floor = NoiseFloor::kAssumed;
   GapFigures torque;
   std::optional<ForwardGap> forward;
+  LackedFamilies ladder;  // what the file gives no joint at all
   CorrectedRobot corrected;
   std::vector<JointGap> joints;
   Unexplained unexplained;

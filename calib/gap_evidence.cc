@@ -7,7 +7,20 @@
 namespace armcal {
 namespace {
 
-constexpr double kTolerance = .25;  // of the noise's variance
+// What a noise's variance may be wrong by: standstill hears less than motion,
+// and what a refit left holds what it lacks.
+double Tolerance(NoiseFloor floor) {
+  switch (floor) {
+    case NoiseFloor::kRepeats:
+    case NoiseFloor::kReference:
+      return .25;
+    case NoiseFloor::kStandstill:
+      return 1;
+    case NoiseFloor::kAssumed:
+      break;
+  }
+  return 2;
+}
 
 GapScreen::Fit EffectsOf(const GapFit& fit) {
   return fit.screen().Solve(
@@ -20,7 +33,8 @@ double Excess(const GapFit& fit, int joint, bool with_effects) {
   const Eigen::VectorXd residual = fit.screen().Residual(
       joint, with_effects ? EffectsOf(fit) : GapScreen::Fit());
   return std::max(0.,
-                  residual.squaredNorm() - (1 + kTolerance) * residual.size());
+                  residual.squaredNorm() -
+                      (1 + Tolerance(fit.noise().source)) * residual.size());
 }
 
 namespace {
@@ -77,8 +91,13 @@ EffectEvidence EvidenceFor(const GapFit& fit, const HeldOut& held_out,
 
 EffectEvidence EvidenceForEvents(const GapFit& fit, const GapFigures& figures) {
   EffectEvidence evidence = Common(fit, figures);
-  double drop = 0;
-  for (const GapEvent& event : fit.events()) drop += event.drop;
+  double drop = 0, most = 0;
+  for (const GapEvent& event : fit.events()) {
+    drop += event.drop;
+    if (event.drop <= most) continue;
+    most = event.drop;
+    evidence.one_joint = event.one_joint;
+  }
   evidence.odds = kMostOdds;
   evidence.strength = std::log(std::max(1., drop));
   evidence.share = drop / SumOfDrops(fit);

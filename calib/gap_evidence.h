@@ -19,6 +19,7 @@ struct EffectEvidence {
   double held_out_left = 0;  // the same on what was held out
   double next = 0;           // score of the best further candidate, at least 0
   int events = 0;            // windows of it, of what comes and goes
+  double one_joint = 0;      // GapEvent's, of the strongest
   double gain = 0;           // by how much it lowers the held-out mean square
 };
 
@@ -31,7 +32,7 @@ EffectEvidence EvidenceFor(const GapFit& fit, const HeldOut& held_out,
 EffectEvidence EvidenceForEvents(const GapFit& fit, const GapFigures& figures);
 
 // chi^2 of joint j beyond the noise's that the fit's effects leave, or with
-// none of them. The noise's variance is not known better than a quarter.
+// none of them. How well the noise is known, its source tells.
 double Excess(const GapFit& fit, int joint, bool with_effects);
 
 }  // namespace armcal

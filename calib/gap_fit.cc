@@ -118,10 +118,35 @@ void GapFit::TakeOutEvent(size_t k) {
   event.drop = selection_.drops[k];
   event.score = selection_.scores[k];
   event.window = WindowOf(event.effect);
+  event.one_joint = OneJointShare(event);
   data_->Mask(event.effect.log, event.window);
   events_.push_back(event);
   // What else stands out is looked for in what is left.
   candidates_.clear();
+}
+
+double GapFit::OneJointShare(const GapEvent& event) const {
+  const double centre = (event.window.begin + event.window.end) / 2;
+  const double width =
+      (event.window.end - event.window.begin) / (2 * kEventReach);
+  const GapRows& rows = data_->rows();
+  VectorXd course = VectorXd::Zero(rows.num_thin());
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i);
+    if (rows.segments()[i].log != event.effect.log) continue;
+    for (int k = rows.thin_begin(s); k < rows.thin_begin(s + 1); ++k) {
+      course[k] =
+          std::exp(-std::pow((rows.thin_time(s, k) - centre) / width, 2));
+    }
+  }
+  double most = 0;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    JointRows column(rows.num_joints());
+    column[j] = rows.Whiten(j, course);
+    if (column[j].norm() < 1e-9) continue;
+    most = std::max(most, screen_->DropOf({column}));
+  }
+  return most / std::max(1., event.drop);
 }
 
 void GapFit::Choose() {

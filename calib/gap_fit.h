@@ -22,6 +22,9 @@ struct GapEvent {
   TimeRange window;
   double drop = 0;  // of chi^2
   double score = 0;
+  // The drop that a torque of the same course on one joint alone would bring,
+  // over `drop`: a touch is felt by several joints.
+  double one_joint = 0;
 };
 
 // The score of an effect whose shape is fitted, not one of a grid.
@@ -75,6 +78,7 @@ class GapFit {
   void EstimateNoise();
   void MakeScreen();
   void TakeOutEvent(size_t k);
+  double OneJointShare(const GapEvent& event) const;
   std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
   void CompareRivals(size_t k);
 

@@ -29,6 +29,7 @@ json EvidenceJson(const EffectEvidence& evidence) {
           {"held_out_left", JsonNumber(evidence.held_out_left)},
           {"next", JsonNumber(evidence.next)},
           {"events", evidence.events},
+          {"one_joint", JsonNumber(evidence.one_joint)},
           {"gain", JsonNumber(evidence.gain)}};
 }
 
@@ -56,6 +57,20 @@ json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
           {"removed_percent", JsonNumber(found.removed_percent)},
           {"ci95", {JsonNumber(found.ci95[0]), JsonNumber(found.ci95[1])}},
           {"time_windows", windows}};
+}
+
+json LadderJson(const LackedFamilies& ladder) {
+  json steps = json::array();
+  const auto add = [&](const std::string& name, const Eigen::VectorXd& left) {
+    steps.push_back(
+        {{"with", name},
+         {"left_rms", std::vector<double>(left.begin(), left.end())}});
+  };
+  if (!ladder.families.empty()) add("", ladder.without);
+  for (const LackedFamily& family : ladder.families) {
+    add(family.effect->name, family.left);
+  }
+  return steps;
 }
 
 json GapJson(const GapFigures& gap) {
@@ -148,6 +163,7 @@ json ToJson(const GapDiagnosis& diagnosis) {
           {"data", data},
           {"effects", effects},
           {"candidates", PlacesJson(diagnosis.candidates)},
+          {"ladder", LadderJson(diagnosis.ladder)},
           {"absorbed", MovedJson(diagnosis.moved)},
           {"where", WhereJson(diagnosis.joints)},
           {"untestable", untestable},

@@ -187,6 +187,7 @@ MatrixXd CovarianceAt(const ceres::CostFunction& cost,
     const bool at_bound = p <= coordinates[k].low || p >= coordinates[k].high;
     if (!at_bound && J.col(k).squaredNorm() > 0) free.push_back(k);
   }
+  if (free.empty()) return covariance;
   MatrixXd information(free.size(), free.size());
   for (size_t a = 0; a < free.size(); ++a) {
     for (size_t b = 0; b < free.size(); ++b) {

@@ -63,6 +63,22 @@ std::string WhereTable(const GapDiagnosis& diagnosis) {
   return text;
 }
 
+std::string Ladder(const GapDiagnosis& diagnosis) {
+  const LackedFamilies& ladder = diagnosis.ladder;
+  if (ladder.families.empty()) return "";
+  std::string text = "\nwhat the robot file gives no joint, fitted; rms left\n";
+  const auto row = [&](const std::string& name, const Eigen::VectorXd& left) {
+    text += Format("  %-20s", name.c_str());
+    for (const double x : left) text += Format(" %8.3g", x);
+    text += "\n";
+  };
+  row("none of it", ladder.without);
+  for (const LackedFamily& family : ladder.families) {
+    row("+ " + family.effect->name, family.left);
+  }
+  return text;
+}
+
 std::string HowFar(const GapFigures& gap) {
   return Format(
              "\nheld-out gap, mean square over the noise's: nominal %.3g, "
@@ -74,6 +90,24 @@ std::string HowFar(const GapFigures& gap) {
                        gap.removed_percent, gap.ci95[0], gap.ci95[1],
                        gap.removed_from_nominal_percent)
               : "");
+}
+
+// Joints of one effect with one reason in one line.
+std::string Untestable(const std::vector<UntestableEffect>& effects) {
+  std::vector<std::pair<std::string, std::string>> lines;  // key, joints
+  for (const UntestableEffect& effect : effects) {
+    const std::string key = effect.effect + ": " + effect.why;
+    if (lines.empty() || lines.back().first != key) lines.push_back({key, ""});
+    std::string& joints = lines.back().second;
+    if (!effect.joint.empty()) {
+      joints += (joints.empty() ? "" : ", ") + effect.joint;
+    }
+  }
+  std::string text;
+  for (const auto& [key, joints] : lines) {
+    text += "  " + key + (joints.empty() ? "" : " (" + joints + ")") + "\n";
+  }
+  return text.empty() ? "" : "\nnot testable on these data\n" + text;
 }
 
 std::string Simulated(const ForwardGap& forward) {
@@ -141,7 +175,7 @@ std::string FullReport(const GapDiagnosis& diagnosis) {
   for (const FoundEffect& found : diagnosis.effects) {
     text += EffectLines(found, diagnosis);
   }
-  text += WhereTable(diagnosis) + HowFar(diagnosis.torque);
+  text += Ladder(diagnosis) + WhereTable(diagnosis) + HowFar(diagnosis.torque);
   if (diagnosis.forward && diagnosis.forward->has_figures) {
     text += Simulated(*diagnosis.forward);
   }
@@ -152,15 +186,7 @@ std::string FullReport(const GapDiagnosis& diagnosis) {
         Format("  %-28s %10.4g -> %10.4g +- %.2g %s\n", moved.name.c_str(),
                moved.nominal, moved.value, moved.stddev, moved.unit.c_str());
   }
-  if (!diagnosis.untestable.empty()) {
-    text += "\nnot testable on these data\n";
-  }
-  for (const UntestableEffect& effect : diagnosis.untestable) {
-    text += "  " + effect.effect +
-            (effect.joint.empty() ? "" : " on " + effect.joint) + ": " +
-            effect.why + "\n";
-  }
-  return text;
+  return text + Untestable(diagnosis.untestable);
 }
 
 }  // namespace armcal

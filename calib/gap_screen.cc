@@ -89,6 +89,29 @@ GapScreen::Fit GapScreen::Solve(const std::vector<int>& columns) const {
   return fit;
 }
 
+double GapScreen::DropOf(const std::vector<JointRows>& columns) const {
+  const int size = static_cast<int>(columns.size());
+  MatrixXd G = MatrixXd::Zero(size, size);
+  MatrixXd cross = MatrixXd::Zero(gradient_.size(), size);
+  VectorXd g = VectorXd::Zero(size);
+  for (int a = 0; a < size; ++a) {
+    for (size_t j = 0; j < target_.size(); ++j) {
+      const VectorXd& column = columns[a][j];
+      if (column.size() == 0) continue;
+      cross.col(a) += baseline_[j].transpose() * column;
+      g[a] += column.dot(target_[j]);
+      for (int b = 0; b < size; ++b) {
+        if (columns[b][j].size() > 0) G(a, b) += column.dot(columns[b][j]);
+      }
+    }
+  }
+  G.diagonal() *= 1 + 1e-9;
+  const MatrixXd half = factor_.matrixL().solve(cross);
+  G -= half.transpose() * half;
+  g -= half.transpose() * factor_.matrixL().solve(gradient_);
+  return g.dot(G.ldlt().solve(g));
+}
+
 VectorXd GapScreen::Baseline(const Fit& fit) const {
   VectorXd gradient = gradient_;
   for (size_t k = 0; k < fit.columns.size(); ++k) {

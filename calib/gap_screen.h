@@ -47,6 +47,8 @@ class GapScreen {
     double drop = 0;             // of chi^2 against the baseline alone
   };
   Fit Solve(const std::vector<int>& columns) const;
+  // Drop of chi^2 by columns that are not among those of the screen.
+  double DropOf(const std::vector<JointRows>& columns) const;
   // Estimates of the baseline with these columns fitted.
   Eigen::VectorXd Baseline(const Fit& fit) const;
   // Whitened residual of joint j.

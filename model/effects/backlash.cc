@@ -53,7 +53,7 @@ Effect Backlash() {
           [](const EffectSite& site) { return .002 * Radian(site); },
           EffectParameter::Sign::kPositive),
       Gridded("yield", "1", [](const EffectSite&) {
-        return std::vector<double>{.1, .3, 1};
+        return std::vector<double>{.05, .15, .4};
       })};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
