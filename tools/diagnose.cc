@@ -7,11 +7,11 @@
 #include <memory>
 
 #include "calib/gap_report.h"
+#include "tools/calibrate_refined.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
 
-DECLARE_double(trust);
 DEFINE_string(reference, "",
               "log of the same robot from before: the model is fitted to it "
               "first, and the diagnosis says what has changed since");
@@ -20,6 +20,7 @@ namespace armcal {
 namespace {
 
 int RunDiagnose() {
+  CheckLogsApart();
   const Robot robot = RobotFromFlags();
   const LogReaderOptions log_options = LogOptionsFromFlags(robot);
   LogSet training(LogsFromFlags(), log_options, CropFromFlags());
@@ -28,7 +29,7 @@ int RunDiagnose() {
   options.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
   };
-  options.baseline.trust = FLAGS_trust;
+  options.baseline.trust = TrustFromFlags().inertia;
   options.bandwidth_hz =
       BandwidthFromFlags().value_or(DefaultBandwidth(training.time_bases()));
   std::unique_ptr<LogSet> reference, validation;
@@ -57,8 +58,8 @@ Command DiagnoseCommand() {
           "where the sim-to-real gap lies, which effect causes it, and how far "
           "it shrinks once that effect is in the model",
           {"robot", "log", "validate", "reference", "trust", "bandwidth",
-           "crop", "out", "base", "tip", "gravity", "torque_kind",
-           "torque_constants", "gear_ratios", "seed"},
+           "crop", "validate_crop", "out", "base", "tip", "gravity",
+           "torque_kind", "torque_constants", "gear_ratios", "seed"},
           &RunDiagnose};
 }
 
