@@ -4,8 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "calib/calibration_checks.h"
 #include "calib/gap_fit.h"
 #include "calib/gap_held_out.h"
+#include "model/input_error.h"
+#include "model/input_text.h"
 
 namespace armcal {
 namespace {
@@ -16,6 +19,25 @@ using Eigen::VectorXd;
 // Relative standard deviation of joint terms that were fitted, not given.
 constexpr double kTrustInFitted = .5;
 constexpr double kTimingWithReference = .05;  // s
+
+void CheckBandwidth(double bandwidth_hz, const LogSet& training) {
+  if (!(bandwidth_hz > 0)) {
+    throw InputError("", "--bandwidth", NumberText(bandwidth_hz),
+                     "expected a frequency above 0 Hz: a diagnosis compares "
+                     "torques below it");
+  }
+  CheckBandwidth(std::optional<double>(bandwidth_hz), training);
+}
+
+// Something must be left to fit and to judge.
+void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
+                 LogPart part, const LogSet& logs) {
+  if (GapRows(segments, bandwidth_hz, part).num_rows() > 0) return;
+  throw InputError(logs.path(0), "", "",
+                   "no motion is left of it, expected a longer stretch without "
+                   "gap or standstill, or a higher --bandwidth than " +
+                       NumberText(bandwidth_hz) + " Hz");
+}
 
 // Standard deviations of the estimates by their derivatives at p.
 std::vector<double> EstimateDeviations(const GapCandidate& effect,
@@ -75,8 +97,13 @@ class Diagnoser {
 
 GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
                             LogSet* reference) {
+  CheckBandwidth(options_.bandwidth_hz, *training);
   const std::vector<GapSegment> segments = Read(training);
   const std::vector<GapSegment> before = Read(reference);
+  const bool split = validation == nullptr;
+  has_reference_ = reference != nullptr;
+  CheckMotion(segments, options_.bandwidth_hz,
+              split ? LogPart::kHeldOut : LogPart::kAll, *training);
   const LackedFamilies lacked =
       FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
                         before.empty() ? segments : before);
@@ -86,11 +113,9 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   if (!before.empty()) trust.timing_s = kTimingWithReference;
   baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
   result_.ladder = lacked;
-  const bool split = validation == nullptr;
-  has_reference_ = reference != nullptr;
-  fit_.emplace(
-      *baseline_, GapFitOptions{options_.bandwidth_hz, options_.selection},
-      segments, split ? LogPart::kFitted : LogPart::kAll, Read(reference));
+  fit_.emplace(*baseline_,
+               GapFitOptions{options_.bandwidth_hz, options_.selection},
+               segments, split ? LogPart::kFitted : LogPart::kAll, before);
   fit_->Choose();
   held_out_.emplace(*fit_, split ? segments : Read(validation),
                     split ? LogPart::kHeldOut : LogPart::kAll, !split);
