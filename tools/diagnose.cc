@@ -14,12 +14,14 @@
 #include "tools/progress_bar.h"
 #include "tools/simulation_flags.h"
 
-"crop", "validate_crop", "out", "base", "tip", "gravity", "torque_kind",
-    "torque_constants", "gear_ratios", "seed", "controller", "forward"
-}
-, DEFINE_string(reference, "",
-                "log of the same robot from before: the model is fitted to it "
-                "first, and the diagnosis says what has changed since");
+DECLARE_string(controller);
+
+DEFINE_bool(forward, true,
+            "simulate the held-out logs as well: along their commands with "
+            "--controller, else over windows of 0.5 s");
+DEFINE_string(reference, "",
+              "log of the same robot from before: the model is fitted to it "
+              "first, and the diagnosis says what has changed since");
 
 namespace armcal {
 namespace {
