@@ -18,6 +18,8 @@ using Eigen::VectorXd;
 
 // Relative standard deviation of joint terms that were fitted, not given.
 constexpr double kTrustInFitted = .5;
+// Less probable effects are candidates, no more.
+constexpr double kLeastClaimed = .3;
 constexpr double kTimingWithReference = .05;  // s
 
 void CheckBandwidth(double bandwidth_hz, const LogSet& training) {
@@ -89,6 +91,8 @@ class Diagnoser {
   const Robot& robot_;
   const DiagnosisOptions& options_;
   bool has_reference_ = false;
+  // Something was found that no name is probable enough for.
+  bool found_without_name_ = false;
   std::optional<GapBaseline> baseline_;
   std::optional<GapFit> fit_;
   std::optional<HeldOut> held_out_;
@@ -198,12 +202,12 @@ FoundEffect Diagnoser::Found(size_t k) const {
   found.drop = fit_->selection().drops[k];
   const std::vector<PlacedEffect> all = Alternatives(*fit_, k);
   for (const PlacedEffect& other : CredibleSet(all)) {
-    const bool same =
-        other.effect == found.effect && other.joint == found.joint;
-    if (same) found.probability = other.probability;
-    if (!same) found.equivalent.push_back(other);
+    if (other.effect != found.effect || other.joint != found.joint) {
+      found.equivalent.push_back(other);
+    }
   }
   found.evidence = EvidenceFor(*fit_, *held_out_, result_.torque, k, all);
+  found.probability = ProbabilityOf(found.evidence);
   found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
   return found;
 }
@@ -226,6 +230,7 @@ FoundEffect Diagnoser::Contacts() const {
       found.windows.begin(), found.windows.end(),
       [](const TimeRange& a, const TimeRange& b) { return a.begin < b.begin; });
   found.evidence = EvidenceForEvents(*fit_, result_.torque);
+  found.probability = ProbabilityOf(found.evidence);
   return found;
 }
 
@@ -258,7 +263,15 @@ void Diagnoser::ListEffects() {
                    [](const FoundEffect& a, const FoundEffect& b) {
                      return a.drop > b.drop;
                    });
-  for (const FoundEffect& found : result_.effects) {
+  for (FoundEffect& found : result_.effects) {
+    // The rest is that of all others together.
+    double others = 0;
+    for (const PlacedEffect& other : found.equivalent) {
+      others += other.probability;
+    }
+    for (PlacedEffect& other : found.equivalent) {
+      other.probability *= (1 - found.probability) / std::max(1e-9, others);
+    }
     result_.candidates.push_back(
         {found.effect, found.joint, found.probability, found.score});
     result_.candidates.insert(result_.candidates.end(),
@@ -328,7 +341,7 @@ void Diagnoser::Judge() {
   if (!result_.effects.empty()) {
     result_.verdict =
         much_left ? GapVerdict::kPartlyExplained : GapVerdict::kExplained;
-  } else if (much_left) {
+  } else if (much_left || found_without_name_) {
     result_.verdict = GapVerdict::kUnknown;
   } else {
     result_.verdict = nominal > .3 && refit < .5 * nominal

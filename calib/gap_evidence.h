@@ -31,6 +31,11 @@ EffectEvidence EvidenceFor(const GapFit& fit, const HeldOut& held_out,
 // Of all events together, as one effect.
 EffectEvidence EvidenceForEvents(const GapFit& fit, const GapFigures& figures);
 
+// The probability that the effect is the one, and the joint: a logistic
+// regression on evidence, fitted to which effects were right in the calibration
+// cases of the blind bench (tests/blind/EVALUATIONS.md says which).
+double ProbabilityOf(const EffectEvidence& evidence);
+
 // chi^2 of joint j beyond the noise's that the fit's effects leave, or with
 // none of them. How well the noise is known, its source tells.
 double Excess(const GapFit& fit, int joint, bool with_effects);
