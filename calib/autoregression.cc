@@ -20,11 +20,11 @@ double Median(std::vector<double> x) {
   return x[x.size() / 2];
 }
 
-// The median of the mean of `count` exponential variables, per their mean,
-// for odd counts (Allen et al. 2012, appendix B).
+// The mean of what Median() takes of `count` exponential variables, per their
+// mean: of an order statistic (Allen et al. 2012, appendix B, for odd counts).
 double MedianBias(int count) {
   double bias = 0;
-  for (int k = 1; k <= count; ++k) bias += (k % 2 ? 1.0 : -1.0) / k;
+  for (int k = count - count / 2; k <= count; ++k) bias += 1.0 / k;
   return bias;
 }
 
@@ -62,7 +62,8 @@ VectorXd MedianSpectrum(const std::vector<VectorXd>& stretches, int window,
   for (int f = 0; f < spectrum.size(); ++f) {
     std::vector<double> values;
     for (const VectorXd& power : periodograms) values.push_back(power[f]);
-    spectrum[f] = Median(values) / MedianBias(periodograms.size() | 1);
+    spectrum[f] =
+        Median(values) / MedianBias(static_cast<int>(periodograms.size()));
   }
   VectorXd smooth(spectrum.size());
   const int last = static_cast<int>(spectrum.size()) - 1;
