@@ -38,6 +38,11 @@ struct Coordinate {
     return by_factors ? 1 + std::log(p / centre) / scale
                       : 1 + (p - centre) / scale;
   }
+  // Of u, which solvers put exactly there; p is rounded.
+  bool AtBound(double u) const {
+    return (std::isfinite(low) && u <= Inverse(low)) ||
+           (std::isfinite(high) && u >= Inverse(high));
+  }
 };
 
 Coordinate GridCoordinate(const EffectParameter& parameter,
@@ -183,9 +188,9 @@ MatrixXd CovarianceAt(const ceres::CostFunction& cost,
   if (!cost.Evaluate(&block, residual.data(), &jacobian)) return covariance;
   std::vector<int> free;
   for (int k = 0; k < size; ++k) {
-    const double p = coordinates[k].Value(u[k]);
-    const bool at_bound = p <= coordinates[k].low || p >= coordinates[k].high;
-    if (!at_bound && J.col(k).squaredNorm() > 0) free.push_back(k);
+    if (!coordinates[k].AtBound(u[k]) && J.col(k).squaredNorm() > 0) {
+      free.push_back(k);
+    }
   }
   if (free.empty()) return covariance;
   MatrixXd information(free.size(), free.size());
