@@ -48,9 +48,13 @@ class Diagnoser {
   GapDiagnosis Run(LogSet* training, LogSet* validation, LogSet* reference);
 
  private:
-  std::vector<GapSegment> Read(LogSet* logs) const {
+  std::vector<GapSegment> Read(LogSet* logs, LogPart part) const {
     if (logs == nullptr) return {};
-    return ReadSegments(options_.bandwidth_hz, options_.progress, logs);
+    const double hz = options_.bandwidth_hz;
+    std::vector<GapSegment> segments =
+        ReadSegments(hz, options_.progress, logs);
+    CheckMotion(segments, hz, part, *logs);
+    return segments;
   }
   FoundEffect Describe(const GapCandidate& effect,
                        const MatrixXd& covariance) const;
@@ -75,8 +79,10 @@ class Diagnoser {
 
 GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
                             LogSet* reference) {
-  const std::vector<GapSegment> segments = Read(training);
-  const std::vector<GapSegment> before = Read(reference);
+  const bool split = validation == nullptr;
+  const std::vector<GapSegment> segments =
+      Read(training, split ? LogPart::kHeldOut : LogPart::kAll);
+  const std::vector<GapSegment> before = Read(reference, LogPart::kAll);
   const LackedFamilies lacked =
       FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
                         before.empty() ? segments : before);
@@ -86,13 +92,12 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   if (!before.empty()) trust.timing_s = kTimingWithReference;
   baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
   result_.ladder = lacked;
-  const bool split = validation == nullptr;
   has_reference_ = reference != nullptr;
-  fit_.emplace(
-      *baseline_, GapFitOptions{options_.bandwidth_hz, options_.selection},
-      segments, split ? LogPart::kFitted : LogPart::kAll, Read(reference));
+  fit_.emplace(*baseline_,
+               GapFitOptions{options_.bandwidth_hz, options_.selection},
+               segments, split ? LogPart::kFitted : LogPart::kAll, before);
   fit_->Choose();
-  held_out_.emplace(*fit_, split ? segments : Read(validation),
+  held_out_.emplace(*fit_, split ? segments : Read(validation, LogPart::kAll),
                     split ? LogPart::kHeldOut : LogPart::kAll, !split);
   result_.bandwidth_hz = options_.bandwidth_hz;
   result_.floor = fit_->noise().source;

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/calibration_checks.h"
 #include "calib/position_noise.h"
+#include "model/input_error.h"
+#include "model/input_text.h"
 #include "model/low_pass.h"
 #include "model/standstill.h"
 

@@ -12,13 +12,13 @@ namespace armcal {
 // them forward under a controller: the log with an effect minus the log
 // without, each judged along its own recorded motion.
 //
-// An elbow whose joints have friction, under a stiff controller.
+// An arm whose joints have friction, under a stiff controller.
 class EffectPlant {
  public:
   static constexpr double kLogRate = 250, kMotionHz = 25, kJudgedHz = 6;
 
-  explicit EffectPlant(double duration)
-      : arm_("3R elbow"), duration_(duration) {
+  explicit EffectPlant(double duration, const std::string& robot = "3R elbow")
+      : arm_(robot), duration_(duration) {
     options_.sensors.log_rate_hz = kLogRate;
     const Log log = Run(Bare());
     arm_.motion = MotionOf(log);

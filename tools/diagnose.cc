@@ -8,12 +8,12 @@
 
 #include "calib/corrected_robot_export.h"
 #include "calib/gap_report.h"
+#include "tools/calibrate_refined.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
 #include "tools/simulation_flags.h"
 
-DECLARE_double(trust);
 DECLARE_string(controller);
 
 DEFINE_bool(forward, true,
@@ -58,6 +58,7 @@ int Finish(const Robot& robot, const GapDiagnosis& diagnosis) {
 }
 
 int RunDiagnose() {
+  CheckLogsApart();
   const Robot robot = RobotFromFlags();
   const LogReaderOptions log_options = LogOptionsFromFlags(robot);
   LogSet training(LogsFromFlags(), log_options, CropFromFlags());
@@ -66,7 +67,7 @@ int RunDiagnose() {
   options.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
   };
-  options.baseline.trust = FLAGS_trust;
+  options.baseline.trust = TrustFromFlags().inertia;
   options.bandwidth_hz =
       BandwidthFromFlags().value_or(DiagnosisBandwidth(training.time_bases()));
   std::unique_ptr<LogSet> reference, validation;
@@ -90,13 +91,14 @@ int RunDiagnose() {
 }  // namespace
 
 Command DiagnoseCommand() {
-  return {"diagnose",
-          "where the sim-to-real gap lies, which effect causes it, and how far "
-          "it shrinks once that effect is in the model",
-          {"robot", "log", "validate", "reference", "trust", "bandwidth",
-           "crop", "out", "base", "tip", "gravity", "torque_kind",
-           "torque_constants", "gear_ratios", "seed", "controller", "forward"},
-          &RunDiagnose};
+  return {
+      "diagnose",
+      "where the sim-to-real gap lies, which effect causes it, and how far "
+      "it shrinks once that effect is in the model",
+      {"robot", "log", "validate", "reference", "trust", "bandwidth", "crop",
+       "validate_crop", "out", "base", "tip", "gravity", "torque_kind",
+       "torque_constants", "gear_ratios", "seed", "controller", "forward"},
+      &RunDiagnose};
 }
 
 }  // namespace armcal

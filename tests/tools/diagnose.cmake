@@ -1,0 +1,134 @@
+# diagnose: simulated logs of an arm, with and without what its file lacks.
+
+file(WRITE ${WORK_DIR}/arm.yaml "name: arm
+gravity: [0, -9.81, 0]
+convention: standard
+links:
+  - {joint: revolute, a: .4, mass: 5, com: [-.2, 0, 0], inertia: [.01, .07, .07],
+     viscous: 2, coulomb: 3, armature: .3}
+  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
+     viscous: 1, coulomb: 2, armature: .2}
+")
+set(robot --robot=arm.yaml)
+
+# Runs of one true robot, whose numbers are 2 % off the file's.
+macro(simulate folder run)
+  run("simulate ${folder}" simulate ${robot} --duration=40 --robot_error=0.02
+      --run=${run} --out=${folder} --truth=truth_${folder} ${ARGN})
+  expect_code(0)
+endmacro()
+simulate(before 1)
+simulate(after 2 --effects=payload:mass=0.5kg)
+simulate(rippled 3 --effects=torque_ripple@2:amplitude=.1)
+simulate(again 4 --effects=torque_ripple@2:amplitude=.1)
+
+# json(key...) sets `value` of diagnosis.json.
+macro(json)
+  file(READ ${WORK_DIR}/out/diagnosis.json text)
+  string(JSON value GET "${text}" ${ARGN})
+endmacro()
+function(expect_json expected)
+  json(${ARGN})
+  if(NOT value STREQUAL expected)
+    fail("diagnosis.json: ${ARGN}: ${value}, expected ${expected}")
+  endif()
+endfunction()
+function(expect_between low high)
+  json(${ARGN})
+  if(value LESS low OR value GREATER high)
+    fail("diagnosis.json: ${ARGN}: ${value}, expected ${low} to ${high}")
+  endif()
+endfunction()
+
+run("what changed since a reference" diagnose ${robot} --log=after/log.csv
+    --reference=before/log.csv --out=out)
+expect_code(0)
+expect_empty(err)
+expect_text(out "The model lacks payload" "which effect" "payload: mass"
+            "held-out torque, rms" "joint1" "joint2" "held-out gap"
+            "noise told from: reference")
+expect_json(explained verdict)
+expect_json(payload effects 0 effect)
+expect_json(0 effects 0 joint_index)
+expect_json(reference floor_source)
+expect_json(mass effects 0 estimates 0 name)
+expect_json(kg effects 0 estimates 0 unit)
+expect_between(.47 .53 effects 0 estimates 0 value)
+expect_between(90 101 gap torque removed_percent)
+
+run("the log it is compared with" diagnose ${robot} --log=before/log.csv
+    --reference=before/log.csv --out=out)
+expect_code(0)
+json(verdict)
+string(JSON found LENGTH "${text}" effects)
+if(NOT found EQUAL 0)
+  fail("nothing changed between a log and itself")
+endif()
+
+run("an effect of one joint, judged on another log" diagnose ${robot}
+    --log=rippled/log.csv --validate=again/log.csv --out=out)
+expect_text(out "torque ripple on joint2")
+expect_json(torque_ripple effects 0 effect)
+expect_json(2 effects 0 joint_index)
+expect_json(joint2 effects 0 joint)
+
+file(READ ${WORK_DIR}/out/diagnosis.json once)
+run("the same command, the same bytes" diagnose ${robot}
+    --log=rippled/log.csv --validate=again/log.csv --out=out)
+file(READ ${WORK_DIR}/out/diagnosis.json twice)
+if(NOT once STREQUAL twice)
+  fail("the same command must give the same bytes")
+endif()
+
+run("no folder asked for" diagnose ${robot} --log=before/log.csv)
+expect_code(0)
+if(EXISTS ${WORK_DIR}/diagnosis.json OR EXISTS ${WORK_DIR}/out)
+  fail("nothing was to be written")
+endif()
+
+# Refusals.
+run("no log" diagnose ${robot} --out=out)
+expect_refusal(2 "--log")
+run("no robot" diagnose --log=before/log.csv --out=out)
+expect_refusal(2 "--robot")
+run("a log that is not there" diagnose ${robot} --log=nowhere.csv --out=out)
+expect_refusal(3 "nowhere.csv")
+run("a reference that is not there" diagnose ${robot} --log=before/log.csv
+    --reference=nowhere.csv --out=out)
+expect_refusal(3 "nowhere.csv")
+run("a trust that is none" diagnose ${robot} --log=before/log.csv --trust=-1
+    --out=out)
+expect_refusal(2 "--trust")
+run("held out from itself" diagnose ${robot} --log=before/log.csv
+    --validate=before/log.csv --out=out)
+expect_refusal(2 "--validate names before/log.csv")
+run("no bandwidth" diagnose ${robot} --log=before/log.csv --bandwidth=0 --out=out)
+expect_refusal(3 "--bandwidth: found '0': expected a frequency above 0 Hz")
+run("above what was sampled" diagnose ${robot} --log=before/log.csv
+    --bandwidth=200 --out=out)
+expect_refusal(3 "--bandwidth: found '200'" "less than half the sample rate")
+run("a part of a moment" diagnose ${robot} --log=before/log.csv --crop=5:8
+    --bandwidth=2 --out=out)
+expect_refusal(3 "before/log.csv: no motion is left of it")
+run("a flag of another command" diagnose ${robot} --log=before/log.csv
+    --payload_mass=1 --out=out)
+expect_refusal(2 "payload_mass")
+file(WRITE ${WORK_DIR}/broken.csv "t,q1,q2,tau1,tau2
+0,0,0,0,0
+.01,0,zero,0,0
+")
+run("a log with a word in it" diagnose ${robot} --log=broken.csv --out=out)
+expect_refusal(3 "broken.csv" "zero")
+file(WRITE ${WORK_DIR}/positions.csv "t,q1,q2\n0,0,0\n.01,0,0\n.02,0,0\n")
+run("a log without torques" diagnose ${robot} --log=positions.csv --out=out)
+expect_refusal(3 "positions.csv")
+set(rows "t,q1,q2,tau1,tau2\n")
+foreach(k RANGE 1 9)
+  string(APPEND rows "${k}e-2,0,0,0,0\n")
+endforeach()
+file(WRITE ${WORK_DIR}/short.csv "${rows}")
+run("a log of a moment" diagnose ${robot} --log=short.csv --out=out)
+expect_refusal(3 "a frequency in Hz whose period is shorter than the log, 0.08 s")
+run("results that cannot be written" diagnose ${robot} --log=before/log.csv
+    --out=/proc/x)
+expect_refusal(3 "/proc/x: --out: cannot be written")
