@@ -111,6 +111,25 @@ TEST(Autoregression, LinesAndBurstsDoNotCount) {
   EXPECT_NEAR(with_bursts / StddevOfAr2(), 1, .15);
 }
 
+// Whether the windows are even or odd in number, on the average of many logs;
+// medians over neighbouring frequencies are a little below the mean.
+TEST(Autoregression, AFewStretchesGiveTheVariance) {
+  constexpr int kRuns = 400;
+  std::mt19937_64 random(5);
+  for (int count = 3; count <= 8; ++count) {
+    double variance = 0;
+    for (int run = 0; run < kRuns; ++run) {
+      std::vector<VectorXd> stretches(count, VectorXd(60));
+      for (VectorXd& x : stretches) {
+        for (double& value : x) value = Normal(&random);
+      }
+      variance +=
+          std::pow(FitAutoregression(stretches, false).stddev(), 2) / kRuns;
+    }
+    EXPECT_NEAR(variance, 1, .12) << count;
+  }
+}
+
 TEST(Autoregression, OfAFewSamplesOnlyTheVarianceIsKnown) {
   VectorXd x(20);
   for (int k = 0; k < 20; ++k) x[k] = k % 2 ? 3 : -3;
