@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/gap_inflation.h"
+
 namespace armcal {
 namespace {
 
@@ -162,6 +164,7 @@ void GapFit::Choose() {
     }
     TakeOutEvent(event - selection_.chosen.begin());
   }
+  DropInflated();
   rivals_.assign(selection_.chosen.size(), {});
   for (size_t k = 0; k < selection_.chosen.size(); ++k) CompareRivals(k);
   refined_.effects = Chosen(selection_.chosen);
@@ -169,6 +172,30 @@ void GapFit::Choose() {
   if (refined_.effects.empty()) return;
   refined_ = RefineEffects(*screen_, baseline_, scale_, refined_.effects, -1,
                            data_.get());
+}
+
+// Leaves out, weakest first, what does not rise above the scatter that the
+// residual has in truth.
+void GapFit::DropInflated() {
+  while (!selection_.chosen.empty()) {
+    const GapScreen::Fit fit =
+        screen_->Solve(ColumnsOf(candidates_, selection_.chosen));
+    int weakest = -1;
+    double least = options_.selection.threshold;
+    for (size_t k = 0; k < selection_.chosen.size(); ++k) {
+      const GapCandidate& candidate = candidates_[selection_.chosen[k]];
+      const double score =
+          selection_.drops[k] /
+              Inflation(*screen_, data_->rows(), candidate, fit) -
+          Price(*screen_, candidate);
+      if (score < least) least = score, weakest = static_cast<int>(k);
+    }
+    if (weakest < 0) return;
+    std::vector<int> others = selection_.chosen;
+    others.erase(others.begin() + weakest);
+    selection_ =
+        DescribeSelection(*screen_, candidates_, options_.selection, others);
+  }
 }
 
 // A grid may be kinder to one effect than to another: those near the k-th in

@@ -81,6 +81,7 @@ class GapFit {
   double OneJointShare(const GapEvent& event) const;
   std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
   void CompareRivals(size_t k);
+  void DropInflated();
 
   const GapBaseline& baseline_;
   GapFitOptions options_;

@@ -40,7 +40,9 @@ std::string EffectLines(const FoundEffect& found,
   std::string text = Format("  %3.0f %%  ", 100 * found.probability) +
                      Named(*found.effect, found.joint, diagnosis) + ": " +
                      Estimates(found) + "\n";
+  constexpr double kWorthSaying = .02;
   for (const PlacedEffect& other : found.equivalent) {
+    if (other.probability < kWorthSaying) continue;
     text += Format("         or %.0f %% ", 100 * other.probability) +
             Named(*other.effect, other.joint, diagnosis) + "\n";
   }

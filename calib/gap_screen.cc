@@ -158,6 +158,14 @@ VectorXd GapScreen::ResidualBeside(const JointRows& torque) const {
   return residual;
 }
 
+VectorXd GapScreen::Projected(int column, int joint) const {
+  VectorXd projected =
+      -baseline_[joint] * factor_.solve(VectorXd(cross_.col(column)));
+  const VectorXd& own = columns_[column][joint];
+  if (own.size() > 0) projected += own;
+  return projected;
+}
+
 MatrixXd GapScreen::BaselineCovariance() const {
   return factor_.solve(MatrixXd::Identity(gradient_.size(), gradient_.size()));
 }

@@ -58,6 +58,8 @@ class GapScreen {
   // What that leaves, all joints, the prior's and other data's share included:
   // its squared norm is chi^2.
   Eigen::VectorXd ResidualBeside(const JointRows& torque) const;
+  // Joint j's rows of a column, less what the baseline absorbs of it.
+  Eigen::VectorXd Projected(int column, int joint) const;
   // Of the residual with the baseline alone, its prior included.
   double chi_squared() const { return chi_squared_; }
   const Eigen::MatrixXd& baseline(int joint) const { return baseline_[joint]; }

@@ -135,31 +135,6 @@ double TotalDrop(const GapScreen& screen,
   return screen.Solve(ColumnsOf(candidates, chosen)).drop;
 }
 
-Selection Describe(const GapScreen& screen,
-                   const std::vector<GapCandidate>& candidates,
-                   const SelectionOptions& options,
-                   const std::vector<int>& chosen) {
-  Selection selection;
-  const double total = TotalDrop(screen, candidates, chosen);
-  std::vector<double> drops, scores;
-  for (size_t k = 0; k < chosen.size(); ++k) {
-    drops.push_back(total - TotalDrop(screen, candidates,
-                                      Without(chosen, static_cast<int>(k))));
-    scores.push_back(ScoresBeside(screen, candidates, options, chosen,
-                                  static_cast<int>(k))[chosen[k]]);
-  }
-  std::vector<int> order(chosen.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return drops[a] > drops[b]; });
-  for (const int k : order) {
-    selection.chosen.push_back(chosen[k]);
-    selection.drops.push_back(drops[k]);
-    selection.scores.push_back(scores[k]);
-  }
-  return selection;
-}
-
 // Whether the last of the drops is large enough beside the first.
 bool IsLarge(const Selection& selection,
              const std::vector<GapCandidate>& candidates,
@@ -214,6 +189,31 @@ VectorXd ScoresBeside(const GapScreen& screen,
   return scores;
 }
 
+Selection DescribeSelection(const GapScreen& screen,
+                            const std::vector<GapCandidate>& candidates,
+                            const SelectionOptions& options,
+                            const std::vector<int>& chosen) {
+  Selection selection;
+  const double total = TotalDrop(screen, candidates, chosen);
+  std::vector<double> drops, scores;
+  for (size_t k = 0; k < chosen.size(); ++k) {
+    drops.push_back(total - TotalDrop(screen, candidates,
+                                      Without(chosen, static_cast<int>(k))));
+    scores.push_back(ScoresBeside(screen, candidates, options, chosen,
+                                  static_cast<int>(k))[chosen[k]]);
+  }
+  std::vector<int> order(chosen.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return drops[a] > drops[b]; });
+  for (const int k : order) {
+    selection.chosen.push_back(chosen[k]);
+    selection.drops.push_back(drops[k]);
+    selection.scores.push_back(scores[k]);
+  }
+  return selection;
+}
+
 Selection SelectEffects(const GapScreen& screen,
                         const std::vector<GapCandidate>& candidates,
                         const SelectionOptions& options) {
@@ -228,11 +228,12 @@ Selection SelectEffects(const GapScreen& screen,
     Swap(screen, candidates, options, &more);
     LeaveOut(screen, candidates, options, &more);
     if (more.size() <= chosen.size()) break;
-    const Selection selection = Describe(screen, candidates, options, more);
+    const Selection selection =
+        DescribeSelection(screen, candidates, options, more);
     if (!IsLarge(selection, candidates, options, more.size() - 1)) break;
     chosen = more;
   }
-  return Describe(screen, candidates, options, chosen);
+  return DescribeSelection(screen, candidates, options, chosen);
 }
 
 }  // namespace armcal

@@ -40,6 +40,12 @@ Selection SelectEffects(const GapScreen& screen,
                         const std::vector<GapCandidate>& candidates,
                         const SelectionOptions& options);
 
+// Drops and scores of these.
+Selection DescribeSelection(const GapScreen& screen,
+                            const std::vector<GapCandidate>& candidates,
+                            const SelectionOptions& options,
+                            const std::vector<int>& chosen);
+
 // What has to be paid for a candidate's parameters and the shapes it was chosen
 // from: k ln N + 2 ln M.
 double Price(const GapScreen& screen, const GapCandidate& candidate);

@@ -76,6 +76,19 @@ TEST_F(BlindRunner, GivesTheCaseAndKeepsTheAnswer) {
   EXPECT_TRUE(fs::exists(root_ / "answers/case_0000/run.json"));
 }
 
+// A case of another kind: no trust, nothing held out, flags of its own.
+TEST_F(BlindRunner, TakesFlagsFromTheCase) {
+  Write(root_ / "logs/case_0001/case.json",
+        R"({"robot": "robot.urdf", "reference": true, "validation": false,
+            "flags": ["--torque_constants=1,2"]})");
+  Write(root_ / "logs/case_0001/robot.urdf", "the arm");
+  EXPECT_EQ(Run("echo \"$*\"; cat robot.urdf").answered, 2);
+  EXPECT_EQ(Answer("case_0001"),
+            "diagnose --robot=robot.urdf --log=training.csv "
+            "--reference=reference.csv --torque_constants=1,2 --out=out\n"
+            "the arm");
+}
+
 TEST_F(BlindRunner, GoesOnWhereItStopped) {
   EXPECT_EQ(Run("echo first").answered, 2);
   fs::remove_all(root_ / "answers/case_0001");

@@ -10,8 +10,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTimingSpread = 5e-4;  // s
-
 // 50 Hz: enough for columns, whose torques are many.
 PlantMotion Coarse(const PlantMotion& motion) {
   constexpr double kRateHz = 50;

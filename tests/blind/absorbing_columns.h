@@ -7,11 +7,14 @@
 
 namespace armcal {
 
+// How far all torques may be shifted in time, s: one prior spread.
+inline constexpr double kTimingSpread = 5e-4;
+
 // Torques (thin, joints one below the other; a column each) of one prior
 // spread of everything that the model may vary: each link's ten inertial
 // parameters, armature, viscous and Coulomb friction and offset of each joint
 // by the case's trust, the widths of zero velocity by a factor of e, the time
-// of all torques by 0.5 ms.
+// of all torques (the last column) by kTimingSpread.
 Eigen::MatrixXd AbsorbingColumns(const BlindCase& blind,
                                  const PlantMotion& motion);
 

@@ -78,19 +78,34 @@ void CloseLabels(const std::string& labels, const fs::path& scratch) {
   }
 }
 
+// The robot's file in a case's folder.
+std::string RobotFile(const JsonValue& content) {
+  return content.Has("robot") ? content.At("robot").Text() : "robot.yaml";
+}
+
+// As case.json has it: what a key of the bench's own cases says can be left out
+// by others.
 std::vector<std::string> Command(const fs::path& program,
-                                 const fs::path& folder) {
-  const std::string file = folder / "case.json";
-  const json content = ReadJson(file);
-  const JsonValue root(file, "", content);
-  char trust[40];
-  std::snprintf(trust, sizeof trust, "--trust=%.17g",
-                root.At("trust").Number());
-  std::vector<std::string> command = {
-      program, "diagnose",           "--robot=robot.yaml",
-      trust,   "--log=training.csv", "--validate=validation.csv"};
-  if (root.At("reference").Bool()) {
+                                 const JsonValue& content) {
+  std::vector<std::string> command = {program, "diagnose",
+                                      "--robot=" + RobotFile(content)};
+  if (content.Has("trust")) {
+    char trust[40];
+    std::snprintf(trust, sizeof trust, "--trust=%.17g",
+                  content.At("trust").Number());
+    command.push_back(trust);
+  }
+  command.push_back("--log=training.csv");
+  if (!content.Has("validation") || content.At("validation").Bool()) {
+    command.push_back("--validate=validation.csv");
+  }
+  if (content.At("reference").Bool()) {
     command.push_back("--reference=reference.csv");
+  }
+  if (content.Has("flags")) {
+    for (const JsonValue& flag : content.At("flags").Entries()) {
+      command.push_back(flag.Text());
+    }
   }
   command.push_back("--out=out");
   return command;
@@ -110,13 +125,17 @@ void WriteText(const fs::path& path, const std::string& text) {
 bool RunCase(const BlindRunOptions& options, const fs::path& program,
              const fs::path& folder) {
   const Scratch scratch;
-  for (const char* name :
-       {"robot.yaml", "training.csv", "validation.csv", "reference.csv"}) {
+  const std::string file = folder / "case.json";
+  const json parsed = ReadJson(file);
+  const JsonValue content(file, "", parsed);
+  for (const std::string& name :
+       {RobotFile(content), std::string("training.csv"),
+        std::string("validation.csv"), std::string("reference.csv")}) {
     if (fs::exists(folder / name)) {
       CopyReadable(folder / name, scratch.path() / name, false);
     }
   }
-  const ProcessEnd end = RunIsolated(Command(program, folder), scratch.path(),
+  const ProcessEnd end = RunIsolated(Command(program, content), scratch.path(),
                                      "output.txt", options.timeout_s);
   const fs::path answer = fs::path(options.answers) / folder.filename();
   fs::create_directories(answer);

@@ -28,6 +28,8 @@ Scenario NoisyScenario(const BlindCase& blind) {
   return scenario;
 }
 
+}  // namespace
+
 EffectSize SizeOf(const VectorXd& d, long n, const Absorption& absorption) {
   const Absorption::Left left = absorption.Of(d);
   const long rows = d.size() / n;
@@ -43,8 +45,6 @@ EffectSize SizeOf(const VectorXd& d, long n, const Absorption& absorption) {
   }
   return size;
 }
-
-}  // namespace
 
 CaseNoise::CaseNoise(const BlindCase& blind, QuietRuns* training) {
   const auto noisy = SimulateResidual(blind, NoisyScenario(blind));

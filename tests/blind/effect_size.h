@@ -24,6 +24,10 @@ struct EffectSize {
   double raw = 0;             // the same before anything is absorbed
 };
 
+// Of whitened torques of an effect, `joints` blocks one below the other.
+EffectSize SizeOf(const Eigen::VectorXd& whitened, long joints,
+                  const Absorption& absorption);
+
 // What sizes of effects of one case have in common: the noise and what the
 // model absorbs, both from the arm without effects.
 class CaseNoise {

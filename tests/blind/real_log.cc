@@ -1,0 +1,120 @@
+#include "tests/blind/real_log.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "model/log_reader.h"
+#include "model/low_pass.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Motor constants of the UR10e as the logs' authors give them (SOURCE.md).
+const std::vector<double> kUr10eConstants = {14.87, 13.26, 11.13,
+                                             10.62, 11.03, 11.47};
+
+RealLog Ur10e(const std::string& log) {
+  return {"ur10e_free", "robot.urdf", log + ".csv",   {},
+          "id_50s.csv", {},           kUr10eConstants};
+}
+
+MatrixXd Rows(const MatrixXd& x, const std::vector<int>& rows) {
+  if (x.size() == 0) return {};
+  return x(rows, Eigen::all);
+}
+
+}  // namespace
+
+std::string RealLog::name() const {
+  return arm + "/" + std::filesystem::path(log).stem().string();
+}
+
+const std::vector<RealLog>& RealLogs() {
+  // The later half of id_50s, and the later half of the only Panda log, have
+  // what came before as their reference.
+  static const std::vector<RealLog> kLogs = [] {
+    std::vector<RealLog> logs;
+    for (const char* log : {"id_20s", "id_30s", "id_40s", "val_ptp"}) {
+      logs.push_back(Ur10e(log));
+    }
+    RealLog half = Ur10e("id_50s");
+    half.reference_span.end = 28;
+    half.span.begin = 28;
+    logs.push_back(half);
+    RealLog panda = {"panda", "robot.urdf", "log.csv", {}, "log.csv", {}, {}};
+    panda.reference_span.end = 10;
+    panda.span.begin = 10;
+    logs.push_back(panda);
+    return logs;
+  }();
+  return kLogs;
+}
+
+Log ReadRealLog(const std::string& path, const TimeRange& span,
+                const std::vector<std::string>& joint_names,
+                const std::vector<double>& torque_constants) {
+  LogReaderOptions options;
+  options.joint_names = joint_names;
+  options.torque_constants = torque_constants;
+  options.want_velocity = true;
+  const Log all = ReadWholeLog(path, options);
+  std::vector<int> rows;
+  for (int k = 0; k < all.size(); ++k) {
+    if (span.Contains(all.t[k])) rows.push_back(k);
+  }
+  Log log;
+  log.t = all.t(rows);
+  log.t.array() -= log.t[0];
+  log.q = Rows(all.q, rows);
+  log.qd = Rows(all.qd, rows);
+  log.tau = Rows(all.tau, rows);
+  return log;
+}
+
+MatrixXd Interpolate(const VectorXd& t, const MatrixXd& x, const VectorXd& at) {
+  MatrixXd y(at.size(), x.cols());
+  int k = 0;
+  for (int i = 0; i < at.size(); ++i) {
+    while (k + 2 < t.size() && t[k + 1] < at[i]) ++k;
+    const double step = t[k + 1] - t[k];
+    const double u = step > 0 ? std::clamp((at[i] - t[k]) / step, 0., 1.) : 0.;
+    y.row(i) = (1 - u) * x.row(k) + u * x.row(k + 1);
+  }
+  return y;
+}
+
+Log UniformLog(const Log& log) {
+  const double duration = log.t[log.size() - 1] - log.t[0];
+  const double rate = (log.size() - 1) / duration;
+  const int size = static_cast<int>(duration * kUniformRateHz) + 1;
+  Log uniform;
+  uniform.t = VectorXd::LinSpaced(size, log.t[0],
+                                  log.t[0] + (size - 1) / kUniformRateHz);
+  const auto sampled = [&](const MatrixXd& x) {
+    return Interpolate(log.t, ZeroPhaseLowPass(x, rate, .4 * kUniformRateHz),
+                       uniform.t);
+  };
+  uniform.q = sampled(log.q);
+  uniform.tau = sampled(log.tau);
+  return uniform;
+}
+
+PlantMotion RealMotion(const Log& uniform) {
+  constexpr double kBandwidthHz = 10;
+  const VectorXd dt = Differentiate(uniform.t, 1);
+  const auto rate = [&dt](const MatrixXd& x) {
+    return MatrixXd(Differentiate(x, 1).array().colwise() / dt.array());
+  };
+  PlantMotion motion;
+  motion.rate = kUniformRateHz;
+  motion.q = ZeroPhaseLowPass(uniform.q, motion.rate, kBandwidthHz,
+                              Ends::kExtrapolate);
+  motion.qd = rate(motion.q);
+  motion.qdd = rate(motion.qd);
+  return motion;
+}
+
+}  // namespace armcal
