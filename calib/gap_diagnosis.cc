@@ -4,11 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "calib/calibration_checks.h"
 #include "calib/gap_fit.h"
 #include "calib/gap_held_out.h"
-#include "model/input_error.h"
-#include "model/input_text.h"
 
 namespace armcal {
 namespace {
@@ -21,25 +18,6 @@ constexpr double kTrustInFitted = .5;
 // Less probable effects are candidates, no more.
 constexpr double kLeastClaimed = .3;
 constexpr double kTimingWithReference = .05;  // s
-
-void CheckBandwidth(double bandwidth_hz, const LogSet& training) {
-  if (!(bandwidth_hz > 0)) {
-    throw InputError("", "--bandwidth", NumberText(bandwidth_hz),
-                     "expected a frequency above 0 Hz: a diagnosis compares "
-                     "torques below it");
-  }
-  CheckBandwidth(std::optional<double>(bandwidth_hz), training);
-}
-
-// Something must be left to fit and to judge.
-void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
-                 LogPart part, const LogSet& logs) {
-  if (GapRows(segments, bandwidth_hz, part).num_rows() > 0) return;
-  throw InputError(logs.path(0), "", "",
-                   "no motion is left of it, expected a longer stretch without "
-                   "gap or standstill, or a higher --bandwidth than " +
-                       NumberText(bandwidth_hz) + " Hz");
-}
 
 // Standard deviations of the estimates by their derivatives at p.
 std::vector<double> EstimateDeviations(const GapCandidate& effect,
@@ -72,9 +50,13 @@ class Diagnoser {
   GapDiagnosis Run(LogSet* training, LogSet* validation, LogSet* reference);
 
  private:
-  std::vector<GapSegment> Read(LogSet* logs) const {
+  std::vector<GapSegment> Read(LogSet* logs, LogPart part) const {
     if (logs == nullptr) return {};
-    return ReadSegments(options_.bandwidth_hz, options_.progress, logs);
+    const double hz = options_.bandwidth_hz;
+    std::vector<GapSegment> segments =
+        ReadSegments(hz, options_.progress, logs);
+    CheckMotion(segments, hz, part, *logs);
+    return segments;
   }
   FoundEffect Describe(const GapCandidate& effect,
                        const MatrixXd& covariance) const;
@@ -101,13 +83,10 @@ class Diagnoser {
 
 GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
                             LogSet* reference) {
-  CheckBandwidth(options_.bandwidth_hz, *training);
-  const std::vector<GapSegment> segments = Read(training);
-  const std::vector<GapSegment> before = Read(reference);
   const bool split = validation == nullptr;
-  has_reference_ = reference != nullptr;
-  CheckMotion(segments, options_.bandwidth_hz,
-              split ? LogPart::kHeldOut : LogPart::kAll, *training);
+  const std::vector<GapSegment> segments =
+      Read(training, split ? LogPart::kHeldOut : LogPart::kAll);
+  const std::vector<GapSegment> before = Read(reference, LogPart::kAll);
   const LackedFamilies lacked =
       FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
                         before.empty() ? segments : before);
@@ -117,11 +96,12 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   if (!before.empty()) trust.timing_s = kTimingWithReference;
   baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
   result_.ladder = lacked;
+  has_reference_ = reference != nullptr;
   fit_.emplace(*baseline_,
                GapFitOptions{options_.bandwidth_hz, options_.selection},
                segments, split ? LogPart::kFitted : LogPart::kAll, before);
   fit_->Choose();
-  held_out_.emplace(*fit_, split ? segments : Read(validation),
+  held_out_.emplace(*fit_, split ? segments : Read(validation, LogPart::kAll),
                     split ? LogPart::kHeldOut : LogPart::kAll, !split);
   result_.bandwidth_hz = options_.bandwidth_hz;
   result_.floor = fit_->noise().source;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/input_error.h"
+#include "model/input_text.h"
 #include "model/low_pass.h"
 
 namespace armcal {
@@ -154,6 +156,15 @@ std::vector<int> GapRows::SampleOfRow(int joint) const {
     }
   }
   return samples;
+}
+
+void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
+                 LogPart part, const LogSet& logs) {
+  if (GapRows(segments, bandwidth_hz, part).num_rows() > 0) return;
+  throw InputError(logs.path(0), "", "",
+                   "no motion is left of it, expected a longer stretch without "
+                   "gap or standstill, or a higher --bandwidth than " +
+                       NumberText(bandwidth_hz) + " Hz");
 }
 
 }  // namespace armcal

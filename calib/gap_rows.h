@@ -81,4 +81,9 @@ class GapRows {
   Eigen::MatrixXd variance_, weight_;  // thinned samples x n
 };
 
+// Throws InputError where a part of the logs has no rows: nothing to fit or to
+// judge by.
+void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
+                 LogPart part, const LogSet& logs);
+
 }  // namespace armcal

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/calibration_checks.h"
 #include "calib/position_noise.h"
+#include "model/input_error.h"
+#include "model/input_text.h"
 #include "model/low_pass.h"
 #include "model/standstill.h"
 
@@ -54,6 +57,12 @@ void FindStillJoints(GapSegment* segment) {
 
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                                      const Progress& progress, LogSet* logs) {
+  if (!(bandwidth_hz > 0)) {
+    throw InputError("", "--bandwidth", NumberText(bandwidth_hz),
+                     "expected a frequency above 0 Hz: torques are compared "
+                     "below it");
+  }
+  CheckBandwidth(bandwidth_hz, *logs);
   logs->Prepare(MotionBandwidth(bandwidth_hz), 0, true, .25 / bandwidth_hz);
   std::vector<GapSegment> segments;
   int log = -1, part = -1;

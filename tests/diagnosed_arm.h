@@ -50,6 +50,7 @@ class DiagnosedArm : public testing::Test {
     }
     DiagnosisOptions options;
     options.bandwidth_hz = 6;
+    options.forward = false;  // gap_forward_test
     return DiagnoseGap(file, options, &training, nullptr, reference.get());
   }
 

@@ -20,7 +20,7 @@ constexpr double kBandwidth = 6;  // Hz
 class GapFitTest : public testing::Test {
  protected:
   GapFitTest()
-      : arm_("2R planar (vertical plane)", 60, .005),
+      : arm_("2R planar (vertical plane)", 30, .005),
         baseline_(arm_.robot, {}, VectorXd::Constant(2, 10)) {}
 
   void Fit(const Robot& truth, double noise) {
@@ -80,13 +80,15 @@ TEST_F(GapFitTest, AJointThatStandsShowsNothing) {
   EXPECT_EQ(WhyNot("stribeck", "joint1"), "");
 }
 
-// An effect of 5 % of what the joints do, in noise of as much and of ten times.
+// Noise of less than a hundredth of the torque of a light joint, and of more
+// than that torque.
 TEST_F(GapFitTest, NoiseHidesEffects) {
   Fit(arm_.robot, .05);
   EXPECT_EQ(WhyNot("torque_ripple", "joint2"), "");
-  EXPECT_EQ(WhyNot("load_friction", "joint1"), "");
+  EXPECT_EQ(WhyNot("load_friction", "joint2"), "");
   Fit(arm_.robot, 20);
-  EXPECT_THAT(WhyNot("load_friction", "joint1"), testing::HasSubstr("noise"));
+  EXPECT_THAT(WhyNot("torque_ripple", "joint2"), testing::HasSubstr("noise"));
+  EXPECT_THAT(WhyNot("load_friction", "joint2"), testing::HasSubstr("noise"));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ class GapRefinementTest : public testing::Test {
       start.size.conservativeResize(start.linear.size());
       start.size.tail(1)[0] = parameter.size(arm_.Site(joint));
     }
-    return RefineEffects(screen, baseline_, arm_.scale, {start}, &*data_);
+    return RefineEffects(screen, baseline_, arm_.scale, {start}, -1, &*data_);
   }
 
   EffectArm arm_;

@@ -87,7 +87,7 @@ TEST(FullReport, HoldsEveryPart) {
   for (const char* part :
        {"stribeck on elbow: size 1.25 +- 0.04 N m, share 0.5 +- 0.01\n",
         "or 8 % presliding on elbow", "told apart by: constant velocities",
-        "forearm.mass", "backlash on elbow: the load never reverses",
+        "forearm.mass", "backlash: the load never reverses (elbow)",
         "currents: no torque column (--torque_constants)", "removed 93 %",
         "noise told from: assumed"}) {
     EXPECT_THAT(text, HasSubstr(part));
@@ -101,6 +101,18 @@ TEST(FullReport, LeavesOutWhatThereIsNot) {
        {"which effect", "far from the file", "note ", "not testable", "nan"}) {
     EXPECT_THAT(text, Not(HasSubstr(part)));
   }
+}
+
+// Effects that the same joints hide for the same reason stand in one line.
+TEST(FullReport, GathersWhatIsNotTestable) {
+  GapDiagnosis diagnosis = Diagnosis();
+  diagnosis.untestable = {{"delay", "", "noise"},
+                          {"spring", "elbow", "noise"},
+                          {"spring", "wrist", "noise"},
+                          {"spring", "hand", "it rests"}};
+  EXPECT_THAT(FullReport(diagnosis),
+              HasSubstr("  delay: noise\n  spring: noise (elbow, wrist)\n"
+                        "  spring: it rests (hand)\n"));
 }
 
 // Type by type, DESIGN.md's keys of diagnosis.json.
