@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "calib/gap_fit.h"
@@ -188,6 +189,13 @@ FoundEffect Diagnoser::Found(size_t k) const {
   }
   found.evidence = EvidenceFor(*fit_, *held_out_, result_.torque, k, all);
   found.probability = ProbabilityOf(found.evidence);
+  found.removed_percent =
+      100 * found.evidence.gain / std::max(.1, result_.torque.refit - 1);
+  found.ci95[0] = found.ci95[1] = std::numeric_limits<double>::quiet_NaN();
+  if (refined.effects.size() == 1) {
+    found.removed_percent = result_.torque.removed_percent;
+    std::copy(result_.torque.ci95, result_.torque.ci95 + 2, found.ci95);
+  }
   found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
   return found;
 }
@@ -316,11 +324,15 @@ void Diagnoser::Judge() {
   }
   const bool much_left =
       left > kReal && result_.unexplained.share > kUnexplained;
+  // On what was held out, too.
+  const double after = result_.torque.after - 1;
   const double nominal = result_.torque.nominal - 1;
   const double refit = result_.torque.refit - 1;
   if (!result_.effects.empty()) {
-    result_.verdict =
-        much_left ? GapVerdict::kPartlyExplained : GapVerdict::kExplained;
+    const bool held_out_left =
+        after > kUnexplained && after > kUnexplained * refit;
+    result_.verdict = much_left || held_out_left ? GapVerdict::kPartlyExplained
+                                                 : GapVerdict::kExplained;
   } else if (much_left || found_without_name_) {
     result_.verdict = GapVerdict::kUnknown;
   } else {

@@ -84,7 +84,9 @@ TEST_P(EffectOf, SizesAndGridsAreOfUse) {
     EXPECT_TRUE(sizes.allFinite());
     for (int k = 0; k < sizes.size(); ++k) {
       const EffectParameter& parameter = GetParam().parameters[k];
-      if (parameter.search == Search::kLinear) EXPECT_GT(sizes[k], 0);
+      if (parameter.search == Search::kLinear) {
+        EXPECT_GT(sizes[k], 0);
+      }
       if (!parameter.grid) continue;
       const std::vector<double> grid = parameter.grid(arm.Site(joint));
       EXPECT_THAT(grid.size(),

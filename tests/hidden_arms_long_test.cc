@@ -33,7 +33,8 @@ TEST(HiddenArms, EveryEffectRunsOnTheArmsOfTheBench) {
   std::map<std::string, double> worst;
   for (uint32_t index = 0; index < 12; ++index) {
     const BlindCase blind =
-        DrawBlindCase(BlindCaseSeed(BlindSet::kCalibration, 9, index));
+        DrawBlindCase(BlindCaseSeed(BlindSet::kCalibration, 9, index),
+                      PlanCase(Stratum::kNoneRich, index), 0);
     for (const HiddenEffect& kind : HiddenEffects()) {
       ChosenEffect effect;
       if (!DrawOn(blind, kind, &random, &effect)) continue;

@@ -26,6 +26,14 @@ DEFINE_string(reference, "",
 namespace armcal {
 namespace {
 
+// Unless given: a file is good to 5 %, and counts for little beside a
+// reference.
+double TrustInFile() {
+  const bool given = !gflags::GetCommandLineFlagInfoOrDie("trust").is_default;
+  if (given) return TrustFromFlags().inertia;
+  return FLAGS_reference.empty() ? .05 : .5;
+}
+
 // The commands of what is held out, for a controller to follow.
 void SetController(const Robot& robot, const LogReaderOptions& log_options,
                    DiagnosisOptions* options) {
@@ -67,7 +75,7 @@ int RunDiagnose() {
   options.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
   };
-  options.baseline.trust = TrustFromFlags().inertia;
+  options.baseline.trust = TrustInFile();
   options.bandwidth_hz =
       BandwidthFromFlags().value_or(DiagnosisBandwidth(training.time_bases()));
   std::unique_ptr<LogSet> reference, validation;
