@@ -34,7 +34,7 @@ TEST(HiddenArms, EveryEffectRunsOnTheArmsOfTheBench) {
   for (uint32_t index = 0; index < 12; ++index) {
     const BlindCase blind =
         DrawBlindCase(BlindCaseSeed(BlindSet::kCalibration, 9, index),
-                      PlanCase(Stratum::kNoneRich, index), 0);
+                      PlanCase(Stratum::kNoneRich, index));
     for (const HiddenEffect& kind : HiddenEffects()) {
       ChosenEffect effect;
       if (!DrawOn(blind, kind, &random, &effect)) continue;

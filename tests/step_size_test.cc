@@ -19,8 +19,8 @@ BlindCase CaseFor(const HiddenEffect& kind, uint32_t draw) {
   std::seed_seq sequence{index, draw};
   std::mt19937_64 random(sequence);
   while (true) {
-    BlindCase blind = DrawBlindCase(random() >> 1);
-    if (blind.excitation != Excitation::kRich) continue;
+    BlindCase blind =
+        DrawBlindCase(random() >> 1, PlanCase(Stratum::kNoneRich, draw));
     const bool of_joint = kind.scope == HiddenEffect::Scope::kJoint;
     const int n = blind.robot.num_joints();
     const ChosenEffect effect = {&kind,
