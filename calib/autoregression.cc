@@ -142,4 +142,13 @@ Autoregression FitAutoregression(const std::vector<VectorXd>& stretches,
   return FromCovariance(r);
 }
 
+std::vector<Autoregression> WhiteNoise(const MatrixXd& x) {
+  constexpr double kLeast = 1e-12;  // where there is none
+  std::vector<Autoregression> noise(x.cols());
+  for (Eigen::Index j = 0; j < x.cols(); ++j) {
+    noise[j].sigma = std::max(x.col(j).norm() / std::sqrt(x.rows()), kLeast);
+  }
+  return noise;
+}
+
 }  // namespace armcal

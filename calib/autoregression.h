@@ -26,4 +26,7 @@ struct Autoregression {
 Autoregression FitAutoregression(const std::vector<Eigen::VectorXd>& stretches,
                                  bool remove_mean);
 
+// White noise as large as each column of x.
+std::vector<Autoregression> WhiteNoise(const Eigen::MatrixXd& x);
+
 }  // namespace armcal

@@ -57,15 +57,6 @@ std::vector<GapCandidate> Candidates(const Robot& robot,
   return candidates;
 }
 
-std::vector<Autoregression> White(const MatrixXd& residual) {
-  std::vector<Autoregression> noise(residual.cols());
-  for (int j = 0; j < residual.cols(); ++j) {
-    noise[j].sigma =
-        std::max(1e-9, residual.col(j).norm() / std::sqrt(residual.rows()));
-  }
-  return noise;
-}
-
 class FamilyFit {
  public:
   FamilyFit(const Robot& robot, const BaselineOptions& options,
@@ -79,7 +70,7 @@ class FamilyFit {
     candidates_ = Candidates(robot, terms, scale_);
     EvaluateCandidates(baseline_, data_.rows(), scale_, data_.mutable_torques(),
                        &candidates_);
-    noise_ = White(data_.residual());
+    noise_ = WhiteNoise(data_.residual());
     // Joints count by what all families leave of them.
     for (int round = 0; round < 3; ++round) {
       Weigh();

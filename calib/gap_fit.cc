@@ -16,15 +16,6 @@ constexpr int kMostEvents = 12;
 // Of an event's width, how far to both sides it is taken out.
 constexpr double kEventReach = 2.5;
 
-std::vector<Autoregression> WhiteNoise(const MatrixXd& residual) {
-  std::vector<Autoregression> noise(residual.cols());
-  for (int j = 0; j < residual.cols(); ++j) {
-    noise[j].sigma =
-        std::max(residual.col(j).norm() / std::sqrt(residual.rows()), 1e-12);
-  }
-  return noise;
-}
-
 VectorXd RefitBaseline(const GapData& data) {
   GapScreen screen(data.WhitenedColumns(), data.WhitenedResidual());
   screen.Factor();

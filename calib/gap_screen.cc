@@ -17,11 +17,11 @@ GapScreen::GapScreen(std::vector<MatrixXd> baseline, JointRows target)
     CHECK_EQ(baseline_[j].rows(), target_[j].size());
     information_ += baseline_[j].transpose() * baseline_[j];
     gradient_ += baseline_[j].transpose() * target_[j];
-    squares_ += target_[j].squaredNorm();
   }
 }
 
 void GapScreen::AddInformation(const MatrixXd& AtA, const VectorXd& Aty) {
+  CHECK_EQ(known_.size(), 0);
   information_ += AtA;
   gradient_ += Aty;
   // The root of a matrix that may be singular: A'A + eps = U'U.
@@ -66,7 +66,6 @@ void GapScreen::Factor() {
   const VectorXd known = factor_.matrixL().solve(gradient_);
   G_ -= half.transpose() * half;
   g_ -= half.transpose() * known;
-  chi_squared_ = squares_ - known.squaredNorm();
 }
 
 GapScreen::Fit GapScreen::Solve(const std::vector<int>& columns) const {

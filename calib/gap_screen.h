@@ -22,7 +22,7 @@ class GapScreen {
   // robot as the file has it.
   GapScreen(std::vector<Eigen::MatrixXd> baseline, JointRows target);
 
-  // What other data (a reference log) tell of the baseline: A'A and A'y.
+  // What other data (a reference log) tell of the baseline: A'A and A'y. Once.
   void AddInformation(const Eigen::MatrixXd& AtA, const Eigen::VectorXd& Aty);
   // Returns the index of the column.
   int AddColumn(JointRows column);
@@ -60,9 +60,6 @@ class GapScreen {
   Eigen::VectorXd ResidualBeside(const JointRows& torque) const;
   // Joint j's rows of a column, less what the baseline absorbs of it.
   Eigen::VectorXd Projected(int column, int joint) const;
-  // Of the residual with the baseline alone, its prior included.
-  double chi_squared() const { return chi_squared_; }
-  const Eigen::MatrixXd& baseline(int joint) const { return baseline_[joint]; }
   // Covariance of the baseline's values alone.
   Eigen::MatrixXd BaselineCovariance() const;
 
@@ -79,8 +76,6 @@ class GapScreen {
   Eigen::MatrixXd cross_;  // baseline' columns
   Eigen::MatrixXd G_;
   Eigen::VectorXd g_, raw_;
-  double squares_ = 0;  // of the target
-  double chi_squared_ = 0;
 };
 
 }  // namespace armcal

@@ -15,6 +15,8 @@ using Eigen::VectorXd;
 // Of what the baseline and the chosen leave of a column, less than this share
 // is rounding and errors of form.
 constexpr double kVisible = 1e-4;
+// GAP.md B asks 40 to 60 of such effects where 25 does for others.
+constexpr double kNearZeroPrice = 20;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 // Whether signs are as the effect has them.
@@ -156,7 +158,8 @@ double Price(const GapScreen& screen, const GapCandidate& candidate) {
     if (candidate.joint < 0 || candidate.joint == j) rows += screen.num_rows(j);
   }
   return candidate.linear.size() * std::log(std::max(rows, 1.0)) +
-         2 * std::log(candidate.tried);
+         2 * std::log(candidate.tried) +
+         (candidate.effect->near_zero ? kNearZeroPrice : 0);
 }
 
 std::vector<int> ColumnsOf(const std::vector<GapCandidate>& candidates,

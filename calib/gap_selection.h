@@ -47,7 +47,7 @@ Selection DescribeSelection(const GapScreen& screen,
                             const std::vector<int>& chosen);
 
 // What has to be paid for a candidate's parameters and the shapes it was chosen
-// from: k ln N + 2 ln M.
+// from: k ln N + 2 ln M, and more near zero velocity.
 double Price(const GapScreen& screen, const GapCandidate& candidate);
 
 // Columns of several candidates.

@@ -86,7 +86,6 @@ TEST_F(GapScreenTest, IsLeastSquaresWithThePriorsRows) {
   const GapScreen screen = Screen();
   double none, chi_squared;
   Estimate({}, &none);
-  EXPECT_NEAR(screen.chi_squared(), none, kTight * none);
   for (const std::vector<int>& which :
        std::vector<std::vector<int>>{{0}, {1}, {2, 0}, {0, 1, 2}}) {
     SCOPED_TRACE(testing::Message() << which.size() << " from " << which[0]);

@@ -93,6 +93,9 @@ struct Effect {
       estimates;
   // Empty, or why this joint of this robot cannot show it at all.
   std::function<std::string(const EffectSite& site)> unfit;
+  // Whether it acts where friction passes zero velocity (or torque zero), which
+  // no model has quite right: it has to explain the more.
+  bool near_zero = false;
   // How it is made visible: the experiment a report proposes.
   std::string experiment;
 };

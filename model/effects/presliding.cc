@@ -30,6 +30,7 @@ Effect Presliding() {
            return -coulomb * z[0];
          }});
   };
+  effect.near_zero = true;
   effect.experiment = "small motions to and fro, from 0.01 to 10 degrees";
   return effect;
 }

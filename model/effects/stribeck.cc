@@ -35,6 +35,7 @@ Effect Stribeck() {
         },
         robot);
   };
+  effect.near_zero = true;
   effect.experiment = "constant velocities from creeping to usual, both ways";
   return effect;
 }

@@ -48,6 +48,7 @@ Effect TorqueDeadband() {
         },
         robot);
   };
+  effect.near_zero = true;
   effect.experiment = "slow motion through poses in which the load vanishes";
   return effect;
 }

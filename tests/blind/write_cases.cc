@@ -5,18 +5,17 @@
 // they hide to another (tests/blind/README.md).
 
 #include <gflags/gflags.h>
-#include <glog/logging.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "model/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
+#include "tests/blind/case_files.h"
 #include "tests/blind/sized_case.h"
 
 DEFINE_string(set, "calibration", "calibration, or evaluation (open it once)");
@@ -35,15 +34,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-void WriteText(const fs::path& path, const std::string& text) {
-  const fs::path part = path.string() + ".part";  // a run may be interrupted
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  CHECK(file) << "cannot write " << part;
-  fs::rename(part, path);
-}
 
 std::vector<double> Numbers(const Eigen::VectorXd& x) {
   return {x.begin(), x.end()};
@@ -97,9 +87,8 @@ CasePlan Plan(uint32_t index) {
 }
 
 void WriteCase(BlindSet set, uint32_t index) {
-  char name[32];
-  std::snprintf(name, sizeof name, "case_%04u", index);
-  const fs::path label = fs::path(FLAGS_labels) / (std::string(name) + ".json");
+  const std::string name = CaseName(index);
+  const fs::path label = fs::path(FLAGS_labels) / (name + ".json");
   if (fs::exists(label)) return;  // written last, so the case is complete
   const SizedCase sized =
       DrawSizedCase(BlindCaseSeed(set, FLAGS_seed, index), Plan(index));
@@ -121,20 +110,12 @@ void WriteCase(BlindSet set, uint32_t index) {
 
 // What is wrong with the flags; empty where nothing is.
 std::string WhyNot() {
-  if (FLAGS_set != "calibration" && FLAGS_set != "evaluation") {
-    return "--set: expected calibration or evaluation";
-  }
-  if (FLAGS_seed >= 1u << 31) return "--seed: expected a number below 2^31";
   if (FLAGS_plan != "evaluation" && !StratumOf(FLAGS_plan)) {
     return "--plan: expected evaluation, none_rich, none_poor, one, two or "
            "outside";
   }
   if (FLAGS_jobs < 1) return "--jobs: expected a number of at least 1";
-  if (fs::weakly_canonical(FLAGS_logs) == fs::weakly_canonical(FLAGS_labels)) {
-    return "--labels: expected another folder than --logs, whose reader must "
-           "not see them";
-  }
-  return "";
+  return WhyNotWritten(FLAGS_set, FLAGS_seed, FLAGS_logs, FLAGS_labels);
 }
 
 int Main() {
@@ -143,8 +124,7 @@ int Main() {
     std::fprintf(stderr, "write_blind_cases: %s\n", why.c_str());
     return 2;
   }
-  const BlindSet set = FLAGS_set == "calibration" ? BlindSet::kCalibration
-                                                  : BlindSet::kEvaluation;
+  const BlindSet set = BlindSetNamed(FLAGS_set);
   fs::create_directories(FLAGS_logs);
   fs::create_directories(FLAGS_labels);
   for (int job = 1; job < FLAGS_jobs; ++job) {

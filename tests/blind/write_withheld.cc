@@ -17,6 +17,7 @@
 #include "model/log_writer.h"
 #include "model/plant/random_stream.h"
 #include "model/robot_reader.h"
+#include "tests/blind/case_files.h"
 #include "tests/blind/withheld_size.h"
 
 DEFINE_string(set, "calibration", "calibration, or evaluation (open it once)");
@@ -35,15 +36,6 @@ using nlohmann::json;
 // Each effect at two sizes in each of four bins of ENR.
 constexpr uint32_t kSizes = 8;
 constexpr double kLargestEnr = 6;
-
-void WriteText(const fs::path& path, const std::string& text) {
-  const fs::path part = path.string() + ".part";  // a run may be interrupted
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  CHECK(file) << "cannot write " << part;
-  fs::rename(part, path);
-}
 
 // A real log and the one before it, read.
 struct Source {
@@ -169,9 +161,8 @@ json CaseOf(const Source& source) {
 }
 
 void WriteCase(uint64_t seed, uint32_t index) {
-  char name[32];
-  std::snprintf(name, sizeof name, "case_%04u", index);
-  const fs::path label = fs::path(FLAGS_labels) / (std::string(name) + ".json");
+  const std::string name = CaseName(index);
+  const fs::path label = fs::path(FLAGS_labels) / (name + ".json");
   if (fs::exists(label)) return;  // written last, so the case is complete
   std::mt19937_64 random = RandomStream(seed, 0, RandomPurpose::kCase);
   const auto& names = WithheldEffectNames();
@@ -199,26 +190,14 @@ void WriteCase(uint64_t seed, uint32_t index) {
   WriteText(label, LabelOf(source, effects).dump(2) + "\n");
 }
 
-std::string WhyNot() {
-  if (FLAGS_set != "calibration" && FLAGS_set != "evaluation") {
-    return "--set: expected calibration or evaluation";
-  }
-  if (FLAGS_seed >= 1u << 31) return "--seed: expected a number below 2^31";
-  if (fs::weakly_canonical(FLAGS_logs) == fs::weakly_canonical(FLAGS_labels)) {
-    return "--labels: expected another folder than --logs, whose reader must "
-           "not see them";
-  }
-  return "";
-}
-
 int Main() {
-  const std::string why = WhyNot();
+  const std::string why =
+      WhyNotWritten(FLAGS_set, FLAGS_seed, FLAGS_logs, FLAGS_labels);
   if (!why.empty()) {
     std::fprintf(stderr, "write_withheld: %s\n", why.c_str());
     return 2;
   }
-  const BlindSet set = FLAGS_set == "calibration" ? BlindSet::kCalibration
-                                                  : BlindSet::kEvaluation;
+  const BlindSet set = BlindSetNamed(FLAGS_set);
   fs::create_directories(FLAGS_logs);
   fs::create_directories(FLAGS_labels);
   for (uint32_t k = 0; k < FLAGS_cases; ++k) {

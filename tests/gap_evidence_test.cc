@@ -1,0 +1,51 @@
+#include "calib/gap_evidence.h"
+
+#include <gtest/gtest.h>
+
+namespace armcal {
+namespace {
+
+EffectEvidence Clear() {
+  EffectEvidence evidence;
+  evidence.odds = 8;
+  evidence.strength = 7;
+  evidence.gain = .3;
+  return evidence;
+}
+
+TEST(ProbabilityOf, IsHighForWhatIsClear) {
+  EXPECT_GT(ProbabilityOf(Clear()), .95);
+}
+
+TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainst) {
+  const double clear = ProbabilityOf(Clear());
+  const auto expect_less = [&](const char* what, auto change) {
+    EffectEvidence evidence = Clear();
+    change(&evidence);
+    EXPECT_LT(ProbabilityOf(evidence), clear) << what;
+  };
+  expect_less("a near rival", [](EffectEvidence* e) { e->odds = 0; });
+  expect_less("little explained", [](EffectEvidence* e) { e->strength = 3; });
+  expect_less("much left", [](EffectEvidence* e) { e->left = .6; });
+  expect_less("much left of held-out data",
+              [](EffectEvidence* e) { e->held_out_left = 1; });
+  expect_less("more to come", [](EffectEvidence* e) { e->next = 60; });
+  expect_less("others were needed", [](EffectEvidence* e) { e->chosen = 3; });
+  expect_less("held-out data do not care",
+              [](EffectEvidence* e) { e->gain = 0; });
+}
+
+TEST(ProbabilityOf, AContactFeltByOneJointManyTimesIsNone) {
+  EffectEvidence once = Clear();
+  once.events = 1;
+  once.one_joint = .3;
+  EffectEvidence often = once;
+  often.events = 8;
+  EffectEvidence one_joint = once;
+  one_joint.one_joint = 1;
+  EXPECT_LT(ProbabilityOf(often), ProbabilityOf(once));
+  EXPECT_LT(ProbabilityOf(one_joint), ProbabilityOf(once));
+}
+
+}  // namespace
+}  // namespace armcal
