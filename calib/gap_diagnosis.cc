@@ -316,6 +316,13 @@ void Diagnoser::TellUnexplained() {
 }
 
 void Diagnoser::Judge() {
+  result_.data = AuditTorque(robot_, fit_->rows());
+  if (!result_.data.empty()) {
+    result_.verdict = GapVerdict::kNotTestable;
+    result_.effects.clear();
+    result_.candidates.clear();
+    return;
+  }
   constexpr double kReal = 100;        // chi^2 that is not chance
   constexpr double kUnexplained = .3;  // of what could be removed
   double left = 0;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/gap_audit.h"
 #include "calib/gap_baseline.h"
 #include "calib/gap_evidence.h"
 #include "calib/gap_families.h"
@@ -64,13 +65,6 @@ struct FoundEffect {
   double ci95[2] = {0, 0};
   std::string separate_by;         // the experiment that would tell them apart
   std::vector<TimeRange> windows;  // s, of what comes and goes
-};
-
-// Something about the data that a diagnosis depends on.
-struct DataFinding {
-  std::string finding;
-  std::string evidence;
-  std::string flag;  // what to change, or empty
 };
 
 // What is left beside the effects that were found.
