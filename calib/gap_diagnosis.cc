@@ -67,6 +67,7 @@ class Diagnoser {
   JointCourse CourseOf(int joint) const;
   void ListFamilies();
   void ListEffects();
+  void ShareTheRest(FoundEffect* found);
   void Simulate(LogSet* held_out, bool split);
   void TellUnexplained();
   void Judge();
@@ -251,19 +252,32 @@ void Diagnoser::ListEffects() {
                    [](const FoundEffect& a, const FoundEffect& b) {
                      return a.drop > b.drop;
                    });
-  for (FoundEffect& found : result_.effects) {
-    // The rest is that of all others together.
-    double others = 0;
-    for (const PlacedEffect& other : found.equivalent) {
-      others += other.probability;
-    }
-    for (PlacedEffect& other : found.equivalent) {
-      other.probability *= (1 - found.probability) / std::max(1e-9, others);
-    }
-    result_.candidates.push_back(
-        {found.effect, found.joint, found.probability, found.score});
-    result_.candidates.insert(result_.candidates.end(),
-                              found.equivalent.begin(), found.equivalent.end());
+  for (FoundEffect& found : result_.effects) ShareTheRest(&found);
+  const auto unclaimed =
+      std::stable_partition(result_.effects.begin(), result_.effects.end(),
+                            [](const FoundEffect& found) {
+                              return found.probability >= kLeastClaimed;
+                            });
+  found_without_name_ =
+      unclaimed == result_.effects.begin() && !result_.effects.empty();
+  result_.effects.erase(unclaimed, result_.effects.end());
+}
+
+// The probability that an effect does not have is that of all others together;
+// the set of candidates ends where 95 % are in it.
+void Diagnoser::ShareTheRest(FoundEffect* found) {
+  constexpr double kCredible = .95;
+  double others = 0;
+  for (const PlacedEffect& other : found->equivalent) {
+    others += other.probability;
+  }
+  result_.candidates.push_back(
+      {found->effect, found->joint, found->probability, found->score});
+  double sum = found->probability;
+  for (PlacedEffect& other : found->equivalent) {
+    other.probability *= (1 - found->probability) / std::max(1e-9, others);
+    if (sum < kCredible) result_.candidates.push_back(other);
+    sum += other.probability;
   }
 }
 
