@@ -32,6 +32,21 @@ run build/armcal calibrate --robot=data/scara/robot.yaml \
   --bandwidth=0 --identification=integral --solver=recursive \
   --intervals=1:1.5,1.5:2,2.5:3 || [[ $? -eq 1 ]]
 
+say "3. Two logs of that arm, simulated with numbers 2 % off its file; before the \
+second one the elbow's friction has changed. Diagnosing the second against the \
+first tells which effect it is, on which joint, and how far it closes the gap:"
+for run in 1 2; do
+  effect=()
+  if [[ $run -eq 2 ]]; then effect=(--effects=stribeck@2); fi
+  build/armcal simulate --robot=data/scara/robot.yaml --duration=40 \
+    --robot_error=0.02 --run=$run "${effect[@]}" \
+    --out=armcal-out/log$run --truth=armcal-out/secret$run >/dev/null
+done
+run build/armcal diagnose --robot=data/scara/robot.yaml \
+  --log=armcal-out/log2/log.csv --reference=armcal-out/log1/log.csv \
+  --out=armcal-out/diagnosis
+
 say "The result of 1 is in $PWD/armcal-out/scara: calibration.json for programs \
 (docs/calibrate.md explains every key) and covariance.csv, how the errors of the \
-numbers hang together."
+numbers hang together. What 3 was to find is in armcal-out/secret2/truth.json, what it \
+found in armcal-out/diagnosis (docs/diagnose.md)."
