@@ -209,7 +209,6 @@ FoundEffect Diagnoser::Contacts() const {
       events.begin(), events.end(),
       [](const GapEvent& a, const GapEvent& b) { return a.drop < b.drop; });
   FoundEffect found = Describe(strongest->effect, strongest->covariance);
-  found.probability = 1;
   found.score = strongest->score;
   for (const GapEvent& event : events) {
     found.drop += event.drop;
@@ -318,7 +317,7 @@ void Diagnoser::Simulate(LogSet* held_out, bool split) {
 void Diagnoser::TellUnexplained() {
   double left = 0, most = 0, refit = 0;
   for (int j = 0; j < robot_.num_joints(); ++j) {
-    const double here = Excess(*fit_, j, true);
+    const double here = result_.joints[j].unexplained;
     left += here;
     refit += Excess(*fit_, j, false);
     if (here <= most) continue;
@@ -340,9 +339,7 @@ void Diagnoser::Judge() {
   constexpr double kReal = 100;        // chi^2 that is not chance
   constexpr double kUnexplained = .3;  // of what could be removed
   double left = 0;
-  for (int j = 0; j < robot_.num_joints(); ++j) {
-    left += Excess(*fit_, j, true);
-  }
+  for (const JointGap& joint : result_.joints) left += joint.unexplained;
   const bool much_left =
       left > kReal && result_.unexplained.share > kUnexplained;
   // On what was held out, too.

@@ -80,7 +80,7 @@ struct JointGap {
   // rms of the held-out torque residual, N m or N.
   double nominal_rms = 0, refit_rms = 0, after_rms = 0, floor_rms = 0;
   Organisation organised;  // of the refitted model's residual
-  double unexplained = 0;  // chi^2 over rows after the effects, less 1
+  double unexplained = 0;  // chi^2 beyond the noise's after the effects
 };
 
 struct GapDiagnosis {

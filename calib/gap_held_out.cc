@@ -34,8 +34,11 @@ void HeldOut::MaskEvents() {
   constexpr int kMostWindows = 12;
   constexpr double kReal = 100;                      // chi^2
   const std::vector<double> durations = {.4, 1, 2};  // s
-  MatrixXd left = Deviations(fit_.refined().effects, fit_.refined().baseline);
+  const MatrixXd residual =
+      Residual(fit_.refined().effects, fit_.refined().baseline);
   for (int round = 0; round < kMostWindows; ++round) {
+    const MatrixXd left = Deviations(residual).unaryExpr(
+        [](double x) { return std::isnan(x) ? 0 : x; });
     double most = kReal;
     int log = -1;
     TimeWindow worst{0, 0};
@@ -58,16 +61,7 @@ void HeldOut::MaskEvents() {
                           worst.centre + worst.duration};
     data_->Mask(log, range);
     data_->SetNoise(fit_.noise().joints);
-    left = Deviations(fit_.refined().effects, fit_.refined().baseline);
   }
-}
-
-// Residuals over standard deviations, 0 where a joint stands.
-MatrixXd HeldOut::Deviations(const std::vector<GapCandidate>& effects,
-                             const VectorXd& baseline) const {
-  return Squares(effects, baseline)
-      .unaryExpr([](double x) { return std::isnan(x) ? 0 : std::sqrt(x); })
-      .cwiseProduct(Residual(effects, baseline).cwiseSign());
 }
 
 MatrixXd HeldOut::Residual(const std::vector<GapCandidate>& effects,
@@ -81,19 +75,23 @@ MatrixXd HeldOut::Residual(const std::vector<GapCandidate>& effects,
   return residual;
 }
 
-MatrixXd HeldOut::Squares(const std::vector<GapCandidate>& effects,
-                          const VectorXd& baseline) const {
-  MatrixXd squares = Residual(effects, baseline);
-  for (int j = 0; j < squares.cols(); ++j) {
-    std::vector<bool> moves(squares.rows(), false);
+MatrixXd HeldOut::Deviations(const MatrixXd& residual) const {
+  MatrixXd deviations = residual;
+  for (int j = 0; j < deviations.cols(); ++j) {
+    std::vector<bool> moves(deviations.rows(), false);
     for (const int k : rows().SampleOfRow(j)) moves[k] = true;
-    for (int k = 0; k < squares.rows(); ++k) {
-      squares(k, j) =
-          moves[k] ? squares(k, j) * squares(k, j) / rows().variance(j, k)
-                   : std::numeric_limits<double>::quiet_NaN();
+    for (int k = 0; k < deviations.rows(); ++k) {
+      deviations(k, j) = moves[k]
+                             ? residual(k, j) / std::sqrt(rows().variance(j, k))
+                             : std::numeric_limits<double>::quiet_NaN();
     }
   }
-  return squares;
+  return deviations;
+}
+
+MatrixXd HeldOut::Squares(const std::vector<GapCandidate>& effects,
+                          const VectorXd& baseline) const {
+  return Deviations(Residual(effects, baseline)).cwiseAbs2();
 }
 
 HeldOutSquares HeldOut::AllSquares() const {

@@ -35,8 +35,8 @@ class HeldOut {
   // Thinned samples x n, N m or N.
   Eigen::MatrixXd Residual(const std::vector<GapCandidate>& effects,
                            const Eigen::VectorXd& baseline) const;
-  Eigen::MatrixXd Deviations(const std::vector<GapCandidate>& effects,
-                             const Eigen::VectorXd& baseline) const;
+  // Over their standard deviations; NaN where a joint stands.
+  Eigen::MatrixXd Deviations(const Eigen::MatrixXd& residual) const;
 
   const GapFit& fit_;
   bool other_logs_;
