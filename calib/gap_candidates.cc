@@ -257,6 +257,16 @@ std::vector<GapCandidate> ListCandidates(const GapBaseline& baseline,
   return candidates;
 }
 
+std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate) {
+  std::vector<GapCandidate> larger;
+  for (const double multiple : candidate.effect->larger_sizes) {
+    larger.push_back(candidate);
+    larger.back().size *= multiple;
+    larger.back().tried *= 1 + candidate.effect->larger_sizes.size();
+  }
+  return larger;
+}
+
 void AddThinned(const GapRows& rows, int segment, const MatrixXd& torque,
                 JointRows* thin) {
   const int begin = rows.thin_begin(segment);

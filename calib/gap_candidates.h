@@ -40,6 +40,9 @@ std::vector<GapCandidate> ListCandidates(const GapBaseline& baseline,
                                          const MotionScale& scale,
                                          const Eigen::MatrixXd& residual);
 
+// The same candidate at the larger sizes of its effect.
+std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate);
+
 // Low-passes and thins a torque (samples x n) of a segment into the thinned
 // samples of all, per joint; joints that it is zero of stay empty.
 void AddThinned(const GapRows& rows, int segment, const Eigen::MatrixXd& torque,

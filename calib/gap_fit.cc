@@ -85,6 +85,26 @@ void GapFit::MakeScreen() {
   }
   AddCandidates(data_->rows(), &candidates_, &*screen_);
   screen_->Factor();
+  if (AddLargerOnes()) screen_->Factor();
+}
+
+// Where an effect that is not linear shows something, its torque is tried at
+// larger sizes as well. Whether there was one.
+bool GapFit::AddLargerOnes() {
+  const VectorXd scores =
+      ScoresBeside(*screen_, candidates_, options_.selection, {}, -1);
+  std::vector<GapCandidate> larger;
+  for (size_t i = 0; i < candidates_.size(); ++i) {
+    if (!(scores[i] > 0)) continue;
+    for (const GapCandidate& one : LargerOnes(candidates_[i])) {
+      larger.push_back(one);
+    }
+  }
+  EvaluateCandidates(baseline_, data_->rows(), scale_, data_->mutable_torques(),
+                     &larger);
+  AddCandidates(data_->rows(), &larger, &*screen_);
+  candidates_.insert(candidates_.end(), larger.begin(), larger.end());
+  return !larger.empty();
 }
 
 std::vector<GapCandidate> GapFit::Chosen(const std::vector<int>& which) const {

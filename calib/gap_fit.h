@@ -77,6 +77,7 @@ class GapFit {
  private:
   void EstimateNoise();
   void MakeScreen();
+  bool AddLargerOnes();
   void TakeOutEvent(size_t k);
   double OneJointShare(const GapEvent& event) const;
   std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace armcal {
@@ -137,17 +138,72 @@ double TotalDrop(const GapScreen& screen,
   return screen.Solve(ColumnsOf(candidates, chosen)).drop;
 }
 
-// Whether the last of the drops is large enough beside the first.
-bool IsLarge(const Selection& selection,
-             const std::vector<GapCandidate>& candidates,
-             const SelectionOptions& options, size_t k) {
-  const GapCandidate& first = candidates[selection.chosen[0]];
-  const GapCandidate& other = candidates[selection.chosen[k]];
+// The share of the others' drop that one more has to explain.
+double LeastShare(const GapCandidate& first, const GapCandidate& other,
+                  const SelectionOptions& options) {
   const bool same =
       first.joint < 0 || other.joint < 0 || first.joint == other.joint;
-  const double share =
-      same ? options.same_joint_share : options.other_joint_share;
-  return selection.drops[k] >= share * selection.drops[0];
+  return same ? options.same_joint_share : options.other_joint_share;
+}
+
+// Whether the weakest of `more` is large enough beside its strongest, and all
+// of it beside what `fewer` explain.
+bool IsLarge(const GapScreen& screen,
+             const std::vector<GapCandidate>& candidates,
+             const SelectionOptions& options, const std::vector<int>& fewer,
+             const std::vector<int>& more) {
+  const Selection selection =
+      DescribeSelection(screen, candidates, options, more);
+  const double share = LeastShare(candidates[selection.chosen.front()],
+                                  candidates[selection.chosen.back()], options);
+  const double before = TotalDrop(screen, candidates, fewer);
+  const double gain = TotalDrop(screen, candidates, more) - before;
+  return selection.drops.back() >= share * selection.drops.front() &&
+         gain >= share * before;
+}
+
+// The best candidates beside these, one of each place.
+std::vector<int> BestPlaces(const std::vector<GapCandidate>& candidates,
+                            VectorXd scores, int count) {
+  std::vector<int> best;
+  while (static_cast<int>(best.size()) < count) {
+    int c;
+    if (!(scores.maxCoeff(&c) > 0)) break;
+    best.push_back(c);
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      if (SamePlace(candidates[i], candidates[c])) scores[i] = kNever;
+    }
+  }
+  return best;
+}
+
+// Sets of one more than those of `sets`, the best first. What explains most
+// alone may be neither of two that explain everything together: several sets
+// are followed, not only the best.
+std::vector<std::vector<int>> Extended(
+    const GapScreen& screen, const std::vector<GapCandidate>& candidates,
+    const SelectionOptions& options,
+    const std::vector<std::vector<int>>& sets) {
+  constexpr int kSets = 8;
+  std::map<std::vector<int>, double> totals;
+  for (const std::vector<int>& set : sets) {
+    double own = TotalDrop(screen, candidates, set) / options.inflation;
+    for (const int c : set) own -= Price(screen, candidates[c]);
+    const VectorXd scores = ScoresBeside(screen, candidates, options, set, -1);
+    for (const int c : BestPlaces(candidates, scores, kSets)) {
+      std::vector<int> more = set;
+      more.push_back(c);
+      std::sort(more.begin(), more.end());
+      totals[more] = own + scores[c];
+    }
+  }
+  std::vector<std::vector<int>> best;
+  for (const auto& [set, total] : totals) best.push_back(set);
+  std::sort(best.begin(), best.end(), [&](const auto& a, const auto& b) {
+    return totals[a] > totals[b];
+  });
+  if (best.size() > kSets) best.resize(kSets);
+  return best;
 }
 
 }  // namespace
@@ -221,20 +277,17 @@ Selection SelectEffects(const GapScreen& screen,
                         const std::vector<GapCandidate>& candidates,
                         const SelectionOptions& options) {
   std::vector<int> chosen;
-  while (static_cast<int>(chosen.size()) < options.most_effects) {
-    const VectorXd scores =
-        ScoresBeside(screen, candidates, options, chosen, -1);
-    const int best = Best(scores);
-    if (!(scores[best] >= options.threshold)) break;
-    std::vector<int> more = chosen;
-    more.push_back(best);
+  std::vector<std::vector<int>> sets = {{}};
+  for (int size = 1; size <= options.most_effects; ++size) {
+    sets = Extended(screen, candidates, options, sets);
+    if (sets.empty()) break;
+    std::vector<int> more = sets[0];
     Swap(screen, candidates, options, &more);
     LeaveOut(screen, candidates, options, &more);
-    if (more.size() <= chosen.size()) break;
-    const Selection selection =
-        DescribeSelection(screen, candidates, options, more);
-    if (!IsLarge(selection, candidates, options, more.size() - 1)) break;
+    if (static_cast<int>(more.size()) < size) break;
+    if (size > 1 && !IsLarge(screen, candidates, options, chosen, more)) break;
     chosen = more;
+    sets.insert(sets.begin(), chosen);
   }
   return DescribeSelection(screen, candidates, options, chosen);
 }

@@ -34,8 +34,8 @@ Eigen::VectorXd ScoresBeside(const GapScreen& screen,
                              const SelectionOptions& options,
                              const std::vector<int>& chosen, int k);
 
-// Forward, each step followed by swaps of what was chosen before, and by
-// leaving out what is not needed any more.
+// Forward, by several sets at a time; at each size the best set has its members
+// swapped for better ones, and must need them all.
 Selection SelectEffects(const GapScreen& screen,
                         const std::vector<GapCandidate>& candidates,
                         const SelectionOptions& options);

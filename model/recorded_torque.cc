@@ -186,7 +186,8 @@ const MatrixXd& RecordedTorque::Inertia() {
 void RecordedTorque::AddTransmissions(const SimulatedRobot& changed,
                                       const Motion& motion, MotionTrack* track,
                                       MatrixXd* tau) {
-  const MatrixXd load = LinkTorque(changed.robot, motion);
+  const bool recorded = &motion == &motion_ && SameLinks(changed.robot, robot_);
+  const MatrixXd load = recorded ? load_ : LinkTorque(changed.robot, motion);
   Motion links = motion;
   for (const Transmission& law : changed.transmissions) {
     const int j = law.joint;

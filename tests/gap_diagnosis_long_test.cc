@@ -45,15 +45,23 @@ TEST_F(GapDiagnosisLongTest, AParameterIsFarFromATrustedFiles) {
   ExpectEstimate(diagnosis.effects[0], "viscous", .4, .05);
 }
 
-TEST_F(GapDiagnosisLongTest, AGearYields) {
+// By this many times the compliance that would just matter.
+class YieldingGear : public GapDiagnosisLongTest,
+                     public testing::WithParamInterface<double> {};
+
+TEST_P(YieldingGear, IsFound) {
   const EffectSite site = plant_->arm().Site(1);
   const Effect& elasticity = *FindEffect("elasticity");
   VectorXd p(elasticity.parameters.size());
   for (int k = 0; k < p.size(); ++k) p[k] = elasticity.parameters[k].size(site);
-  p[0] *= 4;
+  p[0] *= GetParam();
   Add("elasticity", 1, {p.begin(), p.end()});
-  ExpectFirst(Diagnose(File()), "elasticity", 1);
+  const GapDiagnosis diagnosis = Diagnose(File());
+  ExpectFirst(diagnosis, "elasticity", 1);
+  ExpectEstimate(diagnosis.effects[0], "stiffness", 1 / p[0], .1);
 }
+
+INSTANTIATE_TEST_SUITE_P(Compliances, YieldingGear, testing::Values(4, 30));
 
 TEST_F(GapDiagnosisLongTest, TwoAreFound) {
   Add("stribeck", 0, {1.5, .14});

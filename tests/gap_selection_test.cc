@@ -70,6 +70,18 @@ class GapSelectionTest : public testing::Test {
   JointRows target_;
 };
 
+// One that explains most alone, and one that explains most of its rest, are no
+// two that explain all: no single exchange leads from those to these.
+TEST_F(GapSelectionTest, TwoTogetherMayBeatTheBestAlone) {
+  const int a = Add(0, 0, Noise(&random_)), b = Add(1, 0, Noise(&random_));
+  const VectorXd sum = Column(a) + Column(b), beside = Noise(&random_, .4);
+  Add(2, 0, sum + beside);
+  Add(3, 0, beside + Noise(&random_, .1));
+  AddRandom(5);
+  target_[0] = 3 * sum + Noise(&random_);
+  EXPECT_THAT(Select().chosen, UnorderedElementsAre(a, b));
+}
+
 TEST_F(GapSelectionTest, TheRightOneIsChosen) {
   AddRandom(20);
   target_[0] = .3 * Column(13) + Noise(&random_);

@@ -96,6 +96,9 @@ struct Effect {
   // Whether it acts where friction passes zero velocity (or torque zero), which
   // no model has quite right: it has to explain the more.
   bool near_zero = false;
+  // Multiples of its linear parameters' sizes that are tried as well, where
+  // torques are far from being in proportion to them.
+  std::vector<double> larger_sizes;
   // How it is made visible: the experiment a report proposes.
   std::string experiment;
 };

@@ -44,6 +44,12 @@ SiteSize ShareOfTorque(double share) {
   return [share](const EffectSite& site) { return share * TorqueScale(site); };
 }
 
+SiteSize ShareOfDrag(double share) {
+  return [share](const EffectSite& site) {
+    return share * TorqueScale(site) / SpeedScale(site);
+  };
+}
+
 std::vector<double> GeometricGrid(double low, double high, int count) {
   std::vector<double> grid;
   for (int k = 0; k < count; ++k) {

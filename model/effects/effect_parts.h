@@ -29,6 +29,7 @@ double Duration(const EffectSite& site);
 using SiteSize = std::function<double(const EffectSite&)>;
 using SiteGrid = std::function<std::vector<double>(const EffectSite&)>;
 SiteSize ShareOfTorque(double share);
+SiteSize ShareOfDrag(double share);  // of torque per speed
 // `count` values in equal ratios.
 std::vector<double> GeometricGrid(double low, double high, int count);
 

@@ -10,9 +10,7 @@ Effect ViscousFriction() {
   effect.name = "viscous_friction";
   effect.law = "tau = viscous v";
   effect.shows = "motion at several speeds";
-  effect.parameters = {Linear("viscous", "E s/P", [](const EffectSite& site) {
-    return .05 * TorqueScale(site) / SpeedScale(site);
-  })};
+  effect.parameters = {Linear("viscous", "E s/P", ShareOfDrag(.05))};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const int j = site.joint;
