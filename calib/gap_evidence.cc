@@ -92,6 +92,8 @@ EffectEvidence EvidenceFor(const GapFit& fit, const HeldOut& held_out,
       std::clamp((own - others) / (2 * kTemperature), -kMostOdds, kMostOdds);
   evidence.strength = std::log(std::max(1., drop));
   evidence.share = drop / SumOfDrops(fit);
+  evidence.stronger = static_cast<int>(k);
+  evidence.chance = std::max(0., fit.ByChance(k)) / fit.selection().scores[k];
   evidence.gain = held_out.Gain(k, figures.after);
   return evidence;
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "calib/gap_inflation.h"
+#include "calib/gap_null.h"
 
 namespace armcal {
 namespace {
@@ -13,6 +15,8 @@ using Eigen::VectorXd;
 using Search = EffectParameter::Search;
 
 constexpr int kMostEvents = 12;
+constexpr std::uint64_t kSeed = 1;  // of what chance would give
+constexpr double kRounding = 1e-9;
 // Of an event's width, how far to both sides it is taken out.
 constexpr double kEventReach = 2.5;
 
@@ -175,7 +179,7 @@ void GapFit::Choose() {
     }
     TakeOutEvent(event - selection_.chosen.begin());
   }
-  DropInflated();
+  DropChance();
   rivals_.assign(selection_.chosen.size(), {});
   for (size_t k = 0; k < selection_.chosen.size(); ++k) CompareRivals(k);
   refined_.effects = Chosen(selection_.chosen);
@@ -185,23 +189,36 @@ void GapFit::Choose() {
                            data_.get());
 }
 
-// Leaves out, weakest first, what does not rise above the scatter that the
-// residual has in truth.
-void GapFit::DropInflated() {
+// By how much its score, with the scatter that the residual has in truth,
+// exceeds what it has to.
+double GapFit::Margin(size_t k) const {
+  const GapCandidate& candidate = candidates_[selection_.chosen[k]];
+  const GapScreen::Fit fit =
+      screen_->Solve(ColumnsOf(candidates_, selection_.chosen));
+  const double inflation = Inflation(*screen_, data_->rows(), candidate, fit);
+  const double deflated =
+      selection_.drops[k] / inflation - Price(*screen_, candidate);
+  return std::min(deflated - options_.selection.threshold,
+                  selection_.scores[k] * (1 + kRounding) - ByChance(k));
+}
+
+double GapFit::ByChance(size_t k) const {
+  std::vector<int> others = selection_.chosen;
+  others.erase(others.begin() + k);
+  return ScoreByChance(*screen_, data_->rows(), candidates_, options_.selection,
+                       others, kSeed);
+}
+
+// Leaves out, weakest first, what may have come by chance.
+void GapFit::DropChance() {
   while (!selection_.chosen.empty()) {
-    const GapScreen::Fit fit =
-        screen_->Solve(ColumnsOf(candidates_, selection_.chosen));
-    int weakest = -1;
-    double least = options_.selection.threshold;
+    size_t weakest = 0;
+    double least = std::numeric_limits<double>::infinity();
     for (size_t k = 0; k < selection_.chosen.size(); ++k) {
-      const GapCandidate& candidate = candidates_[selection_.chosen[k]];
-      const double score =
-          selection_.drops[k] /
-              Inflation(*screen_, data_->rows(), candidate, fit) -
-          Price(*screen_, candidate);
-      if (score < least) least = score, weakest = static_cast<int>(k);
+      const double margin = Margin(k);
+      if (margin < least) least = margin, weakest = k;
     }
-    if (weakest < 0) return;
+    if (least >= 0) return;
     std::vector<int> others = selection_.chosen;
     others.erase(others.begin() + weakest);
     selection_ =

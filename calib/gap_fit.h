@@ -69,6 +69,8 @@ class GapFit {
   // Scores of the k-th effect and its nearest rivals, each with its shape
   // fitted beside the others.
   const std::vector<RefinedScore>& rivals(size_t k) const { return rivals_[k]; }
+  // The score that chance gives the best of all beside the others.
+  double ByChance(size_t k) const;
   // The baseline's values without any effect.
   const Eigen::VectorXd& refit() const { return refit_; }
   // The baseline beside the refined effects but for the k-th.
@@ -82,7 +84,8 @@ class GapFit {
   double OneJointShare(const GapEvent& event) const;
   std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
   void CompareRivals(size_t k);
-  void DropInflated();
+  double Margin(size_t k) const;
+  void DropChance();
 
   const GapBaseline& baseline_;
   GapFitOptions options_;

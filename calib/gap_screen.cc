@@ -68,6 +68,18 @@ void GapScreen::Factor() {
   g_ -= half.transpose() * known;
 }
 
+VectorXd GapScreen::Gradient(const JointRows& target) const {
+  VectorXd g = VectorXd::Zero(size());
+  VectorXd gradient = VectorXd::Zero(gradient_.size());
+  for (size_t j = 0; j < target.size(); ++j) {
+    gradient += baseline_[j].transpose() * target[j];
+    for (int c = 0; c < size(); ++c) {
+      if (columns_[c][j].size() > 0) g[c] += columns_[c][j].dot(target[j]);
+    }
+  }
+  return g - cross_.transpose() * factor_.solve(gradient);
+}
+
 GapScreen::Fit GapScreen::Solve(const std::vector<int>& columns) const {
   Fit fit;
   fit.columns = columns;

@@ -40,6 +40,9 @@ class GapScreen {
   double raw(int column) const { return raw_[column]; }
   double visible(int column) const { return G_(column, column) / raw(column); }
 
+  // What g would be with another target (whitened, per joint).
+  Eigen::VectorXd Gradient(const JointRows& target) const;
+
   struct Fit {
     std::vector<int> columns;
     Eigen::VectorXd coefficients;

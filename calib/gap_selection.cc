@@ -38,16 +38,17 @@ struct Conditioned {
   VectorXd g;
 };
 
-Conditioned Condition(const GapScreen& screen, const std::vector<int>& S) {
+Conditioned Condition(const GapScreen& screen, const std::vector<int>& S,
+                      const VectorXd& gradient) {
   Conditioned c;
-  c.g = screen.g();
+  c.g = gradient;
   if (S.empty()) return c;
   const int size = static_cast<int>(S.size());
   MatrixXd G(size, size), cross(size, screen.size());
   VectorXd g(size);
   for (int k = 0; k < size; ++k) {
     cross.row(k) = screen.G().row(S[k]);
-    g[k] = screen.g()[S[k]];
+    g[k] = gradient[S[k]];
     for (int l = 0; l < size; ++l) G(k, l) = screen.G()(S[k], S[l]);
     G(k, k) += 1e-9 * screen.raw(S[k]);
   }
@@ -232,9 +233,16 @@ VectorXd ScoresBeside(const GapScreen& screen,
                       const std::vector<GapCandidate>& candidates,
                       const SelectionOptions& options,
                       const std::vector<int>& chosen, int k) {
-  const std::vector<int> others = Without(chosen, k);
+  return ScoresBeside(screen, candidates, options, Without(chosen, k),
+                      screen.g());
+}
+
+VectorXd ScoresBeside(const GapScreen& screen,
+                      const std::vector<GapCandidate>& candidates,
+                      const SelectionOptions& options,
+                      const std::vector<int>& others, const VectorXd& g) {
   const Conditioned conditioned =
-      Condition(screen, ColumnsOf(candidates, others));
+      Condition(screen, ColumnsOf(candidates, others), g);
   VectorXd scores(candidates.size());
   for (size_t i = 0; i < candidates.size(); ++i) {
     const bool taken = std::any_of(

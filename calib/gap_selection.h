@@ -33,6 +33,12 @@ Eigen::VectorXd ScoresBeside(const GapScreen& screen,
                              const std::vector<GapCandidate>& candidates,
                              const SelectionOptions& options,
                              const std::vector<int>& chosen, int k);
+// The same in addition to `others`, were `g` the screen's.
+Eigen::VectorXd ScoresBeside(const GapScreen& screen,
+                             const std::vector<GapCandidate>& candidates,
+                             const SelectionOptions& options,
+                             const std::vector<int>& others,
+                             const Eigen::VectorXd& g);
 
 // Forward, by several sets at a time; at each size the best set has its members
 // swapped for better ones, and must need them all.

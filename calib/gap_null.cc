@@ -1,0 +1,71 @@
+#include "calib/gap_null.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <utility>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kBlock = 2;  // s
+constexpr int kDraws = 200;
+constexpr double kQuantile = .99;
+
+// Gradients of the screen's columns with each block of the residual alone.
+MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
+                        const GapScreen::Fit& fit) {
+  const int n = rows.num_joints();
+  std::map<std::pair<int, long>, JointRows> blocks;
+  for (int j = 0; j < n; ++j) {
+    const std::vector<int> samples = rows.SampleOfRow(j);
+    const VectorXd residual = screen.Residual(j, fit);
+    int s = 0;
+    for (size_t k = 0; k < samples.size(); ++k) {
+      while (samples[k] >= rows.thin_begin(s + 1)) ++s;
+      const long block =
+          static_cast<long>(std::floor(rows.thin_time(s, samples[k]) / kBlock));
+      JointRows& part =
+          blocks.emplace(std::make_pair(s, block), JointRows(n)).first->second;
+      for (int i = 0; i < n && part[i].size() == 0; ++i) {
+        part[i] = VectorXd::Zero(screen.num_rows(i));
+      }
+      part[j][k] = residual[k];
+    }
+  }
+  MatrixXd gradients(screen.size(), blocks.size());
+  int at = 0;
+  for (const auto& [place, part] : blocks) {
+    gradients.col(at++) = screen.Gradient(part);
+  }
+  return gradients;
+}
+
+}  // namespace
+
+double ScoreByChance(const GapScreen& screen, const GapRows& rows,
+                     const std::vector<GapCandidate>& candidates,
+                     const SelectionOptions& options,
+                     const std::vector<int>& chosen, std::uint64_t seed) {
+  const MatrixXd blocks =
+      BlockGradients(screen, rows, screen.Solve(ColumnsOf(candidates, chosen)));
+  std::mt19937_64 random(seed);
+  std::vector<double> best;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    VectorXd g = VectorXd::Zero(screen.size());
+    for (Eigen::Index b = 0; b < blocks.cols(); ++b) {
+      g += (random() & 1 ? 1. : -1.) * blocks.col(b);
+    }
+    best.push_back(
+        ScoresBeside(screen, candidates, options, chosen, g).maxCoeff());
+  }
+  const auto nth = best.begin() + static_cast<int>(kQuantile * kDraws);
+  std::nth_element(best.begin(), nth, best.end());
+  return *nth;
+}
+
+}  // namespace armcal

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "calib/gap_candidates.h"
+#include "calib/gap_rows.h"
+#include "calib/gap_screen.h"
+#include "calib/gap_selection.h"
+
+namespace armcal {
+
+// The score that the best of all candidates has by chance in one of a hundred
+// such logs: of the same robot and motion, with what the chosen effects leave
+// of the residual as noise. Blocks of it get random signs (wild bootstrap, Wu
+// 1986), so that its size, its correlation in time and among joints stay.
+double ScoreByChance(const GapScreen& screen, const GapRows& rows,
+                     const std::vector<GapCandidate>& candidates,
+                     const SelectionOptions& options,
+                     const std::vector<int>& chosen, std::uint64_t seed);
+
+}  // namespace armcal
