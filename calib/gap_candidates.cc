@@ -241,13 +241,13 @@ MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
   return scale;
 }
 
-std::vector<GapCandidate> ListCandidates(const GapBaseline& baseline,
-                                         const GapRows& rows,
-                                         const MotionScale& scale,
-                                         const MatrixXd& residual) {
+std::vector<GapCandidate> ListCandidates(
+    const GapBaseline& baseline, const GapRows& rows, const MotionScale& scale,
+    const MatrixXd& residual, const std::vector<std::string>& without) {
   const Proposals proposals(rows, residual);
   std::vector<GapCandidate> candidates;
   for (const Effect& effect : Effects()) {
+    if (std::count(without.begin(), without.end(), effect.name) > 0) continue;
     const bool whole = effect.scope == Effect::Scope::kRobot;
     for (int j = whole ? -1 : 0; j < (whole ? 0 : rows.num_joints()); ++j) {
       ListShapes(effect, {&baseline.robot(), j, &scale}, proposals,

@@ -32,13 +32,12 @@ struct GapCandidate {
 MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
                     const std::vector<RecordedTorque>& torques);
 
-// Every effect at every place, at every value of its grids. Shapes that are
-// found in the residual (frequencies, times) come from `residual`, thinned
-// samples x n.
-std::vector<GapCandidate> ListCandidates(const GapBaseline& baseline,
-                                         const GapRows& rows,
-                                         const MotionScale& scale,
-                                         const Eigen::MatrixXd& residual);
+// Every effect but those `without` names, at every place, at every value of its
+// grids. Shapes that are found in the residual (frequencies, times) come from
+// `residual`, thinned samples x n.
+std::vector<GapCandidate> ListCandidates(
+    const GapBaseline& baseline, const GapRows& rows, const MotionScale& scale,
+    const Eigen::MatrixXd& residual, const std::vector<std::string>& without);
 
 // The same candidate at the larger sizes of its effect.
 std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate);

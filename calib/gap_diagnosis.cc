@@ -100,7 +100,8 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   result_.ladder = lacked;
   has_reference_ = reference != nullptr;
   fit_.emplace(*baseline_,
-               GapFitOptions{options_.bandwidth_hz, options_.selection},
+               GapFitOptions{options_.bandwidth_hz, options_.selection,
+                             options_.without},
                segments, split ? LogPart::kFitted : LogPart::kAll, before);
   fit_->Choose();
   held_out_.emplace(*fit_, split ? segments : Read(validation, LogPart::kAll),

@@ -27,6 +27,7 @@ struct DiagnosisOptions {
   BaselineOptions baseline;
   double bandwidth_hz = 0;
   SelectionOptions selection;
+  std::vector<std::string> without;  // effects that are not considered
   std::uint64_t seed = 1;
   // Whether held-out logs are simulated as well; along their commands where
   // these and the controller are given, else over windows.

@@ -83,7 +83,7 @@ void GapFit::MakeScreen() {
   refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
   if (candidates_.empty()) {
     candidates_ = ListCandidates(baseline_, data_->rows(), scale_,
-                                 data_->ResidualWith(refit_));
+                                 data_->ResidualWith(refit_), options_.without);
     EvaluateCandidates(baseline_, data_->rows(), scale_,
                        data_->mutable_torques(), &candidates_);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -37,6 +38,7 @@ struct RefinedScore {
 struct GapFitOptions {
   double bandwidth_hz = 0;
   SelectionOptions selection;
+  std::vector<std::string> without;  // effects that are not considered
 };
 
 // The regression of a diagnosis on its training logs, and what it chose.
@@ -61,6 +63,10 @@ class GapFit {
   GapData* data() const { return data_.get(); }
   const SelectionOptions& selection_options() const {
     return options_.selection;
+  }
+  bool IsLeftOut(const Effect& effect) const {
+    const auto& names = options_.without;
+    return std::count(names.begin(), names.end(), effect.name) > 0;
   }
   const std::vector<GapCandidate>& candidates() const { return candidates_; }
   const Selection& selection() const { return selection_; }

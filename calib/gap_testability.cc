@@ -61,7 +61,9 @@ std::vector<UntestableEffect> ListUntestable(const GapFit& fit) {
       const EffectSite site = {&robot, j, &fit.scale()};
       std::string why = effect.unfit ? effect.unfit(site) : "";
       const auto found = seen.find({&effect, j});
-      if (why.empty()) {
+      if (fit.IsLeftOut(effect)) {
+        why = "it was not to be considered";
+      } else if (why.empty()) {
         why = found == seen.end()
                   ? "nothing stands out where it would be looked for"
                   : WhyNot(found->second, whole || fit.rows().num_rows(j) > 0);

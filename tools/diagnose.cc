@@ -8,6 +8,7 @@
 
 #include "calib/corrected_robot_export.h"
 #include "calib/gap_report.h"
+#include "model/effects/effects.h"
 #include "tools/calibrate_refined.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
@@ -22,6 +23,7 @@ DEFINE_bool(forward, true,
 DEFINE_string(reference, "",
               "log of the same robot from before: the model is fitted to it "
               "first, and the diagnosis says what has changed since");
+DEFINE_string(without, "", "effects that are not considered, comma separated");
 
 namespace armcal {
 namespace {
@@ -32,6 +34,17 @@ double TrustInFile() {
   const bool given = !gflags::GetCommandLineFlagInfoOrDie("trust").is_default;
   if (given) return TrustFromFlags().inertia;
   return FLAGS_reference.empty() ? .05 : .5;
+}
+
+std::vector<std::string> LeftOutEffects() {
+  const std::vector<std::string> names = SplitAtCommas(FLAGS_without);
+  for (const std::string& name : names) {
+    if (FindEffect(name) != nullptr) continue;
+    std::string all;
+    for (const Effect& effect : Effects()) all += " " + effect.name;
+    throw UsageError("--without: found '" + name + "', expected some of" + all);
+  }
+  return names;
 }
 
 // The commands of what is held out, for a controller to follow.
@@ -67,10 +80,11 @@ int Finish(const Robot& robot, const GapDiagnosis& diagnosis) {
 
 int RunDiagnose() {
   CheckLogsApart();
+  DiagnosisOptions options;
+  options.without = LeftOutEffects();
   const Robot robot = RobotFromFlags();
   const LogReaderOptions log_options = LogOptionsFromFlags(robot);
   LogSet training(LogsFromFlags(), log_options, CropFromFlags());
-  DiagnosisOptions options;
   ProgressBar bar;
   options.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
@@ -99,14 +113,14 @@ int RunDiagnose() {
 }  // namespace
 
 Command DiagnoseCommand() {
-  return {
-      "diagnose",
-      "where the sim-to-real gap lies, which effect causes it, and how far "
-      "it shrinks once that effect is in the model",
-      {"robot", "log", "validate", "reference", "trust", "bandwidth", "crop",
-       "validate_crop", "out", "base", "tip", "gravity", "torque_kind",
-       "torque_constants", "gear_ratios", "seed", "controller", "forward"},
-      &RunDiagnose};
+  return {"diagnose",
+          "where the sim-to-real gap lies, which effect causes it, and how far "
+          "it shrinks once that effect is in the model",
+          {"robot", "log", "validate", "reference", "trust", "bandwidth",
+           "crop", "validate_crop", "out", "base", "tip", "gravity",
+           "torque_kind", "torque_constants", "gear_ratios", "seed",
+           "controller", "forward", "without"},
+          &RunDiagnose};
 }
 
 }  // namespace armcal

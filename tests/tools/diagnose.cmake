@@ -72,6 +72,12 @@ expect_json(torque_ripple effects 0 effect)
 expect_json(2 effects 0 joint_index)
 expect_json(joint2 effects 0 joint)
 
+run("an effect that is not to be considered" diagnose ${robot}
+    --log=rippled/log.csv --without=torque_ripple,position_friction --out=out)
+expect_json(unknown verdict)
+
+run("an effect of one joint, again" diagnose ${robot}
+    --log=rippled/log.csv --validate=again/log.csv --out=out)
 file(READ ${WORK_DIR}/out/diagnosis.json once)
 run("the same command, the same bytes" diagnose ${robot}
     --log=rippled/log.csv --validate=again/log.csv --out=out)
@@ -99,6 +105,9 @@ expect_refusal(3 "nowhere.csv")
 run("a trust that is none" diagnose ${robot} --log=before/log.csv --trust=-1
     --out=out)
 expect_refusal(2 "--trust")
+run("an effect that is none" diagnose ${robot} --log=before/log.csv
+    --without=sorcery --out=out)
+expect_refusal(2 "--without: found 'sorcery'" "stribeck")
 run("held out from itself" diagnose ${robot} --log=before/log.csv
     --validate=before/log.csv --out=out)
 expect_refusal(2 "--validate names before/log.csv")
