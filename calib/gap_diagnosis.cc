@@ -108,7 +108,9 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
                     split ? LogPart::kHeldOut : LogPart::kAll, !split);
   result_.bandwidth_hz = options_.bandwidth_hz;
   result_.floor = fit_->noise().source;
-  result_.torque = ShrinkFigures(held_out_->AllSquares(), options_.seed);
+  result_.torque =
+      ShrinkFigures(held_out_->AllSquares(),
+                    VarianceDoubt(fit_->noise().source) / 2, options_.seed);
   for (int j = 0; j < robot_.num_joints(); ++j) {
     result_.joints.push_back(JointFigures(j));
   }

@@ -14,21 +14,6 @@ constexpr double kConstant = -1.70, kOdds = .452, kStrength = .228,
                  kChosen = -1.34, kShare = -.318, kEvent = -1.57,
                  kEvents = -.237, kOneJoint = -1.10, kGain = 4.13;
 
-// What a noise's variance may be wrong by: standstill hears less than motion,
-// and what a refit left holds what it lacks.
-double Tolerance(NoiseFloor floor) {
-  switch (floor) {
-    case NoiseFloor::kRepeats:
-    case NoiseFloor::kReference:
-      return .25;
-    case NoiseFloor::kStandstill:
-      return 1;
-    case NoiseFloor::kAssumed:
-      break;
-  }
-  return 2;
-}
-
 GapScreen::Fit EffectsOf(const GapFit& fit) {
   return fit.screen().Solve(
       ColumnsOf(fit.candidates(), fit.selection().chosen));
@@ -39,9 +24,9 @@ GapScreen::Fit EffectsOf(const GapFit& fit) {
 double Excess(const GapFit& fit, int joint, bool with_effects) {
   const Eigen::VectorXd residual = fit.screen().Residual(
       joint, with_effects ? EffectsOf(fit) : GapScreen::Fit());
-  return std::max(0.,
-                  residual.squaredNorm() -
-                      (1 + Tolerance(fit.noise().source)) * residual.size());
+  return std::max(
+      0., residual.squaredNorm() -
+              (1 + VarianceDoubt(fit.noise().source)) * residual.size());
 }
 
 namespace {

@@ -78,7 +78,7 @@ void SetFigures(const Squares& squares, const VectorXd& floor,
   gap->figures = ShrinkFigures(
       {squares[0] * weight.asDiagonal(), squares[1] * weight.asDiagonal(),
        squares[2] * weight.asDiagonal()},
-      seed);
+      0, seed);
   if (gap->figures.joints.size() > 0) {
     gap->figures.joints = gap->floor.asDiagonal() * gap->figures.joints;
   }

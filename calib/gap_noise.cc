@@ -109,6 +109,19 @@ std::vector<VectorXd> Known(const std::vector<VectorXd>& stretches) {
 
 }  // namespace
 
+double VarianceDoubt(NoiseFloor source) {
+  switch (source) {
+    case NoiseFloor::kRepeats:
+    case NoiseFloor::kReference:
+      return .25;
+    case NoiseFloor::kStandstill:
+      return 1;
+    case NoiseFloor::kAssumed:
+      break;
+  }
+  return 2;
+}
+
 const char* NoiseFloorName(NoiseFloor source) {
   switch (source) {
     case NoiseFloor::kRepeats:

@@ -16,6 +16,9 @@ enum class NoiseFloor {
   kAssumed     // what a refit leaves: holds what the model lacks as well
 };
 const char* NoiseFloorName(NoiseFloor source);
+// By what share its variance may be wrong, two standard deviations: standstill
+// hears less than motion, and what a refit left holds what it lacks.
+double VarianceDoubt(NoiseFloor source);
 
 struct GapNoise {
   std::vector<Autoregression> joints;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "calib/block_bootstrap.h"
 
@@ -29,9 +30,9 @@ TimeSeries SumJoints(const MatrixXd& squares) {
   return series;
 }
 
-double Removed(double from, double after) {
-  return from > 1 ? 100 * (from - after) / (from - 1)
-                  : std::numeric_limits<double>::quiet_NaN();
+double Removed(double from, double after, double floor) {
+  return from > floor ? 100 * (from - after) / (from - floor)
+                      : std::numeric_limits<double>::quiet_NaN();
 }
 
 VectorXd RmsOfJoints(const MatrixXd& squares) {
@@ -46,10 +47,12 @@ VectorXd RmsOfJoints(const MatrixXd& squares) {
 
 // The interval of what is removed between two of them.
 void SetInterval(const TimeSeries& from, const TimeSeries& after,
-                 std::uint64_t seed, double* ci95) {
+                 double floor_stddev, std::uint64_t seed, double* ci95) {
   const int size = static_cast<int>(from.sum.size());
   std::vector<double> gain(size);
   for (int k = 0; k < size; ++k) gain[k] = from.sum[k] - after.sum[k];
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> deviation;
   const BootstrapInterval interval =
       BlockBootstrap(size, BootstrapBlock(size, CorrelationTime(gain)), seed,
                      [&](const std::vector<int>& drawn) {
@@ -59,7 +62,8 @@ void SetInterval(const TimeSeries& from, const TimeSeries& after,
                          left += after.sum[k];
                          all += from.count[k];
                        }
-                       return Removed(before / all, left / all);
+                       return Removed(before / all, left / all,
+                                      1 + floor_stddev * deviation(random));
                      });
   ci95[0] = interval.low;
   ci95[1] = interval.high;
@@ -73,7 +77,8 @@ double MeanSquare(const MatrixXd& squares) {
   return count > 0 ? series.sum.sum() / count : 1;
 }
 
-GapFigures ShrinkFigures(const HeldOutSquares& squares, std::uint64_t seed) {
+GapFigures ShrinkFigures(const HeldOutSquares& squares, double floor_stddev,
+                         std::uint64_t seed) {
   GapFigures figures;
   const TimeSeries nominal = SumJoints(squares.nominal);
   const TimeSeries refit = SumJoints(squares.refit);
@@ -83,14 +88,14 @@ GapFigures ShrinkFigures(const HeldOutSquares& squares, std::uint64_t seed) {
   figures.nominal = nominal.sum.sum() / count;
   figures.refit = refit.sum.sum() / count;
   figures.after = after.sum.sum() / count;
-  figures.removed_percent = Removed(figures.refit, figures.after);
+  figures.removed_percent = Removed(figures.refit, figures.after, 1);
   figures.removed_from_nominal_percent =
-      Removed(figures.nominal, figures.after);
+      Removed(figures.nominal, figures.after, 1);
   figures.joints.resize(squares.refit.cols(), 3);
   figures.joints << RmsOfJoints(squares.nominal), RmsOfJoints(squares.refit),
       RmsOfJoints(squares.after);
-  SetInterval(refit, after, seed, figures.ci95);
-  SetInterval(nominal, after, seed, figures.nominal_ci95);
+  SetInterval(refit, after, floor_stddev, seed, figures.ci95);
+  SetInterval(nominal, after, floor_stddev, seed, figures.nominal_ci95);
   return figures;
 }
 

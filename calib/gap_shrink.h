@@ -32,6 +32,8 @@ struct GapFigures {
 // Of all that are no NaN; 1 where there are none.
 double MeanSquare(const Eigen::MatrixXd& squares);
 
-GapFigures ShrinkFigures(const HeldOutSquares& squares, std::uint64_t seed);
+// `floor_stddev`: how well the floor is known, relative; intervals hold it.
+GapFigures ShrinkFigures(const HeldOutSquares& squares, double floor_stddev,
+                         std::uint64_t seed);
 
 }  // namespace armcal

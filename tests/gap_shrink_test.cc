@@ -24,7 +24,7 @@ TEST(GapShrink, FiguresAreThoseCountedByHand) {
   squares.refit << 9, 1, 7, kStill, 9, 1, 7, kStill;
   squares.after.resize(4, 2);
   squares.after << 1, 2, 3, kStill, 1, 2, 3, kStill;
-  const GapFigures figures = ShrinkFigures(squares, 1);
+  const GapFigures figures = ShrinkFigures(squares, 0, 1);
   EXPECT_NEAR(figures.nominal, 72 / 6., 1e-9);
   EXPECT_NEAR(figures.refit, 34 / 6., 1e-9);
   EXPECT_NEAR(figures.after, 2, 1e-9);
@@ -41,6 +41,19 @@ TEST(GapShrink, FiguresAreThoseCountedByHand) {
   EXPECT_NEAR(figures.joints(1, 2), std::sqrt(2), 1e-9);
 }
 
+// All but the floor is exact: 100 (9 - 2) / (9 - floor).
+TEST(GapShrink, AnUncertainFloorIsInTheInterval) {
+  HeldOutSquares squares;
+  squares.nominal = squares.refit = MatrixXd::Constant(400, 1, 9);
+  squares.after = MatrixXd::Constant(400, 1, 2);
+  const GapFigures exact = ShrinkFigures(squares, 0, 1);
+  EXPECT_NEAR(exact.ci95[0], 87.5, 1e-9);
+  EXPECT_NEAR(exact.ci95[1], 87.5, 1e-9);
+  const GapFigures doubted = ShrinkFigures(squares, .2, 1);
+  EXPECT_NEAR(doubted.ci95[0], 700 / 8.4, .4);
+  EXPECT_NEAR(doubted.ci95[1], 700 / 7.6, .4);
+}
+
 TEST(GapShrink, MeanSquareIsOfWhatMoves) {
   MatrixXd squares(2, 2);
   squares << 1, kStill, 2, 6;
@@ -52,7 +65,7 @@ TEST(GapShrink, WhereNothingCanBeRemovedNoShareIs) {
   HeldOutSquares squares;
   squares.nominal = MatrixXd::Constant(50, 1, 3);
   squares.refit = squares.after = MatrixXd::Constant(50, 1, .9);
-  const GapFigures figures = ShrinkFigures(squares, 1);
+  const GapFigures figures = ShrinkFigures(squares, 0, 1);
   EXPECT_TRUE(std::isnan(figures.removed_percent));
   EXPECT_NEAR(figures.removed_from_nominal_percent, 105, 1e-9);
 }
@@ -62,7 +75,7 @@ TEST(GapShrink, AJointThatNeverMovesHasNoFigure) {
   squares.nominal.setConstant(50, 2, 4);
   squares.nominal.col(1).setConstant(kStill);
   squares.refit = squares.after = squares.nominal;
-  const GapFigures figures = ShrinkFigures(squares, 1);
+  const GapFigures figures = ShrinkFigures(squares, 0, 1);
   EXPECT_EQ(figures.joints(0, 0), 2);
   EXPECT_TRUE(std::isnan(figures.joints(1, 0)));
   EXPECT_EQ(figures.nominal, 4);
@@ -74,7 +87,7 @@ TEST(GapShrink, SteadyGapsHaveNoInterval) {
   squares.nominal = MatrixXd::Constant(100, 2, 10);
   squares.refit = MatrixXd::Constant(100, 2, 5);
   squares.after = MatrixXd::Constant(100, 2, 2);
-  const GapFigures figures = ShrinkFigures(squares, 1);
+  const GapFigures figures = ShrinkFigures(squares, 0, 1);
   EXPECT_NEAR(figures.ci95[0], 75, 1e-9);
   EXPECT_NEAR(figures.ci95[1], 75, 1e-9);
   EXPECT_NEAR(figures.nominal_ci95[0], 800 / 9., 1e-9);
@@ -95,7 +108,7 @@ TEST(GapShrink, IntervalsHoldTheTruthAsOftenAsTheySay) {
     squares.nominal *= 10;
     squares.refit *= 5;
     squares.after *= 2;
-    const GapFigures figures = ShrinkFigures(squares, run);
+    const GapFigures figures = ShrinkFigures(squares, 0, run);
     covered += figures.ci95[0] < 75 && 75 < figures.ci95[1];
   }
   // 95 of 100 within three binomial deviations.
