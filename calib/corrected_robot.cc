@@ -35,7 +35,8 @@ void GiveMotors(const MotionScale& scale, CorrectedRobot* corrected) {
 size_t NumSlots(const SimulatedRobot& plant) {
   return plant.joint_laws.size() + plant.transmissions.size() +
          plant.wrenches.size() + plant.actuators.size() + plant.sensors.size() +
-         plant.thermal.size() + (plant.clock ? 1 : 0);
+         plant.thermal.size() + (plant.clock ? 1 : 0) +
+         (plant.torque_delay != 0 ? 1 : 0);
 }
 
 CarriedEffect Carry(const EffectSite& site, const GapCandidate& found,
@@ -61,6 +62,9 @@ CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
     corrected.effects.push_back(
         Carry({&fitted, effect.joint, &scale}, effect, &corrected.plant));
   }
+  // Who replays a log applies all of it.
+  corrected.delay += corrected.plant.torque_delay;
+  corrected.plant.torque_delay = 0;
   for (int j = 0; j < fitted.num_joints(); ++j) {
     std::vector<CoulombPart> coulomb = baseline.CoulombAt(j, x);
     // Effects may have changed the joint's own friction.

@@ -4,6 +4,7 @@
 
 #include "model/actuator_inversion.h"
 #include "model/deflection.h"
+#include "model/delayed_signal.h"
 #include "model/forward_dynamics.h"
 #include "model/inverse_dynamics.h"
 #include "model/joint_warmth.h"
@@ -231,6 +232,9 @@ MatrixXd RecordedTorque::Recorded(const SimulatedRobot& changed,
   }
   if (!changed.sensors.empty()) {
     tau = TorqueReadings(changed.sensors, track, tau);
+  }
+  if (changed.torque_delay != 0) {
+    tau = Delayed(tau, changed.torque_delay / motion_.dt);
   }
   return tau;
 }

@@ -41,6 +41,7 @@ class RecordedTorque {
   //                             then inverse dynamics of the links;
   //   sensors, clock            the motion behind the readings, and the
   //                             recorded torque;
+  //   torque_delay              interpolated between samples
   //   actuators                 inverted from the torque needed, with the help
   //                             of the recorded one (actuator_inversion.h).
   Eigen::MatrixXd Change(const SimulatedRobot& changed);

@@ -120,6 +120,7 @@ struct SimulatedRobot {
   std::vector<WrenchLaw> wrenches;
   std::vector<ActuatorMap> actuators;
   std::vector<SensorMap> sensors;
+  double torque_delay = 0;  // s, the recorded torque is that much older
   // The stamp that the log gives to time t, s. Empty: t itself.
   std::function<double(double)> clock;
   std::vector<JointThermal> thermal;  // per joint; empty: the default

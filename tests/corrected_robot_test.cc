@@ -91,6 +91,23 @@ TEST(CorrectedRobot, RecordsWhatTheRegressionPredicts) {
   }
 }
 
+// Torque that is recorded late is in nobody's plant: who replays a log has it.
+TEST(CorrectedRobot, HoldsADelayOfTheLogOnce) {
+  const CorrectedArm arm;
+  const GapBaseline baseline = arm.Baseline();
+  VectorXd x = VectorXd::Zero(baseline.size());
+  x[x.size() - 1] = 6e-4 / baseline.columns().back().spread;
+  GapCandidate late;
+  late.effect = FindEffect("delay");
+  late.p = VectorXd::Constant(1, -.018);
+  const CorrectedRobot robot =
+      MakeCorrectedRobot(baseline, x, {late}, arm.scale);
+  EXPECT_DOUBLE_EQ(robot.delay, .0186);
+  EXPECT_EQ(robot.plant.torque_delay, 0);
+  ASSERT_EQ(robot.effects.size(), 1u);
+  EXPECT_FALSE(robot.effects[0].in_robot);
+}
+
 // By hand: 12 mrad/s is among the widths, and an effect is on top.
 TEST(CorrectedRobot, IsTheTruthWrittenByHand) {
   const CorrectedArm arm;

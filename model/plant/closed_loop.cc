@@ -128,7 +128,8 @@ class Loop {
         controller_(options.controller, model),
         encoders_(options.sensors, n_),
         recorder_(robot, options, n_),
-        history_(n_, options.sensors.torque_delay / period_) {
+        history_(
+            n_, (options.sensors.torque_delay + robot.torque_delay) / period_) {
     CHECK_EQ(robot.robot.num_joints(), n_ + robot.num_passive);
   }
 
