@@ -15,9 +15,10 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNearRest = 1;        // s, from a contact to a rest
-constexpr double kSamePosture = .02;   // rad or m
-constexpr double kShortestLever = .3;  // of the longest that a joint has
+constexpr double kDeviations = 3;     // of the usual force, at most
+constexpr double kNearRest = 1;       // s, from a contact to a rest
+constexpr double kSamePosture = .02;  // rad or m
+constexpr double kUsualLever = .3;    // of the longest that a joint has
 
 // Thinned samples [begin, end) of a segment.
 struct Span {
@@ -130,20 +131,28 @@ double LargestChiSquare(int degrees) {
   return degrees * std::pow(1 - v + kNormal * std::sqrt(v), 3);
 }
 
-// Where no joint has a lever about the force's line, any force would do: one
-// that would need a shorter lever than usual is improbable.
-std::optional<Contact::Force> ForceBehind(const Robot& robot, const VectorXd& q,
-                                          const Contact& contact) {
+// Levers of the joints about the tool's origin, 3 x n, m.
+MatrixXd Levers(const Robot& robot, const VectorXd& q) {
   const int n = robot.num_joints();
-  if (n <= 3) return {};
   ArmTerms terms;
   RigidArm(robot).Evaluate(q, VectorXd::Zero(n),
                            {{n - 1, robot.X_LT.translation()}}, &terms);
-  const MatrixXd lever = terms.points[0].jacobian.bottomRows<3>();  // 3 x n
+  return terms.points[0].jacobian.bottomRows<3>();
+}
+
+// Where no joint has a lever about the force's line, any force would do: one
+// that would need a shorter lever than usual is improbable.
+double UsualForce(const MatrixXd& lever, const VectorXd& torque) {
+  return torque.cwiseAbs().maxCoeff() /
+         (kUsualLever * std::max(1e-9, lever.colwise().norm().maxCoeff()));
+}
+
+std::optional<Contact::Force> ForceBehind(const MatrixXd& lever,
+                                          const Contact& contact) {
+  const int n = static_cast<int>(lever.cols());
   const VectorXd weight = contact.stddev.cwiseAbs2().cwiseInverse();
-  const double usual = contact.torque.cwiseAbs().maxCoeff() /
-                       (kShortestLever * lever.colwise().norm().maxCoeff());
-  if (!(usual > 0)) return {};
+  const double usual = UsualForce(lever, contact.torque);
+  if (n <= 3 || !(usual > 0)) return {};
   const Matrix3d information = lever * weight.asDiagonal() * lever.transpose() +
                                Matrix3d::Identity() / (usual * usual);
   Contact::Force force;
@@ -174,7 +183,9 @@ Contact Describe(const Robot& robot, const GapRows& rows,
     contact.stddev[j] =
         std::sqrt(std::pow(rows.noise(j).stddev(), 2) + room * room / 3);
   }
-  contact.force = ForceBehind(robot, arm.q().row(peak), contact);
+  const MatrixXd lever = Levers(robot, arm.q().row(peak));
+  contact.force = ForceBehind(lever, contact);
+  contact.largest_force = kDeviations * UsualForce(lever, contact.torque);
   return contact;
 }
 

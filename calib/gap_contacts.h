@@ -26,6 +26,8 @@ struct Contact {
     Eigen::Matrix3d covariance;  // N^2
   };
   std::optional<Force> force;
+  // A larger force at the tool would need levers shorter than is probable, N.
+  double largest_force = 0;
 };
 
 // At most this share of logs without a contact has one found beyond friction.

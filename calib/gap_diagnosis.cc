@@ -212,8 +212,13 @@ FoundEffect Diagnoser::Contacts() const {
       events.begin(), events.end(),
       [](const GapEvent& a, const GapEvent& b) { return a.drop < b.drop; });
   FoundEffect found;
-  found.effect = FindEffect("external_contact");
-  found.estimates = ContactEstimates(robot_, strongest.contact, &found.stddev);
+  if (strongest.fitted) {
+    found = Describe(strongest.fitted->effect, strongest.fitted->covariance);
+  } else {
+    found.effect = FindEffect("external_contact");
+    found.estimates =
+        ContactEstimates(robot_, strongest.contact, &found.stddev);
+  }
   found.score = strongest.score;
   found.evidence = EvidenceForEvents(*fit_, result_.torque);
   found.probability = ProbabilityOf(found.evidence);

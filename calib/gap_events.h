@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "calib/gap_candidates.h"
 #include "calib/gap_contacts.h"
 #include "calib/gap_screen.h"
@@ -10,7 +12,14 @@ namespace armcal {
 // Something that happened once.
 struct GapEvent {
   Contact contact;
-  // Not one that only a fit of a force's course to moving joints tells.
+  // A force and its course, fitted to joints that move: the effect's parameters
+  // and their covariance. None of what was found beyond friction, nor where
+  // joints have no lever to tell the force by.
+  struct Fitted {
+    GapCandidate effect;
+    Eigen::MatrixXd covariance;
+  };
+  std::optional<Fitted> fitted;
   bool beyond_friction = false;
   double drop = 0;  // of chi^2
   double score = 0;

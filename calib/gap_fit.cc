@@ -102,8 +102,12 @@ bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
       continue;
     }
     const ContactStrength strength = StrengthOf(rows, excess, contact);
-    events_.push_back({contact, true, strength.all, strength.all,
-                       strength.one_joint / strength.all});
+    GapEvent event;
+    event.contact = contact;
+    event.beyond_friction = true;
+    event.drop = event.score = strength.all;
+    event.one_joint = strength.one_joint / strength.all;
+    events_.push_back(event);
     data_->Mask(contact.log, contact.window);
     any = true;
   }
@@ -147,6 +151,11 @@ void GapFit::TakeOutEvent(size_t k) {
       DescribeContact(baseline_.robot(), data_->rows(), ExcessBeside({}),
                       fitted.log, WindowOf(fitted));
   event.contact.window = WindowOf(fitted);
+  if (fitted.p.head<3>().norm() < event.contact.largest_force) {
+    event.fitted = {fitted, refined.covariance};
+    event.contact.force = {fitted.p.head<3>(),
+                           refined.covariance.topLeftCorner<3, 3>()};
+  }
   event.drop = selection_.drops[k];
   event.score = selection_.scores[k];
   event.one_joint = OneJointShare(*screen_, data_->rows(), event);
