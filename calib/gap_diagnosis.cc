@@ -51,12 +51,13 @@ class Diagnoser {
   GapDiagnosis Run(LogSet* training, LogSet* validation, LogSet* reference);
 
  private:
-  std::vector<GapSegment> Read(LogSet* logs, LogPart part) const {
+  std::vector<GapSegment> Read(LogSet* logs, LogPart part,
+                               bool must_move = true) const {
     if (logs == nullptr) return {};
     const double hz = options_.bandwidth_hz;
     std::vector<GapSegment> segments =
         ReadSegments(hz, options_.progress, logs);
-    CheckMotion(segments, hz, part, *logs);
+    if (must_move) CheckMotion(segments, hz, part, *logs);
     return segments;
   }
   FoundEffect Describe(const GapCandidate& effect,
@@ -86,8 +87,10 @@ class Diagnoser {
 GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
                             LogSet* reference) {
   const bool split = validation == nullptr;
+  // What touches an arm that rests, a reference tells.
   const std::vector<GapSegment> segments =
-      Read(training, split ? LogPart::kHeldOut : LogPart::kAll);
+      Read(training, split ? LogPart::kHeldOut : LogPart::kAll,
+           reference == nullptr);
   const std::vector<GapSegment> before = Read(reference, LogPart::kAll);
   const LackedFamilies lacked =
       FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
@@ -208,20 +211,29 @@ FoundEffect Diagnoser::Found(size_t k) const {
 // estimates.
 FoundEffect Diagnoser::Contacts() const {
   const std::vector<GapEvent>& events = fit_->events();
-  const auto strongest = std::max_element(
+  const GapEvent& strongest = *std::max_element(
       events.begin(), events.end(),
       [](const GapEvent& a, const GapEvent& b) { return a.drop < b.drop; });
-  FoundEffect found = Describe(strongest->effect, strongest->covariance);
-  found.score = strongest->score;
-  for (const GapEvent& event : events) {
-    found.drop += event.drop;
-    found.windows.push_back(event.window);
+  FoundEffect found;
+  if (strongest.fitted) {
+    found = Describe(strongest.fitted->effect, strongest.fitted->covariance);
+  } else {
+    found.effect = FindEffect("external_contact");
+    found.estimates =
+        ContactEstimates(robot_, strongest.contact, &found.stddev);
   }
-  std::sort(
-      found.windows.begin(), found.windows.end(),
-      [](const TimeRange& a, const TimeRange& b) { return a.begin < b.begin; });
+  found.score = strongest.score;
   found.evidence = EvidenceForEvents(*fit_, result_.torque);
   found.probability = ProbabilityOf(found.evidence);
+  for (const GapEvent& event : events) {
+    found.drop += event.drop;
+    found.contacts.push_back(event.contact);
+    if (event.beyond_friction) found.probability = 1 - kFalseContacts;
+  }
+  std::sort(found.contacts.begin(), found.contacts.end(),
+            [](const Contact& a, const Contact& b) {
+              return a.window.begin < b.window.begin;
+            });
   return found;
 }
 

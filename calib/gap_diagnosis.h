@@ -64,8 +64,8 @@ struct FoundEffect {
   // Of the held-out gap, by this one beside the others.
   double removed_percent = 0;
   double ci95[2] = {0, 0};
-  std::string separate_by;         // the experiment that would tell them apart
-  std::vector<TimeRange> windows;  // s, of what comes and goes
+  std::string separate_by;        // the experiment that would tell them apart
+  std::vector<Contact> contacts;  // of external_contact, in time's order
 };
 
 // What is left beside the effects that were found.

@@ -12,13 +12,10 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Search = EffectParameter::Search;
 
 constexpr int kMostEvents = 12;
 constexpr std::uint64_t kSeed = 1;  // of what chance would give
 constexpr double kRounding = 1e-9;
-// Of an event's width, how far to both sides it is taken out.
-constexpr double kEventReach = 2.5;
 
 VectorXd RefitBaseline(const GapData& data) {
   GapScreen screen(data.WhitenedColumns(), data.WhitenedResidual());
@@ -36,17 +33,6 @@ void AddReference(const GapData& before, GapScreen* screen) {
     Aty += A[j].transpose() * y[j];
   }
   screen->AddInformation(AtA, Aty);
-}
-
-// Where in time an event is.
-TimeRange WindowOf(const GapCandidate& event) {
-  double time = 0, width = 0;
-  for (size_t k = 0; k < event.effect->parameters.size(); ++k) {
-    const Search search = event.effect->parameters[k].search;
-    if (search == Search::kTime) time = event.p[k];
-    if (search == Search::kDuration) width = event.p[k];
-  }
-  return {time - kEventReach * width, time + kEventReach * width};
 }
 
 }  // namespace
@@ -75,13 +61,67 @@ void GapFit::EstimateNoise() {
   data_->SetNoise(noise_.joints);
 }
 
-void GapFit::MakeScreen() {
+void GapFit::Refit() {
   data_->SetNoise(noise_.joints);
   screen_.emplace(data_->WhitenedColumns(), data_->WhitenedResidual());
   if (reference_) AddReference(*reference_, &*screen_);
   screen_->Factor();
   refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
+}
+
+// What the baseline and effects leave of the torque beyond friction.
+FrictionExcess GapFit::ExcessBeside(
+    const std::vector<GapCandidate>& effects) const {
+  const JointRows torque =
+      EffectTorque(baseline_, scale_, effects, false, data_.get());
+  const VectorXd x = screen_->BaselineBeside(WhitenEach(data_->rows(), torque));
+  MatrixXd residual = data_->ResidualWith(x);
+  for (int j = 0; j < residual.cols(); ++j) {
+    if (torque[j].size() > 0) residual.col(j) -= torque[j];
+  }
+  return ExcessOverFriction(baseline_, x, data_->rows(), residual);
+}
+
+// Only a reference tells what friction does when nothing touches the arm:
+// contacts stand out from all that it shows. Whether there were any.
+bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
+                             ContactSearch search) {
+  constexpr int kSearches = 2;
+  if (!reference_) return false;
+  const GapRows &rows = data_->rows(), &before = reference_->rows();
+  const FrictionExcess excess = ExcessBeside(effects);
+  const FrictionExcess usual = ExcessOverFriction(
+      baseline_, refit_, before, reference_->ResidualWith(refit_));
+  const double threshold = PredictedMaximum(
+      BlockMaxima(before, usual.Largest()),
+      static_cast<double>(BlockMaxima(rows, excess.Largest()).size()),
+      kFalseContacts / kSearches);
+  bool any = false;
+  for (const Contact& contact :
+       FindContacts(baseline_.robot(), rows, excess, threshold, search)) {
+    if (std::any_of(events_.begin(), events_.end(), [&](const GapEvent& event) {
+          return event.contact.log == contact.log &&
+                 event.contact.window.Contains(contact.time);
+        })) {
+      continue;
+    }
+    const ContactStrength strength = StrengthOf(rows, excess, contact);
+    GapEvent event;
+    event.contact = contact;
+    event.beyond_friction = true;
+    event.drop = event.score = strength.all;
+    event.one_joint = strength.one_joint / strength.all;
+    events_.push_back(event);
+    data_->Mask(contact.log, contact.window);
+    any = true;
+  }
+  return any;
+}
+
+void GapFit::MakeScreen() {
+  Refit();
   if (candidates_.empty()) {
+    while (TakeOutContacts({}, ContactSearch::kAtRest)) Refit();
     candidates_ = ListCandidates(baseline_, data_->rows(), scale_,
                                  data_->ResidualWith(refit_), options_.without);
     EvaluateCandidates(baseline_, data_->rows(), scale_,
@@ -130,40 +170,23 @@ void GapFit::TakeOutEvent(size_t k) {
   const RefinedEffects refined =
       RefineEffects(*screen_, baseline_, scale_, {Chosen(selection_.chosen)[k]},
                     -1, data_.get());
-  event.effect = refined.effects[0];
-  event.covariance = refined.covariance;
+  const GapCandidate& fitted = refined.effects[0];
+  event.contact =
+      DescribeContact(baseline_.robot(), data_->rows(), ExcessBeside({}),
+                      fitted.log, WindowOf(fitted));
+  event.contact.window = WindowOf(fitted);
+  if (fitted.p.head<3>().norm() < event.contact.largest_force) {
+    event.fitted = {fitted, refined.covariance};
+    event.contact.force = {fitted.p.head<3>(),
+                           refined.covariance.topLeftCorner<3, 3>()};
+  }
   event.drop = selection_.drops[k];
   event.score = selection_.scores[k];
-  event.window = WindowOf(event.effect);
-  event.one_joint = OneJointShare(event);
-  data_->Mask(event.effect.log, event.window);
+  event.one_joint = OneJointShare(*screen_, data_->rows(), event);
+  data_->Mask(event.contact.log, event.contact.window);
   events_.push_back(event);
   // What else stands out is looked for in what is left.
   candidates_.clear();
-}
-
-double GapFit::OneJointShare(const GapEvent& event) const {
-  const double centre = (event.window.begin + event.window.end) / 2;
-  const double width =
-      (event.window.end - event.window.begin) / (2 * kEventReach);
-  const GapRows& rows = data_->rows();
-  VectorXd course = VectorXd::Zero(rows.num_thin());
-  for (size_t i = 0; i < rows.segments().size(); ++i) {
-    const int s = static_cast<int>(i);
-    if (rows.segments()[i].log != event.effect.log) continue;
-    for (int k = rows.thin_begin(s); k < rows.thin_begin(s + 1); ++k) {
-      course[k] =
-          std::exp(-std::pow((rows.thin_time(s, k) - centre) / width, 2));
-    }
-  }
-  double most = 0;
-  for (int j = 0; j < rows.num_joints(); ++j) {
-    JointRows column(rows.num_joints());
-    column[j] = rows.Whiten(j, course);
-    if (column[j].norm() < 1e-9) continue;
-    most = std::max(most, screen_->DropOf({column}));
-  }
-  return most / std::max(1., event.drop);
 }
 
 void GapFit::Choose() {
@@ -173,11 +196,15 @@ void GapFit::Choose() {
     const auto event =
         std::find_if(selection_.chosen.begin(), selection_.chosen.end(),
                      [&](int c) { return candidates_[c].log >= 0; });
-    if (event == selection_.chosen.end() ||
-        static_cast<int>(events_.size()) == kMostEvents) {
+    if (event != selection_.chosen.end() &&
+        static_cast<int>(events_.size()) < kMostEvents) {
+      TakeOutEvent(event - selection_.chosen.begin());
+    } else if (TakeOutContacts(Chosen(selection_.chosen),
+                               ContactSearch::kAnywhere)) {
+      candidates_.clear();
+    } else {
       break;
     }
-    TakeOutEvent(event - selection_.chosen.begin());
   }
   DropChance();
   rivals_.assign(selection_.chosen.size(), {});

@@ -9,24 +9,13 @@
 #include "calib/gap_baseline.h"
 #include "calib/gap_candidates.h"
 #include "calib/gap_data.h"
+#include "calib/gap_events.h"
 #include "calib/gap_noise.h"
 #include "calib/gap_refinement.h"
 #include "calib/gap_screen.h"
 #include "calib/gap_selection.h"
 
 namespace armcal {
-
-// Something that happened once: a contact, with its parameters as fitted.
-struct GapEvent {
-  GapCandidate effect;
-  Eigen::MatrixXd covariance;
-  TimeRange window;
-  double drop = 0;  // of chi^2
-  double score = 0;
-  // The drop that a torque of the same course on one joint alone would bring,
-  // over `drop`: a touch is felt by several joints.
-  double one_joint = 0;
-};
 
 // The score of an effect whose shape is fitted, not one of a grid.
 struct RefinedScore {
@@ -86,8 +75,11 @@ class GapFit {
   void EstimateNoise();
   void MakeScreen();
   bool AddLargerOnes();
+  void Refit();
+  bool TakeOutContacts(const std::vector<GapCandidate>& effects,
+                       ContactSearch search);
   void TakeOutEvent(size_t k);
-  double OneJointShare(const GapEvent& event) const;
+  FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
   std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
   void CompareRivals(size_t k);
   double Margin(size_t k) const;

@@ -22,7 +22,7 @@ HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> segments,
     MaskEvents();
   } else {
     for (const GapEvent& event : fit.events()) {
-      data_->Mask(event.effect.log, event.window);
+      data_->Mask(event.contact.log, event.contact.window);
     }
   }
   data_->SetNoise(fit.noise().joints);

@@ -35,6 +35,25 @@ json EvidenceJson(const EffectEvidence& evidence) {
           {"gain", JsonNumber(evidence.gain)}};
 }
 
+json NumbersJson(const Eigen::VectorXd& values) {
+  json list = json::array();
+  for (const double value : values) list.push_back(JsonNumber(value));
+  return list;
+}
+
+json ContactJson(const Contact& contact, const GapDiagnosis& diagnosis) {
+  json force;
+  if (contact.force) force = NumbersJson(contact.force->value);
+  return {{"begin", contact.window.begin},
+          {"end", contact.window.end},
+          {"time", contact.time},
+          {"joint", diagnosis.joints[contact.joint].name},
+          {"joint_index", contact.joint + 1},
+          {"torque", NumbersJson(contact.torque)},
+          {"torque_stddev", NumbersJson(contact.stddev)},
+          {"force", force}};
+}
+
 json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   json estimates = json::array();
   for (size_t k = 0; k < found.estimates.size(); ++k) {
@@ -43,22 +62,26 @@ json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
                          {"value", JsonNumber(found.estimates[k].value)},
                          {"stddev", JsonNumber(found.stddev[k])}});
   }
-  json windows = json::array();
-  for (const TimeRange& window : found.windows) {
-    windows.push_back({window.begin, window.end});
+  json windows = json::array(), contacts = json::array();
+  for (const Contact& contact : found.contacts) {
+    windows.push_back({contact.window.begin, contact.window.end});
+    contacts.push_back(ContactJson(contact, diagnosis));
   }
-  return {{"effect", found.effect->name},
-          {"joint", found.joint < 0 ? "" : diagnosis.joints[found.joint].name},
-          {"joint_index", found.joint + 1},
-          {"probability", JsonNumber(found.probability)},
-          {"score", JsonNumber(found.score)},
-          {"evidence", EvidenceJson(found.evidence)},
-          {"estimates", estimates},
-          {"equivalent", PlacesJson(found.equivalent)},
-          {"separate_by", found.separate_by},
-          {"removed_percent", JsonNumber(found.removed_percent)},
-          {"ci95", {JsonNumber(found.ci95[0]), JsonNumber(found.ci95[1])}},
-          {"time_windows", windows}};
+  json effect = {
+      {"effect", found.effect->name},
+      {"joint", found.joint < 0 ? "" : diagnosis.joints[found.joint].name},
+      {"joint_index", found.joint + 1},
+      {"probability", JsonNumber(found.probability)},
+      {"score", JsonNumber(found.score)},
+      {"evidence", EvidenceJson(found.evidence)},
+      {"estimates", estimates},
+      {"equivalent", PlacesJson(found.equivalent)},
+      {"separate_by", found.separate_by},
+      {"removed_percent", JsonNumber(found.removed_percent)},
+      {"ci95", {JsonNumber(found.ci95[0]), JsonNumber(found.ci95[1])}},
+      {"time_windows", windows}};
+  if (!contacts.empty()) effect["contacts"] = contacts;
+  return effect;
 }
 
 json LadderJson(const LackedFamilies& ladder) {

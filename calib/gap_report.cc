@@ -40,6 +40,14 @@ std::string EffectLines(const FoundEffect& found,
   std::string text = Format("  %3.0f %%  ", 100 * found.probability) +
                      Named(*found.effect, found.joint, diagnosis) + ": " +
                      Estimates(found) + "\n";
+  for (const Contact& contact : found.contacts) {
+    const JointGap& joint = diagnosis.joints[contact.joint];
+    text +=
+        Format("         %.1f to %.1f s: %.3g +- %.1g ", contact.window.begin,
+               contact.window.end, contact.torque[contact.joint],
+               contact.stddev[contact.joint]) +
+        joint.unit + " on " + joint.name + "\n";
+  }
   constexpr double kWorthSaying = .02;
   for (const PlacedEffect& other : found.equivalent) {
     if (other.probability < kWorthSaying) continue;
@@ -121,13 +129,35 @@ std::string Simulated(const ForwardGap& forward) {
       gap.nominal, gap.refit, gap.after);
 }
 
+// What happened, and what the model lacks.
+std::string Findings(const GapDiagnosis& diagnosis) {
+  std::string touched;
+  std::vector<std::string> names;
+  for (const FoundEffect& found : diagnosis.effects) {
+    const size_t times = found.contacts.size();
+    if (times > 0) {
+      touched = "Something touched the arm " +
+                (times == 1 ? "once" : std::to_string(times) + " times");
+    } else {
+      names.push_back(Named(*found.effect, found.joint, diagnosis));
+    }
+  }
+  if (names.empty()) return touched;
+  std::string text = (touched.empty() ? "The" : touched + "; the") +
+                     std::string(" model lacks ") + names[0];
+  for (size_t k = 1; k < names.size(); ++k) {
+    text += (k + 1 < names.size() ? ", " : " and ") + names[k];
+  }
+  if (!std::isfinite(diagnosis.torque.removed_percent)) return text;
+  return text + Format(
+                    ", which removes %.0f %% of the gap that refitting "
+                    "leaves on data not used for choosing",
+                    diagnosis.torque.removed_percent);
+}
+
 }  // namespace
 
 std::string BriefReport(const GapDiagnosis& diagnosis) {
-  const std::string first = diagnosis.effects.empty()
-                                ? ""
-                                : Named(*diagnosis.effects[0].effect,
-                                        diagnosis.effects[0].joint, diagnosis);
   switch (diagnosis.verdict) {
     case GapVerdict::kNoiseFloor:
       return "The model agrees with the log to within the noise.";
@@ -135,23 +165,9 @@ std::string BriefReport(const GapDiagnosis& diagnosis) {
       return "Nothing is missing in the model but better values: refitting "
              "its parameters brings it down to the noise.";
     case GapVerdict::kExplained:
-    case GapVerdict::kPartlyExplained: {
-      std::string text = "The model lacks " + first;
-      for (size_t k = 1; k < diagnosis.effects.size(); ++k) {
-        text += (k + 1 < diagnosis.effects.size() ? ", " : " and ") +
-                Named(*diagnosis.effects[k].effect, diagnosis.effects[k].joint,
-                      diagnosis);
-      }
-      if (std::isfinite(diagnosis.torque.removed_percent)) {
-        text += Format(
-            ", which removes %.0f %% of the gap that refitting leaves on data "
-            "not used for choosing",
-            diagnosis.torque.removed_percent);
-      }
-      return text + (diagnosis.verdict == GapVerdict::kExplained
-                         ? "."
-                         : "; something else is left.");
-    }
+      return Findings(diagnosis) + ".";
+    case GapVerdict::kPartlyExplained:
+      return Findings(diagnosis) + "; something else is left.";
     case GapVerdict::kUnknown:
       return "Something real is missing that no known effect explains" +
              (diagnosis.unexplained.joint.empty()

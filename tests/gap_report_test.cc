@@ -39,7 +39,6 @@ GapDiagnosis Diagnosis() {
   FoundEffect& first = diagnosis.effects[0];
   first.equivalent = {{FindEffect("presliding"), 1, .08, 10}};
   first.separate_by = "constant velocities";
-  first.windows = {{1, 2.5}};
   diagnosis.candidates = {{first.effect, 1, .9, 30}};
   diagnosis.moved = {{"forearm.mass", "kg", 2, 2.5, .1, 3}};
   diagnosis.untestable = {{"backlash", "elbow", "the load never reverses"}};
@@ -61,6 +60,36 @@ TEST(BriefReport, NamesWhatIsMissingAndHowMuchItMatters) {
   EXPECT_EQ(BriefReport(diagnosis),
             "The model lacks stribeck on elbow, payload and torque ripple on "
             "shoulder; something else is left.");
+}
+
+FoundEffect Touched() {
+  FoundEffect found = Found("external_contact", -1);
+  Contact contact;
+  contact.window = {1, 2.5};
+  contact.time = 1.5;
+  contact.joint = 1;
+  contact.torque = Eigen::Vector2d(3, -40);
+  contact.stddev = Eigen::Vector2d(.5, 2);
+  found.contacts = {contact, contact};
+  return found;
+}
+
+TEST(Reports, ListContacts) {
+  GapDiagnosis diagnosis = Diagnosis();
+  diagnosis.effects.resize(1);
+  diagnosis.effects.push_back(Touched());
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr("Something touched the arm 2 times; the model lacks "
+                        "stribeck on elbow, which removes 93 %"));
+  EXPECT_THAT(FullReport(diagnosis),
+              HasSubstr("         1.0 to 2.5 s: -40 +- 2 N m on elbow\n"));
+  diagnosis.effects = {Touched()};
+  EXPECT_EQ(BriefReport(diagnosis), "Something touched the arm 2 times.");
+  const json effect = ToJson(diagnosis)["effects"][0];
+  EXPECT_EQ(effect["time_windows"][1][1], 2.5);
+  EXPECT_EQ(effect["contacts"][1]["torque"][1], -40);
+  EXPECT_EQ(effect["contacts"][1]["joint"], "elbow");
+  EXPECT_TRUE(effect["contacts"][1]["force"].is_null());
 }
 
 TEST(BriefReport, SaysWhatItCannotName) {
@@ -162,7 +191,6 @@ TEST(DiagnosisJson, HasTheValues) {
   EXPECT_EQ(all["effects"][0]["joint_index"], 2);
   EXPECT_EQ(all["effects"][1]["joint"], "");
   EXPECT_EQ(all["effects"][1]["joint_index"], 0);
-  EXPECT_EQ(all["effects"][0]["time_windows"][0][1], 2.5);
   EXPECT_EQ(all["effects"][0]["estimates"][0]["stddev"], .04);
   EXPECT_EQ(all["absorbed"][0]["value"], 2.5);
   EXPECT_EQ(all["where"]["joints"][1]["name"], "elbow");

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "calib/gap_candidates.h"
+#include "calib/gap_contacts.h"
+#include "calib/gap_screen.h"
+#include "model/time_base.h"
+
+namespace armcal {
+
+// Something that happened once.
+struct GapEvent {
+  Contact contact;
+  // A force and its course, fitted to joints that move: the effect's parameters
+  // and their covariance. None of what was found beyond friction, nor where
+  // joints have no lever to tell the force by.
+  struct Fitted {
+    GapCandidate effect;
+    Eigen::MatrixXd covariance;
+  };
+  std::optional<Fitted> fitted;
+  bool beyond_friction = false;
+  double drop = 0;  // of chi^2
+  double score = 0;
+  // The drop that a torque of the same course on one joint alone would bring,
+  // over `drop`: a touch is felt by several joints.
+  double one_joint = 0;
+};
+
+// Where in time a candidate with a time and a duration is.
+TimeRange WindowOf(const GapCandidate& candidate);
+
+// GapEvent::one_joint of an event whose window and drop are known.
+double OneJointShare(const GapScreen& screen, const GapRows& rows,
+                     const GapEvent& event);
+
+}  // namespace armcal
