@@ -22,13 +22,14 @@ GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
     residual_.middleRows(rows_->thin_begin(part), thin.rows()) = thin;
   }
   columns_ = baseline.ThinColumns(*rows_, torques_);
-  doubt_ = MatrixXd::Zero(residual_.rows(), residual_.cols());
+  usual_doubt_ = MatrixXd::Zero(residual_.rows(), residual_.cols());
   for (int c = 0; c < baseline.size(); ++c) {
     const BaselineColumn& column = baseline.columns()[c];
     if (!column.IsZeroVelocityDoubt()) continue;
-    auto doubt = doubt_.col(column.joint);
+    auto doubt = usual_doubt_.col(column.joint);
     doubt = doubt.cwiseMax(kDoubt * columns_[column.joint].col(c).cwiseAbs());
   }
+  Unmask();
 }
 
 std::vector<MatrixXd> GapData::FineResidual() const {
@@ -61,6 +62,8 @@ void GapData::Mask(int log, const TimeRange& window) {
     }
   }
 }
+
+void GapData::Unmask() { doubt_ = usual_doubt_; }
 
 std::vector<MatrixXd> GapData::WhitenedColumns() const {
   std::vector<MatrixXd> white;

@@ -38,6 +38,8 @@ class GapData {
   void SetNoise(std::vector<Autoregression> noise);
   // From now on nothing is believed of a log in this time, s.
   void Mask(int log, const TimeRange& window);
+  // All is believed again.
+  void Unmask();
   // Whitened, per joint.
   std::vector<Eigen::MatrixXd> WhitenedColumns() const;
   std::vector<Eigen::VectorXd> WhitenedResidual() const;
@@ -48,7 +50,7 @@ class GapData {
   std::vector<RecordedTorque> torques_;
   Eigen::MatrixXd residual_;
   std::vector<Eigen::MatrixXd> columns_;
-  Eigen::MatrixXd doubt_;
+  Eigen::MatrixXd usual_doubt_, doubt_;
 };
 
 // rms of the recorded torque, n entries.

@@ -24,6 +24,19 @@ TimeRange WindowOf(const GapCandidate& candidate) {
   return {time - kEventReach * width, time + kEventReach * width};
 }
 
+int RowsOf(const GapRows& rows, const GapEvent& event) {
+  int count = 0;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    int s = 0;
+    for (const int k : rows.SampleOfRow(j)) {
+      while (k >= rows.thin_begin(s + 1)) ++s;
+      count += rows.segments()[s].log == event.contact.log &&
+               event.contact.window.Contains(rows.thin_time(s, k));
+    }
+  }
+  return count;
+}
+
 double OneJointShare(const GapScreen& screen, const GapRows& rows,
                      const GapEvent& event) {
   const TimeRange& window = event.contact.window;

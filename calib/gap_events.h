@@ -31,6 +31,9 @@ struct GapEvent {
 // Where in time a candidate with a time and a duration is.
 TimeRange WindowOf(const GapCandidate& candidate);
 
+// Rows that are not believed once the event is taken out.
+int RowsOf(const GapRows& rows, const GapEvent& event);
+
 // GapEvent::one_joint of an event whose window and drop are known.
 double OneJointShare(const GapScreen& screen, const GapRows& rows,
                      const GapEvent& event);

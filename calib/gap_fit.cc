@@ -6,6 +6,7 @@
 
 #include "calib/gap_inflation.h"
 #include "calib/gap_null.h"
+#include "model/effects/effects.h"
 
 namespace armcal {
 namespace {
@@ -87,7 +88,7 @@ FrictionExcess GapFit::ExcessBeside(
 bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
                              ContactSearch search) {
   constexpr int kSearches = 2;
-  if (!reference_) return false;
+  if (!reference_ || IsLeftOut(*FindEffect("external_contact"))) return false;
   const GapRows &rows = data_->rows(), &before = reference_->rows();
   const FrictionExcess excess = ExcessBeside(effects);
   const FrictionExcess usual = ExcessOverFriction(
@@ -189,7 +190,42 @@ void GapFit::TakeOutEvent(size_t k) {
   candidates_.clear();
 }
 
-void GapFit::Choose() {
+// chi^2 that a selection and the events so far leave, and what they cost:
+// what is not believed any more is as if each row had been fitted.
+double GapFit::Cost(const Selection& selection) const {
+  constexpr int kParametersOfAnEvent = 5;  // force, time and duration
+  double cost = screen_->ResidualBeside(JointRows(data_->rows().num_joints()))
+                    .squaredNorm() -
+                screen_->Solve(ColumnsOf(candidates_, selection.chosen)).drop;
+  for (const int c : selection.chosen) cost += Price(*screen_, candidates_[c]);
+  for (const GapEvent& event : events_) {
+    cost += RowsOf(data_->rows(), event) +
+            kParametersOfAnEvent * std::log(data_->rows().num_rows());
+  }
+  return cost;
+}
+
+// Selects again as if nothing had happened while the arm moved.
+void GapFit::ForgetTouches() {
+  events_.erase(std::remove_if(events_.begin(), events_.end(),
+                               [](const GapEvent& event) {
+                                 return !event.beyond_friction;
+                               }),
+                events_.end());
+  data_->Unmask();
+  for (const GapEvent& event : events_) {
+    data_->Mask(event.contact.log, event.contact.window);
+  }
+  options_.selection.events = false;
+  candidates_.clear();
+  MakeScreen();
+  selection_ = SelectEffects(*screen_, candidates_, options_.selection);
+}
+
+// Effects, and events one by one: what lasts may look like a series of
+// touches, and has to explain more than they do.
+void GapFit::SelectWithEvents() {
+  double lasting = std::numeric_limits<double>::infinity();
   while (true) {
     MakeScreen();
     selection_ = SelectEffects(*screen_, candidates_, options_.selection);
@@ -198,6 +234,11 @@ void GapFit::Choose() {
                      [&](int c) { return candidates_[c].log >= 0; });
     if (event != selection_.chosen.end() &&
         static_cast<int>(events_.size()) < kMostEvents) {
+      if (std::isinf(lasting)) {
+        SelectionOptions options = options_.selection;
+        options.events = false;
+        lasting = Cost(SelectEffects(*screen_, candidates_, options));
+      }
       TakeOutEvent(event - selection_.chosen.begin());
     } else if (TakeOutContacts(Chosen(selection_.chosen),
                                ContactSearch::kAnywhere)) {
@@ -206,6 +247,11 @@ void GapFit::Choose() {
       break;
     }
   }
+  if (lasting < Cost(selection_)) ForgetTouches();
+}
+
+void GapFit::Choose() {
+  SelectWithEvents();
   DropChance();
   rivals_.assign(selection_.chosen.size(), {});
   for (size_t k = 0; k < selection_.chosen.size(); ++k) CompareRivals(k);

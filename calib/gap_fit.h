@@ -79,6 +79,9 @@ class GapFit {
   bool TakeOutContacts(const std::vector<GapCandidate>& effects,
                        ContactSearch search);
   void TakeOutEvent(size_t k);
+  double Cost(const Selection& selection) const;
+  void ForgetTouches();
+  void SelectWithEvents();
   FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
   std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
   void CompareRivals(size_t k);

@@ -248,10 +248,11 @@ VectorXd ScoresBeside(const GapScreen& screen,
     const bool taken = std::any_of(
         others.begin(), others.end(),
         [&](int other) { return SamePlace(candidates[other], candidates[i]); });
-    scores[i] =
-        taken ? kNever
-              : Drop(screen, conditioned, candidates[i]) / options.inflation -
-                    Price(screen, candidates[i]);
+    const bool possible = options.events || candidates[i].log < 0;
+    scores[i] = taken || !possible ? kNever
+                                   : Drop(screen, conditioned, candidates[i]) /
+                                             options.inflation -
+                                         Price(screen, candidates[i]);
   }
   return scores;
 }

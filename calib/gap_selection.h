@@ -18,6 +18,7 @@ struct SelectionOptions {
   double same_joint_share = 0.03;
   double other_joint_share = 0.004;
   double inflation = 1;  // of noise variance: drops are divided by it
+  bool events = true;    // whether something may have happened once
 };
 
 // A set of candidates (indices) that together explain the residual.
