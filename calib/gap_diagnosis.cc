@@ -140,6 +140,10 @@ JointGap Diagnoser::JointFigures(int j) const {
   }
   gap.organised = OrganisedBy(CourseOf(j));
   gap.unexplained = Excess(*fit_, j, true);
+  // Without any order, it may be noise that is louder here than where it was
+  // told: up to twice.
+  const double rows = fit_->rows().num_rows(j);
+  if (gap.organised.by.empty() && gap.unexplained < rows) gap.unexplained = 0;
   return gap;
 }
 
@@ -247,6 +251,7 @@ void Diagnoser::ListFamilies() {
     found.score = found.drop = family.drop;
     for (int j = 0; j < robot_.num_joints(); ++j) {
       const Joint& joint = robot_.links[j].joint;
+      if (family.value[j] == 0) continue;
       found.estimates.push_back({joint.name + "." + JointTermName(family.term),
                                  JointTermUnit(family.term, joint.type),
                                  family.value[j]});

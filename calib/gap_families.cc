@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "calib/gap_candidates.h"
 #include "calib/gap_data.h"
@@ -80,38 +81,21 @@ class FamilyFit {
       }
     }
     Weigh();
+    DropNegative();
   }
 
   LackedFamilies Result() const {
     LackedFamilies result;
     result.robot = robot_;
     result.without = Left(0);
-    const GapScreen::Fit all = Solve(static_cast<int>(terms_.size()));
-    const int n = robot_.num_joints();
-    for (size_t f = 0; f < terms_.size(); ++f) {
-      LackedFamily family;
-      family.effect = candidates_[f * n].effect;
-      family.term = terms_[f].term;
-      family.value.resize(n);
-      family.stddev.resize(n);
-      std::vector<int> others;
-      for (size_t c = 0; c < candidates_.size(); ++c) {
-        if (c / n != f) others.push_back(static_cast<int>(c));
-      }
-      family.drop =
-          all.drop - screen_->Solve(ColumnsOf(candidates_, others)).drop;
-      family.left = Left(static_cast<int>(f) + 1);
-      for (int j = 0; j < n; ++j) {
-        const int c = static_cast<int>(f) * n + j;
-        const double size = candidates_[c].size[0];
-        family.value[j] = all.coefficients[c] * size;
-        family.stddev[j] = std::sqrt(all.covariance(c, c)) * size;
+    for (int f = 0; f < static_cast<int>(terms_.size()); ++f) {
+      const LackedFamily family = Family(f);
+      for (int j = 0; j < robot_.num_joints(); ++j) {
+        const double least = 1e-6 * candidates_[CandidateOf(f, j)].size[0];
         result.robot.links[j].joint.*terms_[f].value =
-            terms_[f].term == JointTerm::kOffset
-                ? family.value[j]
-                : std::max(family.value[j], 1e-6 * size);
+            family.value[j] == 0 ? least : family.value[j];
       }
-      result.families.push_back(family);
+      if (!family.value.isZero(0)) result.families.push_back(family);
     }
     return result;
   }
@@ -123,11 +107,65 @@ class FamilyFit {
     AddCandidates(data_.rows(), &candidates_, &*screen_);
     screen_->Factor();
   }
-  // With the first `families` of them.
+  int CandidateOf(int family, int joint) const {
+    return family * robot_.num_joints() + joint;
+  }
+  int FamilyOf(int candidate) const { return candidate / robot_.num_joints(); }
+
+  // Joints whose friction or armature would be negative have none: what asks
+  // for it is something else.
+  void DropNegative() {
+    while (true) {
+      const std::vector<int> all = Members(static_cast<int>(terms_.size()));
+      const GapScreen::Fit fit = screen_->Solve(ColumnsOf(candidates_, all));
+      int most = -1;
+      double depth = 0;
+      for (size_t k = 0; k < all.size(); ++k) {
+        if (terms_[FamilyOf(all[k])].term == JointTerm::kOffset) continue;
+        const double deviations =
+            fit.coefficients[k] / std::sqrt(fit.covariance(k, k));
+        if (deviations < depth) depth = deviations, most = all[k];
+      }
+      if (most < 0) return;
+      none_.insert(most);
+    }
+  }
+
+  LackedFamily Family(int f) const {
+    const int n = robot_.num_joints(), count = static_cast<int>(terms_.size());
+    LackedFamily family;
+    family.effect = candidates_[CandidateOf(f, 0)].effect;
+    family.term = terms_[f].term;
+    family.value = family.stddev = VectorXd::Zero(n);
+    const GapScreen::Fit all = Solve(count);
+    std::vector<int> others;
+    const std::vector<int> members = Members(count);
+    for (size_t k = 0; k < members.size(); ++k) {
+      if (FamilyOf(members[k]) != f) {
+        others.push_back(members[k]);
+        continue;
+      }
+      const int j = members[k] - CandidateOf(f, 0);
+      const double size = candidates_[members[k]].size[0];
+      family.value[j] = all.coefficients[k] * size;
+      family.stddev[j] = std::sqrt(all.covariance(k, k)) * size;
+    }
+    family.drop =
+        all.drop - screen_->Solve(ColumnsOf(candidates_, others)).drop;
+    family.left = Left(f + 1);
+    return family;
+  }
+
+  // Candidates of the first `families` that are not known to be zero.
+  std::vector<int> Members(int families) const {
+    std::vector<int> members;
+    for (int c = 0; c < CandidateOf(families, 0); ++c) {
+      if (none_.count(c) == 0) members.push_back(c);
+    }
+    return members;
+  }
   GapScreen::Fit Solve(int families) const {
-    std::vector<int> chosen(families * robot_.num_joints());
-    for (size_t k = 0; k < chosen.size(); ++k) chosen[k] = static_cast<int>(k);
-    return screen_->Solve(ColumnsOf(candidates_, chosen));
+    return screen_->Solve(ColumnsOf(candidates_, Members(families)));
   }
   VectorXd Left(int families) const {
     const GapScreen::Fit fit = Solve(families);
@@ -147,6 +185,7 @@ class FamilyFit {
   GapData data_;
   MotionScale scale_;
   std::vector<GapCandidate> candidates_;
+  std::set<int> none_;  // of them, that are zero
   std::vector<Autoregression> noise_;
   std::optional<GapScreen> screen_;
 };

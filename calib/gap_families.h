@@ -15,7 +15,8 @@ namespace armcal {
 struct LackedFamily {
   const Effect* effect = nullptr;
   JointTerm term;
-  Eigen::VectorXd value;   // n, SI units of the term
+  // n, SI units of the term; 0 where it would be negative.
+  Eigen::VectorXd value;
   Eigen::VectorXd stddev;  // with the noise that is left when all are fitted
   double drop = 0;         // of chi^2 when it is left out
   // rms of what is left of each joint's torque with this and the families

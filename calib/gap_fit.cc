@@ -136,8 +136,9 @@ void GapFit::MakeScreen() {
 // Where an effect that is not linear shows something, its torque is tried at
 // larger sizes as well. Whether there was one.
 bool GapFit::AddLargerOnes() {
-  const VectorXd scores =
-      ScoresBeside(*screen_, candidates_, options_.selection, {}, -1);
+  SelectionOptions options = options_.selection;
+  options.signs = false;  // a small one may be the opposite of a large one
+  const VectorXd scores = ScoresBeside(*screen_, candidates_, options, {}, -1);
   std::vector<GapCandidate> larger;
   for (size_t i = 0; i < candidates_.size(); ++i) {
     if (!(scores[i] > 0)) continue;

@@ -89,16 +89,23 @@ std::string Ladder(const GapDiagnosis& diagnosis) {
   return text;
 }
 
+std::string Interval(const double* ci95) {
+  return std::isfinite(ci95[0]) && std::isfinite(ci95[1])
+             ? Format("95 %%: %.0f to %.0f", ci95[0], ci95[1])
+             : "the noise is not known well enough for an interval";
+}
+
 std::string HowFar(const GapFigures& gap) {
   return Format(
              "\nheld-out gap, mean square over the noise's: nominal %.3g, "
              "refitted %.3g, with the effects %.3g, noise 1\n",
              gap.nominal, gap.refit, gap.after) +
          (std::isfinite(gap.removed_percent)
-              ? Format("  removed %.0f %% of what refitting leaves (95 %%: "
-                       "%.0f to %.0f), %.0f %% of the file's gap\n",
-                       gap.removed_percent, gap.ci95[0], gap.ci95[1],
-                       gap.removed_from_nominal_percent)
+              ? Format(
+                    "  removed %.0f %% of what refitting leaves (%s), %.0f %% "
+                    "of the file's gap\n",
+                    gap.removed_percent, Interval(gap.ci95).c_str(),
+                    gap.removed_from_nominal_percent)
               : "");
 }
 

@@ -61,7 +61,7 @@ Conditioned Condition(const GapScreen& screen, const std::vector<int>& S,
 // Drop of chi^2 when the candidate is added to S; 0 where its signs are wrong.
 // Columns of which nothing is left to see have no part in it.
 double Drop(const GapScreen& screen, const Conditioned& c,
-            const GapCandidate& candidate) {
+            const GapCandidate& candidate, bool signs) {
   const int size = static_cast<int>(candidate.columns.size());
   MatrixXd G = MatrixXd::Identity(size, size);
   VectorXd g = VectorXd::Zero(size);
@@ -84,7 +84,7 @@ double Drop(const GapScreen& screen, const Conditioned& c,
     G(k, k) += 1e-9 * screen.raw(a);
   }
   const VectorXd x = G.llt().solve(g);
-  return SignsHold(candidate, x) ? g.dot(x) : 0;
+  return !signs || SignsHold(candidate, x) ? g.dot(x) : 0;
 }
 
 std::vector<int> Without(std::vector<int> chosen, int k) {
@@ -249,10 +249,11 @@ VectorXd ScoresBeside(const GapScreen& screen,
         others.begin(), others.end(),
         [&](int other) { return SamePlace(candidates[other], candidates[i]); });
     const bool possible = options.events || candidates[i].log < 0;
-    scores[i] = taken || !possible ? kNever
-                                   : Drop(screen, conditioned, candidates[i]) /
-                                             options.inflation -
-                                         Price(screen, candidates[i]);
+    scores[i] = taken || !possible
+                    ? kNever
+                    : Drop(screen, conditioned, candidates[i], options.signs) /
+                              options.inflation -
+                          Price(screen, candidates[i]);
   }
   return scores;
 }

@@ -19,6 +19,7 @@ struct SelectionOptions {
   double other_joint_share = 0.004;
   double inflation = 1;  // of noise variance: drops are divided by it
   bool events = true;    // whether something may have happened once
+  bool signs = true;     // whether these must be as effects have them
 };
 
 // A set of candidates (indices) that together explain the residual.
