@@ -150,11 +150,18 @@ TEST(SimplePendulum, IsPushedAndCarriesNothing) {
   }
 }
 
-TEST(SimplePendulum, DISABLED_CarriesMoreAndIsPushed) {
+TEST(SimplePendulum, IsPushedWhateverItCarries) {
+  SKIP_WITHOUT("dfki_simple_pendulum");
+  ExpectContactAt(
+      Diagnose("dfki_simple_pendulum/", "energy_changed.csv", "swing_A.csv"),
+      17.2);
+}
+
+// Below 8 Hz it is found; above, not.
+TEST(SimplePendulum, DISABLED_CarriesMore) {
   SKIP_WITHOUT("dfki_simple_pendulum");
   const json diagnosis =
       Diagnose("dfki_simple_pendulum/", "energy_changed.csv", "swing_A.csv");
-  ExpectContactAt(diagnosis, 17.2);
   std::string first;
   for (const json& entry : diagnosis.at("effects")) {
     const std::string name = entry.at("effect");
