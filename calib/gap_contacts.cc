@@ -81,6 +81,7 @@ class RestingArm {
   }
 
   const MatrixXd& q() const { return q_; }
+  bool Rests(int k) const { return rests_[k]; }
   // A push that moves a resting arm lasts until it rests.
   Span UntilRest(Span span) const {
     const int first = rows_.thin_begin(span.segment);
@@ -221,10 +222,13 @@ std::vector<Contact> FindContacts(const Robot& robot, const GapRows& rows,
   const RestingArm arm(rows, excess);
   std::vector<Contact> contacts;
   for (Span span : SpansAbove(rows, largest, threshold)) {
+    const int peak = PeakIn(span, largest);
     if (search == ContactSearch::kAtRest) {
       span = arm.UntilRest(span);
-      if (!arm.IsNear(span, PeakIn(span, largest))) continue;
-    } else if (!IsFeltByTwo(span, excess.deviations, threshold)) {
+      if (!arm.IsNear(span, peak)) continue;
+    } else if (arm.Rests(peak) ||
+               (search == ContactSearch::kOfTwoJoints &&
+                !IsFeltByTwo(span, excess.deviations, threshold))) {
       continue;
     }
     contacts.push_back(Describe(robot, rows, excess, arm, span));
@@ -254,28 +258,22 @@ ContactStrength StrengthOf(const GapRows& rows, const FrictionExcess& excess,
 std::vector<EffectEstimate> ContactEstimates(const Robot& robot,
                                              const Contact& contact,
                                              std::vector<double>* stddev) {
-  const double width = (contact.window.end - contact.window.begin) / 2;
-  const std::vector<EffectEstimate> when = {{"time", "s", contact.time},
-                                            {"width", "s", width}};
   const int j = contact.joint;
-  std::vector<EffectEstimate> estimates;
-  if (contact.force) {
-    const Eigen::Vector3d& f = contact.force->value;
-    const Matrix3d& C = contact.force->covariance;
-    estimates = {{"force", "N", f.norm()}};
-    *stddev = {std::sqrt(f.dot(C * f)) / f.norm(), kExcessTime, kExcessTime};
-    estimates.insert(estimates.end(), when.begin(), when.end());
-    const char* names[] = {"force_x", "force_y", "force_z"};
-    for (int k = 0; k < 3; ++k) {
-      estimates.push_back({names[k], "N", f[k]});
-      stddev->push_back(std::sqrt(C(k, k)));
-    }
-    return estimates;
-  }
-  estimates = {
-      {"torque", EffortUnit(robot.links[j].joint.type), contact.torque[j]}};
+  std::vector<EffectEstimate> estimates = {
+      {"torque", EffortUnit(robot.links[j].joint.type), contact.torque[j]},
+      {"time", "s", contact.time},
+      {"width", "s", (contact.window.end - contact.window.begin) / 2}};
   *stddev = {contact.stddev[j], kExcessTime, kExcessTime};
-  estimates.insert(estimates.end(), when.begin(), when.end());
+  if (!contact.force) return estimates;
+  const Eigen::Vector3d& f = contact.force->value;
+  const Matrix3d& C = contact.force->covariance;
+  estimates[0] = {"force", "N", f.norm()};
+  (*stddev)[0] = std::sqrt(f.dot(C * f)) / f.norm();
+  const char* names[] = {"force_x", "force_y", "force_z"};
+  for (int k = 0; k < 3; ++k) {
+    estimates.push_back({names[k], "N", f[k]});
+    stddev->push_back(std::sqrt(C(k, k)));
+  }
   return estimates;
 }
 

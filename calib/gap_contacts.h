@@ -30,13 +30,14 @@ struct Contact {
   double largest_force = 0;
 };
 
-// At most this share of logs without a contact has one found beyond friction.
+// At most this share of logs without a contact has one found beyond friction,
+// by each search.
 inline constexpr double kFalseContacts = .01;
 
-// Where contacts are looked for: between two rests in one posture, of which the
-// one before or after shows that friction could hold the arm; or anywhere,
-// where two joints at least feel them at once.
-enum class ContactSearch { kAtRest, kAnywhere };
+// Where contacts are looked for: where the arm rests just before or after in
+// the same posture, held by friction; in motion where two joints at least feel
+// them at once; or anywhere in motion.
+enum class ContactSearch { kAtRest, kOfTwoJoints, kInMotion };
 
 // Windows in which the excess is above `threshold`, in the order of time.
 std::vector<Contact> FindContacts(const Robot& robot, const GapRows& rows,

@@ -234,10 +234,6 @@ FoundEffect Diagnoser::Contacts() const {
     found.contacts.push_back(event.contact);
     if (event.beyond_friction) found.probability = 1 - kFalseContacts;
   }
-  std::sort(found.contacts.begin(), found.contacts.end(),
-            [](const Contact& a, const Contact& b) {
-              return a.window.begin < b.window.begin;
-            });
   return found;
 }
 

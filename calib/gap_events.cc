@@ -14,6 +14,33 @@ constexpr double kEventReach = 2.5;
 
 }  // namespace
 
+GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
+                             const Contact& contact) {
+  const ContactStrength strength = StrengthOf(rows, excess, contact);
+  GapEvent event;
+  event.contact = contact;
+  event.beyond_friction = true;
+  event.drop = event.score = strength.all;
+  event.one_joint = strength.one_joint / strength.all;
+  return event;
+}
+
+void DescribeAgain(const Robot& robot, const GapRows& rows,
+                   const FrictionExcess& excess,
+                   std::vector<GapEvent>* events) {
+  std::sort(events->begin(), events->end(),
+            [](const GapEvent& a, const GapEvent& b) {
+              return a.contact.window.begin < b.contact.window.begin;
+            });
+  for (GapEvent& event : *events) {
+    const Contact before = event.contact;
+    event.contact =
+        DescribeContact(robot, rows, excess, before.log, before.window);
+    event.contact.window = before.window;
+    if (event.fitted) event.contact.force = before.force;
+  }
+}
+
 TimeRange WindowOf(const GapCandidate& candidate) {
   double time = 0, width = 0;
   for (size_t k = 0; k < candidate.effect->parameters.size(); ++k) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "calib/gap_candidates.h"
 #include "calib/gap_contacts.h"
@@ -27,6 +28,12 @@ struct GapEvent {
   // over `drop`: a touch is felt by several joints.
   double one_joint = 0;
 };
+
+GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
+                             const Contact& contact);
+// As they are beside what was fitted without them, in the order of time.
+void DescribeAgain(const Robot& robot, const GapRows& rows,
+                   const FrictionExcess& excess, std::vector<GapEvent>* events);
 
 // Where in time a candidate with a time and a duration is.
 TimeRange WindowOf(const GapCandidate& candidate);

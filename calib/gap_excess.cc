@@ -13,7 +13,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kBlock = 2;  // s
+constexpr double kLongestBlock = 2;  // s
+constexpr double kFewestBlocks = 10;
 
 // Coulomb friction of a segment's joints, samples x n, N m or N.
 MatrixXd CoulombTorque(const GapBaseline& baseline, const VectorXd& x,
@@ -92,6 +93,10 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
     excess.coulomb[j] +=
         std::max(0., MoreFriction(excess.torque.col(j) - excess.friction.col(j),
                                   excess.friction.col(j), excess.coulomb[j]));
+    // The ways through zero velocity may have taken a push for friction.
+    excess.friction.col(j) = excess.friction.col(j)
+                                 .cwiseMin(excess.coulomb[j])
+                                 .cwiseMax(-excess.coulomb[j]);
     excess.deviations.col(j) =
         (excess.torque.col(j).cwiseAbs().array() - excess.coulomb[j]) /
         rows.noise(j).stddev();
@@ -99,21 +104,42 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
   return excess;
 }
 
-std::vector<double> BlockMaxima(const GapRows& rows, const VectorXd& series) {
+double BlockTime(const GapRows& rows) {
+  double time = 0;
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i);
+    time += (rows.thin_begin(s + 1) - rows.thin_begin(s)) * rows.step(s);
+  }
+  return std::clamp(time / kFewestBlocks, 2 * kExcessTime, kLongestBlock);
+}
+
+std::vector<double> BlockMaxima(const GapRows& rows, double block,
+                                const VectorXd& series) {
   CHECK_EQ(series.size(), rows.num_thin());
   std::vector<double> maxima;
   for (size_t i = 0; i < rows.segments().size(); ++i) {
     const int s = static_cast<int>(i);
     std::map<long, double> blocks;
     for (int k = rows.thin_begin(s); k < rows.thin_begin(s + 1); ++k) {
-      const long block = std::lround(std::floor(rows.thin_time(s, k) / kBlock));
-      const auto at = blocks.emplace(block, series[k]).first;
-      at->second = std::max(at->second, series[k]);
+      const long at = std::lround(std::floor(rows.thin_time(s, k) / block));
+      const auto most = blocks.emplace(at, series[k]).first;
+      most->second = std::max(most->second, series[k]);
     }
-    for (const auto& [block, most] : blocks) maxima.push_back(most);
+    for (const auto& [at, most] : blocks) maxima.push_back(most);
   }
   return maxima;
 }
+
+namespace {
+
+// P(X > median + x) = share (1 + x / (m scale))^-m = probability / further.
+double Quantile(double median, double scale, double m, double share,
+                double further, double probability) {
+  return median +
+         m * scale * (std::pow(further * share / probability, 1 / m) - 1);
+}
+
+}  // namespace
 
 double PredictedMaximum(std::vector<double> maxima, double further,
                         double probability) {
@@ -128,10 +154,20 @@ double PredictedMaximum(std::vector<double> maxima, double further,
     ++above;
   }
   if (above == 0) return median;
-  const double share = static_cast<double>(above) / maxima.size();
-  // further share (1 + x / sum)^-above = probability; scale above = sum.
-  return median +
-         sum * (std::pow(further * share / probability, 1. / above) - 1);
+  return Quantile(median, sum / above, above,
+                  static_cast<double>(above) / maxima.size(), further,
+                  probability);
+}
+
+double PredictedUsualMaximum(std::vector<double> maxima, double further,
+                             double probability) {
+  constexpr size_t kFewest = 8;
+  if (maxima.size() < kFewest) return std::numeric_limits<double>::infinity();
+  std::sort(maxima.begin(), maxima.end());
+  const size_t last = maxima.size() - 1;
+  const double median = maxima[last / 2];
+  const double scale = (maxima[3 * last / 4] - median) / std::log(2.);
+  return Quantile(median, scale, maxima.size() / 4., .5, further, probability);
 }
 
 }  // namespace armcal

@@ -32,9 +32,11 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
                                   const Eigen::VectorXd& x, const GapRows& rows,
                                   const Eigen::MatrixXd& residual);
 
-// The largest value in every two seconds of every segment; `series`: thinned
-// samples.
-std::vector<double> BlockMaxima(const GapRows& rows,
+// How long the blocks are that maxima are taken of: 2 s, and no longer than a
+// tenth of the rows' time, but twice kExcessTime.
+double BlockTime(const GapRows& rows);
+// The largest value in every block of every segment; `series`: thinned samples.
+std::vector<double> BlockMaxima(const GapRows& rows, double block,
                                 const Eigen::VectorXd& series);
 
 // What the largest of as many further maxima exceeds with this probability.
@@ -44,5 +46,9 @@ std::vector<double> BlockMaxima(const GapRows& rows,
 //   P(X > median + x) = 1/2 (1 + x / (m scale))^-m, m exceedances.
 double PredictedMaximum(std::vector<double> maxima, double further,
                         double probability);
+// The same of maxima of which up to a quarter may be something else: the scale
+// is told by their upper quartile, as well as a quarter of them tells.
+double PredictedUsualMaximum(std::vector<double> maxima, double further,
+                             double probability);
 
 }  // namespace armcal

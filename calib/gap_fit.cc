@@ -83,36 +83,44 @@ FrictionExcess GapFit::ExcessBeside(
   return ExcessOverFriction(baseline_, x, data_->rows(), residual);
 }
 
-// Only a reference tells what friction does when nothing touches the arm:
-// contacts stand out from all that it shows. Whether there were any.
+// Above what the excess of a log without a contact is: of the reference, or of
+// the log itself but for a few windows.
+double GapFit::UsualExcess(const FrictionExcess& excess, bool of_itself) const {
+  const GapRows& rows = data_->rows();
+  const GapRows& before = reference_ ? reference_->rows() : rows;
+  const double block = BlockTime(before);
+  const std::vector<double> own = BlockMaxima(rows, block, excess.Largest());
+  const double further = static_cast<double>(own.size());
+  double usual = 0;
+  if (of_itself) usual = PredictedUsualMaximum(own, further, kFalseContacts);
+  if (!reference_) return usual;
+  const FrictionExcess known = ExcessOverFriction(
+      baseline_, refit_, before, reference_->ResidualWith(refit_));
+  return std::max(usual,
+                  PredictedMaximum(BlockMaxima(before, block, known.Largest()),
+                                   further, kFalseContacts));
+}
+
+// Contacts stand out from all that friction does when nothing touches the arm,
+// which only a reference tells; in motion and on one joint also from the rest
+// of the log, where the model may lack something. Whether there were any.
 bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
                              ContactSearch search) {
-  constexpr int kSearches = 2;
-  if (!reference_ || IsLeftOut(*FindEffect("external_contact"))) return false;
-  const GapRows &rows = data_->rows(), &before = reference_->rows();
+  const bool of_itself = search == ContactSearch::kInMotion;
+  if (IsLeftOut(*FindEffect("external_contact"))) return false;
+  if (!reference_ && !of_itself) return false;
   const FrictionExcess excess = ExcessBeside(effects);
-  const FrictionExcess usual = ExcessOverFriction(
-      baseline_, refit_, before, reference_->ResidualWith(refit_));
-  const double threshold = PredictedMaximum(
-      BlockMaxima(before, usual.Largest()),
-      static_cast<double>(BlockMaxima(rows, excess.Largest()).size()),
-      kFalseContacts / kSearches);
+  const double usual = UsualExcess(excess, of_itself);
   bool any = false;
   for (const Contact& contact :
-       FindContacts(baseline_.robot(), rows, excess, threshold, search)) {
+       FindContacts(baseline_.robot(), data_->rows(), excess, usual, search)) {
     if (std::any_of(events_.begin(), events_.end(), [&](const GapEvent& event) {
           return event.contact.log == contact.log &&
                  event.contact.window.Contains(contact.time);
         })) {
       continue;
     }
-    const ContactStrength strength = StrengthOf(rows, excess, contact);
-    GapEvent event;
-    event.contact = contact;
-    event.beyond_friction = true;
-    event.drop = event.score = strength.all;
-    event.one_joint = strength.one_joint / strength.all;
-    events_.push_back(event);
+    events_.push_back(EventBeyondFriction(data_->rows(), excess, contact));
     data_->Mask(contact.log, contact.window);
     any = true;
   }
@@ -242,7 +250,9 @@ void GapFit::SelectWithEvents() {
       }
       TakeOutEvent(event - selection_.chosen.begin());
     } else if (TakeOutContacts(Chosen(selection_.chosen),
-                               ContactSearch::kAnywhere)) {
+                               ContactSearch::kOfTwoJoints) ||
+               TakeOutContacts(Chosen(selection_.chosen),
+                               ContactSearch::kInMotion)) {
       candidates_.clear();
     } else {
       break;
@@ -253,6 +263,8 @@ void GapFit::SelectWithEvents() {
 
 void GapFit::Choose() {
   SelectWithEvents();
+  DescribeAgain(baseline_.robot(), data_->rows(),
+                ExcessBeside(Chosen(selection_.chosen)), &events_);
   DropChance();
   rivals_.assign(selection_.chosen.size(), {});
   for (size_t k = 0; k < selection_.chosen.size(); ++k) CompareRivals(k);

@@ -60,6 +60,7 @@ class GapFit {
   const std::vector<GapCandidate>& candidates() const { return candidates_; }
   const Selection& selection() const { return selection_; }
   const RefinedEffects& refined() const { return refined_; }
+  // In the order of time.
   const std::vector<GapEvent>& events() const { return events_; }
   // Scores of the k-th effect and its nearest rivals, each with its shape
   // fitted beside the others.
@@ -82,6 +83,7 @@ class GapFit {
   double Cost(const Selection& selection) const;
   void ForgetTouches();
   void SelectWithEvents();
+  double UsualExcess(const FrictionExcess& excess, bool of_itself) const;
   FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
   std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
   void CompareRivals(size_t k);

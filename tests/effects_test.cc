@@ -7,6 +7,7 @@
 #include <set>
 
 #include "model/low_pass.h"
+#include "model/recorded_torque.h"
 #include "tests/effect_arm.h"
 
 namespace armcal {
@@ -155,6 +156,46 @@ TEST_P(EffectOf, IsLinearInItsLinearParameters) {
           << GetParam().parameters[k].name;
     }
   });
+}
+
+// tau = m c^2 qdd + m g c sin q of a point mass m at c below the axis, whose
+// weight on the axis nothing shows.
+TEST(PayloadOfAPendulum, IsAPointMass) {
+  constexpr double kMass = .4, kLever = .5;
+  Robot robot;
+  robot.links.resize(1);
+  Link& link = robot.links[0];
+  // The axis along y of a link that hangs along -z.
+  link.X_PF.linear() =
+      Eigen::AngleAxisd(-M_PI / 2, Eigen::Vector3d::UnitX()).matrix();
+  link.X_ML = link.X_PF.inverse();
+  link.inertial = InertialParameters::FromVector(
+      (Vector10d() << .5, 0, 0, -.2, .09, 0, .09, 0, 0, .01).finished());
+  std::mt19937_64 random(1);
+  const Log log = RecordMotion(RandomMultisine(&random, 1, 2), 8, .01);
+  Motion motion;
+  motion.dt = .01;
+  motion.q = log.q;
+  motion.qd = log.qd;
+  motion.qdd = log.qdd;
+  const Effect& payload = *FindEffect("payload");
+  const EffectSite site = {&robot, -1, nullptr};
+  const VectorXd p =
+      (VectorXd(4) << kMass * kLever * kLever, .0, 0, -kMass * kLever)
+          .finished();
+  SimulatedRobot changed;
+  changed.robot = robot;
+  payload.apply(site, p, &changed);
+  const VectorXd tau =
+      RecordedTorque(robot, std::vector<CoulombTransition>(1), motion)
+          .Change(changed);
+  const VectorXd truth =
+      kMass * kLever *
+      (kLever * log.qdd.array() + 9.81 * log.q.array().sin()).matrix();
+  EXPECT_LT((tau - truth).norm(), 1e-4 * truth.norm());
+  const auto estimates = EstimatesOf(payload, site, p);
+  EXPECT_NEAR(estimates[0].value, kMass, 1e-12);
+  EXPECT_NEAR(estimates[3].value, -kLever, 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, EffectOf, testing::ValuesIn(Effects()),

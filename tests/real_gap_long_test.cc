@@ -140,7 +140,7 @@ void ExpectContactAt(const json& diagnosis, double time) {
   EXPECT_TRUE(found) << diagnosis.at("effects").dump(1);
 }
 
-TEST(SimplePendulum, DISABLED_IsPushedAndCarriesNothing) {
+TEST(SimplePendulum, IsPushedAndCarriesNothing) {
   SKIP_WITHOUT("dfki_simple_pendulum");
   const json diagnosis =
       Diagnose("dfki_simple_pendulum/", "energy_ref.csv", "swing_A.csv");
@@ -150,11 +150,18 @@ TEST(SimplePendulum, DISABLED_IsPushedAndCarriesNothing) {
   }
 }
 
-TEST(SimplePendulum, DISABLED_CarriesMoreAndIsPushed) {
+TEST(SimplePendulum, IsPushedWhateverItCarries) {
+  SKIP_WITHOUT("dfki_simple_pendulum");
+  ExpectContactAt(
+      Diagnose("dfki_simple_pendulum/", "energy_changed.csv", "swing_A.csv"),
+      17.2);
+}
+
+// Below 8 Hz it is found; above, not.
+TEST(SimplePendulum, DISABLED_CarriesMore) {
   SKIP_WITHOUT("dfki_simple_pendulum");
   const json diagnosis =
       Diagnose("dfki_simple_pendulum/", "energy_changed.csv", "swing_A.csv");
-  ExpectContactAt(diagnosis, 17.2);
   std::string first;
   for (const json& entry : diagnosis.at("effects")) {
     const std::string name = entry.at("effect");
@@ -164,9 +171,9 @@ TEST(SimplePendulum, DISABLED_CarriesMoreAndIsPushed) {
   const json payload = Named(diagnosis, "payload")[0];
   EXPECT_GT(Estimate(payload, "mass"), .5);
   EXPECT_LT(Estimate(payload, "mass"), .9);
-  EXPECT_NEAR(
-      std::hypot(Estimate(payload, "com_x"), Estimate(payload, "com_z")), .5,
-      .1);
+  EXPECT_NEAR(std::hypot(Estimate(payload, "com_x"), Estimate(payload, "com_y"),
+                         Estimate(payload, "com_z")),
+              .5, .1);
 }
 
 // The torque was computed from the position: a fit that says nothing.

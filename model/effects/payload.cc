@@ -5,12 +5,31 @@ inline namespace effects {
 
 namespace {
 
+// A pendulum shows no weight on its axis; what tells mass from lever there is
+// the inertia about it.
+bool IsOnTheOnlyAxis(const Robot& robot) {
+  constexpr double kOnAxis = 1e-9;  // m
+  if (robot.num_joints() != 1) return false;
+  const Link& link = robot.links[0];
+  const Eigen::Vector3d p_MT = link.X_ML * robot.X_LT.translation();
+  return IsRotational(link.joint.type) && p_MT.head<2>().norm() < kOnAxis;
+}
+
+// A point mass has the inertia |h|^2 / mass about an axis that its first
+// moments h are about.
+double Mass(const Robot& robot, const Eigen::VectorXd& p) {
+  if (!IsOnTheOnlyAxis(robot)) return p[0];
+  const Eigen::Vector3d h_M = robot.links[0].X_ML.linear() * p.segment<3>(1);
+  return p[0] > 0 ? h_M.head<2>().squaredNorm() / p[0] : 0;
+}
+
 // In the last link's frame.
 std::vector<EffectEstimate> PayloadEstimates(const EffectSite& site,
                                              const Eigen::VectorXd& p) {
+  const double mass = Mass(*site.robot, p);
   const Eigen::Vector3d com =
-      site.robot->X_LT.translation() + p.segment<3>(1) / p[0];
-  return {{"mass", "kg", p[0]},
+      site.robot->X_LT.translation() + p.segment<3>(1) / mass;
+  return {{"mass", "kg", mass},
           {"com_x", "m", com.x()},
           {"com_y", "m", com.y()},
           {"com_z", "m", com.z()}};
@@ -20,7 +39,8 @@ std::vector<EffectEstimate> PayloadEstimates(const EffectSite& site,
 
 // A body on the tool: its mass, its first moments hx hy hz about the tool
 // frame's origin, in the last link's axes. Its inertia about that origin is
-// left out, which torques hardly show.
+// left out, which torques hardly show; but of a pendulum with the tool's frame
+// on its axis, where the first parameter is that inertia over 1 m^2 instead.
 Effect Payload() {
   Effect effect;
   effect.name = "payload";
@@ -37,11 +57,14 @@ Effect Payload() {
       Linear("mass", "kg", mass, EffectParameter::Sign::kPositive),
       Linear("hx", "kg m", moment), Linear("hy", "kg m", moment),
       Linear("hz", "kg m", moment)};
-  effect.apply = [](const EffectSite&, const Eigen::VectorXd& p,
+  effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     InertialParameters payload;
-    payload.mass = p[0];
+    payload.mass = Mass(*site.robot, p);
     payload.first_moment = p.segment<3>(1);
+    if (IsOnTheOnlyAxis(*site.robot)) {
+      payload.inertia = p[0] * Eigen::Matrix3d::Identity();
+    }
     const Eigen::Isometry3d X_LP(
         Eigen::Translation3d(robot->robot.X_LT.translation()));
     robot->robot.links.back().inertial += payload.ReexpressIn(X_LP);
