@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Ur10e, Free,
                          testing::Values("id_20s.csv", "id_30s.csv",
                                          "id_40s.csv", "val_ptp.csv"));
 
-TEST(Ur10e, DISABLED_LacksFrictionOnAllJoints) {
+TEST(Ur10e, LacksFrictionOnAllJoints) {
   SKIP_WITHOUT("ur10e_free");
   const json diagnosis = Diagnose("ur10e_free/", "id_50s.csv", "");
   for (const char* effect : {"coulomb_friction", "viscous_friction"}) {
