@@ -16,32 +16,7 @@ using Eigen::VectorXd;
 
 // Relative standard deviation of joint terms that were fitted, not given.
 constexpr double kTrustInFitted = .5;
-// Less probable effects are candidates, no more.
-constexpr double kLeastClaimed = .3;
 constexpr double kTimingWithReference = .05;  // s
-
-// Standard deviations of the estimates by their derivatives at p.
-std::vector<double> EstimateDeviations(const GapCandidate& effect,
-                                       const EffectSite& site,
-                                       const MatrixXd& covariance) {
-  const std::vector<EffectEstimate> at =
-      EstimatesOf(*effect.effect, site, effect.p);
-  MatrixXd J = MatrixXd::Zero(at.size(), effect.p.size());
-  for (int k = 0; k < effect.p.size(); ++k) {
-    VectorXd p = effect.p;
-    const double step = 1e-4 * std::sqrt(covariance(k, k));
-    if (!(step > 0)) continue;
-    p[k] += step;
-    const auto moved = EstimatesOf(*effect.effect, site, p);
-    for (size_t i = 0; i < at.size(); ++i) {
-      J(i, k) = (moved[i].value - at[i].value) / step;
-    }
-  }
-  const VectorXd variance = (J * covariance * J.transpose()).diagonal();
-  std::vector<double> stddev;
-  for (const double v : variance) stddev.push_back(std::sqrt(std::max(v, 0.)));
-  return stddev;
-}
 
 class Diagnoser {
  public:
@@ -60,15 +35,8 @@ class Diagnoser {
     if (must_move) CheckMotion(segments, hz, part, *logs);
     return segments;
   }
-  FoundEffect Describe(const GapCandidate& effect,
-                       const MatrixXd& covariance) const;
-  FoundEffect Found(size_t k) const;
-  FoundEffect Contacts() const;
   JointGap JointFigures(int joint) const;
   JointCourse CourseOf(int joint) const;
-  void ListFamilies();
-  void ListEffects();
-  void ShareTheRest(FoundEffect* found);
   void Simulate(LogSet* held_out, bool split);
   void TellUnexplained();
   void Judge();
@@ -76,11 +44,10 @@ class Diagnoser {
   const Robot& robot_;
   const DiagnosisOptions& options_;
   bool has_reference_ = false;
-  // Something was found that no name is probable enough for.
-  bool found_without_name_ = false;
   std::optional<GapBaseline> baseline_;
   std::optional<GapFit> fit_;
   std::optional<HeldOut> held_out_;
+  GapFindings findings_;
   GapDiagnosis result_;
 };
 
@@ -117,7 +84,11 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   for (int j = 0; j < robot_.num_joints(); ++j) {
     result_.joints.push_back(JointFigures(j));
   }
-  ListEffects();
+  findings_ = ListFindings(
+      robot_, *fit_, *held_out_, result_.torque,
+      has_reference_ ? std::vector<LackedFamily>() : lacked.families);
+  result_.effects = findings_.effects;
+  result_.candidates = findings_.candidates;
   Simulate(split ? training : validation, split);
   result_.moved = ListMoved(*fit_, fit_->refined().baseline);
   result_.untestable = ListUntestable(*fit_);
@@ -168,132 +139,6 @@ JointCourse Diagnoser::CourseOf(int j) const {
           at.col(2),
           at.col(3),
           at.col(4)};
-}
-
-FoundEffect Diagnoser::Describe(const GapCandidate& effect,
-                                const MatrixXd& covariance) const {
-  const EffectSite site = {&robot_, effect.joint, &fit_->scale()};
-  FoundEffect found;
-  found.effect = effect.effect;
-  found.joint = effect.joint;
-  found.p = effect.p;
-  found.estimates = EstimatesOf(*effect.effect, site, effect.p);
-  found.stddev = EstimateDeviations(effect, site, covariance);
-  return found;
-}
-
-FoundEffect Diagnoser::Found(size_t k) const {
-  const RefinedEffects& refined = fit_->refined();
-  const GapCandidate& effect = refined.effects[k];
-  Eigen::Index begin = 0;
-  for (size_t i = 0; i < k; ++i) begin += refined.effects[i].p.size();
-  FoundEffect found = Describe(
-      effect,
-      refined.covariance.block(begin, begin, effect.p.size(), effect.p.size()));
-  found.score = fit_->selection().scores[k];
-  found.drop = fit_->selection().drops[k];
-  const std::vector<PlacedEffect> all = Alternatives(*fit_, k);
-  for (const PlacedEffect& other : CredibleSet(all)) {
-    if (other.effect != found.effect || other.joint != found.joint) {
-      found.equivalent.push_back(other);
-    }
-  }
-  found.evidence = EvidenceFor(*fit_, *held_out_, result_.torque, k, all);
-  found.probability = ProbabilityOf(found.evidence);
-  found.removed_percent =
-      100 * found.evidence.gain / std::max(.1, result_.torque.refit - 1);
-  found.ci95[0] = found.ci95[1] = std::numeric_limits<double>::quiet_NaN();
-  if (refined.effects.size() == 1) {
-    found.removed_percent = result_.torque.removed_percent;
-    std::copy(result_.torque.ci95, result_.torque.ci95 + 2, found.ci95);
-  }
-  found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
-  return found;
-}
-
-// All windows in which the arm was touched, as one effect: the strongest's
-// estimates.
-FoundEffect Diagnoser::Contacts() const {
-  const std::vector<GapEvent>& events = fit_->events();
-  const GapEvent& strongest = *std::max_element(
-      events.begin(), events.end(),
-      [](const GapEvent& a, const GapEvent& b) { return a.drop < b.drop; });
-  FoundEffect found;
-  if (strongest.fitted) {
-    found = Describe(strongest.fitted->effect, strongest.fitted->covariance);
-  } else {
-    found.effect = FindEffect("external_contact");
-    found.estimates =
-        ContactEstimates(robot_, strongest.contact, &found.stddev);
-  }
-  found.score = strongest.score;
-  found.evidence = EvidenceForEvents(*fit_, result_.torque);
-  found.probability = ProbabilityOf(found.evidence);
-  for (const GapEvent& event : events) {
-    found.drop += event.drop;
-    found.contacts.push_back(event.contact);
-    if (event.beyond_friction) found.probability = 1 - kFalseContacts;
-  }
-  return found;
-}
-
-// What the file gives no joint at all, as one effect each; with a reference
-// that is nothing new.
-void Diagnoser::ListFamilies() {
-  for (const LackedFamily& family : result_.ladder.families) {
-    FoundEffect found;
-    found.effect = family.effect;
-    found.probability = 1;
-    found.score = found.drop = family.drop;
-    for (int j = 0; j < robot_.num_joints(); ++j) {
-      const Joint& joint = robot_.links[j].joint;
-      if (family.value[j] == 0) continue;
-      found.estimates.push_back({joint.name + "." + JointTermName(family.term),
-                                 JointTermUnit(family.term, joint.type),
-                                 family.value[j]});
-      found.stddev.push_back(family.stddev[j]);
-    }
-    result_.effects.push_back(found);
-  }
-}
-
-void Diagnoser::ListEffects() {
-  if (!has_reference_) ListFamilies();
-  if (!fit_->events().empty()) result_.effects.push_back(Contacts());
-  for (size_t k = 0; k < fit_->refined().effects.size(); ++k) {
-    result_.effects.push_back(Found(k));
-  }
-  std::stable_sort(result_.effects.begin(), result_.effects.end(),
-                   [](const FoundEffect& a, const FoundEffect& b) {
-                     return a.drop > b.drop;
-                   });
-  for (FoundEffect& found : result_.effects) ShareTheRest(&found);
-  const auto unclaimed =
-      std::stable_partition(result_.effects.begin(), result_.effects.end(),
-                            [](const FoundEffect& found) {
-                              return found.probability >= kLeastClaimed;
-                            });
-  found_without_name_ =
-      unclaimed == result_.effects.begin() && !result_.effects.empty();
-  result_.effects.erase(unclaimed, result_.effects.end());
-}
-
-// The probability that an effect does not have is that of all others together;
-// the set of candidates ends where 95 % are in it.
-void Diagnoser::ShareTheRest(FoundEffect* found) {
-  constexpr double kCredible = .95;
-  double others = 0;
-  for (const PlacedEffect& other : found->equivalent) {
-    others += other.probability;
-  }
-  result_.candidates.push_back(
-      {found->effect, found->joint, found->probability, found->score});
-  double sum = found->probability;
-  for (PlacedEffect& other : found->equivalent) {
-    other.probability *= (1 - found->probability) / std::max(1e-9, others);
-    if (sum < kCredible) result_.candidates.push_back(other);
-    sum += other.probability;
-  }
 }
 
 // The held-out motion by the file's robot, the refitted one and the one with
@@ -367,7 +212,7 @@ void Diagnoser::Judge() {
         after > kUnexplained && after > kUnexplained * refit;
     result_.verdict = much_left || held_out_left ? GapVerdict::kPartlyExplained
                                                  : GapVerdict::kExplained;
-  } else if (much_left || found_without_name_) {
+  } else if (much_left || findings_.without_name) {
     result_.verdict = GapVerdict::kUnknown;
   } else {
     result_.verdict = nominal > .3 && refit < .5 * nominal

@@ -10,6 +10,7 @@
 #include "calib/gap_baseline.h"
 #include "calib/gap_evidence.h"
 #include "calib/gap_families.h"
+#include "calib/gap_findings.h"
 #include "calib/gap_forward.h"
 #include "calib/gap_moved.h"
 #include "calib/gap_noise.h"
@@ -47,26 +48,6 @@ enum class GapVerdict {
   kNotTestable
 };
 const char* GapVerdictName(GapVerdict verdict);
-
-// One effect that was found.
-struct FoundEffect {
-  const Effect* effect = nullptr;
-  int joint = -1;  // from 0; -1: all joints or the whole robot
-  double probability = 0;
-  double score = 0;
-  double drop = 0;  // of chi^2 when it is left out
-  EffectEvidence evidence;
-  Eigen::VectorXd p;
-  std::vector<EffectEstimate> estimates;
-  std::vector<double> stddev;  // of the estimates
-  // Others that these data cannot tell from it.
-  std::vector<PlacedEffect> equivalent;
-  // Of the held-out gap, by this one beside the others.
-  double removed_percent = 0;
-  double ci95[2] = {0, 0};
-  std::string separate_by;        // the experiment that would tell them apart
-  std::vector<Contact> contacts;  // of external_contact, in time's order
-};
 
 // What is left beside the effects that were found.
 struct Unexplained {

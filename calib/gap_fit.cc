@@ -148,9 +148,9 @@ bool GapFit::AddLargerOnes() {
   options.signs = false;  // a small one may be the opposite of a large one
   const VectorXd scores = ScoresBeside(*screen_, candidates_, options, {}, -1);
   std::vector<GapCandidate> larger;
-  for (size_t i = 0; i < candidates_.size(); ++i) {
-    if (!(scores[i] > 0)) continue;
-    for (const GapCandidate& one : LargerOnes(candidates_[i])) {
+  const int all = static_cast<int>(candidates_.size());
+  for (const int c : BestPlaces(candidates_, scores, all)) {
+    for (const GapCandidate& one : LargerOnes(candidates_[c])) {
       larger.push_back(one);
     }
   }

@@ -163,21 +163,6 @@ bool IsLarge(const GapScreen& screen,
          gain >= share * before;
 }
 
-// The best candidates beside these, one of each place.
-std::vector<int> BestPlaces(const std::vector<GapCandidate>& candidates,
-                            VectorXd scores, int count) {
-  std::vector<int> best;
-  while (static_cast<int>(best.size()) < count) {
-    int c;
-    if (!(scores.maxCoeff(&c) > 0)) break;
-    best.push_back(c);
-    for (size_t i = 0; i < candidates.size(); ++i) {
-      if (SamePlace(candidates[i], candidates[c])) scores[i] = kNever;
-    }
-  }
-  return best;
-}
-
 // Sets of one more than those of `sets`, the best first. What explains most
 // alone may be neither of two that explain everything together: several sets
 // are followed, not only the best.
@@ -256,6 +241,20 @@ VectorXd ScoresBeside(const GapScreen& screen,
                           Price(screen, candidates[i]);
   }
   return scores;
+}
+
+std::vector<int> BestPlaces(const std::vector<GapCandidate>& candidates,
+                            VectorXd scores, int count) {
+  std::vector<int> best;
+  while (static_cast<int>(best.size()) < count) {
+    int c;
+    if (!(scores.maxCoeff(&c) > 0)) break;
+    best.push_back(c);
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      if (SamePlace(candidates[i], candidates[c])) scores[i] = kNever;
+    }
+  }
+  return best;
 }
 
 Selection DescribeSelection(const GapScreen& screen,

@@ -42,6 +42,11 @@ Eigen::VectorXd ScoresBeside(const GapScreen& screen,
                              const std::vector<int>& others,
                              const Eigen::VectorXd& g);
 
+// The best of these scores above 0, one of each effect at each place, at most
+// `count`.
+std::vector<int> BestPlaces(const std::vector<GapCandidate>& candidates,
+                            Eigen::VectorXd scores, int count);
+
 // Forward, by several sets at a time; at each size the best set has its members
 // swapped for better ones, and must need them all.
 Selection SelectEffects(const GapScreen& screen,

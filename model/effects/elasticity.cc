@@ -32,7 +32,7 @@ Effect Elasticity() {
                        Gridded("damping_ratio", "1", [](const EffectSite&) {
                          return std::vector<double>{.03, .1, .3};
                        })};
-  effect.larger_sizes = {4, 16};
+  effect.larger_sizes = {2.5, 6, 15, 40};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     if (p[0] <= 0) return;

@@ -1,0 +1,221 @@
+#include "calib/gap_findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/effects/effects.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Less probable effects are candidates, no more.
+constexpr double kLeastClaimed = .3;
+
+// Standard deviations of the estimates by their derivatives at p.
+std::vector<double> EstimateDeviations(const GapCandidate& effect,
+                                       const EffectSite& site,
+                                       const MatrixXd& covariance) {
+  const std::vector<EffectEstimate> at =
+      EstimatesOf(*effect.effect, site, effect.p);
+  MatrixXd J = MatrixXd::Zero(at.size(), effect.p.size());
+  for (int k = 0; k < effect.p.size(); ++k) {
+    VectorXd p = effect.p;
+    const double step = 1e-4 * std::sqrt(covariance(k, k));
+    if (!(step > 0)) continue;
+    p[k] += step;
+    const auto moved = EstimatesOf(*effect.effect, site, p);
+    for (size_t i = 0; i < at.size(); ++i) {
+      J(i, k) = (moved[i].value - at[i].value) / step;
+    }
+  }
+  const VectorXd variance = (J * covariance * J.transpose()).diagonal();
+  std::vector<double> stddev;
+  for (const double v : variance) stddev.push_back(std::sqrt(std::max(v, 0.)));
+  return stddev;
+}
+
+class Findings {
+ public:
+  Findings(const Robot& robot, const GapFit& fit, const HeldOut& held_out,
+           const GapFigures& torque)
+      : robot_(robot), fit_(fit), held_out_(held_out), torque_(torque) {}
+
+  GapFindings List(const std::vector<LackedFamily>& families);
+
+ private:
+  FoundEffect Describe(const GapCandidate& effect,
+                       const MatrixXd& covariance) const;
+  FoundEffect Found(size_t k) const;
+  FoundEffect Contacts() const;
+  void AddFamilies(const std::vector<LackedFamily>& families);
+  void ShareTheRest(FoundEffect* found);
+
+  const Robot& robot_;
+  const GapFit& fit_;
+  const HeldOut& held_out_;
+  const GapFigures& torque_;
+  GapFindings result_;
+};
+
+FoundEffect Findings::Describe(const GapCandidate& effect,
+                               const MatrixXd& covariance) const {
+  const EffectSite site = {&robot_, effect.joint, &fit_.scale()};
+  FoundEffect found;
+  found.effect = effect.effect;
+  found.joint = effect.joint;
+  found.p = effect.p;
+  found.estimates = EstimatesOf(*effect.effect, site, effect.p);
+  found.stddev = EstimateDeviations(effect, site, covariance);
+  return found;
+}
+
+FoundEffect Findings::Found(size_t k) const {
+  const RefinedEffects& refined = fit_.refined();
+  const GapCandidate& effect = refined.effects[k];
+  Eigen::Index begin = 0;
+  for (size_t i = 0; i < k; ++i) begin += refined.effects[i].p.size();
+  FoundEffect found = Describe(
+      effect,
+      refined.covariance.block(begin, begin, effect.p.size(), effect.p.size()));
+  found.score = fit_.selection().scores[k];
+  found.drop = fit_.selection().drops[k];
+  const std::vector<PlacedEffect> all = Alternatives(fit_, k);
+  for (const PlacedEffect& other : CredibleSet(all)) {
+    if (other.effect != found.effect || other.joint != found.joint) {
+      found.equivalent.push_back(other);
+    }
+  }
+  found.evidence = EvidenceFor(fit_, held_out_, torque_, k, all);
+  found.probability = ProbabilityOf(found.evidence);
+  found.removed_percent =
+      100 * found.evidence.gain / std::max(.1, torque_.refit - 1);
+  found.ci95[0] = found.ci95[1] = std::numeric_limits<double>::quiet_NaN();
+  if (refined.effects.size() == 1) {
+    found.removed_percent = torque_.removed_percent;
+    std::copy(torque_.ci95, torque_.ci95 + 2, found.ci95);
+  }
+  found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
+  return found;
+}
+
+// All windows in which the arm was touched, as one effect: the strongest's
+// estimates.
+FoundEffect Findings::Contacts() const {
+  const std::vector<GapEvent>& events = fit_.events();
+  const GapEvent& strongest = *std::max_element(
+      events.begin(), events.end(),
+      [](const GapEvent& a, const GapEvent& b) { return a.drop < b.drop; });
+  FoundEffect found;
+  if (strongest.fitted) {
+    found = Describe(strongest.fitted->effect, strongest.fitted->covariance);
+  } else {
+    found.effect = FindEffect("external_contact");
+    found.estimates =
+        ContactEstimates(robot_, strongest.contact, &found.stddev);
+  }
+  found.score = strongest.score;
+  found.evidence = EvidenceForEvents(fit_, torque_);
+  found.probability = ProbabilityOf(found.evidence);
+  for (const GapEvent& event : events) {
+    found.drop += event.drop;
+    found.contacts.push_back(event.contact);
+    if (event.beyond_friction) found.probability = 1 - kFalseContacts;
+  }
+  return found;
+}
+
+// What the file gives no joint at all, as one effect each.
+void Findings::AddFamilies(const std::vector<LackedFamily>& families) {
+  for (const LackedFamily& family : families) {
+    FoundEffect found;
+    found.effect = family.effect;
+    found.probability = 1;
+    found.score = found.drop = family.drop;
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      const Joint& joint = robot_.links[j].joint;
+      if (family.value[j] == 0) continue;
+      found.estimates.push_back({joint.name + "." + JointTermName(family.term),
+                                 JointTermUnit(family.term, joint.type),
+                                 family.value[j]});
+      found.stddev.push_back(family.stddev[j]);
+    }
+    result_.effects.push_back(found);
+  }
+}
+
+GapFindings Findings::List(const std::vector<LackedFamily>& families) {
+  AddFamilies(families);
+  if (!fit_.events().empty()) result_.effects.push_back(Contacts());
+  for (size_t k = 0; k < fit_.refined().effects.size(); ++k) {
+    result_.effects.push_back(Found(k));
+  }
+  SortFindings(&result_.effects);
+  for (FoundEffect& found : result_.effects) ShareTheRest(&found);
+  const auto unclaimed =
+      std::stable_partition(result_.effects.begin(), result_.effects.end(),
+                            [](const FoundEffect& found) {
+                              return found.probability >= kLeastClaimed;
+                            });
+  result_.without_name =
+      unclaimed == result_.effects.begin() && !result_.effects.empty();
+  result_.effects.erase(unclaimed, result_.effects.end());
+  return result_;
+}
+
+// The probability that an effect does not have is that of all others together;
+// the set of candidates ends where 95 % are in it.
+void Findings::ShareTheRest(FoundEffect* found) {
+  constexpr double kCredible = .95;
+  double others = 0;
+  for (const PlacedEffect& other : found->equivalent) {
+    others += other.probability;
+  }
+  result_.candidates.push_back(
+      {found->effect, found->joint, found->probability, found->score});
+  double sum = found->probability;
+  for (PlacedEffect& other : found->equivalent) {
+    other.probability *= (1 - found->probability) / std::max(1e-9, others);
+    if (sum < kCredible) result_.candidates.push_back(other);
+    sum += other.probability;
+  }
+}
+
+}  // namespace
+
+void SortFindings(std::vector<FoundEffect>* effects) {
+  constexpr double kMuch = .2;  // of the number's drop
+  const auto is_number = [](const FoundEffect& found) {
+    for (const char* name : {"viscous_friction", "coulomb_friction",
+                             "torque_offset", "armature"}) {
+      if (found.effect->name == name) return true;
+    }
+    return false;
+  };
+  std::stable_sort(effects->begin(), effects->end(),
+                   [](const FoundEffect& a, const FoundEffect& b) {
+                     return a.drop > b.drop;
+                   });
+  for (size_t k = 1; k < effects->size(); ++k) {
+    if (is_number((*effects)[k])) continue;
+    for (size_t i = k; i > 0; --i) {
+      const FoundEffect& before = (*effects)[i - 1];
+      if (before.joint < 0 || before.joint != (*effects)[i].joint ||
+          !is_number(before) || (*effects)[i].drop < kMuch * before.drop) {
+        break;
+      }
+      std::swap((*effects)[i - 1], (*effects)[i]);
+    }
+  }
+}
+
+GapFindings ListFindings(const Robot& robot, const GapFit& fit,
+                         const HeldOut& held_out, const GapFigures& torque,
+                         const std::vector<LackedFamily>& families) {
+  return Findings(robot, fit, held_out, torque).List(families);
+}
+
+}  // namespace armcal

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "calib/gap_contacts.h"
+#include "calib/gap_evidence.h"
+#include "calib/gap_families.h"
+#include "calib/gap_fit.h"
+#include "calib/gap_held_out.h"
+#include "calib/gap_probability.h"
+#include "calib/gap_shrink.h"
+
+namespace armcal {
+
+// One effect that was found.
+struct FoundEffect {
+  const Effect* effect = nullptr;
+  int joint = -1;  // from 0; -1: all joints or the whole robot
+  double probability = 0;
+  double score = 0;
+  double drop = 0;  // of chi^2 when it is left out
+  EffectEvidence evidence;
+  Eigen::VectorXd p;
+  std::vector<EffectEstimate> estimates;
+  std::vector<double> stddev;  // of the estimates
+  // Others that these data cannot tell from it.
+  std::vector<PlacedEffect> equivalent;
+  // Of the held-out gap, by this one beside the others.
+  double removed_percent = 0;
+  double ci95[2] = {0, 0};
+  std::string separate_by;        // the experiment that would tell them apart
+  std::vector<Contact> contacts;  // of external_contact, in time's order
+};
+
+// By their drops, but for what the file has a number for: that may take the
+// mean of a law on the same joint for its own, more than it leaves of the law,
+// and comes after it.
+void SortFindings(std::vector<FoundEffect>* effects);
+
+// What a fit found.
+struct GapFindings {
+  // Probable enough to be claimed, strongest first.
+  std::vector<FoundEffect> effects;
+  // Those and all others that may be in their places: 95 % of each.
+  std::vector<PlacedEffect> candidates;
+  // Something was found that no name is probable enough for.
+  bool without_name = false;
+};
+
+// `families`: what the file gives no joint at all; empty where that is nothing
+// new.
+GapFindings ListFindings(const Robot& robot, const GapFit& fit,
+                         const HeldOut& held_out, const GapFigures& torque,
+                         const std::vector<LackedFamily>& families);
+
+}  // namespace armcal

@@ -1,0 +1,55 @@
+#include "calib/gap_findings.h"
+
+#include <gmock/gmock.h>
+
+#include "model/effects/effects.h"
+
+namespace armcal {
+namespace {
+
+using testing::ElementsAre;
+
+FoundEffect Found(const std::string& name, int joint, double drop) {
+  FoundEffect found;
+  found.effect = FindEffect(name);
+  found.joint = joint;
+  found.drop = drop;
+  return found;
+}
+
+std::vector<std::string> Sorted(std::vector<FoundEffect> effects) {
+  SortFindings(&effects);
+  std::vector<std::string> names;
+  for (const FoundEffect& found : effects) {
+    names.push_back(found.effect->name + "@" + std::to_string(found.joint + 1));
+  }
+  return names;
+}
+
+TEST(SortFindings, ByDrop) {
+  EXPECT_THAT(Sorted({Found("stribeck", 1, 50), Found("spring", 1, 80),
+                      Found("payload", -1, 60)}),
+              ElementsAre("spring@2", "payload@0", "stribeck@2"));
+}
+
+TEST(SortFindings, ALawComesBeforeItsMean) {
+  EXPECT_THAT(Sorted({Found("coulomb_friction", 1, 100),
+                      Found("position_friction", 1, 60)}),
+              ElementsAre("position_friction@2", "coulomb_friction@2"));
+}
+
+// A friction that is wrong by much leaves errors of form, which look like laws.
+TEST(SortFindings, ALawOfLittleIsNoLaw) {
+  EXPECT_THAT(Sorted({Found("coulomb_friction", 1, 100),
+                      Found("position_friction", 1, 10)}),
+              ElementsAre("coulomb_friction@2", "position_friction@2"));
+}
+
+TEST(SortFindings, OtherJointsAreNotItsCompany) {
+  EXPECT_THAT(Sorted({Found("viscous_friction", 0, 100),
+                      Found("quadratic_friction", 1, 60)}),
+              ElementsAre("viscous_friction@1", "quadratic_friction@2"));
+}
+
+}  // namespace
+}  // namespace armcal
