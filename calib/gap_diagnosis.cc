@@ -5,8 +5,10 @@
 #include <limits>
 #include <optional>
 
+#include "calib/estimate_deviations.h"
 #include "calib/gap_fit.h"
 #include "calib/gap_held_out.h"
+#include "calib/gap_reference.h"
 
 namespace armcal {
 namespace {
@@ -19,29 +21,6 @@ constexpr double kTrustInFitted = .5;
 // Less probable effects are candidates, no more.
 constexpr double kLeastClaimed = .3;
 constexpr double kTimingWithReference = .05;  // s
-
-// Standard deviations of the estimates by their derivatives at p.
-std::vector<double> EstimateDeviations(const GapCandidate& effect,
-                                       const EffectSite& site,
-                                       const MatrixXd& covariance) {
-  const std::vector<EffectEstimate> at =
-      EstimatesOf(*effect.effect, site, effect.p);
-  MatrixXd J = MatrixXd::Zero(at.size(), effect.p.size());
-  for (int k = 0; k < effect.p.size(); ++k) {
-    VectorXd p = effect.p;
-    const double step = 1e-4 * std::sqrt(covariance(k, k));
-    if (!(step > 0)) continue;
-    p[k] += step;
-    const auto moved = EstimatesOf(*effect.effect, site, p);
-    for (size_t i = 0; i < at.size(); ++i) {
-      J(i, k) = (moved[i].value - at[i].value) / step;
-    }
-  }
-  const VectorXd variance = (J * covariance * J.transpose()).diagonal();
-  std::vector<double> stddev;
-  for (const double v : variance) stddev.push_back(std::sqrt(std::max(v, 0.)));
-  return stddev;
-}
 
 class Diagnoser {
  public:
@@ -58,6 +37,7 @@ class Diagnoser {
     std::vector<GapSegment> segments =
         ReadSegments(hz, options_.progress, logs);
     if (must_move) CheckMotion(segments, hz, part, *logs);
+    AdvanceTorque(delay_, &segments);
     return segments;
   }
   FoundEffect Describe(const GapCandidate& effect,
@@ -76,6 +56,7 @@ class Diagnoser {
   const Robot& robot_;
   const DiagnosisOptions& options_;
   bool has_reference_ = false;
+  double delay_ = 0;  // of recorded torque, s, that was undone
   // Something was found that no name is probable enough for.
   bool found_without_name_ = false;
   std::optional<GapBaseline> baseline_;
@@ -88,10 +69,10 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
                             LogSet* reference) {
   const bool split = validation == nullptr;
   // What touches an arm that rests, a reference tells.
-  const std::vector<GapSegment> segments =
+  std::vector<GapSegment> segments =
       Read(training, split ? LogPart::kHeldOut : LogPart::kAll,
            reference == nullptr);
-  const std::vector<GapSegment> before = Read(reference, LogPart::kAll);
+  std::vector<GapSegment> before = Read(reference, LogPart::kAll);
   const LackedFamilies lacked =
       FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
                         before.empty() ? segments : before);
@@ -100,6 +81,13 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   // How late a log's torque is, a reference tells.
   if (!before.empty()) trust.timing_s = kTimingWithReference;
   baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
+  if (!before.empty()) {
+    const ReferenceModel model =
+        FitReference(*baseline_, options_.bandwidth_hz, &before);
+    baseline_ = model.baseline;
+    delay_ = model.delay;
+    AdvanceTorque(delay_, &segments);
+  }
   result_.ladder = lacked;
   has_reference_ = reference != nullptr;
   fit_.emplace(*baseline_,
@@ -120,6 +108,7 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   ListEffects();
   Simulate(split ? training : validation, split);
   result_.moved = ListMoved(*fit_, fit_->refined().baseline);
+  result_.shown = ListShown(*fit_, fit_->refined().baseline);
   result_.untestable = ListUntestable(*fit_);
   TellUnexplained();
   Judge();
@@ -178,7 +167,7 @@ FoundEffect Diagnoser::Describe(const GapCandidate& effect,
   found.joint = effect.joint;
   found.p = effect.p;
   found.estimates = EstimatesOf(*effect.effect, site, effect.p);
-  found.stddev = EstimateDeviations(effect, site, covariance);
+  found.stddev = EstimateDeviations(*effect.effect, site, effect.p, covariance);
   return found;
 }
 
@@ -304,13 +293,19 @@ void Diagnoser::Simulate(LogSet* held_out, bool split) {
                          const std::vector<GapCandidate>& effects) {
     return MakeCorrectedRobot(*baseline_, x, effects, fit_->scale());
   };
-  result_.corrected = robot(refined.baseline, refined.effects);
+  ForwardRobots robots = {robot(fit_->before(), {}), robot(fit_->refit(), {}),
+                          robot(refined.baseline, refined.effects)};
+  result_.corrected = robots.after;
+  // Segments have their torque as if it came without delay; logs have not.
+  result_.corrected.delay += delay_;
   if (!options_.forward) return;
-  const ForwardRobots robots = {robot(VectorXd::Zero(baseline_->size()), {}),
-                                robot(fit_->refit(), {}), result_.corrected};
   CountedTimes counted;
   if (split) counted = TimesWithRows(held_out_->rows());
   if (options_.controller) {
+    for (CorrectedRobot* each :
+         {&robots.nominal, &robots.refit, &robots.after}) {
+      each->delay += delay_;
+    }
     result_.forward =
         ForwardGapInLoop(robots, robot_, *options_.controller,
                          options_.commanded, options_.seed, counted);
