@@ -17,8 +17,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kCatchUp = 1;  // s
-// A lag that makes no difference: it would only cost substeps.
-constexpr double kShortestLag = 1e-4;  // s
 
 // The command as a motion. Feedforward takes its accelerations, which differ
 // from those of second-order differences by several percent of the torque.
@@ -55,18 +53,6 @@ ReferenceMotion InTrueTime(const ReferenceMotion& logged,
             point.qdd *= rate * rate;
             return point;
           }};
-}
-
-ActuatorMap Lag(int n, double time_constant) {
-  ActuatorMap lag;
-  lag.initial_state = VectorXd::Zero(n);
-  lag.apply = [n, time_constant](const ArmInstant&, const double* state,
-                                 double* rate, VectorXd* torque) {
-    const Eigen::Map<const VectorXd> given(state, n);
-    Eigen::Map<VectorXd>(rate, n) = (*torque - given) / time_constant;
-    *torque = given;
-  };
-  return lag;
 }
 
 // Columns of a run's log at true time t, linear between its rows.
@@ -121,13 +107,10 @@ ClosedLoopReplay ReplayClosedLoop(const SimulatedRobot& plant, double delay,
   const Log& log = commanded.log;
   const int n = known.num_joints();
   SimulatedRobot delayed = plant;
-  if (delay <= -kShortestLag) {
-    delayed.actuators.insert(delayed.actuators.begin(), Lag(n, -delay));
-  }
+  delayed.torque_delay += delay;
   ClosedLoopOptions options;
   options.controller = controller;
   options.sensors.log_rate_hz = controller.rate_hz;
-  options.sensors.torque_delay = std::max(0., delay);
   const ArmEngine engine = MakeArmEngine(plant.robot);
   const ReferenceMotion motion =
       InTrueTime(MotionThrough(commanded.path, CommandOf(log)), plant.clock);

@@ -58,6 +58,15 @@ CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
   corrected.width = scale.width;
   const Robot fitted = baseline.With(x);
   corrected.plant.robot = fitted;
+  for (const KnownEffect& known : baseline.KnownAt(x)) {
+    GapCandidate effect;
+    effect.effect = known.effect;
+    effect.joint = known.joint;
+    effect.p = known.p;
+    corrected.effects.push_back(
+        Carry({&fitted, known.joint, &baseline.known().scale()}, effect,
+              &corrected.plant));
+  }
   for (const GapCandidate& effect : effects) {
     corrected.effects.push_back(
         Carry({&fitted, effect.joint, &scale}, effect, &corrected.plant));

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "model/link_regressor.h"
 #include "model/low_pass.h"
@@ -21,6 +22,10 @@ constexpr std::array<double, 5> kOtherWidths = {1.5e-3, 3e-3, 12e-3, 24e-3,
                                                 48e-3};
 // Of the joint's Coulomb friction, how much may change sign otherwise.
 constexpr double kMixture = .5;
+// Scatter of friction from one day to the next: a UR10e's in eight logs of a
+// month (shared/data/ur10e_free/SOURCE.md), ranges over 2.85.
+constexpr std::array<std::pair<JointTerm, double>, 2> kShareOfDays = {
+    {{JointTerm::kViscous, .1}, {JointTerm::kCoulomb, .06}}};
 // A torque's zero is not known better than this share of its usual size.
 constexpr double kOffsetShare = .02;
 
@@ -95,6 +100,33 @@ GapBaseline::GapBaseline(const Robot& robot, const BaselineOptions& options,
   columns_.push_back({BaselineColumn::Kind::kTiming, -1, 0, options.timing_s});
 }
 
+GapBaseline GapBaseline::MovedTo(const VectorXd& x) const {
+  GapBaseline moved = *this;
+  moved.robot_ = With(x);
+  return moved;
+}
+
+void GapBaseline::FreeDays() {
+  for (int j = 0; j < robot_.num_joints(); ++j) {
+    for (const auto& [term, share] : kShareOfDays) {
+      const double spread =
+          share * std::abs(TermOf(term, &robot_.links[j].joint));
+      if (spread <= 0) continue;
+      columns_.push_back(
+          {BaselineColumn::Kind::kDay, j, static_cast<int>(term), spread});
+    }
+  }
+}
+
+void GapBaseline::AddKnown(const KnownEffects& known) {
+  CHECK(known_.parameters().empty());
+  known_ = known;
+  for (const KnownEffects::Parameter& parameter : known.parameters()) {
+    columns_.push_back({BaselineColumn::Kind::kEffect, parameter.joint,
+                        parameter.index, parameter.spread});
+  }
+}
+
 void GapBaseline::AddLink(int link, double trust) {
   const InertialParameters& inertial = robot_.links[link].inertial;
   if (inertial.mass <= 0) return;
@@ -136,6 +168,7 @@ VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
       if (column.joint < j) return {};
       return inertial.col(10 * column.joint + column.index);
     case BaselineColumn::Kind::kTerm:
+    case BaselineColumn::Kind::kDay:
       if (!own) return {};
       return TermTorque(static_cast<JointTerm>(column.index), transitions_[j],
                         motion, j);
@@ -148,6 +181,8 @@ VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
     }
     case BaselineColumn::Kind::kTiming:
       return -Differentiate(torque.nominal().col(j), motion.dt);
+    case BaselineColumn::Kind::kEffect:
+      break;
   }
   return {};
 }
@@ -160,8 +195,12 @@ std::vector<MatrixXd> GapBaseline::ThinColumns(
     const int s = static_cast<int>(i);
     const Motion& motion = torques[i].motion();
     const std::vector<MatrixXd> inertial = InertialTorque(robot_, motion);
+    const std::vector<MatrixXd> known = known_.Torques(robot_, torques[i]);
     for (int j = 0; j < n; ++j) {
       MatrixXd fine = MatrixXd::Zero(motion.size(), size());
+      for (size_t k = 0; k < known.size(); ++k) {
+        fine.col(size() - known.size() + k) = known[k].col(j);
+      }
       for (int c = 0; c < size(); ++c) {
         const VectorXd column =
             FineColumn(columns_[c], j, inertial[j], torques[i]);
@@ -190,7 +229,8 @@ Robot GapBaseline::With(const VectorXd& x) const {
       Vector10d v = Vector10d::Zero();
       v[column.index] = value;
       robot.links[column.joint].inertial += InertialParameters::FromVector(v);
-    } else if (column.kind == BaselineColumn::Kind::kTerm) {
+    } else if (column.kind == BaselineColumn::Kind::kTerm ||
+               column.kind == BaselineColumn::Kind::kDay) {
       TermOf(static_cast<JointTerm>(column.index),
              &robot.links[column.joint].joint) += value;
     }
@@ -213,6 +253,10 @@ std::vector<CoulombPart> GapBaseline::CoulombAt(int j,
         {force, {CoulombTransition::Law::kVelocity, WidthOf(column)}});
   }
   return parts;
+}
+
+std::vector<KnownEffect> GapBaseline::KnownAt(const VectorXd& x) const {
+  return known_.At(x.tail(known_.parameters().size()));
 }
 
 double GapBaseline::DelayAt(const VectorXd& x) const {

@@ -7,6 +7,7 @@
 
 #include "calib/gap_rows.h"
 #include "calib/joint_term_laws.h"
+#include "calib/known_effects.h"
 #include "model/effects/effect.h"
 #include "model/joint_term.h"
 #include "model/recorded_torque.h"
@@ -16,12 +17,15 @@ namespace armcal {
 
 // One thing that the model may vary, in units of its prior's standard
 // deviation: an inertial parameter, a joint term, or a nuisance (how friction
-// changes sign, how torque and position are shifted in time).
+// changes sign, how torque and position are shifted in time), or an effect that
+// the robot is known to have.
 struct BaselineColumn {
-  enum class Kind { kInertial, kTerm, kZeroVelocity, kTiming };
+  // kDay: a joint term in the diagnosed logs only, not in a reference.
+  enum class Kind { kInertial, kTerm, kZeroVelocity, kTiming, kDay, kEffect };
   Kind kind;
   int joint;      // or link; -1: all
-  int index = 0;  // inertial parameter or JointTerm or shape
+  int index = 0;  // inertial parameter or JointTerm or shape or parameter of
+                  // KnownEffects
   double spread;  // SI units per prior standard deviation
 
   // Whether it is one of the changes of friction near zero velocity that show
@@ -46,6 +50,14 @@ class GapBaseline {
   GapBaseline(const Robot& robot, const BaselineOptions& options,
               const Eigen::VectorXd& usual_torque);
 
+  // The same freedom around values x: they are the new zero.
+  GapBaseline MovedTo(const Eigen::VectorXd& x) const;
+  // From now on friction may differ between a reference and the diagnosed logs
+  // by as much as that of gears does from day to day.
+  void FreeDays();
+  // From now on the linear parameters of these are columns, too. Once.
+  void AddKnown(const KnownEffects& known);
+
   const Robot& robot() const { return robot_; }
   int size() const { return static_cast<int>(columns_.size()); }
   const std::vector<BaselineColumn>& columns() const { return columns_; }
@@ -61,6 +73,9 @@ class GapBaseline {
   // Coulomb friction of joint j at x: the joint's own, as far as it changes
   // sign as transitions() say, and what the nuisances give to other widths.
   std::vector<CoulombPart> CoulombAt(int j, const Eigen::VectorXd& x) const;
+  // The known effects at x.
+  std::vector<KnownEffect> KnownAt(const Eigen::VectorXd& x) const;
+  const KnownEffects& known() const { return known_; }
   // By how much recorded torque is later than the motion, s.
   double DelayAt(const Eigen::VectorXd& x) const;
 
@@ -74,6 +89,7 @@ class GapBaseline {
 
   Robot robot_;
   std::vector<BaselineColumn> columns_;
+  KnownEffects known_;
   std::vector<CoulombTransition> transitions_;
 };
 

@@ -52,6 +52,10 @@ void GapData::SetNoise(std::vector<Autoregression> noise) {
   rows_->SetNoise(std::move(noise), doubt_);
 }
 
+void GapData::Hold(int column) {
+  for (MatrixXd& columns : columns_) columns.col(column).setZero();
+}
+
 void GapData::Mask(int log, const TimeRange& window) {
   for (size_t i = 0; i < segments_.size(); ++i) {
     if (segments_[i].log != log) continue;

@@ -36,6 +36,8 @@ class GapData {
   // Friction near zero velocity is doubted beyond what the baseline's columns
   // can vary: laws differ, and encoders do not see slow creep.
   void SetNoise(std::vector<Autoregression> noise);
+  // As if this column of the baseline did not act in these logs.
+  void Hold(int column);
   // From now on nothing is believed of a log in this time, s.
   void Mask(int log, const TimeRange& window);
   // All is believed again.

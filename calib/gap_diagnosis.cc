@@ -7,6 +7,7 @@
 
 #include "calib/gap_fit.h"
 #include "calib/gap_held_out.h"
+#include "calib/gap_reference.h"
 
 namespace armcal {
 namespace {
@@ -33,6 +34,7 @@ class Diagnoser {
     std::vector<GapSegment> segments =
         ReadSegments(hz, options_.progress, logs);
     if (must_move) CheckMotion(segments, hz, part, *logs);
+    AdvanceTorque(delay_, &segments);
     return segments;
   }
   JointGap JointFigures(int joint) const;
@@ -44,6 +46,7 @@ class Diagnoser {
   const Robot& robot_;
   const DiagnosisOptions& options_;
   bool has_reference_ = false;
+  double delay_ = 0;  // of recorded torque, s, that was undone
   std::optional<GapBaseline> baseline_;
   std::optional<GapFit> fit_;
   std::optional<HeldOut> held_out_;
@@ -55,10 +58,10 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
                             LogSet* reference) {
   const bool split = validation == nullptr;
   // What touches an arm that rests, a reference tells.
-  const std::vector<GapSegment> segments =
+  std::vector<GapSegment> segments =
       Read(training, split ? LogPart::kHeldOut : LogPart::kAll,
            reference == nullptr);
-  const std::vector<GapSegment> before = Read(reference, LogPart::kAll);
+  std::vector<GapSegment> before = Read(reference, LogPart::kAll);
   const LackedFamilies lacked =
       FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
                         before.empty() ? segments : before);
@@ -67,6 +70,13 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   // How late a log's torque is, a reference tells.
   if (!before.empty()) trust.timing_s = kTimingWithReference;
   baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
+  if (!before.empty()) {
+    const ReferenceModel model =
+        FitReference(*baseline_, options_.bandwidth_hz, &before);
+    baseline_ = model.baseline;
+    delay_ = model.delay;
+    AdvanceTorque(delay_, &segments);
+  }
   result_.ladder = lacked;
   has_reference_ = reference != nullptr;
   fit_.emplace(*baseline_,
@@ -91,6 +101,7 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   result_.candidates = findings_.candidates;
   Simulate(split ? training : validation, split);
   result_.moved = ListMoved(*fit_, fit_->refined().baseline);
+  result_.shown = ListShown(*fit_, fit_->refined().baseline);
   result_.untestable = ListUntestable(*fit_);
   TellUnexplained();
   Judge();
@@ -149,13 +160,19 @@ void Diagnoser::Simulate(LogSet* held_out, bool split) {
                          const std::vector<GapCandidate>& effects) {
     return MakeCorrectedRobot(*baseline_, x, effects, fit_->scale());
   };
-  result_.corrected = robot(refined.baseline, refined.effects);
+  ForwardRobots robots = {robot(fit_->before(), {}), robot(fit_->refit(), {}),
+                          robot(refined.baseline, refined.effects)};
+  result_.corrected = robots.after;
+  // Segments have their torque as if it came without delay; logs have not.
+  result_.corrected.delay += delay_;
   if (!options_.forward) return;
-  const ForwardRobots robots = {robot(VectorXd::Zero(baseline_->size()), {}),
-                                robot(fit_->refit(), {}), result_.corrected};
   CountedTimes counted;
   if (split) counted = TimesWithRows(held_out_->rows());
   if (options_.controller) {
+    for (CorrectedRobot* each :
+         {&robots.nominal, &robots.refit, &robots.after}) {
+      each->delay += delay_;
+    }
     result_.forward =
         ForwardGapInLoop(robots, robot_, *options_.controller,
                          options_.commanded, options_.seed, counted);

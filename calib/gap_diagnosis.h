@@ -16,6 +16,7 @@
 #include "calib/gap_noise.h"
 #include "calib/gap_probability.h"
 #include "calib/gap_selection.h"
+#include "calib/gap_shown.h"
 #include "calib/gap_shrink.h"
 #include "calib/gap_testability.h"
 #include "calib/gap_where.h"
@@ -70,6 +71,7 @@ struct GapDiagnosis {
   std::vector<FoundEffect> effects;  // strongest first
   std::vector<PlacedEffect> candidates;
   std::vector<MovedParameter> moved;
+  std::vector<ShownEffect> shown;  // what a reference shows of itself
   NoiseFloor floor = NoiseFloor::kAssumed;
   GapFigures torque;
   std::optional<ForwardGap> forward;

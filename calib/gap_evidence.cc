@@ -15,19 +15,15 @@ constexpr double kConstant = -.947, kOdds = .418, kStrength = .249,
                  kChosen = -1.035, kShare = -.0392, kEvent = -1.625,
                  kEvents = -.2515, kOneJoint = -1.137, kGain = 5.943;
 
-GapScreen::Fit EffectsOf(const GapFit& fit) {
-  return fit.screen().Solve(
-      ColumnsOf(fit.candidates(), fit.selection().chosen));
-}
-
 }  // namespace
 
 double Excess(const GapFit& fit, int joint, bool with_effects) {
-  const Eigen::VectorXd residual = fit.screen().Residual(
-      joint, with_effects ? EffectsOf(fit) : GapScreen::Fit());
-  return std::max(
-      0., residual.squaredNorm() -
-              (1 + VarianceDoubt(fit.noise().source)) * residual.size());
+  const Eigen::VectorXd residual =
+      with_effects ? fit.Left(joint) : fit.screen().Residual(joint, {});
+  const GapNoise& noise = fit.noise();
+  const double doubt = VarianceDoubt(noise.source) +
+                       (noise.doubt.empty() ? 0 : noise.doubt[joint]);
+  return std::max(0., residual.squaredNorm() - (1 + doubt) * residual.size());
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/estimate_deviations.h"
 #include "model/effects/effects.h"
 
 namespace armcal {
@@ -14,29 +15,6 @@ using Eigen::VectorXd;
 
 // Less probable effects are candidates, no more.
 constexpr double kLeastClaimed = .3;
-
-// Standard deviations of the estimates by their derivatives at p.
-std::vector<double> EstimateDeviations(const GapCandidate& effect,
-                                       const EffectSite& site,
-                                       const MatrixXd& covariance) {
-  const std::vector<EffectEstimate> at =
-      EstimatesOf(*effect.effect, site, effect.p);
-  MatrixXd J = MatrixXd::Zero(at.size(), effect.p.size());
-  for (int k = 0; k < effect.p.size(); ++k) {
-    VectorXd p = effect.p;
-    const double step = 1e-4 * std::sqrt(covariance(k, k));
-    if (!(step > 0)) continue;
-    p[k] += step;
-    const auto moved = EstimatesOf(*effect.effect, site, p);
-    for (size_t i = 0; i < at.size(); ++i) {
-      J(i, k) = (moved[i].value - at[i].value) / step;
-    }
-  }
-  const VectorXd variance = (J * covariance * J.transpose()).diagonal();
-  std::vector<double> stddev;
-  for (const double v : variance) stddev.push_back(std::sqrt(std::max(v, 0.)));
-  return stddev;
-}
 
 class Findings {
  public:
@@ -69,7 +47,7 @@ FoundEffect Findings::Describe(const GapCandidate& effect,
   found.joint = effect.joint;
   found.p = effect.p;
   found.estimates = EstimatesOf(*effect.effect, site, effect.p);
-  found.stddev = EstimateDeviations(effect, site, covariance);
+  found.stddev = EstimateDeviations(*effect.effect, site, effect.p, covariance);
   return found;
 }
 

@@ -6,6 +6,7 @@
 
 #include "calib/gap_inflation.h"
 #include "calib/gap_null.h"
+#include "calib/gap_reference.h"
 #include "model/effects/effects.h"
 
 namespace armcal {
@@ -22,6 +23,16 @@ VectorXd RefitBaseline(const GapData& data) {
   GapScreen screen(data.WhitenedColumns(), data.WhitenedResidual());
   screen.Factor();
   return screen.BaselineBeside(JointRows(data.rows().num_joints()));
+}
+
+std::vector<int> DayColumns(const GapBaseline& baseline) {
+  std::vector<int> columns;
+  for (int c = 0; c < baseline.size(); ++c) {
+    if (baseline.columns()[c].kind == BaselineColumn::Kind::kDay) {
+      columns.push_back(c);
+    }
+  }
+  return columns;
 }
 
 void AddReference(const GapData& before, GapScreen* screen) {
@@ -45,20 +56,24 @@ GapFit::GapFit(const GapBaseline& baseline, const GapFitOptions& options,
   const double hz = options.bandwidth_hz;
   data_ = std::make_unique<GapData>(std::move(training), baseline, hz, part);
   if (!reference.empty()) {
+    noise_ = ReferenceNoise(baseline, hz, reference);
     reference_ = std::make_unique<GapData>(std::move(reference), baseline, hz);
+    for (const int c : DayColumns(baseline)) reference_->Hold(c);
   }
   EstimateNoise();
   scale_ = ScaleOf(baseline, data_->rows(), data_->torques());
 }
 
 void GapFit::EstimateNoise() {
-  GapData* told_by = reference_ ? reference_.get() : data_.get();
-  told_by->SetNoise(WhiteNoise(told_by->residual()));
-  const MatrixXd left = told_by->ResidualWith(RefitBaseline(*told_by));
-  noise_ = reference_
-               ? ResidualNoise(reference_->rows(), left)
-               : EstimateGapNoise(data_->rows(), data_->FineResidual(), left);
-  if (reference_) reference_->SetNoise(noise_.joints);
+  before_ = VectorXd::Zero(baseline_.size());
+  if (reference_) {
+    reference_->SetNoise(noise_.joints);
+    before_ = RefitBaseline(*reference_);
+  } else {
+    data_->SetNoise(WhiteNoise(data_->residual()));
+    noise_ = EstimateGapNoise(data_->rows(), data_->FineResidual(),
+                              data_->ResidualWith(RefitBaseline(*data_)));
+  }
   data_->SetNoise(noise_.joints);
 }
 
@@ -68,6 +83,20 @@ void GapFit::Refit() {
   if (reference_) AddReference(*reference_, &*screen_);
   screen_->Factor();
   refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
+  if (HoldUnusualDays()) Refit();
+}
+
+// Friction that changed by more than it does from day to day is to be
+// explained, not absorbed. Whether there was any.
+bool GapFit::HoldUnusualDays() {
+  constexpr double kUsual = 3;  // standard deviations
+  bool any = false;
+  for (const int c : DayColumns(baseline_)) {
+    if (std::abs(refit_[c]) < kUsual) continue;
+    data_->Hold(c);
+    any = true;
+  }
+  return any;
 }
 
 // What the baseline and effects leave of the torque beyond friction.
@@ -346,6 +375,14 @@ void GapFit::CompareRivals(size_t k) {
     }
   }
   selection_.chosen[k] = best;
+}
+
+VectorXd GapFit::Left(int joint) const {
+  const JointRows torque =
+      EffectTorque(baseline_, scale_, refined_.effects, false, data_.get());
+  MatrixXd left = data_->ResidualWith(refined_.baseline);
+  if (torque[joint].size() > 0) left.col(joint) -= torque[joint];
+  return data_->rows().Whiten(joint, left.col(joint));
 }
 
 VectorXd GapFit::BaselineWithout(size_t k) const {

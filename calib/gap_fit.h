@@ -67,8 +67,14 @@ class GapFit {
   const std::vector<RefinedScore>& rivals(size_t k) const { return rivals_[k]; }
   // The score that chance gives the best of all beside the others.
   double ByChance(size_t k) const;
+  // The baseline's values before these logs: the file's, or those of the
+  // reference.
+  const Eigen::VectorXd& before() const { return before_; }
   // The baseline's values without any effect.
   const Eigen::VectorXd& refit() const { return refit_; }
+  // Whitened residual of joint j beside the refined effects: their torque as it
+  // is, not as columns have it.
+  Eigen::VectorXd Left(int joint) const;
   // The baseline beside the refined effects but for the k-th.
   Eigen::VectorXd BaselineWithout(size_t k) const;
 
@@ -76,6 +82,7 @@ class GapFit {
   void EstimateNoise();
   void MakeScreen();
   bool AddLargerOnes();
+  bool HoldUnusualDays();
   void Refit();
   bool TakeOutContacts(const std::vector<GapCandidate>& effects,
                        ContactSearch search);
@@ -101,7 +108,7 @@ class GapFit {
   RefinedEffects refined_;
   std::vector<std::vector<RefinedScore>> rivals_;
   std::vector<GapEvent> events_;
-  Eigen::VectorXd refit_;
+  Eigen::VectorXd before_, refit_;
 };
 
 }  // namespace armcal

@@ -96,7 +96,7 @@ MatrixXd HeldOut::Squares(const std::vector<GapCandidate>& effects,
 
 HeldOutSquares HeldOut::AllSquares() const {
   HeldOutSquares squares;
-  squares.nominal = Squares({}, VectorXd::Zero(fit_.baseline().size()));
+  squares.nominal = Squares({}, fit_.before());
   squares.refit = Squares({}, fit_.refit());
   squares.after = Squares(fit_.refined().effects, fit_.refined().baseline);
   return squares;

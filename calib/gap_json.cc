@@ -53,14 +53,19 @@ json ContactJson(const Contact& contact, const GapDiagnosis& diagnosis) {
           {"force", force}};
 }
 
-json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
-  json estimates = json::array();
-  for (size_t k = 0; k < found.estimates.size(); ++k) {
-    estimates.push_back({{"name", found.estimates[k].name},
-                         {"unit", found.estimates[k].unit},
-                         {"value", JsonNumber(found.estimates[k].value)},
-                         {"stddev", JsonNumber(found.stddev[k])}});
+json EstimatesJson(const std::vector<EffectEstimate>& estimates,
+                   const std::vector<double>& stddev) {
+  json list = json::array();
+  for (size_t k = 0; k < estimates.size(); ++k) {
+    list.push_back({{"name", estimates[k].name},
+                    {"unit", estimates[k].unit},
+                    {"value", JsonNumber(estimates[k].value)},
+                    {"stddev", JsonNumber(stddev[k])}});
   }
+  return list;
+}
+
+json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   json windows = json::array(), contacts = json::array();
   for (const Contact& contact : found.contacts) {
     windows.push_back({contact.window.begin, contact.window.end});
@@ -73,7 +78,7 @@ json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
       {"probability", JsonNumber(found.probability)},
       {"score", JsonNumber(found.score)},
       {"evidence", EvidenceJson(found.evidence)},
-      {"estimates", estimates},
+      {"estimates", EstimatesJson(found.estimates, found.stddev)},
       {"equivalent", PlacesJson(found.equivalent)},
       {"separate_by", found.separate_by},
       {"removed_percent", JsonNumber(found.removed_percent)},
@@ -143,6 +148,18 @@ json WhereJson(const std::vector<JointGap>& joints) {
   return {{"joints", list}};
 }
 
+json ShownJson(const GapDiagnosis& diagnosis) {
+  json list = json::array();
+  for (const ShownEffect& shown : diagnosis.shown) {
+    list.push_back(
+        {{"effect", shown.effect->name},
+         {"joint", shown.joint < 0 ? "" : diagnosis.joints[shown.joint].name},
+         {"joint_index", shown.joint + 1},
+         {"estimates", EstimatesJson(shown.estimates, shown.stddev)}});
+  }
+  return list;
+}
+
 json MovedJson(const std::vector<MovedParameter>& moved) {
   json list = json::array();
   for (const MovedParameter& parameter : moved) {
@@ -189,6 +206,7 @@ json ToJson(const GapDiagnosis& diagnosis) {
           {"candidates", PlacesJson(diagnosis.candidates)},
           {"ladder", LadderJson(diagnosis.ladder)},
           {"absorbed", MovedJson(diagnosis.moved)},
+          {"reference_shows", ShownJson(diagnosis)},
           {"where", WhereJson(diagnosis.joints)},
           {"untestable", untestable},
           {"gap", gap},

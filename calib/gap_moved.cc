@@ -7,6 +7,8 @@ namespace armcal {
 namespace {
 
 constexpr double kFar = 2;  // standard deviations
+// Of a usual change from day to day.
+constexpr double kNotable = .5;
 
 const char* const kInertialNames[] = {"mass", "hx",  "hy",  "hz",  "Ixx",
                                       "Ixy",  "Iyy", "Ixz", "Iyz", "Izz"};
@@ -35,7 +37,8 @@ MovedParameter Describe(const BaselineColumn& column, const Robot& robot) {
                      : column.index < 4 ? "kg m"
                                         : "kg m^2";
     parameter.nominal = link.inertial.ToVector()[column.index];
-  } else if (column.kind == BaselineColumn::Kind::kTerm) {
+  } else if (column.kind == BaselineColumn::Kind::kTerm ||
+             column.kind == BaselineColumn::Kind::kDay) {
     const Joint& joint = robot.links[column.joint].joint;
     const JointTerm term = static_cast<JointTerm>(column.index);
     parameter.name = joint.name + "." + JointTermName(term);
@@ -50,14 +53,20 @@ MovedParameter Describe(const BaselineColumn& column, const Robot& robot) {
 std::vector<MovedParameter> ListMoved(const GapFit& fit,
                                       const Eigen::VectorXd& x) {
   const Eigen::MatrixXd covariance = fit.screen().BaselineCovariance();
+  const auto& columns = fit.baseline().columns();
+  const bool since_reference =
+      std::any_of(columns.begin(), columns.end(), [](const auto& column) {
+        return column.kind == BaselineColumn::Kind::kDay;
+      });
   std::vector<MovedParameter> moved;
   for (int c = 0; c < x.size(); ++c) {
     const BaselineColumn& column = fit.baseline().columns()[c];
     MovedParameter parameter = Describe(column, fit.baseline().robot());
     const double own = std::sqrt(covariance(c, c));
-    if (parameter.name.empty() || std::abs(x[c]) < kFar * std::max(1., own)) {
-      continue;
-    }
+    const bool of_day = column.kind == BaselineColumn::Kind::kDay;
+    if (parameter.name.empty() || of_day != since_reference) continue;
+    const double least = of_day ? kNotable : kFar;
+    if (std::abs(x[c]) < std::max(least, kFar * own)) continue;
     parameter.value = parameter.nominal + x[c] * column.spread;
     parameter.stddev = own * column.spread;
     parameter.deviations = x[c];

@@ -17,7 +17,9 @@ struct MovedParameter {
 };
 
 // Those that the data move by more than two standard deviations of the prior
-// and of their own, the farthest first; x: the baseline's values.
+// and of their own, the farthest first; x: the baseline's values. With a
+// reference: friction that is not what it was then, by more than two of its own
+// and half of what is usual from day to day.
 std::vector<MovedParameter> ListMoved(const GapFit& fit,
                                       const Eigen::VectorXd& x);
 

@@ -23,6 +23,8 @@ double VarianceDoubt(NoiseFloor source);
 struct GapNoise {
   std::vector<Autoregression> joints;
   NoiseFloor source = NoiseFloor::kAssumed;
+  // Share of each joint's variance that other motion may add; empty: none.
+  std::vector<double> doubt;
 };
 
 // Noise of `residual` (per segment, fine samples x n; of any model, since only

@@ -24,7 +24,9 @@ std::string Named(const Effect& effect, int joint,
   return text;
 }
 
-std::string Estimates(const FoundEffect& found) {
+// Of a FoundEffect or a ShownEffect.
+template <typename Found>
+std::string Estimates(const Found& found) {
   std::string text;
   for (size_t k = 0; k < found.estimates.size(); ++k) {
     const EffectEstimate& estimate = found.estimates[k];
@@ -162,6 +164,12 @@ std::string Findings(const GapDiagnosis& diagnosis) {
                     diagnosis.torque.removed_percent);
 }
 
+std::string MovedTitle(const GapDiagnosis& diagnosis) {
+  return diagnosis.floor == NoiseFloor::kReference
+             ? "\nfriction that has changed since the reference\n"
+             : "\nparameters far from the file's\n";
+}
+
 }  // namespace
 
 std::string BriefReport(const GapDiagnosis& diagnosis) {
@@ -169,8 +177,10 @@ std::string BriefReport(const GapDiagnosis& diagnosis) {
     case GapVerdict::kNoiseFloor:
       return "The model agrees with the log to within the noise.";
     case GapVerdict::kAbsorbed:
-      return "Nothing is missing in the model but better values: refitting "
-             "its parameters brings it down to the noise.";
+      return diagnosis.floor == NoiseFloor::kReference
+                 ? "Nothing but friction has changed since the reference."
+                 : "Nothing is missing in the model but better values: "
+                   "refitting its parameters brings it down to the noise.";
     case GapVerdict::kExplained:
       return Findings(diagnosis) + ".";
     case GapVerdict::kPartlyExplained:
@@ -205,7 +215,12 @@ std::string FullReport(const GapDiagnosis& diagnosis) {
     text += Simulated(*diagnosis.forward);
   }
   text += Format("  noise told from: %s\n", NoiseFloorName(diagnosis.floor));
-  if (!diagnosis.moved.empty()) text += "\nparameters far from the file's\n";
+  if (!diagnosis.shown.empty()) text += "\nthe reference itself shows\n";
+  for (const ShownEffect& shown : diagnosis.shown) {
+    text += "  " + Named(*shown.effect, shown.joint, diagnosis) + ": " +
+            Estimates(shown) + "\n";
+  }
+  if (!diagnosis.moved.empty()) text += MovedTitle(diagnosis);
   for (const MovedParameter& moved : diagnosis.moved) {
     text +=
         Format("  %-28s %10.4g -> %10.4g +- %.2g %s\n", moved.name.c_str(),

@@ -3,6 +3,8 @@
 #include <glog/logging.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -75,6 +77,16 @@ Eigen::MatrixXd MassMatrix(const Robot& robot, const VectorXd& q) {
     }
   }
   return M;
+}
+
+VectorXd LinkInertias(const Robot& robot, const VectorXd& q) {
+  constexpr double kLeastShare = .05;
+  VectorXd inertia = MassMatrix(robot, q).diagonal();
+  for (int j = 0; j < inertia.size(); ++j) {
+    const double both = inertia[j] + robot.links[j].joint.armature;
+    inertia[j] = std::max(inertia[j], kLeastShare * std::abs(both));
+  }
+  return inertia;
 }
 
 VectorXd GravityTorque(const Robot& robot, const VectorXd& q) {

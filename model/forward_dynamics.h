@@ -13,6 +13,11 @@ namespace armcal {
 // M(q), n x n, by composite rigid bodies (Featherstone 2008, section 6.2).
 Eigen::MatrixXd MassMatrix(const Robot& robot, const Eigen::VectorXd& q);
 
+// Inertia about each joint of what lies beyond it, the other joints held, kg
+// m^2 or kg. A log does not tell it from armature, so that fitted links may
+// claim less than nothing: at least a twentieth of both together.
+Eigen::VectorXd LinkInertias(const Robot& robot, const Eigen::VectorXd& q);
+
 // The torque that holds the arm at rest at q.
 Eigen::VectorXd GravityTorque(const Robot& robot, const Eigen::VectorXd& q);
 

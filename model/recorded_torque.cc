@@ -179,7 +179,7 @@ const MatrixXd& RecordedTorque::Inertia() {
   if (inertia_.size() > 0) return inertia_;
   inertia_.resize(motion_.size(), robot_.num_joints());
   for (int k = 0; k < motion_.size(); ++k) {
-    inertia_.row(k) = MassMatrix(robot_, motion_.q.row(k)).diagonal();
+    inertia_.row(k) = LinkInertias(robot_, motion_.q.row(k));
   }
   return inertia_;
 }

@@ -27,11 +27,21 @@ class DiagnosedArm : public testing::Test {
 
   const Robot& File() const { return plant_->arm().robot; }
   // Adds an effect with these parameters to the true robot.
-  void Add(const std::string& name, int joint, std::vector<double> p) {
+  void Add(const std::string& name, int joint, const std::vector<double>& p) {
+    AddTo(name, joint, p, &truth_);
+  }
+  // To what it was before as well.
+  void AddAlways(const std::string& name, int joint,
+                 const std::vector<double>& p) {
+    Add(name, joint, p);
+    AddTo(name, joint, p, &before_);
+  }
+  static void AddTo(const std::string& name, int joint,
+                    const std::vector<double>& p, SimulatedRobot* robot) {
     FindEffect(name)->apply(
         plant_->arm().Site(joint),
         Eigen::Map<const Eigen::VectorXd>(p.data(), static_cast<int>(p.size())),
-        &truth_);
+        robot);
   }
   std::string Record(const SimulatedRobot& robot, const std::string& name) {
     Log log = plant_->Run(robot);
@@ -45,8 +55,8 @@ class DiagnosedArm : public testing::Test {
     std::unique_ptr<LogSet> reference;
     if (with_reference) {
       reference = std::make_unique<LogSet>(
-          std::vector<std::string>{Record(plant_->Bare(), "before.csv")},
-          reader, TimeRange());
+          std::vector<std::string>{Record(before_, "before.csv")}, reader,
+          TimeRange());
     }
     DiagnosisOptions options;
     options.bandwidth_hz = 6;
@@ -55,7 +65,7 @@ class DiagnosedArm : public testing::Test {
   }
 
   static const EffectPlant* plant_;
-  SimulatedRobot truth_ = plant_->Bare();
+  SimulatedRobot truth_ = plant_->Bare(), before_ = truth_;
   std::mt19937_64 random_{1};
 };
 template <int kSeconds>
@@ -72,8 +82,9 @@ inline void ExpectFirst(const GapDiagnosis& diagnosis,
 }
 // Within four of its standard deviations and a share of it, since filters bend
 // what forms do not.
-inline void ExpectEstimate(const FoundEffect& found, const std::string& name,
-                           double truth, double share) {
+template <typename Found>
+void ExpectEstimate(const Found& found, const std::string& name, double truth,
+                    double share) {
   for (size_t k = 0; k < found.estimates.size(); ++k) {
     if (found.estimates[k].name != name) continue;
     EXPECT_NEAR(found.estimates[k].value, truth,

@@ -27,7 +27,7 @@ double Radian(const EffectSite& site) {
 
 double CarriedInertia(const EffectSite& site) {
   const Eigen::VectorXd q = (site.scale->low + site.scale->high) / 2;
-  return MassMatrix(*site.robot, q)(site.joint, site.joint);
+  return LinkInertias(*site.robot, q)[site.joint];
 }
 
 double MovingMass(const Robot& robot) {

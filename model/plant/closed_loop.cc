@@ -109,6 +109,33 @@ class TorqueHistory {
   std::vector<Eigen::VectorXd> past_;
 };
 
+// A lag that makes no difference: it would only cost substeps.
+constexpr double kShortestLag = 1e-4;  // s
+
+ActuatorMap Lag(int n, double time_constant) {
+  ActuatorMap lag;
+  lag.initial_state = Eigen::VectorXd::Zero(n);
+  lag.apply = [n, time_constant](const ArmInstant&, const double* state,
+                                 double* rate, Eigen::VectorXd* torque) {
+    const Eigen::Map<const Eigen::VectorXd> given(state, n);
+    Eigen::Map<Eigen::VectorXd>(rate, n) = (*torque - given) / time_constant;
+    *torque = given;
+  };
+  return lag;
+}
+
+// Torque that is recorded before the motors give it is commanded, and they lag.
+SimulatedRobot WithLag(SimulatedRobot robot) {
+  if (robot.torque_delay >= 0) return robot;
+  if (robot.torque_delay <= -kShortestLag) {
+    robot.actuators.insert(
+        robot.actuators.begin(),
+        Lag(robot.robot.num_joints() - robot.num_passive, -robot.torque_delay));
+  }
+  robot.torque_delay = 0;
+  return robot;
+}
+
 class Loop {
  public:
   Loop(const SimulatedRobot& robot, const Robot& model,
@@ -230,7 +257,7 @@ ClosedLoopRun RunClosedLoop(const SimulatedRobot& robot, const Robot& model,
                      "expected Hz that divide the controller's rate of " +
                          NumberText(options.controller.rate_hz));
   }
-  return Loop(robot, model, motion, options, dynamics).Run();
+  return Loop(WithLag(robot), model, motion, options, dynamics).Run();
 }
 
 }  // namespace armcal

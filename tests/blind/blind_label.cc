@@ -58,6 +58,7 @@ BlindLabel LabelOf(const json& file) {
   label.stratum = file.at("stratum").get<std::string>();
   label.arm = file.at("arm").get<std::string>();
   label.excitation = file.at("excitation").get<std::string>();
+  label.log = file.value("log", "");
   for (const json& entry : file.at("effects")) {
     label.effects.push_back(
         {Placed(entry), entry.at("in_catalogue").get<bool>(),

@@ -35,6 +35,7 @@ struct BlindLabel {
 
   std::string name;  // "case_0007"
   std::string stratum, arm, excitation;
+  std::string log;  // of a real robot; empty: simulated
   std::vector<Effect> effects;
   // Of the oracle (OracleGap): what it removes, and how much there is to
   // remove, mean over the joints of (refit - after) / floor.

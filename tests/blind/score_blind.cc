@@ -9,10 +9,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "model/input_error.h"
 #include "tests/blind/blind_score.h"
+#include "tests/blind/day_changes.h"
 
 DEFINE_string(labels, "blind/labels", "what the cases hide");
 DEFINE_string(answers, "blind/answers", "CASE/diagnosis.json of each");
@@ -44,12 +48,25 @@ int Main() {
   const Equivalents equivalents = FLAGS_equivalents.empty()
                                       ? Equivalents()
                                       : Equivalents(FLAGS_equivalents);
-  BlindScore score;
   const std::set<std::string> cases = Cases();
+  std::vector<std::pair<BlindLabel, BlindAnswer>> all;
+  std::map<std::string, BlindAnswer> untouched;  // by log
   for (const std::string& name : cases) {
-    score.Add(CaseScore(
+    all.emplace_back(
         ReadBlindLabel(fs::path(FLAGS_labels) / (name + ".json")),
-        ReadBlindAnswer(fs::path(FLAGS_answers) / name / "diagnosis.json"),
+        ReadBlindAnswer(fs::path(FLAGS_answers) / name / "diagnosis.json"));
+    const auto& [label, answer] = all.back();
+    if (label.effects.empty() && !label.log.empty()) {
+      untouched[label.log] = answer;
+    }
+  }
+  BlindScore score;
+  for (const auto& [label, answer] : all) {
+    const bool compares = !label.effects.empty() && untouched.count(label.log);
+    score.Add(CaseScore(
+        label,
+        compares ? WithoutDayChanges(label, answer, untouched.at(label.log))
+                 : answer,
         equivalents));
   }
   std::printf("%zu cases\n\n%s", cases.size(), score.Text().c_str());
