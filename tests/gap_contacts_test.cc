@@ -130,6 +130,14 @@ TEST_F(GapContacts, FindsAPushAtRest) {
   ExpectForce(found[0], kPush);
 }
 
+TEST_F(GapContacts, APushAtRestEndsWhereTheArmSetsOff) {
+  AddForce(kPush, 7.3, 8.1);
+  const std::vector<Contact> found = Find(ContactSearch::kAtRest);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_NEAR(found[0].window.begin, 7.3, .25);
+  EXPECT_LT(found[0].window.end, 8.6);
+}
+
 TEST_F(GapContacts, FindsAPushInMotion) {
   AddForce(kPush, 9.5, 10.1);
   const std::vector<Contact> found = Find(ContactSearch::kOfTwoJoints);
