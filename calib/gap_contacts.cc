@@ -144,7 +144,7 @@ MatrixXd Levers(const Robot& robot, const VectorXd& q) {
 }
 
 // Where no joint has a lever about the force's line, any force would do: one
-// that would need a shorter lever than usual is improbable.
+// whose levers are all shorter than usual is improbable.
 double UsualForce(const MatrixXd& lever, const VectorXd& torque) {
   return torque.cwiseAbs().maxCoeff() /
          (kUsualLever * std::max(1e-9, lever.colwise().norm().maxCoeff()));
@@ -162,7 +162,8 @@ std::optional<Contact::Force> ForceBehind(const MatrixXd& lever,
   force.covariance = information.inverse();
   force.value = force.covariance * lever * weight.cwiseProduct(contact.torque);
   const VectorXd left = contact.torque - lever.transpose() * force.value;
-  if (left.cwiseAbs2().dot(weight) > LargestChiSquare(n - 3)) return {};
+  const bool fits = left.cwiseAbs2().dot(weight) <= LargestChiSquare(n - 3);
+  if (!fits || force.value.norm() > usual) return {};
   return force;
 }
 
@@ -246,11 +247,10 @@ Contact DescribeContact(const Robot& robot, const GapRows& rows,
 ContactStrength StrengthOf(const GapRows& rows, const FrictionExcess& excess,
                            const Contact& contact) {
   const Span span = SpanOf(rows, contact.log, contact.window);
-  const VectorXd joints =
+  const MatrixXd beyond =
       excess.deviations.middleRows(span.begin, span.end - span.begin)
-          .cwiseMax(0)
-          .colwise()
-          .squaredNorm();
+          .cwiseMax(0);
+  const VectorXd joints = beyond.colwise().squaredNorm();
   return {joints.sum(), joints.maxCoeff()};
 }
 
