@@ -122,6 +122,7 @@ bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
       continue;
     }
     events_.push_back(EventBeyondFriction(data_->rows(), excess, contact));
+    events_.back().at_rest = search == ContactSearch::kAtRest;
     data_->Mask(contact.log, contact.window);
     any = true;
   }
@@ -264,7 +265,7 @@ void GapFit::SelectWithEvents() {
 
 void GapFit::Choose() {
   SelectWithEvents();
-  DescribeAgain(baseline_.robot(), data_->rows(),
+  DescribeAgain(baseline_.robot(), data_->rows(), ExcessBeside({}),
                 ExcessBeside(Chosen(selection_.chosen)), &events_);
   DropChance();
   rivals_.assign(selection_.chosen.size(), {});
