@@ -1,7 +1,5 @@
 #include "calib/gap_contacts.h"
 
-#include <glog/logging.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -82,12 +80,13 @@ class RestingArm {
 
   const MatrixXd& q() const { return q_; }
   bool Rests(int k) const { return rests_[k]; }
-  // A push that moves a resting arm lasts until it rests.
-  Span UntilRest(Span span) const {
+  // A push that moves a resting arm lasts until it rests, or goes elsewhere.
+  Span UntilRest(Span span, int peak) const {
     const int first = rows_.thin_begin(span.segment);
     const int last = rows_.thin_begin(span.segment + 1);
-    while (span.begin > first && !rests_[span.begin]) --span.begin;
-    while (span.end < last && !rests_[span.end - 1]) ++span.end;
+    const auto sways = [&](int k) { return !rests_[k] && IsSame(k, peak); };
+    while (span.begin > first && sways(span.begin - 1)) --span.begin;
+    while (span.end < last && sways(span.end)) ++span.end;
     return span;
   }
   // Whether the arm rested within its friction shortly before or after, where
@@ -95,8 +94,7 @@ class RestingArm {
   bool IsNear(const Span& span, int peak) const {
     const Span around = Widened(rows_, span, kNearRest);
     const auto same = [&](int k) {
-      return rests_[k] && largest_[k] < 0 &&
-             (q_.row(k) - q_.row(peak)).cwiseAbs().maxCoeff() < kSamePosture;
+      return rests_[k] && largest_[k] < 0 && IsSame(k, peak);
     };
     for (int k = around.begin; k < around.end; ++k) {
       if ((k < span.begin || k >= span.end) && same(k)) return true;
@@ -105,6 +103,10 @@ class RestingArm {
   }
 
  private:
+  bool IsSame(int k, int other) const {
+    return (q_.row(k) - q_.row(other)).cwiseAbs().maxCoeff() < kSamePosture;
+  }
+
   const GapRows& rows_;
   VectorXd largest_;
   MatrixXd q_;
@@ -119,10 +121,10 @@ int PeakIn(const Span& span, const VectorXd& largest) {
 
 bool IsFeltByTwo(const Span& span, const MatrixXd& deviations,
                  double threshold) {
-  for (int k = span.begin; k < span.end; ++k) {
-    if ((deviations.row(k).array() > threshold).count() > 1) return true;
-  }
-  return false;
+  const auto felt =
+      deviations.middleRows(span.begin, span.end - span.begin).array() >
+      threshold;
+  return (felt.rowwise().count() > 1).any();
 }
 
 // 99 % of chi^2 (Wilson and Hilferty 1931).
@@ -142,7 +144,7 @@ MatrixXd Levers(const Robot& robot, const VectorXd& q) {
 }
 
 // Where no joint has a lever about the force's line, any force would do: one
-// that would need a shorter lever than usual is improbable.
+// whose levers are all shorter than usual is improbable.
 double UsualForce(const MatrixXd& lever, const VectorXd& torque) {
   return torque.cwiseAbs().maxCoeff() /
          (kUsualLever * std::max(1e-9, lever.colwise().norm().maxCoeff()));
@@ -160,8 +162,8 @@ std::optional<Contact::Force> ForceBehind(const MatrixXd& lever,
   force.covariance = information.inverse();
   force.value = force.covariance * lever * weight.cwiseProduct(contact.torque);
   const VectorXd left = contact.torque - lever.transpose() * force.value;
-  const double chi_square = left.cwiseAbs2().dot(weight);
-  if (chi_square > LargestChiSquare(n - 3)) return {};
+  const bool fits = left.cwiseAbs2().dot(weight) <= LargestChiSquare(n - 3);
+  if (!fits || force.value.norm() > usual) return {};
   return force;
 }
 
@@ -175,10 +177,9 @@ Contact Describe(const Robot& robot, const GapRows& rows,
                     rows.thin_time(span.segment, span.end - 1)};
   contact.time = rows.thin_time(span.segment, peak);
   excess.deviations.row(peak).maxCoeff(&contact.joint);
-  const int n = rows.num_joints();
   contact.torque = (excess.friction - excess.torque).row(peak);
-  contact.stddev.resize(n);
-  for (int j = 0; j < n; ++j) {
+  contact.stddev.resize(rows.num_joints());
+  for (int j = 0; j < rows.num_joints(); ++j) {
     const double room =
         std::max(0., excess.coulomb[j] - std::abs(excess.friction(peak, j)));
     contact.stddev[j] =
@@ -224,7 +225,7 @@ std::vector<Contact> FindContacts(const Robot& robot, const GapRows& rows,
   for (Span span : SpansAbove(rows, largest, threshold)) {
     const int peak = PeakIn(span, largest);
     if (search == ContactSearch::kAtRest) {
-      span = arm.UntilRest(span);
+      span = arm.UntilRest(span, peak);
       if (!arm.IsNear(span, peak)) continue;
     } else if (arm.Rests(peak) ||
                (search == ContactSearch::kOfTwoJoints &&
@@ -239,19 +240,17 @@ std::vector<Contact> FindContacts(const Robot& robot, const GapRows& rows,
 Contact DescribeContact(const Robot& robot, const GapRows& rows,
                         const FrictionExcess& excess, int log,
                         const TimeRange& window) {
-  const Span span = SpanOf(rows, log, window);
-  CHECK_LT(span.begin, span.end);
-  return Describe(robot, rows, excess, RestingArm(rows, excess), span);
+  return Describe(robot, rows, excess, RestingArm(rows, excess),
+                  SpanOf(rows, log, window));
 }
 
 ContactStrength StrengthOf(const GapRows& rows, const FrictionExcess& excess,
                            const Contact& contact) {
   const Span span = SpanOf(rows, contact.log, contact.window);
-  const VectorXd joints =
+  const MatrixXd beyond =
       excess.deviations.middleRows(span.begin, span.end - span.begin)
-          .cwiseMax(0)
-          .colwise()
-          .squaredNorm();
+          .cwiseMax(0);
+  const VectorXd joints = beyond.colwise().squaredNorm();
   return {joints.sum(), joints.maxCoeff()};
 }
 

@@ -26,7 +26,7 @@ GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
 }
 
 void DescribeAgain(const Robot& robot, const GapRows& rows,
-                   const FrictionExcess& excess,
+                   const FrictionExcess& alone, const FrictionExcess& beside,
                    std::vector<GapEvent>* events) {
   std::sort(events->begin(), events->end(),
             [](const GapEvent& a, const GapEvent& b) {
@@ -34,8 +34,8 @@ void DescribeAgain(const Robot& robot, const GapRows& rows,
             });
   for (GapEvent& event : *events) {
     const Contact before = event.contact;
-    event.contact =
-        DescribeContact(robot, rows, excess, before.log, before.window);
+    event.contact = DescribeContact(robot, rows, event.at_rest ? alone : beside,
+                                    before.log, before.window);
     event.contact.window = before.window;
     if (event.fitted) event.contact.force = before.force;
   }

@@ -22,6 +22,9 @@ struct GapEvent {
   };
   std::optional<Fitted> fitted;
   bool beyond_friction = false;
+  // Found at rest: what effects that were fitted to motion say of rest, it is
+  // not told beside.
+  bool at_rest = false;
   double drop = 0;  // of chi^2
   double score = 0;
   // The drop that a torque of the same course on one joint alone would bring,
@@ -31,9 +34,11 @@ struct GapEvent {
 
 GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
                              const Contact& contact);
-// As they are beside what was fitted without them, in the order of time.
+// As they are beside what was fitted without them, in the order of time: the
+// excess beside the baseline alone, and beside effects as well.
 void DescribeAgain(const Robot& robot, const GapRows& rows,
-                   const FrictionExcess& excess, std::vector<GapEvent>* events);
+                   const FrictionExcess& alone, const FrictionExcess& beside,
+                   std::vector<GapEvent>* events);
 
 // Where in time a candidate with a time and a duration is.
 TimeRange WindowOf(const GapCandidate& candidate);

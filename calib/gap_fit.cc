@@ -131,13 +131,14 @@ double GapFit::UsualExcess(const FrictionExcess& excess, bool of_itself) const {
 }
 
 // Contacts stand out from all that friction does when nothing touches the arm,
-// which only a reference tells; in motion and on one joint also from the rest
-// of the log, where the model may lack something. Whether there were any.
+// which only a reference tells. What one joint alone feels in motion may be its
+// own: where the arm has no other, it has to stand out from the rest of the log
+// as well. Whether there were any.
 bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
                              ContactSearch search) {
   const bool of_itself = search == ContactSearch::kInMotion;
   if (IsLeftOut(*FindEffect("external_contact"))) return false;
-  if (!reference_ && !of_itself) return false;
+  if (of_itself ? data_->rows().num_joints() > 1 : !reference_) return false;
   const FrictionExcess excess = ExcessBeside(effects);
   const double usual = UsualExcess(excess, of_itself);
   bool any = false;
@@ -150,6 +151,7 @@ bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
       continue;
     }
     events_.push_back(EventBeyondFriction(data_->rows(), excess, contact));
+    events_.back().at_rest = search == ContactSearch::kAtRest;
     data_->Mask(contact.log, contact.window);
     any = true;
   }
@@ -292,7 +294,7 @@ void GapFit::SelectWithEvents() {
 
 void GapFit::Choose() {
   SelectWithEvents();
-  DescribeAgain(baseline_.robot(), data_->rows(),
+  DescribeAgain(baseline_.robot(), data_->rows(), ExcessBeside({}),
                 ExcessBeside(Chosen(selection_.chosen)), &events_);
   DropChance();
   rivals_.assign(selection_.chosen.size(), {});

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -130,6 +131,14 @@ TEST_F(GapContacts, FindsAPushAtRest) {
   ExpectForce(found[0], kPush);
 }
 
+TEST_F(GapContacts, APushAtRestEndsWhereTheArmSetsOff) {
+  AddForce(kPush, 7.3, 8.1);
+  const std::vector<Contact> found = Find(ContactSearch::kAtRest);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_NEAR(found[0].window.begin, 7.3, .25);
+  EXPECT_LT(found[0].window.end, 8.6);
+}
+
 TEST_F(GapContacts, FindsAPushInMotion) {
   AddForce(kPush, 9.5, 10.1);
   const std::vector<Contact> found = Find(ContactSearch::kOfTwoJoints);
@@ -180,6 +189,20 @@ TEST_F(GapContacts, NoForceAtTheToolWhereTheWristFeelsNothing) {
   const auto estimates = ContactEstimates(robot_, found[0], &stddev);
   EXPECT_EQ(estimates[0].name, "torque");
   EXPECT_NEAR(estimates[0].value, -70, 2 * stddev[0]);
+}
+
+// Along the line about which the joints have least lever, which the torques do
+// not tell from a weaker one on another link.
+TEST_F(GapContacts, NoForceWhereJointsHaveNoLever) {
+  MatrixXd lever(6, 3);
+  for (int k = 0; k < 3; ++k) lever.col(k) = TorqueOf(Vector3d::Unit(k), 3);
+  const Eigen::JacobiSVD<MatrixXd> svd(lever, Eigen::ComputeFullV);
+  const Vector3d force = 60 / svd.singularValues()[2] * svd.matrixV().col(2);
+  ASSERT_GT(force.norm(), 200);
+  AddForce(force, 3, 3.6);
+  const std::vector<Contact> found = Find(ContactSearch::kAtRest);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_FALSE(found[0].force.has_value());
 }
 
 // A log in which friction is stronger than the model has it.
