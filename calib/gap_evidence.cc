@@ -74,7 +74,6 @@ EffectEvidence EvidenceFor(const GapFit& fit, const HeldOut& held_out,
       std::clamp((own - others) / (2 * kTemperature), -kMostOdds, kMostOdds);
   evidence.strength = std::log(std::max(1., drop));
   evidence.share = drop / SumOfDrops(fit);
-  evidence.chance = std::max(0., fit.ByChance(k)) / fit.selection().scores[k];
   evidence.gain = held_out.Gain(k, figures.after);
   return evidence;
 }

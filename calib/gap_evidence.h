@@ -15,7 +15,6 @@ struct EffectEvidence {
   double strength = 0;       // ln of its drop of chi^2
   double share = 1;          // of the drops of all that were chosen
   int chosen = 1;            // how many were
-  double chance = 0;         // score that chance gives, over its own
   double left = 0;           // share of the excess that all leave, in sample
   double held_out_left = 0;  // the same on what was held out
   double next = 0;           // score of the best further candidate, at least 0

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "calib/gap_inflation.h"
 #include "calib/gap_null.h"
 #include "calib/gap_reference.h"
 #include "model/effects/effects.h"
@@ -17,7 +16,6 @@ using Eigen::VectorXd;
 
 constexpr int kMostEvents = 12;
 constexpr std::uint64_t kSeed = 1;  // of what chance would give
-constexpr double kRounding = 1e-9;
 
 VectorXd RefitBaseline(const GapData& data) {
   GapScreen screen(data.WhitenedColumns(), data.WhitenedResidual());
@@ -83,18 +81,31 @@ void GapFit::Refit() {
   if (reference_) AddReference(*reference_, &*screen_);
   screen_->Factor();
   refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
-  if (HoldUnusualDays()) Refit();
+  if (HoldDays()) Refit();
 }
 
-// Friction that changed by more than it does from day to day is to be
-// explained, not absorbed. Whether there was any.
-bool GapFit::HoldUnusualDays() {
-  constexpr double kUsual = 3;  // standard deviations
+// On another day friction differs on several joints, somewhat. What changed by
+// more, or on one joint or two only, is to be explained, not absorbed. Whether
+// there was any.
+bool GapFit::HoldDays() {
+  constexpr double kUsual = 3, kClear = 5;  // standard deviations
+  constexpr size_t kSeveral = 3;            // joints
+  const std::vector<int> days = DayColumns(baseline_);
+  if (!days.empty() && !another_day_) {
+    const MatrixXd covariance = screen_->BaselineCovariance();
+    std::set<int> changed;
+    for (const int c : days) {
+      if (std::abs(refit_[c]) > kClear * std::sqrt(covariance(c, c))) {
+        changed.insert(baseline_.columns()[c].joint);
+      }
+    }
+    another_day_ = changed.size() >= kSeveral;
+  }
   bool any = false;
-  for (const int c : DayColumns(baseline_)) {
-    if (std::abs(refit_[c]) < kUsual) continue;
+  for (const int c : days) {
+    if (*another_day_ && std::abs(refit_[c]) < kUsual) continue;
+    any |= held_.insert(c).second;
     data_->Hold(c);
-    any = true;
   }
   return any;
 }
@@ -296,7 +307,8 @@ void GapFit::Choose() {
   SelectWithEvents();
   DescribeAgain(baseline_.robot(), data_->rows(), ExcessBeside({}),
                 ExcessBeside(Chosen(selection_.chosen)), &events_);
-  DropChance();
+  selection_ = WithoutChance(*screen_, data_->rows(), candidates_,
+                             options_.selection, selection_, kSeed);
   rivals_.assign(selection_.chosen.size(), {});
   for (size_t k = 0; k < selection_.chosen.size(); ++k) CompareRivals(k);
   refined_.effects = Chosen(selection_.chosen);
@@ -304,43 +316,6 @@ void GapFit::Choose() {
   if (refined_.effects.empty()) return;
   refined_ = RefineEffects(*screen_, baseline_, scale_, refined_.effects, -1,
                            data_.get());
-}
-
-// By how much its score, with the scatter that the residual has in truth,
-// exceeds what it has to.
-double GapFit::Margin(size_t k) const {
-  const GapCandidate& candidate = candidates_[selection_.chosen[k]];
-  const GapScreen::Fit fit =
-      screen_->Solve(ColumnsOf(candidates_, selection_.chosen));
-  const double inflation = Inflation(*screen_, data_->rows(), candidate, fit);
-  const double deflated =
-      selection_.drops[k] / inflation - Price(*screen_, candidate);
-  return std::min(deflated - options_.selection.threshold,
-                  selection_.scores[k] * (1 + kRounding) - ByChance(k));
-}
-
-double GapFit::ByChance(size_t k) const {
-  std::vector<int> others = selection_.chosen;
-  others.erase(others.begin() + k);
-  return ScoreByChance(*screen_, data_->rows(), candidates_, options_.selection,
-                       others, kSeed);
-}
-
-// Leaves out, weakest first, what may have come by chance.
-void GapFit::DropChance() {
-  while (!selection_.chosen.empty()) {
-    size_t weakest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (size_t k = 0; k < selection_.chosen.size(); ++k) {
-      const double margin = Margin(k);
-      if (margin < least) least = margin, weakest = k;
-    }
-    if (least >= 0) return;
-    std::vector<int> others = selection_.chosen;
-    others.erase(others.begin() + weakest);
-    selection_ =
-        DescribeSelection(*screen_, candidates_, options_.selection, others);
-  }
 }
 
 // A grid may be kinder to one effect than to another: those near the k-th in

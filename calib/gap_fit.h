@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "calib/gap_baseline.h"
@@ -65,8 +66,6 @@ class GapFit {
   // Scores of the k-th effect and its nearest rivals, each with its shape
   // fitted beside the others.
   const std::vector<RefinedScore>& rivals(size_t k) const { return rivals_[k]; }
-  // The score that chance gives the best of all beside the others.
-  double ByChance(size_t k) const;
   // The baseline's values before these logs: the file's, or those of the
   // reference.
   const Eigen::VectorXd& before() const { return before_; }
@@ -82,7 +81,7 @@ class GapFit {
   void EstimateNoise();
   void MakeScreen();
   bool AddLargerOnes();
-  bool HoldUnusualDays();
+  bool HoldDays();
   void Refit();
   bool TakeOutContacts(const std::vector<GapCandidate>& effects,
                        ContactSearch search);
@@ -94,8 +93,6 @@ class GapFit {
   FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
   std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
   void CompareRivals(size_t k);
-  double Margin(size_t k) const;
-  void DropChance();
 
   const GapBaseline& baseline_;
   GapFitOptions options_;
@@ -108,6 +105,10 @@ class GapFit {
   RefinedEffects refined_;
   std::vector<std::vector<RefinedScore>> rivals_;
   std::vector<GapEvent> events_;
+  // Whether friction is that of another day than the reference's, and the
+  // columns of it that are held nevertheless.
+  std::optional<bool> another_day_;
+  std::set<int> held_;
   Eigen::VectorXd before_, refit_;
 };
 

@@ -25,7 +25,6 @@ json EvidenceJson(const EffectEvidence& evidence) {
           {"strength", JsonNumber(evidence.strength)},
           {"share", JsonNumber(evidence.share)},
           {"chosen", evidence.chosen},
-          {"chance", JsonNumber(evidence.chance)},
           {"left", JsonNumber(evidence.left)},
           {"held_out_left", JsonNumber(evidence.held_out_left)},
           {"next", JsonNumber(evidence.next)},

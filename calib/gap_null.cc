@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 #include <utility>
+
+#include "calib/gap_inflation.h"
 
 namespace armcal {
 namespace {
@@ -15,6 +18,7 @@ using Eigen::VectorXd;
 constexpr double kBlock = 2;  // s
 constexpr int kDraws = 200;
 constexpr double kQuantile = .99;
+constexpr double kRounding = 1e-9;  // of a score
 
 // Gradients of the screen's columns with each block of the residual alone.
 MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
@@ -45,6 +49,11 @@ MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
   return gradients;
 }
 
+std::vector<int> Without(std::vector<int> chosen, size_t k) {
+  chosen.erase(chosen.begin() + k);
+  return chosen;
+}
+
 }  // namespace
 
 double ScoreByChance(const GapScreen& screen, const GapRows& rows,
@@ -66,6 +75,35 @@ double ScoreByChance(const GapScreen& screen, const GapRows& rows,
   const auto nth = best.begin() + static_cast<int>(kQuantile * kDraws);
   std::nth_element(best.begin(), nth, best.end());
   return *nth;
+}
+
+Selection WithoutChance(const GapScreen& screen, const GapRows& rows,
+                        const std::vector<GapCandidate>& candidates,
+                        const SelectionOptions& options, Selection selection,
+                        std::uint64_t seed) {
+  while (!selection.chosen.empty()) {
+    const GapScreen::Fit fit =
+        screen.Solve(ColumnsOf(candidates, selection.chosen));
+    size_t weakest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t k = 0; k < selection.chosen.size(); ++k) {
+      const GapCandidate& candidate = candidates[selection.chosen[k]];
+      const double deflated =
+          selection.drops[k] / Inflation(screen, rows, candidate, fit) -
+          Price(screen, candidate);
+      const double by_chance =
+          ScoreByChance(screen, rows, candidates, options,
+                        Without(selection.chosen, k), seed);
+      const double margin =
+          std::min(deflated - options.threshold,
+                   selection.scores[k] * (1 + kRounding) - by_chance);
+      if (margin < least) least = margin, weakest = k;
+    }
+    if (least >= 0) break;
+    selection = DescribeSelection(screen, candidates, options,
+                                  Without(selection.chosen, weakest));
+  }
+  return selection;
 }
 
 }  // namespace armcal

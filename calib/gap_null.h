@@ -19,4 +19,12 @@ double ScoreByChance(const GapScreen& screen, const GapRows& rows,
                      const SelectionOptions& options,
                      const std::vector<int>& chosen, std::uint64_t seed);
 
+// What is left of a selection without those, weakest first, that may have come
+// by chance: whose score does not exceed ScoreByChance beside the others, or
+// the threshold once their drop is divided by Inflation.
+Selection WithoutChance(const GapScreen& screen, const GapRows& rows,
+                        const std::vector<GapCandidate>& candidates,
+                        const SelectionOptions& options, Selection selection,
+                        std::uint64_t seed);
+
 }  // namespace armcal
