@@ -89,7 +89,7 @@ void GapFit::Refit() {
 // there was any.
 bool GapFit::HoldDays() {
   constexpr double kUsual = 3, kClear = 5;  // standard deviations
-  constexpr size_t kSeveral = 3;            // joints
+  constexpr int kSeveral = 3;               // joints; all of smaller arms
   const std::vector<int> days = DayColumns(baseline_);
   if (!days.empty() && !another_day_) {
     const MatrixXd covariance = screen_->BaselineCovariance();
@@ -99,7 +99,8 @@ bool GapFit::HoldDays() {
         changed.insert(baseline_.columns()[c].joint);
       }
     }
-    another_day_ = changed.size() >= kSeveral;
+    another_day_ = static_cast<int>(changed.size()) >=
+                   std::min(kSeveral, baseline_.robot().num_joints());
   }
   bool any = false;
   for (const int c : days) {
