@@ -14,13 +14,7 @@ GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
     : segments_(std::move(segments)),
       rows_(std::make_unique<GapRows>(segments_, bandwidth_hz, part)),
       torques_(RecordedTorques(baseline, *rows_)) {
-  residual_.resize(rows_->num_thin(), rows_->num_joints());
-  for (size_t s = 0; s < segments_.size(); ++s) {
-    const int part = static_cast<int>(s);
-    const MatrixXd thin =
-        rows_->Thin(part, segments_[s].tau - torques_[s].nominal());
-    residual_.middleRows(rows_->thin_begin(part), thin.rows()) = thin;
-  }
+  residual_ = rows_->ThinAll(FineResidual());
   columns_ = baseline.ThinColumns(*rows_, torques_);
   usual_doubt_ = MatrixXd::Zero(residual_.rows(), residual_.cols());
   for (int c = 0; c < baseline.size(); ++c) {

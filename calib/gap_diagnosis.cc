@@ -131,19 +131,16 @@ JointGap Diagnoser::JointFigures(int j) const {
 
 JointCourse Diagnoser::CourseOf(int j) const {
   const GapRows& rows = fit_->rows();
-  MatrixXd thin(rows.num_thin(), 5);
-  for (size_t i = 0; i < rows.segments().size(); ++i) {
-    const int s = static_cast<int>(i);
-    const Motion& motion = rows.segments()[i].motion;
-    MatrixXd fine(motion.size(), 5);
-    fine << motion.q.col(j), motion.qd.col(j), motion.qdd.col(j),
-        fit_->data()->torques()[i].load().col(j),
+  std::vector<MatrixXd> fine;
+  for (size_t s = 0; s < rows.segments().size(); ++s) {
+    const Motion& motion = rows.segments()[s].motion;
+    fine.emplace_back(motion.size(), 5);
+    fine.back() << motion.q.col(j), motion.qd.col(j), motion.qdd.col(j),
+        fit_->data()->torques()[s].load().col(j),
         VectorXd::LinSpaced(motion.size(), motion.time(0),
                             motion.time(motion.size() - 1));
-    const MatrixXd part = rows.Pick(s, fine);
-    thin.middleRows(rows.thin_begin(s), part.rows()) = part;
   }
-  const MatrixXd at = thin(rows.SampleOfRow(j), Eigen::all);
+  const MatrixXd at = rows.PickAll(fine)(rows.SampleOfRow(j), Eigen::all);
   return {fit_->screen().Residual(j, {}),
           at.col(0),
           at.col(1),

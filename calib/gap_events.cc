@@ -54,11 +54,9 @@ TimeRange WindowOf(const GapCandidate& candidate) {
 int RowsOf(const GapRows& rows, const GapEvent& event) {
   int count = 0;
   for (int j = 0; j < rows.num_joints(); ++j) {
-    int s = 0;
-    for (const int k : rows.SampleOfRow(j)) {
-      while (k >= rows.thin_begin(s + 1)) ++s;
-      count += rows.segments()[s].log == event.contact.log &&
-               event.contact.window.Contains(rows.thin_time(s, k));
+    for (const GapRows::Place& place : rows.PlacesOfRows(j)) {
+      count += rows.segments()[place.segment].log == event.contact.log &&
+               event.contact.window.Contains(place.time);
     }
   }
   return count;

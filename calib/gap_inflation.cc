@@ -11,9 +11,13 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+std::pair<int, long> BlockOf(const GapRows::Place& place) {
+  constexpr double kBlock = 2;  // s
+  return {place.segment, static_cast<long>(std::floor(place.time / kBlock))};
+}
+
 double Inflation(const GapScreen& screen, const GapRows& rows,
                  const GapCandidate& candidate, const GapScreen::Fit& fit) {
-  constexpr double kBlock = 2;  // s
   const int size = static_cast<int>(candidate.columns.size());
   MatrixXd G(size, size);
   for (int a = 0; a < size; ++a) {
@@ -24,20 +28,15 @@ double Inflation(const GapScreen& screen, const GapRows& rows,
   }
   std::map<std::pair<int, long>, VectorXd> blocks;
   for (int j = 0; j < rows.num_joints(); ++j) {
-    const std::vector<int> samples = rows.SampleOfRow(j);
+    const std::vector<GapRows::Place> places = rows.PlacesOfRows(j);
     const VectorXd residual = screen.Residual(j, fit);
     MatrixXd columns(residual.size(), size);
     for (int a = 0; a < size; ++a) {
       columns.col(a) = screen.Projected(candidate.columns[a], j);
     }
-    int s = 0;
-    for (size_t k = 0; k < samples.size(); ++k) {
-      while (samples[k] >= rows.thin_begin(s + 1)) ++s;
-      const long block =
-          std::lround(std::floor(rows.thin_time(s, samples[k]) / kBlock));
-      VectorXd& sum =
-          blocks.emplace(std::make_pair(s, block), VectorXd::Zero(size))
-              .first->second;
+    for (size_t k = 0; k < places.size(); ++k) {
+      VectorXd& sum = blocks.emplace(BlockOf(places[k]), VectorXd::Zero(size))
+                          .first->second;
       sum += residual[k] * columns.row(k).transpose();
     }
   }

@@ -141,12 +141,7 @@ GapNoise EstimateGapNoise(const GapRows& rows,
                           const MatrixXd& assumed) {
   const int n = rows.num_joints();
   const MatrixXd differences = RepeatDifferences(rows, residual);
-  MatrixXd thin(rows.num_thin(), n);
-  for (size_t i = 0; i < residual.size(); ++i) {
-    const int s = static_cast<int>(i);
-    const MatrixXd part = rows.Thin(s, residual[i]);
-    thin.middleRows(rows.thin_begin(s), part.rows()) = part;
-  }
+  const MatrixXd thin = rows.ThinAll(residual);
   GapNoise noise;
   noise.source = NoiseFloor::kRepeats;
   for (int j = 0; j < n; ++j) {

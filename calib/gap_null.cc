@@ -15,7 +15,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kBlock = 2;  // s
 constexpr int kDraws = 200;
 constexpr double kQuantile = .99;
 constexpr double kRounding = 1e-9;  // of a score
@@ -26,15 +25,11 @@ MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
   const int n = rows.num_joints();
   std::map<std::pair<int, long>, JointRows> blocks;
   for (int j = 0; j < n; ++j) {
-    const std::vector<int> samples = rows.SampleOfRow(j);
+    const std::vector<GapRows::Place> places = rows.PlacesOfRows(j);
     const VectorXd residual = screen.Residual(j, fit);
-    int s = 0;
-    for (size_t k = 0; k < samples.size(); ++k) {
-      while (samples[k] >= rows.thin_begin(s + 1)) ++s;
-      const long block =
-          static_cast<long>(std::floor(rows.thin_time(s, samples[k]) / kBlock));
+    for (size_t k = 0; k < places.size(); ++k) {
       JointRows& part =
-          blocks.emplace(std::make_pair(s, block), JointRows(n)).first->second;
+          blocks.emplace(BlockOf(places[k]), JointRows(n)).first->second;
       for (int i = 0; i < n && part[i].size() == 0; ++i) {
         part[i] = VectorXd::Zero(screen.num_rows(i));
       }

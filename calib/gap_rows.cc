@@ -148,6 +148,37 @@ MatrixXd GapRows::Whiten(int joint, const MatrixXd& thin) const {
   return rows;
 }
 
+MatrixXd GapRows::ThinAll(const std::vector<MatrixXd>& signals) const {
+  MatrixXd all(num_thin(), signals.at(0).cols());
+  for (size_t i = 0; i < signals.size(); ++i) {
+    const int s = static_cast<int>(i);
+    const MatrixXd thin = Thin(s, signals[i]);
+    all.middleRows(thin_begin_[s], thin.rows()) = thin;
+  }
+  return all;
+}
+
+MatrixXd GapRows::PickAll(const std::vector<MatrixXd>& signals) const {
+  MatrixXd all(num_thin(), signals.at(0).cols());
+  for (size_t i = 0; i < signals.size(); ++i) {
+    const int s = static_cast<int>(i);
+    const MatrixXd picked = Pick(s, signals[i]);
+    all.middleRows(thin_begin_[s], picked.rows()) = picked;
+  }
+  return all;
+}
+
+std::vector<GapRows::Place> GapRows::PlacesOfRows(int joint) const {
+  std::vector<Place> places;
+  for (const Run& run : runs_[joint]) {
+    for (int k = Autoregression::kOrder; k < run.size; ++k) {
+      const int sample = run.begin + k;
+      places.push_back({sample, run.segment, thin_time(run.segment, sample)});
+    }
+  }
+  return places;
+}
+
 std::vector<int> GapRows::SampleOfRow(int joint) const {
   std::vector<int> samples;
   for (const Run& run : runs_[joint]) {

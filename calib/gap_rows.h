@@ -37,6 +37,10 @@ class GapRows {
   // The same without the low pass.
   Eigen::MatrixXd Pick(int segment, const Eigen::MatrixXd& signal) const;
 
+  // A fine signal of each segment likewise, one below the other.
+  Eigen::MatrixXd ThinAll(const std::vector<Eigen::MatrixXd>& signals) const;
+  Eigen::MatrixXd PickAll(const std::vector<Eigen::MatrixXd>& signals) const;
+
   // Uninterrupted thinned samples, [begin, begin + size) of all, of a segment.
   struct Run {
     int segment;
@@ -64,6 +68,13 @@ class GapRows {
   Eigen::MatrixXd Whiten(int joint, const Eigen::MatrixXd& thin) const;
   // The thinned sample that each row is of.
   std::vector<int> SampleOfRow(int joint) const;
+  // The same with its segment and its time, s since the log's first row.
+  struct Place {
+    int sample;
+    int segment;
+    double time;
+  };
+  std::vector<Place> PlacesOfRows(int joint) const;
 
  private:
   enum class Use { kMoving, kStill, kNone };

@@ -46,6 +46,21 @@ TEST(ForwardDynamics, MassMatrixIsTheDifferenceOfInverseDynamics) {
   }
 }
 
+// A fitted link may be no body: the joint still carries something.
+TEST(ForwardDynamics, LinkInertiasAreThoseOfBodiesAndNeverNone) {
+  std::mt19937_64 random(2);
+  Sample s(&random, 3);
+  for (Link& link : s.robot.links) link.joint.armature = .1;
+  const VectorXd diagonal = MassMatrix(s.robot, s.q).diagonal();
+  EXPECT_EQ(LinkInertias(s.robot, s.q), diagonal);
+  s.robot.links[2].inertial = InertialParameters::FromVector(
+      -.5 * s.robot.links[2].inertial.ToVector());
+  const VectorXd fitted = MassMatrix(s.robot, s.q).diagonal();
+  ASSERT_LT(fitted[2], 0);
+  EXPECT_NEAR(LinkInertias(s.robot, s.q)[2], .05 * std::abs(fitted[2] + .1),
+              1e-12);
+}
+
 // Spong, Hutchinson, Vidyasagar: see two_link_arm.h.
 TEST(ForwardDynamics, TwoLinkArmOfTheTextbook) {
   const TwoLinkArm arm;

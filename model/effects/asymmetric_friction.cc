@@ -12,10 +12,7 @@ Effect AsymmetricFriction() {
   effect.name = "asymmetric_friction";
   effect.law = "tau = asymmetric |v|";
   effect.shows = "motion both ways at several speeds";
-  effect.parameters = {
-      Linear("asymmetric", "E s/P", [](const EffectSite& site) {
-        return .05 * TorqueScale(site) / SpeedScale(site);
-      })};
+  effect.parameters = {Linear("asymmetric", "E s/P", ShareOfDrag(.05))};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const int j = site.joint;
