@@ -35,9 +35,12 @@ double ChiSquaredOfBins(const VectorXd& x, const VectorXd& y) {
 }  // namespace
 
 Organisation OrganisedBy(const JointCourse& course) {
-  const VectorXd& r = course.residual;
   Organisation best;
-  if (r.size() < 5 * kBins) return best;
+  if (course.residual.size() < 5 * kBins) return best;
+  // Louder than the noise it was told is not ordered.
+  const double rms = std::sqrt(course.residual.squaredNorm() /
+                               static_cast<double>(course.residual.size()));
+  const VectorXd r = course.residual / std::max(1., rms);
   const VectorXd direction = course.velocity.cwiseSign();
   const VectorXd against = r.cwiseProduct(direction);
   struct Coordinate {

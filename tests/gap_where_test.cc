@@ -98,5 +98,17 @@ TEST(ResidualOrderedExcess, IsNoneOfAFewSamples) {
   EXPECT_EQ(OrganisedBy(course).by, "");
 }
 
+// Noise of which this log has twice as much as the one that told it.
+TEST(Residual, LouderNoiseHasNoOrder) {
+  std::mt19937_64 random(2);
+  int ordered = 0;
+  for (int run = 0; run < 40; ++run) {
+    JointCourse course = Course(&random);
+    course.residual *= 1.5;
+    ordered += !OrganisedBy(course).by.empty();
+  }
+  EXPECT_LE(ordered, 1);
+}
+
 }  // namespace
 }  // namespace armcal
