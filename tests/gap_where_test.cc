@@ -99,7 +99,7 @@ TEST(ResidualOrderedExcess, IsNoneOfAFewSamples) {
 }
 
 // Noise of which this log has twice as much as the one that told it.
-TEST(Residual, LouderNoiseHasNoOrder) {
+TEST(ResidualUnordered, EvenWhereItIsLouder) {
   std::mt19937_64 random(2);
   int ordered = 0;
   for (int run = 0; run < 40; ++run) {
