@@ -184,17 +184,21 @@ void GapFit::MakeScreen() {
   if (AddLargerOnes()) screen_->Factor();
 }
 
-// Where an effect that is not linear shows something, its torque is tried at
+// Where effects that are not linear show most, their torques are tried at
 // larger sizes as well. Whether there was one.
 bool GapFit::AddLargerOnes() {
+  constexpr int kPlaces = 3;
   SelectionOptions options = options_.selection;
   options.signs = false;  // a small one may be the opposite of a large one
-  const VectorXd scores = ScoresBeside(*screen_, candidates_, options, {}, -1);
+  VectorXd scores = ScoresBeside(*screen_, candidates_, options, {}, -1);
+  for (size_t i = 0; i < candidates_.size(); ++i) {
+    if (candidates_[i].effect->larger_sizes.empty()) scores[i] = 0;
+  }
   std::vector<GapCandidate> larger;
-  const int all = static_cast<int>(candidates_.size());
-  for (const int c : BestPlaces(candidates_, scores, all)) {
-    for (const GapCandidate& one : LargerOnes(candidates_[c])) {
-      larger.push_back(one);
+  for (const int place : BestPlaces(candidates_, scores, kPlaces)) {
+    for (const GapCandidate& shape : candidates_) {
+      if (!SamePlace(shape, candidates_[place])) continue;
+      for (const GapCandidate& one : LargerOnes(shape)) larger.push_back(one);
     }
   }
   EvaluateCandidates(baseline_, data_->rows(), scale_, data_->mutable_torques(),

@@ -92,11 +92,6 @@ std::vector<int> Without(std::vector<int> chosen, int k) {
   return chosen;
 }
 
-// The same thing at another shape is no second effect.
-bool SamePlace(const GapCandidate& a, const GapCandidate& b) {
-  return a.effect == b.effect && a.joint == b.joint;
-}
-
 int Best(const VectorXd& scores) {
   int best;
   scores.maxCoeff(&best);
@@ -193,6 +188,10 @@ std::vector<std::vector<int>> Extended(
 }
 
 }  // namespace
+
+bool SamePlace(const GapCandidate& a, const GapCandidate& b) {
+  return a.effect == b.effect && a.joint == b.joint;
+}
 
 double Price(const GapScreen& screen, const GapCandidate& candidate) {
   double rows = 0;

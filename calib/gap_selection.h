@@ -42,6 +42,9 @@ Eigen::VectorXd ScoresBeside(const GapScreen& screen,
                              const std::vector<int>& others,
                              const Eigen::VectorXd& g);
 
+// Whether they are one effect at one place, of which there are not two.
+bool SamePlace(const GapCandidate& a, const GapCandidate& b);
+
 // The best of these scores above 0, one of each effect at each place, at most
 // `count`.
 std::vector<int> BestPlaces(const std::vector<GapCandidate>& candidates,

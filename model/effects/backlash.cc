@@ -55,7 +55,7 @@ Effect Backlash() {
       Gridded("yield", "1", [](const EffectSite&) {
         return std::vector<double>{.05, .15, .4};
       })};
-  effect.larger_sizes = {2.5, 6, 15, 40};
+  effect.larger_sizes = {2, 4, 8, 16};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     if (p[0] <= 0) return;
