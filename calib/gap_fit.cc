@@ -86,7 +86,7 @@ void GapFit::Refit() {
 
 // On another day friction differs on several joints, somewhat. What changed by
 // more, or on one joint or two only, is to be explained, not absorbed. Whether
-// there was any.
+// a column is held now that was not.
 bool GapFit::HoldDays() {
   constexpr double kUsual = 3, kClear = 5;  // standard deviations
   constexpr int kSeveral = 3;               // joints; all of smaller arms

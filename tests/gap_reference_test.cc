@@ -84,6 +84,16 @@ TEST_F(GapReferenceTest, FrictionOfTheDayIsSaidNotBlamed) {
   }
 }
 
+// The day is the same for all joints.
+TEST_F(GapReferenceTest, FrictionOfOneJointIsAChange) {
+  Add("coulomb_friction", 1, {.12});  // of 1.5 N m
+  const GapDiagnosis diagnosis = Diagnose(File(), true);
+  ASSERT_EQ(diagnosis.effects.size(), 1u);
+  EXPECT_EQ(diagnosis.effects[0].effect->name, "coulomb_friction");
+  EXPECT_EQ(diagnosis.effects[0].joint, 1);
+  ExpectEstimate(diagnosis.effects[0], "coulomb", .12, .2);
+}
+
 // A brake that drags is more than a day.
 TEST_F(GapReferenceTest, MoreThanADayIsAnEffect) {
   Add("coulomb_friction", 1, {.9});
