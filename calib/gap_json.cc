@@ -56,10 +56,12 @@ json EstimatesJson(const std::vector<EffectEstimate>& estimates,
                    const std::vector<double>& stddev) {
   json list = json::array();
   for (size_t k = 0; k < estimates.size(); ++k) {
-    list.push_back({{"name", estimates[k].name},
-                    {"unit", estimates[k].unit},
-                    {"value", JsonNumber(estimates[k].value)},
-                    {"stddev", JsonNumber(stddev[k])}});
+    const bool seen = estimates[k].value != 0 || stddev[k] > 0;
+    list.push_back(
+        {{"name", estimates[k].name},
+         {"unit", estimates[k].unit},
+         {"value", seen ? JsonNumber(estimates[k].value) : json()},
+         {"stddev", stddev[k] > 0 ? JsonNumber(stddev[k]) : json()}});
   }
   return list;
 }

@@ -24,15 +24,24 @@ std::string Named(const Effect& effect, int joint,
   return text;
 }
 
+// What nothing tells of is as it was: at 0, without a deviation. Numbers that
+// are chosen, not fitted, have none either.
+std::string ValueText(double value, double stddev) {
+  if (stddev > 0) return Format("%.3g +- %.1g", value, stddev);
+  return value == 0 ? "not seen" : Format("%.3g", value);
+}
+
 // Of a FoundEffect or a ShownEffect.
 template <typename Found>
 std::string Estimates(const Found& found) {
   std::string text;
   for (size_t k = 0; k < found.estimates.size(); ++k) {
     const EffectEstimate& estimate = found.estimates[k];
-    text += (k ? ", " : "") + estimate.name +
-            Format(" %.3g +- %.1g", estimate.value, found.stddev[k]) +
-            (estimate.unit == "1" ? "" : " " + estimate.unit);
+    const bool unit =
+        estimate.unit != "1" && (estimate.value != 0 || found.stddev[k] > 0);
+    text += (k ? ", " : "") + estimate.name + " " +
+            ValueText(estimate.value, found.stddev[k]) +
+            (unit ? " " + estimate.unit : "");
   }
   return text;
 }

@@ -111,6 +111,20 @@ TEST(BriefReport, SaysWhatItCannotName) {
   }
 }
 
+TEST(FullReport, WhatNothingTellsOfIsNotSeen) {
+  GapDiagnosis diagnosis = Diagnosis();
+  diagnosis.effects[0].estimates = {
+      {"mass", "kg", .5}, {"com_z", "m", 0}, {"harmonic", "1", 2}};
+  diagnosis.effects[0].stddev = {.01, 0, 0};
+  EXPECT_THAT(FullReport(diagnosis),
+              HasSubstr("mass 0.5 +- 0.01 kg, com_z not seen, harmonic 2\n"));
+  const json estimates = ToJson(diagnosis)["effects"][0]["estimates"];
+  EXPECT_TRUE(estimates[1]["value"].is_null());
+  EXPECT_TRUE(estimates[1]["stddev"].is_null());
+  EXPECT_EQ(estimates[2]["value"], 2);
+  EXPECT_TRUE(estimates[2]["stddev"].is_null());
+}
+
 TEST(FullReport, HoldsEveryPart) {
   const std::string text = FullReport(Diagnosis());
   for (const char* part :
