@@ -90,12 +90,13 @@ class FamilyFit {
     result.without = Left(0);
     for (int f = 0; f < static_cast<int>(terms_.size()); ++f) {
       const LackedFamily family = Family(f);
+      const bool lacked = family.drop > LeastDrop(family);
       for (int j = 0; j < robot_.num_joints(); ++j) {
         const double least = 1e-6 * candidates_[CandidateOf(f, j)].size[0];
         result.robot.links[j].joint.*terms_[f].value =
-            family.value[j] == 0 ? least : family.value[j];
+            lacked && family.value[j] != 0 ? family.value[j] : least;
       }
-      if (!family.value.isZero(0)) result.families.push_back(family);
+      if (lacked) result.families.push_back(family);
     }
     return result;
   }
@@ -129,6 +130,13 @@ class FamilyFit {
       if (most < 0) return;
       none_.insert(most);
     }
+  }
+
+  // As an effect has to: a file without friction may be right.
+  double LeastDrop(const LackedFamily& family) const {
+    return SelectionOptions().threshold +
+           (family.value.array() != 0).count() *
+               std::log(static_cast<double>(data_.rows().num_rows()));
   }
 
   LackedFamily Family(int f) const {

@@ -40,6 +40,16 @@ TEST_F(GapFamiliesTest, AFileWithFrictionLacksNone) {
   EXPECT_TRUE(Diagnose(File()).ladder.families.empty());
 }
 
+// Not all that a file leaves out is there: this arm has no offsets, and the
+// armature that its file has.
+TEST_F(GapFamiliesTest, WhatTheRobotDoesNotHaveEitherIsNotLacked) {
+  Robot file = WithoutFriction(File());
+  for (const LackedFamily& family : Diagnose(file).ladder.families) {
+    EXPECT_THAT(family.effect->name,
+                testing::AnyOf("viscous_friction", "coulomb_friction"));
+  }
+}
+
 // With a log from before, it is no news that the file had none.
 TEST_F(GapFamiliesTest, AreNoEffectBesideAReference) {
   const GapDiagnosis diagnosis = Diagnose(WithoutFriction(File()), true);
