@@ -6,8 +6,8 @@
 #include <gflags/gflags.h>
 
 #include <cstdio>
-#include <exception>
 
+#include "tests/blind/blind_program.h"
 #include "tests/blind/blind_runner.h"
 
 DEFINE_string(armcal, "build/armcal", "the program with `diagnose`");
@@ -17,17 +17,21 @@ DEFINE_string(answers, "blind/answers", "CASE/diagnosis.json and run.json");
 DEFINE_int32(jobs, 2, "cases at a time");
 DEFINE_double(timeout, 300, "s, of a case");
 
+namespace armcal {
+namespace {
+
+int Main() {
+  const BlindRunSummary summary =
+      RunBlindCases({FLAGS_armcal, FLAGS_logs, FLAGS_labels, FLAGS_answers,
+                     FLAGS_jobs, FLAGS_timeout});
+  std::printf("answered %d, failed %d, run before %d\n", summary.answered,
+              summary.failed, summary.kept);
+  return summary.failed == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace armcal
+
 int main(int argc, char** argv) {
-  gflags::ParseCommandLineFlags(&argc, &argv, true);
-  try {
-    const armcal::BlindRunSummary summary =
-        armcal::RunBlindCases({FLAGS_armcal, FLAGS_logs, FLAGS_labels,
-                               FLAGS_answers, FLAGS_jobs, FLAGS_timeout});
-    std::printf("answered %d, failed %d, run before %d\n", summary.answered,
-                summary.failed, summary.kept);
-    return summary.failed == 0 ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "run_blind: %s\n", error.what());
-    return 3;
-  }
+  return armcal::RunBlindProgram("run_blind", &armcal::Main, argc, argv);
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "model/input_error.h"
+#include "tests/blind/blind_program.h"
 #include "tests/blind/blind_score.h"
 #include "tests/blind/day_changes.h"
 
@@ -80,11 +81,5 @@ int Main() {
 }  // namespace armcal
 
 int main(int argc, char** argv) {
-  gflags::ParseCommandLineFlags(&argc, &argv, true);
-  try {
-    return armcal::Main();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "score_blind: %s\n", error.what());
-    return 3;
-  }
+  return armcal::RunBlindProgram("score_blind", &armcal::Main, argc, argv);
 }

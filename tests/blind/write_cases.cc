@@ -15,6 +15,7 @@
 
 #include "model/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
+#include "tests/blind/blind_program.h"
 #include "tests/blind/case_files.h"
 #include "tests/blind/sized_case.h"
 
@@ -146,6 +147,6 @@ int Main() {
 }  // namespace armcal
 
 int main(int argc, char** argv) {
-  gflags::ParseCommandLineFlags(&argc, &argv, true);
-  return armcal::Main();
+  return armcal::RunBlindProgram("write_blind_cases", &armcal::Main, argc,
+                                 argv);
 }

@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "tests/blind/blind_arms.h"
+#include "tests/blind/blind_program.h"
 #include "tests/blind/effect_likeness.h"
 
 DEFINE_string(arms, "", "some of them; empty: all");
@@ -91,19 +92,20 @@ bool Wanted(const std::string& arm) {
   return FLAGS_arms.empty();
 }
 
-void Main() {
+int Main() {
   json content = ReadOut();
   for (const std::string& arm : BlindArmNames()) {
     if (!Wanted(arm) || content.contains(arm)) continue;
     content[arm] = EquivalentsOf(arm);
     Write(content);
   }
+  return 0;
 }
 
 }  // namespace
 }  // namespace armcal
 
 int main(int argc, char** argv) {
-  gflags::ParseCommandLineFlags(&argc, &argv, true);
-  armcal::Main();
+  return armcal::RunBlindProgram("write_equivalents", &armcal::Main, argc,
+                                 argv);
 }

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/blind/blind_program.h"
 #include "tests/blind/case_files.h"
 
 DEFINE_string(from_logs, "blind/logs", "cases of write_blind_cases");
@@ -67,11 +68,5 @@ int Main() {
 }  // namespace armcal
 
 int main(int argc, char** argv) {
-  gflags::ParseCommandLineFlags(&argc, &argv, true);
-  try {
-    return armcal::Main();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "write_left_out: %s\n", error.what());
-    return 3;
-  }
+  return armcal::RunBlindProgram("write_left_out", &armcal::Main, argc, argv);
 }

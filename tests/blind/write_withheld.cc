@@ -17,6 +17,7 @@
 #include "model/log_writer.h"
 #include "model/plant/random_stream.h"
 #include "model/robot_reader.h"
+#include "tests/blind/blind_program.h"
 #include "tests/blind/case_files.h"
 #include "tests/blind/withheld_size.h"
 
@@ -210,11 +211,5 @@ int Main() {
 }  // namespace armcal
 
 int main(int argc, char** argv) {
-  gflags::ParseCommandLineFlags(&argc, &argv, true);
-  try {
-    return armcal::Main();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "write_withheld: %s\n", error.what());
-    return 3;
-  }
+  return armcal::RunBlindProgram("write_withheld", &armcal::Main, argc, argv);
 }
