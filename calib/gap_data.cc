@@ -42,6 +42,15 @@ MatrixXd GapData::ResidualWith(const VectorXd& x) const {
   return residual;
 }
 
+MatrixXd GapData::ResidualWith(const VectorXd& x,
+                               const std::vector<VectorXd>& torque) const {
+  MatrixXd residual = ResidualWith(x);
+  for (int j = 0; j < residual.cols(); ++j) {
+    if (torque[j].size() > 0) residual.col(j) -= torque[j];
+  }
+  return residual;
+}
+
 void GapData::SetNoise(std::vector<Autoregression> noise) {
   rows_->SetNoise(std::move(noise), doubt_);
 }

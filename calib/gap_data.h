@@ -32,6 +32,10 @@ class GapData {
   const std::vector<Eigen::MatrixXd>& columns() const { return columns_; }
   // What the baseline at x leaves.
   Eigen::MatrixXd ResidualWith(const Eigen::VectorXd& x) const;
+  // The same beside a torque: per joint thinned samples, empty where it is 0.
+  Eigen::MatrixXd ResidualWith(
+      const Eigen::VectorXd& x,
+      const std::vector<Eigen::VectorXd>& torque) const;
 
   // Friction near zero velocity is doubted beyond what the baseline's columns
   // can vary: laws differ, and encoders do not see slow creep.

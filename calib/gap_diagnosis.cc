@@ -50,7 +50,7 @@ class Diagnoser {
   std::optional<GapBaseline> baseline_;
   std::optional<GapFit> fit_;
   std::optional<HeldOut> held_out_;
-  GapFindings findings_;
+  bool found_without_name_ = false;  // GapFindings'
   GapDiagnosis result_;
 };
 
@@ -94,11 +94,12 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   for (int j = 0; j < robot_.num_joints(); ++j) {
     result_.joints.push_back(JointFigures(j));
   }
-  findings_ = ListFindings(
+  const GapFindings findings = ListFindings(
       robot_, *fit_, *held_out_, result_.torque,
       has_reference_ ? std::vector<LackedFamily>() : lacked.families);
-  result_.effects = findings_.effects;
-  result_.candidates = findings_.candidates;
+  result_.effects = findings.effects;
+  result_.candidates = findings.candidates;
+  found_without_name_ = findings.without_name;
   Simulate(split ? training : validation, split);
   result_.moved = ListMoved(*fit_, fit_->refined().baseline);
   result_.shown = ListShown(*fit_, fit_->refined().baseline);
@@ -226,7 +227,7 @@ void Diagnoser::Judge() {
         after > kUnexplained && after > kUnexplained * refit;
     result_.verdict = much_left || held_out_left ? GapVerdict::kPartlyExplained
                                                  : GapVerdict::kExplained;
-  } else if (much_left || findings_.without_name) {
+  } else if (much_left || found_without_name_) {
     result_.verdict = GapVerdict::kUnknown;
   } else {
     result_.verdict = nominal > .3 && refit < .5 * nominal

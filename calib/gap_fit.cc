@@ -117,11 +117,8 @@ FrictionExcess GapFit::ExcessBeside(
   const JointRows torque =
       EffectTorque(baseline_, scale_, effects, false, data_.get());
   const VectorXd x = screen_->BaselineBeside(WhitenEach(data_->rows(), torque));
-  MatrixXd residual = data_->ResidualWith(x);
-  for (int j = 0; j < residual.cols(); ++j) {
-    if (torque[j].size() > 0) residual.col(j) -= torque[j];
-  }
-  return ExcessOverFriction(baseline_, x, data_->rows(), residual);
+  return ExcessOverFriction(baseline_, x, data_->rows(),
+                            data_->ResidualWith(x, torque));
 }
 
 // Above what the excess of a log without a contact is: of the reference, or of
@@ -318,9 +315,17 @@ void GapFit::Choose() {
   for (size_t k = 0; k < selection_.chosen.size(); ++k) CompareRivals(k);
   refined_.effects = Chosen(selection_.chosen);
   refined_.baseline = refit_;
-  if (refined_.effects.empty()) return;
-  refined_ = RefineEffects(*screen_, baseline_, scale_, refined_.effects, -1,
-                           data_.get());
+  if (!refined_.effects.empty()) {
+    refined_ = RefineEffects(*screen_, baseline_, scale_, refined_.effects, -1,
+                             data_.get());
+  }
+  const MatrixXd left = data_->ResidualWith(
+      refined_.baseline,
+      EffectTorque(baseline_, scale_, refined_.effects, false, data_.get()));
+  left_.resize(left.cols());
+  for (int j = 0; j < left.cols(); ++j) {
+    left_[j] = data_->rows().Whiten(j, left.col(j));
+  }
 }
 
 // A grid may be kinder to one effect than to another: those near the k-th in
@@ -332,9 +337,11 @@ void GapFit::CompareRivals(size_t k) {
                                  selection_.chosen, static_cast<int>(k));
   const double least =
       selection_.scores[k] - std::max(20., kNear * selection_.drops[k]);
-  std::vector<int> others = selection_.chosen;
-  others.erase(others.begin() + k);
-  const double by_others = screen_->Solve(ColumnsOf(candidates_, others)).drop;
+  const double by_others =
+      screen_
+          ->Solve(ColumnsOf(candidates_,
+                            Without(selection_.chosen, static_cast<int>(k))))
+          .drop;
   double best_score = -1e300;
   int best = selection_.chosen[k];
   while (static_cast<int>(rivals_[k].size()) < 1 + kMostRivals) {
@@ -357,14 +364,6 @@ void GapFit::CompareRivals(size_t k) {
     }
   }
   selection_.chosen[k] = best;
-}
-
-VectorXd GapFit::Left(int joint) const {
-  const JointRows torque =
-      EffectTorque(baseline_, scale_, refined_.effects, false, data_.get());
-  MatrixXd left = data_->ResidualWith(refined_.baseline);
-  if (torque[joint].size() > 0) left.col(joint) -= torque[joint];
-  return data_->rows().Whiten(joint, left.col(joint));
 }
 
 VectorXd GapFit::BaselineWithout(size_t k) const {

@@ -73,7 +73,7 @@ class GapFit {
   const Eigen::VectorXd& refit() const { return refit_; }
   // Whitened residual of joint j beside the refined effects: their torque as it
   // is, not as columns have it.
-  Eigen::VectorXd Left(int joint) const;
+  const Eigen::VectorXd& Left(int joint) const { return left_[joint]; }
   // The baseline beside the refined effects but for the k-th.
   Eigen::VectorXd BaselineWithout(size_t k) const;
 
@@ -103,6 +103,7 @@ class GapFit {
   std::vector<GapCandidate> candidates_;
   Selection selection_;
   RefinedEffects refined_;
+  JointRows left_;
   std::vector<std::vector<RefinedScore>> rivals_;
   std::vector<GapEvent> events_;
   // Whether friction is that of another day than the reference's, and the

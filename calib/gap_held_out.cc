@@ -66,13 +66,9 @@ void HeldOut::MaskEvents() {
 
 MatrixXd HeldOut::Residual(const std::vector<GapCandidate>& effects,
                            const VectorXd& baseline) const {
-  MatrixXd residual = data_->ResidualWith(baseline);
-  const JointRows torque = EffectTorque(fit_.baseline(), fit_.scale(), effects,
-                                        other_logs_, data_.get());
-  for (int j = 0; j < residual.cols(); ++j) {
-    if (torque[j].size() > 0) residual.col(j) -= torque[j];
-  }
-  return residual;
+  return data_->ResidualWith(
+      baseline, EffectTorque(fit_.baseline(), fit_.scale(), effects,
+                             other_logs_, data_.get()));
 }
 
 MatrixXd HeldOut::Deviations(const MatrixXd& residual) const {

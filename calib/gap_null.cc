@@ -44,11 +44,6 @@ MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
   return gradients;
 }
 
-std::vector<int> Without(std::vector<int> chosen, size_t k) {
-  chosen.erase(chosen.begin() + k);
-  return chosen;
-}
-
 }  // namespace
 
 double ScoreByChance(const GapScreen& screen, const GapRows& rows,
@@ -79,9 +74,9 @@ Selection WithoutChance(const GapScreen& screen, const GapRows& rows,
   while (!selection.chosen.empty()) {
     const GapScreen::Fit fit =
         screen.Solve(ColumnsOf(candidates, selection.chosen));
-    size_t weakest = 0;
+    int weakest = 0;
     double least = std::numeric_limits<double>::infinity();
-    for (size_t k = 0; k < selection.chosen.size(); ++k) {
+    for (int k = 0; k < static_cast<int>(selection.chosen.size()); ++k) {
       const GapCandidate& candidate = candidates[selection.chosen[k]];
       const double deflated =
           selection.drops[k] / Inflation(screen, rows, candidate, fit) -

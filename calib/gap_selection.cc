@@ -87,11 +87,6 @@ double Drop(const GapScreen& screen, const Conditioned& c,
   return !signs || SignsHold(candidate, x) ? g.dot(x) : 0;
 }
 
-std::vector<int> Without(std::vector<int> chosen, int k) {
-  if (k >= 0) chosen.erase(chosen.begin() + k);
-  return chosen;
-}
-
 int Best(const VectorXd& scores) {
   int best;
   scores.maxCoeff(&best);
@@ -188,6 +183,11 @@ std::vector<std::vector<int>> Extended(
 }
 
 }  // namespace
+
+std::vector<int> Without(std::vector<int> chosen, int k) {
+  if (k >= 0) chosen.erase(chosen.begin() + k);
+  return chosen;
+}
 
 bool SamePlace(const GapCandidate& a, const GapCandidate& b) {
   return a.effect == b.effect && a.joint == b.joint;

@@ -66,6 +66,9 @@ Selection DescribeSelection(const GapScreen& screen,
 // from: k ln N + 2 ln M, and more near zero velocity.
 double Price(const GapScreen& screen, const GapCandidate& candidate);
 
+// All but chosen[k]; all where k is -1.
+std::vector<int> Without(std::vector<int> chosen, int k);
+
 // Columns of several candidates.
 std::vector<int> ColumnsOf(const std::vector<GapCandidate>& candidates,
                            const std::vector<int>& chosen);
