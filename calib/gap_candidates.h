@@ -28,10 +28,6 @@ struct GapCandidate {
   std::string place() const;
 };
 
-// What the joints do in these rows.
-MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
-                    const std::vector<RecordedTorque>& torques);
-
 // Every effect but those `without` names, at every place, at every value of its
 // grids. Shapes that are found in the residual (frequencies, times) come from
 // `residual`, thinned samples x n.

@@ -11,6 +11,7 @@
 #include "calib/gap_data.h"
 #include "calib/gap_screen.h"
 #include "calib/gap_selection.h"
+#include "calib/motion_scale.h"
 
 namespace armcal {
 namespace {

@@ -10,6 +10,7 @@
 #include "calib/gap_noise.h"
 #include "calib/gap_screen.h"
 #include "calib/gap_selection.h"
+#include "calib/motion_scale.h"
 #include "model/delayed_signal.h"
 
 namespace armcal {

@@ -17,6 +17,8 @@ using Eigen::MatrixXd;
 
 // A regressor must not hold the noise of what it explains.
 constexpr double kSmoothTorqueHz = 3;
+// Thermometers are noisy, and gears warm up in minutes.
+constexpr double kSmoothTemperatureHz = .2;
 constexpr double kShortest = 2;         // s
 constexpr double kMotionBandwidth = 5;  // of the torque's
 
@@ -38,6 +40,9 @@ void AppendCore(const Trajectory& trajectory, GapSegment* segment) {
   AppendRows(trajectory.qd.middleRows(begin, rows), &motion.qd);
   AppendRows(trajectory.qdd.middleRows(begin, rows), &motion.qdd);
   AppendRows(trajectory.tau.middleRows(begin, rows), &segment->tau);
+  if (trajectory.temperature.size() == 0) return;
+  AppendRows(trajectory.temperature.middleRows(begin, rows),
+             &motion.temperature);
 }
 
 // Joint by joint, on positions that are smooth already.
@@ -82,8 +87,13 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                  segments.end());
   for (GapSegment& segment : segments) {
     FindStillJoints(&segment);
-    segment.motion.torque =
-        ZeroPhaseLowPass(segment.tau, 1 / segment.motion.dt, kSmoothTorqueHz);
+    Motion& motion = segment.motion;
+    motion.torque =
+        ZeroPhaseLowPass(segment.tau, 1 / motion.dt, kSmoothTorqueHz);
+    if (motion.temperature.size() == 0) continue;
+    motion.temperature =
+        ZeroPhaseLowPass(motion.temperature, 1 / motion.dt,
+                         kSmoothTemperatureHz, Ends::kExtrapolate);
   }
   return segments;
 }

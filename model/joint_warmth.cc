@@ -26,4 +26,30 @@ Eigen::MatrixXd JointWarmth(const Eigen::MatrixXd& power, double dt,
   return warmth;
 }
 
+JointThermal FitThermal(const Eigen::VectorXd& power,
+                        const Eigen::VectorXd& warmth, double dt) {
+  constexpr int kTried = 40;
+  const double duration = dt * static_cast<double>(power.size());
+  const auto centred = [](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return x.array() - x.mean();
+  };
+  const Eigen::VectorXd recorded = centred(warmth);
+  JointThermal fitted;
+  double least = recorded.squaredNorm();
+  for (int k = 0; k < kTried; ++k) {
+    // From a hundredth of the record's length to ten times it.
+    const double constant =
+        .01 * duration * std::pow(1000, k / (kTried - 1.));  // s
+    const Eigen::VectorXd unit =
+        centred(JointWarmth(power, dt, {{constant, 1}}).row(0));
+    const double resistance = unit.dot(recorded) / unit.squaredNorm();
+    if (!(resistance > 0)) continue;
+    const double left = (recorded - resistance * unit).squaredNorm();
+    if (left >= least) continue;
+    least = left;
+    fitted = {constant / resistance, resistance};
+  }
+  return fitted;
+}
+
 }  // namespace armcal

@@ -13,4 +13,10 @@ namespace armcal {
 Eigen::MatrixXd JointWarmth(const Eigen::MatrixXd& power, double dt,
                             const std::vector<JointThermal>& thermal);
 
+// The capacity and resistance with which a joint heated by `power` (W) would
+// have been as warm as `warmth` says (K, whatever its zero is), both recorded
+// dt s apart; the usual ones where its warmth does not follow its power.
+JointThermal FitThermal(const Eigen::VectorXd& power,
+                        const Eigen::VectorXd& warmth, double dt);
+
 }  // namespace armcal

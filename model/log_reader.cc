@@ -41,6 +41,9 @@ struct LogReader::Impl {
     if (options.want_reference && columns.HasAll(Signal::kReference)) {
       qref = row.Use(columns.Find(Signal::kReference));
     }
+    if (options.want_temperature && columns.HasAll(Signal::kTemperature)) {
+      temperature = row.Use(columns.Find(Signal::kTemperature));
+    }
     if (!options.need_torque) return;
     const TorqueColumns torque = FindTorqueColumns(path, columns, options);
     torque_source = torque.source;
@@ -122,6 +125,7 @@ struct LogReader::Impl {
     log->qdd = Signals(qdd);
     log->tau = Signals(tau);
     log->qref = Signals(qref);
+    log->temperature = Signals(temperature);
     return true;
   }
 
@@ -150,6 +154,7 @@ struct LogReader::Impl {
   LogRow row;
   int q = kUnused, qd = kUnused, qdd = kUnused, tau = kUnused;  // in a row
   int qref = kUnused;
+  int temperature = kUnused;
   std::string torque_source;
 
   std::vector<double> times;   // of the rows of one Read()

@@ -27,6 +27,7 @@ struct LogReaderOptions {
   bool want_velocity = false;
   bool want_acceleration = false;
   bool want_reference = false;
+  bool want_temperature = false;
 };
 
 // Reads a CSV or gzipped CSV log block by block in constant memory.

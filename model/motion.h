@@ -13,6 +13,8 @@ struct Motion {
   Eigen::MatrixXd qd;           // rad/s or m/s
   Eigen::MatrixXd qdd;          // rad/s^2 or m/s^2
   Eigen::MatrixXd temperature;  // deg C; empty: not recorded
+  // At which friction is the robot's, deg C; empty: that of row 0.
+  Eigen::VectorXd usual_temperature;
   // As the controller recorded it, N m or N, smooth; empty: not recorded.
   // Wanted only where what is asked says more than what is given: at a limit.
   Eigen::MatrixXd torque;

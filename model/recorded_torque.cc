@@ -154,7 +154,11 @@ void RecordedTorque::FollowWarmth(const std::vector<JointThermal>& thermal) {
   thermal_ = thermal;
   if (motion_.temperature.size() > 0) {
     track_.warmth = motion_.temperature.transpose();
-    track_.warmth.colwise() -= motion_.temperature.row(0).transpose().eval();
+    if (motion_.usual_temperature.size() > 0) {
+      track_.warmth.colwise() -= motion_.usual_temperature;
+    } else {
+      track_.warmth.colwise() -= motion_.temperature.row(0).transpose().eval();
+    }
     return;
   }
   track_.warmth = JointWarmth(

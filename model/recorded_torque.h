@@ -27,13 +27,15 @@ class RecordedTorque {
   const Eigen::MatrixXd& nominal() const { return nominal_; }
   // What drives hand to their links: without armature and friction.
   const Eigen::MatrixXd& load() const { return load_; }
+  // What its friction heats the joints with, W, samples x n.
+  const Eigen::MatrixXd& friction_power() const { return friction_power_; }
 
   // What the slots of `changed` add to the nominal torque, samples x n.
   // `changed` has the robot of the constructor, itself perhaps changed (links,
   // gravity, joint terms, a geometry), and no laws but those to be judged:
   //   joint laws and wrenches   exact, with their states along the motion. They
   //                             see the nominal load, and the temperature that
-  //                             was recorded (above its first value) or that
+  //                             was recorded (above the usual one) or that
   //                             `thermal` makes of nominal friction;
   //   robot                     exact;
   //   transmissions             the deflection's equation of motion along the

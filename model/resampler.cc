@@ -32,16 +32,16 @@ void Resampler::Clear() {
 
 void Resampler::Append(const Log& block, int row) {
   if (times_.empty()) segment_begin_ = block.t[row];
-  const Eigen::MatrixXd* const signals[] = {&block.q, &block.tau, &block.qd,
-                                            &block.qdd};
+  const std::array<const Eigen::MatrixXd*, kSignals> signals = {
+      &block.q, &block.tau, &block.qd, &block.qdd, &block.temperature};
   Eigen::Index width = 0;
-  for (int s = 0; s < 4; ++s) {
+  for (int s = 0; s < kSignals; ++s) {
     widths_[s] = static_cast<int>(signals[s]->cols());
     width += widths_[s];
   }
   Eigen::RowVectorXd value(width);
   Eigen::Index at = 0;
-  for (int s = 0; s < 4; ++s) {
+  for (int s = 0; s < kSignals; ++s) {
     if (widths_[s] > 0) value.segment(at, widths_[s]) = signals[s]->row(row);
     at += widths_[s];
   }
@@ -97,8 +97,9 @@ Eigen::RowVectorXd Resampler::Value(long index, size_t* hint) const {
 void Resampler::Sample(long begin, long end, Log* out) const {
   CHECK_LE(end, NumGridPoints());
   const Eigen::Index rows = end - begin;
-  Eigen::MatrixXd* const signals[] = {&out->q, &out->tau, &out->qd, &out->qdd};
-  for (int s = 0; s < 4; ++s) {
+  const std::array<Eigen::MatrixXd*, kSignals> signals = {
+      &out->q, &out->tau, &out->qd, &out->qdd, &out->temperature};
+  for (int s = 0; s < kSignals; ++s) {
     signals[s]->resize(widths_[s] > 0 ? rows : 0, widths_[s]);
   }
   out->t.resize(rows);
@@ -108,7 +109,7 @@ void Resampler::Sample(long begin, long end, Log* out) const {
     out->t[r] = segment_begin_ + static_cast<double>(index) * dt_;
     const Eigen::RowVectorXd value = Value(index, &hint);
     Eigen::Index at = 0;
-    for (int s = 0; s < 4; ++s) {
+    for (int s = 0; s < kSignals; ++s) {
       if (widths_[s] > 0) signals[s]->row(r) = value.segment(at, widths_[s]);
       at += widths_[s];
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "model/log.h"
@@ -28,6 +29,8 @@ class Resampler {
   void Sample(long begin, long end, Log* out) const;
 
  private:
+  // q, tau, qd, qdd, temperature.
+  static constexpr int kSignals = 5;
   Eigen::RowVectorXd Value(long index, size_t* hint) const;
 
   double dt_;
@@ -35,8 +38,8 @@ class Resampler {
   double segment_begin_ = 0;
   long dropped_ = 0;  // samples of the segment already forgotten
   std::vector<double> times_;
-  std::vector<Eigen::RowVectorXd> values_;  // q, tau, qd, qdd side by side
-  int widths_[4] = {0, 0, 0, 0};
+  std::vector<Eigen::RowVectorXd> values_;  // signals side by side
+  std::array<int, kSignals> widths_{};
 };
 
 }  // namespace armcal

@@ -201,11 +201,13 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
       raw && grid.qd.size() > 0 ? std::move(grid.qd) : Differentiate(t.q, t.dt);
   t.qdd = raw && grid.qdd.size() > 0 ? std::move(grid.qdd)
                                      : Differentiate(t.qd, t.dt);
+  t.temperature = std::move(grid.temperature);
   if (thin > 1) {
     for (Eigen::MatrixXd* x : {&t.tau, &t.tau_recorded}) {
       *x = Thin(ZeroPhaseLowPass(*x, 1 / t.dt, 4 * bandwidth), thin);
     }
-    for (Eigen::MatrixXd* x : {&t.q, &t.qd, &t.qdd, &velocity}) {
+    for (Eigen::MatrixXd* x :
+         {&t.q, &t.qd, &t.qdd, &t.temperature, &velocity}) {
       *x = Thin(*x, thin);
     }
     t.dt *= static_cast<double>(thin);

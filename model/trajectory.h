@@ -24,6 +24,7 @@ struct Trajectory {
   Eigen::MatrixXd qdd;  // rad/s^2 or m/s^2
   Eigen::MatrixXd tau;  // N m or N, up to 4 times the bandwidth, no outliers
   Eigen::MatrixXd tau_recorded;  // the same with its outliers
+  Eigen::MatrixXd temperature;   // deg C; empty: not recorded, or not wanted
   // All |qd| below 1e-3 rad/s (m/s) for 0.5 s or longer; qd here is the mean
   // over 0.2 s of positions low-passed at 4 times the bandwidth, which rings
   // less after a stop than `qd`.

@@ -37,6 +37,7 @@ std::vector<GapSegment> Read(const std::vector<std::string>& texts) {
   }
   LogReaderOptions reader;
   reader.joint_names = {"a", "b"};
+  reader.want_temperature = true;
   LogSet logs(paths, reader, {});
   return ReadSegments(kBandwidth, {}, &logs);
 }
@@ -69,6 +70,25 @@ TEST(GapSegments, HoldTheMotionOfTheLog) {
     ASSERT_NEAR(segment.motion.qd(k, 0), log.qd(at, 0), 1e-3);
     ASSERT_NEAR(segment.motion.qdd(k, 0), log.qdd(at, 0), .05);
     ASSERT_NEAR(segment.tau(k, 0), log.tau(at, 0), 1e-9);
+  }
+}
+
+// Noise of a thermometer is not warmth of the joint.
+TEST(GapSegments, HoldTemperaturesWhereTheyWereRecorded) {
+  Log log = Swing(60);
+  EXPECT_EQ(Read({LogCsv(log)})[0].motion.temperature.size(), 0);
+  log.temperature.resize(log.size(), 2);
+  const auto warmth = [](double t) { return 25 - 8 * std::expm1(-t / 20); };
+  for (int k = 0; k < log.size(); ++k) {
+    const double T = warmth(log.t[k]);
+    log.temperature.row(k) << T + (k % 2 ? .5 : -.5), 30;
+  }
+  const GapSegment segment = Read({LogCsv(log)})[0];
+  ASSERT_EQ(segment.motion.temperature.rows(), segment.size());
+  for (int k = 0; k < segment.size(); ++k) {
+    const auto T = segment.motion.temperature.row(k);
+    ASSERT_NEAR(T[0], warmth(segment.motion.time(k)), .1) << k;
+    ASSERT_NEAR(T[1], 30, 1e-9);
   }
 }
 

@@ -15,6 +15,7 @@ Log TwoJoints() {
   log.qd = Eigen::MatrixXd::Random(3, 2);
   log.tau = 100 * Eigen::MatrixXd::Random(3, 2);
   log.qref = Eigen::MatrixXd::Random(3, 2);
+  log.temperature = 40 * Eigen::MatrixXd::Random(3, 2);
   return log;
 }
 
@@ -23,6 +24,7 @@ Log ReadBack(const std::string& text, LogReaderOptions options) {
   options.joint_names = {"a", "b"};
   options.want_velocity = true;
   options.want_reference = true;
+  options.want_temperature = true;
   LogReader reader(path, options);
   Log log;
   reader.Read(10, &log);
@@ -37,6 +39,7 @@ TEST(LogWriter, ReaderReadsItBack) {
   EXPECT_TRUE(back.qd.isApprox(log.qd, 1e-8));
   EXPECT_TRUE(back.tau.isApprox(log.tau, 1e-8));
   EXPECT_TRUE(back.qref.isApprox(log.qref, 1e-8));
+  EXPECT_TRUE(back.temperature.isApprox(log.temperature, 1e-8));
 }
 
 TEST(LogWriter, CurrentsTimesTheirConstantsAreTheTorques) {
@@ -45,7 +48,7 @@ TEST(LogWriter, CurrentsTimesTheirConstantsAreTheTorques) {
   options.torque_constants = {14.5, .2};
   const std::string text = LogText(log, options);
   EXPECT_EQ(text.substr(0, text.find('\n')),
-            "t,q1,q2,qd1,qd2,i1,i2,qref1,qref2");
+            "t,q1,q2,qd1,qd2,i1,i2,qref1,qref2,temp1,temp2");
   LogReaderOptions read;
   read.torque_constants = options.torque_constants;
   EXPECT_TRUE(ReadBack(text, read).tau.isApprox(log.tau, 1e-8));

@@ -148,7 +148,7 @@ Trajectory MakeTrajectory(const Log& log) {
 
 std::string LogCsv(const Log& log, bool with_rates) {
   std::vector<std::pair<std::string, const MatrixXd*>> signals = {
-      {"q", &log.q}, {"tau", &log.tau}};
+      {"q", &log.q}, {"tau", &log.tau}, {"temp", &log.temperature}};
   if (with_rates) {
     signals.insert(signals.end(), {{"qd", &log.qd}, {"qdd", &log.qdd}});
   }

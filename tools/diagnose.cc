@@ -83,7 +83,8 @@ int RunDiagnose() {
   DiagnosisOptions options;
   options.without = LeftOutEffects();
   const Robot robot = RobotFromFlags();
-  const LogReaderOptions log_options = LogOptionsFromFlags(robot);
+  LogReaderOptions log_options = LogOptionsFromFlags(robot);
+  log_options.want_temperature = true;
   LogSet training(LogsFromFlags(), log_options, CropFromFlags());
   ProgressBar bar;
   options.progress = [&bar](const std::string& stage, double fraction) {

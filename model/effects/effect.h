@@ -27,6 +27,8 @@ struct MotionScale {
   // The speed within which the joint's Coulomb friction changes sign, rad/s or
   // m/s: tanh(qd / width).
   Eigen::VectorXd width;
+  // As recorded temperatures say; empty: not recorded.
+  std::vector<JointThermal> thermal;
   double begin = 0, end = 0;  // s
 };
 
@@ -99,6 +101,9 @@ struct Effect {
   // Multiples of its linear parameters' sizes that are tried as well, where
   // torques are far from being in proportion to them.
   std::vector<double> larger_sizes;
+  // Effects that a model without this law would show in its stead, as its mean:
+  // beside it on the same joint they are a part of it.
+  std::vector<std::string> means;
   // How it is made visible: the experiment a report proposes.
   std::string experiment;
 };

@@ -17,6 +17,21 @@ double FrictionPower(const EffectSite& site) {
   return (site.at().viscous * v + site.at().coulomb) * v;
 }
 
+// As the thermometer says, else as `time_constant` does, s.
+JointThermal Thermal(const EffectSite& site, double time_constant) {
+  if (!site.scale->thermal.empty()) return site.scale->thermal[site.joint];
+  const double resistance = kUsualRise / FrictionPower(site);
+  return {time_constant / resistance, resistance};
+}
+
+std::vector<double> TimeConstants(const EffectSite& site) {
+  if (!site.scale->thermal.empty()) {
+    const JointThermal& thermal = site.scale->thermal[site.joint];
+    return {thermal.capacity * thermal.resistance};
+  }
+  return GeometricGrid(.1 * Duration(site), 3 * Duration(site), 4);
+}
+
 std::string WhyNoFriction(const EffectSite& site) {
   return site.at().viscous > 0 || site.at().coulomb > 0
              ? ""
@@ -38,18 +53,15 @@ Effect ThermalFriction() {
   effect.parameters = {
       Linear("beta", "1/K", size, EffectParameter::Sign::kPositive),
       Linear("coulomb_beta", "1/K", size, EffectParameter::Sign::kPositive),
-      Gridded("time_constant", "s", [](const EffectSite& site) {
-        return GeometricGrid(.1 * Duration(site), 3 * Duration(site), 4);
-      })};
+      Gridded("time_constant", "s", TimeConstants)};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const int j = site.joint;
     const double viscous = p[0] * site.at().viscous;
     const double coulomb = p[1] * site.at().coulomb;
     const double w = site.scale->width[j];
-    const double resistance = kUsualRise / FrictionPower(site);
     robot->thermal.resize(robot->robot.num_joints());
-    robot->thermal[j] = {p[2] / resistance, resistance};
+    robot->thermal[j] = Thermal(site, p[2]);
     AddFriction(
         site,
         [=](const ArmInstant& at) {
@@ -59,6 +71,7 @@ Effect ThermalFriction() {
         robot);
   };
   effect.unfit = WhyNoFriction;
+  effect.means = {"viscous_friction", "coulomb_friction"};
   effect.experiment = "the same motion again and again from cold";
   return effect;
 }
