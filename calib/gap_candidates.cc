@@ -16,6 +16,8 @@ constexpr int kPeaks = 3;
 constexpr int kWindows = 3;
 // Per rad: slower ones are springs and cables.
 constexpr double kLowestHarmonic = 6, kHighestHarmonic = 130;
+// Of the bandwidth: beyond it the low pass leaves nothing of a vibration.
+constexpr double kHighestFrequency = 4;
 const std::vector<double> kDurations = {.15, .4, 1};  // s
 
 // What the residual proposes for the parameters that are looked for in it.
@@ -60,7 +62,7 @@ class Proposals {
     std::vector<double> f =
         PeakFrequencies(whitened_.col(joint), t_, 2 * M_PI * .5,
                         2 * M_PI * 1.2 * rows_.bandwidth_hz(), kPeaks);
-    for (double& x : f) x /= 2 * M_PI;
+    for (double& x : f) x = Unaliased(joint, x / (2 * M_PI));
     return f;
   }
   int num_logs() const {
@@ -81,6 +83,31 @@ class Proposals {
   }
 
  private:
+  // Thinned samples take f for what is as far beyond half their rate; the
+  // recorded torque does not.
+  double Unaliased(int joint, double f) const {
+    const auto& segments = rows_.segments();
+    const auto longest =
+        std::max_element(segments.begin(), segments.end(),
+                         [](const GapSegment& a, const GapSegment& b) {
+                           return a.size() < b.size();
+                         });
+    const int s = static_cast<int>(longest - segments.begin());
+    const double rate = 1 / rows_.step(s), dt = longest->motion.dt;
+    const VectorXd t =
+        VectorXd::LinSpaced(longest->size(), 0, (longest->size() - 1) * dt);
+    double best = f, most = 0;
+    for (const double alias : {f, rate - f, rate + f}) {
+      if (alias > std::min(kHighestFrequency * rows_.bandwidth_hz(), .4 / dt)) {
+        continue;
+      }
+      const double power =
+          PowerOverNeighbours(longest->tau.col(joint), t, alias);
+      if (power > most) most = power, best = alias;
+    }
+    return best;
+  }
+
   const GapRows& rows_;
   const MatrixXd& residual_;
   MatrixXd q_, whitened_;
@@ -195,50 +222,6 @@ void ListShapes(const Effect& effect, const EffectSite& site,
 
 std::string GapCandidate::place() const {
   return effect->name + (joint < 0 ? "" : "@" + std::to_string(joint + 1));
-}
-
-MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
-                    const std::vector<RecordedTorque>& torques) {
-  const int n = rows.num_joints();
-  MotionScale scale;
-  scale.torque = scale.load = scale.speed = scale.top_speed = scale.top_torque =
-      scale.acceleration = scale.width = VectorXd::Zero(n);
-  scale.low = VectorXd::Constant(n, INFINITY);
-  scale.high = -scale.low;
-  double samples = 0;
-  VectorXd moving = VectorXd::Zero(n);
-  scale.begin = INFINITY;
-  for (size_t s = 0; s < torques.size(); ++s) {
-    const GapSegment& segment = rows.segments()[s];
-    const Motion& motion = segment.motion;
-    samples += motion.size();
-    scale.begin = std::min(scale.begin, motion.time(0));
-    scale.end = std::max(scale.end, motion.time(motion.size() - 1));
-    for (int j = 0; j < n; ++j) {
-      const auto move = (!segment.still.col(j)).cast<double>();
-      moving[j] += move.sum();
-      scale.torque[j] += segment.tau.col(j).squaredNorm();
-      scale.load[j] += torques[s].load().col(j).squaredNorm();
-      scale.speed[j] += (motion.qd.col(j).array().square() * move).sum();
-      scale.acceleration[j] +=
-          (motion.qdd.col(j).array().square() * move).sum();
-      scale.top_speed[j] =
-          std::max(scale.top_speed[j], motion.qd.col(j).cwiseAbs().maxCoeff());
-      scale.top_torque[j] = std::max(
-          scale.top_torque[j], motion.torque.col(j).cwiseAbs().maxCoeff());
-      scale.low[j] = std::min(scale.low[j], motion.q.col(j).minCoeff());
-      scale.high[j] = std::max(scale.high[j], motion.q.col(j).maxCoeff());
-    }
-  }
-  moving = moving.cwiseMax(1);
-  scale.torque = (scale.torque / samples).cwiseSqrt();
-  scale.load = (scale.load / samples).cwiseSqrt();
-  scale.speed = scale.speed.cwiseQuotient(moving).cwiseSqrt();
-  scale.acceleration = scale.acceleration.cwiseQuotient(moving).cwiseSqrt();
-  for (int j = 0; j < n; ++j) {
-    scale.width[j] = baseline.transitions()[j].width;
-  }
-  return scale;
 }
 
 std::vector<GapCandidate> ListCandidates(

@@ -100,4 +100,19 @@ std::vector<TimeWindow> StrongWindows(const MatrixXd& residual,
   return windows;
 }
 
+double PowerOverNeighbours(const VectorXd& signal, const VectorXd& t,
+                           double frequency) {
+  const double range = t.maxCoeff() - t.minCoeff();
+  // Hann's window keeps what is large and slow out.
+  const VectorXd windowed =
+      (signal.array() - signal.mean()) *
+      (1 - (2 * M_PI / range * (t.array() - t.minCoeff())).cos());
+  const auto power = [&](double f) { return Power(windowed, t, 2 * M_PI * f); };
+  double around = 0;
+  for (const double away : {.2, .4, .6, .8, 1.}) {
+    around += power(frequency - away) + power(frequency + away);
+  }
+  return power(frequency) / std::max(1e-300, around / 10);
+}
+
 }  // namespace armcal

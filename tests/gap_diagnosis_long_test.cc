@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "calib/gap_diagnosis.h"
 #include "tests/diagnosed_arm.h"
 
@@ -74,6 +76,15 @@ TEST_F(GapDiagnosisLongTest, TwoAreFound) {
   }
   EXPECT_THAT(places,
               testing::UnorderedElementsAre("stribeck0", "torque_ripple1"));
+}
+
+// 9 Hz, of which samples thinned to 15 Hz know only that it may be 6.
+TEST_F(GapDiagnosisLongTest, AVibrationBeyondTheBandwidthIsItself) {
+  Add("vibration", 0, {2, 1, 9});
+  const GapDiagnosis diagnosis = Diagnose(File());
+  ExpectFirst(diagnosis, "vibration", 0);
+  ExpectEstimate(diagnosis.effects[0], "frequency", 9, .001);
+  ExpectEstimate(diagnosis.effects[0], "amplitude", std::sqrt(5.), .1);
 }
 
 // A torque that no catalogue has: of the product of two joints' positions.

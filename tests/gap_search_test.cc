@@ -50,6 +50,21 @@ TEST(PeakFrequencies, TheHighestComesFirst) {
   EXPECT_NEAR(peaks[1], 30, kResolution / 2);
 }
 
+// A line of 17 Hz beside motion that is a hundred times as large.
+TEST(PowerOverNeighbours, IsLargeAtALineOnly) {
+  const VectorXd t = VectorXd::LinSpaced(4000, 0, 40);
+  const VectorXd motion = 20 * (2 * M_PI * .7 * t.array()).sin();
+  const VectorXd line = .2 * (2 * M_PI * 17 * t.array()).cos();
+  std::mt19937 random(3);
+  VectorXd noise(t.size());
+  std::normal_distribution<double> normal;
+  for (double& x : noise) x = normal(random);
+  const VectorXd signal = motion + line + noise;
+  EXPECT_GT(PowerOverNeighbours(signal, t, 17), 20);
+  EXPECT_LT(PowerOverNeighbours(signal, t, 8), 10);
+  EXPECT_LT(PowerOverNeighbours(signal, t, 25), 10);
+}
+
 TEST(PeakFrequencies, AreNoneWithoutMotionOrRange) {
   const VectorXd still = VectorXd::Ones(kSamples);
   EXPECT_TRUE(PeakFrequencies(still, still, 6, 130, 3).empty());
