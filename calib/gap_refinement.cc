@@ -30,6 +30,7 @@ struct Coordinate {
   double high = std::numeric_limits<double>::infinity();
 
   double Value(double u) const {
+    if (u == Inverse(low)) return low;
     return by_factors ? centre * std::exp(scale * (u - 1))
                       : centre + scale * (u - 1);
   }

@@ -1,11 +1,12 @@
 #include "calib/gap_selection.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
+
+#include "calib/gap_drop.h"
 
 namespace armcal {
 namespace {
@@ -13,79 +14,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of what the baseline and the chosen leave of a column, less than this share
-// is rounding and errors of form.
-constexpr double kVisible = 1e-4;
 // GAP.md B asks 40 to 60 of such effects where 25 does for others.
 constexpr double kNearZeroPrice = 20;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-
-// Whether signs are as the effect has them.
-bool SignsHold(const GapCandidate& candidate, const VectorXd& coefficients) {
-  for (size_t k = 0; k < candidate.linear.size(); ++k) {
-    const EffectParameter& parameter =
-        candidate.effect->parameters[candidate.linear[k]];
-    if (parameter.sign == EffectParameter::Sign::kPositive &&
-        coefficients[k] < 0) {
-      return false;
-    }
-  }
-  return true;
-}
-
-struct Conditioned {
-  MatrixXd half;  // G_SS^-1/2 G_S.
-  VectorXd g;
-};
-
-Conditioned Condition(const GapScreen& screen, const std::vector<int>& S,
-                      const VectorXd& gradient) {
-  Conditioned c;
-  c.g = gradient;
-  if (S.empty()) return c;
-  const int size = static_cast<int>(S.size());
-  MatrixXd G(size, size), cross(size, screen.size());
-  VectorXd g(size);
-  for (int k = 0; k < size; ++k) {
-    cross.row(k) = screen.G().row(S[k]);
-    g[k] = gradient[S[k]];
-    for (int l = 0; l < size; ++l) G(k, l) = screen.G()(S[k], S[l]);
-    G(k, k) += 1e-9 * screen.raw(S[k]);
-  }
-  const Eigen::LLT<MatrixXd> factor(G);
-  c.half = factor.matrixL().solve(cross);
-  c.g -= c.half.transpose() * factor.matrixL().solve(g);
-  return c;
-}
-
-// Drop of chi^2 when the candidate is added to S; 0 where its signs are wrong.
-// Columns of which nothing is left to see have no part in it.
-double Drop(const GapScreen& screen, const Conditioned& c,
-            const GapCandidate& candidate, bool signs) {
-  const int size = static_cast<int>(candidate.columns.size());
-  MatrixXd G = MatrixXd::Identity(size, size);
-  VectorXd g = VectorXd::Zero(size);
-  const auto product = [&](int a, int b) {
-    return screen.G()(a, b) -
-           (c.half.size() > 0 ? c.half.col(a).dot(c.half.col(b)) : 0);
-  };
-  std::vector<bool> seen(size);
-  for (int k = 0; k < size; ++k) {
-    const int a = candidate.columns[k];
-    seen[k] = product(a, a) > kVisible * screen.raw(a);
-  }
-  for (int k = 0; k < size; ++k) {
-    if (!seen[k]) continue;
-    const int a = candidate.columns[k];
-    g[k] = c.g[a];
-    for (int l = 0; l < size; ++l) {
-      if (seen[l]) G(k, l) = product(a, candidate.columns[l]);
-    }
-    G(k, k) += 1e-9 * screen.raw(a);
-  }
-  const VectorXd x = G.llt().solve(g);
-  return !signs || SignsHold(candidate, x) ? g.dot(x) : 0;
-}
 
 int Best(const VectorXd& scores) {
   int best;

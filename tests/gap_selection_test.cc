@@ -129,6 +129,24 @@ TEST_F(GapSelectionTest, WhatCanOnlyBePositiveIsNotFoundNegative) {
   EXPECT_THAT(Select().chosen, IsEmpty());
 }
 
+// Of two that can only be positive, one may be 0: the other is found.
+TEST_F(GapSelectionTest, APartThatIsNotThereIsNoObstacle) {
+  AddRandom(5);
+  const VectorXd other = Noise(&random_);
+  GapCandidate& law = candidates_[3];
+  law.linear = {0, 1};
+  law.columns.push_back(static_cast<int>(columns_.size()));
+  columns_.push_back({other, {}});
+  effects_[3].parameters.resize(2);
+  for (EffectParameter& parameter : effects_[3].parameters) {
+    parameter.sign = EffectParameter::Sign::kPositive;
+  }
+  target_[0] = .5 * Column(3) - .02 * other;
+  EXPECT_THAT(Select().chosen, ElementsAre(3));
+  target_[0] = -.5 * Column(3) - .5 * other;
+  EXPECT_THAT(Select().chosen, IsEmpty());
+}
+
 TEST_F(GapSelectionTest, ShapesOfOneEffectAreNotTwoEffects) {
   AddRandom(3);
   const int other = Add(2, 0, Noise(&random_));
