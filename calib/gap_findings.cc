@@ -30,7 +30,7 @@ class Findings {
   FoundEffect Found(size_t k) const;
   FoundEffect Contacts() const;
   void AddFamilies(const std::vector<LackedFamily>& families);
-  void ShareTheRest(FoundEffect* found);
+  void ShareTheRest(FoundEffect* found, bool is_first);
 
   const Robot& robot_;
   const GapFit& fit_;
@@ -132,7 +132,10 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
     result_.effects.push_back(Found(k));
   }
   SortFindings(&result_.effects);
-  for (FoundEffect& found : result_.effects) ShareTheRest(&found);
+  JoinMeans(&result_.effects);
+  for (FoundEffect& found : result_.effects) {
+    ShareTheRest(&found, &found == &result_.effects.front());
+  }
   const auto unclaimed =
       std::stable_partition(result_.effects.begin(), result_.effects.end(),
                             [](const FoundEffect& found) {
@@ -145,18 +148,24 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
 }
 
 // The probability that an effect does not have is that of all others together;
-// the set of candidates ends where 95 % are in it.
-void Findings::ShareTheRest(FoundEffect* found) {
+// of a further one, which may not be there at all, others have as much of it as
+// scores say. The set of candidates ends where 95 % are in it.
+void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
   constexpr double kCredible = .95;
   double others = 0;
   for (const PlacedEffect& other : found->equivalent) {
     others += other.probability;
   }
+  const double rest = 1 - found->probability;
+  const double shared = is_first
+                            ? rest
+                            : std::min(rest, found->probability * others /
+                                                 std::max(1e-9, 1 - others));
   result_.candidates.push_back(
       {found->effect, found->joint, found->probability, found->score});
-  double sum = found->probability;
+  double sum = 1 - shared;
   for (PlacedEffect& other : found->equivalent) {
-    other.probability *= (1 - found->probability) / std::max(1e-9, others);
+    other.probability *= shared / std::max(1e-9, others);
     if (sum < kCredible) result_.candidates.push_back(other);
     sum += other.probability;
   }
@@ -164,28 +173,42 @@ void Findings::ShareTheRest(FoundEffect* found) {
 
 }  // namespace
 
+// Whether b is what a file has a number for and a's law has a mean of.
+bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
+  const std::vector<std::string>& means = a.effect->means;
+  return a.joint >= 0 && a.joint == b.joint &&
+         std::find(means.begin(), means.end(), b.effect->name) != means.end();
+}
+
 void SortFindings(std::vector<FoundEffect>* effects) {
   constexpr double kMuch = .2;  // of the number's drop
-  const auto is_number = [](const FoundEffect& found) {
-    for (const char* name : {"viscous_friction", "coulomb_friction",
-                             "torque_offset", "armature"}) {
-      if (found.effect->name == name) return true;
-    }
-    return false;
-  };
   std::stable_sort(effects->begin(), effects->end(),
                    [](const FoundEffect& a, const FoundEffect& b) {
                      return a.drop > b.drop;
                    });
   for (size_t k = 1; k < effects->size(); ++k) {
-    if (is_number((*effects)[k])) continue;
     for (size_t i = k; i > 0; --i) {
-      const FoundEffect& before = (*effects)[i - 1];
-      if (before.joint < 0 || before.joint != (*effects)[i].joint ||
-          !is_number(before) || (*effects)[i].drop < kMuch * before.drop) {
-        break;
+      FoundEffect &before = (*effects)[i - 1], &law = (*effects)[i];
+      if (!IsMeanOf(before, law) || law.drop < kMuch * before.drop) break;
+      std::swap(before, law);
+    }
+  }
+}
+
+void JoinMeans(std::vector<FoundEffect>* effects) {
+  for (size_t k = 0; k < effects->size(); ++k) {
+    for (size_t i = k + 1; i < effects->size();) {
+      FoundEffect& law = (*effects)[k];
+      const FoundEffect& mean = (*effects)[i];
+      if (!IsMeanOf(mean, law) || mean.drop > law.drop) {
+        ++i;
+        continue;
       }
-      std::swap((*effects)[i - 1], (*effects)[i]);
+      law.estimates.insert(law.estimates.end(), mean.estimates.begin(),
+                           mean.estimates.end());
+      law.stddev.insert(law.stddev.end(), mean.stddev.begin(),
+                        mean.stddev.end());
+      effects->erase(effects->begin() + i);
     }
   }
 }

@@ -38,6 +38,9 @@ struct FoundEffect {
 // mean of a law on the same joint for its own, more than it leaves of the law,
 // and comes after it.
 void SortFindings(std::vector<FoundEffect>* effects);
+// Such a mean that explains no more than its law is one effect with it, among
+// whose estimates it is.
+void JoinMeans(std::vector<FoundEffect>* effects);
 
 // What a fit found.
 struct GapFindings {

@@ -17,13 +17,17 @@ FoundEffect Found(const std::string& name, int joint, double drop) {
   return found;
 }
 
-std::vector<std::string> Sorted(std::vector<FoundEffect> effects) {
-  SortFindings(&effects);
+std::vector<std::string> Names(const std::vector<FoundEffect>& effects) {
   std::vector<std::string> names;
   for (const FoundEffect& found : effects) {
     names.push_back(found.effect->name + "@" + std::to_string(found.joint + 1));
   }
   return names;
+}
+
+std::vector<std::string> Sorted(std::vector<FoundEffect> effects) {
+  SortFindings(&effects);
+  return Names(effects);
 }
 
 TEST(SortFindings, ByDrop) {
@@ -49,6 +53,34 @@ TEST(SortFindings, OtherJointsAreNotItsCompany) {
   EXPECT_THAT(Sorted({Found("viscous_friction", 0, 100),
                       Found("quadratic_friction", 1, 60)}),
               ElementsAre("viscous_friction@1", "quadratic_friction@2"));
+}
+
+// Tight spots are more friction on the whole.
+TEST(JoinMeans, AMeanIsPartOfItsLaw) {
+  std::vector<FoundEffect> effects = {Found("position_friction", 1, 100),
+                                      Found("stribeck", 0, 80),
+                                      Found("coulomb_friction", 1, 60)};
+  effects[0].estimates = {{"friction", "N m", 2}};
+  effects[2].estimates = {{"coulomb", "N m", .7}};
+  effects[0].stddev = {.1};
+  effects[2].stddev = {.2};
+  JoinMeans(&effects);
+  EXPECT_THAT(Names(effects), ElementsAre("position_friction@2", "stribeck@1"));
+  ASSERT_EQ(effects[0].estimates.size(), 2u);
+  EXPECT_EQ(effects[0].estimates[1].name, "coulomb");
+  EXPECT_EQ(effects[0].estimates[1].value, .7);
+  EXPECT_THAT(effects[0].stddev, ElementsAre(.1, .2));
+}
+
+TEST(JoinMeans, WhatExplainsMoreOrIsElsewhereIsItsOwnEffect) {
+  for (const FoundEffect& other :
+       {Found("coulomb_friction", 1, 120), Found("coulomb_friction", 0, 60),
+        Found("torque_offset", 1, 60)}) {
+    std::vector<FoundEffect> effects = {Found("position_friction", 1, 100),
+                                        other};
+    JoinMeans(&effects);
+    EXPECT_EQ(effects.size(), 2u) << other.effect->name << other.joint;
+  }
 }
 
 }  // namespace

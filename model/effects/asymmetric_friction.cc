@@ -24,6 +24,7 @@ Effect AsymmetricFriction() {
         },
         robot);
   };
+  effect.means = {"viscous_friction"};
   effect.experiment = "the same constant velocities both ways, slow and fast";
   return effect;
 }

@@ -69,6 +69,7 @@ Effect Backlash() {
         {"backlash", UnitAt(site, "P"), p[0]},
         {"contact_stiffness", UnitAt(site, "E/P"), ContactStiffness(site, p)}};
   };
+  effect.means = {"armature"};
   effect.experiment =
       "slow motion through poses in which the load changes sign, at 100 Hz or "
       "more; an encoder at the link";

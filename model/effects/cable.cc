@@ -36,6 +36,7 @@ Effect Cable() {
         },
         robot);
   };
+  effect.means = {"torque_offset"};
   effect.experiment = "slow sweeps over the whole range, both ways";
   return effect;
 }

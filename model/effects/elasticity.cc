@@ -50,6 +50,7 @@ Effect Elasticity() {
         {"stiffness", UnitAt(site, "E/P"), 1 / p[0]},
         {"damping", UnitAt(site, "E s/P"), Damping(site, p)}};
   };
+  effect.means = {"armature"};
   effect.experiment = "fast motion and stops; an encoder at the link";
   return effect;
 }

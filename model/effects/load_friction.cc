@@ -26,6 +26,7 @@ Effect LoadFriction() {
         },
         robot);
   };
+  effect.means = {"coulomb_friction"};
   effect.experiment =
       "the same slow motion both ways with the arm stretched and folded";
   return effect;

@@ -39,6 +39,7 @@ Effect PositionFriction() {
         {"harmonic", UnitAt(site, "1/P"), p[2]},
         {"phase", "rad", Phase(p[1], p[0])}};
   };
+  effect.means = {"coulomb_friction"};
   effect.experiment = "slow sweeps over the whole range and back";
   return effect;
 }

@@ -31,6 +31,7 @@ Effect Presliding() {
          }});
   };
   effect.near_zero = true;
+  effect.means = {"coulomb_friction"};
   effect.experiment = "small motions to and fro, from 0.01 to 10 degrees";
   return effect;
 }

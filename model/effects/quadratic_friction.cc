@@ -28,6 +28,7 @@ Effect QuadraticFriction() {
         },
         robot);
   };
+  effect.means = {"viscous_friction"};
   effect.experiment = "constant velocities up to the joint's limit";
   return effect;
 }

@@ -31,6 +31,7 @@ Effect Spring() {
         {"stiffness", UnitAt(site, "E/P"), p[0]},
         {"neutral", UnitAt(site, "P"), p[1] / p[0]}};
   };
+  effect.means = {"torque_offset"};
   effect.experiment = "slow sweeps over the whole range, both ways";
   return effect;
 }

@@ -36,6 +36,7 @@ Effect Stribeck() {
         robot);
   };
   effect.near_zero = true;
+  effect.means = {"coulomb_friction", "viscous_friction"};
   effect.experiment = "constant velocities from creeping to usual, both ways";
   return effect;
 }

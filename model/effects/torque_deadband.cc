@@ -49,6 +49,7 @@ Effect TorqueDeadband() {
         robot);
   };
   effect.near_zero = true;
+  effect.means = {"coulomb_friction"};
   effect.experiment = "slow motion through poses in which the load vanishes";
   return effect;
 }

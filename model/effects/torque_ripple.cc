@@ -35,6 +35,7 @@ Effect TorqueRipple() {
         {"harmonic", UnitAt(site, "1/P"), p[2]},
         {"phase", "rad", Phase(p[0], p[1])}};
   };
+  effect.means = {"torque_offset"};
   effect.experiment = "a slow constant velocity over the whole range";
   return effect;
 }
