@@ -28,15 +28,20 @@ class Diagnoser {
 
  private:
   std::vector<GapSegment> Read(LogSet* logs, LogPart part,
-                               bool must_move = true) const {
+                               bool must_move = true) {
     if (logs == nullptr) return {};
     const double hz = options_.bandwidth_hz;
     std::vector<GapSegment> segments =
         ReadSegments(hz, options_.progress, logs);
     if (must_move) CheckMotion(segments, hz, part, *logs);
+    KnowUsualTemperature(&segments);
     AdvanceTorque(delay_, &segments);
     return segments;
   }
+  // Friction is the model's at the temperature of the first sample read.
+  void KnowUsualTemperature(std::vector<GapSegment>* segments);
+  void Fit(const std::vector<GapSegment>& segments,
+           const std::vector<GapSegment>& before, bool split);
   JointGap JointFigures(int joint) const;
   JointCourse CourseOf(int joint) const;
   void Simulate(LogSet* held_out, bool split);
@@ -46,13 +51,25 @@ class Diagnoser {
   const Robot& robot_;
   const DiagnosisOptions& options_;
   bool has_reference_ = false;
-  double delay_ = 0;  // of recorded torque, s, that was undone
+  double delay_ = 0;            // of recorded torque, s, that was undone
+  VectorXd usual_temperature_;  // deg C
   std::optional<GapBaseline> baseline_;
   std::optional<GapFit> fit_;
   std::optional<HeldOut> held_out_;
   bool found_without_name_ = false;  // GapFindings'
   GapDiagnosis result_;
 };
+
+void Diagnoser::KnowUsualTemperature(std::vector<GapSegment>* segments) {
+  for (GapSegment& segment : *segments) {
+    Motion& motion = segment.motion;
+    if (motion.temperature.size() == 0) continue;
+    if (usual_temperature_.size() == 0) {
+      usual_temperature_ = motion.temperature.row(0);
+    }
+    motion.usual_temperature = usual_temperature_;
+  }
+}
 
 GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
                             LogSet* reference) {
@@ -79,11 +96,7 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   }
   result_.ladder = lacked;
   has_reference_ = reference != nullptr;
-  fit_.emplace(*baseline_,
-               GapFitOptions{options_.bandwidth_hz, options_.selection,
-                             options_.without},
-               segments, split ? LogPart::kFitted : LogPart::kAll, before);
-  fit_->Choose();
+  Fit(segments, before, split);
   held_out_.emplace(*fit_, split ? segments : Read(validation, LogPart::kAll),
                     split ? LogPart::kHeldOut : LogPart::kAll, !split);
   result_.bandwidth_hz = options_.bandwidth_hz;
@@ -107,6 +120,20 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   TellUnexplained();
   Judge();
   return result_;
+}
+
+// What happened once, happened in the part that is held out as well: it is
+// looked for in all of the log before effects are chosen on the other part.
+void Diagnoser::Fit(const std::vector<GapSegment>& segments,
+                    const std::vector<GapSegment>& before, bool split) {
+  const GapFitOptions options{options_.bandwidth_hz, options_.selection,
+                              options_.without};
+  fit_.emplace(*baseline_, options, segments, LogPart::kAll, before);
+  if (!split) return fit_->Choose();
+  fit_->FindEvents();
+  const std::vector<GapEvent> events = fit_->events();
+  fit_.emplace(*baseline_, options, segments, LogPart::kFitted, before);
+  fit_->ChooseBeside(events);
 }
 
 JointGap Diagnoser::JointFigures(int j) const {

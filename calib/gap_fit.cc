@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "calib/gap_null.h"
 #include "calib/gap_reference.h"
+#include "calib/motion_scale.h"
 #include "model/effects/effects.h"
 
 namespace armcal {
@@ -170,7 +172,10 @@ bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
 void GapFit::MakeScreen() {
   Refit();
   if (candidates_.empty()) {
-    while (TakeOutContacts({}, ContactSearch::kAtRest)) Refit();
+    while (options_.selection.events &&
+           TakeOutContacts({}, ContactSearch::kAtRest)) {
+      Refit();
+    }
     candidates_ = ListCandidates(baseline_, data_->rows(), scale_,
                                  data_->ResidualWith(refit_), options_.without);
     EvaluateCandidates(baseline_, data_->rows(), scale_,
@@ -260,11 +265,14 @@ double GapFit::Cost(const Selection& selection) const {
 
 // Selects again as if nothing had happened while the arm moved.
 void GapFit::ForgetTouches() {
-  events_.erase(std::remove_if(events_.begin(), events_.end(),
-                               [](const GapEvent& event) {
-                                 return !event.beyond_friction;
-                               }),
-                events_.end());
+  std::vector<GapEvent> contacts;
+  std::copy_if(events_.begin(), events_.end(), std::back_inserter(contacts),
+               [](const GapEvent& event) { return event.beyond_friction; });
+  SelectBeside(contacts);
+}
+
+void GapFit::SelectBeside(const std::vector<GapEvent>& events) {
+  events_ = events;
   data_->Unmask();
   for (const GapEvent& event : events_) {
     data_->Mask(event.contact.log, event.contact.window);
@@ -305,10 +313,23 @@ void GapFit::SelectWithEvents() {
   if (lasting < Cost(selection_)) ForgetTouches();
 }
 
-void GapFit::Choose() {
+void GapFit::FindEvents() {
   SelectWithEvents();
   DescribeAgain(baseline_.robot(), data_->rows(), ExcessBeside({}),
                 ExcessBeside(Chosen(selection_.chosen)), &events_);
+}
+
+void GapFit::Choose() {
+  FindEvents();
+  Finish();
+}
+
+void GapFit::ChooseBeside(const std::vector<GapEvent>& events) {
+  SelectBeside(events);
+  Finish();
+}
+
+void GapFit::Finish() {
   selection_ = WithoutChance(*screen_, data_->rows(), candidates_,
                              options_.selection, selection_, kSeed);
   rivals_.assign(selection_.chosen.size(), {});

@@ -44,6 +44,10 @@ class GapFit {
   // Chooses effects and refines them; events are taken out of the data one by
   // one first, since nothing else can be told while they last.
   void Choose();
+  // The events alone.
+  void FindEvents();
+  // Effects beside these events, which are all that there were.
+  void ChooseBeside(const std::vector<GapEvent>& events);
 
   const GapBaseline& baseline() const { return baseline_; }
   const GapNoise& noise() const { return noise_; }
@@ -88,7 +92,9 @@ class GapFit {
   void TakeOutEvent(size_t k);
   double Cost(const Selection& selection) const;
   void ForgetTouches();
+  void SelectBeside(const std::vector<GapEvent>& events);
   void SelectWithEvents();
+  void Finish();
   double UsualExcess(const FrictionExcess& excess, bool of_itself) const;
   FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
   std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
