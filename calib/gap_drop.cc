@@ -11,7 +11,7 @@ using Eigen::VectorXd;
 
 // Of what the baseline and the chosen leave of a column, less than this share
 // is rounding and errors of form.
-constexpr double kVisible = 1e-4;
+constexpr double kVisible = 1e-6;
 
 bool IsPositive(const GapCandidate& candidate, int k) {
   return candidate.effect->parameters[candidate.linear[k]].sign ==
@@ -38,7 +38,7 @@ OwnEquations EquationsOf(const GapScreen& screen, const Conditioned& c,
     }
     own.g[k] = c.g[a];
     (*used)[k] = own.G(k, k) > kVisible * screen.raw(a);
-    own.G(k, k) += 1e-9 * screen.raw(a);
+    own.G(k, k) += screen.ridge(a);
   }
   return own;
 }
@@ -71,7 +71,7 @@ Conditioned Condition(const GapScreen& screen, const std::vector<int>& S,
     cross.row(k) = screen.G().row(S[k]);
     g[k] = gradient[S[k]];
     for (int l = 0; l < size; ++l) G(k, l) = screen.G()(S[k], S[l]);
-    G(k, k) += 1e-9 * screen.raw(S[k]);
+    G(k, k) += screen.ridge(S[k]);
   }
   const Eigen::LLT<MatrixXd> factor(G);
   c.half = factor.matrixL().solve(cross);

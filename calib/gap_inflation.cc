@@ -20,11 +20,13 @@ double Inflation(const GapScreen& screen, const GapRows& rows,
                  const GapCandidate& candidate, const GapScreen::Fit& fit) {
   const int size = static_cast<int>(candidate.columns.size());
   MatrixXd G(size, size);
+  int there = 0;
   for (int a = 0; a < size; ++a) {
     for (int b = 0; b < size; ++b) {
       G(a, b) = screen.G()(candidate.columns[a], candidate.columns[b]);
     }
-    G(a, a) += 1e-9 * screen.raw(candidate.columns[a]);
+    G(a, a) += screen.ridge(candidate.columns[a]);
+    there += screen.raw(candidate.columns[a]) > 0;
   }
   std::map<std::pair<int, long>, VectorXd> blocks;
   for (int j = 0; j < rows.num_joints(); ++j) {
@@ -42,7 +44,7 @@ double Inflation(const GapScreen& screen, const GapRows& rows,
   }
   MatrixXd V = MatrixXd::Zero(size, size);
   for (const auto& [block, sum] : blocks) V += sum * sum.transpose();
-  return std::max(1., G.ldlt().solve(V).trace() / size);
+  return std::max(1., G.ldlt().solve(V).trace() / std::max(1, there));
 }
 
 }  // namespace armcal

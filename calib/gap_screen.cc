@@ -91,12 +91,7 @@ GapScreen::Fit GapScreen::Solve(const std::vector<int>& columns) const {
     for (int l = 0; l < size; ++l) G(k, l) = G_(columns[k], columns[l]);
   }
   if (size == 0) return fit;
-  // What the baseline absorbs wholly must not blow up, nor what is not there: a
-  // weight on the axis of the only joint.
-  for (int k = 0; k < size; ++k) {
-    const double raw = raw_[columns[k]];
-    G(k, k) += raw > 0 ? 1e-9 * raw : 1;
-  }
+  for (int k = 0; k < size; ++k) G(k, k) += ridge(columns[k]);
   const Eigen::LLT<MatrixXd> factor(G);
   fit.coefficients = factor.solve(g);
   fit.covariance = factor.solve(MatrixXd::Identity(size, size));

@@ -38,7 +38,14 @@ class GapScreen {
   const Eigen::VectorXd& g() const { return g_; }
   // |c|^2 of a column before projection: G_cc / that is its visible share.
   double raw(int column) const { return raw_[column]; }
-  double visible(int column) const { return G_(column, column) / raw(column); }
+  // To add to G's diagonal: what the baseline absorbs wholly must not blow up,
+  // nor what is not there, such as a weight on the axis of the only joint.
+  double ridge(int column) const {
+    return raw(column) > 0 ? 1e-9 * raw(column) : 1;
+  }
+  double visible(int column) const {
+    return raw(column) > 0 ? G_(column, column) / raw(column) : 0;
+  }
 
   // What g would be with another target (whitened, per joint).
   Eigen::VectorXd Gradient(const JointRows& target) const;

@@ -19,6 +19,8 @@ using Eigen::MatrixXd;
 constexpr double kSmoothTorqueHz = 3;
 // Thermometers are noisy, and gears warm up in minutes.
 constexpr double kSmoothTemperatureHz = .2;
+// Of errors of stamps, which are known every second.
+constexpr double kSmoothStampHz = .3;
 constexpr double kShortest = 2;         // s
 constexpr double kMotionBandwidth = 5;  // of the torque's
 
@@ -43,6 +45,21 @@ void AppendCore(const Trajectory& trajectory, GapSegment* segment) {
   if (trajectory.temperature.size() == 0) return;
   AppendRows(trajectory.temperature.middleRows(begin, rows),
              &motion.temperature);
+}
+
+// At the segment's samples, smooth.
+Eigen::VectorXd StampErrors(const std::vector<StampError>& errors,
+                            const Motion& motion) {
+  Eigen::VectorXd at(motion.size());
+  size_t k = 1;
+  for (int row = 0; row < motion.size(); ++row) {
+    const double t = motion.time(row);
+    while (k + 1 < errors.size() && errors[k].stamp < t) ++k;
+    const StampError &a = errors[k - 1], &b = errors[k];
+    const double share = (t - a.stamp) / (b.stamp - a.stamp);
+    at[row] = a.error + std::clamp(share, 0., 1.) * (b.error - a.error);
+  }
+  return ZeroPhaseLowPass(at, 1 / motion.dt, kSmoothStampHz);
 }
 
 // Joint by joint, on positions that are smooth already.
@@ -90,6 +107,8 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
     Motion& motion = segment.motion;
     motion.torque =
         ZeroPhaseLowPass(segment.tau, 1 / motion.dt, kSmoothTorqueHz);
+    const auto& errors = logs->time_bases()[segment.log].stamp_errors;
+    if (errors.size() > 1) motion.stamp_error = StampErrors(errors, motion);
     if (motion.temperature.size() == 0) continue;
     motion.temperature =
         ZeroPhaseLowPass(motion.temperature, 1 / motion.dt,

@@ -15,6 +15,8 @@ struct Motion {
   Eigen::MatrixXd temperature;  // deg C; empty: not recorded
   // At which friction is the robot's, deg C; empty: that of row 0.
   Eigen::VectorXd usual_temperature;
+  // How far stamps are from even ones, s (TimeBase); empty: they are even.
+  Eigen::VectorXd stamp_error;
   // As the controller recorded it, N m or N, smooth; empty: not recorded.
   // Wanted only where what is asked says more than what is given: at a limit.
   Eigen::MatrixXd torque;

@@ -70,12 +70,28 @@ void TakeClock(const std::function<double(double)>& clock, Motion* motion,
   }
 }
 
+// Of stamps that are `share` of their error late.
+void TakeStampErrors(double share, Motion* motion, VectorXd* true_times) {
+  const VectorXd rate = share * Differentiate(motion->stamp_error, motion->dt);
+  const VectorXd change = Differentiate(rate, motion->dt);
+  for (int k = 0; k < motion->size(); ++k) {
+    const double faster = 1 / (1 - rate[k]);
+    motion->qdd.row(k) =
+        faster * faster *
+        (motion->qdd.row(k) + faster * change[k] * motion->qd.row(k));
+    motion->qd.row(k) *= faster;
+  }
+  *true_times -= share * motion->stamp_error;
+}
+
 }  // namespace
 
 bool MotionBehindReadings(const SimulatedRobot& changed, const Motion& recorded,
                           const MotionTrack& track, Motion* motion,
                           VectorXd* true_times) {
-  bool differs = static_cast<bool>(changed.clock);
+  const bool uneven =
+      changed.clock_unevenness != 0 && recorded.stamp_error.size() > 0;
+  bool differs = changed.clock || uneven;
   MatrixXd errors;
   if (!changed.sensors.empty()) {
     errors = PositionErrors(changed.sensors, track);
@@ -85,6 +101,7 @@ bool MotionBehindReadings(const SimulatedRobot& changed, const Motion& recorded,
   *motion = recorded;
   *true_times = track.t;
   if (errors.size() > 0) TakePositionErrors(errors, motion);
+  if (uneven) TakeStampErrors(changed.clock_unevenness, motion, true_times);
   if (changed.clock) TakeClock(changed.clock, motion, true_times);
   return true;
 }

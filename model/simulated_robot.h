@@ -123,6 +123,9 @@ struct SimulatedRobot {
   double torque_delay = 0;  // s, the recorded torque is that much older
   // The stamp that the log gives to time t, s. Empty: t itself.
   std::function<double(double)> clock;
+  // What share of the unevenness of recorded stamps is the clock's, where a log
+  // is looked at; the rest is when samples were taken.
+  double clock_unevenness = 0;
   std::vector<JointThermal> thermal;  // per joint; empty: the default
   double ambient = 25;                // deg C
 };

@@ -1,5 +1,6 @@
 #include "model/time_base.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -89,6 +90,57 @@ class MotionSpectrum {
   Eigen::ArrayXd sum_, square_, rate_;
 };
 
+// Counts the steps that a sampler with equal ones would have made.
+class TickCounter {
+ public:
+  // The next stamps, the same time twice not counted.
+  void Add(const Eigen::VectorXd& t, const TimeRange& crop, double step) {
+    for (const double stamp : t) {
+      if (!crop.Contains(stamp) || (count_ > 0 && stamp == last_)) continue;
+      if (count_ > 0)
+        ticks_ += std::max(1., std::round((stamp - last_) / step));
+      last_ = stamp;
+      ++count_;
+      if (means_.empty() || stamp - begin_ >= kMeanTime) {
+        means_.emplace_back();
+        begin_ = stamp;
+      }
+      Mean& mean = means_.back();
+      mean.stamp += stamp;
+      mean.ticks += ticks_;
+      ++mean.count;
+    }
+  }
+  // Beside the line through them all.
+  std::vector<StampError> Errors() const {
+    const Eigen::Index size = static_cast<Eigen::Index>(means_.size());
+    Eigen::MatrixXd line(size, 2);
+    Eigen::VectorXd stamps(size);
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const Mean& mean = means_[k];
+      line.row(k) << 1, mean.ticks / mean.count;
+      stamps[k] = mean.stamp / mean.count;
+    }
+    const Eigen::VectorXd error =
+        stamps - line * line.colPivHouseholderQr().solve(stamps);
+    std::vector<StampError> errors;
+    for (Eigen::Index k = 0; k < size; ++k) {
+      errors.push_back({stamps[k], error[k]});
+    }
+    return errors;
+  }
+
+ private:
+  static constexpr double kMeanTime = 1;  // s
+  struct Mean {
+    double stamp = 0, ticks = 0;
+    long count = 0;
+  };
+  std::vector<Mean> means_;
+  double begin_ = 0, last_ = 0, ticks_ = 0;
+  long count_ = 0;
+};
+
 // Everything the audit gathers from consecutive samples.
 struct Audit {
   TimeBase base;
@@ -120,11 +172,13 @@ struct Audit {
 TimeBase AuditTimeBase(const std::string& path, const TimeRange& crop,
                        LogReader* reader) {
   Audit audit;
+  TickCounter ticks;
   Log block;
   while (reader->Read(kBlockRows, &block)) {
     for (int k = 0; k < block.size(); ++k) {
       if (crop.Contains(block.t[k])) audit.Add(block.t[k], block.q.row(k));
     }
+    ticks.Add(block.t, crop, audit.steps.Median());
   }
   TimeBase& base = audit.base;
   if (base.samples < 3) {
@@ -139,6 +193,7 @@ TimeBase AuditTimeBase(const std::string& path, const TimeRange& crop,
     base.dt = (base.range.end - base.range.begin) /
               static_cast<double>(base.samples - 1);
   }
+  if (!base.uniform) base.stamp_errors = ticks.Errors();
   base.motion_hz = audit.motion.Frequency();
   reader->Rewind();
   if (base.max_step <= 3 * base.median_step) return base;

@@ -16,6 +16,13 @@ struct TimeRange {
   bool Contains(double t) const { return t >= begin && t <= end; }
 };
 
+// How far a stamp is from where it would be if samples were taken evenly, means
+// over a second, s. Of a clock that runs unevenly, or of a sampler that does.
+struct StampError {
+  double stamp;
+  double error;
+};
+
 // What the time stamps of a log are like.
 struct TimeBase {
   long samples = 0;     // within the crop, duplicates not counted
@@ -29,6 +36,8 @@ struct TimeBase {
   double dt = 0;
   bool uniform = false;  // all steps equal dt: no resampling needed
   std::vector<TimeRange> gaps;
+  // Empty where all steps are equal. Lost samples are counted.
+  std::vector<StampError> stamp_errors;
   // rms velocity over rms position of the joint that changes fastest, over
   // 2 pi: about where the motion's spectrum lies, Hz. 0 if nothing moves.
   double motion_hz = 0;

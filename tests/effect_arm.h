@@ -30,6 +30,8 @@ struct EffectArm {
     motion.q = log.q;
     motion.qd = log.qd;
     motion.qdd = log.qdd;
+    // A clock that sways by 10 ms.
+    motion.stamp_error = .01 * (2 * M_PI / 6 * log.t.array()).sin();
     SetScale();
   }
 

@@ -103,6 +103,26 @@ TEST(AuditTimeBase, MeasuresJitter) {
   EXPECT_TRUE(base.gaps.empty());
 }
 
+// Samples taken evenly, some of them lost, by a clock that sways by 20 ms.
+TEST(AuditTimeBase, KnowsHowUnevenStampsAre) {
+  const auto sway = [](double t) { return .02 * std::sin(2 * M_PI * t / 15); };
+  std::vector<std::string> times;
+  for (int k = 0; k < 11250; ++k) {
+    const double t = .004 * k;
+    if (k % 50 != 17) times.push_back(Decimal(1.03 * t + sway(t), 6));
+  }
+  const TimeBase base = Audit(times);
+  ASSERT_NEAR(base.stamp_errors.size(), 45, 2);
+  // Beside a line: three whole periods have a slope of -9 / (2 pi)^2 their
+  // size over the log, for both halves.
+  for (const StampError& error : base.stamp_errors) {
+    const double t = (error.stamp - sway(error.stamp / 1.03)) / 1.03;
+    const double line = -.02 * 12 / (2 * M_PI * 3) * ((t - 22.5) / 45);
+    EXPECT_NEAR(error.error, sway(t) - line, 5e-4) << t;
+  }
+  EXPECT_TRUE(Audit(Uniform(500, .004, 3)).stamp_errors.empty());
+}
+
 TEST(AuditTimeBase, KeepsGapsOutOfTheStep) {
   std::vector<std::string> times;
   for (int k = 0; k < 1000; ++k) {

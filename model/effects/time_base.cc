@@ -3,7 +3,8 @@
 namespace armcal {
 inline namespace effects {
 
-// stamp = (1 + rate) t: a clock that runs fast.
+// stamp = (1 + rate) t + unevenness e: a clock that runs fast, and as unevenly
+// as stamps are beside even samples (e of each stamp, TimeBase::stamp_errors).
 Effect TimeBase() {
   Effect effect;
   effect.name = "time_base";
@@ -11,11 +12,13 @@ Effect TimeBase() {
   effect.law = "tau = ID((1 + rate) qd, (1 + rate)^2 qdd) - ID(qd, qdd)";
   effect.shows = "fast motion, against a robot whose masses are known";
   effect.parameters = {
-      Linear("rate", "1", [](const EffectSite&) { return .005; })};
+      Linear("rate", "1", [](const EffectSite&) { return .005; }),
+      Linear("unevenness", "1", [](const EffectSite&) { return .5; })};
   effect.apply = [](const EffectSite&, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const double rate = p[0];
     robot->clock = [=](double t) { return (1 + rate) * t; };
+    robot->clock_unevenness = p[1];
   };
   effect.experiment = "the log beside that of another clock";
   return effect;
