@@ -19,20 +19,6 @@ constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
 
 }  // namespace
 
-double* TermOf(JointTerm term, Joint* joint) {
-  switch (term) {
-    case JointTerm::kViscous:
-      return &joint->viscous;
-    case JointTerm::kCoulomb:
-      return &joint->coulomb;
-    case JointTerm::kOffset:
-      return &joint->offset;
-    case JointTerm::kArmature:
-      return &joint->armature;
-  }
-  return nullptr;
-}
-
 VectorXd ArmValues::Stacked() const {
   VectorXd all(links.size() + terms.size() + 2 + poses.geometry.size() +
                poses.other.size());

@@ -94,7 +94,4 @@ class ArmUnknowns {
   Eigen::VectorXd torque_rms_;  // per joint
 };
 
-// A joint's term, as the robot holds it.
-double* TermOf(JointTerm term, Joint* joint);
-
 }  // namespace armcal

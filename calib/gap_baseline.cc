@@ -33,20 +33,6 @@ double WidthUnit(const Joint& joint) {
   return IsRotational(joint.type) ? 1 : .3;
 }
 
-double& TermOf(JointTerm term, Joint* joint) {
-  switch (term) {
-    case JointTerm::kArmature:
-      return joint->armature;
-    case JointTerm::kViscous:
-      return joint->viscous;
-    case JointTerm::kCoulomb:
-      return joint->coulomb;
-    case JointTerm::kOffset:
-      break;
-  }
-  return joint->offset;
-}
-
 // Torque of joint j per unit of all links' inertial parameters: per joint,
 // samples x 10 n.
 std::vector<MatrixXd> InertialTorque(const Robot& robot, const Motion& motion) {
@@ -110,7 +96,7 @@ void GapBaseline::FreeDays() {
   for (int j = 0; j < robot_.num_joints(); ++j) {
     for (const auto& [term, share] : kShareOfDays) {
       const double spread =
-          share * std::abs(TermOf(term, &robot_.links[j].joint));
+          share * std::abs(TermOf(term, robot_.links[j].joint));
       if (spread <= 0) continue;
       columns_.push_back(
           {BaselineColumn::Kind::kDay, j, static_cast<int>(term), spread});
@@ -231,8 +217,8 @@ Robot GapBaseline::With(const VectorXd& x) const {
       robot.links[column.joint].inertial += InertialParameters::FromVector(v);
     } else if (column.kind == BaselineColumn::Kind::kTerm ||
                column.kind == BaselineColumn::Kind::kDay) {
-      TermOf(static_cast<JointTerm>(column.index),
-             &robot.links[column.joint].joint) += value;
+      *TermOf(static_cast<JointTerm>(column.index),
+              &robot.links[column.joint].joint) += value;
     }
   }
   return robot;

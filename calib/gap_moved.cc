@@ -13,20 +13,6 @@ constexpr double kNotable = .5;
 const char* const kInertialNames[] = {"mass", "hx",  "hy",  "hz",  "Ixx",
                                       "Ixy",  "Iyy", "Ixz", "Iyz", "Izz"};
 
-double TermOf(const Joint& joint, JointTerm term) {
-  switch (term) {
-    case JointTerm::kViscous:
-      return joint.viscous;
-    case JointTerm::kCoulomb:
-      return joint.coulomb;
-    case JointTerm::kOffset:
-      return joint.offset;
-    case JointTerm::kArmature:
-      break;
-  }
-  return joint.armature;
-}
-
 // Name, unit and nominal value; no name for a nuisance.
 MovedParameter Describe(const BaselineColumn& column, const Robot& robot) {
   MovedParameter parameter;
@@ -43,7 +29,7 @@ MovedParameter Describe(const BaselineColumn& column, const Robot& robot) {
     const JointTerm term = static_cast<JointTerm>(column.index);
     parameter.name = joint.name + "." + JointTermName(term);
     parameter.unit = JointTermUnit(term, joint.type);
-    parameter.nominal = TermOf(joint, term);
+    parameter.nominal = TermOf(term, joint);
   }
   return parameter;
 }

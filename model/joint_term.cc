@@ -19,6 +19,22 @@ const char* JointTermName(JointTerm term) {
   return "";
 }
 
+double* TermOf(JointTerm term, Joint* joint) {
+  switch (term) {
+    case JointTerm::kViscous:
+      return &joint->viscous;
+    case JointTerm::kCoulomb:
+      return &joint->coulomb;
+    case JointTerm::kOffset:
+      return &joint->offset;
+    case JointTerm::kArmature:
+      return &joint->armature;
+  }
+  return nullptr;
+}
+
+double TermOf(JointTerm term, Joint joint) { return *TermOf(term, &joint); }
+
 std::string JointTermUnit(JointTerm term, JointType type) {
   const std::string effort = EffortUnit(type);
   switch (term) {

@@ -16,6 +16,9 @@ enum class JointTerm { kViscous, kCoulomb, kOffset, kArmature };
 const char* JointTermName(JointTerm term);
 // "N m s/rad" for viscous friction of a revolute joint.
 std::string JointTermUnit(JointTerm term, JointType type);
+// The term, as the joint holds it.
+double* TermOf(JointTerm term, Joint* joint);
+double TermOf(JointTerm term, Joint joint);
 
 // How Coulomb friction passes through zero velocity:
 //   kVelocity      c = tanh(qd / width), width in rad/s or m/s;
