@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 constexpr int kDraws = 200;
 constexpr double kQuantile = .99;
 constexpr double kRounding = 1e-9;  // of a score
+constexpr double kLowest = -100;    // of scores that no candidate has
 
 // Gradients of the screen's columns with each block of the residual alone.
 MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
@@ -44,27 +45,59 @@ MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
   return gradients;
 }
 
+double Quantile(VectorXd x, double share) {
+  const auto nth = x.begin() + static_cast<int>(share * x.size());
+  std::nth_element(x.begin(), nth, x.end());
+  return *nth;
+}
+
+// Scores of one place over the draws, in units of their own upper tail: what
+// the form of an effect leaves on one joint says nothing of another.
+struct PlaceExcess {
+  double median, scale;
+  VectorXd deviations;
+};
+
+PlaceExcess Excess(const VectorXd& scores) {
+  PlaceExcess excess;
+  excess.median = Quantile(scores, .5);
+  excess.scale = std::max(1., Quantile(scores, .9) - excess.median);
+  excess.deviations = (scores.array() - excess.median) / excess.scale;
+  return excess;
+}
+
 }  // namespace
 
 double ScoreByChance(const GapScreen& screen, const GapRows& rows,
                      const std::vector<GapCandidate>& candidates,
                      const SelectionOptions& options,
-                     const std::vector<int>& chosen, std::uint64_t seed) {
+                     const std::vector<int>& chosen, int joint,
+                     std::uint64_t seed) {
   const MatrixXd blocks =
       BlockGradients(screen, rows, screen.Solve(ColumnsOf(candidates, chosen)));
   std::mt19937_64 random(seed);
-  std::vector<double> best;
+  // Of the whole robot, and of each joint.
+  MatrixXd best(kDraws, rows.num_joints() + 1);
   for (int draw = 0; draw < kDraws; ++draw) {
     VectorXd g = VectorXd::Zero(screen.size());
     for (Eigen::Index b = 0; b < blocks.cols(); ++b) {
       g += (random() & 1 ? 1. : -1.) * blocks.col(b);
     }
-    best.push_back(
-        ScoresBeside(screen, candidates, options, chosen, g).maxCoeff());
+    const VectorXd scores =
+        ScoresBeside(screen, candidates, options, chosen, g);
+    best.row(draw).setConstant(kLowest);
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      double& own = best(draw, candidates[i].joint + 1);
+      own = std::max(own, scores[i]);
+    }
   }
-  const auto nth = best.begin() + static_cast<int>(kQuantile * kDraws);
-  std::nth_element(best.begin(), nth, best.end());
-  return *nth;
+  VectorXd largest = VectorXd::Constant(kDraws, kLowest);
+  for (Eigen::Index place = 0; place < best.cols(); ++place) {
+    largest = largest.cwiseMax(Excess(best.col(place)).deviations);
+  }
+  const PlaceExcess own = Excess(best.col(joint + 1));
+  return std::min(Quantile(best.rowwise().maxCoeff(), kQuantile),
+                  own.median + own.scale * Quantile(largest, kQuantile));
 }
 
 Selection WithoutChance(const GapScreen& screen, const GapRows& rows,
@@ -83,7 +116,7 @@ Selection WithoutChance(const GapScreen& screen, const GapRows& rows,
           Price(screen, candidate);
       const double by_chance =
           ScoreByChance(screen, rows, candidates, options,
-                        Without(selection.chosen, k), seed);
+                        Without(selection.chosen, k), candidate.joint, seed);
       const double margin =
           std::min(deflated - options.threshold,
                    selection.scores[k] * (1 + kRounding) - by_chance);

@@ -70,7 +70,7 @@ class GapNullTest : public testing::Test {
   }
   double ByChance(const GapScreen& screen,
                   const std::vector<int>& chosen = {}) {
-    return ScoreByChance(screen, *rows_, candidates_, {}, chosen, 1);
+    return ScoreByChance(screen, *rows_, candidates_, {}, chosen, 0, 1);
   }
   double Best(const GapScreen& screen) {
     return ScoresBeside(screen, candidates_, {}, {}, -1).maxCoeff();
@@ -107,6 +107,27 @@ TEST_F(GapNullTest, AnEffectIsNoChance) {
   const GapScreen screen = Screen(Wave(5) + Noise(.01));
   EXPECT_GT(Best(screen), 2 * ByChance(screen));
   EXPECT_LT(ByChance(screen, {5}), SelectionOptions().threshold);
+}
+
+// What a wrong form leaves on one joint is no reason to doubt another's effect.
+TEST_F(GapNullTest, ErrorsOfOneJointAreNotThoseOfAnother) {
+  GapScreen screen({MatrixXd::Constant(rows_->num_rows(0), 1, 1e-3),
+                    MatrixXd::Constant(rows_->num_rows(1), 1, 1e-3)},
+                   {Noise(.01), 30 * Noise(8)});
+  for (int joint = 0; joint < 2; ++joint) {
+    for (int k = 0; k < kCandidates; ++k) {
+      JointRows column(2);
+      column[joint] = Wave(k);
+      screen.AddColumn(column);
+      if (joint == 0) continue;
+      candidates_.push_back(candidates_[k]);
+      candidates_.back().joint = 1;
+      candidates_.back().columns = {kCandidates + k};
+    }
+  }
+  screen.Factor();
+  EXPECT_LT(ScoreByChance(screen, *rows_, candidates_, {}, {}, 0, 1), 25);
+  EXPECT_GT(ScoreByChance(screen, *rows_, candidates_, {}, {}, 1, 1), 1000);
 }
 
 }  // namespace
