@@ -2,18 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <memory>
-#include <optional>
-#include <set>
 #include <vector>
 
-#include "calib/gap_baseline.h"
 #include "calib/gap_candidates.h"
-#include "calib/gap_data.h"
 #include "calib/gap_events.h"
-#include "calib/gap_noise.h"
 #include "calib/gap_refinement.h"
-#include "calib/gap_screen.h"
+#include "calib/gap_regression.h"
 #include "calib/gap_selection.h"
 
 namespace armcal {
@@ -34,9 +28,6 @@ struct GapFitOptions {
 // The regression of a diagnosis on its training logs, and what it chose.
 class GapFit {
  public:
-  // `reference`: logs of the robot before, or none: the baseline is fitted to
-  // them as well, and what it leaves of them is the noise that anything new has
-  // to rise above.
   GapFit(const GapBaseline& baseline, const GapFitOptions& options,
          std::vector<GapSegment> training, LogPart part,
          std::vector<GapSegment> reference);
@@ -44,17 +35,17 @@ class GapFit {
   // Chooses effects and refines them; events are taken out of the data one by
   // one first, since nothing else can be told while they last.
   void Choose();
-  // The events alone.
-  void FindEvents();
+  // The events alone, beside those that are known.
+  void FindEvents(const std::vector<GapEvent>& known);
   // Effects beside these events, which are all that there were.
   void ChooseBeside(const std::vector<GapEvent>& events);
 
-  const GapBaseline& baseline() const { return baseline_; }
-  const GapNoise& noise() const { return noise_; }
-  const MotionScale& scale() const { return scale_; }
-  const GapScreen& screen() const { return *screen_; }
-  const GapRows& rows() const { return data_->rows(); }
-  GapData* data() const { return data_.get(); }
+  const GapBaseline& baseline() const { return regression_.baseline(); }
+  const GapNoise& noise() const { return regression_.noise(); }
+  const MotionScale& scale() const { return regression_.scale(); }
+  const GapScreen& screen() const { return regression_.screen(); }
+  const GapRows& rows() const { return regression_.rows(); }
+  GapData* data() const { return regression_.data(); }
   const SelectionOptions& selection_options() const {
     return options_.selection;
   }
@@ -70,11 +61,9 @@ class GapFit {
   // Scores of the k-th effect and its nearest rivals, each with its shape
   // fitted beside the others.
   const std::vector<RefinedScore>& rivals(size_t k) const { return rivals_[k]; }
-  // The baseline's values before these logs: the file's, or those of the
-  // reference.
-  const Eigen::VectorXd& before() const { return before_; }
-  // The baseline's values without any effect.
-  const Eigen::VectorXd& refit() const { return refit_; }
+  // GapRegression's.
+  const Eigen::VectorXd& before() const { return regression_.before(); }
+  const Eigen::VectorXd& refit() const { return regression_.refit(); }
   // Whitened residual of joint j beside the refined effects: their torque as it
   // is, not as columns have it.
   const Eigen::VectorXd& Left(int joint) const { return left_[joint]; }
@@ -82,17 +71,15 @@ class GapFit {
   Eigen::VectorXd BaselineWithout(size_t k) const;
 
  private:
-  void EstimateNoise();
   void MakeScreen();
   bool AddLargerOnes();
-  bool HoldDays();
-  void Refit();
   bool TakeOutContacts(const std::vector<GapCandidate>& effects,
                        ContactSearch search);
   void TakeOutEvent(size_t k);
   double Cost(const Selection& selection) const;
   void ForgetTouches();
   void SelectBeside(const std::vector<GapEvent>& events);
+  void TakeAsKnown(const std::vector<GapEvent>& events);
   void SelectWithEvents();
   void Finish();
   double UsualExcess(const FrictionExcess& excess, bool of_itself) const;
@@ -100,23 +87,14 @@ class GapFit {
   std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
   void CompareRivals(size_t k);
 
-  const GapBaseline& baseline_;
   GapFitOptions options_;
-  std::unique_ptr<GapData> data_, reference_;
-  GapNoise noise_;
-  MotionScale scale_;
-  std::optional<GapScreen> screen_;
+  GapRegression regression_;
   std::vector<GapCandidate> candidates_;
   Selection selection_;
   RefinedEffects refined_;
   JointRows left_;
   std::vector<std::vector<RefinedScore>> rivals_;
   std::vector<GapEvent> events_;
-  // Whether friction is that of another day than the reference's, and the
-  // columns of it that are held nevertheless.
-  std::optional<bool> another_day_;
-  std::set<int> held_;
-  Eigen::VectorXd before_, refit_;
 };
 
 }  // namespace armcal

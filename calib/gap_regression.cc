@@ -1,0 +1,109 @@
+#include "calib/gap_regression.h"
+
+#include <cmath>
+
+#include "calib/gap_days.h"
+#include "calib/gap_reference.h"
+#include "calib/motion_scale.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+VectorXd RefitBaseline(const GapData& data) {
+  GapScreen screen(data.WhitenedColumns(), data.WhitenedResidual());
+  screen.Factor();
+  return screen.BaselineBeside(JointRows(data.rows().num_joints()));
+}
+
+void AddReference(const GapData& before, GapScreen* screen) {
+  const std::vector<MatrixXd> A = before.WhitenedColumns();
+  const std::vector<VectorXd> y = before.WhitenedResidual();
+  MatrixXd AtA = MatrixXd::Zero(A[0].cols(), A[0].cols());
+  VectorXd Aty = VectorXd::Zero(A[0].cols());
+  for (size_t j = 0; j < A.size(); ++j) {
+    AtA += A[j].transpose() * A[j];
+    Aty += A[j].transpose() * y[j];
+  }
+  screen->AddInformation(AtA, Aty);
+}
+
+}  // namespace
+
+GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
+                             std::vector<GapSegment> training, LogPart part,
+                             std::vector<GapSegment> reference)
+    : baseline_(baseline),
+      data_(std::make_unique<GapData>(std::move(training), baseline,
+                                      bandwidth_hz, part)) {
+  if (!reference.empty()) {
+    noise_ = ReferenceNoise(baseline, bandwidth_hz, reference);
+    reference_ =
+        std::make_unique<GapData>(std::move(reference), baseline, bandwidth_hz);
+    for (const int c : DayColumns(baseline)) reference_->Hold(c);
+  }
+  EstimateNoise();
+  scale_ = ScaleOf(baseline, data_->rows(), data_->torques());
+}
+
+void GapRegression::EstimateNoise() {
+  before_ = VectorXd::Zero(baseline_.size());
+  if (reference_) {
+    reference_->SetNoise(noise_.joints);
+    before_ = RefitBaseline(*reference_);
+  } else {
+    data_->SetNoise(WhiteNoise(data_->residual()));
+    noise_ = EstimateGapNoise(data_->rows(), data_->FineResidual(),
+                              data_->ResidualWith(RefitBaseline(*data_)));
+  }
+  data_->SetNoise(noise_.joints);
+}
+
+void GapRegression::Refit() {
+  data_->SetNoise(noise_.joints);
+  screen_.emplace(data_->WhitenedColumns(), data_->WhitenedResidual());
+  if (reference_) AddReference(*reference_, &*screen_);
+  screen_->Factor();
+  refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
+  if (HoldDays()) Refit();
+}
+
+// What changed by more than from day to day, or on one joint or two only, is to
+// be explained, not absorbed. Whether a column is held now that was not.
+bool GapRegression::HoldDays() {
+  constexpr double kUsual = 3;  // standard deviations
+  const std::vector<int> days = DayColumns(baseline_);
+  if (!days.empty() && !another_day_) {
+    another_day_ =
+        IsAnotherDay(baseline_, refit_, screen_->BaselineCovariance());
+  }
+  bool any = false;
+  for (const int c : days) {
+    if (*another_day_ && std::abs(refit_[c]) < kUsual) continue;
+    any |= held_.insert(c).second;
+    data_->Hold(c);
+  }
+  return any;
+}
+
+// An effect of the whole robot may have looked like another day.
+bool GapRegression::IsTheSameDayBeside(
+    const std::vector<GapCandidate>& effects) {
+  if (!another_day_.value_or(false) || effects.empty()) return false;
+  another_day_ = IsAnotherDay(baseline_, BaselineBeside(TorqueOf(effects)),
+                              screen_->BaselineCovariance());
+  return !*another_day_;
+}
+
+JointRows GapRegression::TorqueOf(
+    const std::vector<GapCandidate>& effects) const {
+  return EffectTorque(baseline_, scale_, effects, false, data_.get());
+}
+
+VectorXd GapRegression::BaselineBeside(const JointRows& torque) const {
+  return screen_->BaselineBeside(WhitenEach(data_->rows(), torque));
+}
+
+}  // namespace armcal
