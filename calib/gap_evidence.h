@@ -9,27 +9,42 @@
 
 namespace armcal {
 
-// What speaks for an effect besides its score, and against the catalogue.
+// What speaks for an effect besides its score, and against it.
 struct EffectEvidence {
-  double odds = 0;           // ln of its softmax probability against the next
-  double strength = 0;       // ln of its drop of chi^2
-  double share = 1;          // of the drops of all that were chosen
-  int chosen = 1;            // how many were
-  double left = 0;           // share of the excess that all leave, in sample
-  double held_out_left = 0;  // the same on what was held out
-  double next = 0;           // score of the best further candidate, at least 0
-  int events = 0;            // windows of it, of what comes and goes
-  double one_joint = 0;      // GapEvent's, of the strongest
-  double gain = 0;           // by how much it lowers the held-out mean square
+  double odds = 0;      // ln of its softmax probability against the next
+  double strength = 0;  // ln of its drop of chi^2
+  int chosen = 1;       // how many effects were, all events being one
+  // How many others are on its joint (if it has one), a law and its mean being
+  // one: what has no name may be pieced together from several that have.
+  int beside = 0;
+  // Whether mechanisms without a name are often taken for it.
+  bool imitated = false;
+  double next = 0;       // score of the best further candidate, at least 0
+  int events = 0;        // windows of it, of what comes and goes
+  double one_joint = 0;  // GapEvent's, of the strongest
+  double gain = 0;       // by how much it lowers the held-out mean square
 };
 
-// Of the k-th effect of the fit, `all` that could stand in its place.
-EffectEvidence EvidenceFor(const GapFit& fit, const HeldOut& held_out,
-                           const GapFigures& figures, size_t k,
-                           const std::vector<PlacedEffect>& all);
+// The evidence for what a fit chose. Keeps references.
+class GapEvidence {
+ public:
+  GapEvidence(const GapFit& fit, const HeldOut& held_out,
+              const GapFigures& figures);
 
-// Of all events together, as one effect.
-EffectEvidence EvidenceForEvents(const GapFit& fit, const GapFigures& figures);
+  // For its k-th effect, `all` that could stand in its place.
+  EffectEvidence ForEffect(size_t k,
+                           const std::vector<PlacedEffect>& all) const;
+  // For all events together, as one effect.
+  EffectEvidence ForEvents() const;
+
+ private:
+  int Beside(size_t k) const;
+
+  const GapFit& fit_;
+  const HeldOut& held_out_;
+  const GapFigures& figures_;
+  EffectEvidence common_;  // what is said of all
+};
 
 // The probability that the effect is the one, and the joint: a logistic
 // regression on evidence, fitted to which effects were right in the calibration

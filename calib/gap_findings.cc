@@ -15,12 +15,18 @@ using Eigen::VectorXd;
 
 // Less probable effects are candidates, no more.
 constexpr double kLeastClaimed = .3;
+// What is likelier than not is told first, however little it explains; and of
+// what comes and goes, which may be anything, nothing else is.
+constexpr double kLikely = .5;
 
 class Findings {
  public:
   Findings(const Robot& robot, const GapFit& fit, const HeldOut& held_out,
            const GapFigures& torque)
-      : robot_(robot), fit_(fit), held_out_(held_out), torque_(torque) {}
+      : robot_(robot),
+        fit_(fit),
+        evidence_(fit, held_out, torque),
+        torque_(torque) {}
 
   GapFindings List(const std::vector<LackedFamily>& families);
 
@@ -34,7 +40,7 @@ class Findings {
 
   const Robot& robot_;
   const GapFit& fit_;
-  const HeldOut& held_out_;
+  const GapEvidence evidence_;
   const GapFigures& torque_;
   GapFindings result_;
 };
@@ -67,7 +73,7 @@ FoundEffect Findings::Found(size_t k) const {
       found.equivalent.push_back(other);
     }
   }
-  found.evidence = EvidenceFor(fit_, held_out_, torque_, k, all);
+  found.evidence = evidence_.ForEffect(k, all);
   found.probability = ProbabilityOf(found.evidence);
   found.removed_percent =
       100 * found.evidence.gain / std::max(.1, torque_.refit - 1);
@@ -96,7 +102,7 @@ FoundEffect Findings::Contacts() const {
         ContactEstimates(robot_, strongest.contact, &found.stddev);
   }
   found.score = strongest.score;
-  found.evidence = EvidenceForEvents(fit_, torque_);
+  found.evidence = evidence_.ForEvents();
   found.probability = ProbabilityOf(found.evidence);
   for (const GapEvent& event : events) {
     found.drop += event.drop;
@@ -136,14 +142,18 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
   for (FoundEffect& found : result_.effects) {
     ShareTheRest(&found, &found == &result_.effects.front());
   }
-  const auto unclaimed =
-      std::stable_partition(result_.effects.begin(), result_.effects.end(),
-                            [](const FoundEffect& found) {
-                              return found.probability >= kLeastClaimed;
-                            });
+  const auto unclaimed = std::stable_partition(
+      result_.effects.begin(), result_.effects.end(),
+      [](const FoundEffect& found) {
+        return found.probability >=
+               (found.contacts.empty() ? kLeastClaimed : kLikely);
+      });
   result_.without_name =
       unclaimed == result_.effects.begin() && !result_.effects.empty();
   result_.effects.erase(unclaimed, result_.effects.end());
+  std::stable_partition(
+      result_.effects.begin(), result_.effects.end(),
+      [](const FoundEffect& found) { return found.probability >= kLikely; });
   return result_;
 }
 
@@ -175,9 +185,7 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 
 // Whether b is what a file has a number for and a's law has a mean of.
 bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
-  const std::vector<std::string>& means = a.effect->means;
-  return a.joint >= 0 && a.joint == b.joint &&
-         std::find(means.begin(), means.end(), b.effect->name) != means.end();
+  return a.joint >= 0 && a.joint == b.joint && HasMean(*a.effect, *b.effect);
 }
 
 void SortFindings(std::vector<FoundEffect>* effects) {
@@ -200,7 +208,7 @@ void JoinMeans(std::vector<FoundEffect>* effects) {
     for (size_t i = k + 1; i < effects->size();) {
       FoundEffect& law = (*effects)[k];
       const FoundEffect& mean = (*effects)[i];
-      if (!IsMeanOf(mean, law) || mean.drop > law.drop) {
+      if (!IsMeanOf(mean, law)) {
         ++i;
         continue;
       }

@@ -38,13 +38,14 @@ struct FoundEffect {
 // mean of a law on the same joint for its own, more than it leaves of the law,
 // and comes after it.
 void SortFindings(std::vector<FoundEffect>* effects);
-// Such a mean that explains no more than its law is one effect with it, among
-// whose estimates it is.
+// Such a mean that comes after its law is one effect with it, among whose
+// estimates it is.
 void JoinMeans(std::vector<FoundEffect>* effects);
 
 // What a fit found.
 struct GapFindings {
-  // Probable enough to be claimed, strongest first.
+  // Probable enough to be claimed, what is likelier than not first, each
+  // strongest first.
   std::vector<FoundEffect> effects;
   // Those and all others that may be in their places: 95 % of each.
   std::vector<PlacedEffect> candidates;

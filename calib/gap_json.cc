@@ -23,10 +23,9 @@ json PlacesJson(const std::vector<PlacedEffect>& places) {
 json EvidenceJson(const EffectEvidence& evidence) {
   return {{"odds", JsonNumber(evidence.odds)},
           {"strength", JsonNumber(evidence.strength)},
-          {"share", JsonNumber(evidence.share)},
           {"chosen", evidence.chosen},
-          {"left", JsonNumber(evidence.left)},
-          {"held_out_left", JsonNumber(evidence.held_out_left)},
+          {"beside", evidence.beside},
+          {"imitated", evidence.imitated},
           {"next", JsonNumber(evidence.next)},
           {"events", evidence.events},
           {"one_joint", JsonNumber(evidence.one_joint)},
@@ -161,6 +160,19 @@ json ShownJson(const GapDiagnosis& diagnosis) {
   return list;
 }
 
+json DriftsJson(const std::vector<RunDrift>& drifts) {
+  json list = json::array();
+  for (const RunDrift& drift : drifts) {
+    list.push_back({{"name", drift.name},
+                    {"unit", drift.unit},
+                    {"value", NumbersJson(drift.value)},
+                    {"stddev", NumbersJson(drift.stddev)},
+                    {"per_log", JsonNumber(drift.per_log)},
+                    {"per_log_stddev", JsonNumber(drift.per_log_stddev)}});
+  }
+  return list;
+}
+
 json MovedJson(const std::vector<MovedParameter>& moved) {
   json list = json::array();
   for (const MovedParameter& parameter : moved) {
@@ -208,6 +220,7 @@ json ToJson(const GapDiagnosis& diagnosis) {
           {"ladder", LadderJson(diagnosis.ladder)},
           {"absorbed", MovedJson(diagnosis.moved)},
           {"reference_shows", ShownJson(diagnosis)},
+          {"drifts", DriftsJson(diagnosis.drifts)},
           {"where", WhereJson(diagnosis.joints)},
           {"untestable", untestable},
           {"gap", gap},

@@ -26,11 +26,11 @@ TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainst) {
   };
   expect_less("a near rival", [](EffectEvidence* e) { e->odds = 0; });
   expect_less("little explained", [](EffectEvidence* e) { e->strength = 3; });
-  expect_less("much left", [](EffectEvidence* e) { e->left = .6; });
-  expect_less("much left of held-out data",
-              [](EffectEvidence* e) { e->held_out_left = 1; });
   expect_less("more to come", [](EffectEvidence* e) { e->next = 60; });
   expect_less("others were needed", [](EffectEvidence* e) { e->chosen = 3; });
+  expect_less("others on its joint", [](EffectEvidence* e) { e->beside = 1; });
+  expect_less("it is easily imitated",
+              [](EffectEvidence* e) { e->imitated = true; });
   expect_less("held-out data do not care",
               [](EffectEvidence* e) { e->gain = 0; });
 }

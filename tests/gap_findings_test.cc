@@ -72,12 +72,13 @@ TEST(JoinMeans, AMeanIsPartOfItsLaw) {
   EXPECT_THAT(effects[0].stddev, ElementsAre(.1, .2));
 }
 
-TEST(JoinMeans, WhatExplainsMoreOrIsElsewhereIsItsOwnEffect) {
+TEST(JoinMeans, WhatComesBeforeOrIsElsewhereIsItsOwnEffect) {
   for (const FoundEffect& other :
-       {Found("coulomb_friction", 1, 120), Found("coulomb_friction", 0, 60),
+       {Found("coulomb_friction", 1, 1000), Found("coulomb_friction", 0, 60),
         Found("torque_offset", 1, 60)}) {
     std::vector<FoundEffect> effects = {Found("position_friction", 1, 100),
                                         other};
+    SortFindings(&effects);
     JoinMeans(&effects);
     EXPECT_EQ(effects.size(), 2u) << other.effect->name << other.joint;
   }
