@@ -61,7 +61,7 @@ class Proposals {
     if (joint < 0) return {};
     std::vector<double> f =
         PeakFrequencies(whitened_.col(joint), t_, 2 * M_PI * .5,
-                        2 * M_PI * 1.2 * rows_.bandwidth_hz(), kPeaks);
+                        2 * M_PI * 1.25 * rows_.bandwidth_hz(), kPeaks);
     for (double& x : f) x = Unaliased(joint, x / (2 * M_PI));
     return f;
   }

@@ -19,6 +19,14 @@ using Eigen::VectorXd;
 constexpr double kTrustInFitted = .5;
 constexpr double kTimingWithReference = .05;  // s
 
+bool Overlaps(const std::vector<GapEvent>& events, const GapEvent& event) {
+  return std::any_of(events.begin(), events.end(), [&](const GapEvent& other) {
+    const Contact &a = event.contact, &b = other.contact;
+    return a.log == b.log && a.window.begin <= b.window.end &&
+           b.window.begin <= a.window.end;
+  });
+}
+
 class Diagnoser {
  public:
   Diagnoser(const Robot& robot, const DiagnosisOptions& options)
@@ -116,24 +124,32 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   Simulate(split ? training : validation, split);
   result_.moved = ListMoved(*fit_, fit_->refined().baseline);
   result_.shown = ListShown(*fit_, fit_->refined().baseline);
+  result_.drifts = ListRunDrifts(*fit_, fit_->refined().baseline);
   result_.untestable = ListUntestable(*fit_);
   TellUnexplained();
   Judge();
   return result_;
 }
 
-// What happened once, happened in the part that is held out as well: it is
-// looked for in all of the log before effects are chosen on the other part.
+// What happens once may happen in the part that is held out, where nothing else
+// is looked for.
 void Diagnoser::Fit(const std::vector<GapSegment>& segments,
                     const std::vector<GapSegment>& before, bool split) {
   const GapFitOptions options{options_.bandwidth_hz, options_.selection,
                               options_.without};
-  fit_.emplace(*baseline_, options, segments, LogPart::kAll, before);
-  if (!split) return fit_->Choose();
-  fit_->FindEvents();
-  const std::vector<GapEvent> events = fit_->events();
-  fit_.emplace(*baseline_, options, segments, LogPart::kFitted, before);
-  fit_->ChooseBeside(events);
+  fit_.emplace(*baseline_, options, segments,
+               split ? LogPart::kFitted : LogPart::kAll, before);
+  fit_->Choose();
+  if (!split) return;
+  GapFit all(*baseline_, options, segments, LogPart::kAll, before);
+  all.FindEvents(fit_->events());
+  std::vector<GapEvent> events = fit_->events();
+  for (const GapEvent& event : all.events()) {
+    const bool fitted =
+        2 * RowsOf(fit_->rows(), event) >= RowsOf(all.rows(), event);
+    if (!fitted && !Overlaps(events, event)) events.push_back(event);
+  }
+  if (events.size() > fit_->events().size()) fit_->ChooseBeside(events);
 }
 
 JointGap Diagnoser::JointFigures(int j) const {
@@ -151,8 +167,10 @@ JointGap Diagnoser::JointFigures(int j) const {
   gap.organised = OrganisedBy(CourseOf(j));
   gap.unexplained = Excess(*fit_, j, true);
   // Without any order, it may be noise that is louder here than where it was
-  // told: up to twice.
-  const double rows = fit_->rows().num_rows(j);
+  // told: up to twice; in motion, where clocks and encoders err, to twice the
+  // standard deviation at rest.
+  const double rows = (result_.floor == NoiseFloor::kStandstill ? 3 : 1) *
+                      fit_->rows().num_rows(j);
   if (gap.organised.by.empty() && gap.unexplained < rows) gap.unexplained = 0;
   return gap;
 }

@@ -15,6 +15,7 @@
 #include "calib/gap_moved.h"
 #include "calib/gap_noise.h"
 #include "calib/gap_probability.h"
+#include "calib/gap_runs.h"
 #include "calib/gap_selection.h"
 #include "calib/gap_shown.h"
 #include "calib/gap_shrink.h"
@@ -72,6 +73,7 @@ struct GapDiagnosis {
   std::vector<PlacedEffect> candidates;
   std::vector<MovedParameter> moved;
   std::vector<ShownEffect> shown;  // what a reference shows of itself
+  std::vector<RunDrift> drifts;    // from log to log
   NoiseFloor floor = NoiseFloor::kAssumed;
   GapFigures torque;
   std::optional<ForwardGap> forward;

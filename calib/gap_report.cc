@@ -173,6 +173,17 @@ std::string Findings(const GapDiagnosis& diagnosis) {
                     diagnosis.torque.removed_percent);
 }
 
+std::string Drifts(const std::vector<RunDrift>& drifts) {
+  std::string text = drifts.empty() ? "" : "\nfrom log to log\n";
+  for (const RunDrift& drift : drifts) {
+    text += Format("  %-28s", drift.name.c_str());
+    for (const double value : drift.value) text += Format(" %8.4g", value);
+    text += Format(" %s, %+.2g +- %.1g per log\n", drift.unit.c_str(),
+                   drift.per_log, drift.per_log_stddev);
+  }
+  return text;
+}
+
 std::string MovedTitle(const GapDiagnosis& diagnosis) {
   return diagnosis.floor == NoiseFloor::kReference
              ? "\nfriction that has changed since the reference\n"
@@ -187,7 +198,8 @@ std::string BriefReport(const GapDiagnosis& diagnosis) {
       return "The model agrees with the log to within the noise.";
     case GapVerdict::kAbsorbed:
       return diagnosis.floor == NoiseFloor::kReference
-                 ? "Nothing but friction has changed since the reference."
+                 ? "Nothing but friction and timing has changed since the "
+                   "reference."
                  : "Nothing is missing in the model but better values: "
                    "refitting its parameters brings it down to the noise.";
     case GapVerdict::kExplained:
@@ -235,7 +247,7 @@ std::string FullReport(const GapDiagnosis& diagnosis) {
         Format("  %-28s %10.4g -> %10.4g +- %.2g %s\n", moved.name.c_str(),
                moved.nominal, moved.value, moved.stddev, moved.unit.c_str());
   }
-  return text + Untestable(diagnosis.untestable);
+  return text + Drifts(diagnosis.drifts) + Untestable(diagnosis.untestable);
 }
 
 }  // namespace armcal

@@ -84,6 +84,26 @@ bool IsLarge(const GapScreen& screen,
          gain >= share * before;
 }
 
+// Scores in addition to a set; those that explain too little beside it, errors
+// of its forms as likely as not, never.
+VectorXd LargeScores(const GapScreen& screen,
+                     const std::vector<GapCandidate>& candidates,
+                     const SelectionOptions& options,
+                     const std::vector<int>& set) {
+  VectorXd scores = ScoresBeside(screen, candidates, options, set, -1);
+  if (set.empty()) return scores;
+  const int first =
+      DescribeSelection(screen, candidates, options, set).chosen.front();
+  const double before = TotalDrop(screen, candidates, set);
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const GapCandidate& other = candidates[i];
+    const double gain = options.inflation * (scores[i] + Price(screen, other));
+    const double share = LeastShare(candidates[first], other, options);
+    if (gain < share * before) scores[i] = kNever;
+  }
+  return scores;
+}
+
 // Sets of one more than those of `sets`, the best first. What explains most
 // alone may be neither of two that explain everything together: several sets
 // are followed, not only the best.
@@ -96,7 +116,7 @@ std::vector<std::vector<int>> Extended(
   for (const std::vector<int>& set : sets) {
     double own = TotalDrop(screen, candidates, set) / options.inflation;
     for (const int c : set) own -= Price(screen, candidates[c]);
-    const VectorXd scores = ScoresBeside(screen, candidates, options, set, -1);
+    const VectorXd scores = LargeScores(screen, candidates, options, set);
     for (const int c : BestPlaces(candidates, scores, kSets)) {
       std::vector<int> more = set;
       more.push_back(c);
@@ -220,12 +240,20 @@ Selection SelectEffects(const GapScreen& screen,
   for (int size = 1; size <= options.most_effects; ++size) {
     sets = Extended(screen, candidates, options, sets);
     if (sets.empty()) break;
-    std::vector<int> more = sets[0];
-    Swap(screen, candidates, options, &more);
-    LeaveOut(screen, candidates, options, &more);
-    if (static_cast<int>(more.size()) < size) break;
-    if (size > 1 && !IsLarge(screen, candidates, options, chosen, more)) break;
-    chosen = more;
+    const auto is_better = [&](std::vector<int>* more) {
+      LeaveOut(screen, candidates, options, more);
+      return static_cast<int>(more->size()) == size &&
+             (size == 1 || IsLarge(screen, candidates, options, chosen, *more));
+    };
+    std::vector<int> swapped = sets[0], more = sets[0];
+    Swap(screen, candidates, options, &swapped);
+    if (is_better(&swapped)) {
+      chosen = swapped;
+    } else if (is_better(&more)) {
+      chosen = more;
+    } else {
+      break;
+    }
     sets.insert(sets.begin(), chosen);
   }
   return DescribeSelection(screen, candidates, options, chosen);

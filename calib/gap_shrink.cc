@@ -30,9 +30,10 @@ TimeSeries SumJoints(const MatrixXd& squares) {
   return series;
 }
 
-double Removed(double from, double after, double floor) {
-  return from > floor ? 100 * (from - after) / (from - floor)
-                      : std::numeric_limits<double>::quiet_NaN();
+// Nothing where there is no more than `least` to remove.
+double Removed(double from, double after, double floor, double least = 0) {
+  return from > floor + least ? 100 * (from - after) / (from - floor)
+                              : std::numeric_limits<double>::quiet_NaN();
 }
 
 VectorXd RmsOfJoints(const MatrixXd& squares) {
@@ -88,9 +89,10 @@ GapFigures ShrinkFigures(const HeldOutSquares& squares, double floor_stddev,
   figures.nominal = nominal.sum.sum() / count;
   figures.refit = refit.sum.sum() / count;
   figures.after = after.sum.sum() / count;
-  figures.removed_percent = Removed(figures.refit, figures.after, 1);
+  figures.removed_percent =
+      Removed(figures.refit, figures.after, 1, floor_stddev);
   figures.removed_from_nominal_percent =
-      Removed(figures.nominal, figures.after, 1);
+      Removed(figures.nominal, figures.after, 1, floor_stddev);
   figures.joints.resize(squares.refit.cols(), 3);
   figures.joints << RmsOfJoints(squares.nominal), RmsOfJoints(squares.refit),
       RmsOfJoints(squares.after);

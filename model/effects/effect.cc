@@ -1,7 +1,13 @@
 #include "model/effects/effect.h"
 
+#include <algorithm>
+
 namespace armcal {
 inline namespace effects {
+
+bool HasMean(const Effect& law, const Effect& mean) {
+  return std::count(law.means.begin(), law.means.end(), mean.name) > 0;
+}
 
 std::string ParameterUnit(const std::string& unit, JointType type) {
   std::string text;

@@ -108,6 +108,8 @@ struct Effect {
   std::string experiment;
 };
 
+// Whether `mean` is one of the law's `means`.
+bool HasMean(const Effect& law, const Effect& mean);
 // "N m s/rad" from "E s/P" for a revolute joint.
 std::string ParameterUnit(const std::string& unit, JointType type);
 // What the effect says of itself at p.
