@@ -19,6 +19,11 @@ constexpr double kLeastClaimed = .3;
 // what comes and goes, which may be anything, nothing else is.
 constexpr double kLikely = .5;
 
+// Whether b is what a file has a number for and a's law has a mean of.
+bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
+  return a.joint >= 0 && a.joint == b.joint && HasMean(*a.effect, *b.effect);
+}
+
 class Findings {
  public:
   Findings(const Robot& robot, const GapFit& fit, const HeldOut& held_out,
@@ -182,11 +187,6 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 }
 
 }  // namespace
-
-// Whether b is what a file has a number for and a's law has a mean of.
-bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
-  return a.joint >= 0 && a.joint == b.joint && HasMean(*a.effect, *b.effect);
-}
 
 void SortFindings(std::vector<FoundEffect>* effects) {
   constexpr double kMuch = .2;  // of the number's drop

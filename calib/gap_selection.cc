@@ -68,20 +68,36 @@ double LeastShare(const GapCandidate& first, const GapCandidate& other,
   return same ? options.same_joint_share : options.other_joint_share;
 }
 
-// Whether the weakest of `more` is large enough beside its strongest, and all
-// of it beside what `fewer` explain.
-bool IsLarge(const GapScreen& screen,
-             const std::vector<GapCandidate>& candidates,
-             const SelectionOptions& options, const std::vector<int>& fewer,
-             const std::vector<int>& more) {
-  const Selection selection =
-      DescribeSelection(screen, candidates, options, more);
-  const double share = LeastShare(candidates[selection.chosen.front()],
-                                  candidates[selection.chosen.back()], options);
+// Of chi^2, when each is left out.
+std::vector<double> Drops(const GapScreen& screen,
+                          const std::vector<GapCandidate>& candidates,
+                          const std::vector<int>& chosen) {
+  const double total = TotalDrop(screen, candidates, chosen);
+  std::vector<double> drops;
+  for (int k = 0; k < static_cast<int>(chosen.size()); ++k) {
+    drops.push_back(total - TotalDrop(screen, candidates, Without(chosen, k)));
+  }
+  return drops;
+}
+
+// Whether each of `more` is large enough beside the strongest of them, and all
+// of them beside what `fewer` explain.
+bool AreLarge(const GapScreen& screen,
+              const std::vector<GapCandidate>& candidates,
+              const SelectionOptions& options, const std::vector<int>& fewer,
+              const std::vector<int>& more) {
+  const std::vector<double> drops = Drops(screen, candidates, more);
+  const auto strongest = std::max_element(drops.begin(), drops.end());
+  const GapCandidate& first = candidates[more[strongest - drops.begin()]];
   const double before = TotalDrop(screen, candidates, fewer);
   const double gain = TotalDrop(screen, candidates, more) - before;
-  return selection.drops.back() >= share * selection.drops.front() &&
-         gain >= share * before;
+  double largest_share = 0;
+  for (size_t k = 0; k < more.size(); ++k) {
+    const double share = LeastShare(first, candidates[more[k]], options);
+    if (drops[k] < share * *strongest) return false;
+    if (drops[k] < *strongest) largest_share = std::max(largest_share, share);
+  }
+  return gain >= largest_share * before;
 }
 
 // Scores in addition to a set; those that explain too little beside it, errors
@@ -121,6 +137,7 @@ std::vector<std::vector<int>> Extended(
       std::vector<int> more = set;
       more.push_back(c);
       std::sort(more.begin(), more.end());
+      if (!AreLarge(screen, candidates, options, {}, more)) continue;
       totals[more] = own + scores[c];
     }
   }
@@ -212,11 +229,9 @@ Selection DescribeSelection(const GapScreen& screen,
                             const SelectionOptions& options,
                             const std::vector<int>& chosen) {
   Selection selection;
-  const double total = TotalDrop(screen, candidates, chosen);
-  std::vector<double> drops, scores;
+  const std::vector<double> drops = Drops(screen, candidates, chosen);
+  std::vector<double> scores;
   for (size_t k = 0; k < chosen.size(); ++k) {
-    drops.push_back(total - TotalDrop(screen, candidates,
-                                      Without(chosen, static_cast<int>(k))));
     scores.push_back(ScoresBeside(screen, candidates, options, chosen,
                                   static_cast<int>(k))[chosen[k]]);
   }
@@ -243,7 +258,8 @@ Selection SelectEffects(const GapScreen& screen,
     const auto is_better = [&](std::vector<int>* more) {
       LeaveOut(screen, candidates, options, more);
       return static_cast<int>(more->size()) == size &&
-             (size == 1 || IsLarge(screen, candidates, options, chosen, *more));
+             (size == 1 ||
+              AreLarge(screen, candidates, options, chosen, *more));
     };
     std::vector<int> swapped = sets[0], more = sets[0];
     Swap(screen, candidates, options, &swapped);

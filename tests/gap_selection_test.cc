@@ -207,6 +207,16 @@ TEST_F(GapSelectionTest, ASmallOneCountsOnAnotherJointOnly) {
   EXPECT_THAT(Select().chosen, ElementsAre(0, same));
 }
 
+// The form of the first is not quite right; what that leaves on its joint is
+// more than another joint's effect, and less than an effect.
+TEST_F(GapSelectionTest, AnErrorOfFormDoesNotEndTheSearch) {
+  AddRandom(2);
+  const int other = Add(2, 1, Noise(&random_));
+  target_[0] = 10 * Column(0) + Column(1);
+  target_[1] = .8 * Column(other);
+  EXPECT_THAT(Select().chosen, UnorderedElementsAre(0, other));
+}
+
 TEST_F(GapSelectionTest, ScoresOfWhatCouldStandInAPlace) {
   AddRandom(4);
   target_[0] = .5 * Column(1) + .4 * Column(2);
