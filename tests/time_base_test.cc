@@ -103,13 +103,15 @@ TEST(AuditTimeBase, MeasuresJitter) {
   EXPECT_TRUE(base.gaps.empty());
 }
 
-// Samples taken evenly, some of them lost, by a clock that sways by 20 ms.
+// Samples taken evenly, some of the first ones lost, by a clock that sways by
+// 20 ms.
 TEST(AuditTimeBase, KnowsHowUnevenStampsAre) {
   const auto sway = [](double t) { return .02 * std::sin(2 * M_PI * t / 15); };
   std::vector<std::string> times;
   for (int k = 0; k < 11250; ++k) {
     const double t = .004 * k;
-    if (k % 50 != 17) times.push_back(Decimal(1.03 * t + sway(t), 6));
+    if (k % 50 != 17 || k > 4000)
+      times.push_back(Decimal(1.03 * t + sway(t), 6));
   }
   const TimeBase base = Audit(times);
   ASSERT_NEAR(base.stamp_errors.size(), 45, 2);
