@@ -149,6 +149,7 @@ void Diagnoser::Fit(const std::vector<GapSegment>& segments,
         2 * RowsOf(fit_->rows(), event) >= RowsOf(all.rows(), event);
     if (!fitted && !Overlaps(events, event)) events.push_back(event);
   }
+  SortByTime(&events);
   if (events.size() > fit_->events().size()) fit_->ChooseBeside(events);
 }
 

@@ -25,13 +25,17 @@ GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
   return event;
 }
 
-void DescribeAgain(const Robot& robot, const GapRows& rows,
-                   const FrictionExcess& alone, const FrictionExcess& beside,
-                   std::vector<GapEvent>* events) {
+void SortByTime(std::vector<GapEvent>* events) {
   std::sort(events->begin(), events->end(),
             [](const GapEvent& a, const GapEvent& b) {
               return a.contact.window.begin < b.contact.window.begin;
             });
+}
+
+void DescribeAgain(const Robot& robot, const GapRows& rows,
+                   const FrictionExcess& alone, const FrictionExcess& beside,
+                   std::vector<GapEvent>* events) {
+  SortByTime(events);
   for (GapEvent& event : *events) {
     const Contact before = event.contact;
     event.contact = DescribeContact(robot, rows, event.at_rest ? alone : beside,

@@ -34,6 +34,7 @@ struct GapEvent {
 
 GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
                              const Contact& contact);
+void SortByTime(std::vector<GapEvent>* events);
 // As they are beside what was fitted without them, in the order of time: the
 // excess beside the baseline alone, and beside effects as well.
 void DescribeAgain(const Robot& robot, const GapRows& rows,

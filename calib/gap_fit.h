@@ -37,7 +37,8 @@ class GapFit {
   void Choose();
   // The events alone, beside those that are known.
   void FindEvents(const std::vector<GapEvent>& known);
-  // Effects beside these events, which are all that there were.
+  // Effects beside these events, in the order of time, which are all that there
+  // were.
   void ChooseBeside(const std::vector<GapEvent>& events);
 
   const GapBaseline& baseline() const { return regression_.baseline(); }

@@ -148,24 +148,23 @@ MatrixXd GapRows::Whiten(int joint, const MatrixXd& thin) const {
   return rows;
 }
 
-MatrixXd GapRows::ThinAll(const std::vector<MatrixXd>& signals) const {
+MatrixXd GapRows::Stacked(const std::vector<MatrixXd>& signals,
+                          OfSegment part) const {
   MatrixXd all(num_thin(), signals.at(0).cols());
   for (size_t i = 0; i < signals.size(); ++i) {
     const int s = static_cast<int>(i);
-    const MatrixXd thin = Thin(s, signals[i]);
+    const MatrixXd thin = (this->*part)(s, signals[i]);
     all.middleRows(thin_begin_[s], thin.rows()) = thin;
   }
   return all;
 }
 
+MatrixXd GapRows::ThinAll(const std::vector<MatrixXd>& signals) const {
+  return Stacked(signals, &GapRows::Thin);
+}
+
 MatrixXd GapRows::PickAll(const std::vector<MatrixXd>& signals) const {
-  MatrixXd all(num_thin(), signals.at(0).cols());
-  for (size_t i = 0; i < signals.size(); ++i) {
-    const int s = static_cast<int>(i);
-    const MatrixXd picked = Pick(s, signals[i]);
-    all.middleRows(thin_begin_[s], picked.rows()) = picked;
-  }
-  return all;
+  return Stacked(signals, &GapRows::Pick);
 }
 
 std::vector<GapRows::Place> GapRows::PlacesOfRows(int joint) const {

@@ -77,6 +77,11 @@ class GapRows {
   std::vector<Place> PlacesOfRows(int joint) const;
 
  private:
+  // Thin() or Pick() of each segment, one below the other.
+  using OfSegment = Eigen::MatrixXd (GapRows::*)(int,
+                                                 const Eigen::MatrixXd&) const;
+  Eigen::MatrixXd Stacked(const std::vector<Eigen::MatrixXd>& signals,
+                          OfSegment part) const;
   enum class Use { kMoving, kStill, kNone };
   void MakeRuns();
   Use UseOf(int segment, int joint, int k) const;

@@ -71,42 +71,49 @@ void FitLine(RunDrift* drift) {
   drift->per_log_stddev = std::sqrt(std::max(1., scatter) / spread);
 }
 
+// Of each of joint j's terms; none where a log has no rows of it.
+std::vector<RunDrift> DriftsOf(const GapFit& fit, const VectorXd& x, int j) {
+  const GapBaseline& baseline = fit.baseline();
+  const std::vector<int> terms = TermsOf(baseline, j);
+  const std::vector<std::vector<int>> logs = RowsOfLogs(fit.rows(), j);
+  if (terms.empty() || std::any_of(logs.begin(), logs.end(),
+                                   [](const auto& k) { return k.empty(); })) {
+    return {};
+  }
+  const MatrixXd columns = fit.rows().Whiten(
+      j, MatrixXd(fit.data()->columns()[j](Eigen::all, terms)));
+  std::vector<OwnChange> changes;
+  for (const std::vector<int>& own : logs) {
+    changes.push_back(ChangeIn(columns(own, Eigen::all), fit.Left(j)(own)));
+  }
+  const Joint joint = baseline.With(x).links[j].joint;
+  std::vector<RunDrift> drifts;
+  for (size_t i = 0; i < terms.size(); ++i) {
+    const BaselineColumn& column = baseline.columns()[terms[i]];
+    const JointTerm term = static_cast<JointTerm>(column.index);
+    RunDrift drift;
+    drift.name = joint.name + "." + JointTermName(term);
+    drift.unit = JointTermUnit(term, joint.type);
+    drift.value.resize(changes.size());
+    drift.stddev.resize(changes.size());
+    for (size_t k = 0; k < changes.size(); ++k) {
+      drift.value[k] =
+          TermOf(term, joint) + column.spread * changes[k].value[i];
+      drift.stddev[k] = column.spread * std::sqrt(changes[k].covariance(i, i));
+    }
+    FitLine(&drift);
+    drifts.push_back(drift);
+  }
+  return drifts;
+}
+
 }  // namespace
 
 std::vector<RunDrift> ListRunDrifts(const GapFit& fit, const VectorXd& x) {
   std::vector<RunDrift> drifts;
-  const GapRows& rows = fit.rows();
-  const GapBaseline& baseline = fit.baseline();
-  for (int j = 0; j < rows.num_joints(); ++j) {
-    const std::vector<std::vector<int>> logs = RowsOfLogs(rows, j);
-    if (static_cast<int>(logs.size()) < kFewestLogs) return {};
-    const std::vector<int> terms = TermsOf(baseline, j);
-    if (terms.empty() || std::any_of(logs.begin(), logs.end(),
-                                     [](const auto& k) { return k.empty(); })) {
-      continue;
-    }
-    const MatrixXd columns =
-        rows.Whiten(j, MatrixXd(fit.data()->columns()[j](Eigen::all, terms)));
-    std::vector<OwnChange> changes;
-    for (const std::vector<int>& own : logs) {
-      changes.push_back(ChangeIn(columns(own, Eigen::all), fit.Left(j)(own)));
-    }
-    const Joint& joint = baseline.robot().links[j].joint;
-    for (size_t i = 0; i < terms.size(); ++i) {
-      const BaselineColumn& column = baseline.columns()[terms[i]];
-      const JointTerm term = static_cast<JointTerm>(column.index);
-      RunDrift drift;
-      drift.name = joint.name + "." + JointTermName(term);
-      drift.unit = JointTermUnit(term, joint.type);
-      drift.value.resize(changes.size());
-      drift.stddev.resize(changes.size());
-      const double common = TermOf(term, baseline.With(x).links[j].joint);
-      for (size_t k = 0; k < changes.size(); ++k) {
-        drift.value[k] = common + column.spread * changes[k].value[i];
-        drift.stddev[k] =
-            column.spread * std::sqrt(changes[k].covariance(i, i));
-      }
-      FitLine(&drift);
+  if (fit.rows().segments().back().log + 1 < kFewestLogs) return drifts;
+  for (int j = 0; j < fit.rows().num_joints(); ++j) {
+    for (const RunDrift& drift : DriftsOf(fit, x, j)) {
       if (std::abs(drift.per_log) > kClear * drift.per_log_stddev) {
         drifts.push_back(drift);
       }

@@ -108,13 +108,14 @@ VectorXd LargeScores(const GapScreen& screen,
                      const std::vector<int>& set) {
   VectorXd scores = ScoresBeside(screen, candidates, options, set, -1);
   if (set.empty()) return scores;
-  const int first =
-      DescribeSelection(screen, candidates, options, set).chosen.front();
+  const std::vector<double> drops = Drops(screen, candidates, set);
+  const auto strongest = std::max_element(drops.begin(), drops.end());
+  const GapCandidate& first = candidates[set[strongest - drops.begin()]];
   const double before = TotalDrop(screen, candidates, set);
   for (size_t i = 0; i < candidates.size(); ++i) {
     const GapCandidate& other = candidates[i];
     const double gain = options.inflation * (scores[i] + Price(screen, other));
-    const double share = LeastShare(candidates[first], other, options);
+    const double share = LeastShare(first, other, options);
     if (gain < share * before) scores[i] = kNever;
   }
   return scores;

@@ -93,14 +93,13 @@ class MotionSpectrum {
 // Counts the steps that a sampler with equal ones would have made.
 class TickCounter {
  public:
-  // The next stamps, the same time twice not counted.
-  void Add(const Eigen::VectorXd& t, const TimeRange& crop, double step) {
-    for (const double stamp : t) {
-      if (!crop.Contains(stamp) || (count_ > 0 && stamp == last_)) continue;
-      if (count_ > 0)
+  // The next stamps, all different; `step`: the usual one, s.
+  void Add(const std::vector<double>& stamps, double step) {
+    for (const double stamp : stamps) {
+      if (!means_.empty()) {
         ticks_ += std::max(1., std::round((stamp - last_) / step));
+      }
       last_ = stamp;
-      ++count_;
       if (means_.empty() || stamp - begin_ >= kMeanTime) {
         means_.emplace_back();
         begin_ = stamp;
@@ -138,7 +137,6 @@ class TickCounter {
   };
   std::vector<Mean> means_;
   double begin_ = 0, last_ = 0, ticks_ = 0;
-  long count_ = 0;
 };
 
 // Everything the audit gathers from consecutive samples.
@@ -148,12 +146,13 @@ struct Audit {
   MotionSpectrum motion;
   double last = 0;
 
-  void Add(double t, const Eigen::RowVectorXd& q) {
+  // False where the time is that of the row before.
+  bool Add(double t, const Eigen::RowVectorXd& q) {
     if (base.samples > 0) {
       const double step = t - last;
       if (step == 0) {
         ++base.duplicates;
-        return;
+        return false;
       }
       steps.Add(step);
       base.min_step = base.samples == 1 ? step : std::min(base.min_step, step);
@@ -164,6 +163,7 @@ struct Audit {
     base.range.end = last = t;
     motion.Add(t, q);
     ++base.samples;
+    return true;
   }
 };
 
@@ -175,10 +175,12 @@ TimeBase AuditTimeBase(const std::string& path, const TimeRange& crop,
   TickCounter ticks;
   Log block;
   while (reader->Read(kBlockRows, &block)) {
+    std::vector<double> stamps;
     for (int k = 0; k < block.size(); ++k) {
-      if (crop.Contains(block.t[k])) audit.Add(block.t[k], block.q.row(k));
+      const double t = block.t[k];
+      if (crop.Contains(t) && audit.Add(t, block.q.row(k))) stamps.push_back(t);
     }
-    ticks.Add(block.t, crop, audit.steps.Median());
+    ticks.Add(stamps, audit.steps.Median());
   }
   TimeBase& base = audit.base;
   if (base.samples < 3) {
