@@ -1,5 +1,6 @@
 #include "calib/gap_shrink.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -46,8 +47,14 @@ VectorXd RmsOfJoints(const MatrixXd& squares) {
   return rms;
 }
 
+// No model leaves less than the noise: a floor above what is left was told too
+// high, and the part above belongs below.
+double BelowWhatIsLeft(double floor, double left) {
+  return floor > left ? std::max(0., 2 * left - floor) : floor;
+}
+
 // The interval of what is removed between two of them.
-void SetInterval(const TimeSeries& from, const TimeSeries& after,
+void SetInterval(const TimeSeries& from, const TimeSeries& after, double floor,
                  double floor_stddev, std::uint64_t seed, double* ci95) {
   const int size = static_cast<int>(from.sum.size());
   std::vector<double> gain(size);
@@ -63,8 +70,11 @@ void SetInterval(const TimeSeries& from, const TimeSeries& after,
                          left += after.sum[k];
                          all += from.count[k];
                        }
-                       return Removed(before / all, left / all,
-                                      1 + floor_stddev * deviation(random));
+                       const double drawn_floor =
+                           floor * (1 + floor_stddev * deviation(random));
+                       return Removed(
+                           before / all, left / all,
+                           BelowWhatIsLeft(drawn_floor, left / all));
                      });
   ci95[0] = interval.low;
   ci95[1] = interval.high;
@@ -89,15 +99,17 @@ GapFigures ShrinkFigures(const HeldOutSquares& squares, double floor_stddev,
   figures.nominal = nominal.sum.sum() / count;
   figures.refit = refit.sum.sum() / count;
   figures.after = after.sum.sum() / count;
+  figures.floor = std::min(1., figures.after);
   figures.removed_percent =
-      Removed(figures.refit, figures.after, 1, floor_stddev);
+      Removed(figures.refit, figures.after, figures.floor, floor_stddev);
   figures.removed_from_nominal_percent =
-      Removed(figures.nominal, figures.after, 1, floor_stddev);
+      Removed(figures.nominal, figures.after, figures.floor, floor_stddev);
   figures.joints.resize(squares.refit.cols(), 3);
   figures.joints << RmsOfJoints(squares.nominal), RmsOfJoints(squares.refit),
       RmsOfJoints(squares.after);
-  SetInterval(refit, after, floor_stddev, seed, figures.ci95);
-  SetInterval(nominal, after, floor_stddev, seed, figures.nominal_ci95);
+  SetInterval(refit, after, figures.floor, floor_stddev, seed, figures.ci95);
+  SetInterval(nominal, after, figures.floor, floor_stddev, seed,
+              figures.nominal_ci95);
   return figures;
 }
 

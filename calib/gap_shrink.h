@@ -15,7 +15,8 @@ struct HeldOutSquares {
   Eigen::MatrixXd after;    // with the effects
 };
 
-// Means over samples and joints: E of DESIGN.md. The floor is the noise: 1.
+// Means over samples and joints: E of DESIGN.md. The floor is the noise: 1, or
+// what is left where that is less.
 struct GapFigures {
   double nominal = 0;
   double refit = 0;

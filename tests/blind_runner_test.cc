@@ -61,6 +61,19 @@ class BlindRunner : public testing::Test {
   BlindRunOptions options_;
 };
 
+TEST_F(BlindRunner, OtherValidationTakesThePlaceOfTheCases) {
+  Write(root_ / "logs" / "case_0001" / "validation.csv", "noisy");
+  fs::create_directories(root_ / "quiet" / "case_0001");
+  Write(root_ / "quiet" / "case_0001" / "validation.csv", "quiet");
+  options_.validation = root_ / "quiet";
+  options_.flags = {"--forward=false"};
+  EXPECT_EQ(Run("cat validation.csv; echo \" $*\"").answered, 1);
+  EXPECT_EQ(Answer("case_0001"),
+            "quiet diagnose --robot=robot.yaml --trust=0.0625 "
+            "--log=training.csv --validate=validation.csv --forward=false "
+            "--out=out\n");
+}
+
 TEST_F(BlindRunner, GivesTheCaseAndKeepsTheAnswer) {
   const BlindRunSummary summary =
       Run("cat training.csv; echo \" $*\"; pwd; ls");

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/blind/true_share.h"
+
 namespace armcal {
 namespace {
 
@@ -174,6 +176,7 @@ TEST(BlindScore, Shrink) {
     answer.torque.removed_percent = removed;
     answer.torque.low = 70;
     answer.torque.high = removed;
+    answer.torque.true_removed_percent = 80;
     score.Add(CaseScore(label, answer, {}));
   };
   add(1, 76);
@@ -185,8 +188,25 @@ TEST(BlindScore, Shrink) {
             (std::vector<double>{76, 84, 0}));
   EXPECT_EQ(shrink.At("torque", "share of the oracle's").values,
             (std::vector<double>{.95, 1.05, 0}));
-  EXPECT_EQ(Cell(shrink, "torque", "interval holds the oracle's"),
-            Counts(1, 2));
+  // 80 is not in 70 to 76, but in 70 to 84 and above 70.
+  EXPECT_EQ(Cell(shrink, "torque", "interval holds what is truly removed"),
+            Counts(2, 3));
+  EXPECT_EQ(Cell(shrink, "torque", "interval is open"), Counts(1, 3));
+  EXPECT_EQ(shrink.At("torque", "truly removed, share of the oracle's").values,
+            (std::vector<double>{1, 1, 1}));
+}
+
+TEST(TrueShare, IsOfTheSameClaimsOnMotionWithoutNoise) {
+  BlindAnswer answer =
+      Answer("explained", {Claim("spring", 1, .9), Claim("cable", 2, .6)});
+  BlindAnswer quiet =
+      Answer("explained", {Claim("cable", 2, .7), Claim("spring", 1, .8)});
+  quiet.torque.refit = 4;
+  quiet.torque.after = 1;
+  EXPECT_EQ(TrueRemovedPercent(answer, quiet), 75);
+  quiet.effects.pop_back();
+  EXPECT_EQ(TrueRemovedPercent(answer, quiet), std::nullopt);
+  EXPECT_EQ(TrueRemovedPercent(answer, BlindAnswer()), std::nullopt);
 }
 
 }  // namespace

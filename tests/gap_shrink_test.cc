@@ -67,7 +67,22 @@ TEST(GapShrink, WhereNothingCanBeRemovedNoShareIs) {
   squares.refit = squares.after = MatrixXd::Constant(50, 1, .9);
   const GapFigures figures = ShrinkFigures(squares, 0, 1);
   EXPECT_TRUE(std::isnan(figures.removed_percent));
-  EXPECT_NEAR(figures.removed_from_nominal_percent, 105, 1e-9);
+  EXPECT_NEAR(figures.floor, .9, 1e-9);
+  EXPECT_NEAR(figures.removed_from_nominal_percent, 100, 1e-9);
+}
+
+// The noise is at most what is left: .6 of what was taken for it.
+TEST(GapShrink, AFloorToldTooHighRemovesAllNotMore) {
+  HeldOutSquares squares;
+  squares.nominal = squares.refit = MatrixXd::Constant(400, 1, 9);
+  squares.after = MatrixXd::Constant(400, 1, .6);
+  const GapFigures figures = ShrinkFigures(squares, .2, 1);
+  EXPECT_NEAR(figures.removed_percent, 100, 1e-9);
+  EXPECT_LE(figures.ci95[1], 100);
+  EXPECT_GT(figures.ci95[1], 99.9);
+  // 8.4 of 8.4 + 2 x .2 x .6 and somewhat more.
+  EXPECT_LT(figures.ci95[0], 97.5);
+  EXPECT_GT(figures.ci95[0], 96);
 }
 
 TEST(GapShrink, AJointThatNeverMovesHasNoFigure) {

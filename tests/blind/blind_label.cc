@@ -81,11 +81,13 @@ BlindAnswer::Gap GapOf(const json& file, const char* kind) {
   gap.removed_from_nominal_percent =
       Figure(entry, "removed_from_nominal_percent");
   if (entry.contains("ci95") && entry.at("ci95").is_array() &&
-      entry.at("ci95").size() == 2 && entry.at("ci95")[0].is_number() &&
-      entry.at("ci95")[1].is_number()) {
-    gap.low = entry.at("ci95")[0].get<double>();
-    gap.high = entry.at("ci95")[1].get<double>();
+      entry.at("ci95").size() == 2) {
+    const auto& ci95 = entry.at("ci95");
+    if (ci95[0].is_number()) gap.low = ci95[0].get<double>();
+    if (ci95[1].is_number()) gap.high = ci95[1].get<double>();
   }
+  gap.refit = Figure(entry, "refit");
+  gap.after = Figure(entry, "after");
   return gap;
 }
 

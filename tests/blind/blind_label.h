@@ -60,7 +60,11 @@ struct BlindAnswer {
   // the diagnosis does not say.
   struct Gap {
     std::optional<double> removed_percent, removed_from_nominal_percent;
-    std::optional<double> low, high;  // 95 % interval of removed_percent
+    // 95 % interval of removed_percent; without `high` it is open.
+    std::optional<double> low, high;
+    std::optional<double> refit, after;  // mean squares
+    // What it is an estimate of (TrueRemovedPercent), where that is known.
+    std::optional<double> true_removed_percent;
   };
 
   std::string verdict;  // empty: there is no answer

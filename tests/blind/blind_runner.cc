@@ -86,7 +86,8 @@ std::string RobotFile(const JsonValue& content) {
 // As case.json has it: what a key of the bench's own cases says can be left out
 // by others.
 std::vector<std::string> Command(const fs::path& program,
-                                 const JsonValue& content) {
+                                 const JsonValue& content,
+                                 const std::vector<std::string>& flags) {
   std::vector<std::string> command = {program, "diagnose",
                                       "--robot=" + RobotFile(content)};
   if (content.Has("trust")) {
@@ -107,6 +108,7 @@ std::vector<std::string> Command(const fs::path& program,
       command.push_back(flag.Text());
     }
   }
+  command.insert(command.end(), flags.begin(), flags.end());
   command.push_back("--out=out");
   return command;
 }
@@ -118,6 +120,11 @@ void WriteText(const fs::path& path, const std::string& text) {
   file.close();
   CHECK(file) << "cannot write " << part;
   fs::rename(part, path);
+}
+
+fs::path OtherValidation(const BlindRunOptions& options,
+                         const fs::path& folder) {
+  return fs::path(options.validation) / folder.filename() / "validation.csv";
 }
 
 // Whether there is an answer afterwards. run.json comes last: with it the case
@@ -135,8 +142,13 @@ bool RunCase(const BlindRunOptions& options, const fs::path& program,
       CopyReadable(folder / name, scratch.path() / name, false);
     }
   }
-  const ProcessEnd end = RunIsolated(Command(program, content), scratch.path(),
-                                     "output.txt", options.timeout_s);
+  if (!options.validation.empty()) {
+    CopyReadable(OtherValidation(options, folder),
+                 scratch.path() / "validation.csv", false);
+  }
+  const ProcessEnd end =
+      RunIsolated(Command(program, content, options.flags), scratch.path(),
+                  "output.txt", options.timeout_s);
   const fs::path answer = fs::path(options.answers) / folder.filename();
   fs::create_directories(answer);
   const fs::path diagnosis = scratch.path() / "out" / "diagnosis.json";
@@ -158,10 +170,15 @@ bool RunCase(const BlindRunOptions& options, const fs::path& program,
   return answered;
 }
 
-std::vector<fs::path> CaseFolders(const std::string& logs) {
+std::vector<fs::path> CaseFolders(const BlindRunOptions& options) {
   std::vector<fs::path> folders;
-  for (const auto& entry : fs::directory_iterator(logs)) {
-    if (fs::exists(entry.path() / "case.json")) folders.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(options.logs)) {
+    if (!fs::exists(entry.path() / "case.json")) continue;
+    if (!options.validation.empty() &&
+        !fs::exists(OtherValidation(options, entry.path()))) {
+      continue;
+    }
+    folders.push_back(entry.path());
   }
   std::sort(folders.begin(), folders.end());
   return folders;
@@ -177,7 +194,7 @@ BlindRunSummary RunBlindCases(const BlindRunOptions& options) {
   const fs::path program = scratch.path() / "armcal";
   CopyReadable(options.diagnoser, program, true);
   fs::permissions(scratch.path(), static_cast<fs::perms>(0755));
-  const std::vector<fs::path> folders = CaseFolders(options.logs);
+  const std::vector<fs::path> folders = CaseFolders(options);
   std::atomic<size_t> next = 0;
   std::atomic<int> kept = 0, answered = 0, failed = 0;
   const auto work = [&] {

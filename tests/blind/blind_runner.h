@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace armcal {
 
@@ -9,6 +10,10 @@ struct BlindRunOptions {
   std::string logs;       // cases, as write_blind_cases leaves them
   std::string labels;     // what they hide; may be absent
   std::string answers;    // CASE/diagnosis.json and run.json of each
+  // Folder with a CASE/validation.csv to use instead of the case's; cases
+  // without are left alone. Empty: the case's own.
+  std::string validation;
+  std::vector<std::string> flags;  // of the diagnoser, beside the case's
   int jobs = 2;
   double timeout_s = 300;  // of a case
 };

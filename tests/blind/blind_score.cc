@@ -169,12 +169,8 @@ void BlindScore::AddShrink(const CaseScore& score) {
   if (label.oracle_removed_percent) {
     shrink_.Measure("torque", "share of the oracle's",
                     removed / *label.oracle_removed_percent);
-    if (torque.low && torque.high) {
-      shrink_.Count("torque", "interval holds the oracle's",
-                    *torque.low <= *label.oracle_removed_percent &&
-                        *label.oracle_removed_percent <= *torque.high);
-    }
   }
+  AddInterval(label, score.answer());
   const auto measure = [this](const char* row, const char* column,
                               const std::optional<double>& value) {
     if (value) shrink_.Measure(row, column, *value);
@@ -184,6 +180,26 @@ void BlindScore::AddShrink(const CaseScore& score) {
   measure("forward", "removed, %", forward.removed_percent);
   measure("forward", "removed from nominal, %",
           forward.removed_from_nominal_percent);
+}
+
+// An interval may be open above, where the floor could be as large as the gap.
+void BlindScore::AddInterval(const BlindLabel& label,
+                             const BlindAnswer& answer) {
+  const BlindAnswer::Gap& torque = answer.torque;
+  if (answer.effects.empty() || !torque.low || !torque.true_removed_percent) {
+    return;
+  }
+  const double removed = *torque.true_removed_percent;
+  shrink_.Measure("torque", "truly removed, %", removed);
+  if (label.oracle_removed_percent) {
+    shrink_.Measure("torque", "truly removed, share of the oracle's",
+                    removed / *label.oracle_removed_percent);
+  }
+  const bool below = torque.high && *torque.high < removed;
+  shrink_.Count("torque", "interval holds what is truly removed",
+                *torque.low <= removed && !below);
+  shrink_.Count("torque", "  it is below the interval", *torque.low > removed);
+  shrink_.Count("torque", "interval is open", !torque.high);
 }
 
 void BlindScore::AddFault(const CaseScore& score) {

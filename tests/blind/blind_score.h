@@ -39,6 +39,7 @@ class BlindScore {
   void AddOutside(const CaseScore& score);
   void AddSizes(const CaseScore& score);
   void AddShrink(const CaseScore& score);
+  void AddInterval(const BlindLabel& label, const BlindAnswer& answer);
   void AddFault(const CaseScore& score);
   void AddSizeLimits(const CaseScore& score);
   std::string ListsText() const;

@@ -1,5 +1,5 @@
-// score_blind --labels=DIR --answers=DIR [--logs=DIR] [--equivalents=FILE]
-//   [--json=FILE]
+// score_blind --labels=DIR --answers=DIR [--quiet_answers=DIR] [--logs=DIR]
+//   [--equivalents=FILE] [--json=FILE]
 //
 // Scores the answers of a diagnoser to cases of the blind bench
 // (tests/blind/README.md). It alone reads the labels.
@@ -18,9 +18,13 @@
 #include "tests/blind/blind_program.h"
 #include "tests/blind/blind_score.h"
 #include "tests/blind/day_changes.h"
+#include "tests/blind/true_share.h"
 
 DEFINE_string(labels, "blind/labels", "what the cases hide");
 DEFINE_string(answers, "blind/answers", "CASE/diagnosis.json of each");
+DEFINE_string(quiet_answers, "",
+              "those to the cases with held-out motion without noise, for what "
+              "is truly removed; empty: not told");
 DEFINE_string(logs, "", "score the cases of this folder; empty: all labels");
 DEFINE_string(equivalents, "tests/blind/equivalents.json",
               "effects that cannot be told apart; empty: there are none");
@@ -56,7 +60,12 @@ int Main() {
     all.emplace_back(
         ReadBlindLabel(fs::path(FLAGS_labels) / (name + ".json")),
         ReadBlindAnswer(fs::path(FLAGS_answers) / name / "diagnosis.json"));
-    const auto& [label, answer] = all.back();
+    auto& [label, answer] = all.back();
+    if (!FLAGS_quiet_answers.empty()) {
+      answer.torque.true_removed_percent = TrueRemovedPercent(
+          answer, ReadBlindAnswer(fs::path(FLAGS_quiet_answers) / name /
+                                  "diagnosis.json"));
+    }
     if (label.effects.empty() && !label.log.empty()) {
       untouched[label.log] = answer;
     }

@@ -27,6 +27,9 @@ DEFINE_string(plan, "evaluation",
               "all strata in their shares, or one of them: none_rich, "
               "none_poor, one, two, outside");
 DEFINE_string(logs, "blind/logs", "folder for robot files and logs");
+DEFINE_string(quiet, "",
+              "folder for held-out motion without noise of cases with effects; "
+              "empty: none");
 DEFINE_string(labels, "blind/labels", "folder for what they hide");
 DEFINE_int32(jobs, 2, "processes");
 
@@ -77,6 +80,17 @@ json Label(const SizedCase& sized) {
   return label;
 }
 
+// Where it does not follow its motion as the noisy arm does, there is none.
+void WriteQuiet(const BlindCase& blind, const std::string& name) {
+  if (FLAGS_quiet.empty() || blind.effects.empty()) return;
+  const ScenarioRun quiet =
+      RunScenario(QuietScenario(blind, BlindLog::kValidation, blind.effects));
+  if (!Follows(quiet.run)) return;
+  const fs::path folder = fs::path(FLAGS_quiet) / name;
+  fs::create_directories(folder);
+  WriteText(folder / "validation.csv", LogText(quiet.run.log));
+}
+
 ScenarioRun Reference(const BlindCase& blind) {
   return RunScenario(BlindScenario(blind, BlindLog::kReference, {}));
 }
@@ -102,6 +116,7 @@ void WriteCase(BlindSet set, uint32_t index) {
   if (blind.has_reference) {
     WriteText(folder / "reference.csv", LogText(Reference(blind).run.log));
   }
+  WriteQuiet(blind, name);
   WriteText(folder / "case.json",
             json({{"trust", blind.trust}, {"reference", blind.has_reference}})
                     .dump(2) +
