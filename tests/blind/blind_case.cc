@@ -167,7 +167,8 @@ bool Follows(const ClosedLoopRun& run) {
 }
 
 BlindCase DrawBlindCase(uint64_t seed, const CasePlan& plan, uint32_t attempt) {
-  std::mt19937_64 random = RandomStream(seed, 0, RandomPurpose::kCase);
+  const uint32_t first = attempt / kDrawsOfAnArm * kDrawsOfAnArm;
+  std::mt19937_64 random = RandomStream(seed, first, RandomPurpose::kCase);
   BlindCase blind;
   blind.seed = seed;
   blind.plan = plan;
@@ -182,7 +183,7 @@ BlindCase DrawBlindCase(uint64_t seed, const CasePlan& plan, uint32_t attempt) {
     blind.robot = ReadYaml(blind.robot_yaml, seed);
     blind.sensors = DrawSensors(blind.robot, &random);
   } while (!DrawEffects(&blind, &random));
-  if (attempt == 0) return blind;
+  if (attempt == first) return blind;
   random = RandomStream(seed, attempt, RandomPurpose::kCase);
   while (!DrawEffects(&blind, &random)) {
   }

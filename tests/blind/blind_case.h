@@ -40,7 +40,9 @@ struct BlindCase {
 
 // A case of that plan, its effects at their usual sizes. `attempt`: the same
 // case with its effects on other joints or in other forms, or with other
-// effects where the plan leaves them open.
+// effects where the plan leaves them open; each kDrawsOfAnArm-th has another
+// arm.
+inline constexpr uint32_t kDrawsOfAnArm = 10;
 BlindCase DrawBlindCase(uint64_t seed, const CasePlan& plan,
                         uint32_t attempt = 0);
 // Whether the arm follows its motion: a robot that does not would have stopped

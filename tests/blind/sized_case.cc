@@ -12,7 +12,7 @@ namespace {
 
 // Draws after which the nearest is good enough, and after which an arm that
 // never followed is a bug.
-constexpr uint32_t kDraws = 3, kMostDraws = 100;
+constexpr uint32_t kDraws = 3, kMostDraws = 10 * kDrawsOfAnArm;
 
 ScenarioRun Run(const BlindCase& blind, BlindLog log) {
   return RunScenario(BlindScenario(blind, log, blind.effects));
@@ -79,15 +79,15 @@ bool Finish(EffectSizer* sizer, SizedCase* sized) {
 }  // namespace
 
 SizedCase DrawSizedCase(uint64_t seed, const CasePlan& plan) {
-  // Whatever the draw, the arm without its effects is the same.
-  const BlindCase first = DrawBlindCase(seed, plan);
-  std::optional<EffectSizer> sizer;
-  if (!first.effects.empty()) sizer.emplace(first);
+  std::optional<EffectSizer> sizer;  // of an arm without its effects
   std::optional<SizedCase> best;
   for (uint32_t attempt = 0; attempt < kMostDraws; ++attempt) {
     if (attempt >= kDraws && best) break;
     SizedCase sized;
     sized.blind = DrawBlindCase(seed, plan, attempt);
+    if (attempt % kDrawsOfAnArm == 0 && !sized.blind.effects.empty()) {
+      sizer.emplace(sized.blind);
+    }
     sized.attempt = attempt;
     if (sizer && !SizeEffects(&*sizer, &sized)) continue;
     if (best && Distance(sized) >= Distance(*best)) continue;
