@@ -166,6 +166,22 @@ TEST(BlindScore, SizesOfWhatIsNamedRightly) {
   EXPECT_EQ(Cell(score.sizes(), "spring", "found, with a size"), Counts(2, 3));
 }
 
+// Torque F and ratio r on joint 2 are r F and 1 / r on joint 3.
+TEST(CaseScore, FrictionOfTwoJointsHasTwoSides) {
+  Effect truth = True("coupled_friction", 2, .5);
+  truth.values.push_back({"neighbour", "1", 3});
+  const auto top = [&](int joint, int neighbour) {
+    Named claim = Claim("coupled_friction", joint, .9);
+    claim.estimates.push_back(
+        {"neighbour", "1", static_cast<double>(neighbour)});
+    return CaseScore(Label({truth}), Answer("explained", {claim}), {}).top();
+  };
+  EXPECT_EQ(top(2, 3), Match::kRight);
+  EXPECT_EQ(top(3, 2), Match::kRight);
+  EXPECT_EQ(top(3, 4), Match::kWrong);
+  EXPECT_EQ(top(1, 2), Match::kWrong);
+}
+
 TEST(BlindScore, Shrink) {
   BlindScore score;
   const auto add = [&score](double removable, std::optional<double> removed) {

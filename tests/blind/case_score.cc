@@ -6,11 +6,31 @@
 namespace armcal {
 namespace {
 
-Match MatchOf(const std::string& arm, const NamedEffect& named,
-              const NamedEffect& truth, const Equivalents& equivalents) {
-  if (named == truth) return Match::kRight;
-  return equivalents.Hold(arm, named, truth) ? Match::kEquivalent
-                                             : Match::kWrong;
+// The joint that an effect of two joints acts on as well; 0: none is told.
+int NeighbourIn(const std::vector<NamedValue>& values) {
+  for (const NamedValue& value : values) {
+    if (value.name == "neighbour") return static_cast<int>(value.value + .5);
+  }
+  return 0;
+}
+
+// A bearing between two joints' shafts, told from its other side: ratio r and
+// torque F here are 1 / r and r F there, exactly.
+bool IsOtherSide(const NamedEffect& named, int neighbour,
+                 const BlindLabel::Effect& truth) {
+  return named.effect == "coupled_friction" &&
+         truth.placed.effect == named.effect &&
+         named.joint_index == NeighbourIn(truth.values) &&
+         (neighbour == 0 || neighbour == truth.placed.joint_index);
+}
+
+Match MatchOf(const std::string& arm, const NamedEffect& named, int neighbour,
+              const BlindLabel::Effect& truth, const Equivalents& equivalents) {
+  if (named == truth.placed || IsOtherSide(named, neighbour, truth)) {
+    return Match::kRight;
+  }
+  return equivalents.Hold(arm, named, truth.placed) ? Match::kEquivalent
+                                                    : Match::kWrong;
 }
 
 }  // namespace
@@ -21,8 +41,8 @@ CaseScore::CaseScore(const BlindLabel& label, const BlindAnswer& answer,
   for (const BlindAnswer::Effect& named : answer.effects) {
     std::vector<Match> row;
     for (const BlindLabel::Effect& truth : label.effects) {
-      row.push_back(
-          MatchOf(label.arm, named.placed, truth.placed, equivalents));
+      row.push_back(MatchOf(label.arm, named.placed,
+                            NeighbourIn(named.estimates), truth, equivalents));
     }
     matches_.push_back(row.empty() ? Match::kWrong
                                    : *std::max_element(row.begin(), row.end()));
@@ -30,7 +50,7 @@ CaseScore::CaseScore(const BlindLabel& label, const BlindAnswer& answer,
   }
   for (const NamedEffect& candidate : answer.candidates) {
     candidates_hold_ |= !label.effects.empty() &&
-                        MatchOf(label.arm, candidate, label.effects[0].placed,
+                        MatchOf(label.arm, candidate, 0, label.effects[0],
                                 equivalents) != Match::kWrong;
   }
 }
