@@ -224,6 +224,10 @@ std::string GapCandidate::place() const {
   return effect->name + (joint < 0 ? "" : "@" + std::to_string(joint + 1));
 }
 
+bool SamePlace(const GapCandidate& a, const GapCandidate& b) {
+  return a.effect == b.effect && a.joint == b.joint;
+}
+
 std::vector<GapCandidate> ListCandidates(
     const GapBaseline& baseline, const GapRows& rows, const MotionScale& scale,
     const MatrixXd& residual, const std::vector<std::string>& without) {
@@ -246,8 +250,54 @@ std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate) {
     larger.push_back(candidate);
     larger.back().size *= multiple;
     larger.back().tried *= 1 + candidate.effect->larger_sizes.size();
+    larger.back().is_larger = true;
   }
   return larger;
+}
+
+std::vector<GapCandidate> FewLargerOnes(const GapCandidate& candidate) {
+  constexpr size_t kFew = 5;
+  const std::vector<GapCandidate> all = LargerOnes(candidate);
+  if (all.size() <= kFew) return all;
+  std::vector<GapCandidate> few;
+  for (size_t k = 0; k < kFew; ++k) {
+    few.push_back(all[(2 * k + 1) * all.size() / (2 * kFew)]);
+  }
+  return few;
+}
+
+std::vector<int> FirstShapes(const std::vector<GapCandidate>& candidates) {
+  std::vector<int> first;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].effect->larger_sizes.empty()) continue;
+    if (std::none_of(first.begin(), first.end(), [&](int other) {
+          return SamePlace(candidates[other], candidates[i]);
+        })) {
+      first.push_back(static_cast<int>(i));
+    }
+  }
+  return first;
+}
+
+bool HasShape(const GapCandidate& candidate) {
+  return candidate.linear.size() < candidate.effect->parameters.size() ||
+         !candidate.effect->larger_sizes.empty();
+}
+
+std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects) {
+  std::vector<GapCandidate> sharper;
+  for (GapCandidate effect : effects) {
+    if (!HasShape(effect)) continue;
+    for (size_t l = 0; l < effect.linear.size(); ++l) {
+      double& p = effect.p[effect.linear[l]];
+      // A size matters to what grows with it otherwise than linearly.
+      if (!effect.effect->larger_sizes.empty() && p > 0) effect.size[l] = p;
+      p = 0;
+    }
+    effect.is_larger = true;
+    sharper.push_back(effect);
+  }
+  return sharper;
 }
 
 void AddThinned(const GapRows& rows, int segment, const MatrixXd& torque,
@@ -282,12 +332,25 @@ JointRows ThinTorque(const GapCandidate& candidate, const VectorXd& p,
 
 }  // namespace
 
+void ReuseTorques(std::vector<GapCandidate>* evaluated,
+                  std::vector<GapCandidate>* candidates) {
+  for (GapCandidate& candidate : *candidates) {
+    const auto same = std::find_if(
+        evaluated->begin(), evaluated->end(), [&](const GapCandidate& other) {
+          return !other.torque.empty() && SamePlace(other, candidate) &&
+                 other.log == candidate.log && other.p == candidate.p &&
+                 other.size == candidate.size;
+        });
+    if (same != evaluated->end()) candidate.torque = std::move(same->torque);
+  }
+}
+
 void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
                         const MotionScale& scale,
                         std::vector<RecordedTorque>* torques,
                         std::vector<GapCandidate>* candidates) {
   for (GapCandidate& candidate : *candidates) {
-    candidate.torque.clear();
+    if (!candidate.torque.empty()) continue;
     for (size_t k = 0; k < candidate.linear.size(); ++k) {
       VectorXd p = candidate.p;
       p[candidate.linear[k]] = candidate.size[k];

@@ -24,9 +24,13 @@ struct GapCandidate {
   std::vector<int> columns;  // of the screen, in the order of `linear`
   int log = -1;   // the one it happened in, of what happens once; -1: all
   int tried = 1;  // shapes of the same effect at the same place
+  bool is_larger = false;  // than the first size of its effect
   bool IsIn(int other_log) const { return log < 0 || log == other_log; }
   std::string place() const;
 };
+
+// Whether they are one effect at one place, of which there are not two.
+bool SamePlace(const GapCandidate& a, const GapCandidate& b);
 
 // Every effect but those `without` names, at every place, at every value of its
 // grids. Shapes that are found in the residual (frequencies, times) come from
@@ -35,15 +39,28 @@ std::vector<GapCandidate> ListCandidates(
     const GapBaseline& baseline, const GapRows& rows, const MotionScale& scale,
     const Eigen::MatrixXd& residual, const std::vector<std::string>& without);
 
-// The same candidate at the larger sizes of its effect.
+// The same candidate at the larger sizes of its effect; at a few of them.
 std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate);
+std::vector<GapCandidate> FewLargerOnes(const GapCandidate& candidate);
+// One candidate (index) of each effect that has larger sizes, at each place.
+std::vector<int> FirstShapes(const std::vector<GapCandidate>& candidates);
+
+// Whether its torque is not linear in all of its parameters.
+bool HasShape(const GapCandidate& candidate);
+// Of effects, those that have a shape as candidates of that shape and size.
+std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects);
 
 // Low-passes and thins a torque (samples x n) of a segment into the thinned
 // samples of all, per joint; joints that it is zero of stay empty.
 void AddThinned(const GapRows& rows, int segment, const Eigen::MatrixXd& torque,
                 JointRows* thin);
 
-// Fills in their torques.
+// Moves torques to candidates from those that are the same, which are left
+// without.
+void ReuseTorques(std::vector<GapCandidate>* evaluated,
+                  std::vector<GapCandidate>* candidates);
+
+// Fills in the torques of those that have none.
 void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
                         const MotionScale& scale,
                         std::vector<RecordedTorque>* torques,

@@ -80,13 +80,13 @@ Conditioned Condition(const GapScreen& screen, const std::vector<int>& S,
 }
 
 double Drop(const GapScreen& screen, const Conditioned& c,
-            const GapCandidate& candidate, bool signs) {
+            const GapCandidate& candidate) {
   std::vector<bool> used(candidate.columns.size());
   const OwnEquations own = EquationsOf(screen, c, candidate, &used);
   while (true) {
     const VectorXd x = Coefficients(own, used);
     int wrong = -1, right = 0;
-    for (int k = 0; signs && k < x.size(); ++k) {
+    for (int k = 0; k < x.size(); ++k) {
       if (!used[k] || !IsPositive(candidate, k)) continue;
       if (x[k] >= 0) {
         ++right;

@@ -19,9 +19,9 @@ Conditioned Condition(const GapScreen& screen, const std::vector<int>& S,
                       const Eigen::VectorXd& gradient);
 
 // Drop of chi^2 when the candidate is added to S. Columns of which nothing is
-// left to see have no part in it, nor, if `signs` matter, those that would have
-// the wrong sign beside others; 0 where no sign is right.
+// left to see have no part in it, nor those that would have the wrong sign
+// beside others; 0 where no sign is right.
 double Drop(const GapScreen& screen, const Conditioned& c,
-            const GapCandidate& candidate, bool signs);
+            const GapCandidate& candidate);
 
 }  // namespace armcal

@@ -164,9 +164,10 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
 
 // The probability that an effect does not have is that of all others together;
 // of a further one, which may not be there at all, others have as much of it as
-// scores say. The set of candidates ends where 95 % are in it.
+// scores say. The set of candidates ends where 95 % are in it, or where each of
+// the others has next to nothing.
 void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
-  constexpr double kCredible = .95;
+  constexpr double kCredible = .95, kLeastCandidate = .01;
   double others = 0;
   for (const PlacedEffect& other : found->equivalent) {
     others += other.probability;
@@ -181,7 +182,9 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
   double sum = 1 - shared;
   for (PlacedEffect& other : found->equivalent) {
     other.probability *= shared / std::max(1e-9, others);
-    if (sum < kCredible) result_.candidates.push_back(other);
+    if (sum < kCredible && other.probability >= kLeastCandidate) {
+      result_.candidates.push_back(other);
+    }
     sum += other.probability;
   }
 }

@@ -95,36 +95,100 @@ void GapFit::MakeScreen() {
     candidates_ =
         ListCandidates(baseline(), rows(), scale(),
                        data()->ResidualWith(refit()), options_.without);
-    EvaluateCandidates(baseline(), rows(), scale(), data()->mutable_torques(),
-                       &candidates_);
+    Evaluate(&candidates_);
   }
   AddCandidates(rows(), &candidates_, regression_.mutable_screen());
   regression_.mutable_screen()->Factor();
-  if (AddLargerOnes()) regression_.mutable_screen()->Factor();
+  AddLargerOnes();
 }
 
-// Where effects that are not linear show most, their torques are tried at
-// larger sizes as well. Whether there was one.
-bool GapFit::AddLargerOnes() {
+// Effects that are not linear in their size are tried at larger ones as well:
+// at a few where there is more than noise, at all of them in all shapes where
+// they show most.
+void GapFit::AddLargerOnes() {
   constexpr int kPlaces = 3;
-  SelectionOptions options = options_.selection;
-  options.signs = false;  // a small one may be the opposite of a large one
-  VectorXd scores = ScoresBeside(screen(), candidates_, options, {}, -1);
+  std::vector<GapCandidate> larger;
+  for (const int c : FirstShapes(candidates_)) {
+    const GapCandidate& candidate = candidates_[c];
+    if (candidate.joint < 0 || !HasMoreThanNoise(candidate.joint)) continue;
+    for (const GapCandidate& one : FewLargerOnes(candidate)) {
+      larger.push_back(one);
+    }
+  }
+  if (larger.empty()) return;
+  AddToScreen(&larger);
+  VectorXd scores =
+      ScoresBeside(screen(), candidates_, options_.selection, {}, -1);
   for (size_t i = 0; i < candidates_.size(); ++i) {
     if (candidates_[i].effect->larger_sizes.empty()) scores[i] = 0;
   }
-  std::vector<GapCandidate> larger;
+  larger.clear();
   for (const int place : BestPlaces(candidates_, scores, kPlaces)) {
     for (const GapCandidate& shape : candidates_) {
-      if (!SamePlace(shape, candidates_[place])) continue;
+      if (!SamePlace(shape, candidates_[place]) || shape.is_larger) continue;
       for (const GapCandidate& one : LargerOnes(shape)) larger.push_back(one);
     }
   }
+  if (!larger.empty()) AddToScreen(&larger);
+}
+
+bool GapFit::HasMoreThanNoise(int joint) const {
+  constexpr double kMore = 1.1;  // of the variance
+  return screen().Residual(joint, {}).squaredNorm() >
+         kMore * screen().num_rows(joint);
+}
+
+// Effects, and again with the shapes and sizes that fit best: what the nearest
+// of a grid left is no effect.
+void GapFit::Select() {
+  constexpr int kRounds = 2;
+  const auto select = [this] {
+    selection_ = SelectEffects(screen(), candidates_, options_.selection);
+  };
+  select();
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<GapCandidate> chosen = Chosen(selection_.chosen);
+    if (std::none_of(chosen.begin(), chosen.end(), HasShape)) return;
+    std::vector<GapCandidate> sharper =
+        Sharper(RefineEffects(screen(), baseline(), scale(), chosen, -1, data())
+                    .effects);
+    AddToScreen(&sharper);
+    const std::vector<int> before = selection_.chosen;
+    select();
+    if (selection_.chosen.size() == before.size() &&
+        std::is_permutation(before.begin(), before.end(),
+                            selection_.chosen.begin(), [this](int a, int b) {
+                              return SamePlace(candidates_[a], candidates_[b]);
+                            })) {
+      return;
+    }
+  }
+}
+
+// What a candidate's torque is, events do not change.
+void GapFit::Evaluate(std::vector<GapCandidate>* candidates) {
+  ReuseTorques(&evaluated_, candidates);
   EvaluateCandidates(baseline(), rows(), scale(), data()->mutable_torques(),
-                     &larger);
-  AddCandidates(rows(), &larger, regression_.mutable_screen());
-  candidates_.insert(candidates_.end(), larger.begin(), larger.end());
-  return !larger.empty();
+                     candidates);
+}
+
+void GapFit::ForgetCandidates() {
+  evaluated_.insert(evaluated_.end(),
+                    std::make_move_iterator(candidates_.begin()),
+                    std::make_move_iterator(candidates_.end()));
+  candidates_.clear();
+  evaluated_.erase(std::remove_if(evaluated_.begin(), evaluated_.end(),
+                                  [](const GapCandidate& one) {
+                                    return one.torque.empty();
+                                  }),
+                   evaluated_.end());
+}
+
+void GapFit::AddToScreen(std::vector<GapCandidate>* more) {
+  Evaluate(more);
+  AddCandidates(rows(), more, regression_.mutable_screen());
+  candidates_.insert(candidates_.end(), more->begin(), more->end());
+  regression_.mutable_screen()->Factor();
 }
 
 std::vector<GapCandidate> GapFit::Chosen(const std::vector<int>& which) const {
@@ -161,7 +225,7 @@ void GapFit::TakeOutEvent(size_t k) {
   data()->Mask(event.contact.log, event.contact.window);
   events_.push_back(event);
   // What else stands out is looked for in what is left.
-  candidates_.clear();
+  ForgetCandidates();
 }
 
 // chi^2 that a selection and the events so far leave, and what they cost:
@@ -198,9 +262,9 @@ void GapFit::TakeAsKnown(const std::vector<GapEvent>& events) {
 void GapFit::SelectBeside(const std::vector<GapEvent>& events) {
   TakeAsKnown(events);
   options_.selection.events = false;
-  candidates_.clear();
+  ForgetCandidates();
   MakeScreen();
-  selection_ = SelectEffects(screen(), candidates_, options_.selection);
+  Select();
 }
 
 // Effects, and events one by one: what lasts may look like a series of
@@ -209,7 +273,7 @@ void GapFit::SelectWithEvents() {
   double lasting = std::numeric_limits<double>::infinity();
   while (true) {
     MakeScreen();
-    selection_ = SelectEffects(screen(), candidates_, options_.selection);
+    Select();
     const auto event =
         std::find_if(selection_.chosen.begin(), selection_.chosen.end(),
                      [&](int c) { return candidates_[c].log >= 0; });
@@ -225,7 +289,7 @@ void GapFit::SelectWithEvents() {
                                ContactSearch::kOfTwoJoints) ||
                TakeOutContacts(Chosen(selection_.chosen),
                                ContactSearch::kInMotion)) {
-      candidates_.clear();
+      ForgetCandidates();
     } else {
       break;
     }
@@ -237,7 +301,7 @@ void GapFit::FindEvents(const std::vector<GapEvent>& known) {
   TakeAsKnown(known);
   SelectWithEvents();
   if (regression_.IsTheSameDayBeside(Chosen(selection_.chosen))) {
-    candidates_.clear();
+    ForgetCandidates();
     SelectWithEvents();
   }
   DescribeAgain(baseline().robot(), rows(), ExcessBeside({}),

@@ -73,7 +73,12 @@ class GapFit {
 
  private:
   void MakeScreen();
-  bool AddLargerOnes();
+  void AddLargerOnes();
+  bool HasMoreThanNoise(int joint) const;
+  void Evaluate(std::vector<GapCandidate>* candidates);
+  void ForgetCandidates();
+  void AddToScreen(std::vector<GapCandidate>* more);
+  void Select();
   bool TakeOutContacts(const std::vector<GapCandidate>& effects,
                        ContactSearch search);
   void TakeOutEvent(size_t k);
@@ -91,6 +96,7 @@ class GapFit {
   GapFitOptions options_;
   GapRegression regression_;
   std::vector<GapCandidate> candidates_;
+  std::vector<GapCandidate> evaluated_;  // of screens before
   Selection selection_;
   RefinedEffects refined_;
   JointRows left_;

@@ -60,14 +60,6 @@ double TotalDrop(const GapScreen& screen,
   return screen.Solve(ColumnsOf(candidates, chosen)).drop;
 }
 
-// The share of the others' drop that one more has to explain.
-double LeastShare(const GapCandidate& first, const GapCandidate& other,
-                  const SelectionOptions& options) {
-  const bool same =
-      first.joint < 0 || other.joint < 0 || first.joint == other.joint;
-  return same ? options.same_joint_share : options.other_joint_share;
-}
-
 // Of chi^2, when each is left out.
 std::vector<double> Drops(const GapScreen& screen,
                           const std::vector<GapCandidate>& candidates,
@@ -80,24 +72,68 @@ std::vector<double> Drops(const GapScreen& screen,
   return drops;
 }
 
-// Whether each of `more` is large enough beside the strongest of them, and all
-// of them beside what `fewer` explain.
+// How much of what `more` explain beyond `fewer` is on other joints than this.
+double DropElsewhere(const GapScreen& screen,
+                     const std::vector<GapCandidate>& candidates,
+                     const std::vector<int>& fewer,
+                     const std::vector<int>& more, int joint) {
+  const GapScreen::Fit before = screen.Solve(ColumnsOf(candidates, fewer));
+  const GapScreen::Fit after = screen.Solve(ColumnsOf(candidates, more));
+  double drop = 0;
+  for (int j = 0; j < screen.num_joints(); ++j) {
+    if (j == joint) continue;
+    drop += screen.Residual(j, before).squaredNorm() -
+            screen.Residual(j, after).squaredNorm();
+  }
+  return drop;
+}
+
+// What one more effect explains.
+struct Gain {
+  const std::vector<int>&fewer, &more;
+  double gain, before;  // of chi^2, by `more` beside `fewer`, by those before
+};
+
+// Whether that is more than an error in the form of the strongest would be,
+// which is on its joint most of all.
+bool IsLarge(const GapScreen& screen,
+             const std::vector<GapCandidate>& candidates,
+             const SelectionOptions& options, int strongest, int other,
+             const Gain& gain) {
+  const int first = candidates[strongest].joint, own = candidates[other].joint;
+  const double elsewhere = options.other_joint_share * gain.before;
+  if (first >= 0 && own >= 0 && own != first) return gain.gain >= elsewhere;
+  if (gain.gain >= options.same_joint_share * gain.before) return true;
+  return first >= 0 && own < 0 && gain.gain >= elsewhere &&
+         DropElsewhere(screen, candidates, gain.fewer, gain.more, first) >=
+             elsewhere;
+}
+
+// Whether each of `more` is large enough beside the strongest of them, and
+// those that are new beside what `fewer` explain.
 bool AreLarge(const GapScreen& screen,
               const std::vector<GapCandidate>& candidates,
               const SelectionOptions& options, const std::vector<int>& fewer,
               const std::vector<int>& more) {
   const std::vector<double> drops = Drops(screen, candidates, more);
-  const auto strongest = std::max_element(drops.begin(), drops.end());
-  const GapCandidate& first = candidates[more[strongest - drops.begin()]];
+  const auto most = std::max_element(drops.begin(), drops.end());
+  const int strongest = more[most - drops.begin()];
   const double before = TotalDrop(screen, candidates, fewer);
   const double gain = TotalDrop(screen, candidates, more) - before;
-  double largest_share = 0;
-  for (size_t k = 0; k < more.size(); ++k) {
-    const double share = LeastShare(first, candidates[more[k]], options);
-    if (drops[k] < share * *strongest) return false;
-    if (drops[k] < *strongest) largest_share = std::max(largest_share, share);
+  for (int k = 0; k < static_cast<int>(more.size()); ++k) {
+    if (more[k] == strongest) continue;
+    const std::vector<int> others = Without(more, k);
+    if (!IsLarge(screen, candidates, options, strongest, more[k],
+                 {others, more, drops[k], *most})) {
+      return false;
+    }
+    const bool is_new = std::count(fewer.begin(), fewer.end(), more[k]) == 0;
+    if (is_new && !IsLarge(screen, candidates, options, strongest, more[k],
+                           {fewer, more, gain, before})) {
+      return false;
+    }
   }
-  return gain >= largest_share * before;
+  return true;
 }
 
 // Scores in addition to a set; those that explain too little beside it, errors
@@ -109,14 +145,20 @@ VectorXd LargeScores(const GapScreen& screen,
   VectorXd scores = ScoresBeside(screen, candidates, options, set, -1);
   if (set.empty()) return scores;
   const std::vector<double> drops = Drops(screen, candidates, set);
-  const auto strongest = std::max_element(drops.begin(), drops.end());
-  const GapCandidate& first = candidates[set[strongest - drops.begin()]];
+  const int strongest =
+      set[std::max_element(drops.begin(), drops.end()) - drops.begin()];
   const double before = TotalDrop(screen, candidates, set);
+  std::vector<int> more = set;
+  more.push_back(0);
   for (size_t i = 0; i < candidates.size(); ++i) {
-    const GapCandidate& other = candidates[i];
-    const double gain = options.inflation * (scores[i] + Price(screen, other));
-    const double share = LeastShare(first, other, options);
-    if (gain < share * before) scores[i] = kNever;
+    if (scores[i] == kNever) continue;
+    more.back() = static_cast<int>(i);
+    const double gain =
+        options.inflation * (scores[i] + Price(screen, candidates[i]));
+    if (!IsLarge(screen, candidates, options, strongest, more.back(),
+                 {set, more, gain, before})) {
+      scores[i] = kNever;
+    }
   }
   return scores;
 }
@@ -156,10 +198,6 @@ std::vector<std::vector<int>> Extended(
 std::vector<int> Without(std::vector<int> chosen, int k) {
   if (k >= 0) chosen.erase(chosen.begin() + k);
   return chosen;
-}
-
-bool SamePlace(const GapCandidate& a, const GapCandidate& b) {
-  return a.effect == b.effect && a.joint == b.joint;
 }
 
 double Price(const GapScreen& screen, const GapCandidate& candidate) {
@@ -202,11 +240,10 @@ VectorXd ScoresBeside(const GapScreen& screen,
         others.begin(), others.end(),
         [&](int other) { return SamePlace(candidates[other], candidates[i]); });
     const bool possible = options.events || candidates[i].log < 0;
-    scores[i] = taken || !possible
-                    ? kNever
-                    : Drop(screen, conditioned, candidates[i], options.signs) /
-                              options.inflation -
-                          Price(screen, candidates[i]);
+    scores[i] = taken || !possible ? kNever
+                                   : Drop(screen, conditioned, candidates[i]) /
+                                             options.inflation -
+                                         Price(screen, candidates[i]);
   }
   return scores;
 }

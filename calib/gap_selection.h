@@ -12,14 +12,13 @@ struct SelectionOptions {
   int most_effects = 3;
   // An effect's score, drop of chi^2 - k ln N - 2 ln(shapes tried), has to
   // exceed this.
-  double threshold = 25;
+  double threshold = 12;
   // A further effect has to explain this share of the strongest one's drop: on
   // a joint that has one already (whose form is never quite right), elsewhere.
   double same_joint_share = 0.03;
   double other_joint_share = 0.004;
   double inflation = 1;  // of noise variance: drops are divided by it
   bool events = true;    // whether something may have happened once
-  bool signs = true;     // whether these must be as effects have them
 };
 
 // A set of candidates (indices) that together explain the residual.
@@ -41,9 +40,6 @@ Eigen::VectorXd ScoresBeside(const GapScreen& screen,
                              const SelectionOptions& options,
                              const std::vector<int>& others,
                              const Eigen::VectorXd& g);
-
-// Whether they are one effect at one place, of which there are not two.
-bool SamePlace(const GapCandidate& a, const GapCandidate& b);
 
 // The best of these scores above 0, one of each effect at each place, at most
 // `count`.

@@ -72,9 +72,8 @@ void SetInterval(const TimeSeries& from, const TimeSeries& after, double floor,
                        }
                        const double drawn_floor =
                            floor * (1 + floor_stddev * deviation(random));
-                       return Removed(
-                           before / all, left / all,
-                           BelowWhatIsLeft(drawn_floor, left / all));
+                       return Removed(before / all, left / all,
+                                      BelowWhatIsLeft(drawn_floor, left / all));
                      });
   ci95[0] = interval.low;
   ci95[1] = interval.high;

@@ -207,6 +207,28 @@ TEST_F(GapSelectionTest, ASmallOneCountsOnAnotherJointOnly) {
   EXPECT_THAT(Select().chosen, ElementsAre(0, same));
 }
 
+// A law beside its mean on one joint: that the two are large does not make a
+// third on another joint too small.
+TEST_F(GapSelectionTest, OnlyWhatIsNewHasToBeLarge) {
+  AddRandom(2);
+  const int other = Add(2, 1, Noise(&random_));
+  target_[0] = 3 * Column(0) + 2 * Column(1);
+  target_[1] = .4 * Column(other);  // 1 % of the drop
+  EXPECT_THAT(Select().chosen, UnorderedElementsAre(0, 1, other));
+}
+
+// What the whole robot shows is no error of form where other joints show it.
+TEST_F(GapSelectionTest, AnEffectOfTheRobotIsJudgedByOtherJoints) {
+  AddRandom(1);
+  const int robot = Add(1, 0, Noise(&random_));
+  candidates_[robot].joint = -1;
+  target_[0] = 3 * Column(0) + .3 * columns_[robot][0];
+  EXPECT_THAT(Select().chosen, ElementsAre(0));  // 1 %, all of it there
+  columns_[robot][1] = Noise(&random_);
+  target_[1] = .3 * columns_[robot][1];
+  EXPECT_THAT(Select().chosen, ElementsAre(0, robot));
+}
+
 // The form of the first is not quite right; what that leaves on its joint is
 // more than another joint's effect, and less than an effect.
 TEST_F(GapSelectionTest, AnErrorOfFormDoesNotEndTheSearch) {

@@ -10,8 +10,7 @@ namespace {
 constexpr double kRounding = .05;    // of the gap: corners of the dead zone
 constexpr double kDampingRatio = 1;  // of a flank, with the motor held
 
-// ln(1 + e^x) and its slope.
-double SoftPlus(double x) { return x > 30 ? x : std::log1p(std::exp(x)); }
+// The slope of SoftPlus.
 double SoftStep(double x) { return 1 / (1 + std::exp(-x)); }
 
 double ContactStiffness(const EffectSite& site, const Eigen::VectorXd& p) {
@@ -50,12 +49,14 @@ Effect Backlash() {
   effect.parameters = {
       Linear(
           "backlash", "P",
-          [](const EffectSite& site) { return .002 * Radian(site); },
+          [](const EffectSite& site) { return .0005 * Radian(site); },
           EffectParameter::Sign::kPositive),
       Gridded("yield", "1", [](const EffectSite&) {
-        return std::vector<double>{.05, .15, .4};
+        return std::vector<double>{.07, .25};
       })};
-  effect.larger_sizes = {2, 4, 8, 16};
+  // When a gap is crossed depends on its size: neighbours look alike only when
+  // they are near.
+  effect.larger_sizes = GeometricGrid(std::sqrt(2), 256, 16);
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     if (p[0] <= 0) return;

@@ -133,6 +133,8 @@ void AddActuator(const EffectSite& site,
        }});
 }
 
+double SoftPlus(double x) { return x > 30 ? x : std::log1p(std::exp(x)); }
+
 double Amplitude(double a, double b) { return std::hypot(a, b); }
 double Phase(double a, double b) { return std::atan2(b, a); }
 

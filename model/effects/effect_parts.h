@@ -62,6 +62,8 @@ void AddActuator(const EffectSite& site,
 // a sin(x) + b cos(x) = amplitude sin(x + phase).
 double Amplitude(double a, double b);
 double Phase(double a, double b);  // rad
+// ln(1 + e^x): a ramp with a rounded corner at 0.
+double SoftPlus(double x);
 // A unit of the site's joint, as of ParameterUnit.
 std::string UnitAt(const EffectSite& site, const std::string& unit);
 

@@ -26,13 +26,13 @@ Effect Elasticity() {
   effect.parameters = {Linear(
                            "compliance", "P/E",
                            [](const EffectSite& site) {
-                             return .001 * Radian(site) / TorqueScale(site);
+                             return 3e-4 * Radian(site) / TorqueScale(site);
                            },
                            EffectParameter::Sign::kPositive),
                        Gridded("damping_ratio", "1", [](const EffectSite&) {
-                         return std::vector<double>{.03, .1, .3};
+                         return std::vector<double>{.02, .07, .25};
                        })};
-  effect.larger_sizes = {2.5, 6, 15, 40};
+  effect.larger_sizes = {3, 8, 20, 50, 130};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     if (p[0] <= 0) return;

@@ -11,11 +11,13 @@ Effect QuadraticFriction() {
   effect.name = "quadratic_friction";
   effect.law = "tau = quadratic v |v|";
   effect.shows = "motion at several speeds, the highest included";
-  effect.parameters = {
-      Linear("quadratic", "E s^2/P^2", [](const EffectSite& site) {
+  effect.parameters = {Linear(
+      "quadratic", "E s^2/P^2",
+      [](const EffectSite& site) {
         const double speed = SpeedScale(site);
         return .05 * TorqueScale(site) / (speed * speed);
-      })};
+      },
+      EffectParameter::Sign::kPositive)};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const int j = site.joint;

@@ -17,11 +17,11 @@ Effect Stribeck() {
   effect.parameters = {
       Linear("stribeck", "E", ShareOfTorque(.05),
              EffectParameter::Sign::kPositive),
-      // From where it is told from the width to where from a parabola.
+      // From where it is told from the width to where it is a parabola.
       Gridded("stribeck_velocity", "P/s", [](const EffectSite& site) {
         const double low =
             std::max(2 * site.scale->width[site.joint], .03 * SpeedScale(site));
-        return GeometricGrid(low, std::max(.5 * SpeedScale(site), 3 * low), 5);
+        return GeometricGrid(low, std::max(1.5 * SpeedScale(site), 3 * low), 7);
       })};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {

@@ -1,44 +1,63 @@
-#include <algorithm>
+#include <cmath>
 
 #include "model/effects/effect_parts.h"
 
 namespace armcal {
 inline namespace effects {
 
-// given = commanded - share (commanded - clip(commanded, -limit, limit)), share
-// about 1: a current limit. What was asked beyond it shows in recorded torque
-// alone (Motion::torque); without that the effect is invisible, and with a
-// share far from 1 it is another effect.
+namespace {
+
+// What a limit with a rounded corner lets through: 0 at 0, with slope 1 far
+// below it, `limit` far beyond.
+double SoftClip(double x, double limit, double knee) {
+  const double w = knee * limit;
+  const double passed =
+      w * (SoftPlus(1 / knee) - SoftPlus((limit - std::abs(x)) / w));
+  return std::copysign(passed, x);
+}
+
+}  // namespace
+
+// given = commanded - share (commanded - clip(commanded, limit)), share about
+// 1: a current limit, its corner rounded over `knee` of it, as controllers and
+// iron round it. What was asked beyond it shows in recorded torque alone
+// (Motion::torque); without that the effect is invisible, and with a share far
+// from 1 it is another effect.
 Effect TorqueSaturation() {
   Effect effect;
   effect.name = "torque_saturation";
   effect.law = "tau = share (tau_logged - clip(tau_logged, limit))";
   effect.shows = "torques beyond the limit";
-  effect.parameters = {Linear(
-                           "share", "1", [](const EffectSite&) { return 1.; },
-                           EffectParameter::Sign::kPositive),
-                       // Within the torques that were asked for.
-                       Gridded("limit", "E", [](const EffectSite& site) {
-                         const Eigen::VectorXd& tops = site.scale->top_torque;
-                         const double top = tops.size() > 0
-                                                ? tops[site.joint]
-                                                : 2 * TorqueScale(site);
-                         return GeometricGrid(.5 * top, .95 * top, 6);
-                       })};
+  effect.parameters = {
+      Linear(
+          "share", "1", [](const EffectSite&) { return 1.; },
+          EffectParameter::Sign::kPositive),
+      // Within the torques that were asked for, or where a round corner is.
+      Gridded("limit", "E",
+              [](const EffectSite& site) {
+                const Eigen::VectorXd& tops = site.scale->top_torque;
+                const double top =
+                    tops.size() > 0 ? tops[site.joint] : 2 * TorqueScale(site);
+                return GeometricGrid(.5 * top, 1.1 * top, 7);
+              }),
+      Gridded("knee", "1", [](const EffectSite&) {
+        return std::vector<double>{.01, .05, .15};
+      })};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
-    const double share = p[0], limit = p[1];
+    const double share = p[0], limit = p[1], knee = p[2];
     AddActuator(
         site,
         [=](double commanded) {
           return commanded -
-                 share * (commanded - std::clamp(commanded, -limit, limit));
+                 share * (commanded - SoftClip(commanded, limit, knee));
         },
         robot);
   };
   effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return std::vector<EffectEstimate>{{"limit", UnitAt(site, "E"), p[1]},
-                                       {"share", "1", p[0]}};
+                                       {"share", "1", p[0]},
+                                       {"knee", "1", p[2]}};
   };
   effect.experiment = "slow and fast accelerations of the same motion";
   return effect;

@@ -1,0 +1,86 @@
+#include "calib/gap_candidates.h"
+
+#include <gmock/gmock.h>
+
+namespace armcal {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using testing::ElementsAre;
+
+// An effect of a size and a grid.
+Effect MakeEffect(const std::vector<double>& larger) {
+  Effect effect;
+  effect.name = "any";
+  effect.parameters.resize(2);
+  effect.larger_sizes = larger;
+  return effect;
+}
+
+GapCandidate MakeCandidate(const Effect& effect, int joint) {
+  GapCandidate candidate;
+  candidate.effect = &effect;
+  candidate.joint = joint;
+  candidate.p = Vector2d(0, 5);
+  candidate.linear = {0};
+  candidate.size = VectorXd::Constant(1, .1);
+  candidate.tried = 3;
+  return candidate;
+}
+
+TEST(GapCandidates, LargerOnesAreMultiplesAndAllWereTried) {
+  const Effect effect = MakeEffect({2, 4, 8});
+  const auto larger = LargerOnes(MakeCandidate(effect, 0));
+  ASSERT_EQ(larger.size(), 3u);
+  EXPECT_DOUBLE_EQ(larger[0].size[0], .2);
+  EXPECT_DOUBLE_EQ(larger[2].size[0], .8);
+  for (const GapCandidate& one : larger) {
+    EXPECT_EQ(one.tried, 3 * (1 + 3));
+    EXPECT_TRUE(one.is_larger);
+    EXPECT_EQ(one.p[1], 5);
+  }
+  EXPECT_EQ(LargerOnes(MakeCandidate(MakeEffect({}), 0)).size(), 0u);
+}
+
+// From all over the range.
+TEST(GapCandidates, AFewOfManyAreSpread) {
+  std::vector<double> sizes;
+  for (int k = 1; k <= 20; ++k) sizes.push_back(k);
+  const Effect effect = MakeEffect(sizes);
+  const auto few = FewLargerOnes(MakeCandidate(effect, 0));
+  ASSERT_EQ(few.size(), 5u);
+  EXPECT_DOUBLE_EQ(few[0].size[0], .3);
+  EXPECT_DOUBLE_EQ(few[2].size[0], 1.1);
+  EXPECT_DOUBLE_EQ(few[4].size[0], 1.9);
+  EXPECT_EQ(few[0].tried, 3 * 21);
+}
+
+TEST(GapCandidates, FirstShapesAreOneOfEachPlace) {
+  const Effect grows = MakeEffect({2}), linear = MakeEffect({});
+  EXPECT_THAT(FirstShapes({MakeCandidate(linear, 0), MakeCandidate(grows, 0),
+                           MakeCandidate(grows, 0), MakeCandidate(grows, 1)}),
+              ElementsAre(1, 3));
+}
+
+// With the shape that was fitted, and the size where that matters.
+TEST(GapCandidates, SharperOnesAreAtTheFit) {
+  const Effect grows = MakeEffect({2}), shaped = MakeEffect({});
+  Effect linear = MakeEffect({});
+  linear.parameters.resize(1);
+  std::vector<GapCandidate> fitted = {MakeCandidate(grows, 0),
+                                      MakeCandidate(shaped, 1),
+                                      MakeCandidate(linear, 2)};
+  for (GapCandidate& one : fitted) one.p = Vector2d(.37, 6);
+  const auto sharper = Sharper(fitted);
+  ASSERT_EQ(sharper.size(), 2u);
+  EXPECT_DOUBLE_EQ(sharper[0].size[0], .37);
+  EXPECT_DOUBLE_EQ(sharper[1].size[0], .1);
+  for (const GapCandidate& one : sharper) {
+    EXPECT_EQ(one.p, Vector2d(0, 6));
+    EXPECT_EQ(one.tried, 3);
+  }
+}
+
+}  // namespace
+}  // namespace armcal
