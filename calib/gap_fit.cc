@@ -27,7 +27,8 @@ GapFit::GapFit(const GapBaseline& baseline, const GapFitOptions& options,
                std::vector<GapSegment> reference)
     : options_(options),
       regression_(baseline, options.bandwidth_hz, std::move(training), part,
-                  std::move(reference)) {}
+                  std::move(reference)),
+      pool_(&regression_, options.without) {}
 
 // What the baseline and effects leave of the torque beyond friction.
 FrictionExcess GapFit::ExcessBeside(
@@ -87,55 +88,11 @@ bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
 
 void GapFit::MakeScreen() {
   regression_.Refit();
-  if (candidates_.empty()) {
-    while (options_.selection.events &&
-           TakeOutContacts({}, ContactSearch::kAtRest)) {
-      regression_.Refit();
-    }
-    candidates_ =
-        ListCandidates(baseline(), rows(), scale(),
-                       data()->ResidualWith(refit()), options_.without);
-    Evaluate(&candidates_);
+  while (options_.selection.events &&
+         TakeOutContacts({}, ContactSearch::kAtRest)) {
+    regression_.Refit();
   }
-  AddCandidates(rows(), &candidates_, regression_.mutable_screen());
-  regression_.mutable_screen()->Factor();
-  AddLargerOnes();
-}
-
-// Effects that are not linear in their size are tried at larger ones as well:
-// at a few where there is more than noise, at all of them in all shapes where
-// they show most.
-void GapFit::AddLargerOnes() {
-  constexpr int kPlaces = 3;
-  std::vector<GapCandidate> larger;
-  for (const int c : FirstShapes(candidates_)) {
-    const GapCandidate& candidate = candidates_[c];
-    if (candidate.joint < 0 || !HasMoreThanNoise(candidate.joint)) continue;
-    for (const GapCandidate& one : FewLargerOnes(candidate)) {
-      larger.push_back(one);
-    }
-  }
-  if (larger.empty()) return;
-  AddToScreen(&larger);
-  VectorXd scores =
-      ScoresBeside(screen(), candidates_, options_.selection, {}, -1);
-  for (size_t i = 0; i < candidates_.size(); ++i) {
-    if (candidates_[i].effect->larger_sizes.empty()) scores[i] = 0;
-  }
-  larger.clear();
-  for (const int place : BestPlaces(candidates_, scores, kPlaces)) {
-    for (const GapCandidate& shape : candidates_) {
-      if (!SamePlace(shape, candidates_[place]) || shape.is_larger) continue;
-      for (const GapCandidate& one : LargerOnes(shape)) larger.push_back(one);
-    }
-  }
-  if (!larger.empty()) AddToScreen(&larger);
-}
-
-bool GapFit::HasMoreThanNoise(int joint) const {
-  constexpr double kMore = 1.1;  // of the variance
-  return screen().Residual(joint, {}).squaredNorm() >
-         kMore * screen().num_rows(joint);
+  pool_.List();
 }
 
 // Effects, and again with the shapes and sizes that fit best: what the nearest
@@ -143,73 +100,33 @@ bool GapFit::HasMoreThanNoise(int joint) const {
 void GapFit::Select() {
   constexpr int kRounds = 2;
   const auto select = [this] {
-    selection_ = SelectEffects(screen(), candidates_, options_.selection);
+    selection_ = SelectEffects(screen(), candidates(), options_.selection);
   };
   select();
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<GapCandidate> chosen = Chosen(selection_.chosen);
+    const std::vector<GapCandidate> chosen = pool_.Fitted(selection_.chosen);
     if (std::none_of(chosen.begin(), chosen.end(), HasShape)) return;
-    std::vector<GapCandidate> sharper =
+    pool_.Add(
         Sharper(RefineEffects(screen(), baseline(), scale(), chosen, -1, data())
-                    .effects);
-    AddToScreen(&sharper);
+                    .effects));
     const std::vector<int> before = selection_.chosen;
     select();
     if (selection_.chosen.size() == before.size() &&
         std::is_permutation(before.begin(), before.end(),
                             selection_.chosen.begin(), [this](int a, int b) {
-                              return SamePlace(candidates_[a], candidates_[b]);
+                              return SamePlace(candidates()[a],
+                                               candidates()[b]);
                             })) {
       return;
     }
   }
 }
 
-// What a candidate's torque is, events do not change.
-void GapFit::Evaluate(std::vector<GapCandidate>* candidates) {
-  ReuseTorques(&evaluated_, candidates);
-  EvaluateCandidates(baseline(), rows(), scale(), data()->mutable_torques(),
-                     candidates);
-}
-
-void GapFit::ForgetCandidates() {
-  evaluated_.insert(evaluated_.end(),
-                    std::make_move_iterator(candidates_.begin()),
-                    std::make_move_iterator(candidates_.end()));
-  candidates_.clear();
-  evaluated_.erase(std::remove_if(evaluated_.begin(), evaluated_.end(),
-                                  [](const GapCandidate& one) {
-                                    return one.torque.empty();
-                                  }),
-                   evaluated_.end());
-}
-
-void GapFit::AddToScreen(std::vector<GapCandidate>* more) {
-  Evaluate(more);
-  AddCandidates(rows(), more, regression_.mutable_screen());
-  candidates_.insert(candidates_.end(), more->begin(), more->end());
-  regression_.mutable_screen()->Factor();
-}
-
-std::vector<GapCandidate> GapFit::Chosen(const std::vector<int>& which) const {
-  std::vector<GapCandidate> chosen;
-  const GapScreen::Fit fit = screen().Solve(ColumnsOf(candidates_, which));
-  int at = 0;
-  for (const int c : which) {
-    chosen.push_back(candidates_[c]);
-    GapCandidate& effect = chosen.back();
-    for (size_t l = 0; l < effect.linear.size(); ++l) {
-      effect.p[effect.linear[l]] = fit.coefficients[at++] * effect.size[l];
-    }
-  }
-  return chosen;
-}
-
 void GapFit::TakeOutEvent(size_t k) {
   GapEvent event;
   const RefinedEffects refined =
       RefineEffects(screen(), baseline(), scale(),
-                    {Chosen(selection_.chosen)[k]}, -1, data());
+                    {pool_.Fitted(selection_.chosen)[k]}, -1, data());
   const GapCandidate& fitted = refined.effects[0];
   event.contact = DescribeContact(baseline().robot(), rows(), ExcessBeside({}),
                                   fitted.log, WindowOf(fitted));
@@ -224,8 +141,6 @@ void GapFit::TakeOutEvent(size_t k) {
   event.one_joint = OneJointShare(screen(), rows(), event);
   data()->Mask(event.contact.log, event.contact.window);
   events_.push_back(event);
-  // What else stands out is looked for in what is left.
-  ForgetCandidates();
 }
 
 // chi^2 that a selection and the events so far leave, and what they cost:
@@ -234,8 +149,8 @@ double GapFit::Cost(const Selection& selection) const {
   constexpr int kParametersOfAnEvent = 5;  // force, time and duration
   double cost =
       screen().ResidualBeside(JointRows(rows().num_joints())).squaredNorm() -
-      screen().Solve(ColumnsOf(candidates_, selection.chosen)).drop;
-  for (const int c : selection.chosen) cost += Price(screen(), candidates_[c]);
+      screen().Solve(ColumnsOf(candidates(), selection.chosen)).drop;
+  for (const int c : selection.chosen) cost += Price(screen(), candidates()[c]);
   for (const GapEvent& event : events_) {
     cost += RowsOf(rows(), event) +
             kParametersOfAnEvent * std::log(rows().num_rows());
@@ -262,7 +177,6 @@ void GapFit::TakeAsKnown(const std::vector<GapEvent>& events) {
 void GapFit::SelectBeside(const std::vector<GapEvent>& events) {
   TakeAsKnown(events);
   options_.selection.events = false;
-  ForgetCandidates();
   MakeScreen();
   Select();
 }
@@ -276,20 +190,19 @@ void GapFit::SelectWithEvents() {
     Select();
     const auto event =
         std::find_if(selection_.chosen.begin(), selection_.chosen.end(),
-                     [&](int c) { return candidates_[c].log >= 0; });
+                     [&](int c) { return candidates()[c].log >= 0; });
     if (event != selection_.chosen.end() &&
         static_cast<int>(events_.size()) < kMostEvents) {
       if (std::isinf(lasting)) {
         SelectionOptions options = options_.selection;
         options.events = false;
-        lasting = Cost(SelectEffects(screen(), candidates_, options));
+        lasting = Cost(SelectEffects(screen(), candidates(), options));
       }
       TakeOutEvent(event - selection_.chosen.begin());
-    } else if (TakeOutContacts(Chosen(selection_.chosen),
+    } else if (TakeOutContacts(pool_.Fitted(selection_.chosen),
                                ContactSearch::kOfTwoJoints) ||
-               TakeOutContacts(Chosen(selection_.chosen),
+               TakeOutContacts(pool_.Fitted(selection_.chosen),
                                ContactSearch::kInMotion)) {
-      ForgetCandidates();
     } else {
       break;
     }
@@ -300,12 +213,11 @@ void GapFit::SelectWithEvents() {
 void GapFit::FindEvents(const std::vector<GapEvent>& known) {
   TakeAsKnown(known);
   SelectWithEvents();
-  if (regression_.IsTheSameDayBeside(Chosen(selection_.chosen))) {
-    ForgetCandidates();
+  if (regression_.IsTheSameDayBeside(pool_.Fitted(selection_.chosen))) {
     SelectWithEvents();
   }
   DescribeAgain(baseline().robot(), rows(), ExcessBeside({}),
-                ExcessBeside(Chosen(selection_.chosen)), &events_);
+                ExcessBeside(pool_.Fitted(selection_.chosen)), &events_);
 }
 
 void GapFit::Choose() {
@@ -319,11 +231,11 @@ void GapFit::ChooseBeside(const std::vector<GapEvent>& events) {
 }
 
 void GapFit::Finish() {
-  selection_ = WithoutChance(screen(), rows(), candidates_, options_.selection,
+  selection_ = WithoutChance(screen(), rows(), candidates(), options_.selection,
                              selection_, kSeed);
   rivals_.assign(selection_.chosen.size(), {});
   for (size_t k = 0; k < selection_.chosen.size(); ++k) CompareRivals(k);
-  refined_.effects = Chosen(selection_.chosen);
+  refined_.effects = pool_.Fitted(selection_.chosen);
   refined_.baseline = refit();
   if (!refined_.effects.empty()) {
     refined_ = RefineEffects(screen(), baseline(), scale(), refined_.effects,
@@ -342,36 +254,38 @@ void GapFit::Finish() {
 void GapFit::CompareRivals(size_t k) {
   constexpr int kMostRivals = 3;
   constexpr double kNear = .5;  // of the drop
-  VectorXd scores = ScoresBeside(screen(), candidates_, options_.selection,
+  VectorXd scores = ScoresBeside(screen(), candidates(), options_.selection,
                                  selection_.chosen, static_cast<int>(k));
   const double least =
       selection_.scores[k] - std::max(20., kNear * selection_.drops[k]);
   const double by_others =
       screen()
-          .Solve(ColumnsOf(candidates_,
+          .Solve(ColumnsOf(candidates(),
                            Without(selection_.chosen, static_cast<int>(k))))
           .drop;
   // What happened once is no rival of what lasts: it was taken out.
   for (int i = 0; i < scores.size(); ++i) {
-    if (candidates_[i].log >= 0) scores[i] = -1e300;
+    if (candidates()[i].log >= 0) scores[i] = -1e300;
   }
   double best_score = -1e300;
   int best = selection_.chosen[k];
   while (static_cast<int>(rivals_[k].size()) < 1 + kMostRivals) {
     int c;
     if (!(scores.maxCoeff(&c) >= least)) break;
-    const GapCandidate& rival = candidates_[c];
+    const GapCandidate& rival = candidates()[c];
     std::vector<int> chosen = selection_.chosen;
     chosen[k] = c;
     const RefinedEffects refined =
-        RefineEffects(screen(), baseline(), scale(), Chosen(chosen),
+        RefineEffects(screen(), baseline(), scale(), pool_.Fitted(chosen),
                       static_cast<int>(k), data());
-    const double score = refined.drop - by_others - Price(screen(), rival);
+    const double score =
+        refined.drop - by_others -
+        RefinedPrice(screen(), rival, CountVaried(baseline(), scale(), rival));
     rivals_[k].push_back({rival.effect, rival.joint, score});
     if (score > best_score) best_score = score, best = c;
     for (int i = 0; i < scores.size(); ++i) {
-      if (candidates_[i].effect == rival.effect &&
-          candidates_[i].joint == rival.joint) {
+      if (candidates()[i].effect == rival.effect &&
+          candidates()[i].joint == rival.joint) {
         scores[i] = -1e300;
       }
     }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "calib/gap_candidates.h"
 #include "calib/gap_events.h"
+#include "calib/gap_pool.h"
 #include "calib/gap_refinement.h"
 #include "calib/gap_regression.h"
 #include "calib/gap_selection.h"
@@ -54,7 +54,9 @@ class GapFit {
     const auto& names = options_.without;
     return std::count(names.begin(), names.end(), effect.name) > 0;
   }
-  const std::vector<GapCandidate>& candidates() const { return candidates_; }
+  const std::vector<GapCandidate>& candidates() const {
+    return pool_.candidates();
+  }
   const Selection& selection() const { return selection_; }
   const RefinedEffects& refined() const { return refined_; }
   // In the order of time.
@@ -73,11 +75,6 @@ class GapFit {
 
  private:
   void MakeScreen();
-  void AddLargerOnes();
-  bool HasMoreThanNoise(int joint) const;
-  void Evaluate(std::vector<GapCandidate>* candidates);
-  void ForgetCandidates();
-  void AddToScreen(std::vector<GapCandidate>* more);
   void Select();
   bool TakeOutContacts(const std::vector<GapCandidate>& effects,
                        ContactSearch search);
@@ -90,13 +87,11 @@ class GapFit {
   void Finish();
   double UsualExcess(const FrictionExcess& excess, bool of_itself) const;
   FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
-  std::vector<GapCandidate> Chosen(const std::vector<int>& chosen) const;
   void CompareRivals(size_t k);
 
   GapFitOptions options_;
   GapRegression regression_;
-  std::vector<GapCandidate> candidates_;
-  std::vector<GapCandidate> evaluated_;  // of screens before
+  CandidatePool pool_;
   Selection selection_;
   RefinedEffects refined_;
   JointRows left_;

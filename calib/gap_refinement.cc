@@ -261,6 +261,11 @@ JointRows WhitenEach(const GapRows& rows, const JointRows& thin) {
   return white;
 }
 
+int CountVaried(const GapBaseline& baseline, const MotionScale& scale,
+                const GapCandidate& effect) {
+  return static_cast<int>(Coordinates(baseline, scale, {effect}, -1).size());
+}
+
 RefinedEffects RefineEffects(const GapScreen& screen,
                              const GapBaseline& baseline,
                              const MotionScale& scale,

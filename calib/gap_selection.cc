@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "calib/gap_drop.h"
+#include "calib/gap_form_error.h"
 
 namespace armcal {
 namespace {
@@ -17,6 +18,15 @@ using Eigen::VectorXd;
 // GAP.md B asks 40 to 60 of such effects where 25 does for others.
 constexpr double kNearZeroPrice = 20;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+// Of the joints that show it: what BIC asks of a parameter.
+double LogOfRows(const GapScreen& screen, const GapCandidate& candidate) {
+  double rows = 0;
+  for (int j = 0; j < screen.num_joints(); ++j) {
+    if (candidate.joint < 0 || candidate.joint == j) rows += screen.num_rows(j);
+  }
+  return std::log(std::max(rows, 1.0));
+}
 
 int Best(const VectorXd& scores) {
   int best;
@@ -52,88 +62,6 @@ void LeaveOut(const GapScreen& screen,
       ++k;
     }
   }
-}
-
-double TotalDrop(const GapScreen& screen,
-                 const std::vector<GapCandidate>& candidates,
-                 const std::vector<int>& chosen) {
-  return screen.Solve(ColumnsOf(candidates, chosen)).drop;
-}
-
-// Of chi^2, when each is left out.
-std::vector<double> Drops(const GapScreen& screen,
-                          const std::vector<GapCandidate>& candidates,
-                          const std::vector<int>& chosen) {
-  const double total = TotalDrop(screen, candidates, chosen);
-  std::vector<double> drops;
-  for (int k = 0; k < static_cast<int>(chosen.size()); ++k) {
-    drops.push_back(total - TotalDrop(screen, candidates, Without(chosen, k)));
-  }
-  return drops;
-}
-
-// How much of what `more` explain beyond `fewer` is on other joints than this.
-double DropElsewhere(const GapScreen& screen,
-                     const std::vector<GapCandidate>& candidates,
-                     const std::vector<int>& fewer,
-                     const std::vector<int>& more, int joint) {
-  const GapScreen::Fit before = screen.Solve(ColumnsOf(candidates, fewer));
-  const GapScreen::Fit after = screen.Solve(ColumnsOf(candidates, more));
-  double drop = 0;
-  for (int j = 0; j < screen.num_joints(); ++j) {
-    if (j == joint) continue;
-    drop += screen.Residual(j, before).squaredNorm() -
-            screen.Residual(j, after).squaredNorm();
-  }
-  return drop;
-}
-
-// What one more effect explains.
-struct Gain {
-  const std::vector<int>&fewer, &more;
-  double gain, before;  // of chi^2, by `more` beside `fewer`, by those before
-};
-
-// Whether that is more than an error in the form of the strongest would be,
-// which is on its joint most of all.
-bool IsLarge(const GapScreen& screen,
-             const std::vector<GapCandidate>& candidates,
-             const SelectionOptions& options, int strongest, int other,
-             const Gain& gain) {
-  const int first = candidates[strongest].joint, own = candidates[other].joint;
-  const double elsewhere = options.other_joint_share * gain.before;
-  if (first >= 0 && own >= 0 && own != first) return gain.gain >= elsewhere;
-  if (gain.gain >= options.same_joint_share * gain.before) return true;
-  return first >= 0 && own < 0 && gain.gain >= elsewhere &&
-         DropElsewhere(screen, candidates, gain.fewer, gain.more, first) >=
-             elsewhere;
-}
-
-// Whether each of `more` is large enough beside the strongest of them, and
-// those that are new beside what `fewer` explain.
-bool AreLarge(const GapScreen& screen,
-              const std::vector<GapCandidate>& candidates,
-              const SelectionOptions& options, const std::vector<int>& fewer,
-              const std::vector<int>& more) {
-  const std::vector<double> drops = Drops(screen, candidates, more);
-  const auto most = std::max_element(drops.begin(), drops.end());
-  const int strongest = more[most - drops.begin()];
-  const double before = TotalDrop(screen, candidates, fewer);
-  const double gain = TotalDrop(screen, candidates, more) - before;
-  for (int k = 0; k < static_cast<int>(more.size()); ++k) {
-    if (more[k] == strongest) continue;
-    const std::vector<int> others = Without(more, k);
-    if (!IsLarge(screen, candidates, options, strongest, more[k],
-                 {others, more, drops[k], *most})) {
-      return false;
-    }
-    const bool is_new = std::count(fewer.begin(), fewer.end(), more[k]) == 0;
-    if (is_new && !IsLarge(screen, candidates, options, strongest, more[k],
-                           {fewer, more, gain, before})) {
-      return false;
-    }
-  }
-  return true;
 }
 
 // Scores in addition to a set; those that explain too little beside it, errors
@@ -201,13 +129,17 @@ std::vector<int> Without(std::vector<int> chosen, int k) {
 }
 
 double Price(const GapScreen& screen, const GapCandidate& candidate) {
-  double rows = 0;
-  for (int j = 0; j < screen.num_joints(); ++j) {
-    if (candidate.joint < 0 || candidate.joint == j) rows += screen.num_rows(j);
-  }
-  return candidate.linear.size() * std::log(std::max(rows, 1.0)) +
+  return candidate.linear.size() * LogOfRows(screen, candidate) +
          2 * std::log(candidate.tried) +
          (candidate.effect->near_zero ? kNearZeroPrice : 0);
+}
+
+double RefinedPrice(const GapScreen& screen, const GapCandidate& candidate,
+                    int varied) {
+  const double shapes = varied - static_cast<double>(candidate.linear.size());
+  return Price(screen, candidate) +
+         std::max(0., shapes * LogOfRows(screen, candidate) -
+                          2 * std::log(candidate.tried));
 }
 
 std::vector<int> ColumnsOf(const std::vector<GapCandidate>& candidates,

@@ -62,6 +62,11 @@ Selection DescribeSelection(const GapScreen& screen,
 // from: k ln N + 2 ln M, and more near zero velocity.
 double Price(const GapScreen& screen, const GapCandidate& candidate);
 
+// The same where `varied` parameters, linear ones included, were fitted instead
+// of chosen from shapes.
+double RefinedPrice(const GapScreen& screen, const GapCandidate& candidate,
+                    int varied);
+
 // All but chosen[k]; all where k is -1.
 std::vector<int> Without(std::vector<int> chosen, int k);
 

@@ -26,6 +26,7 @@ GapCandidate MakeCandidate(const Effect& effect, int joint) {
   candidate.linear = {0};
   candidate.size = VectorXd::Constant(1, .1);
   candidate.tried = 3;
+  candidate.torque = {JointRows(1, VectorXd::Ones(4))};
   return candidate;
 }
 
@@ -38,6 +39,7 @@ TEST(GapCandidates, LargerOnesAreMultiplesAndAllWereTried) {
   for (const GapCandidate& one : larger) {
     EXPECT_EQ(one.tried, 3 * (1 + 3));
     EXPECT_TRUE(one.is_larger);
+    EXPECT_TRUE(one.torque.empty());  // another size's
     EXPECT_EQ(one.p[1], 5);
   }
   EXPECT_EQ(LargerOnes(MakeCandidate(MakeEffect({}), 0)).size(), 0u);
@@ -63,6 +65,27 @@ TEST(GapCandidates, FirstShapesAreOneOfEachPlace) {
               ElementsAre(1, 3));
 }
 
+// Events are taken out, and all candidates listed again.
+TEST(GapCandidates, TorquesAreThoseOfTheSameCandidate) {
+  const Effect effect = MakeEffect({2});
+  std::vector<GapCandidate> evaluated = {MakeCandidate(effect, 0),
+                                         MakeCandidate(effect, 1)};
+  evaluated[0].torque[0][0].setConstant(7);
+  std::vector<GapCandidate> again = evaluated;
+  for (GapCandidate& one : again) one.torque.clear();
+  again.push_back(again[0]);
+  again.back().size *= 2;
+  again.push_back(again[1]);
+  again.back().p[1] = 6;
+  std::swap(again[0], again[1]);
+  ReuseTorques(&evaluated, &again);
+  EXPECT_EQ(again[1].torque[0][0], VectorXd::Constant(4, 7));
+  EXPECT_EQ(again[0].torque[0][0], VectorXd::Ones(4));
+  EXPECT_TRUE(again[2].torque.empty());
+  EXPECT_TRUE(again[3].torque.empty());
+  EXPECT_TRUE(evaluated[0].torque.empty());
+}
+
 // With the shape that was fitted, and the size where that matters.
 TEST(GapCandidates, SharperOnesAreAtTheFit) {
   const Effect grows = MakeEffect({2}), shaped = MakeEffect({});
@@ -78,6 +101,7 @@ TEST(GapCandidates, SharperOnesAreAtTheFit) {
   EXPECT_DOUBLE_EQ(sharper[1].size[0], .1);
   for (const GapCandidate& one : sharper) {
     EXPECT_EQ(one.p, Vector2d(0, 6));
+    EXPECT_TRUE(one.torque.empty());
     EXPECT_EQ(one.tried, 3);
   }
 }

@@ -192,6 +192,16 @@ TEST_F(GapSelectionTest, ThePriceIsOfItsJointsRowsAndShapes) {
               2 * std::log(2000) + 2 * std::log(7), 1e-9);
 }
 
+// A shape that was fitted costs as any parameter, or as the grid did.
+TEST_F(GapSelectionTest, AFittedShapeIsPaidFor) {
+  Add(0, 0, Noise(&random_), 9);
+  const GapScreen screen = Screen();
+  const double row = std::log(1000);
+  EXPECT_NEAR(RefinedPrice(screen, candidates_[0], 3), 3 * row, 1e-9);
+  EXPECT_NEAR(RefinedPrice(screen, candidates_[0], 1), row + 2 * std::log(9),
+              1e-9);
+}
+
 // Where one effect stands already, its form is never quite right.
 TEST_F(GapSelectionTest, ASmallOneCountsOnAnotherJointOnly) {
   VectorXd large = VectorXd::Zero(kRows), small = large;

@@ -19,8 +19,11 @@ Effect Cable() {
               [](const EffectSite& site) {
                 const double low = site.scale->low[site.joint];
                 const double range = site.scale->high[site.joint] - low;
-                return std::vector<double>{low + .25 * range, low + .5 * range,
-                                           low + .75 * range};
+                std::vector<double> centres;  // beyond the motion, too
+                for (double at = -.25; at < 1.5; at += .25) {
+                  centres.push_back(low + at * range);
+                }
+                return centres;
               }),
       Gridded("softness", "P", [](const EffectSite& site) {
         return GeometricGrid(.1 * Radian(site), Radian(site), 3);

@@ -38,10 +38,10 @@ Effect TorqueSaturation() {
                 const Eigen::VectorXd& tops = site.scale->top_torque;
                 const double top =
                     tops.size() > 0 ? tops[site.joint] : 2 * TorqueScale(site);
-                return GeometricGrid(.5 * top, 1.1 * top, 7);
+                return GeometricGrid(.2 * top, 1.1 * top, 9);
               }),
       Gridded("knee", "1", [](const EffectSite&) {
-        return std::vector<double>{.01, .05, .15};
+        return std::vector<double>{.03, .12};
       })};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
