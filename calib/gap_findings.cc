@@ -153,8 +153,10 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
         return found.probability >=
                (found.contacts.empty() ? kLeastClaimed : kLikely);
       });
-  result_.without_name =
-      unclaimed == result_.effects.begin() && !result_.effects.empty();
+  // What makes held-out data worse is nothing, whatever its name.
+  result_.without_name = unclaimed == result_.effects.begin() &&
+                         !result_.effects.empty() &&
+                         torque_.after < torque_.refit;
   result_.effects.erase(unclaimed, result_.effects.end());
   std::stable_partition(
       result_.effects.begin(), result_.effects.end(),

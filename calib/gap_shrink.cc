@@ -53,9 +53,10 @@ double BelowWhatIsLeft(double floor, double left) {
   return floor > left ? std::max(0., 2 * left - floor) : floor;
 }
 
-// The interval of what is removed between two of them.
+// The interval of what is removed between two of them; `removed` is in it.
 void SetInterval(const TimeSeries& from, const TimeSeries& after, double floor,
-                 double floor_stddev, std::uint64_t seed, double* ci95) {
+                 double floor_stddev, std::uint64_t seed, double removed,
+                 double* ci95) {
   const int size = static_cast<int>(from.sum.size());
   std::vector<double> gain(size);
   for (int k = 0; k < size; ++k) gain[k] = from.sum[k] - after.sum[k];
@@ -76,7 +77,8 @@ void SetInterval(const TimeSeries& from, const TimeSeries& after, double floor,
                                       BelowWhatIsLeft(drawn_floor, left / all));
                      });
   ci95[0] = interval.low;
-  ci95[1] = interval.high;
+  // Where the floor is what is left, draws of it lie below.
+  ci95[1] = removed > interval.high ? removed : interval.high;
 }
 
 }  // namespace
@@ -106,9 +108,10 @@ GapFigures ShrinkFigures(const HeldOutSquares& squares, double floor_stddev,
   figures.joints.resize(squares.refit.cols(), 3);
   figures.joints << RmsOfJoints(squares.nominal), RmsOfJoints(squares.refit),
       RmsOfJoints(squares.after);
-  SetInterval(refit, after, figures.floor, floor_stddev, seed, figures.ci95);
+  SetInterval(refit, after, figures.floor, floor_stddev, seed,
+              figures.removed_percent, figures.ci95);
   SetInterval(nominal, after, figures.floor, floor_stddev, seed,
-              figures.nominal_ci95);
+              figures.removed_from_nominal_percent, figures.nominal_ci95);
   return figures;
 }
 

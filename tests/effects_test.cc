@@ -91,7 +91,7 @@ TEST_P(EffectOf, SizesAndGridsAreOfUse) {
       if (!parameter.grid) continue;
       const std::vector<double> grid = parameter.grid(arm.Site(joint));
       EXPECT_THAT(grid.size(),
-                  testing::AllOf(testing::Ge(1u), testing::Le(6u)));
+                  testing::AllOf(testing::Ge(1u), testing::Le(8u)));
       EXPECT_TRUE(std::is_sorted(grid.begin(), grid.end(), std::less_equal<>()))
           << parameter.name;
       EXPECT_THAT(grid, testing::Contains(sizes[k]));

@@ -11,7 +11,11 @@ constexpr double kRounding = .05;    // of the gap: corners of the dead zone
 constexpr double kDampingRatio = 1;  // of a flank, with the motor held
 
 // The slope of SoftPlus.
-double SoftStep(double x) { return 1 / (1 + std::exp(-x)); }
+double SoftStep(double x) {
+  constexpr double kFar = 25;
+  if (std::abs(x) > kFar) return x > 0 ? 1 : 0;
+  return 1 / (1 + std::exp(-x));
+}
 
 double ContactStiffness(const EffectSite& site, const Eigen::VectorXd& p) {
   return TorqueScale(site) / (p[1] * p[0]);

@@ -133,7 +133,11 @@ void AddActuator(const EffectSite& site,
        }});
 }
 
-double SoftPlus(double x) { return x > 30 ? x : std::log1p(std::exp(x)); }
+double SoftPlus(double x) {
+  constexpr double kFar = 25;  // where what is rounded is 1e-11
+  if (std::abs(x) > kFar) return x > 0 ? x : 0;
+  return std::log1p(std::exp(x));
+}
 
 double Amplitude(double a, double b) { return std::hypot(a, b); }
 double Phase(double a, double b) { return std::atan2(b, a); }

@@ -32,16 +32,16 @@ Effect TorqueSaturation() {
       Linear(
           "share", "1", [](const EffectSite&) { return 1.; },
           EffectParameter::Sign::kPositive),
-      // Within the torques that were asked for, or where a round corner is.
+      // Within the torques that were asked for.
       Gridded("limit", "E",
               [](const EffectSite& site) {
                 const Eigen::VectorXd& tops = site.scale->top_torque;
                 const double top =
                     tops.size() > 0 ? tops[site.joint] : 2 * TorqueScale(site);
-                return GeometricGrid(.2 * top, 1.1 * top, 9);
+                return GeometricGrid(.5 * top, .95 * top, 6);
               }),
       Gridded("knee", "1", [](const EffectSite&) {
-        return std::vector<double>{.03, .12};
+        return std::vector<double>{.02, .08};
       })};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
