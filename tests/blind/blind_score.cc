@@ -190,14 +190,17 @@ void BlindScore::AddInterval(const BlindLabel& label,
     return;
   }
   const double removed = *torque.true_removed_percent;
+  const auto holds = [&torque](double share) {
+    return *torque.low <= share && !(torque.high && *torque.high < share);
+  };
   shrink_.Measure("torque", "truly removed, %", removed);
-  if (label.oracle_removed_percent) {
-    shrink_.Measure("torque", "truly removed, share of the oracle's",
-                    removed / *label.oracle_removed_percent);
-  }
-  const bool below = torque.high && *torque.high < removed;
   shrink_.Count("torque", "interval holds what is truly removed",
-                *torque.low <= removed && !below);
+                holds(removed));
+  if (const auto oracle = label.oracle_removed_percent) {
+    shrink_.Measure("torque", "truly removed, share of the oracle's",
+                    removed / *oracle);
+    shrink_.Count("torque", "  the oracle's", holds(*oracle));
+  }
   shrink_.Count("torque", "  it is below the interval", *torque.low > removed);
   shrink_.Count("torque", "interval is open", !torque.high);
 }
