@@ -15,8 +15,9 @@ using Eigen::VectorXd;
 
 // Less probable effects are candidates, no more.
 constexpr double kLeastClaimed = .3;
-// What is likelier than not is told first, however little it explains; and of
-// what comes and goes, which may be anything, nothing else is.
+// What is likelier than not is told first, however little it explains. Nothing
+// else is of what comes and goes, which may be anything, nor of what does not
+// help where nothing was chosen on.
 constexpr double kLikely = .5;
 
 // Whether b is what a file has a number for and a's law has a mean of.
@@ -148,11 +149,7 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
     ShareTheRest(&found, &found == &result_.effects.front());
   }
   const auto unclaimed = std::stable_partition(
-      result_.effects.begin(), result_.effects.end(),
-      [](const FoundEffect& found) {
-        return found.probability >=
-               (found.contacts.empty() ? kLeastClaimed : kLikely);
-      });
+      result_.effects.begin(), result_.effects.end(), IsClaimed);
   // What makes held-out data worse is nothing, whatever its name.
   result_.without_name = unclaimed == result_.effects.begin() &&
                          !result_.effects.empty() &&
@@ -192,6 +189,12 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 }
 
 }  // namespace
+
+bool IsClaimed(const FoundEffect& found) {
+  if (found.probability >= kLikely) return true;
+  return found.probability >= kLeastClaimed && found.contacts.empty() &&
+         found.evidence.gain > 0;
+}
 
 void SortFindings(std::vector<FoundEffect>* effects) {
   constexpr double kMuch = .2;  // of the number's drop

@@ -34,6 +34,10 @@ struct FoundEffect {
   std::vector<Contact> contacts;  // of external_contact, in time's order
 };
 
+// Whether it is told as an effect; what is not is a candidate. It has to be
+// likelier than not, or likely enough and of help on held-out data.
+bool IsClaimed(const FoundEffect& found);
+
 // By their drops, but for what the file has a number for: that may take the
 // mean of a law on the same joint for its own, more than it leaves of the law,
 // and comes after it.

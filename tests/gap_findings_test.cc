@@ -30,6 +30,22 @@ std::vector<std::string> Sorted(std::vector<FoundEffect> effects) {
   return Names(effects);
 }
 
+TEST(IsClaimed, WhatIsLikelyOrHelps) {
+  FoundEffect found = Found("spring", 1, 50);
+  const auto claimed = [&found](double probability, double gain) {
+    found.probability = probability;
+    found.evidence.gain = gain;
+    return IsClaimed(found);
+  };
+  EXPECT_TRUE(claimed(.5, -.1));
+  EXPECT_TRUE(claimed(.3, .01));
+  EXPECT_FALSE(claimed(.49, 0));
+  EXPECT_FALSE(claimed(.29, 1));
+  found.contacts.resize(1);
+  EXPECT_FALSE(claimed(.49, 1));
+  EXPECT_TRUE(claimed(.5, 0));
+}
+
 TEST(SortFindings, ByDrop) {
   EXPECT_THAT(Sorted({Found("stribeck", 1, 50), Found("spring", 1, 80),
                       Found("payload", -1, 60)}),
