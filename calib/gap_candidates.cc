@@ -142,6 +142,14 @@ std::vector<GapCandidate> ListCandidates(
   return candidates;
 }
 
+bool SwingsInTime(const Effect& effect) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                     [](const EffectParameter& parameter) {
+                       return parameter.search ==
+                              EffectParameter::Search::kTimeFrequency;
+                     });
+}
+
 std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate) {
   std::vector<GapCandidate> larger;
   for (const double multiple : candidate.effect->larger_sizes) {

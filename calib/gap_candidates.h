@@ -39,6 +39,9 @@ std::vector<GapCandidate> ListCandidates(
     const GapBaseline& baseline, const GapRows& rows, const MotionScale& scale,
     const Eigen::MatrixXd& residual, const std::vector<std::string>& without);
 
+// Whether it is a sine and a cosine of time, whose phase is each log's own.
+bool SwingsInTime(const Effect& effect);
+
 // The same candidate at the larger sizes of its effect; at a few of them.
 std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate);
 std::vector<GapCandidate> FewLargerOnes(const GapCandidate& candidate);

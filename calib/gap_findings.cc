@@ -191,6 +191,8 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 }  // namespace
 
 bool IsClaimed(const FoundEffect& found) {
+  // At a frequency that other data do not have, it was a random torque.
+  if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
   if (found.probability >= kLikely) return true;
   return found.probability >= kLeastClaimed && found.contacts.empty() &&
          found.evidence.gain > 0;

@@ -35,7 +35,8 @@ struct FoundEffect {
 };
 
 // Whether it is told as an effect; what is not is a candidate. It has to be
-// likelier than not, or likely enough and of help on held-out data.
+// likelier than not, or likely enough and of help on held-out data, as what
+// swings in time has to be anyway.
 bool IsClaimed(const FoundEffect& found);
 
 // By their drops, but for what the file has a number for: that may take the

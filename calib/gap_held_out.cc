@@ -1,5 +1,6 @@
 #include "calib/gap_held_out.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -64,11 +65,65 @@ void HeldOut::MaskEvents() {
   }
 }
 
+MatrixXd HeldOut::ResidualOf(const std::vector<GapCandidate>& effects,
+                             const VectorXd& baseline) const {
+  return data_->ResidualWith(
+      baseline,
+      EffectTorque(fit_.baseline(), fit_.scale(), effects, false, data_.get()));
+}
+
 MatrixXd HeldOut::Residual(const std::vector<GapCandidate>& effects,
                            const VectorXd& baseline) const {
-  return data_->ResidualWith(
-      baseline, EffectTorque(fit_.baseline(), fit_.scale(), effects,
-                             other_logs_, data_.get()));
+  return ResidualOf(other_logs_ ? InTheirPhase(effects, baseline) : effects,
+                    baseline);
+}
+
+// As effects are in logs that they were not fitted to: what happened once did
+// not, and what swings in time swings as much, at a phase of each log's own.
+std::vector<GapCandidate> HeldOut::InTheirPhase(
+    const std::vector<GapCandidate>& effects, const VectorXd& baseline) const {
+  std::vector<GapCandidate> here, swinging;
+  for (const GapCandidate& effect : effects) {
+    if (effect.log >= 0) continue;
+    (SwingsInTime(*effect.effect) ? swinging : here).push_back(effect);
+  }
+  if (swinging.empty()) return here;
+  const int logs = segments().empty() ? 0 : segments().back().log + 1;
+  for (const GapCandidate& effect : swinging) {
+    const MatrixXd residual = ResidualOf(here, baseline);
+    for (int log = 0; log < logs; ++log) {
+      here.push_back(InPhase(effect, log, residual));
+    }
+  }
+  return here;
+}
+
+GapCandidate HeldOut::InPhase(const GapCandidate& effect, int log,
+                              const MatrixXd& residual) const {
+  GapCandidate one = effect;
+  one.log = log;
+  Eigen::Vector2d both(effect.p[effect.linear[0]], effect.p[effect.linear[1]]);
+  const double size = both.norm();
+  JointRows unit[2];
+  for (int k = 0; k < 2; ++k) {
+    one.p[effect.linear[k]] = 1;
+    one.p[effect.linear[1 - k]] = 0;
+    unit[k] =
+        EffectTorque(fit_.baseline(), fit_.scale(), {one}, false, data_.get());
+  }
+  Eigen::Matrix2d G = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d g = Eigen::Vector2d::Zero();
+  for (int j = 0; j < residual.cols(); ++j) {
+    if (unit[0][j].size() == 0 || unit[1][j].size() == 0) continue;
+    for (int a = 0; a < 2; ++a) {
+      g[a] += unit[a][j].dot(residual.col(j));
+      for (int b = 0; b < 2; ++b) G(a, b) += unit[a][j].dot(unit[b][j]);
+    }
+  }
+  const Eigen::Vector2d best = G.ldlt().solve(g);
+  if (best.allFinite() && best.norm() > 0) both = size * best.normalized();
+  for (int k = 0; k < 2; ++k) one.p[effect.linear[k]] = both[k];
+  return one;
 }
 
 MatrixXd HeldOut::Deviations(const MatrixXd& residual) const {

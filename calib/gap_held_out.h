@@ -32,6 +32,13 @@ class HeldOut {
 
  private:
   void MaskEvents();
+  std::vector<GapCandidate> InTheirPhase(
+      const std::vector<GapCandidate>& effects,
+      const Eigen::VectorXd& baseline) const;
+  GapCandidate InPhase(const GapCandidate& effect, int log,
+                       const Eigen::MatrixXd& residual) const;
+  Eigen::MatrixXd ResidualOf(const std::vector<GapCandidate>& effects,
+                             const Eigen::VectorXd& baseline) const;
   // Thinned samples x n, N m or N.
   Eigen::MatrixXd Residual(const std::vector<GapCandidate>& effects,
                            const Eigen::VectorXd& baseline) const;

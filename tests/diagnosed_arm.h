@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,14 +59,23 @@ class DiagnosedArm : public testing::Test {
           std::vector<std::string>{Record(before_, "before.csv")}, reader,
           TimeRange());
     }
+    std::unique_ptr<LogSet> validation;
+    if (later_) {
+      validation = std::make_unique<LogSet>(
+          std::vector<std::string>{Record(*later_, "later.csv")}, reader,
+          TimeRange());
+    }
     DiagnosisOptions options;
     options.bandwidth_hz = 6;
     options.forward = false;  // gap_forward_test
-    return DiagnoseGap(file, options, &training, nullptr, reference.get());
+    return DiagnoseGap(file, options, &training, validation.get(),
+                       reference.get());
   }
 
   static const EffectPlant* plant_;
   SimulatedRobot truth_ = plant_->Bare(), before_ = truth_;
+  // In a log to judge by; none: by the last part of the same log.
+  std::optional<SimulatedRobot> later_;
   std::mt19937_64 random_{1};
 };
 template <int kSeconds>

@@ -18,6 +18,16 @@ TEST_F(GapDiagnosisTest, FrictionFallsWithSpeed) {
   EXPECT_EQ(diagnosis.effects.size(), 1u);
 }
 
+// It goes on, and the next log starts at another point of its swing.
+TEST_F(GapDiagnosisTest, AVibrationHasAnotherPhaseInAnotherLog) {
+  later_ = truth_;
+  Add("vibration", 0, {2, 0, 3.3});
+  AddTo("vibration", 0, {-1, 1.7, 3.3}, &*later_);
+  const GapDiagnosis diagnosis = Diagnose(File());
+  ExpectFirst(diagnosis, "vibration", 0);
+  EXPECT_GT(diagnosis.torque.removed_percent, 80);
+}
+
 TEST_F(GapDiagnosisTest, APayloadSinceTheReference) {
   const Effect& payload = *FindEffect("payload");
   std::vector<double> p(payload.parameters.size(), 0);

@@ -44,6 +44,9 @@ TEST(IsClaimed, WhatIsLikelyOrHelps) {
   found.contacts.resize(1);
   EXPECT_FALSE(claimed(.49, 1));
   EXPECT_TRUE(claimed(.5, 0));
+  found = Found("vibration", 1, 50);
+  EXPECT_TRUE(claimed(.9, .01));
+  EXPECT_FALSE(claimed(.9, -.01));
 }
 
 TEST(SortFindings, ByDrop) {
