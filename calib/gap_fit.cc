@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "calib/gap_days.h"
+#include "calib/gap_form_error.h"
 #include "calib/gap_null.h"
 #include "calib/gap_reference.h"
 #include "calib/motion_scale.h"
@@ -149,7 +150,7 @@ double GapFit::Cost(const Selection& selection) const {
   constexpr int kParametersOfAnEvent = 5;  // force, time and duration
   double cost =
       screen().ResidualBeside(JointRows(rows().num_joints())).squaredNorm() -
-      screen().Solve(ColumnsOf(candidates(), selection.chosen)).drop;
+      TotalDrop(screen(), candidates(), selection.chosen);
   for (const int c : selection.chosen) cost += Price(screen(), candidates()[c]);
   for (const GapEvent& event : events_) {
     cost += RowsOf(rows(), event) +
@@ -258,11 +259,8 @@ void GapFit::CompareRivals(size_t k) {
                                  selection_.chosen, static_cast<int>(k));
   const double least =
       selection_.scores[k] - std::max(20., kNear * selection_.drops[k]);
-  const double by_others =
-      screen()
-          .Solve(ColumnsOf(candidates(),
-                           Without(selection_.chosen, static_cast<int>(k))))
-          .drop;
+  const double by_others = TotalDrop(
+      screen(), candidates(), Without(selection_.chosen, static_cast<int>(k)));
   // What happened once is no rival of what lasts: it was taken out.
   for (int i = 0; i < scores.size(); ++i) {
     if (candidates()[i].log >= 0) scores[i] = -1e300;
@@ -284,10 +282,7 @@ void GapFit::CompareRivals(size_t k) {
     rivals_[k].push_back({rival.effect, rival.joint, score});
     if (score > best_score) best_score = score, best = c;
     for (int i = 0; i < scores.size(); ++i) {
-      if (candidates()[i].effect == rival.effect &&
-          candidates()[i].joint == rival.joint) {
-        scores[i] = -1e300;
-      }
+      if (SamePlace(candidates()[i], rival)) scores[i] = -1e300;
     }
   }
   selection_.chosen[k] = best;

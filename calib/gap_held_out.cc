@@ -69,7 +69,7 @@ MatrixXd HeldOut::ResidualOf(const std::vector<GapCandidate>& effects,
                              const VectorXd& baseline) const {
   return data_->ResidualWith(
       baseline,
-      EffectTorque(fit_.baseline(), fit_.scale(), effects, false, data_.get()));
+      EffectTorque(fit_.baseline(), fit_.scale(), effects, data_.get()));
 }
 
 MatrixXd HeldOut::Residual(const std::vector<GapCandidate>& effects,
@@ -108,8 +108,7 @@ GapCandidate HeldOut::InPhase(const GapCandidate& effect, int log,
   for (int k = 0; k < 2; ++k) {
     one.p[effect.linear[k]] = 1;
     one.p[effect.linear[1 - k]] = 0;
-    unit[k] =
-        EffectTorque(fit_.baseline(), fit_.scale(), {one}, false, data_.get());
+    unit[k] = EffectTorque(fit_.baseline(), fit_.scale(), {one}, data_.get());
   }
   Eigen::Matrix2d G = Eigen::Matrix2d::Zero();
   Eigen::Vector2d g = Eigen::Vector2d::Zero();

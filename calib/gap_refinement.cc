@@ -136,7 +136,7 @@ class ProjectedResidual {
   }
   JointRows Torque(const double* u) const {
     return WhitenEach(data_->rows(),
-                      EffectTorque(baseline_, scale_, At(u), false, data_));
+                      EffectTorque(baseline_, scale_, At(u), data_));
   }
   bool operator()(double const* const* u, double* residuals) const {
     const VectorXd r = screen_.ResidualBeside(Torque(u[0]));
@@ -235,7 +235,7 @@ MatrixXd Spread(const std::vector<GapCandidate>& effects,
 
 JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
                        const std::vector<GapCandidate>& effects,
-                       bool other_logs, GapData* data) {
+                       GapData* data) {
   const GapRows& rows = data->rows();
   JointRows thin(rows.num_joints());
   for (size_t i = 0; i < rows.segments().size(); ++i) {
@@ -243,7 +243,7 @@ JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
     SimulatedRobot changed;
     changed.robot = baseline.robot();
     for (const GapCandidate& effect : effects) {
-      if (other_logs ? effect.log >= 0 : !effect.IsIn(log)) continue;
+      if (!effect.IsIn(log)) continue;
       effect.effect->apply({&baseline.robot(), effect.joint, &scale}, effect.p,
                            &changed);
     }

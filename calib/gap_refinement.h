@@ -37,8 +37,7 @@ int CountVaried(const GapBaseline& baseline, const MotionScale& scale,
 // samples, empty where it is nothing. What happened once is not in other logs
 // than those it was found in.
 JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
-                       const std::vector<GapCandidate>& effects,
-                       bool other_logs, GapData* data);
+                       const std::vector<GapCandidate>& effects, GapData* data);
 // Their rows.
 JointRows WhitenEach(const GapRows& rows, const JointRows& thin);
 

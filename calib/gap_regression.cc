@@ -99,7 +99,7 @@ bool GapRegression::IsTheSameDayBeside(
 
 JointRows GapRegression::TorqueOf(
     const std::vector<GapCandidate>& effects) const {
-  return EffectTorque(baseline_, scale_, effects, false, data_.get());
+  return EffectTorque(baseline_, scale_, effects, data_.get());
 }
 
 VectorXd GapRegression::BaselineBeside(const JointRows& torque) const {
