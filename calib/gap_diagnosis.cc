@@ -258,28 +258,11 @@ void Diagnoser::Judge() {
     result_.candidates.clear();
     return;
   }
-  constexpr double kReal = 100;        // chi^2 that is not chance
-  constexpr double kUnexplained = .3;  // of what could be removed
   double left = 0;
   for (const JointGap& joint : result_.joints) left += joint.unexplained;
-  const bool much_left =
-      left > kReal && result_.unexplained.share > kUnexplained;
-  // On what was held out, too.
-  const double after = result_.torque.after - 1;
-  const double nominal = result_.torque.nominal - 1;
-  const double refit = result_.torque.refit - 1;
-  if (!result_.effects.empty()) {
-    const bool held_out_left =
-        after > kUnexplained && after > kUnexplained * refit;
-    result_.verdict = much_left || held_out_left ? GapVerdict::kPartlyExplained
-                                                 : GapVerdict::kExplained;
-  } else if (much_left || found_without_name_) {
-    result_.verdict = GapVerdict::kUnknown;
-  } else {
-    result_.verdict = nominal > .3 && refit < .5 * nominal
-                          ? GapVerdict::kAbsorbed
-                          : GapVerdict::kNoiseFloor;
-  }
+  result_.verdict =
+      JudgeGap({result_.torque, !result_.effects.empty(), found_without_name_,
+                left, result_.unexplained.share});
 }
 
 }  // namespace
@@ -297,24 +280,6 @@ double DiagnosisBandwidth(const std::vector<TimeBase>& time_bases) {
     hz = std::min(hz, kShareOfRate / base.dt);
   }
   return hz;
-}
-
-const char* GapVerdictName(GapVerdict verdict) {
-  switch (verdict) {
-    case GapVerdict::kNoiseFloor:
-      return "noise_floor";
-    case GapVerdict::kAbsorbed:
-      return "absorbed";
-    case GapVerdict::kExplained:
-      return "explained";
-    case GapVerdict::kPartlyExplained:
-      return "partly_explained";
-    case GapVerdict::kUnknown:
-      return "unknown";
-    case GapVerdict::kNotTestable:
-      return "not_testable";
-  }
-  return "";
 }
 
 }  // namespace armcal

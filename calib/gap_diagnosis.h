@@ -20,6 +20,7 @@
 #include "calib/gap_shown.h"
 #include "calib/gap_shrink.h"
 #include "calib/gap_testability.h"
+#include "calib/gap_verdict.h"
 #include "calib/gap_where.h"
 #include "calib/log_set.h"
 #include "model/time_base.h"
@@ -39,17 +40,6 @@ struct DiagnosisOptions {
   std::vector<CommandedLog> commanded;
   Progress progress;
 };
-
-// DESIGN.md, diagnosis.json.
-enum class GapVerdict {
-  kNoiseFloor,
-  kAbsorbed,
-  kExplained,
-  kPartlyExplained,
-  kUnknown,
-  kNotTestable
-};
-const char* GapVerdictName(GapVerdict verdict);
 
 // What is left beside the effects that were found.
 struct Unexplained {

@@ -234,8 +234,12 @@ void GapFit::ChooseBeside(const std::vector<GapEvent>& events) {
 void GapFit::Finish() {
   selection_ = WithoutChance(screen(), rows(), candidates(), options_.selection,
                              selection_, kSeed);
-  rivals_.assign(selection_.chosen.size(), {});
-  for (size_t k = 0; k < selection_.chosen.size(); ++k) CompareRivals(k);
+  rivals_.clear();
+  for (size_t k = 0; k < selection_.chosen.size(); ++k) {
+    rivals_.push_back(CompareRivals(regression_, pool_, options_.selection,
+                                    selection_, static_cast<int>(k)));
+    selection_.chosen[k] = rivals_[k].best;
+  }
   refined_.effects = pool_.Fitted(selection_.chosen);
   refined_.baseline = refit();
   if (!refined_.effects.empty()) {
@@ -248,44 +252,6 @@ void GapFit::Finish() {
   for (int j = 0; j < left.cols(); ++j) {
     left_[j] = rows().Whiten(j, left.col(j));
   }
-}
-
-// A grid may be kinder to one effect than to another: those near the k-th in
-// score are compared with their shapes fitted, and the best takes its place.
-void GapFit::CompareRivals(size_t k) {
-  constexpr int kMostRivals = 3;
-  constexpr double kNear = .5;  // of the drop
-  VectorXd scores = ScoresBeside(screen(), candidates(), options_.selection,
-                                 selection_.chosen, static_cast<int>(k));
-  const double least =
-      selection_.scores[k] - std::max(20., kNear * selection_.drops[k]);
-  const double by_others = TotalDrop(
-      screen(), candidates(), Without(selection_.chosen, static_cast<int>(k)));
-  // What happened once is no rival of what lasts: it was taken out.
-  for (int i = 0; i < scores.size(); ++i) {
-    if (candidates()[i].log >= 0) scores[i] = -1e300;
-  }
-  double best_score = -1e300;
-  int best = selection_.chosen[k];
-  while (static_cast<int>(rivals_[k].size()) < 1 + kMostRivals) {
-    int c;
-    if (!(scores.maxCoeff(&c) >= least)) break;
-    const GapCandidate& rival = candidates()[c];
-    std::vector<int> chosen = selection_.chosen;
-    chosen[k] = c;
-    const RefinedEffects refined =
-        RefineEffects(screen(), baseline(), scale(), pool_.Fitted(chosen),
-                      static_cast<int>(k), data());
-    const double score =
-        refined.drop - by_others -
-        RefinedPrice(screen(), rival, CountVaried(baseline(), scale(), rival));
-    rivals_[k].push_back({rival.effect, rival.joint, score});
-    if (score > best_score) best_score = score, best = c;
-    for (int i = 0; i < scores.size(); ++i) {
-      if (SamePlace(candidates()[i], rival)) scores[i] = -1e300;
-    }
-  }
-  selection_.chosen[k] = best;
 }
 
 VectorXd GapFit::BaselineWithout(size_t k) const {

@@ -8,16 +8,10 @@
 #include "calib/gap_pool.h"
 #include "calib/gap_refinement.h"
 #include "calib/gap_regression.h"
+#include "calib/gap_rivals.h"
 #include "calib/gap_selection.h"
 
 namespace armcal {
-
-// The score of an effect whose shape is fitted, not one of a grid.
-struct RefinedScore {
-  const Effect* effect = nullptr;
-  int joint = -1;
-  double score = 0;
-};
 
 struct GapFitOptions {
   double bandwidth_hz = 0;
@@ -61,9 +55,10 @@ class GapFit {
   const RefinedEffects& refined() const { return refined_; }
   // In the order of time.
   const std::vector<GapEvent>& events() const { return events_; }
-  // Scores of the k-th effect and its nearest rivals, each with its shape
-  // fitted beside the others.
-  const std::vector<RefinedScore>& rivals(size_t k) const { return rivals_[k]; }
+  // Of the k-th effect.
+  const std::vector<RefinedScore>& rivals(size_t k) const {
+    return rivals_[k].scores;
+  }
   // GapRegression's.
   const Eigen::VectorXd& before() const { return regression_.before(); }
   const Eigen::VectorXd& refit() const { return regression_.refit(); }
@@ -87,7 +82,6 @@ class GapFit {
   void Finish();
   double UsualExcess(const FrictionExcess& excess, bool of_itself) const;
   FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
-  void CompareRivals(size_t k);
 
   GapFitOptions options_;
   GapRegression regression_;
@@ -95,7 +89,7 @@ class GapFit {
   Selection selection_;
   RefinedEffects refined_;
   JointRows left_;
-  std::vector<std::vector<RefinedScore>> rivals_;
+  std::vector<Rivals> rivals_;
   std::vector<GapEvent> events_;
 };
 

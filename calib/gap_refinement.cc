@@ -4,115 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "calib/gap_coordinates.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Search = EffectParameter::Search;
 
 constexpr int kMostIterations = 12;
-// What lasts longer is no touch; s.
-constexpr double kShortestEvent = .03, kLongestEvent = 1.2;
-
-// A parameter as Ceres sees it: p = centre + scale (u - 1), or
-// centre exp(scale (u - 1)) where it is a size that grows by factors. It starts
-// at u = 1, since numeric derivatives step by a share of u.
-struct Coordinate {
-  int effect;
-  int parameter;
-  double centre;
-  double scale;
-  bool by_factors = false;
-  double low = -std::numeric_limits<double>::infinity();  // of p
-  double high = std::numeric_limits<double>::infinity();
-
-  double Value(double u) const {
-    if (u == Inverse(low)) return low;
-    return by_factors ? centre * std::exp(scale * (u - 1))
-                      : centre + scale * (u - 1);
-  }
-  double Slope(double u) const { return by_factors ? scale * Value(u) : scale; }
-  double Inverse(double p) const {
-    return by_factors ? 1 + std::log(p / centre) / scale
-                      : 1 + (p - centre) / scale;
-  }
-  // Of u, which solvers put exactly there; p is rounded.
-  bool AtBound(double u) const {
-    return (std::isfinite(low) && u <= Inverse(low)) ||
-           (std::isfinite(high) && u >= Inverse(high));
-  }
-};
-
-Coordinate GridCoordinate(const EffectParameter& parameter,
-                          const EffectSite& site, double value) {
-  Coordinate c{0, 0, value, 1};
-  const std::vector<double> grid = parameter.grid(site);
-  c.low = grid.front();
-  c.high = grid.back();
-  c.by_factors = c.low > 0 && value > 0;
-  c.scale = c.by_factors ? .3 : .2 * (c.high - c.low);
-  return c;
-}
-
-// Whole numbers (a neighbour's index, a harmonic of the joint) are not varied.
-bool IsChoice(const EffectParameter& parameter, const EffectSite& site) {
-  if (parameter.search != Search::kGrid) return false;
-  const std::vector<double> grid = parameter.grid(site);
-  return grid.size() < 2 || std::all_of(grid.begin(), grid.end(), [](double x) {
-           return x == std::round(x);
-         });
-}
-
-// Of effect `only`, or of all where that is -1.
-std::vector<Coordinate> Coordinates(const GapBaseline& baseline,
-                                    const MotionScale& scale,
-                                    const std::vector<GapCandidate>& effects,
-                                    int only) {
-  std::vector<Coordinate> coordinates;
-  for (size_t e = 0; e < effects.size(); ++e) {
-    if (only >= 0 && only != static_cast<int>(e)) continue;
-    const GapCandidate& effect = effects[e];
-    const EffectSite site = {&baseline.robot(), effect.joint, &scale};
-    int linear = 0;
-    for (size_t k = 0; k < effect.effect->parameters.size(); ++k) {
-      const EffectParameter& parameter = effect.effect->parameters[k];
-      const double value = effect.p[k];
-      Coordinate c{0, 0, value, 1};
-      switch (parameter.search) {
-        case Search::kLinear:
-          c.scale = effect.size[linear++];
-          if (parameter.sign == EffectParameter::Sign::kPositive) c.low = 0;
-          break;
-        case Search::kGrid:
-          if (IsChoice(parameter, site)) continue;
-          c = GridCoordinate(parameter, site, value);
-          break;
-        case Search::kPositionFrequency:
-          c.scale = 1 / (scale.high[effect.joint] - scale.low[effect.joint]);
-          break;
-        case Search::kTimeFrequency:
-          c.scale = .3 / (scale.end - scale.begin);
-          break;
-        case Search::kTime:
-          c.scale = .1;
-          break;
-        case Search::kDuration:
-          c.by_factors = true;
-          c.scale = .3;
-          c.low = kShortestEvent;
-          c.high = kLongestEvent;
-          break;
-      }
-      c.effect = static_cast<int>(e);
-      c.parameter = static_cast<int>(k);
-      coordinates.push_back(c);
-    }
-  }
-  return coordinates;
-}
 
 class ProjectedResidual {
  public:
@@ -152,11 +53,6 @@ class ProjectedResidual {
   std::vector<GapCandidate> effects_;
   std::vector<Coordinate> coordinates_;
   GapData* data_;
-  struct Evaluation {
-    VectorXd p;
-    JointRows rows;
-  };
-  mutable std::vector<Evaluation> last_;
 };
 
 void SetBounds(const std::vector<Coordinate>& coordinates, double* u,
@@ -261,11 +157,6 @@ JointRows WhitenEach(const GapRows& rows, const JointRows& thin) {
   return white;
 }
 
-int CountVaried(const GapBaseline& baseline, const MotionScale& scale,
-                const GapCandidate& effect) {
-  return static_cast<int>(Coordinates(baseline, scale, {effect}, -1).size());
-}
-
 RefinedEffects RefineEffects(const GapScreen& screen,
                              const GapBaseline& baseline,
                              const MotionScale& scale,
@@ -274,7 +165,7 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   RefinedEffects refined;
   refined.effects = effects;
   const std::vector<Coordinate> coordinates =
-      Coordinates(baseline, scale, effects, only);
+      ListCoordinates(baseline, scale, effects, only);
   const int size = static_cast<int>(coordinates.size());
   const auto residual = new ProjectedResidual(screen, baseline, scale, effects,
                                               coordinates, data);

@@ -29,10 +29,6 @@ RefinedEffects RefineEffects(const GapScreen& screen,
                              std::vector<GapCandidate> effects, int only,
                              GapData* data);
 
-// How many of its parameters that varies.
-int CountVaried(const GapBaseline& baseline, const MotionScale& scale,
-                const GapCandidate& effect);
-
 // What effects with these parameters add to the torque: per joint thinned
 // samples, empty where it is nothing. What happened once is not in other logs
 // than those it was found in.

@@ -99,21 +99,6 @@ TEST_F(GapRefinementTest, ARipplesHarmonicIsFoundBetweenPeaks) {
   EXPECT_NEAR(refined.effects[0].p.head(2).norm(), truth.head(2).norm(), .05);
 }
 
-// A neighbour's number is chosen, not fitted.
-TEST_F(GapRefinementTest, WhatIsVaried) {
-  const auto varied = [this](const char* name) {
-    GapCandidate effect;
-    effect.effect = FindEffect(name);
-    effect.joint = 1;
-    effect.p = VectorXd::Ones(effect.effect->parameters.size());
-    effect.size = VectorXd::Ones(effect.effect->parameters.size());
-    return CountVaried(baseline_, arm_.scale, effect);
-  };
-  EXPECT_EQ(varied("viscous_friction"), 1);
-  EXPECT_EQ(varied("cable"), 3);
-  EXPECT_EQ(varied("coupled_friction"), 3);
-}
-
 // An effect that only takes power stays at the bound and has no variance there.
 TEST_F(GapRefinementTest, SignsHold) {
   const Effect& stribeck = *FindEffect("stribeck");

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/gap_pool.h"
+#include "calib/gap_regression.h"
+#include "calib/gap_selection.h"
+
+namespace armcal {
+
+// The score of an effect whose shape is fitted, not one of a grid.
+struct RefinedScore {
+  const Effect* effect = nullptr;
+  int joint = -1;
+  double score = 0;
+};
+
+struct Rivals {
+  std::vector<RefinedScore> scores;  // the chosen one's, if near, among them
+  int best = -1;                     // candidate
+};
+
+// A grid may be kinder to one effect than to another: those near the k-th
+// chosen one in score take its place in turn, each with its shape fitted beside
+// the others, which stay.
+Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
+                     const SelectionOptions& options,
+                     const Selection& selection, int k);
+
+}  // namespace armcal

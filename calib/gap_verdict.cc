@@ -1,0 +1,41 @@
+#include "calib/gap_verdict.h"
+
+namespace armcal {
+
+GapVerdict JudgeGap(const GapFacts& facts) {
+  constexpr double kReal = 100;        // chi^2 that is not chance
+  constexpr double kUnexplained = .3;  // of what could be removed
+  const bool much_left = facts.left > kReal && facts.left_share > kUnexplained;
+  const double after = facts.torque.after - 1;
+  const double nominal = facts.torque.nominal - 1;
+  const double refit = facts.torque.refit - 1;
+  if (facts.effects) {
+    const bool held_out_left =
+        after > kUnexplained && after > kUnexplained * refit;
+    return much_left || held_out_left ? GapVerdict::kPartlyExplained
+                                      : GapVerdict::kExplained;
+  }
+  if (much_left || facts.found_without_name) return GapVerdict::kUnknown;
+  return nominal > .3 && refit < .5 * nominal ? GapVerdict::kAbsorbed
+                                              : GapVerdict::kNoiseFloor;
+}
+
+const char* GapVerdictName(GapVerdict verdict) {
+  switch (verdict) {
+    case GapVerdict::kNoiseFloor:
+      return "noise_floor";
+    case GapVerdict::kAbsorbed:
+      return "absorbed";
+    case GapVerdict::kExplained:
+      return "explained";
+    case GapVerdict::kPartlyExplained:
+      return "partly_explained";
+    case GapVerdict::kUnknown:
+      return "unknown";
+    case GapVerdict::kNotTestable:
+      return "not_testable";
+  }
+  return "";
+}
+
+}  // namespace armcal

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "calib/gap_shrink.h"
+
+namespace armcal {
+
+// DESIGN.md, diagnosis.json.
+enum class GapVerdict {
+  kNoiseFloor,
+  kAbsorbed,
+  kExplained,
+  kPartlyExplained,
+  kUnknown,
+  kNotTestable
+};
+const char* GapVerdictName(GapVerdict verdict);
+
+// What a verdict is spoken on.
+struct GapFacts {
+  GapFigures torque;  // of held-out data, in units of the floor
+  bool effects = false;
+  bool found_without_name = false;
+  double left = 0;        // chi^2 beyond the noise's in sample, all joints
+  double left_share = 0;  // of what a refit leaves beyond the noise
+};
+
+// For data that can be diagnosed. What is left counts when it is much more than
+// chance gives and much of what was there.
+GapVerdict JudgeGap(const GapFacts& facts);
+
+}  // namespace armcal
