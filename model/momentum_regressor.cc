@@ -214,5 +214,7 @@ void MomentumRegressor<T>::Evaluate(const Vector& q, const Vector& qd,
 template class MomentumRegressor<double>;
 template class MomentumRegressor<
     Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>>;
+template class MomentumRegressor<Eigen::AutoDiffScalar<
+    Eigen::Matrix<Eigen::AutoDiffScalar<Eigen::Matrix<double, 8, 1>>, 1, 1>>>;
 
 }  // namespace armcal

@@ -1,0 +1,88 @@
+#include "model/regressor_gradient.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+RegressorGradient::RegressorGradient(const ProximalChain& chain,
+                                     const std::vector<Length>& unknown,
+                                     const RegressorColumns& columns)
+    : num_joints_(static_cast<int>(chain.joints.size())),
+      columns_(columns),
+      momentum_(chain, unknown) {
+  const auto m = static_cast<Eigen::Index>(columns.moments.size());
+  P_.resize(num_joints_, m);
+  D_.resize(num_joints_, m);
+  q_.resize(num_joints_);
+  qd_.resize(num_joints_);
+}
+
+// `state` and `gradient`: q, qd and qdd one after the other.
+void RegressorGradient::AddDirections(const VectorXd& state, const MatrixXd& G,
+                                      int begin, VectorXd* gradient) {
+  const int n = num_joints_;
+  const auto number = [&](int k) {
+    Gradient x(state[k], Eigen::Matrix<double, kWidth, 1>::Zero());
+    if (k >= begin && k < begin + kWidth) x.derivatives()[k - begin] = 1;
+    return x;
+  };
+  for (int i = 0; i < n; ++i) {
+    q_[i].value() = number(i);
+    q_[i].derivatives()[0] = number(n + i);
+    qd_[i].value() = number(n + i);
+    qd_[i].derivatives()[0] = number(2 * n + i);
+  }
+  momentum_.Evaluate(q_, qd_, columns_.moments, &P_, &D_);
+  const int width = std::min<int>(kWidth, gradient->size() - begin);
+  for (size_t k = 0; k < columns_.moments.size(); ++k) {
+    for (int i = 0; i <= columns_.moments[k].block; ++i) {
+      const double g = G(i, columns_.moment_index[k]);
+      if (g == 0) continue;
+      gradient->segment(begin, width) +=
+          g * (P_(i, k).derivatives()[0].derivatives() -
+               D_(i, k).value().derivatives())
+                  .head(width);
+    }
+  }
+}
+
+void RegressorGradient::Add(const VectorXd& q, const VectorXd& qd,
+                            const VectorXd& qdd, const MatrixXd& G,
+                            VectorXd* of_q, VectorXd* of_qd, VectorXd* of_qdd) {
+  const int n = num_joints_;
+  VectorXd state(3 * n), gradient = VectorXd::Zero(3 * n);
+  state << q, qd, qdd;
+  for (int begin = 0; begin < 3 * n; begin += kWidth) {
+    AddDirections(state, G, begin, &gradient);
+  }
+  *of_q += gradient.head(n);
+  *of_qd += gradient.segment(n, n);
+  *of_qdd += gradient.tail(n);
+  for (size_t k = 0; k < columns_.terms.size(); ++k) {
+    const JointTermColumn& term = columns_.terms[k];
+    const int j = term.joint;
+    const double g = G(j, columns_.term_index[k]);
+    switch (term.term) {
+      case JointTerm::kViscous:
+        (*of_qd)[j] += g;
+        break;
+      case JointTerm::kArmature:
+        (*of_qdd)[j] += g;
+        break;
+      case JointTerm::kCoulomb: {
+        const double width = term.transition.width;
+        const double c = std::tanh(qd[j] / width);
+        (*of_qd)[j] += g * (1 - c * c) / width;
+        break;
+      }
+      case JointTerm::kOffset:
+        break;
+    }
+  }
+}
+
+}  // namespace armcal
