@@ -31,8 +31,9 @@ class RegressorGradient {
   using Gradient = Eigen::AutoDiffScalar<Eigen::Matrix<double, kWidth, 1>>;
   using Rate = Eigen::AutoDiffScalar<Eigen::Matrix<Gradient, 1, 1>>;
 
-  void AddDirections(const Eigen::VectorXd& state, const Eigen::MatrixXd& G,
-                     int begin, Eigen::VectorXd* gradient);
+  void AddDirections(const Eigen::VectorXd& state, const Eigen::VectorXd& qdd,
+                     const Eigen::MatrixXd& G, int begin,
+                     Eigen::VectorXd* of_sum, Eigen::VectorXd* of_p);
 
   int num_joints_;
   RegressorColumns columns_;

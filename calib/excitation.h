@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+
+#include "calib/log_set.h"
+#include "model/harmonic_basis.h"
+#include "model/model_parameters.h"
+#include "model/robot.h"
+#include "problems/excitation_criterion.h"
+#include "problems/motion_limits.h"
+
+namespace armcal {
+
+struct ExcitationOptions {
+  double duration_s = 20;
+  int periods = 1;  // that the duration holds
+  int harmonics = 10;
+  double rate_hz = 100;  // of the log that will be recorded
+  ExcitationCriterion criterion = ExcitationCriterion::kD;
+  MotionLimits limits;
+  Eigen::VectorXd torque_noise;  // of a sample, per joint, N m or N
+  int starts = 40;  // random motions, of which the best is improved
+  std::uint64_t seed = 0;
+  Progress progress;
+};
+
+// A designed motion.
+struct Excitation {
+  HarmonicBasis basis{1, 2};
+  Eigen::MatrixXd numbers;  // of the basis, per joint
+  double criterion = 0;     // EvaluateCriterion's
+  double start = 0;         // of the best random motion
+  bool converged = false;
+  std::string reason;
+  int iterations = 0;
+  Eigen::VectorXd stddev;  // of all quantities, predicted
+  double used = 0;         // share of the limits, at 1 kHz
+};
+
+// The motion within the limits that makes `quantities`, which the parameters of
+// `model` follow from, as certain as possible: random motions, the best of them
+// improved by L-BFGS with logarithmic barriers. `model` is of `robot`, whose
+// inertia gives the torques. Not converged and without numbers where no motion
+// within the limits tells all quantities.
+Excitation DesignExcitation(const Robot& robot, const ModelParameters& model,
+                            const DesignQuantities& quantities,
+                            const ExcitationOptions& options);
+
+// A random motion of this basis, as large as the limits allow; the torques of
+// parameters x count.
+Eigen::MatrixXd RandomNumbers(const HarmonicBasis& basis, const Motion& units,
+                              const MotionLimits& limits,
+                              const Eigen::VectorXd& x, std::uint64_t seed,
+                              MotionInformation* information);
+
+}  // namespace armcal

@@ -1,0 +1,52 @@
+#include "problems/motion_design.h"
+
+#include <cmath>
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MotionDesign::MotionDesign(const Motion& units, const MotionLimits& limits,
+                           const DesignQuantities& quantities,
+                           ExcitationCriterion criterion,
+                           const VectorXd& weight, const VectorXd& x,
+                           MotionInformation* information)
+    : units_(units),
+      limits_(limits),
+      quantities_(quantities),
+      criterion_(criterion),
+      weight_(weight),
+      x_(x),
+      information_(information) {}
+
+int MotionDesign::NumParameters() const {
+  return static_cast<int>(units_.q.cols() * weight_.size());
+}
+
+bool MotionDesign::Evaluate(const double* numbers, double* cost,
+                            double* gradient) const {
+  const Eigen::Map<const MatrixXd> p(numbers, units_.q.cols(), weight_.size());
+  const Motion motion = Combine(units_, p);
+  information_->Evaluate(motion, weight_);
+  const MatrixXd torque = information_->Torque(x_);
+  MotionGradient of_motion(motion);
+  MatrixXd of_torque = MatrixXd::Zero(torque.rows(), torque.cols());
+  const double barrier =
+      LimitBarrier(limits_, motion, torque, barrier_, &of_motion, &of_torque);
+  if (!std::isfinite(barrier)) return false;
+  MatrixXd of_A;
+  const std::optional<double> value =
+      EvaluateCriterion(criterion_, quantities_, information_->A(), &of_A);
+  if (!value) return false;
+  *cost = *value + barrier_ * barrier;
+  if (gradient == nullptr) return true;
+  information_->AddGradient(of_A, x_, of_torque, &of_motion);
+  Eigen::Map<MatrixXd>(gradient, p.rows(), p.cols()) =
+      units_.q.transpose() * of_motion.q +
+      units_.qd.transpose() * of_motion.qd +
+      units_.qdd.transpose() * of_motion.qdd;
+  return true;
+}
+
+}  // namespace armcal

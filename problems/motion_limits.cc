@@ -1,0 +1,88 @@
+#include "problems/motion_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// |x - centre| <= reach for one quantity of one joint.
+struct Band {
+  double centre, reach;
+  double Share(double x) const {
+    return std::isfinite(reach) ? (x - centre) / reach : 0;
+  }
+};
+
+Band PositionBand(const MotionLimits& limits, int j) {
+  return {(limits.upper[j] + limits.lower[j]) / 2,
+          (limits.upper[j] - limits.lower[j]) / 2};
+}
+
+double LargestShare(const Band& band, const VectorXd& x) {
+  return std::max(std::abs(band.Share(x.maxCoeff())),
+                  std::abs(band.Share(x.minCoeff())));
+}
+
+double AddBand(const Band& band, const VectorXd& x, double factor,
+               Eigen::Ref<VectorXd> gradient) {
+  if (!std::isfinite(band.reach)) return 0;
+  double sum = 0;
+  for (Eigen::Index s = 0; s < x.size(); ++s) {
+    const double share = band.Share(x[s]);
+    const double slack = 1 - share * share;
+    if (!(slack > 0)) return std::numeric_limits<double>::infinity();
+    sum -= std::log(slack);
+    gradient[s] += factor * 2 * share / slack / band.reach;
+  }
+  return sum;
+}
+
+}  // namespace
+
+MotionLimits MotionLimits::Within(double share) const {
+  MotionLimits inner = *this;
+  const VectorXd centre = (upper + lower) / 2;
+  inner.lower = centre + share * (lower - centre);
+  inner.upper = centre + share * (upper - centre);
+  inner.velocity *= share;
+  inner.acceleration *= share;
+  inner.effort *= share;
+  return inner;
+}
+
+double MotionLimits::Used(const Motion& motion, const MatrixXd& torque) const {
+  double used = 0;
+  for (int j = 0; j < motion.num_joints(); ++j) {
+    used =
+        std::max({used, LargestShare(PositionBand(*this, j), motion.q.col(j)),
+                  LargestShare({0, velocity[j]}, motion.qd.col(j)),
+                  LargestShare({0, acceleration[j]}, motion.qdd.col(j)),
+                  LargestShare({0, effort[j]}, torque.col(j))});
+  }
+  return used;
+}
+
+double LimitBarrier(const MotionLimits& limits, const Motion& motion,
+                    const MatrixXd& torque, double factor,
+                    MotionGradient* gradient, MatrixXd* of_torque) {
+  const double each = factor / static_cast<double>(motion.size());
+  double sum = 0;
+  for (int j = 0; j < motion.num_joints(); ++j) {
+    sum += AddBand(PositionBand(limits, j), motion.q.col(j), each,
+                   gradient->q.col(j));
+    sum += AddBand({0, limits.velocity[j]}, motion.qd.col(j), each,
+                   gradient->qd.col(j));
+    sum += AddBand({0, limits.acceleration[j]}, motion.qdd.col(j), each,
+                   gradient->qdd.col(j));
+    sum +=
+        AddBand({0, limits.effort[j]}, torque.col(j), each, of_torque->col(j));
+  }
+  return sum / static_cast<double>(motion.size());
+}
+
+}  // namespace armcal
