@@ -53,6 +53,17 @@ Motion HarmonicBasis::Units(int samples, double dt) const {
   return units;
 }
 
+FourierCoefficients HarmonicBasis::Fourier(const MatrixXd& numbers) const {
+  const int K = harmonics_;
+  MatrixXd waves = free_ * numbers.bottomRows(size() - 1);
+  for (int k = 0; k < K; ++k) {
+    const double w = 2 * M_PI * (k + 1) / period_;
+    waves.row(k) /= w;
+    waves.row(K + k) /= w;
+  }
+  return {numbers.row(0), waves.topRows(K), waves.bottomRows(K)};
+}
+
 Motion Combine(const Motion& units, const MatrixXd& numbers) {
   Motion motion;
   motion.t0 = units.t0;

@@ -6,6 +6,13 @@
 
 namespace armcal {
 
+// q_j(t) = constant_j + sum_k sine_kj sin(k w t) + cosine_kj cos(k w t), with
+// w = 2 pi / period: harmonics in rows, joints in columns, rad or m.
+struct FourierCoefficients {
+  Eigen::VectorXd constant;
+  Eigen::MatrixXd sine, cosine;
+};
+
 // Motions that repeat (Swevers et al. 1997): sums of a constant and of the
 // sines and cosines of the first harmonics of 1 / period that are at rest, with
 // no acceleration, where a period begins. Two numbers of a joint are spent on
@@ -23,6 +30,7 @@ class HarmonicBasis {
   // samples x size(). The first is the constant; of the others a unit is a
   // velocity of about 1, whatever the harmonic.
   Motion Units(int samples, double dt) const;
+  FourierCoefficients Fourier(const Eigen::MatrixXd& numbers) const;
 
  private:
   double period_;

@@ -67,6 +67,39 @@ double MotionLimits::Used(const Motion& motion, const MatrixXd& torque) const {
   return used;
 }
 
+MotionLimits LimitsOf(const Robot& robot, std::vector<std::string>* assumed) {
+  const int n = robot.num_joints();
+  MotionLimits limits{VectorXd(n), VectorXd(n), VectorXd(n), VectorXd(n),
+                      VectorXd(n)};
+  std::string without_range, without_speed, without_effort;
+  for (int j = 0; j < n; ++j) {
+    const Joint& joint = robot.links[j].joint;
+    const bool turns = IsRotational(joint.type);
+    const double reach = turns ? 1.5 : .2;
+    const bool ranged =
+        std::isfinite(joint.lower) && std::isfinite(joint.upper);
+    limits.lower[j] = ranged ? joint.lower : -reach;
+    limits.upper[j] = ranged ? joint.upper : reach;
+    const bool rated = std::isfinite(joint.velocity);
+    limits.velocity[j] = rated ? joint.velocity : turns ? 1 : .25;
+    limits.acceleration[j] = 3 * limits.velocity[j];
+    limits.effort[j] = joint.effort;
+    if (!ranged) without_range += " " + joint.name;
+    if (!rated) without_speed += " " + joint.name;
+    if (!std::isfinite(joint.effort)) without_effort += " " + joint.name;
+  }
+  const auto say = [assumed](const std::string& joints,
+                             const std::string& what) {
+    if (!joints.empty()) assumed->push_back(what + ":" + joints);
+  };
+  say(without_range, "positions within 1.5 rad or 0.2 m of zero");
+  say(without_speed, "velocities up to 1 rad/s or 0.25 m/s");
+  say(without_effort, "any torque");
+  assumed->push_back(
+      "accelerations up to three times the velocity in a second");
+  return limits;
+}
+
 double LimitBarrier(const MotionLimits& limits, const Motion& motion,
                     const MatrixXd& torque, double factor,
                     MotionGradient* gradient, MatrixXd* of_torque) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "model/motion.h"
 #include "model/robot.h"
@@ -21,6 +23,11 @@ struct MotionLimits {
   // least 0; above 1 it breaks one.
   double Used(const Motion& motion, const Eigen::MatrixXd& torque) const;
 };
+
+// Those of the robot file. Where it has none: +-1.5 rad or +-0.2 m about zero,
+// 1 rad/s or 0.25 m/s, three times the velocity in a second, and any effort;
+// `assumed` gets a sentence for each.
+MotionLimits LimitsOf(const Robot& robot, std::vector<std::string>* assumed);
 
 // The mean over samples of -sum log(1 - (used share of a limit)^2): large near
 // any limit, infinite beyond. Adds `factor` times its gradients.

@@ -48,5 +48,21 @@ TEST(HarmonicBasis, LosesNothing) {
   EXPECT_LT((at.q * c - wave).norm(), 1e-12);
 }
 
+TEST(HarmonicBasis, FourierCoefficientsAreTheMotion) {
+  const HarmonicBasis basis(4, 3);
+  const MatrixXd numbers = MatrixXd::Random(basis.size(), 2);
+  const Motion motion = Combine(basis.Units(9, .3), numbers);
+  const FourierCoefficients fourier = basis.Fourier(numbers);
+  for (int s = 0; s < 9; ++s) {
+    VectorXd q = fourier.constant;
+    for (int k = 0; k < 3; ++k) {
+      const double phase = 2 * M_PI * (k + 1) * .3 * s / 4;
+      q += fourier.sine.row(k).transpose() * std::sin(phase) +
+           fourier.cosine.row(k).transpose() * std::cos(phase);
+    }
+    EXPECT_LT((q - motion.q.row(s).transpose()).norm(), 1e-13);
+  }
+}
+
 }  // namespace
 }  // namespace armcal

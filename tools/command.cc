@@ -2,6 +2,7 @@
 
 #include "tools/calibrate.h"
 #include "tools/diagnose.h"
+#include "tools/excite.h"
 #include "tools/simulate.h"
 #include "tools/verify.h"
 
@@ -9,8 +10,8 @@ namespace armcal {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> kCommands = {
-      CalibrateCommand(), VerifyCommand(), DiagnoseCommand(),
-      SimulateCommand()};
+      CalibrateCommand(), VerifyCommand(), DiagnoseCommand(), SimulateCommand(),
+      ExciteCommand()};
   return kCommands;
 }
 

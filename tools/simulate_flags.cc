@@ -21,7 +21,7 @@ DEFINE_double(friction_width, 0.005,
 DEFINE_string(motion, "fourier",
               "what to follow: fourier, points (rests between moves), or a CSV "
               "with t,q1..[,qd1..,qdd1..]");
-DEFINE_double(duration, 20, "of fourier and points, s");
+DEFINE_double(duration, 20, "of a motion that is not from a file, s");
 DEFINE_double(size, 0.8, "share of the joints' range that they use");
 DEFINE_double(speed, 1, "share of the joints' speed that they use");
 DEFINE_string(joints, "", "that they move, such as 1,2; default: all");
@@ -35,7 +35,7 @@ DEFINE_string(torque_noise, "0.01",
 DEFINE_string(coloured_noise, "0.005", "correlated, the same way");
 DEFINE_double(noise_correlation, 0.05, "of the correlated noise, s");
 DEFINE_double(torque_delay, 0, "of the log's torques behind positions, s");
-DEFINE_double(log_rate, 250, "Hz; has to divide the controller's rate");
+DEFINE_double(log_rate, 250, "Hz; simulated: has to divide the controller's");
 DEFINE_double(jitter, 0, "of the sampling instants, standard deviation, s");
 DEFINE_double(lost, 0, "share of samples that are lost");
 DEFINE_uint64(run, 0,

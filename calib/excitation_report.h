@@ -1,0 +1,31 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "calib/design_target.h"
+#include "calib/excitation.h"
+#include "model/log.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// A designed motion and what it was designed for.
+struct ExcitationSummary {
+  const Robot& robot;
+  const ExcitationOptions& options;
+  const NamedQuantities& quantities;
+  const Excitation& excitation;
+  Eigen::VectorXd given_stddev;  // before the motion, of all quantities
+  std::vector<std::string> assumed;
+};
+
+std::string FullReport(const ExcitationSummary& summary);
+nlohmann::json ToJson(const ExcitationSummary& summary);
+
+// The motion as a log of q, qd and qdd, all its periods and the sample after
+// them, `rate_hz` samples a second.
+Log MotionLog(const Excitation& excitation, int periods, double rate_hz);
+
+}  // namespace armcal

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "calib/linear_calibration.h"
+#include "calib/log_set.h"
+#include "model/model_parameters.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// Power of each joint's torque error per Hz of bandwidth, (N m)^2 s: the
+// variance of a sample times the time it stands for. From the scatter of a
+// calibration's equations, which holds what the model lacks as well.
+Eigen::VectorXd ErrorDensity(const LinearCalibration& linear);
+
+// What the motions of logs tell about the parameters of `model` (m x m) where
+// torques have such errors; standstill tells nothing.
+Eigen::MatrixXd GivenInformation(const Robot& robot,
+                                 const ModelParameters& model,
+                                 const Eigen::VectorXd& density,
+                                 const Progress& progress, LogSet* logs);
+
+}  // namespace armcal

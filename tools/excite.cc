@@ -1,0 +1,138 @@
+#include "tools/excite.h"
+
+#include <gflags/gflags.h>
+
+#include <iostream>
+
+#include "calib/excitation_report.h"
+#include "calib/given_information.h"
+#include "calib/linear_calibration.h"
+#include "model/input_error.h"
+#include "model/log_writer.h"
+#include "tools/calibrate_refined.h"
+#include "tools/excite_flags.h"
+#include "tools/input_flags.h"
+#include "tools/output_folder.h"
+#include "tools/progress_bar.h"
+
+namespace armcal {
+namespace {
+
+// Friction changes sign within this, rad/s or m/s: wide enough for a search
+// that follows slopes.
+constexpr double kTransition = .05;
+
+const std::vector<JointTerm> kTerms = {JointTerm::kViscous, JointTerm::kCoulomb,
+                                       JointTerm::kOffset,
+                                       JointTerm::kArmature};
+
+// What a motion is designed with.
+struct Design {
+  ModelParameters model;
+  Eigen::VectorXd noise;  // of a sample
+  Eigen::MatrixXd known;  // of the model parameters
+  ReferenceMotion reference;
+};
+
+ModelParameters ModelFor(const Robot& robot, DesignTarget target) {
+  ModelParameters::Options options;
+  if (target == DesignTarget::kGeometry) {
+    options.geometry = GeometryKnowledge::kNonzeroLengths;
+  }
+  options.joint_terms = kTerms;
+  options.transitions.assign(
+      robot.num_joints(), {{CoulombTransition::Law::kVelocity, kTransition}});
+  return {robot, options};
+}
+
+// From existing logs: how large errors of the torque are, and what is known.
+void LearnFromLogs(const Robot& robot, double rate_hz, const Progress& progress,
+                   Design* design) {
+  const std::vector<std::string> paths = GivenLogsFromFlags();
+  if (paths.empty()) return;
+  LogSet logs(paths, LogOptionsFromFlags(robot), CropFromFlags());
+  LinearCalibrationOptions options;
+  options.joint_terms = kTerms;
+  options.bandwidth_hz = BandwidthFromFlags();
+  options.progress = progress;
+  const LinearCalibration linear =
+      CalibrateLinear(robot, options, &logs, nullptr);
+  if (!linear.solved) {
+    throw InputError(paths[0], "", "", "--given: " + linear.reason);
+  }
+  const Eigen::VectorXd density = ErrorDensity(linear);
+  design->known =
+      GivenInformation(robot, design->model, density, progress, &logs);
+  design->noise = (density * rate_hz).cwiseSqrt();
+}
+
+Design MakeDesign(const Robot& robot, const ExcitationOptions& options,
+                  std::vector<std::string>* assumed) {
+  Design design{ModelFor(robot, TargetFromFlags()), {}, {}, {}};
+  const int m = design.model.size();
+  design.known = Eigen::MatrixXd::Zero(m, m);
+  const Eigen::VectorXd& speed = options.limits.velocity;
+  design.reference = MakeReferenceMotion(
+      design.model, speed.mean() / 2, .5, 1,
+      Eigen::VectorXd::Zero(robot.num_joints()), design.model.Values(robot));
+  const Eigen::VectorXd shares = NoiseSharesFromFlags(robot.num_joints());
+  design.noise = shares.cwiseProduct(design.reference.torque);
+  LearnFromLogs(robot, options.rate_hz, options.progress, &design);
+  for (const Link& link : robot.links) {
+    if (!link.has_inertial) {
+      assumed->push_back("nothing weighs link " + link.name);
+    }
+  }
+  return design;
+}
+
+int RunExcite() {
+  const Robot robot = RobotFromFlags();
+  std::vector<std::string> assumed;
+  ExcitationOptions options = ExcitationOptionsFromFlags(robot, &assumed);
+  ProgressBar bar;
+  options.progress = [&bar](const std::string& stage, double fraction) {
+    bar.Show(stage, fraction);
+  };
+  const Design design = MakeDesign(robot, options, &assumed);
+  options.torque_noise = design.noise;
+  const NamedQuantities quantities =
+      MakeDesignQuantities(robot, design.model, kTerms, TargetFromFlags(),
+                           TrustFromFlags(), design.reference, design.known);
+  const Excitation excitation =
+      DesignExcitation(robot, design.model, quantities.design, options);
+  ExcitationSummary summary{robot,      options, quantities,
+                            excitation, {},      assumed};
+  if (!GivenLogsFromFlags().empty()) {
+    summary.given_stddev = PredictedStddev(
+        quantities.design,
+        Eigen::MatrixXd::Zero(design.model.size(), design.model.size()));
+  }
+  OutputFolder out(OutFromFlags());
+  if (excitation.numbers.size() > 0) {
+    out.Add("trajectory.csv",
+            LogText(MotionLog(excitation, options.periods, options.rate_hz)));
+  }
+  out.Add("excite.json", ToJson(summary).dump(2) + "\n");
+  out.Write();
+  std::cout << FullReport(summary);
+  return excitation.numbers.size() > 0 ? kExitOk : kExitNegative;
+}
+
+}  // namespace
+
+Command ExciteCommand() {
+  std::vector<std::string> flags = {"robot", "out", "base", "tip", "gravity"};
+  const auto& own = ExcitationFlagNames();
+  flags.insert(flags.end(), own.begin(), own.end());
+  for (const char* name : {"trust", "length_trust", "bandwidth", "crop",
+                           "torque_kind", "torque_constants", "gear_ratios"}) {
+    flags.push_back(name);
+  }
+  return {"excite",
+          "the motion that tells most about a robot within its limits, and how "
+          "well it will tell",
+          flags, &RunExcite};
+}
+
+}  // namespace armcal

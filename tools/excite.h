@@ -1,0 +1,10 @@
+#pragma once
+
+#include "tools/command.h"
+
+namespace armcal {
+
+// armcal excite
+Command ExciteCommand();
+
+}  // namespace armcal

@@ -1,0 +1,170 @@
+#include "tools/excite_flags.h"
+
+#include <gflags/gflags.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/input_text.h"
+#include "tools/command.h"
+#include "tools/input_flags.h"
+#include "tools/simulation_flags.h"
+
+DECLARE_double(duration);
+DECLARE_double(log_rate);
+DECLARE_string(torque_noise);
+
+DEFINE_string(target, "model",
+              "what the motion is to tell: model (parameters), physical "
+              "(inertias, friction), geometry (lengths)");
+DEFINE_string(criterion, "D",
+              "what is to be small: D (volume of the confidence ellipsoid), A "
+              "(sum of variances), worst (largest standard deviation)");
+DEFINE_int32(harmonics, 0,
+             "of the base frequency, per joint; default: up to 0.5 Hz");
+DEFINE_int32(periods, 1, "equal periods that the motion consists of");
+DEFINE_string(position_limits, "",
+              "lower:upper[,lower:upper..], rad or m; default: the file's");
+DEFINE_string(velocity_limits, "",
+              "rad/s or m/s, one number or one per joint; default: the file's");
+DEFINE_string(
+    acceleration_limits, "",
+    "rad/s^2 or m/s^2; default: three times the velocity in a second");
+DEFINE_string(effort_limits, "", "N m or N; default: the file's");
+DEFINE_double(use, .95, "share of the limits that the motion may use");
+DEFINE_string(given, "",
+              "logs that exist: the motion adds what they do not tell");
+
+namespace armcal {
+namespace {
+
+void CheckWithin(const char* flag, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  throw UsageError("--" + std::string(flag) + ": found '" + NumberText(value) +
+                   "', expected a number from " + NumberText(low) + " to " +
+                   NumberText(high));
+}
+
+void SetPositive(const char* flag, const std::string& text,
+                 Eigen::VectorXd* values) {
+  if (text.empty()) return;
+  *values = ParsePerJoint(flag, text, static_cast<int>(values->size()));
+  if (values->minCoeff() > 0) return;
+  throw UsageError("--" + std::string(flag) + ": found '" + text +
+                   "', expected numbers above 0");
+}
+
+void SetPositions(MotionLimits* limits) {
+  if (FLAGS_position_limits.empty()) return;
+  std::vector<TimeRange> ranges =
+      ParseRanges("position_limits", FLAGS_position_limits);
+  const auto n = static_cast<size_t>(limits->lower.size());
+  if (ranges.size() == 1) ranges.assign(n, ranges[0]);
+  for (size_t j = 0; j < n; ++j) {
+    if (ranges.size() == n && std::isfinite(ranges[j].begin) &&
+        std::isfinite(ranges[j].end)) {
+      limits->lower[j] = ranges[j].begin;
+      limits->upper[j] = ranges[j].end;
+      continue;
+    }
+    throw UsageError("--position_limits: found '" + FLAGS_position_limits +
+                     "', expected one lower:upper or " + std::to_string(n) +
+                     ", with both ends");
+  }
+}
+
+MotionLimits LimitsFromFlags(const Robot& robot,
+                             std::vector<std::string>* assumed) {
+  std::vector<std::string> of_file;
+  MotionLimits limits = LimitsOf(robot, &of_file);
+  SetPositions(&limits);
+  SetPositive("velocity_limits", FLAGS_velocity_limits, &limits.velocity);
+  if (!FLAGS_velocity_limits.empty()) {
+    limits.acceleration = 3 * limits.velocity;
+  }
+  SetPositive("acceleration_limits", FLAGS_acceleration_limits,
+              &limits.acceleration);
+  SetPositive("effort_limits", FLAGS_effort_limits, &limits.effort);
+  const std::pair<const char*, const std::string&> given[] = {
+      {"positions", FLAGS_position_limits},
+      {"velocities", FLAGS_velocity_limits},
+      {"accelerations", FLAGS_acceleration_limits},
+      {"any torque", FLAGS_effort_limits}};
+  for (const std::string& sentence : of_file) {
+    bool set = false;
+    for (const auto& [word, flag] : given) {
+      set = set || (sentence.rfind(word, 0) == 0 && !flag.empty());
+    }
+    if (!set) assumed->push_back(sentence);
+  }
+  CheckWithin("use", FLAGS_use, .05, 1);
+  return limits.Within(FLAGS_use);
+}
+
+}  // namespace
+
+const std::vector<std::string>& ExcitationFlagNames() {
+  static const std::vector<std::string> kNames = {"target",
+                                                  "criterion",
+                                                  "given",
+                                                  "duration",
+                                                  "periods",
+                                                  "harmonics",
+                                                  "position_limits",
+                                                  "velocity_limits",
+                                                  "acceleration_limits",
+                                                  "effort_limits",
+                                                  "use",
+                                                  "log_rate",
+                                                  "torque_noise",
+                                                  "seed"};
+  return kNames;
+}
+
+ExcitationOptions ExcitationOptionsFromFlags(
+    const Robot& robot, std::vector<std::string>* assumed) {
+  constexpr double kHighest = .5;  // Hz, unless asked for
+  ExcitationOptions options;
+  CheckWithin("duration", FLAGS_duration, .5, 1000);
+  CheckWithin("periods", FLAGS_periods, 1, 100);
+  options.duration_s = FLAGS_duration;
+  options.periods = FLAGS_periods;
+  const double period = FLAGS_duration / FLAGS_periods;
+  options.harmonics =
+      std::max(5, static_cast<int>(std::lround(kHighest * period)));
+  if (FLAGS_harmonics != 0) {
+    CheckWithin("harmonics", FLAGS_harmonics, 2, 100);
+    options.harmonics = FLAGS_harmonics;
+  }
+  CheckWithin("log_rate", FLAGS_log_rate, 1, 1e5);
+  options.rate_hz = FLAGS_log_rate;
+  options.criterion = ParseChoice<ExcitationCriterion>(
+      "criterion", FLAGS_criterion,
+      {{"D", ExcitationCriterion::kD},
+       {"A", ExcitationCriterion::kA},
+       {"worst", ExcitationCriterion::kWorst}});
+  options.limits = LimitsFromFlags(robot, assumed);
+  options.seed = SeedFromFlags();
+  return options;
+}
+
+DesignTarget TargetFromFlags() {
+  return ParseChoice<DesignTarget>("target", FLAGS_target,
+                                   {{"model", DesignTarget::kModel},
+                                    {"physical", DesignTarget::kPhysical},
+                                    {"geometry", DesignTarget::kGeometry}});
+}
+
+Eigen::VectorXd NoiseSharesFromFlags(int num_joints) {
+  const Eigen::VectorXd shares =
+      ParsePerJoint("torque_noise", FLAGS_torque_noise, num_joints);
+  if (shares.minCoeff() > 0) return shares;
+  throw UsageError("--torque_noise: found '" + FLAGS_torque_noise +
+                   "', expected numbers above 0");
+}
+
+std::vector<std::string> GivenLogsFromFlags() {
+  return SplitAtCommas(FLAGS_given);
+}
+
+}  // namespace armcal

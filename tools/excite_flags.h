@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/design_target.h"
+#include "calib/excitation.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+const std::vector<std::string>& ExcitationFlagNames();
+
+// What the flags of armcal excite ask of a motion, but for the noise; where
+// neither they nor the robot file say, `assumed` gets a sentence. Throws
+// UsageError.
+ExcitationOptions ExcitationOptionsFromFlags(const Robot& robot,
+                                             std::vector<std::string>* assumed);
+
+DesignTarget TargetFromFlags();  // --target
+// Shares of usual torques, per joint: --torque_noise.
+Eigen::VectorXd NoiseSharesFromFlags(int num_joints);
+std::vector<std::string> GivenLogsFromFlags();  // --given
+
+}  // namespace armcal
