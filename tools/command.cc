@@ -3,6 +3,7 @@
 #include "tools/calibrate.h"
 #include "tools/diagnose.h"
 #include "tools/excite.h"
+#include "tools/inspect.h"
 #include "tools/simulate.h"
 #include "tools/verify.h"
 
@@ -10,8 +11,8 @@ namespace armcal {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> kCommands = {
-      CalibrateCommand(), VerifyCommand(), DiagnoseCommand(), SimulateCommand(),
-      ExciteCommand()};
+      CalibrateCommand(), VerifyCommand(), DiagnoseCommand(),
+      SimulateCommand(),  ExciteCommand(), InspectCommand()};
   return kCommands;
 }
 

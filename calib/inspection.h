@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "calib/channel_audit.h"
+#include "calib/inspection_finding.h"
+#include "calib/log_reading.h"
+#include "model/log_reader.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// What a log holds and what is wrong with it.
+struct LogInspection {
+  std::string path;
+  int rows = 0;
+  bool whole = true;    // false: only the first rows were looked at
+  double duration = 0;  // s
+  StampFigures stamps;
+  std::string torque_source;
+  Eigen::VectorXd travel;       // per joint, rad or m
+  Eigen::VectorXd top_speed;    // rad/s or m/s
+  double moving_share = 0;      // of the time
+  double residual_percent = 0;  // of torques by the best fit of the arm
+  std::vector<InspectionFinding> findings;
+  LogReading reading;
+
+  explicit LogInspection(const Robot& robot) : reading(robot) {}
+};
+
+// Throws InputError for what cannot be read at all.
+LogInspection InspectLog(const Robot& robot, const std::string& path,
+                         const LogReaderOptions& options);
+
+// The log as the reading has it, with its time in s.
+Log Mended(const Robot& robot, const Log& log, const LogInspection& inspection);
+
+}  // namespace armcal

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace armcal {
+
+// Something about a log or a robot file that will spoil what is made of them.
+struct InspectionFinding {
+  std::string finding;   // one word, such as "torque_sign"
+  std::string sentence;  // what is wrong
+  std::string evidence;  // the figures that say so
+  std::string remedy;    // the flag or the header that mends it
+  int joint = -1;        // from 0; -1: none, or all
+  double probability = 1;
+};
+
+}  // namespace armcal

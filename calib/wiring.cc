@@ -1,0 +1,181 @@
+#include "calib/wiring.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "model/inverse_dynamics.h"
+#include "problems/inertial_prior.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kTransition = .03;  // rad/s or m/s, of Coulomb friction
+constexpr double kLeastMass = 1e-3;  // kg, of a link whose file has none
+constexpr int kTerms = 4;            // viscous, Coulomb, offset, armature
+constexpr double kLeastShare = .01;  // of the torque: no model is better
+
+// Torque of a unit of every link's inertial parameters and every joint's terms.
+// Inverse dynamics is linear in them.
+std::vector<MatrixXd> Columns(const Robot& robot, const Motion& motion) {
+  const int n = robot.num_joints();
+  std::vector<MatrixXd> columns(
+      n, MatrixXd::Zero(motion.size(), 10 * n + kTerms * n));
+  Robot unit = robot;
+  for (Link& link : unit.links) {
+    link.inertial = {};
+    link.joint.armature = 0;
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < 10; ++k) {
+      unit.links[i].inertial =
+          InertialParameters::FromVector(Vector10d::Unit(k));
+      for (int s = 0; s < motion.size(); ++s) {
+        const VectorXd tau = InverseDynamics(
+            unit, motion.q.row(s), motion.qd.row(s), motion.qdd.row(s));
+        for (int j = 0; j <= i; ++j) columns[j](s, 10 * i + k) = tau[j];
+      }
+    }
+    unit.links[i].inertial = {};
+    MatrixXd own(motion.size(), kTerms);
+    own << motion.qd.col(i),
+        (motion.qd.col(i).array() / kTransition).tanh().matrix(),
+        VectorXd::Ones(motion.size()), motion.qdd.col(i);
+    columns[i].middleCols(10 * n + kTerms * i, kTerms) = own;
+  }
+  return columns;
+}
+
+class Regression {
+ public:
+  Regression(const Robot& robot, const WiringSamples& samples)
+      : tau_(samples.tau), columns_(Columns(robot, samples.motion)) {
+    const int n = robot.num_joints(), size = 10 * n + kTerms * n;
+    nominal_ = VectorXd::Zero(size);
+    prior_ = MatrixXd::Zero(size, size);
+    for (int i = 0; i < n; ++i) {
+      Vector10d V = robot.links[i].inertial.ToVector();
+      if (!(V[0] > kLeastMass)) {
+        V << kLeastMass, 0, 0, 0, 1e-6, 0, 1e-6, 0, 0, 1e-6;
+      }
+      const auto W = InertialPrior(V, 1).W();
+      nominal_.segment<10>(10 * i) = V;
+      prior_.block<10, 10>(10 * i, 10 * i) = W.transpose() * W;
+    }
+    // Next to nothing, so that what does not move has a value.
+    for (int j = 0; j < n; ++j) {
+      const double rms = Rms(tau_.col(j));
+      for (int k = 0; k < kTerms; ++k) {
+        const int c = 10 * n + kTerms * j + k;
+        prior_(c, c) = 1e-4 / (rms * rms + 1e-12);
+      }
+    }
+  }
+
+  // Half the sum of N log mean squares, and what the prior takes.
+  double Misfit() {
+    const auto n = static_cast<int>(columns_.size());
+    VectorXd variance(n);
+    for (int j = 0; j < n; ++j)
+      variance[j] = std::pow(.1 * Rms(tau_.col(j)), 2);
+    std::vector<bool> held(nominal_.size(), false);
+    double misfit = 0;
+    squares_ = 0;
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds; ++round) {
+      const VectorXd x = Solve(variance, held);
+      HoldNegative(x, &held);
+      const VectorXd off = x - nominal_;
+      misfit = .5 * off.dot(prior_ * off);
+      for (int j = 0; j < n; ++j) {
+        const double rms = Rms(tau_.col(j) - columns_[j] * x);
+        if (round + 1 == kRounds) squares_ += rms * rms;
+        const double least = kLeastShare * Rms(tau_.col(j)) + 1e-9;
+        variance[j] = rms * rms + least * least;
+        misfit += .5 * static_cast<double>(tau_.rows()) * std::log(variance[j]);
+      }
+    }
+    return misfit;
+  }
+
+  // Of all joints, after Misfit().
+  double ResidualPercent() const {
+    return 100 * std::sqrt(squares_ * static_cast<double>(tau_.rows())) /
+           tau_.norm();
+  }
+
+ private:
+  static double Rms(const VectorXd& x) {
+    return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
+  }
+  VectorXd Solve(const VectorXd& variance, const std::vector<bool>& held) {
+    MatrixXd A = prior_;
+    VectorXd b = prior_ * nominal_;
+    for (size_t j = 0; j < columns_.size(); ++j) {
+      const double weight = 1 / (variance[j] + 1e-18);
+      A += weight * columns_[j].transpose() * columns_[j];
+      b += weight * columns_[j].transpose() * tau_.col(j);
+    }
+    for (size_t c = 0; c < held.size(); ++c) {
+      if (!held[c]) continue;
+      A.row(c).setZero();
+      A.col(c).setZero();
+      A(c, c) = 1;
+      b[c] = 0;
+    }
+    return A.ldlt().solve(b);
+  }
+  // Viscous and Coulomb friction and armature take power.
+  void HoldNegative(const VectorXd& x, std::vector<bool>* held) const {
+    const auto n = static_cast<int>(columns_.size());
+    for (int j = 0; j < n; ++j) {
+      for (const int k : {0, 1, 3}) {
+        const int c = 10 * n + kTerms * j + k;
+        if (x[c] < 0) (*held)[c] = true;
+      }
+    }
+  }
+
+  MatrixXd tau_;
+  std::vector<MatrixXd> columns_;
+  VectorXd nominal_;
+  MatrixXd prior_;
+  double squares_ = 0;
+};
+
+}  // namespace
+
+Wiring::Wiring(int num_joints)
+    : column(num_joints),
+      position_sign(VectorXd::Ones(num_joints)),
+      torque_sign(VectorXd::Ones(num_joints)) {
+  std::iota(column.begin(), column.end(), 0);
+}
+
+WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring) {
+  WiringSamples joints = samples;
+  for (size_t j = 0; j < wiring.column.size(); ++j) {
+    const auto to = static_cast<Eigen::Index>(j);
+    const int from = wiring.column[j];
+    const double sign = wiring.position_sign[to];
+    joints.motion.q.col(to) = sign * samples.motion.q.col(from);
+    joints.motion.qd.col(to) = sign * samples.motion.qd.col(from);
+    joints.motion.qdd.col(to) = sign * samples.motion.qdd.col(from);
+    joints.tau.col(to) = wiring.torque_sign[to] * samples.tau.col(from);
+  }
+  return joints;
+}
+
+double TorqueMisfit(const Robot& robot, const WiringSamples& samples,
+                    double* residual_percent) {
+  Regression regression(robot, samples);
+  const double misfit = regression.Misfit();
+  if (residual_percent) *residual_percent = regression.ResidualPercent();
+  return misfit;
+}
+
+}  // namespace armcal

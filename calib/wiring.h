@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "model/motion.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// Samples of a log's columns as they came, some hundred of them while the arm
+// moves: the motion of what is called joint 1, 2, .. and its torque.
+struct WiringSamples {
+  Motion motion;
+  Eigen::MatrixXd tau;  // samples x n
+};
+
+// Which column belongs to which joint, and with what sign.
+struct Wiring {
+  std::vector<int> column;                     // of each joint, from 0
+  Eigen::VectorXd position_sign, torque_sign;  // of each joint, +-1
+
+  explicit Wiring(int num_joints);
+};
+
+// The samples as joints have them if that is the wiring.
+WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring);
+
+// How badly the torques of an arm fit its motion: half the sum over joints and
+// samples of the log of the mean square residual, in nats, with inertias,
+// friction and armature fitted as they can be: friction takes power, and
+// inertias are those of the file to their own size (InertialPrior, trust 1).
+// `residual_percent`, unless null: of all torques.
+double TorqueMisfit(const Robot& robot, const WiringSamples& samples,
+                    double* residual_percent = nullptr);
+
+}  // namespace armcal
