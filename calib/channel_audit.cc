@@ -111,7 +111,12 @@ class ChannelAudit {
   void AddStuck(int j, const VectorXd& slope) {
     const Eigen::Array<bool, Eigen::Dynamic, 1> moves =
         slope.array().abs() > kMoving;
-    const double torque = LongestConstant(log_, log_.tau.col(j), moves);
+    // What is cut off stands at a limit.
+    const VectorXd tau = log_.tau.col(j);
+    const double low = tau.minCoeff(), high = tau.maxCoeff();
+    const double torque = LongestConstant(
+        log_, tau,
+        moves && (low == high || (tau.array() > low && tau.array() < high)));
     if (torque > kStuckTime)
       Stuck("torque", j, torque, "while the joint moves");
     if (log_.qd.size() == 0) return;
