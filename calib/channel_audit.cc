@@ -114,9 +114,11 @@ class ChannelAudit {
     // What is cut off stands at a limit.
     const VectorXd tau = log_.tau.col(j);
     const double low = tau.minCoeff(), high = tau.maxCoeff();
-    const double torque = LongestConstant(
-        log_, tau,
-        moves && (low == high || (tau.array() > low && tau.array() < high)));
+    Eigen::Array<bool, Eigen::Dynamic, 1> counts = moves;
+    if (low < high) {
+      counts = counts && tau.array() > low && tau.array() < high;
+    }
+    const double torque = LongestConstant(log_, tau, counts);
     if (torque > kStuckTime)
       Stuck("torque", j, torque, "while the joint moves");
     if (log_.qd.size() == 0) return;
