@@ -68,7 +68,6 @@ class Reader {
     while (static_cast<int>(changes_.size()) < kMostChanges && Improve()) {
     }
     RefineGravity();
-    RefineDelay();
     finding.reading = best_;
     finding.changes = changes_;
     Misfit(best_, &finding.residual_percent);
@@ -76,20 +75,23 @@ class Reader {
   }
 
  private:
-  double Misfit(const LogReading& reading, double* percent = nullptr) const {
+  TorqueFit FitOf(const LogReading& reading) const {
     Robot robot = robot_;
     robot.gravity = reading.gravity;
-    WiringSamples samples =
-        Rewired(series_.Pick(kSamples, reading.delay), reading.wiring);
-    if (reading.degrees) {
-      for (int j = 0; j < robot.num_joints(); ++j) {
-        if (!IsRotational(robot.links[j].joint.type)) continue;
-        samples.motion.q.col(j) *= kDegree;
-        samples.motion.qd.col(j) *= kDegree;
-        samples.motion.qdd.col(j) *= kDegree;
-      }
+    WiringSamples samples = SamplesOf(reading);
+    for (int j = 0; reading.degrees && j < robot.num_joints(); ++j) {
+      if (!IsRotational(robot.links[j].joint.type)) continue;
+      samples.motion.q.col(j) *= kDegree;
+      samples.motion.qd.col(j) *= kDegree;
+      samples.motion.qdd.col(j) *= kDegree;
     }
-    return TorqueMisfit(robot, samples, percent);
+    return {robot, samples.motion};
+  }
+  WiringSamples SamplesOf(const LogReading& reading) const {
+    return Rewired(series_.Pick(kSamples, reading.delay), reading.wiring);
+  }
+  double Misfit(const LogReading& reading, double* percent = nullptr) const {
+    return FitOf(reading).Misfit(SamplesOf(reading).tau, percent);
   }
 
   // One discrete change, the best; false where none is worth it.
@@ -102,6 +104,7 @@ class Reader {
     }
     all.push_back({best_, {Kind::kDegrees}});
     all.back().reading.degrees = !best_.degrees;
+    all.push_back(BestDelay());
     std::vector<double> misfits;
     for (const Candidate& candidate : all) {
       misfits.push_back(Misfit(candidate.reading));
@@ -165,26 +168,28 @@ class Reader {
   }
 
   // By coarse steps, then by the parabola through the best three.
-  void RefineDelay() {
+  Candidate BestDelay() const {
     constexpr double kMost = .08, kStep = .005;
-    LogReading at = best_;
-    double misfit = least_, best = 0;
-    const auto value = [&](double delay) {
+    Candidate best{best_, {Kind::kDelay}};
+    const TorqueFit fit = FitOf(best_);  // the motion stays
+    const auto misfit_at = [&](double delay) {
+      LogReading at = best_;
       at.delay = delay;
-      return Misfit(at);
+      return fit.Misfit(SamplesOf(at).tau);
     };
+    double least = least_, delay = best_.delay;
     for (int k = -static_cast<int>(kMost / kStep); k * kStep <= kMost; ++k) {
-      const double here = value(k * kStep);
-      if (here >= misfit) continue;
-      misfit = here;
-      best = k * kStep;
+      const double here = misfit_at(k * kStep);
+      if (here >= least) continue;
+      least = here;
+      delay = k * kStep;
     }
-    const double before = value(best - kStep), after = value(best + kStep);
-    const double curvature = before + after - 2 * misfit;
-    if (curvature > 0) best += kStep * (before - after) / (2 * curvature);
-    misfit = value(best);
-    if (std::abs(best) < kLeastDelay || misfit > least_ - kLeastGain) return;
-    Accept({at, {Kind::kDelay}}, misfit, 1);
+    const double before = misfit_at(delay - kStep);
+    const double after = misfit_at(delay + kStep);
+    const double curvature = before + after - 2 * least;
+    if (curvature > 0) delay += kStep * (before - after) / (2 * curvature);
+    best.reading.delay = std::abs(delay) < kLeastDelay ? best_.delay : delay;
+    return best;
   }
 
   const Robot& robot_;

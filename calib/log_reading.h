@@ -34,7 +34,7 @@ struct ReadingChange {
   };
   Kind kind;
   int joint = -1, other = -1;  // from 0
-  double gain = 0;             // nats of TorqueMisfit
+  double gain = 0;             // nats of TorqueFit::Misfit
   double probability = 1;      // against the other changes that were tried
 };
 

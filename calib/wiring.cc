@@ -50,102 +50,9 @@ std::vector<MatrixXd> Columns(const Robot& robot, const Motion& motion) {
   return columns;
 }
 
-class Regression {
- public:
-  Regression(const Robot& robot, const WiringSamples& samples)
-      : tau_(samples.tau), columns_(Columns(robot, samples.motion)) {
-    const int n = robot.num_joints(), size = 10 * n + kTerms * n;
-    nominal_ = VectorXd::Zero(size);
-    prior_ = MatrixXd::Zero(size, size);
-    for (int i = 0; i < n; ++i) {
-      Vector10d V = robot.links[i].inertial.ToVector();
-      if (!(V[0] > kLeastMass)) {
-        V << kLeastMass, 0, 0, 0, 1e-6, 0, 1e-6, 0, 0, 1e-6;
-      }
-      const auto W = InertialPrior(V, 1).W();
-      nominal_.segment<10>(10 * i) = V;
-      prior_.block<10, 10>(10 * i, 10 * i) = W.transpose() * W;
-    }
-    // Next to nothing, so that what does not move has a value.
-    for (int j = 0; j < n; ++j) {
-      const double rms = Rms(tau_.col(j));
-      for (int k = 0; k < kTerms; ++k) {
-        const int c = 10 * n + kTerms * j + k;
-        prior_(c, c) = 1e-4 / (rms * rms + 1e-12);
-      }
-    }
-  }
-
-  // Half the sum of N log mean squares, and what the prior takes.
-  double Misfit() {
-    const auto n = static_cast<int>(columns_.size());
-    VectorXd variance(n);
-    for (int j = 0; j < n; ++j)
-      variance[j] = std::pow(.1 * Rms(tau_.col(j)), 2);
-    std::vector<bool> held(nominal_.size(), false);
-    double misfit = 0;
-    squares_ = 0;
-    constexpr int kRounds = 3;
-    for (int round = 0; round < kRounds; ++round) {
-      const VectorXd x = Solve(variance, held);
-      HoldNegative(x, &held);
-      const VectorXd off = x - nominal_;
-      misfit = .5 * off.dot(prior_ * off);
-      for (int j = 0; j < n; ++j) {
-        const double rms = Rms(tau_.col(j) - columns_[j] * x);
-        if (round + 1 == kRounds) squares_ += rms * rms;
-        const double least = kLeastShare * Rms(tau_.col(j)) + 1e-9;
-        variance[j] = rms * rms + least * least;
-        misfit += .5 * static_cast<double>(tau_.rows()) * std::log(variance[j]);
-      }
-    }
-    return misfit;
-  }
-
-  // Of all joints, after Misfit().
-  double ResidualPercent() const {
-    return 100 * std::sqrt(squares_ * static_cast<double>(tau_.rows())) /
-           tau_.norm();
-  }
-
- private:
-  static double Rms(const VectorXd& x) {
-    return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
-  }
-  VectorXd Solve(const VectorXd& variance, const std::vector<bool>& held) {
-    MatrixXd A = prior_;
-    VectorXd b = prior_ * nominal_;
-    for (size_t j = 0; j < columns_.size(); ++j) {
-      const double weight = 1 / (variance[j] + 1e-18);
-      A += weight * columns_[j].transpose() * columns_[j];
-      b += weight * columns_[j].transpose() * tau_.col(j);
-    }
-    for (size_t c = 0; c < held.size(); ++c) {
-      if (!held[c]) continue;
-      A.row(c).setZero();
-      A.col(c).setZero();
-      A(c, c) = 1;
-      b[c] = 0;
-    }
-    return A.ldlt().solve(b);
-  }
-  // Viscous and Coulomb friction and armature take power.
-  void HoldNegative(const VectorXd& x, std::vector<bool>* held) const {
-    const auto n = static_cast<int>(columns_.size());
-    for (int j = 0; j < n; ++j) {
-      for (const int k : {0, 1, 3}) {
-        const int c = 10 * n + kTerms * j + k;
-        if (x[c] < 0) (*held)[c] = true;
-      }
-    }
-  }
-
-  MatrixXd tau_;
-  std::vector<MatrixXd> columns_;
-  VectorXd nominal_;
-  MatrixXd prior_;
-  double squares_ = 0;
-};
+double Rms(const VectorXd& x) {
+  return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
+}
 
 }  // namespace
 
@@ -170,11 +77,83 @@ WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring) {
   return joints;
 }
 
-double TorqueMisfit(const Robot& robot, const WiringSamples& samples,
-                    double* residual_percent) {
-  Regression regression(robot, samples);
-  const double misfit = regression.Misfit();
-  if (residual_percent) *residual_percent = regression.ResidualPercent();
+TorqueFit::TorqueFit(const Robot& robot, const Motion& motion)
+    : columns_(Columns(robot, motion)) {
+  const int n = robot.num_joints(), size = 10 * n + kTerms * n;
+  for (const MatrixXd& columns : columns_) {
+    squares_.emplace_back(columns.transpose() * columns);
+  }
+  nominal_ = VectorXd::Zero(size);
+  prior_ = MatrixXd::Zero(size, size);
+  for (int i = 0; i < n; ++i) {
+    Vector10d V = robot.links[i].inertial.ToVector();
+    if (!(V[0] > kLeastMass)) {
+      V << kLeastMass, 0, 0, 0, 1e-6, 0, 1e-6, 0, 0, 1e-6;
+    }
+    const auto W = InertialPrior(V, 1).W();
+    nominal_.segment<10>(10 * i) = V;
+    prior_.block<10, 10>(10 * i, 10 * i) = W.transpose() * W;
+  }
+}
+
+VectorXd TorqueFit::Solve(const MatrixXd& tau, const VectorXd& variance,
+                          const std::vector<bool>& held) const {
+  const auto n = static_cast<int>(columns_.size());
+  MatrixXd A = prior_;
+  VectorXd b = prior_ * nominal_;
+  for (int j = 0; j < n; ++j) {
+    const double weight = 1 / (variance[j] + 1e-18);
+    A += weight * squares_[j];
+    b += weight * columns_[j].transpose() * tau.col(j);
+    // Next to nothing, so that what does not move has a value.
+    const double rms = Rms(tau.col(j));
+    A.diagonal().segment(10 * n + kTerms * j, kTerms).array() +=
+        1e-4 / (rms * rms + 1e-12);
+  }
+  for (size_t c = 0; c < held.size(); ++c) {
+    if (!held[c]) continue;
+    A.row(c).setZero();
+    A.col(c).setZero();
+    A(c, c) = 1;
+    b[c] = 0;
+  }
+  return A.ldlt().solve(b);
+}
+
+// Viscous and Coulomb friction and armature take power.
+void TorqueFit::HoldNegative(const VectorXd& x, std::vector<bool>* held) const {
+  const auto n = static_cast<int>(columns_.size());
+  for (int j = 0; j < n; ++j) {
+    for (const int k : {0, 1, 3}) {
+      const int c = 10 * n + kTerms * j + k;
+      if (x[c] < 0) (*held)[c] = true;
+    }
+  }
+}
+
+double TorqueFit::Misfit(const MatrixXd& tau, double* residual_percent) const {
+  constexpr int kRounds = 3;  // of the joints' noise
+  const auto n = static_cast<int>(columns_.size());
+  const auto samples = static_cast<double>(tau.rows());
+  VectorXd variance(n), rms(n);
+  for (int j = 0; j < n; ++j) variance[j] = std::pow(.1 * Rms(tau.col(j)), 2);
+  std::vector<bool> held(nominal_.size(), false);
+  double misfit = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const VectorXd x = Solve(tau, variance, held);
+    HoldNegative(x, &held);
+    const VectorXd off = x - nominal_;
+    misfit = .5 * off.dot(prior_ * off);
+    for (int j = 0; j < n; ++j) {
+      rms[j] = Rms(tau.col(j) - columns_[j] * x);
+      const double least = kLeastShare * Rms(tau.col(j)) + 1e-9;
+      variance[j] = rms[j] * rms[j] + least * least;
+      misfit += .5 * samples * std::log(variance[j]);
+    }
+  }
+  if (residual_percent != nullptr) {
+    *residual_percent = 100 * rms.norm() * std::sqrt(samples) / tau.norm();
+  }
   return misfit;
 }
 

@@ -27,12 +27,28 @@ struct Wiring {
 // The samples as joints have them if that is the wiring.
 WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring);
 
-// How badly the torques of an arm fit its motion: half the sum over joints and
-// samples of the log of the mean square residual, in nats, with inertias,
-// friction and armature fitted as they can be: friction takes power, and
-// inertias are those of the file to their own size (InertialPrior, trust 1).
-// `residual_percent`, unless null: of all torques.
-double TorqueMisfit(const Robot& robot, const WiringSamples& samples,
-                    double* residual_percent = nullptr);
+// How well torques fit an arm that moves like this, with inertias, friction and
+// armature fitted as they can be: friction takes power, and inertias are those
+// of the file to their own size (InertialPrior, trust 1).
+class TorqueFit {
+ public:
+  TorqueFit(const Robot& robot, const Motion& motion);
+
+  // Half the sum over joints and samples of the log of the mean square
+  // residual, in nats; small is good. `tau`: samples x n, N m or N.
+  // `residual_percent`, unless null: of all torques.
+  double Misfit(const Eigen::MatrixXd& tau,
+                double* residual_percent = nullptr) const;
+
+ private:
+  Eigen::VectorXd Solve(const Eigen::MatrixXd& tau,
+                        const Eigen::VectorXd& variance,
+                        const std::vector<bool>& held) const;
+  void HoldNegative(const Eigen::VectorXd& x, std::vector<bool>* held) const;
+
+  std::vector<Eigen::MatrixXd> columns_, squares_;  // per joint
+  Eigen::VectorXd nominal_;
+  Eigen::MatrixXd prior_;
+};
 
 }  // namespace armcal
