@@ -7,6 +7,7 @@
 #include "calib/excitation_report.h"
 #include "calib/given_information.h"
 #include "calib/linear_calibration.h"
+#include "calib/posture_report.h"
 #include "model/input_error.h"
 #include "model/log_writer.h"
 #include "tools/calibrate_refined.h"
@@ -86,8 +87,19 @@ Design MakeDesign(const Robot& robot, const ExcitationOptions& options,
   return design;
 }
 
-int RunExcite() {
-  const Robot robot = RobotFromFlags();
+int RunPostures(const Robot& robot, const PostureOptions& options,
+                const std::vector<std::string>& assumed) {
+  const PostureDesign design = DesignPostures(robot, options);
+  const PostureSummary summary{robot, options, design, assumed};
+  OutputFolder out(OutFromFlags());
+  out.Add("postures.csv", PostureText(design));
+  out.Add("excite.json", ToJson(summary).dump(2) + "\n");
+  out.Write();
+  std::cout << FullReport(summary);
+  return kExitOk;
+}
+
+int RunMotion(const Robot& robot) {
   std::vector<std::string> assumed;
   ExcitationOptions options = ExcitationOptionsFromFlags(robot, &assumed);
   ProgressBar bar;
@@ -117,6 +129,14 @@ int RunExcite() {
   out.Write();
   std::cout << FullReport(summary);
   return excitation.numbers.size() > 0 ? kExitOk : kExitNegative;
+}
+
+int RunExcite() {
+  const Robot robot = RobotFromFlags();
+  std::vector<std::string> assumed;
+  const std::optional<PostureOptions> postures =
+      PostureOptionsFromFlags(robot, &assumed);
+  return postures ? RunPostures(robot, *postures, assumed) : RunMotion(robot);
 }
 
 }  // namespace

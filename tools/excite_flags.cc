@@ -32,6 +32,14 @@ DEFINE_string(
     "rad/s^2 or m/s^2; default: three times the velocity in a second");
 DEFINE_string(effort_limits, "", "N m or N; default: the file's");
 DEFINE_double(use, .95, "share of the limits that the motion may use");
+DEFINE_int32(static_poses, 0,
+             "design so many postures for a calibration of the geometry "
+             "instead of a motion");
+DEFINE_string(instrument, "target",
+              "what is measured at postures: target (position of a target on "
+              "the tool), pose (of the tool)");
+DEFINE_string(pose_noise, "0.0001,0.0001",
+              "of what is measured at postures, m and rad");
 DEFINE_string(given, "",
               "logs that exist: the motion adds what they do not tell");
 
@@ -101,6 +109,14 @@ MotionLimits LimitsFromFlags(const Robot& robot,
   return limits.Within(FLAGS_use);
 }
 
+ExcitationCriterion CriterionFromFlags() {
+  return ParseChoice<ExcitationCriterion>(
+      "criterion", FLAGS_criterion,
+      {{"D", ExcitationCriterion::kD},
+       {"A", ExcitationCriterion::kA},
+       {"worst", ExcitationCriterion::kWorst}});
+}
+
 }  // namespace
 
 const std::vector<std::string>& ExcitationFlagNames() {
@@ -117,6 +133,9 @@ const std::vector<std::string>& ExcitationFlagNames() {
                                                   "use",
                                                   "log_rate",
                                                   "torque_noise",
+                                                  "static_poses",
+                                                  "instrument",
+                                                  "pose_noise",
                                                   "seed"};
   return kNames;
 }
@@ -138,12 +157,36 @@ ExcitationOptions ExcitationOptionsFromFlags(
   }
   CheckWithin("log_rate", FLAGS_log_rate, 1, 1e5);
   options.rate_hz = FLAGS_log_rate;
-  options.criterion = ParseChoice<ExcitationCriterion>(
-      "criterion", FLAGS_criterion,
-      {{"D", ExcitationCriterion::kD},
-       {"A", ExcitationCriterion::kA},
-       {"worst", ExcitationCriterion::kWorst}});
+  options.criterion = CriterionFromFlags();
   options.limits = LimitsFromFlags(robot, assumed);
+  options.seed = SeedFromFlags();
+  return options;
+}
+
+std::optional<PostureOptions> PostureOptionsFromFlags(
+    const Robot& robot, std::vector<std::string>* assumed) {
+  if (FLAGS_static_poses == 0) return {};
+  CheckWithin("static_poses", FLAGS_static_poses, 1, 1000);
+  PostureOptions options;
+  options.count = FLAGS_static_poses;
+  options.instrument = ParseChoice<PoseInstrument>(
+      "instrument", FLAGS_instrument,
+      {{"target", PoseInstrument::kTarget}, {"pose", PoseInstrument::kPose}});
+  options.criterion = CriterionFromFlags();
+  const std::vector<double> noise =
+      ParseNumbers("pose_noise", FLAGS_pose_noise);
+  if (noise.size() != 2 || !(noise[0] > 0) || !(noise[1] > 0)) {
+    throw UsageError("--pose_noise: found '" + FLAGS_pose_noise +
+                     "', expected two numbers above 0, m and rad");
+  }
+  options.noise = {noise[0], noise[1]};
+  std::vector<std::string> sentences;
+  const MotionLimits limits = LimitsFromFlags(robot, &sentences);
+  for (const std::string& sentence : sentences) {
+    if (sentence.rfind("positions", 0) == 0) assumed->push_back(sentence);
+  }
+  options.lower = limits.lower;
+  options.upper = limits.upper;
   options.seed = SeedFromFlags();
   return options;
 }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "calib/design_target.h"
 #include "calib/excitation.h"
+#include "calib/posture_design.h"
 #include "model/robot.h"
 
 namespace armcal {
@@ -16,6 +18,10 @@ const std::vector<std::string>& ExcitationFlagNames();
 // UsageError.
 ExcitationOptions ExcitationOptionsFromFlags(const Robot& robot,
                                              std::vector<std::string>* assumed);
+
+// Nothing unless --static_poses asks for postures.
+std::optional<PostureOptions> PostureOptionsFromFlags(
+    const Robot& robot, std::vector<std::string>* assumed);
 
 DesignTarget TargetFromFlags();  // --target
 // Shares of usual torques, per joint: --torque_noise.
