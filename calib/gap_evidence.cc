@@ -72,6 +72,8 @@ EffectEvidence GapEvidence::ForEffect(
   evidence.beside = Beside(k);
   evidence.imitated = IsImitated(*effect.effect);
   evidence.gain = held_out_.Gain(k, figures_.after);
+  evidence.confirmation = held_out_.ConfirmationOf(k);
+  evidence.unsteady = Unsteadiness(fit_.LeftWithout(k), fit_.Left());
   return evidence;
 }
 

@@ -19,10 +19,12 @@ struct EffectEvidence {
   int beside = 0;
   // Whether mechanisms without a name are often taken for it.
   bool imitated = false;
-  double next = 0;       // score of the best further candidate, at least 0
-  int events = 0;        // windows of it, of what comes and goes
-  double one_joint = 0;  // GapEvent's, of the strongest
-  double gain = 0;       // by how much it lowers the held-out mean square
+  double next = 0;            // score of the best further candidate, at least 0
+  int events = 0;             // windows of it, of what comes and goes
+  double one_joint = 0;       // GapEvent's, of the strongest
+  double gain = 0;            // by how much it lowers the held-out mean square
+  Confirmation confirmation;  // by held-out data
+  double unsteady = 0;        // Unsteadiness(), of the data it was fitted to
 };
 
 // The evidence for what a fit chose. Keeps references.

@@ -7,6 +7,14 @@
 #include "calib/gap_search.h"
 
 namespace armcal {
+namespace {
+
+std::vector<GapCandidate> Without(std::vector<GapCandidate> effects, size_t k) {
+  effects.erase(effects.begin() + static_cast<long>(k));
+  return effects;
+}
+
+}  // namespace
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -153,9 +161,24 @@ HeldOutSquares HeldOut::AllSquares() const {
 }
 
 double HeldOut::Gain(size_t k, double after) const {
-  std::vector<GapCandidate> others = fit_.refined().effects;
-  others.erase(others.begin() + k);
-  return MeanSquare(Squares(others, fit_.BaselineWithout(k))) - after;
+  return MeanSquare(Squares(Without(fit_.refined().effects, k),
+                            fit_.BaselineWithout(k))) -
+         after;
+}
+
+JointRows HeldOut::Whitened(const MatrixXd& residual) const {
+  JointRows white(residual.cols());
+  for (int j = 0; j < residual.cols(); ++j) {
+    white[j] = rows().Whiten(j, residual.col(j));
+  }
+  return white;
+}
+
+Confirmation HeldOut::ConfirmationOf(size_t k) const {
+  const RefinedEffects& refined = fit_.refined();
+  return Confirm(
+      Whitened(Residual(Without(refined.effects, k), fit_.BaselineWithout(k))),
+      Whitened(Residual(refined.effects, refined.baseline)));
 }
 
 }  // namespace armcal

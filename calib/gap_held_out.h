@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "calib/gap_confirmation.h"
 #include "calib/gap_data.h"
 #include "calib/gap_fit.h"
 #include "calib/gap_shrink.h"
@@ -29,6 +30,8 @@ class HeldOut {
   HeldOutSquares AllSquares() const;
   // By how much the k-th effect lowers the mean square, those of all given.
   double Gain(size_t k, double after) const;
+  // Whether these data are what the k-th effect says.
+  Confirmation ConfirmationOf(size_t k) const;
 
  private:
   void MaskEvents();
@@ -42,6 +45,7 @@ class HeldOut {
   // Thinned samples x n, N m or N.
   Eigen::MatrixXd Residual(const std::vector<GapCandidate>& effects,
                            const Eigen::VectorXd& baseline) const;
+  JointRows Whitened(const Eigen::MatrixXd& residual) const;
   // Over their standard deviations; NaN where a joint stands.
   Eigen::MatrixXd Deviations(const Eigen::MatrixXd& residual) const;
 

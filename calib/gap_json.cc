@@ -29,7 +29,10 @@ json EvidenceJson(const EffectEvidence& evidence) {
           {"next", JsonNumber(evidence.next)},
           {"events", evidence.events},
           {"one_joint", JsonNumber(evidence.one_joint)},
-          {"gain", JsonNumber(evidence.gain)}};
+          {"gain", JsonNumber(evidence.gain)},
+          {"expected", JsonNumber(evidence.confirmation.expected)},
+          {"explained", JsonNumber(evidence.confirmation.explained)},
+          {"unsteady", JsonNumber(evidence.unsteady)}};
 }
 
 json NumbersJson(const Eigen::VectorXd& values) {
