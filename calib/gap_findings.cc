@@ -190,7 +190,20 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 
 }  // namespace
 
+bool IsPossible(const FoundEffect& found) {
+  constexpr double kFarthest = 1;  // m, of a load from the last link's frame
+  if (found.effect->name != "payload") return true;
+  double squared = 0;
+  for (const EffectEstimate& estimate : found.estimates) {
+    if (estimate.name.rfind("com_", 0) == 0) {
+      squared += estimate.value * estimate.value;
+    }
+  }
+  return squared <= kFarthest * kFarthest;
+}
+
 bool IsClaimed(const FoundEffect& found) {
+  if (!IsPossible(found)) return false;
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
   if (found.probability >= kLikely) return true;

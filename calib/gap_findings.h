@@ -34,9 +34,12 @@ struct FoundEffect {
   std::vector<Contact> contacts;  // of external_contact, in time's order
 };
 
-// Whether it is told as an effect; what is not is a candidate. It has to be
-// likelier than not, or likely enough and of help on held-out data, as what
-// swings in time has to be anyway.
+// Whether such a thing can be: a load is held by the tool.
+bool IsPossible(const FoundEffect& found);
+
+// Whether it is told as an effect: it has to be possible; what is not is a
+// candidate. It has to be likelier than not, or likely enough and of help on
+// held-out data, as what swings in time has to be anyway.
 bool IsClaimed(const FoundEffect& found);
 
 // By their drops, but for what the file has a number for: that may take the

@@ -12,7 +12,13 @@ constexpr int kWindows = 3;
 constexpr double kLowestHarmonic = 6, kHighestHarmonic = 130;
 // Of the bandwidth: beyond it the low pass leaves nothing of a vibration.
 constexpr double kHighestFrequency = 4;
+constexpr double kLeastPassed = .3;  // of a vibration's amplitude
 const std::vector<double> kDurations = {.15, .4, 1};  // s
+
+// Of the low pass (low_pass.h).
+double GainAt(double f, double bandwidth_hz) {
+  return 1 / (1 + std::pow(f / bandwidth_hz, 8));
+}
 
 }  // namespace
 
@@ -64,7 +70,8 @@ std::vector<double> GapProposals::Frequencies(int joint) const {
 }
 
 // Thinned samples take f for what is as far beyond half their rate; the
-// recorded torque does not.
+// recorded torque does not: it stands out there, and is as large as what the
+// low pass has left of it.
 double GapProposals::Unaliased(int joint, double f) const {
   const auto& segments = rows_.segments();
   const auto longest =
@@ -76,11 +83,18 @@ double GapProposals::Unaliased(int joint, double f) const {
   const double rate = 1 / rows_.step(s), dt = longest->motion.dt;
   const VectorXd t =
       VectorXd::LinSpaced(longest->size(), 0, (longest->size() - 1) * dt);
+  const int begin = rows_.thin_begin(s), size = rows_.thin_begin(s + 1) - begin;
+  const double left = rows_.noise(joint).stddev() *
+                      AmplitudeAt(whitened_.col(joint).segment(begin, size),
+                                  t_.segment(begin, size), f);
   double best = f, most = 0;
   for (const double alias : {f, rate - f, rate + f}) {
     if (alias > std::min(kHighestFrequency * rows_.bandwidth_hz(), .4 / dt)) {
       continue;
     }
+    const double passed = GainAt(alias, rows_.bandwidth_hz()) *
+                          AmplitudeAt(longest->tau.col(joint), t, alias);
+    if (passed < kLeastPassed * left) continue;
     const double power = PowerOverNeighbours(longest->tau.col(joint), t, alias);
     if (power > most) most = power, best = alias;
   }

@@ -100,13 +100,26 @@ std::vector<TimeWindow> StrongWindows(const MatrixXd& residual,
   return windows;
 }
 
+namespace {
+
+// Hann's window, of mean 1, keeps what is large and slow out.
+VectorXd Windowed(const VectorXd& signal, const VectorXd& t) {
+  const double range = t.maxCoeff() - t.minCoeff();
+  return (signal.array() - signal.mean()) *
+         (1 - (2 * M_PI / range * (t.array() - t.minCoeff())).cos());
+}
+
+}  // namespace
+
+double AmplitudeAt(const VectorXd& signal, const VectorXd& t,
+                   double frequency) {
+  return 2 / static_cast<double>(t.size()) *
+         std::sqrt(Power(Windowed(signal, t), t, 2 * M_PI * frequency));
+}
+
 double PowerOverNeighbours(const VectorXd& signal, const VectorXd& t,
                            double frequency) {
-  const double range = t.maxCoeff() - t.minCoeff();
-  // Hann's window keeps what is large and slow out.
-  const VectorXd windowed =
-      (signal.array() - signal.mean()) *
-      (1 - (2 * M_PI / range * (t.array() - t.minCoeff())).cos());
+  const VectorXd windowed = Windowed(signal, t);
   const auto power = [&](double f) { return Power(windowed, t, 2 * M_PI * f); };
   double around = 0;
   for (const double away : {.2, .4, .6, .8, 1.}) {

@@ -12,6 +12,10 @@ std::vector<double> PeakFrequencies(const Eigen::VectorXd& residual,
                                     const Eigen::VectorXd& place, double low,
                                     double high, int count);
 
+// The amplitude of a signal (at times t, s) at a frequency (Hz), in its unit.
+double AmplitudeAt(const Eigen::VectorXd& signal, const Eigen::VectorXd& t,
+                   double frequency);
+
 // By how much the power of a signal (at times t, s) at a frequency (Hz) exceeds
 // that around it, its mean from .2 to 1 Hz to both sides.
 double PowerOverNeighbours(const Eigen::VectorXd& signal,

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 // Of the fastest oscillation, 1/2 rad per step: beyond that the method damps.
 constexpr double kPhasePerStep = .5;
-constexpr int kMostSubsteps = 40;
+constexpr int kMostSubsteps = 10;  // faster ones no filter lets through
 // The link rests on its transmission at first: implicit steps of this length.
 constexpr int kSettlingSteps = 20;
 constexpr double kSettlingStep = 1;  // s

@@ -65,6 +65,15 @@ TEST(PowerOverNeighbours, IsLargeAtALineOnly) {
   EXPECT_LT(PowerOverNeighbours(signal, t, 25), 10);
 }
 
+TEST(AmplitudeAt, IsThatOfTheWave) {
+  const VectorXd t = VectorXd::LinSpaced(4000, 0, 40);
+  const VectorXd waves = 20 * (2 * M_PI * .7 * t.array()).sin() +
+                         .2 * (2 * M_PI * 17 * t.array() + 1).cos() + 5;
+  EXPECT_NEAR(AmplitudeAt(waves, t, .7), 20, .2);
+  EXPECT_NEAR(AmplitudeAt(waves, t, 17), .2, .002);
+  EXPECT_NEAR(AmplitudeAt(waves, t, 11), 0, .002);
+}
+
 TEST(PeakFrequencies, AreNoneWithoutMotionOrRange) {
   const VectorXd still = VectorXd::Ones(kSamples);
   EXPECT_TRUE(PeakFrequencies(still, still, 6, 130, 3).empty());

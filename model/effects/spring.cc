@@ -10,10 +10,12 @@ Effect Spring() {
   effect.name = "spring";
   effect.law = "tau = stiffness (q - neutral)";
   effect.shows = "slow motion over the joint's whole range";
-  effect.parameters = {Linear("stiffness", "E/P",
-                              [](const EffectSite& site) {
-                                return .05 * TorqueScale(site) / Radian(site);
-                              }),
+  effect.parameters = {Linear(
+                           "stiffness", "E/P",
+                           [](const EffectSite& site) {
+                             return .05 * TorqueScale(site) / Radian(site);
+                           },
+                           EffectParameter::Sign::kPositive),
                        Linear("preload", "E", ShareOfTorque(.05))};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
