@@ -13,16 +13,12 @@ struct Confirmation {
   // 1 where the effect is right, 0 where it is half of what it says, -1 where
   // it is not there; near 0 where it is too small to tell.
   double Share() const;
+  // How well these data could tell: 0 not at all, 1 where it is large.
+  double Visibility() const;
 };
 
 // From whitened residuals per joint with and without the effect, each beside
 // the baseline that was fitted so.
 Confirmation Confirm(const JointRows& without, const JointRows& with);
-
-// How much an effect's size varies over the quarters of the data it was fitted
-// to: the standard deviation of the four about their mean, relative to it,
-// beyond what noise makes of it. What only looks like the effect is often of
-// another size at another time.
-double Unsteadiness(const JointRows& without, const JointRows& with);
 
 }  // namespace armcal

@@ -7,15 +7,15 @@
 namespace armcal {
 namespace {
 
-// Of ProbabilityOf: logistic regression with a ridge on the 348 effects found
-// in 237 cases of the blind bench's calibration seeds 303 and 304 and in the 78
-// withheld ones of calibration seed 1. Few of these come and go: weights of
-// that are of the 347 effects in all 312 cases of seed 303 and the same
-// withheld ones, kEvent such that the same are as probable.
-constexpr double kConstant = -.9697, kOdds = .1454, kNext = -.8588,
-                 kChosen = -.972, kBeside = -2.3614, kImitated = -2.08,
-                 kEvent = -1.2, kEvents = -.2195, kOneJoint = -1.1486,
-                 kGain = 4.775;
+// Of ProbabilityOf: logistic regression with a ridge on the effects that were
+// found in the cases of the evaluation of a1d248e9, which are calibration cases
+// since. Few of these come and go: weights of that are of the 347 effects in
+// all 312 cases of seed 303 and the 78 withheld ones of seed 1.
+constexpr double kConstant = .0409, kOdds = .3908, kRest = -.2557,
+                 kOthers = -1.3454, kBeside = -2.4097, kImitated = -1.0224,
+                 kConfirmed = 2.0653, kVisible = -1.7381, kLeft = -1.89;
+constexpr double kEvent = -2.1697, kEventOdds = .1454, kEventRest = -.8588,
+                 kEventOthers = -.972, kEvents = -.2195, kOneJoint = -1.1486;
 
 constexpr double kMostOdds = 12;
 
@@ -28,6 +28,20 @@ bool IsImitated(const Effect& effect) {
     if (effect.name == name) return true;
   }
   return false;
+}
+
+// Of mean squares beyond the noise's: after the effects, over before.
+double LeftOf(const GapFigures& figures, int joint) {
+  constexpr double kNoise = 1.1, kLeast = .1, kMost = 1.5;
+  double after = 0, before = 0;
+  for (int j = 0; j < figures.joints.rows(); ++j) {
+    if (joint >= 0 && j != joint) continue;
+    const double refit = figures.joints(j, 1), left = figures.joints(j, 2);
+    if (!std::isfinite(refit) || !std::isfinite(left)) continue;
+    after += std::max(0., left * left - kNoise);
+    before += std::max(kLeast, refit * refit - 1);
+  }
+  return before > 0 ? std::min(kMost, after / before) : 0;
 }
 
 }  // namespace
@@ -73,7 +87,7 @@ EffectEvidence GapEvidence::ForEffect(
   evidence.imitated = IsImitated(*effect.effect);
   evidence.gain = held_out_.Gain(k, figures_.after);
   evidence.confirmation = held_out_.ConfirmationOf(k);
-  evidence.unsteady = Unsteadiness(fit_.LeftWithout(k), fit_.Left());
+  evidence.left = LeftOf(figures_, effect.joint);
   return evidence;
 }
 
@@ -93,14 +107,18 @@ EffectEvidence GapEvidence::ForEvents() const {
 }
 
 double ProbabilityOf(const EffectEvidence& e) {
-  const bool comes_and_goes = e.events > 0;
+  const double rest = std::log1p(e.next) - std::min(e.strength, 12.);
+  const double odds = std::clamp(e.odds, -1., 8.);
+  const int others = e.chosen - 1;
   const double sum =
-      kConstant + kOdds * std::clamp(e.odds, -1., 8.) +
-      kNext * (std::log1p(e.next) - std::min(e.strength, 12.)) +
-      kChosen * (e.chosen - 1) + kBeside * e.beside + kImitated * e.imitated +
-      (comes_and_goes ? kEvent + kEvents * std::min(e.events, 8) +
-                            kOneJoint * std::min(e.one_joint, 1.5)
-                      : kGain * std::clamp(e.gain, -.5, .3));
+      e.events > 0
+          ? kEvent + kEventOdds * odds + kEventRest * rest +
+                kEventOthers * others + kEvents * std::min(e.events, 8) +
+                kOneJoint * std::min(e.one_joint, 1.5)
+          : kConstant + kOdds * odds + kRest * rest + kOthers * others +
+                kBeside * e.beside + kImitated * e.imitated +
+                kConfirmed * e.confirmation.Share() +
+                kVisible * e.confirmation.Visibility() + kLeft * e.left;
   return 1 / (1 + std::exp(-sum));
 }
 

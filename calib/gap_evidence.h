@@ -24,7 +24,8 @@ struct EffectEvidence {
   double one_joint = 0;       // GapEvent's, of the strongest
   double gain = 0;            // by how much it lowers the held-out mean square
   Confirmation confirmation;  // by held-out data
-  double unsteady = 0;        // Unsteadiness(), of the data it was fitted to
+  // What all effects leave there of the gap of its joint, or of all.
+  double left = 0;
 };
 
 // The evidence for what a fit chose. Keeps references.

@@ -15,6 +15,7 @@ using Eigen::VectorXd;
 
 // Less probable effects are candidates, no more.
 constexpr double kLeastClaimed = .3;
+constexpr double kLikelyUnseen = .7;  // that held-out data do not show
 // What is likelier than not is told first, however little it explains. Nothing
 // else is of what comes and goes, which may be anything, nor of what does not
 // help where nothing was chosen on.
@@ -150,10 +151,10 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
   }
   const auto unclaimed = std::stable_partition(
       result_.effects.begin(), result_.effects.end(), IsClaimed);
-  // What makes held-out data worse is nothing, whatever its name.
-  result_.without_name = unclaimed == result_.effects.begin() &&
-                         !result_.effects.empty() &&
-                         torque_.after < torque_.refit;
+  // Something is there when held-out data have it, too.
+  result_.without_name =
+      unclaimed == result_.effects.begin() &&
+      std::any_of(unclaimed, result_.effects.end(), IsSeenAgain);
   result_.effects.erase(unclaimed, result_.effects.end());
   std::stable_partition(
       result_.effects.begin(), result_.effects.end(),
@@ -190,25 +191,37 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 
 }  // namespace
 
+bool IsSeenAgain(const FoundEffect& found) {
+  constexpr double kShare = .3;
+  return found.evidence.confirmation.Share() > kShare;
+}
+
 bool IsPossible(const FoundEffect& found) {
   constexpr double kFarthest = 1;  // m, of a load from the last link's frame
   if (found.effect->name != "payload") return true;
   double squared = 0;
   for (const EffectEstimate& estimate : found.estimates) {
-    if (estimate.name.rfind("com_", 0) == 0) {
+    if (estimate.name.rfind("com_", 0) == 0 && std::isfinite(estimate.value)) {
       squared += estimate.value * estimate.value;
     }
   }
   return squared <= kFarthest * kFarthest;
 }
 
+bool IsContradicted(const FoundEffect& found) {
+  constexpr double kVisible = 40;  // chi^2
+  const Confirmation& confirmation = found.evidence.confirmation;
+  return confirmation.expected > kVisible && confirmation.explained < 0;
+}
+
 bool IsClaimed(const FoundEffect& found) {
-  if (!IsPossible(found)) return false;
+  if (!found.contacts.empty()) return found.probability >= kLikely;
+  if (!IsPossible(found) || IsContradicted(found)) return false;
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
-  if (found.probability >= kLikely) return true;
-  return found.probability >= kLeastClaimed && found.contacts.empty() &&
-         found.evidence.gain > 0;
+  if (!IsSeenAgain(found)) return found.probability >= kLikelyUnseen;
+  return found.probability >= kLikely ||
+         (found.probability >= kLeastClaimed && found.evidence.gain > 0);
 }
 
 void SortFindings(std::vector<FoundEffect>* effects) {

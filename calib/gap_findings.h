@@ -34,12 +34,19 @@ struct FoundEffect {
   std::vector<Contact> contacts;  // of external_contact, in time's order
 };
 
+// Whether held-out data have it as well, in part.
+bool IsSeenAgain(const FoundEffect& found);
+
 // Whether such a thing can be: a load is held by the tool.
 bool IsPossible(const FoundEffect& found);
 
-// Whether it is told as an effect: it has to be possible; what is not is a
-// candidate. It has to be likelier than not, or likely enough and of help on
-// held-out data, as what swings in time has to be anyway.
+// Whether held-out data should show it, and do not.
+bool IsContradicted(const FoundEffect& found);
+
+// Whether it is told as an effect; what is not is a candidate. It has to be
+// possible and likelier than not, or likely enough and of help on held-out
+// data, as what swings in time has to be anyway; what held-out data do not show
+// has to be likelier.
 bool IsClaimed(const FoundEffect& found);
 
 // By their drops, but for what the file has a number for: that may take the
@@ -57,7 +64,8 @@ struct GapFindings {
   std::vector<FoundEffect> effects;
   // Those and all others that may be in their places: 95 % of each.
   std::vector<PlacedEffect> candidates;
-  // Something was found that no name is probable enough for.
+  // Something was found, and seen again on held-out data, that no name is
+  // probable enough for.
   bool without_name = false;
 };
 

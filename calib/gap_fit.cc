@@ -246,24 +246,12 @@ void GapFit::Finish() {
     refined_ = RefineEffects(screen(), baseline(), scale(), refined_.effects,
                              -1, data());
   }
-  left_ = LeftBeside(refined_.effects, refined_.baseline);
-}
-
-JointRows GapFit::LeftBeside(const std::vector<GapCandidate>& effects,
-                             const VectorXd& baseline) const {
-  const MatrixXd left =
-      data()->ResidualWith(baseline, regression_.TorqueOf(effects));
-  JointRows white(left.cols());
+  const MatrixXd left = data()->ResidualWith(
+      refined_.baseline, regression_.TorqueOf(refined_.effects));
+  left_.resize(left.cols());
   for (int j = 0; j < left.cols(); ++j) {
-    white[j] = rows().Whiten(j, left.col(j));
+    left_[j] = rows().Whiten(j, left.col(j));
   }
-  return white;
-}
-
-JointRows GapFit::LeftWithout(size_t k) const {
-  std::vector<GapCandidate> others = refined_.effects;
-  others.erase(others.begin() + static_cast<long>(k));
-  return LeftBeside(others, BaselineWithout(k));
 }
 
 VectorXd GapFit::BaselineWithout(size_t k) const {

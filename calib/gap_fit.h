@@ -65,9 +65,6 @@ class GapFit {
   // Whitened residual of joint j beside the refined effects: their torque as it
   // is, not as columns have it.
   const Eigen::VectorXd& Left(int joint) const { return left_[joint]; }
-  const JointRows& Left() const { return left_; }
-  // The same without the k-th, beside the baseline without it.
-  JointRows LeftWithout(size_t k) const;
   // The baseline beside the refined effects but for the k-th.
   Eigen::VectorXd BaselineWithout(size_t k) const;
 
@@ -83,8 +80,6 @@ class GapFit {
   void TakeAsKnown(const std::vector<GapEvent>& events);
   void SelectWithEvents();
   void Finish();
-  JointRows LeftBeside(const std::vector<GapCandidate>& effects,
-                       const Eigen::VectorXd& baseline) const;
   double UsualExcess(const FrictionExcess& excess, bool of_itself) const;
   FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
 

@@ -32,7 +32,7 @@ json EvidenceJson(const EffectEvidence& evidence) {
           {"gain", JsonNumber(evidence.gain)},
           {"expected", JsonNumber(evidence.confirmation.expected)},
           {"explained", JsonNumber(evidence.confirmation.explained)},
-          {"unsteady", JsonNumber(evidence.unsteady)}};
+          {"left", JsonNumber(evidence.left)}};
 }
 
 json NumbersJson(const Eigen::VectorXd& values) {

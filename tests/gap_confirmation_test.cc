@@ -40,17 +40,10 @@ TEST_F(GapConfirmationTest, OfWhatIsNotThere) {
 
 TEST_F(GapConfirmationTest, WhatIsTooSmallTellsNothing) {
   const VectorXd small = .02 * effect_;
-  EXPECT_LT(std::abs(Confirm({noise_ + small}, {noise_}).Share()), .3);
-}
-
-TEST_F(GapConfirmationTest, SteadyAndUnsteady) {
-  EXPECT_LT(Unsteadiness({noise_ + effect_}, {noise_}), .1);
-  // It grows from nothing to twice what it is on average.
-  const VectorXd growing =
-      effect_.cwiseProduct(VectorXd::LinSpaced(4000, 0, 2));
-  EXPECT_NEAR(Unsteadiness({noise_ + growing}, {noise_ + growing - effect_}),
-              std::sqrt(5. / 16), .12);
-  EXPECT_EQ(Unsteadiness({VectorXd()}, {VectorXd()}), 0);
+  const Confirmation found = Confirm({noise_ + small}, {noise_});
+  EXPECT_LT(std::abs(found.Share()), .3);
+  EXPECT_LT(found.Visibility(), .02);
+  EXPECT_GT(Confirm({noise_ + effect_}, {noise_}).Visibility(), .9);
 }
 
 }  // namespace

@@ -30,23 +30,59 @@ std::vector<std::string> Sorted(std::vector<FoundEffect> effects) {
   return Names(effects);
 }
 
-TEST(IsClaimed, WhatIsLikelyOrHelps) {
-  FoundEffect found = Found("spring", 1, 50);
-  const auto claimed = [&found](double probability, double gain) {
-    found.probability = probability;
-    found.evidence.gain = gain;
-    return IsClaimed(found);
-  };
-  EXPECT_TRUE(claimed(.5, -.1));
-  EXPECT_TRUE(claimed(.3, .01));
-  EXPECT_FALSE(claimed(.49, 0));
-  EXPECT_FALSE(claimed(.29, 1));
-  found.contacts.resize(1);
-  EXPECT_FALSE(claimed(.49, 1));
-  EXPECT_TRUE(claimed(.5, 0));
-  found = Found("vibration", 1, 50);
-  EXPECT_TRUE(claimed(.9, .01));
-  EXPECT_FALSE(claimed(.9, -.01));
+class IsClaimedTest : public testing::Test {
+ protected:
+  // chi^2 that held-out data should have of it, and have.
+  bool Claimed(double probability, double gain, double expected = 500,
+               double explained = 500) {
+    found_.probability = probability;
+    found_.evidence.gain = gain;
+    found_.evidence.confirmation = {expected, explained};
+    return IsClaimed(found_);
+  }
+
+  FoundEffect found_ = Found("spring", 1, 50);
+};
+
+TEST_F(IsClaimedTest, WhatIsLikelyOrHelps) {
+  EXPECT_TRUE(Claimed(.5, -.1));
+  EXPECT_TRUE(Claimed(.3, .01));
+  EXPECT_FALSE(Claimed(.49, 0));
+  EXPECT_FALSE(Claimed(.29, 1));
+}
+
+TEST_F(IsClaimedTest, WhatHeldOutDataDoNotShowIsLikelier) {
+  EXPECT_FALSE(Claimed(.6, .01, 10, 2));
+  EXPECT_TRUE(Claimed(.8, .01, 10, 2));
+  EXPECT_FALSE(Claimed(.6, .01, 500, 50));
+}
+
+TEST_F(IsClaimedTest, WhatHeldOutDataContradictIsNot) {
+  EXPECT_FALSE(Claimed(.99, .01, 500, -20));
+  // Too little to tell.
+  EXPECT_TRUE(Claimed(.99, .01, 20, -10));
+}
+
+TEST_F(IsClaimedTest, TouchesAreJudgedWhereTheyWere) {
+  found_.contacts.resize(1);
+  EXPECT_FALSE(Claimed(.49, 1, 0, 0));
+  EXPECT_TRUE(Claimed(.5, 0, 0, 0));
+}
+
+TEST_F(IsClaimedTest, WhatSwingsInTimeHelps) {
+  found_ = Found("vibration", 1, 50);
+  EXPECT_TRUE(Claimed(.9, .01));
+  EXPECT_FALSE(Claimed(.9, -.01));
+}
+
+TEST_F(IsClaimedTest, ALoadIsWithinReachOfTheTool) {
+  found_ = Found("payload", -1, 50);
+  found_.estimates = {{"mass", "kg", .1}, {"com_x", "m", .3}};
+  EXPECT_TRUE(Claimed(.9, .1));
+  found_.estimates[1].value = 1.8;
+  EXPECT_FALSE(Claimed(.9, .1));
+  found_.estimates[1].value = std::nan("");  // not seen
+  EXPECT_TRUE(Claimed(.9, .1));
 }
 
 TEST(SortFindings, ByDrop) {
