@@ -4,17 +4,8 @@
 
 namespace armcal {
 
-namespace {
-
-constexpr double kTooSmall = 20;  // chi^2
-
-}  // namespace
-
-double Confirmation::Visibility() const {
-  return expected / (expected + kTooSmall);
-}
-
 double Confirmation::Share() const {
+  constexpr double kTooSmall = 20;  // chi^2
   return std::clamp(explained / (expected + kTooSmall), -1., 1.);
 }
 

@@ -13,8 +13,6 @@ struct Confirmation {
   // 1 where the effect is right, 0 where it is half of what it says, -1 where
   // it is not there; near 0 where it is too small to tell.
   double Share() const;
-  // How well these data could tell: 0 not at all, 1 where it is large.
-  double Visibility() const;
 };
 
 // From whitened residuals per joint with and without the effect, each beside

@@ -7,13 +7,13 @@
 namespace armcal {
 namespace {
 
-// Of ProbabilityOf: logistic regression with a ridge on the effects that were
-// found in the cases of the evaluation of a1d248e9, which are calibration cases
-// since. Few of these come and go: weights of that are of the 347 effects in
-// all 312 cases of seed 303 and the 78 withheld ones of seed 1.
-constexpr double kConstant = .0409, kOdds = .3908, kRest = -.2557,
-                 kOthers = -1.3454, kBeside = -2.4097, kImitated = -1.0224,
-                 kConfirmed = 2.0653, kVisible = -1.7381, kLeft = -1.89;
+// Of ProbabilityOf: logistic regression with a ridge on the 414 effects that
+// were found in 376 cases of the evaluation of a1d248e9, which are calibration
+// cases since. Few of these come and go: weights of that are of the 347 effects
+// in all 312 cases of seed 303 and the 78 withheld ones of seed 1.
+constexpr double kConstant = -.4844, kOdds = .1849, kRest = -.396,
+                 kOthers = -.6281, kBeside = -2.1768, kImitated = -.7697,
+                 kConfirmed = 1.1957, kLeft = -1.0649;
 constexpr double kEvent = -2.1697, kEventOdds = .1454, kEventRest = -.8588,
                  kEventOthers = -.972, kEvents = -.2195, kOneJoint = -1.1486;
 
@@ -117,8 +117,7 @@ double ProbabilityOf(const EffectEvidence& e) {
                 kOneJoint * std::min(e.one_joint, 1.5)
           : kConstant + kOdds * odds + kRest * rest + kOthers * others +
                 kBeside * e.beside + kImitated * e.imitated +
-                kConfirmed * e.confirmation.Share() +
-                kVisible * e.confirmation.Visibility() + kLeft * e.left;
+                kConfirmed * e.confirmation.Share() + kLeft * e.left;
   return 1 / (1 + std::exp(-sum));
 }
 

@@ -42,8 +42,6 @@ TEST_F(GapConfirmationTest, WhatIsTooSmallTellsNothing) {
   const VectorXd small = .02 * effect_;
   const Confirmation found = Confirm({noise_ + small}, {noise_});
   EXPECT_LT(std::abs(found.Share()), .3);
-  EXPECT_LT(found.Visibility(), .02);
-  EXPECT_GT(Confirm({noise_ + effect_}, {noise_}).Visibility(), .9);
 }
 
 }  // namespace

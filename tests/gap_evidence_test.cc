@@ -9,7 +9,7 @@ EffectEvidence Clear() {
   EffectEvidence evidence;
   evidence.odds = 8;
   evidence.strength = 7;
-  evidence.gain = .3;
+  evidence.confirmation = {500, 500};
   return evidence;
 }
 
@@ -32,7 +32,11 @@ TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainst) {
   expect_less("it is easily imitated",
               [](EffectEvidence* e) { e->imitated = true; });
   expect_less("held-out data do not care",
-              [](EffectEvidence* e) { e->gain = 0; });
+              [](EffectEvidence* e) { e->confirmation.explained = 0; });
+  expect_less("held-out data hardly see it",
+              [](EffectEvidence* e) { e->confirmation = {5, 5}; });
+  expect_less("much is left on its joint",
+              [](EffectEvidence* e) { e->left = .5; });
 }
 
 TEST(ProbabilityOf, AContactFeltByOneJointManyTimesIsNone) {
