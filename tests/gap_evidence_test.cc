@@ -33,8 +33,9 @@ TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainst) {
               [](EffectEvidence* e) { e->imitated = true; });
   expect_less("held-out data do not care",
               [](EffectEvidence* e) { e->confirmation.explained = 0; });
-  expect_less("held-out data hardly see it",
-              [](EffectEvidence* e) { e->confirmation = {5, 5}; });
+  expect_less("held-out data hardly see it", [](EffectEvidence* e) {
+    e->confirmation = {5, 5};
+  });
   expect_less("much is left on its joint",
               [](EffectEvidence* e) { e->left = .5; });
 }
