@@ -54,12 +54,13 @@ VectorXd SlopeOf(const Log& log, int j) {
   return slope;
 }
 
-// The longest time for which a column has one value while `moves`.
+// The longest time of `moves` for which a column has one value.
 double LongestConstant(const Log& log, const VectorXd& x,
                        const Eigen::Array<bool, Eigen::Dynamic, 1>& moves) {
   double longest = 0, run = 0;
   for (int k = 0; k + 1 < log.size(); ++k) {
-    run = x[k + 1] == x[k] && moves[k] ? run + log.t[k + 1] - log.t[k] : 0;
+    if (x[k + 1] != x[k]) run = 0;
+    if (x[k + 1] == x[k] && moves[k]) run += log.t[k + 1] - log.t[k];
     longest = std::max(longest, run);
   }
   return longest;
@@ -122,7 +123,8 @@ class ChannelAudit {
     if (torque > kStuckTime)
       Stuck("torque", j, torque, "while the joint moves");
     if (log_.qd.size() == 0) return;
-    const double velocity = LongestConstant(log_, log_.qd.col(j), moves);
+    const double velocity = LongestConstant(
+        log_, log_.qd.col(j), moves && log_.qd.col(j).array() != 0);
     if (velocity > kStuckTime) {
       Stuck("velocity", j, velocity, "while its position changes");
     }

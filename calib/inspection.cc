@@ -52,11 +52,15 @@ class Inspector {
 
   LogInspection Run() {
     result_.stamps = AuditStamps(log_);
-    result_.findings = AuditChannels(robot_, log_, result_.stamps);
     log_.t = (result_.stamps.unit * (log_.t.array() - log_.t[0])).eval();
+    result_.findings = AuditChannels(robot_, log_, result_.stamps);
     result_.duration = log_.t[log_.size() - 1];
     DescribeMotion();
-    if (result_.stamps.mean_step > 0) ReadTorques();
+    // What stands still for no reason would be explained by anything.
+    const bool stuck = std::any_of(
+        result_.findings.begin(), result_.findings.end(),
+        [](const InspectionFinding& f) { return f.finding == "stuck"; });
+    if (result_.stamps.mean_step > 0 && !stuck) ReadTorques();
     return result_;
   }
 
@@ -108,11 +112,13 @@ class Inspector {
         finding.finding = "position_sign";
         finding.sentence =
             "the position of " + Joint(change.joint) + " has the wrong sign";
+        if (change.or_other_sign) finding.sentence += ", or its torque";
         break;
       case Kind::kTorqueSign:
         finding.finding = "torque_sign";
         finding.sentence =
             "the torque of " + Joint(change.joint) + " has the wrong sign";
+        if (change.or_other_sign) finding.sentence += ", or its position";
         break;
       case Kind::kJointSign:
         finding.finding = "joint_sign";

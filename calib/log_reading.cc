@@ -11,9 +11,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kSamples = 250;
-constexpr double kLeastGain = 15;    // nats
-constexpr double kLeastDelay = .01;  // s; filters and drives have less
-constexpr double kLeastTilt = 5;     // degrees
+constexpr double kLeastGain = 15;      // nats
+constexpr double kLeastDelay = .0125;  // s; filters and drives have less
+constexpr double kLeastTilt = 5;       // degrees
 constexpr int kMostChanges = 4;
 constexpr double kDegree = M_PI / 180;
 
@@ -55,6 +55,10 @@ std::vector<Candidate> GravityCandidates(const LogReading& from,
     }
   }
   return all;
+}
+
+bool IsOneSign(Kind kind) {
+  return kind == Kind::kPositionSign || kind == Kind::kTorqueSign;
 }
 
 class Reader {
@@ -114,6 +118,14 @@ class Reader {
     if (!(misfits[k] < least_ - kLeastGain)) return false;
     double sum = 0;
     for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
+    for (size_t i = 0; i < all.size(); ++i) {
+      const bool other_sign = all[i].change.joint == all[k].change.joint &&
+                              IsOneSign(all[i].change.kind) &&
+                              IsOneSign(all[k].change.kind) && i != k;
+      if (other_sign && misfits[i] < misfits[k] + kLeastGain) {
+        all[k].change.or_other_sign = true;
+      }
+    }
     Accept(all[k], misfits[k], 1 / sum);
     return true;
   }

@@ -36,6 +36,9 @@ struct ReadingChange {
   int joint = -1, other = -1;  // from 0
   double gain = 0;             // nats of TorqueFit::Misfit
   double probability = 1;      // against the other changes that were tried
+  // Of a position's or torque's sign: whether that of the other would do as
+  // well, since nothing tells which way the joint turns.
+  bool or_other_sign = false;
 };
 
 struct ReadingFinding {

@@ -178,7 +178,10 @@ std::string Describe(const LogInspection& inspection) {
 bool Names(const Fault& fault, const LogInspection& inspection) {
   bool named = false;
   for (const InspectionFinding& finding : inspection.findings) {
-    const bool is_it = finding.finding == fault.finding &&
+    const bool either_sign =
+        finding.sentence.find(", or its ") != std::string::npos &&
+        (fault.finding == "position_sign" || fault.finding == "torque_sign");
+    const bool is_it = (finding.finding == fault.finding || either_sign) &&
                        (fault.joint < 0 || finding.joint == fault.joint);
     if (!is_it && fault.besides.count(finding.finding) == 0) return false;
     named = named || is_it;
