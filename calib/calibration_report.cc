@@ -2,25 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 #include "calib/outlier_report.h"
 #include "calib/verdict.h"
+#include "model/format.h"
 
 namespace armcal {
 namespace {
-
-// printf to a string.
-__attribute__((format(printf, 1, 2))) std::string Format(const char* format,
-                                                         ...) {
-  char text[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof(text), format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 std::string Percent(double percent) {
   return std::isfinite(percent) ? Format("%7.2f", percent) : "      -";

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <set>
+
+#include "model/format.h"
 
 namespace armcal {
 namespace {
@@ -16,16 +16,6 @@ constexpr double kStuckTime = 1;  // s of motion
 constexpr double kLostShare = .1;
 constexpr double kAtLimit = .02;  // share of samples
 constexpr int kFewValues = 40;
-
-__attribute__((format(printf, 1, 2))) std::string Format(const char* format,
-                                                         ...) {
-  char text[300];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 std::vector<double> Steps(const Log& log) {
   std::vector<double> steps;

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 #include "calib/torque_scale.h"
+#include "model/format.h"
 #include "model/input_error.h"
 
 namespace armcal {
@@ -19,16 +18,6 @@ constexpr int kSamples = 400;
 constexpr int kLeastSamples = 60;
 constexpr double kBandwidth = 8;  // Hz, of what torques are compared with
 constexpr double kDegree = M_PI / 180;
-
-__attribute__((format(printf, 1, 2))) std::string Format(const char* format,
-                                                         ...) {
-  char text[300];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 class Inspector {
  public:

@@ -1,24 +1,12 @@
 #include "calib/inspection_report.h"
 
-#include <cstdarg>
-#include <cstdio>
-
 #include "calib/json_figures.h"
+#include "model/format.h"
 
 namespace armcal {
 namespace {
 
 using nlohmann::json;
-
-__attribute__((format(printf, 1, 2))) std::string Format(const char* format,
-                                                         ...) {
-  char text[400];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 std::string FindingText(const InspectionFinding& finding) {
   std::string text = "  ! " + finding.sentence;
