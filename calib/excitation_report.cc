@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "calib/json_figures.h"
+#include "model/format.h"
 #include "model/input_text.h"
 
 namespace armcal {
@@ -20,10 +21,7 @@ std::string Padded(std::string text, size_t width) {
 }
 
 std::string Rounded(double x, int digits = 3) {
-  if (!std::isfinite(x)) return "-";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, x);
-  return text;
+  return std::isfinite(x) ? Format("%.*g", digits, x) : "-";
 }
 
 const char* CriterionName(ExcitationCriterion criterion) {
@@ -40,12 +38,12 @@ const char* CriterionName(ExcitationCriterion criterion) {
 
 // What the motion needs of each joint, at 1 kHz.
 struct Needs {
-  VectorXd lower, upper, velocity, acceleration;
+  VectorXd start, lower, upper, velocity, acceleration;
 };
 
 Needs NeedsOf(const Excitation& excitation) {
   const Log log = MotionLog(excitation, 1, 1000);
-  return {log.q.colwise().minCoeff(), log.q.colwise().maxCoeff(),
+  return {log.q.row(0), log.q.colwise().minCoeff(), log.q.colwise().maxCoeff(),
           log.qd.cwiseAbs().colwise().maxCoeff(),
           log.qdd.cwiseAbs().colwise().maxCoeff()};
 }
@@ -56,13 +54,11 @@ std::string MotionTable(const ExcitationSummary& summary) {
   std::string text =
       "joint                   start       range              limits      "
       "velocity (limit)  acceleration (limit)\n";
-  const VectorXd start =
-      MotionLog(summary.excitation, 1, 1000).q.row(0).transpose();
   for (int j = 0; j < summary.robot.num_joints(); ++j) {
     const Joint& joint = summary.robot.links[j].joint;
     std::string name = joint.name.substr(0, 16);
     name.resize(16, ' ');
-    text += name + Padded(Rounded(start[j]), 9) + " " +
+    text += name + Padded(Rounded(needs.start[j]), 9) + " " +
             PositionUnit(joint.type) + "  " +
             Padded(Rounded(needs.lower[j]), 7) + " .. " +
             Padded(Rounded(needs.upper[j]), 6) + "  " +
@@ -182,8 +178,8 @@ json ToJson(const ExcitationSummary& summary) {
           given ? JsonNumber(summary.given_stddev[k]) : json()}});
   }
   json joints = json::array();
+  const Needs needs = found ? NeedsOf(excitation) : Needs();
   for (int j = 0; found && j < summary.robot.num_joints(); ++j) {
-    const Needs needs = NeedsOf(excitation);
     joints.push_back({{"name", summary.robot.links[j].joint.name},
                       {"lower", needs.lower[j]},
                       {"upper", needs.upper[j]},

@@ -85,8 +85,9 @@ EffectEvidence GapEvidence::ForEffect(
   evidence.strength = std::log(std::max(1., fit_.selection().drops[k]));
   evidence.beside = Beside(k);
   evidence.imitated = IsImitated(*effect.effect);
-  evidence.gain = held_out_.Gain(k, figures_.after);
-  evidence.confirmation = held_out_.ConfirmationOf(k);
+  const HeldOut::Merit merit = held_out_.MeritOf(k, figures_.after);
+  evidence.gain = merit.gain;
+  evidence.confirmation = merit.confirmation;
   evidence.left = LeftOf(figures_, effect.joint);
   return evidence;
 }

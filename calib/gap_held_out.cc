@@ -160,12 +160,6 @@ HeldOutSquares HeldOut::AllSquares() const {
   return squares;
 }
 
-double HeldOut::Gain(size_t k, double after) const {
-  return MeanSquare(Squares(Without(fit_.refined().effects, k),
-                            fit_.BaselineWithout(k))) -
-         after;
-}
-
 JointRows HeldOut::Whitened(const MatrixXd& residual) const {
   JointRows white(residual.cols());
   for (int j = 0; j < residual.cols(); ++j) {
@@ -174,11 +168,13 @@ JointRows HeldOut::Whitened(const MatrixXd& residual) const {
   return white;
 }
 
-Confirmation HeldOut::ConfirmationOf(size_t k) const {
+HeldOut::Merit HeldOut::MeritOf(size_t k, double after) const {
   const RefinedEffects& refined = fit_.refined();
-  return Confirm(
-      Whitened(Residual(Without(refined.effects, k), fit_.BaselineWithout(k))),
-      Whitened(Residual(refined.effects, refined.baseline)));
+  const MatrixXd without =
+      Residual(Without(refined.effects, k), fit_.BaselineWithout(k));
+  const MatrixXd with = Residual(refined.effects, refined.baseline);
+  return {MeanSquare(Deviations(without).cwiseAbs2()) - after,
+          Confirm(Whitened(without), Whitened(with))};
 }
 
 }  // namespace armcal

@@ -28,10 +28,13 @@ class HeldOut {
                           const Eigen::VectorXd& baseline) const;
   // Of the file's robot, the refitted one and the one with the effects.
   HeldOutSquares AllSquares() const;
-  // By how much the k-th effect lowers the mean square, those of all given.
-  double Gain(size_t k, double after) const;
-  // Whether these data are what the k-th effect says.
-  Confirmation ConfirmationOf(size_t k) const;
+  // What the k-th effect does beside the others: by how much it lowers the mean
+  // square, that of all being `after`, and whether these data are what it says.
+  struct Merit {
+    double gain = 0;
+    Confirmation confirmation;
+  };
+  Merit MeritOf(size_t k, double after) const;
 
  private:
   void MaskEvents();

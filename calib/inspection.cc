@@ -76,8 +76,7 @@ class Inspector {
     result_.reading = found.reading;
     result_.residual_percent = found.residual_percent;
     for (const ReadingChange& change : found.changes) Add(change, found);
-    AddScale(Rewired(series.Pick(kSamples, found.reading.delay),
-                     found.reading.wiring));
+    AddScale(SamplesAs(found.reading, robot_, series, kSamples));
   }
 
   std::string Joint(int j) const { return robot_.links[j].joint.name; }
@@ -154,9 +153,8 @@ class Inspector {
   }
 
   // What is far from 1 for all joints that tell is a matter of units.
-  void AddScale(WiringSamples samples) {
+  void AddScale(const WiringSamples& samples) {
     constexpr double kFar = 4;
-    if (result_.reading.degrees) samples.motion.q *= kDegree;
     Robot robot = robot_;
     robot.gravity = result_.reading.gravity;
     const VectorXd scale = TorqueScale(robot, samples);

@@ -82,17 +82,10 @@ class Reader {
   TorqueFit FitOf(const LogReading& reading) const {
     Robot robot = robot_;
     robot.gravity = reading.gravity;
-    WiringSamples samples = SamplesOf(reading);
-    for (int j = 0; reading.degrees && j < robot.num_joints(); ++j) {
-      if (!IsRotational(robot.links[j].joint.type)) continue;
-      samples.motion.q.col(j) *= kDegree;
-      samples.motion.qd.col(j) *= kDegree;
-      samples.motion.qdd.col(j) *= kDegree;
-    }
-    return {robot, samples.motion};
+    return {robot, SamplesOf(reading).motion};
   }
   WiringSamples SamplesOf(const LogReading& reading) const {
-    return Rewired(series_.Pick(kSamples, reading.delay), reading.wiring);
+    return SamplesAs(reading, robot_, series_, kSamples);
   }
   double Misfit(const LogReading& reading, double* percent = nullptr) const {
     return FitOf(reading).Misfit(SamplesOf(reading).tau, percent);
@@ -212,6 +205,19 @@ class Reader {
 };
 
 }  // namespace
+
+WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
+                        const UniformSeries& series, int count) {
+  WiringSamples samples =
+      Rewired(series.Pick(count, reading.delay), reading.wiring);
+  for (int j = 0; reading.degrees && j < robot.num_joints(); ++j) {
+    if (!IsRotational(robot.links[j].joint.type)) continue;
+    samples.motion.q.col(j) *= kDegree;
+    samples.motion.qd.col(j) *= kDegree;
+    samples.motion.qdd.col(j) *= kDegree;
+  }
+  return samples;
+}
 
 ReadingFinding FindReading(const Robot& robot, const UniformSeries& series) {
   return Reader(robot, series).Run();

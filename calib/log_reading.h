@@ -21,6 +21,11 @@ struct LogReading {
       : wiring(robot.num_joints()), gravity(robot.gravity) {}
 };
 
+// At most `count` samples as the robot's joints have them if that is the
+// reading, in SI units.
+WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
+                        const UniformSeries& series, int count);
+
 // One thing by which the best reading differs from the log as it is.
 struct ReadingChange {
   enum class Kind {

@@ -1,22 +1,11 @@
 #include "calib/posture_report.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
 #include "calib/json_figures.h"
+#include "model/format.h"
 
 namespace armcal {
-namespace {
-
-std::string Number(const char* format, double x) {
-  char text[60];
-  std::snprintf(text, sizeof text, format, x);
-  return text;
-}
-
-}  // namespace
-
 std::string PostureText(const PostureDesign& design) {
   std::string text;
   for (Eigen::Index j = 0; j < design.q.cols(); ++j) {
@@ -24,7 +13,7 @@ std::string PostureText(const PostureDesign& design) {
   }
   for (Eigen::Index k = 0; k < design.q.rows(); ++k) {
     for (Eigen::Index j = 0; j < design.q.cols(); ++j) {
-      text += (j > 0 ? "," : "\n") + Number("%.6f", design.q(k, j));
+      text += (j > 0 ? "," : "\n") + Format("%.6f", design.q(k, j));
     }
   }
   return text + "\n";
@@ -42,8 +31,8 @@ std::string FullReport(const PostureSummary& summary) {
     const auto row = static_cast<Eigen::Index>(k);
     std::string name = design.names[k];
     name.resize(std::max<size_t>(name.size(), 24), ' ');
-    text += "  " + name + Number("%10.3g ", design.stddev[row]) +
-            design.units[k] + Number("  (%.3g)\n", design.random_stddev[row]);
+    text += "  " + name + Format("%10.3g ", design.stddev[row]) +
+            design.units[k] + Format("  (%.3g)\n", design.random_stddev[row]);
   }
   for (const std::string& sentence : summary.assumed) {
     text += "assumed: " + sentence + "\n";

@@ -2,9 +2,9 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
+#include "model/format.h"
 #include "model/kinematics.h"
 
 namespace armcal {
@@ -37,11 +37,7 @@ double LongestLink(const Robot& robot) {
   return longest;
 }
 
-std::string Number(double x) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
+std::string Number(double x) { return Format("%.3g", x); }
 
 std::string NamesWhere(const Robot& robot,
                        const std::function<bool(const Link&)>& holds) {
