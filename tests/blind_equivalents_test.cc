@@ -43,6 +43,22 @@ TEST(EffectLikeness, TheFirstLinkOfAScaraIsAFlywheel) {
   EXPECT_GT(pairs[0].cosine, .99);
 }
 
+// A stiffly held mass at the tool's point is a load there, wherever the centre
+// of the load that it is compared with happens to sit.
+TEST(EffectLikeness, AStiffSloshIsALoadOfAnyCentre) {
+  const BlindCase blind = Scara();
+  EffectSignals signals(blind);
+  ChosenEffect slosh = Usual("slosh", -1), load = Usual("payload", -1);
+  slosh.parameters[1] = 10;  // Hz
+  load.parameters.tail<3>() << .1, -.1, .1;
+  EXPECT_TRUE(signals.Add(slosh));
+  EXPECT_TRUE(signals.Add(load));
+  EXPECT_TRUE(signals.Add(Usual("spring", 0)));
+  const auto pairs = signals.Alike();
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].b.Text(), "payload");
+}
+
 TEST(EffectLikeness, NoKindIsLeftOut) {
   const BlindCase blind = Scara();
   const auto effects = EveryEffect(blind);

@@ -6,7 +6,10 @@ SizeParameter SizeParameterOf(const HiddenEffect& kind) {
   // A limit cuts the more, and a stand sways the more, the lower it is.
   const bool falls =
       kind.name == "torque_saturation" || kind.name == "mount_resonance";
-  return {0, falls};
+  std::vector<int> linear;
+  if (kind.name == "payload") linear = {1, 2, 3};  // by its first moment
+  if (kind.name == "base_tilt") linear = {1};      // by gravity's direction
+  return {0, falls, linear};
 }
 
 }  // namespace armcal
