@@ -103,7 +103,7 @@ NamedQuantities ModelQuantities(const ModelParameters& model,
 
 }  // namespace
 
-VectorXd TorqueScale(const ReferenceMotion& reference) {
+VectorXd TorqueScale(const ReferenceScale& reference) {
   const MatrixXd shares =
       reference.torque.cwiseInverse().asDiagonal() * reference.columns;
   return shares.colwise().norm().transpose().unaryExpr(
@@ -114,7 +114,7 @@ NamedQuantities MakeDesignQuantities(const Robot& robot,
                                      const ModelParameters& model,
                                      const std::vector<JointTerm>& terms,
                                      DesignTarget target, const ArmTrust& trust,
-                                     const ReferenceMotion& reference,
+                                     const ReferenceScale& reference,
                                      const MatrixXd& known) {
   if (target == DesignTarget::kModel) {
     NamedQuantities all =

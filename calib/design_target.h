@@ -36,11 +36,11 @@ NamedQuantities MakeDesignQuantities(const Robot& robot,
                                      const ModelParameters& model,
                                      const std::vector<JointTerm>& terms,
                                      DesignTarget target, const ArmTrust& trust,
-                                     const ReferenceMotion& reference,
+                                     const ReferenceScale& reference,
                                      const Eigen::MatrixXd& known);
 
 // How much of X a unit of torque is: standard deviations of parameters in these
 // units are shares of the joints' torque.
-Eigen::VectorXd TorqueScale(const ReferenceMotion& reference);
+Eigen::VectorXd TorqueScale(const ReferenceScale& reference);
 
 }  // namespace armcal

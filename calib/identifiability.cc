@@ -74,11 +74,11 @@ MatrixXd RichColumns(const ModelParameters& parameters, double speed,
 
 }  // namespace
 
-ReferenceMotion MakeReferenceMotion(const ModelParameters& parameters,
-                                    double speed, double hz, double unit,
-                                    const VectorXd& recorded,
-                                    const VectorXd& nominal) {
-  ReferenceMotion reference;
+ReferenceScale MakeReferenceScale(const ModelParameters& parameters,
+                                  double speed, double hz, double unit,
+                                  const VectorXd& recorded,
+                                  const VectorXd& nominal) {
+  ReferenceScale reference;
   reference.columns = unit * RichColumns(parameters, speed, hz);
   reference.torque = recorded.cwiseMax(
       (reference.columns * nominal.asDiagonal()).rowwise().norm());
@@ -92,7 +92,7 @@ ReferenceMotion MakeReferenceMotion(const ModelParameters& parameters,
 
 WeightedSystem MakeWeightedSystem(const BlockTriangularFactor& factor,
                                   const VectorXd& noise,
-                                  const ReferenceMotion& reference) {
+                                  const ReferenceScale& reference) {
   const int m = factor.num_parameters();
   WeightedSystem system;
   system.scale = VectorXd::Zero(m);
@@ -141,7 +141,7 @@ WeightedSystem::Directions WeightedSystem::Decompose() const {
 Identifiability AnalyzeIdentifiability(const BlockTriangularFactor& factor,
                                        const ModelParameters& parameters,
                                        const VectorXd& noise,
-                                       const ReferenceMotion& reference) {
+                                       const ReferenceScale& reference) {
   Identifiability result;
   for (int i = 0; i < factor.num_joints(); ++i) {
     const int begin = factor.block_begin(i), size = factor.block_size(i);

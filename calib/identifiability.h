@@ -11,7 +11,7 @@ namespace armcal {
 
 // What directions of a log are judged against, never their own norms, which
 // would make a column that is not excited look excited.
-struct ReferenceMotion {
+struct ReferenceScale {
   // rms of each parameter's column in each joint's equations under a rich
   // motion, per unit of the parameter: n x m.
   Eigen::MatrixXd columns;
@@ -25,10 +25,10 @@ struct ReferenceMotion {
 // frequency `hz`; `unit` is what rows are integrated over (1, or the interval's
 // length in s); `recorded` the rms right-hand side per joint; `nominal` the
 // parameters of the robot file, zero where it has none.
-ReferenceMotion MakeReferenceMotion(const ModelParameters& parameters,
-                                    double speed, double hz, double unit,
-                                    const Eigen::VectorXd& recorded,
-                                    const Eigen::VectorXd& nominal);
+ReferenceScale MakeReferenceScale(const ModelParameters& parameters,
+                                  double speed, double hz, double unit,
+                                  const Eigen::VectorXd& recorded,
+                                  const Eigen::VectorXd& nominal);
 
 // A combination of parameters that a log cannot see.
 struct UnidentifiableDirection {
@@ -74,11 +74,11 @@ struct WeightedSystem {
 // out.
 WeightedSystem MakeWeightedSystem(const BlockTriangularFactor& factor,
                                   const Eigen::VectorXd& noise,
-                                  const ReferenceMotion& reference);
+                                  const ReferenceScale& reference);
 
 Identifiability AnalyzeIdentifiability(const BlockTriangularFactor& factor,
                                        const ModelParameters& parameters,
                                        const Eigen::VectorXd& noise,
-                                       const ReferenceMotion& reference);
+                                       const ReferenceScale& reference);
 
 }  // namespace armcal

@@ -19,10 +19,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-ReferenceMotion MakeReference(const Robot& robot,
-                              const ModelParameters& parameters,
-                              const RowOptions& rows, const LogSet& training,
-                              const LogFactors& factors) {
+ReferenceScale MakeReference(const Robot& robot,
+                             const ModelParameters& parameters,
+                             const RowOptions& rows, const LogSet& training,
+                             const LogFactors& factors) {
   double speed = std::sqrt(factors.mean_square_speed().maxCoeff());
   if (speed < 1e-3) speed = 1;
   double motion_hz = 0.1;
@@ -36,7 +36,7 @@ ReferenceMotion MakeReference(const Robot& robot,
       unit = std::max(unit, r.end - r.begin);
     }
   }
-  return MakeReferenceMotion(
+  return MakeReferenceScale(
       parameters, speed, motion_hz, unit,
       RightSideRms(factors.Merged(parameters, FindNonzero(factors))),
       parameters.Values(robot));
@@ -46,7 +46,7 @@ ReferenceMotion MakeReference(const Robot& robot,
 // follow the parameters down to zero: it is taken where the other joints put
 // them, and kept.
 LinearSolution SolveByNoise(const BlockTriangularFactor& factor,
-                            const ReferenceMotion& reference,
+                            const ReferenceScale& reference,
                             const std::vector<bool>& frozen, VectorXd* noise) {
   *noise = RightSideRms(factor);
   for (size_t i = 0; i < frozen.size(); ++i) {
@@ -63,7 +63,7 @@ LinearSolution SolveByNoise(const BlockTriangularFactor& factor,
 
 // The solution from the factor alone, with ranks.
 LinearSolution Solve(const BlockTriangularFactor& factor,
-                     const ReferenceMotion& reference,
+                     const ReferenceScale& reference,
                      const std::vector<bool>& frozen, LinearSolver solver,
                      LinearCalibration* result) {
   LinearSolution solution;
@@ -116,7 +116,7 @@ double MedianInflation(const MatrixXd& covariance,
 // From the factor to the parameters and their covariance.
 void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
               const RowOptions& rows, const BlockTriangularFactor& factor,
-              const ReferenceMotion& reference, const std::vector<bool>& frozen,
+              const ReferenceScale& reference, const std::vector<bool>& frozen,
               ResidualPass* pass, LinearCalibration* result) {
   LinearSolution solution =
       Solve(factor, reference, frozen, options.solver, result);
@@ -194,7 +194,7 @@ LinearCalibration CalibrateOnce(const Robot& robot,
   CheckIntervals(rows, *training, result.equations);
   result.reason = WhyNothingToSolve(factors, result.parameters);
   if (!result.reason.empty()) return result;
-  const ReferenceMotion reference =
+  const ReferenceScale reference =
       MakeReference(robot, result.parameters, rows, *training, factors);
   UsedEquations equations = AllEquations(factors, robot.num_joints());
   if (options.solver == LinearSolver::kWeighted) {

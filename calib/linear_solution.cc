@@ -36,7 +36,7 @@ MatrixXd LinearSolution::IndependentCovariance(
 
 LinearSolution SolveWeighted(const BlockTriangularFactor& factor,
                              const VectorXd& noise,
-                             const ReferenceMotion& reference) {
+                             const ReferenceScale& reference) {
   const int m = factor.num_parameters();
   const WeightedSystem system = MakeWeightedSystem(factor, noise, reference);
   const WeightedSystem::Directions d = system.Decompose();
@@ -65,7 +65,7 @@ LinearSolution SolveWeighted(const BlockTriangularFactor& factor,
 }
 
 LinearSolution SolveBatch(const BlockTriangularFactor& factor,
-                          const ReferenceMotion& reference) {
+                          const ReferenceScale& reference) {
   // Equal noise: its size decides only what counts as unseen.
   const double noise = std::max(1e-300, 1e-9 * RightSideRms(factor).maxCoeff());
   LinearSolution solution = SolveWeighted(
@@ -135,7 +135,7 @@ VectorXd EstimateNoise(const BlockTriangularFactor& factor, const VectorXd& x) {
 }
 
 LinearSolution SolveReweighted(const BlockTriangularFactor& factor,
-                               const ReferenceMotion& reference,
+                               const ReferenceScale& reference,
                                const std::vector<bool>& excluded,
                                VectorXd* noise) {
   LinearSolution solution;

@@ -42,10 +42,10 @@ struct LinearSolution {
 // see stay at zero (in the metric of WeightedSystem).
 LinearSolution SolveWeighted(const BlockTriangularFactor& factor,
                              const Eigen::VectorXd& noise,
-                             const ReferenceMotion& reference);
+                             const ReferenceScale& reference);
 // The paper's (2.25): SolveWeighted with equal noise.
 LinearSolution SolveBatch(const BlockTriangularFactor& factor,
-                          const ReferenceMotion& reference);
+                          const ReferenceScale& reference);
 // The paper's (2.28), refused where (2.30) fails for a block.
 LinearSolution SolveRecursive(const BlockTriangularFactor& factor,
                               const Identifiability& identifiability);
@@ -58,7 +58,7 @@ Eigen::VectorXd EstimateNoise(const BlockTriangularFactor& factor,
 // Weighted solution with noise re-estimated until it stays (2 %), at most 20
 // times. `excluded` joints keep noise[i] as it is.
 LinearSolution SolveReweighted(const BlockTriangularFactor& factor,
-                               const ReferenceMotion& reference,
+                               const ReferenceScale& reference,
                                const std::vector<bool>& excluded,
                                Eigen::VectorXd* noise);
 

@@ -10,7 +10,7 @@ namespace armcal {
 namespace {
 
 void Iterate(RobustLoss loss, const Eigen::VectorXd& least,
-             const std::vector<bool>& frozen, const ReferenceMotion& reference,
+             const std::vector<bool>& frozen, const ReferenceScale& reference,
              ResidualPass* pass, RobustSolution* result) {
   constexpr int kMostPasses = 20;
   constexpr double kSettled = 0.1;  // standard deviations
@@ -54,7 +54,7 @@ void Iterate(RobustLoss loss, const Eigen::VectorXd& least,
 RobustSolution SolveRobust(const Eigen::VectorXd& x,
                            const Eigen::VectorXd& noise,
                            const std::vector<bool>& frozen, RobustLoss loss,
-                           const ReferenceMotion& reference,
+                           const ReferenceScale& reference,
                            ResidualPass* pass) {
   // Where a joint's equations can be solved exactly, their spread falls pass
   // after pass, until nothing else counts beside them.

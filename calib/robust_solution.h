@@ -26,7 +26,6 @@ struct RobustSolution {
 RobustSolution SolveRobust(const Eigen::VectorXd& x,
                            const Eigen::VectorXd& noise,
                            const std::vector<bool>& frozen, RobustLoss loss,
-                           const ReferenceMotion& reference,
-                           ResidualPass* pass);
+                           const ReferenceScale& reference, ResidualPass* pass);
 
 }  // namespace armcal

@@ -100,7 +100,7 @@ MatrixXd RaiseToLogScatter(const MatrixXd& covariance, const MatrixXd& gain,
 
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                                          const VectorXd& noise, RobustLoss loss,
-                                         const ReferenceMotion& reference,
+                                         const ReferenceScale& reference,
                                          long rows, int rows_per_window,
                                          ResidualPass* pass) {
   const int m = pass->parameters().size();

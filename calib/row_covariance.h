@@ -35,7 +35,7 @@ Eigen::MatrixXd RaiseToLogScatter(const Eigen::MatrixXd& covariance,
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                                          const Eigen::VectorXd& noise,
                                          RobustLoss loss,
-                                         const ReferenceMotion& reference,
+                                         const ReferenceScale& reference,
                                          long rows, int rows_per_window,
                                          ResidualPass* pass);
 

@@ -28,7 +28,7 @@ UsedEquations AllEquations(const LogFactors& factors, int num_joints) {
 UsedEquations FindUsedEquations(const LogFactors& factors,
                                 const ModelParameters& parameters,
                                 const Robot& robot,
-                                const ReferenceMotion& reference) {
+                                const ReferenceScale& reference) {
   const int n = robot.num_joints();
   const EquationMask by_robot =
       FindPowered(factors, parameters.Values(robot), 0.05);

@@ -36,6 +36,6 @@ UsedEquations AllEquations(const LogFactors& factors, int num_joints);
 UsedEquations FindUsedEquations(const LogFactors& factors,
                                 const ModelParameters& parameters,
                                 const Robot& robot,
-                                const ReferenceMotion& reference);
+                                const ReferenceScale& reference);
 
 }  // namespace armcal

@@ -71,7 +71,7 @@ struct WidthsUnknown {
 CovarianceEstimate EstimateCovariance(
     const Robot& robot, const LinearCalibrationOptions& options,
     const RowOptions& rows, const LinearSolution& solution, RobustLoss loss,
-    const ReferenceMotion& reference, ResidualPass* pass,
+    const ReferenceScale& reference, ResidualPass* pass,
     const LinearCalibration& result) {
   const int correlated = CorrelatedRows(rows);
   if (result.transitions.empty() || options.transition || !solution.weighted) {
@@ -81,7 +81,7 @@ CovarianceEstimate EstimateCovariance(
   const WidthsUnknown wider(robot, options, result);
   LinearSolution spread = solution;
   spread.x = wider.Spread(solution.x);
-  ReferenceMotion columns = reference;
+  ReferenceScale columns = reference;
   columns.columns = reference.columns(Eigen::all, wider.base);
   ResidualPass wider_pass = pass->WithParameters(wider.parameters);
   CovarianceEstimate estimate =

@@ -14,7 +14,7 @@ namespace armcal {
 CovarianceEstimate EstimateCovariance(
     const Robot& robot, const LinearCalibrationOptions& options,
     const RowOptions& rows, const LinearSolution& solution, RobustLoss loss,
-    const ReferenceMotion& reference, ResidualPass* pass,
+    const ReferenceScale& reference, ResidualPass* pass,
     const LinearCalibration& result);
 
 }  // namespace armcal

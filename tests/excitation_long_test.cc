@@ -26,7 +26,7 @@ struct RatedDesign {
     std::vector<std::string> assumed;
     options.limits = LimitsOf(robot, &assumed);
     const int n = robot.num_joints(), m = model.size();
-    const ReferenceMotion reference = MakeReferenceMotion(
+    const ReferenceScale reference = MakeReferenceScale(
         model, 1, .5, 1, VectorXd::Zero(n), model.Values(robot));
     options.torque_noise = .01 * reference.torque;
     all = MakeDesignQuantities(robot, model, kTerms, DesignTarget::kModel, {},

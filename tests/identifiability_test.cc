@@ -40,8 +40,8 @@ struct Case {
     const VectorXd rms = RightSideRms(factor);
     return AnalyzeIdentifiability(
         factor, parameters, relative_noise * rms,
-        MakeReferenceMotion(parameters, 1, .5, unit, rms,
-                            VectorXd::Zero(parameters.size())));
+        MakeReferenceScale(parameters, 1, .5, unit, rms,
+                           VectorXd::Zero(parameters.size())));
   }
   // The largest entry that direction x makes in the equations of joint i, or of
   // all joints (-1), relative to a typical parameter vector's.
@@ -160,7 +160,7 @@ TEST(Identifiability, JointsWithoutEquationsHaveNoRank) {
   noise[0] = 0;
   const Identifiability found = AnalyzeIdentifiability(
       c.factor, c.parameters, noise,
-      MakeReferenceMotion(c.parameters, 1, .5, 1, rms, VectorXd::Zero(36)));
+      MakeReferenceScale(c.parameters, 1, .5, 1, rms, VectorXd::Zero(36)));
   EXPECT_EQ(found.block_rank.front(), 0);
   EXPECT_EQ(found.batch_rank, 35);  // without Izz[1]
   EXPECT_EQ(found.directions[0].text, "Izz[1]");
@@ -197,8 +197,8 @@ void ExpectRefusedButBatchSolves(const std::vector<TimeRange>& intervals) {
   EXPECT_EQ(recursive.refusal, "block 2 has rank 2 of 3");
   const VectorXd rms = RightSideRms(c.factor);
   const VectorXd x =
-      SolveBatch(c.factor, MakeReferenceMotion(c.parameters, 1, .5, .5, rms,
-                                               VectorXd::Zero(6)))
+      SolveBatch(c.factor, MakeReferenceScale(c.parameters, 1, .5, .5, rms,
+                                              VectorXd::Zero(6)))
           .x;
   EXPECT_LT((x - PaperScaraTruth()).cwiseAbs().maxCoeff(), 2e-9);
 }
@@ -233,8 +233,8 @@ TEST(Identifiability, NamesTheParametersOfAJointAtRest) {
   const VectorXd rms = RightSideRms(factor);
   const Identifiability found = AnalyzeIdentifiability(
       factor, parameters, .01 * rms,
-      MakeReferenceMotion(parameters, 1, .5, 1, rms,
-                          VectorXd::Zero(parameters.size())));
+      MakeReferenceScale(parameters, 1, .5, 1, rms,
+                         VectorXd::Zero(parameters.size())));
   std::vector<std::string> texts;
   for (const auto& d : found.directions) texts.push_back(d.text);
   EXPECT_THAT(texts, testing::ElementsAre("viscous[2]", "armature[2]"));

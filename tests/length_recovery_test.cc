@@ -38,8 +38,8 @@ struct Lengths {
     }
     solution =
         SolveWeighted(factor, sigma,
-                      MakeReferenceMotion(parameters, 1, .5, 1, rms,
-                                          VectorXd::Zero(parameters.size())));
+                      MakeReferenceScale(parameters, 1, .5, 1, rms,
+                                         VectorXd::Zero(parameters.size())));
     covariance = solution.IndependentCovariance(factor, sigma);
   }
   static ModelParameters Make(Robot* robot, GeometryKnowledge geometry) {

@@ -34,7 +34,7 @@ struct Equations {
                              UniformVector(&random, n, -5, 5), VectorXd(), &u);
     }
     Draw(1);
-    reference = MakeReferenceMotion(parameters, 1, .5, 1, ColumnRms(Y), X);
+    reference = MakeReferenceScale(parameters, 1, .5, 1, ColumnRms(Y), X);
   }
   void Draw(int seed) {
     std::mt19937_64 random(seed);
@@ -92,7 +92,7 @@ struct Equations {
   VectorXd sigma, X;
   std::vector<MatrixXd> U;
   MatrixXd Y;
-  ReferenceMotion reference;
+  ReferenceScale reference;
 };
 
 VectorXd UnequalNoise() {

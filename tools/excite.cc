@@ -32,7 +32,7 @@ struct Design {
   ModelParameters model;
   Eigen::VectorXd noise;  // of a sample
   Eigen::MatrixXd known;  // of the model parameters
-  ReferenceMotion reference;
+  ReferenceScale reference;
 };
 
 ModelParameters ModelFor(const Robot& robot, DesignTarget target) {
@@ -73,7 +73,7 @@ Design MakeDesign(const Robot& robot, const ExcitationOptions& options,
   const int m = design.model.size();
   design.known = Eigen::MatrixXd::Zero(m, m);
   const Eigen::VectorXd& speed = options.limits.velocity;
-  design.reference = MakeReferenceMotion(
+  design.reference = MakeReferenceScale(
       design.model, speed.mean() / 2, .5, 1,
       Eigen::VectorXd::Zero(robot.num_joints()), design.model.Values(robot));
   const Eigen::VectorXd shares = NoiseSharesFromFlags(robot.num_joints());
