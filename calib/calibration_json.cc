@@ -113,16 +113,28 @@ json ParametersJson(const Robot& robot, const LinearCalibration& result) {
   return list;
 }
 
-json RankJson(const LinearCalibration& result) {
+json RankJson(const Robot& robot, const LinearCalibration& result) {
   const Identifiability& id = result.identifiability;
   json unidentifiable = json::array(), blocks = json::array();
   for (const auto& d : id.directions) unidentifiable.push_back(d.text);
   for (const auto& d : id.block_directions) {
     blocks.push_back({{"block", d.block + 1}, {"direction", d.text}});
   }
-  return {{"blocks", id.block_rank},          {"of", id.block_size},
-          {"batch", id.batch_rank},           {"total", id.total},
-          {"unidentifiable", unidentifiable}, {"block_directions", blocks}};
+  json advice = json::array();
+  for (const AdvisedMotion& motion : id.advice) {
+    json joints = json::array();
+    for (const int j : motion.joints) {
+      joints.push_back(robot.links[j].joint.name);
+    }
+    advice.push_back({{"joints", joints}, {"batch", motion.rank}});
+  }
+  return {{"blocks", id.block_rank},
+          {"of", id.block_size},
+          {"batch", id.batch_rank},
+          {"total", id.total},
+          {"unidentifiable", unidentifiable},
+          {"block_directions", blocks},
+          {"advice", advice}};
 }
 
 json GeometryJson(const LinearCalibration& result) {
@@ -200,7 +212,7 @@ json ToJson(const Robot& robot, const LogSet& training,
               {"outliers", OutlierJson(robot, training, kListedOutliers)},
               {"outlier_count", CountOutliers(training)},
               {"verdict", VerdictJson(Shortcomings(robot, result))},
-              {"rank", RankJson(result)},
+              {"rank", RankJson(robot, result)},
               {"geometry", GeometryJson(result)},
               {"covariance", CovarianceJson(result)},
               {"termination",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/motion_advice.h"
 #include "calib/outlier_report.h"
 #include "calib/verdict.h"
 #include "model/format.h"
@@ -90,7 +91,7 @@ std::string ResidualTable(const Robot& robot, const LinearCalibration& result) {
   return text + "\n";
 }
 
-std::string RankText(const LinearCalibration& result) {
+std::string RankText(const Robot& robot, const LinearCalibration& result) {
   const Identifiability& id = result.identifiability;
   std::string blocks;
   for (size_t i = 0; i < id.block_rank.size(); ++i) {
@@ -101,6 +102,11 @@ std::string RankText(const LinearCalibration& result) {
                             id.total, blocks.c_str());
   for (const auto& d : id.directions) {
     text += "           not identifiable: " + d.text + "\n";
+  }
+  if (!id.advice.empty()) {
+    text +=
+        "           to see more: " + AdviceText(robot, id.advice, id.total) +
+        ", or armcal excite --given\n";
   }
   if (id.directions.empty()) {
     for (const auto& d : id.block_directions) {
@@ -210,7 +216,7 @@ std::string FullReport(const Robot& robot, const LogSet& training,
   std::string text = DataText(training, result);
   text += UnpoweredText(robot, training, result) + OutlierText(robot, training);
   text += ResidualTable(robot, result) + NoiseTable(robot, result) +
-          RankText(result);
+          RankText(robot, result);
   if (result.solved) {
     text += LengthTable(result) + TransitionTable(robot, result) +
             ParameterTable(result);

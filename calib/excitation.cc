@@ -19,7 +19,9 @@ using Eigen::VectorXd;
 
 constexpr int kSamplesPerWave = 16;  // of the highest harmonic
 constexpr double kMargin = .98;      // peaks lie between samples
+constexpr double kClearance = .01;   // m, for the same reason
 constexpr double kCheckRate = 1000;  // Hz
+constexpr int kMostTries = 20;       // of random motions, for one that is clear
 
 double Random(std::mt19937_64* random) {
   return 2 * static_cast<double>((*random)() >> 11) * 0x1p-53 - 1;
@@ -46,14 +48,15 @@ class Designer {
       result_.reason = "no motion within the limits tells all that is asked";
       return result_;
     }
-    // Peaks between samples may need more room than the margin.
-    double margin = kMargin;
+    // Peaks between samples may need more room than the margins.
+    double margin = kMargin, clearance = kClearance;
     for (int attempt = 0; attempt < 3; ++attempt) {
-      Improve(options_.limits.Within(margin));
-      result_.used = Used();
-      if (result_.used <= 1) break;
-      margin *= kMargin / result_.used;
-      if (!ShrinkInto(options_.limits.Within(margin))) break;
+      ImproveFromBoth(Bounds(margin, clearance));
+      CheckBounds(options_, x_, &information_, &result_);
+      if (result_.used <= 1 && result_.clearance >= 0) break;
+      margin *= kMargin / std::max(kMargin, result_.used);
+      clearance += std::max(0., -result_.clearance);
+      if (!ShrinkInto(Bounds(.99 * margin, 1.1 * clearance))) break;
     }
     Describe();
     return result_;
@@ -67,14 +70,20 @@ class Designer {
                              &of_A);
   }
 
+  MotionBounds Bounds(double share, double clearance) const {
+    return {options_.limits.Within(share), &options_.workspace, clearance};
+  }
+
   bool Start() {
-    const MotionLimits inner = options_.limits.Within(kMargin * .97);
+    const MotionBounds inner = Bounds(kMargin * .97, 1.5 * kClearance);
     std::optional<double> best;
-    for (int k = 0; k < options_.starts; ++k) {
+    int found = 0;
+    for (int k = 0; k < kMostTries * options_.starts; ++k) {
       const MatrixXd numbers =
           RandomNumbers(result_.basis, units_, inner, x_,
                         options_.seed * 1000003 + k, &information_);
       if (numbers.size() == 0) continue;
+      if (++found > options_.starts) break;
       const std::optional<double> value = Criterion(numbers);
       if (!value || (best && *value >= *best)) continue;
       best = value;
@@ -84,11 +93,26 @@ class Designer {
     return best.has_value();
   }
 
-  void Improve(const MotionLimits& limits) {
+  // The sharper criteria have poorer optima nearby than the volume has: they
+  // are improved from its design as well, and the better is kept.
+  void ImproveFromBoth(const MotionBounds& bounds) {
+    const MatrixXd start = result_.numbers;
+    Improve(bounds, options_.criterion, 0);
+    if (options_.criterion == ExcitationCriterion::kD) return;
+    const Excitation direct = result_;
+    const std::optional<double> value = Criterion(direct.numbers);
+    result_.numbers = start;
+    Improve(bounds, ExcitationCriterion::kD, .33);
+    Improve(bounds, options_.criterion, .67);
+    const std::optional<double> other = Criterion(result_.numbers);
+    if (value && (!other || *value <= *other)) result_ = direct;
+  }
+
+  void Improve(const MotionBounds& bounds, ExcitationCriterion criterion,
+               double share) {
     constexpr double kBarriers[] = {.02, .004, .0008, .0002};
-    auto* design =
-        new MotionDesign(units_, limits, quantities_, options_.criterion,
-                         weight_, x_, &information_);
+    auto* design = new MotionDesign(units_, bounds, quantities_, criterion,
+                                    weight_, x_, &information_);
     const ceres::GradientProblem problem(design);
     ceres::GradientProblemSolver::Options solver;
     solver.max_num_iterations = 200;
@@ -97,11 +121,13 @@ class Designer {
     solver.gradient_tolerance = 1e-7;
     solver.logging_type = ceres::SILENT;
     ceres::GradientProblemSolver::Summary summary;
+    const bool once = options_.criterion == ExcitationCriterion::kD;
     int stage = 0;
     for (const double barrier : kBarriers) {
       design->SetBarrier(barrier);
       if (options_.progress) {
-        options_.progress("designing the motion", ++stage / 5.);
+        options_.progress("designing the motion",
+                          share + (once ? 1 : .33) * ++stage / 5.);
       }
       ceres::Solve(solver, problem, result_.numbers.data(), &summary);
       result_.iterations += static_cast<int>(summary.iterations.size());
@@ -110,24 +136,9 @@ class Designer {
     result_.reason = summary.message;
   }
 
-  double Used() {
-    const auto samples =
-        static_cast<int>(std::lround(result_.basis.period() * kCheckRate));
-    const Motion motion =
-        Combine(result_.basis.Units(samples, 1 / kCheckRate), result_.numbers);
-    information_.Evaluate(motion, weight_);
-    return options_.limits.Used(motion, information_.Torque(x_));
-  }
-
-  // Makes the motion smaller until it is within.
-  bool ShrinkInto(const MotionLimits& limits) {
-    for (int attempt = 0; attempt < 40; ++attempt) {
-      const Motion motion = Combine(units_, result_.numbers);
-      information_.Evaluate(motion, weight_);
-      if (limits.Used(motion, information_.Torque(x_)) < 1) return true;
-      result_.numbers.bottomRows(result_.numbers.rows() - 1) *= .97;
-    }
-    return false;
+  bool ShrinkInto(const MotionBounds& bounds) {
+    return ShrinkWaves(units_, bounds, x_, .97, &information_,
+                       &result_.numbers);
   }
 
   void Describe() {
@@ -146,9 +157,37 @@ class Designer {
 
 }  // namespace
 
+bool ShrinkWaves(const Motion& units, const MotionBounds& bounds,
+                 const VectorXd& x, double factor,
+                 MotionInformation* information, MatrixXd* numbers) {
+  for (int attempt = 0; attempt < 80; ++attempt) {
+    const Motion motion = Combine(units, *numbers);
+    if (bounds.workspace->Clearance(motion.q) > bounds.clearance) {
+      information->Evaluate(motion, VectorXd::Ones(numbers->cols()));
+      if (bounds.limits.Used(motion, information->Torque(x)) <= 1 + 1e-9) {
+        return true;
+      }
+    }
+    numbers->bottomRows(numbers->rows() - 1) *= factor;
+  }
+  return false;
+}
+
+void CheckBounds(const ExcitationOptions& options, const VectorXd& x,
+                 MotionInformation* information, Excitation* motion) {
+  const auto samples =
+      static_cast<int>(std::lround(motion->basis.period() * kCheckRate));
+  const Motion fine =
+      Combine(motion->basis.Units(samples, 1 / kCheckRate), motion->numbers);
+  information->Evaluate(fine, VectorXd::Ones(motion->numbers.cols()));
+  motion->used = options.limits.Used(fine, information->Torque(x));
+  motion->clearance = options.workspace.Clearance(fine.q);
+}
+
 MatrixXd RandomNumbers(const HarmonicBasis& basis, const Motion& units,
-                       const MotionLimits& limits, const VectorXd& x,
+                       const MotionBounds& bounds, const VectorXd& x,
                        std::uint64_t seed, MotionInformation* information) {
+  const MotionLimits& limits = bounds.limits;
   constexpr double kOffCentre = .3;  // at most, of half the range
   const Eigen::Index n = limits.velocity.size();
   std::mt19937_64 random(seed);
@@ -170,14 +209,13 @@ MatrixXd RandomNumbers(const HarmonicBasis& basis, const Motion& units,
                        limits.acceleration[j] / reach(units.qdd)});
     numbers(0, j) = middle + off_centre * half;
   }
-  // All of them as torques allow.
-  for (int attempt = 0; attempt < 40; ++attempt) {
-    const Motion motion = Combine(units, numbers);
-    information->Evaluate(motion, VectorXd::Ones(n));
-    if (limits.Used(motion, information->Torque(x)) <= 1 + 1e-9) return numbers;
-    numbers.bottomRows(basis.size() - 1) *= .9;
+  // All of them as torques and the workspace allow.
+  const MatrixXd centre = numbers.row(0);
+  if (bounds.workspace->Clearance(centre) < bounds.clearance ||
+      !ShrinkWaves(units, bounds, x, .9, information, &numbers)) {
+    return {};
   }
-  return {};
+  return numbers;
 }
 
 Excitation DesignExcitation(const Robot& robot, const ModelParameters& model,

@@ -9,7 +9,7 @@
 #include "model/model_parameters.h"
 #include "model/robot.h"
 #include "problems/excitation_criterion.h"
-#include "problems/motion_limits.h"
+#include "problems/motion_design.h"
 
 namespace armcal {
 
@@ -20,6 +20,7 @@ struct ExcitationOptions {
   double rate_hz = 100;  // of the log that will be recorded
   ExcitationCriterion criterion = ExcitationCriterion::kD;
   MotionLimits limits;
+  Workspace workspace;
   Eigen::VectorXd torque_noise;  // of a sample, per joint, N m or N
   int starts = 40;  // random motions, of which the best is improved
   std::uint64_t seed = 0;
@@ -37,6 +38,7 @@ struct Excitation {
   int iterations = 0;
   Eigen::VectorXd stddev;  // of all quantities, predicted
   double used = 0;         // share of the limits, at 1 kHz
+  double clearance = 0;    // m, least distance in the workspace, at 1 kHz
 };
 
 // The motion within the limits that makes `quantities`, which the parameters of
@@ -48,11 +50,22 @@ Excitation DesignExcitation(const Robot& robot, const ModelParameters& model,
                             const DesignQuantities& quantities,
                             const ExcitationOptions& options);
 
-// A random motion of this basis, as large as the limits allow; the torques of
-// parameters x count.
+// A random motion of this basis, as large as the limits and the workspace
+// allow; the torques of parameters x count. Empty where its centre is not
+// clear.
 Eigen::MatrixXd RandomNumbers(const HarmonicBasis& basis, const Motion& units,
-                              const MotionLimits& limits,
+                              const MotionBounds& bounds,
                               const Eigen::VectorXd& x, std::uint64_t seed,
                               MotionInformation* information);
+
+// Makes a motion smaller about its constant, by a factor at a time, until it is
+// within bounds. False where it never is.
+bool ShrinkWaves(const Motion& units, const MotionBounds& bounds,
+                 const Eigen::VectorXd& x, double factor,
+                 MotionInformation* information, Eigen::MatrixXd* numbers);
+
+// Sets used and clearance of a motion, at 1 kHz.
+void CheckBounds(const ExcitationOptions& options, const Eigen::VectorXd& x,
+                 MotionInformation* information, Excitation* motion);
 
 }  // namespace armcal

@@ -95,6 +95,10 @@ std::string StddevTable(const ExcitationSummary& summary) {
                   ? "  (before: " + Rounded(summary.given_stddev[w]) + ")"
                   : "  (before: not seen)";
     }
+    if (summary.alone_stddev.size() > 0) {
+      text +=
+          "  (were the others known: " + Rounded(summary.alone_stddev[w]) + ")";
+    }
     text += "\n";
   }
   const size_t more = order.size() - std::min<size_t>(kMost, order.size());
@@ -147,12 +151,15 @@ std::string FullReport(const ExcitationSummary& summary) {
       ", " + std::to_string(options.harmonics) + " harmonics of " +
       Rounded(1 / excitation.basis.period()) +
       " Hz, at rest where it begins and ends.\n" + "It uses " +
-      Rounded(100 * excitation.used) +
-      " % of what the limits allow. Standard deviations (criterion " +
-      CriterionName(options.criterion) + ") are " + Rounded(gain, 2) +
-      " times those of the best of " + std::to_string(options.starts) +
-      " random motions.\n\n" + MotionTable(summary) + "\n" +
-      StddevTable(summary);
+      Rounded(100 * excitation.used) + " % of what the limits allow" +
+      (std::isfinite(excitation.clearance)
+           ? ", and nothing comes nearer than " +
+                 Format("%.0f mm", 1000 * excitation.clearance)
+           : std::string()) +
+      ". Standard deviations (criterion " + CriterionName(options.criterion) +
+      ") are " + Rounded(gain, 2) + " times those of the best of " +
+      std::to_string(options.starts) + " random motions.\n\n" +
+      MotionTable(summary) + "\n" + StddevTable(summary);
   if (!summary.assumed.empty())
     text += "\nassumed, where no flag or file says\n";
   for (const std::string& sentence : summary.assumed) {
@@ -176,6 +183,9 @@ json ToJson(const ExcitationSummary& summary) {
          {"stddev", JsonNumber(excitation.stddev[k])},
          {"given_stddev",
           given ? JsonNumber(summary.given_stddev[k]) : json()}});
+    if (summary.alone_stddev.size() > 0) {
+      parameters.back()["alone_stddev"] = JsonNumber(summary.alone_stddev[k]);
+    }
   }
   json joints = json::array();
   const Needs needs = found ? NeedsOf(excitation) : Needs();
@@ -202,6 +212,7 @@ json ToJson(const ExcitationSummary& summary) {
           {"criterion", CriterionName(options.criterion)},
           {"criterion_value", JsonNumber(excitation.criterion)},
           {"random_criterion_value", JsonNumber(excitation.start)},
+          {"clearance", JsonNumber(excitation.clearance)},
           {"limits_used", JsonNumber(excitation.used)},
           {"fourier", waves},
           {"joints", joints},

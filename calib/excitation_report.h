@@ -19,6 +19,8 @@ struct ExcitationSummary {
   const Excitation& excitation;
   Eigen::VectorXd given_stddev;  // before the motion, of all quantities
   std::vector<std::string> assumed;
+  // Of effects that are told apart: were the others known. Empty: not asked.
+  Eigen::VectorXd alone_stddev;
 };
 
 std::string FullReport(const ExcitationSummary& summary);

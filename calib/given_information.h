@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "calib/linear_calibration.h"
 #include "calib/log_set.h"
@@ -13,6 +14,19 @@ namespace armcal {
 // variance of a sample times the time it stands for. From the scatter of a
 // calibration's equations, which holds what the model lacks as well.
 Eigen::VectorXd ErrorDensity(const LinearCalibration& linear);
+
+// What a stretch of a log's motion tells about the parameters of a model.
+struct SegmentInformation {
+  int log = 0;
+  TimeRange range;    // s since the log's first row
+  Eigen::MatrixXd A;  // m x m
+};
+// Of every stretch of `segment_s` s in which something moves, with errors of
+// that density.
+std::vector<SegmentInformation> InformationBySegment(
+    const Robot& robot, const ModelParameters& model,
+    const Eigen::VectorXd& density, double segment_s, const Progress& progress,
+    LogSet* logs);
 
 // What the motions of logs tell about the parameters of `model` (m x m) where
 // torques have such errors; standstill tells nothing.

@@ -37,6 +37,12 @@ struct UnidentifiableDirection {
   std::string text;   // "viscous[4]", "1.00 Izz[3] - 0.52 hx[4]"
 };
 
+// A motion of some joints together while the others rest.
+struct AdvisedMotion {
+  std::vector<int> joints;  // from 0
+  int rank;                 // directions that show after it and those before it
+};
+
 // The rank condition (2.30), block by block, which the recursion (2.28) needs,
 // and for all equations at once, which suffices for (2.25): MATH.md A.1.
 // A direction counts when it is excited at all (1e-8 of the best seen one) and
@@ -49,6 +55,7 @@ struct Identifiability {
   int total = 0;
   std::vector<UnidentifiableDirection> block_directions;
   std::vector<UnidentifiableDirection> directions;  // of all equations
+  std::vector<AdvisedMotion> advice;  // AdviseMotions, where asked for
 
   bool blocks_full() const { return block_rank == block_size; }
 };

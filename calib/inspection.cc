@@ -74,6 +74,7 @@ class Inspector {
     }
     const ReadingFinding found = FindReading(robot_, series);
     result_.reading = found.reading;
+    result_.as_it_is = found.changes.empty();
     result_.residual_percent = found.residual_percent;
     for (const ReadingChange& change : found.changes) Add(change, found);
     AddScale(SamplesAs(found.reading, robot_, series, kSamples));

@@ -6,6 +6,7 @@
 
 #include "calib/channel_audit.h"
 #include "calib/inspection_finding.h"
+#include "calib/log_coverage.h"
 #include "calib/log_reading.h"
 #include "model/log_reader.h"
 #include "model/robot.h"
@@ -25,7 +26,9 @@ struct LogInspection {
   double moving_share = 0;      // of the time
   double residual_percent = 0;  // of torques by the best fit of the arm
   std::vector<InspectionFinding> findings;
+  bool as_it_is = false;  // its torques fit the robot best as logged
   LogReading reading;
+  LogCoverage coverage;  // CoverageOf, where asked for
 
   explicit LogInspection(const Robot& robot) : reading(robot) {}
 };

@@ -17,6 +17,45 @@ std::string FindingText(const InspectionFinding& finding) {
          "\n";
 }
 
+std::string CoverageText(const LogCoverage& coverage) {
+  if (!coverage.known) {
+    return coverage.reason.empty()
+               ? ""
+               : "  what it can tell: nothing yet, " + coverage.reason + "\n";
+  }
+  std::string text = "  time: " + coverage.time_base;
+  if (coverage.stamp_wander > 1e-3) {
+    text += Format("; stamps wander by %.1f ms beside even samples",
+                   1e3 * coverage.stamp_wander);
+  }
+  text += Format(
+      "\n  calibrated on it, the model leaves %.3g %%; noise is told from %s\n",
+      coverage.residual_percent, coverage.noise_source.c_str());
+  text += Format("  %d of %d directions of the model parameters show\n",
+                 coverage.rank, coverage.total);
+  for (const std::string& unseen : coverage.unseen) {
+    text += "    not seen: " + unseen + "\n";
+  }
+  if (!coverage.advice.empty()) {
+    text +=
+        "    to see more: " + coverage.advice + ", or armcal excite --given\n";
+  }
+  return text;
+}
+
+json CoverageJson(const LogCoverage& coverage) {
+  if (!coverage.known) return {{"known", false}, {"reason", coverage.reason}};
+  return {{"known", true},
+          {"rank", coverage.rank},
+          {"total", coverage.total},
+          {"unseen", coverage.unseen},
+          {"advice", coverage.advice},
+          {"residual_percent", JsonNumber(coverage.residual_percent)},
+          {"outliers", coverage.outliers},
+          {"noise_source", coverage.noise_source},
+          {"stamp_wander", JsonNumber(coverage.stamp_wander)}};
+}
+
 std::string LogText(const Robot& robot, const LogInspection& log) {
   std::string text = log.path + "\n";
   text += Format("  %d rows in %.4g s, a step of %.4g ms, %.0f %% in motion\n",
@@ -43,6 +82,7 @@ std::string LogText(const Robot& robot, const LogInspection& log) {
                    joint.name.c_str(), log.travel[j], PositionUnit(joint.type),
                    log.top_speed[j], PositionUnit(joint.type));
   }
+  text += CoverageText(log.coverage);
   for (const InspectionFinding& finding : log.findings) {
     text += FindingText(finding);
   }
@@ -104,6 +144,7 @@ json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
                     {"torque", log.torque_source},
                     {"residual_percent", JsonNumber(log.residual_percent)},
                     {"joints", joints},
+                    {"coverage", CoverageJson(log.coverage)},
                     {"findings", FindingsJson(robot, log.findings)}});
   }
   return {{"robot", {{"findings", FindingsJson(robot, of_robot)}}},

@@ -1,5 +1,8 @@
 #include "calib/log_set.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "model/time_base.h"
 
 namespace armcal {
@@ -48,11 +51,30 @@ void LogSet::WorkThrough(const std::string& stage, const Progress& progress,
                             options);
     while (reader.Next(&trajectory)) {
       spikes_ += trajectory.spikes.sum();
-      visit(log, trajectory);
+      VisitKept(visit, log, &trajectory);
       if (progress) progress(stage, (log + reader.progress()) / size());
     }
   }
   if (progress) progress(stage, 1);
+}
+
+void LogSet::VisitKept(const Visit& visit, int log,
+                       Trajectory* trajectory) const {
+  if (kept_.empty()) {
+    visit(log, *trajectory);
+    return;
+  }
+  const int begin = trajectory->core_begin, end = trajectory->core_end;
+  const auto row_at = [&](double time) {
+    const double row =
+        std::ceil((time - trajectory->t0) / trajectory->dt - 1e-6);
+    return static_cast<int>(std::clamp<double>(row, begin, end));
+  };
+  for (const TimeRange& range : kept_[log]) {
+    trajectory->core_begin = row_at(range.begin);
+    trajectory->core_end = row_at(range.end);
+    if (trajectory->core_begin < trajectory->core_end) visit(log, *trajectory);
+  }
 }
 
 }  // namespace armcal

@@ -40,6 +40,11 @@ class LogSet {
   void TakeOut(OutlierLists outliers) { outliers_ = std::move(outliers); }
   const OutlierLists& outliers() const { return outliers_; }
 
+  // From now on only these stretches of each log count, s since its first row,
+  // each without its end; what lies around them still feeds filters.
+  using Stretches = std::vector<std::vector<TimeRange>>;
+  void Keep(Stretches kept) { kept_ = std::move(kept); }
+
   // Calls visit(log, trajectory) for all of them, in order.
   void ForEach(const std::string& stage, const Progress& progress,
                const Visit& visit);
@@ -53,12 +58,14 @@ class LogSet {
   void WorkThrough(const std::string& stage, const Progress& progress,
                    TrajectoryOptions options, const OutlierLists& outliers,
                    const Visit& visit);
+  void VisitKept(const Visit& visit, int log, Trajectory* trajectory) const;
 
   std::vector<std::string> paths_;
   LogReaderOptions log_options_;
   TrajectoryOptions options_;
   std::vector<TimeBase> time_bases_;
   std::string torque_source_;
+  Stretches kept_;  // empty: all
   OutlierLists outliers_;
   long spikes_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stdexcept>
 
 #include "calib/pose_fit.h"
 #include "model/kinematics.h"
@@ -20,14 +21,22 @@ const Eigen::Vector3d kTarget(.08, .05, .1);  // m, in T
 
 MatrixXd RandomPostures(const PostureOptions& options, int count,
                         std::uint64_t seed) {
+  constexpr int kMostTries = 200;  // for each that is clear
   std::mt19937_64 random(seed);
   MatrixXd q(count, options.lower.size());
-  for (Eigen::Index k = 0; k < q.rows(); ++k) {
+  int k = 0;
+  for (int tries = 0; k < count && tries < kMostTries * count; ++tries) {
     for (Eigen::Index j = 0; j < q.cols(); ++j) {
       const double share = static_cast<double>(random() >> 11) * 0x1p-53;
       q(k, j) =
           options.lower[j] + share * (options.upper[j] - options.lower[j]);
     }
+    if (options.workspace.Clearance(q.row(k)) >= 0) ++k;
+  }
+  if (k < count) {
+    throw std::invalid_argument(
+        "hardly any posture is clear of the floor and obstacles, with the tool "
+        "in its box");
   }
   return q;
 }
@@ -229,8 +238,8 @@ int BestOf(const Choice& choice, const std::vector<MatrixXd>& rows) {
   return best;
 }
 
-// A posture with one joint elsewhere, each joint everywhere on a grid; the
-// posture itself first.
+// A posture with one joint elsewhere, each joint everywhere on a grid as far as
+// that is clear; the posture itself first.
 MatrixXd Variants(const PostureOptions& options, const VectorXd& q) {
   constexpr int kGrid = 16;
   const Eigen::Index n = q.size();
@@ -239,7 +248,11 @@ MatrixXd Variants(const PostureOptions& options, const VectorXd& q) {
     variants.block(1 + j * kGrid, j, kGrid, 1) =
         VectorXd::LinSpaced(kGrid, options.lower[j], options.upper[j]);
   }
-  return variants;
+  std::vector<Eigen::Index> clear = {0};
+  for (Eigen::Index k = 1; k < variants.rows(); ++k) {
+    if (options.workspace.Clearance(variants.row(k)) >= 0) clear.push_back(k);
+  }
+  return variants(clear, Eigen::all);
 }
 
 // Moves single joints of single postures while that helps.

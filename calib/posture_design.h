@@ -10,6 +10,7 @@
 #include "problems/excitation_criterion.h"
 #include "problems/motion_limits.h"
 #include "problems/pose_problem.h"
+#include "problems/workspace.h"
 
 namespace armcal {
 
@@ -24,6 +25,7 @@ struct PostureOptions {
   PoseInstrument instrument = PoseInstrument::kTarget;
   ExcitationCriterion criterion = ExcitationCriterion::kD;
   Eigen::VectorXd lower, upper;  // of joint positions, rad or m
+  Workspace workspace;
   PoseNoise noise;
   double prior_length = .01;  // m, how far lengths may be from the file's
   double prior_angle = .02;   // rad
@@ -45,7 +47,8 @@ struct PostureDesign {
 // such measurements tell, with instrument and target unknown) becomes as
 // certain as possible: the best next one of random ones, then single joints of
 // single postures are moved while that helps (Fedorov's exchanges, 1972).
-// Distances to obstacles are not looked at.
+// Throws std::invalid_argument where hardly any posture is clear of the
+// workspace.
 PostureDesign DesignPostures(const Robot& robot, const PostureOptions& options);
 
 // What such postures tell.

@@ -7,13 +7,13 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MotionDesign::MotionDesign(const Motion& units, const MotionLimits& limits,
+MotionDesign::MotionDesign(const Motion& units, const MotionBounds& bounds,
                            const DesignQuantities& quantities,
                            ExcitationCriterion criterion,
                            const VectorXd& weight, const VectorXd& x,
                            MotionInformation* information)
     : units_(units),
-      limits_(limits),
+      bounds_(bounds),
       quantities_(quantities),
       criterion_(criterion),
       weight_(weight),
@@ -32,8 +32,10 @@ bool MotionDesign::Evaluate(const double* numbers, double* cost,
   const MatrixXd torque = information_->Torque(x_);
   MotionGradient of_motion(motion);
   MatrixXd of_torque = MatrixXd::Zero(torque.rows(), torque.cols());
-  const double barrier =
-      LimitBarrier(limits_, motion, torque, barrier_, &of_motion, &of_torque);
+  const double barrier = LimitBarrier(bounds_.limits, motion, torque, barrier_,
+                                      &of_motion, &of_torque) +
+                         bounds_.workspace->Barrier(motion.q, bounds_.clearance,
+                                                    barrier_, &of_motion);
   if (!std::isfinite(barrier)) return false;
   MatrixXd of_A;
   const std::optional<double> value =

@@ -68,6 +68,15 @@ void MotionInformation::Evaluate(const Motion& motion, const VectorXd& weight) {
   }
 }
 
+VectorXd MotionInformation::Project(const MatrixXd& torque,
+                                    const VectorXd& weight) const {
+  VectorXd sum = VectorXd::Zero(num_parameters_);
+  for (int j = 0; j < motion_.num_joints(); ++j) {
+    sum(columns_[j]) += weight[j] * rows_[j].transpose() * torque.col(j);
+  }
+  return sum;
+}
+
 MatrixXd MotionInformation::Torque(const VectorXd& x) const {
   MatrixXd tau(motion_.size(), motion_.num_joints());
   for (int j = 0; j < motion_.num_joints(); ++j) {

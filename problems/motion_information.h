@@ -38,6 +38,10 @@ class MotionInformation {
   void Evaluate(const Motion& motion, const Eigen::VectorXd& weight);
 
   const Eigen::MatrixXd& A() const { return A_; }  // m x m
+  // The sum over samples and joints of weight_j u' times another torque there
+  // (samples x joints): m entries.
+  Eigen::VectorXd Project(const Eigen::MatrixXd& torque,
+                          const Eigen::VectorXd& weight) const;
   // Torques of parameters x there, samples x joints.
   Eigen::MatrixXd Torque(const Eigen::VectorXd& x) const;
 

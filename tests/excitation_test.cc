@@ -67,9 +67,9 @@ TEST_F(ExcitationTest, BeatsRandomMotionsWithinTheLimits) {
   const VectorXd weight = VectorXd::Constant(2, 1000. / samples / .09);
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 300; ++k) {
-    const MatrixXd numbers =
-        RandomNumbers(designed.basis, units, options_.limits,
-                      model.Values(robot_), 1000 + k, &information);
+    const MatrixXd numbers = RandomNumbers(
+        designed.basis, units, {options_.limits, &options_.workspace},
+        model.Values(robot_), 1000 + k, &information);
     ASSERT_GT(numbers.size(), 0);
     information.Evaluate(Combine(units, numbers), weight);
     MatrixXd gradient;

@@ -9,7 +9,9 @@
 #include "calib/calibration_report.h"
 #include "calib/drive_gains_report.h"
 #include "calib/linear_calibration.h"
+#include "calib/motion_advice.h"
 #include "calib/outlier_report.h"
+#include "calib/segment_selection.h"
 #include "calib/verdict.h"
 #include "model/input_text.h"
 #include "tools/calibrate_payload.h"
@@ -43,6 +45,10 @@ DEFINE_string(window, "",
 DEFINE_string(intervals, "",
               "integral model: t1:t2[,t3:t4...], s; default: side by side");
 DEFINE_double(interval, 0.5, "integral model: length of intervals, s");
+DEFINE_bool(select, false,
+            "calibrate on the segments of the logs that tell most, as few as "
+            "tell nearly all");
+DEFINE_double(segment, 5, "length of segments for --select, s");
 DEFINE_string(quadrature, "trapezoid", "integral model: trapezoid, simpson");
 
 namespace armcal {
@@ -179,6 +185,22 @@ bool Refine(const Task& task, const LinearCalibration& linear, LogSet* training,
   return refined.converged() || !refinement.asked_for;
 }
 
+// With --select the segments to calibrate on take the place of all logs.
+std::optional<SegmentSelection> SelectFromFlags(const Task& task,
+                                                LogSet* training) {
+  constexpr double kMostRatio = 1.25;  // of standard deviations
+  if (!FLAGS_select) return {};
+  if (!(FLAGS_segment >= 1) || !std::isfinite(FLAGS_segment)) {
+    throw UsageError("--segment: found '" + NumberText(FLAGS_segment) +
+                     "', expected a length of at least 1 s");
+  }
+  const LinearCalibration all =
+      CalibrateLinear(task.robot, task.linear, training, nullptr);
+  if (!all.solved) return {};
+  return SelectSegments(task.robot, all, task.linear, FLAGS_segment, kMostRatio,
+                        training);
+}
+
 int RunCalibrate() {
   if (PosesAloneFromFlags()) return CalibratePosesFromFlags(RobotFromFlags());
   Task task = TaskFromFlags();
@@ -195,14 +217,23 @@ int RunCalibrate() {
                     ValidationCropFromFlags());
   LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
 
+  const std::optional<SegmentSelection> selection =
+      SelectFromFlags(task, &training);
+  std::string report = gains ? DriveGainsReport(*gains) : "";
+  if (selection) {
+    report += SelectionText(*selection, training);
+    training.Keep(selection->Stretches(training));
+  }
   LinearCalibration result =
       CalibrateLinear(robot, task.linear, &training, held_out);
+  result.identifiability.advice =
+      AdviseMotions(robot, result, task.linear, &training);
   const std::string corrected =
       CorrectTrajectories(robot, task.linear, &training, held_out, &result);
   nlohmann::json json = ToJson(robot, training, held_out, result);
-  std::string report = gains ? DriveGainsReport(*gains) : "";
   report += FullReport(robot, training, result) + corrected;
   if (gains) AddDriveGains(*gains, &json);
+  if (selection) json["selection"] = ToJson(*selection, training);
   OutputFolder out(OutFromFlags());
   const bool refined =
       Refine(task, result, &training, held_out, &json, &report, &out);
@@ -221,10 +252,11 @@ int RunCalibrate() {
 std::vector<std::string> FlagNames() {
   std::vector<std::string> names = InputFlagNames();
   for (const char* name :
-       {"geometry", "identification", "solver", "loss", "joint_terms",
-        "coulomb_width", "window", "intervals", "interval", "quadrature",
-        "estimate", "trust", "length_trust", "angle_trust", "trajectory",
-        "payload_mass", "payload_log", "poses"}) {
+       {"geometry",     "identification", "solver",     "loss",
+        "joint_terms",  "coulomb_width",  "window",     "intervals",
+        "interval",     "quadrature",     "estimate",   "trust",
+        "length_trust", "angle_trust",    "trajectory", "payload_mass",
+        "payload_log",  "poses",          "select",     "segment"}) {
     names.push_back(name);
   }
   return names;

@@ -37,12 +37,9 @@ double TrustInFile() {
 }
 
 std::vector<std::string> LeftOutEffects() {
-  const std::vector<std::string> names = SplitAtCommas(FLAGS_without);
-  for (const std::string& name : names) {
-    if (FindEffect(name) != nullptr) continue;
-    std::string all;
-    for (const Effect& effect : Effects()) all += " " + effect.name;
-    throw UsageError("--without: found '" + name + "', expected some of" + all);
+  std::vector<std::string> names;
+  for (const Effect* effect : ParseEffects("without", FLAGS_without)) {
+    names.push_back(effect->name);
   }
   return names;
 }

@@ -3,7 +3,9 @@
 #include <gflags/gflags.h>
 
 #include <iostream>
+#include <stdexcept>
 
+#include "calib/effect_separation.h"
 #include "calib/excitation_report.h"
 #include "calib/given_information.h"
 #include "calib/linear_calibration.h"
@@ -89,7 +91,13 @@ Design MakeDesign(const Robot& robot, const ExcitationOptions& options,
 
 int RunPostures(const Robot& robot, const PostureOptions& options,
                 const std::vector<std::string>& assumed) {
-  const PostureDesign design = DesignPostures(robot, options);
+  const PostureDesign design = [&] {
+    try {
+      return DesignPostures(robot, options);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(RobotPathFromFlags(), "", "", error.what());
+    }
+  }();
   const PostureSummary summary{robot, options, design, assumed};
   OutputFolder out(OutFromFlags());
   out.Add("postures.csv", PostureText(design));
@@ -99,35 +107,75 @@ int RunPostures(const Robot& robot, const PostureOptions& options,
   return kExitOk;
 }
 
+void WriteMotion(const ExcitationSummary& summary) {
+  OutputFolder out(OutFromFlags());
+  if (summary.excitation.numbers.size() > 0) {
+    out.Add("trajectory.csv",
+            LogText(MotionLog(summary.excitation, summary.options.periods,
+                              summary.options.rate_hz)));
+  }
+  out.Add("excite.json", ToJson(summary).dump(2) + "\n");
+  out.Write();
+  std::cout << FullReport(summary);
+}
+
+Excitation RunParameters(const Robot& robot, const Design& design,
+                         const ExcitationOptions& options,
+                         const std::vector<std::string>& assumed) {
+  const NamedQuantities quantities =
+      MakeDesignQuantities(robot, design.model, kTerms, TargetFromFlags(),
+                           TrustFromFlags(), design.reference, design.known);
+  const Excitation excitation =
+      DesignExcitation(robot, design.model, quantities.design, options);
+  ExcitationSummary summary{robot, options, quantities, excitation,
+                            {},    assumed, {}};
+  if (!GivenLogsFromFlags().empty()) {
+    summary.given_stddev = PredictedStddev(
+        quantities.design,
+        Eigen::MatrixXd::Zero(design.model.size(), design.model.size()));
+  }
+  WriteMotion(summary);
+  return excitation;
+}
+
+Excitation RunSeparation(const Robot& robot, const Design& design,
+                         const std::vector<const Effect*>& effects,
+                         const ExcitationOptions& options,
+                         const std::vector<std::string>& assumed) {
+  const SeparationQuestion question = [&]() -> SeparationQuestion {
+    try {
+      return {robot, effects, design.model, options.limits};
+    } catch (const std::invalid_argument& error) {
+      throw InputError(RobotPathFromFlags(), "", "",
+                       std::string("--separate: ") + error.what());
+    }
+  }();
+  const EffectSeparation separation =
+      SeparateEffects(robot, design.model, question, design.known, options);
+  const NamedQuantities quantities = Quantities(robot, separation);
+  ExcitationSummary summary{robot, options, quantities, separation.motion,
+                            {},    assumed, {}};
+  summary.alone_stddev.resize(static_cast<long>(separation.sizes.size()));
+  for (size_t k = 0; k < separation.sizes.size(); ++k) {
+    summary.alone_stddev[static_cast<long>(k)] = separation.sizes[k].alone;
+  }
+  WriteMotion(summary);
+  return separation.motion;
+}
+
 int RunMotion(const Robot& robot) {
   std::vector<std::string> assumed;
   ExcitationOptions options = ExcitationOptionsFromFlags(robot, &assumed);
+  const std::vector<const Effect*> effects = SeparatedEffectsFromFlags();
   ProgressBar bar;
   options.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
   };
   const Design design = MakeDesign(robot, options, &assumed);
   options.torque_noise = design.noise;
-  const NamedQuantities quantities =
-      MakeDesignQuantities(robot, design.model, kTerms, TargetFromFlags(),
-                           TrustFromFlags(), design.reference, design.known);
   const Excitation excitation =
-      DesignExcitation(robot, design.model, quantities.design, options);
-  ExcitationSummary summary{robot,      options, quantities,
-                            excitation, {},      assumed};
-  if (!GivenLogsFromFlags().empty()) {
-    summary.given_stddev = PredictedStddev(
-        quantities.design,
-        Eigen::MatrixXd::Zero(design.model.size(), design.model.size()));
-  }
-  OutputFolder out(OutFromFlags());
-  if (excitation.numbers.size() > 0) {
-    out.Add("trajectory.csv",
-            LogText(MotionLog(excitation, options.periods, options.rate_hz)));
-  }
-  out.Add("excite.json", ToJson(summary).dump(2) + "\n");
-  out.Write();
-  std::cout << FullReport(summary);
+      effects.empty() ? RunParameters(robot, design, options, assumed)
+                      : RunSeparation(robot, design, effects, options, assumed);
   return excitation.numbers.size() > 0 ? kExitOk : kExitNegative;
 }
 

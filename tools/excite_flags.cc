@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <stdexcept>
 
+#include "model/input_error.h"
 #include "model/input_text.h"
 #include "tools/command.h"
 #include "tools/input_flags.h"
@@ -20,6 +23,10 @@ DEFINE_string(target, "model",
 DEFINE_string(criterion, "D",
               "what is to be small: D (volume of the confidence ellipsoid), A "
               "(sum of variances), worst (largest standard deviation)");
+DEFINE_string(
+    separate, "",
+    "effects that the motion is to tell apart on every joint, such as "
+    "elasticity,delay, instead of a --target");
 DEFINE_int32(harmonics, 0,
              "of the base frequency, per joint; default: up to 0.5 Hz");
 DEFINE_int32(periods, 1, "equal periods that the motion consists of");
@@ -31,6 +38,16 @@ DEFINE_string(
     acceleration_limits, "",
     "rad/s^2 or m/s^2; default: three times the velocity in a second");
 DEFINE_string(effort_limits, "", "N m or N; default: the file's");
+DEFINE_string(tool_box, "",
+              "x:x,y:y,z:z in the base's frame, m, that the tool's point stays "
+              "in; default: anywhere");
+DEFINE_string(
+    floor, "",
+    "height that links stay above, m, against gravity from the base's "
+    "origin; default: none");
+DEFINE_string(obstacles, "",
+              "boxes that links stay out of: x:x,y:y,z:z[;x:x,y:y,z:z..], m");
+DEFINE_double(link_radius, .06, "of the links, for --floor and --obstacles, m");
 DEFINE_double(use, .95, "share of the limits that the motion may use");
 DEFINE_int32(static_poses, 0,
              "design so many postures for a calibration of the geometry "
@@ -109,6 +126,47 @@ MotionLimits LimitsFromFlags(const Robot& robot,
   return limits.Within(FLAGS_use);
 }
 
+Box ParseBox(const char* flag, const std::string& text) {
+  const std::vector<TimeRange> ranges = ParseRanges(flag, text);
+  bool whole = ranges.size() == 3;
+  for (const TimeRange& range : ranges) {
+    whole = whole && std::isfinite(range.begin) && std::isfinite(range.end);
+  }
+  if (!whole) {
+    throw UsageError("--" + std::string(flag) + ": found '" + text +
+                     "', expected x:x,y:y,z:z with all ends, m");
+  }
+  return {{ranges[0].begin, ranges[1].begin, ranges[2].begin},
+          {ranges[0].end, ranges[1].end, ranges[2].end}};
+}
+
+Workspace WorkspaceFromFlags(const Robot& robot, const MotionLimits& limits) {
+  WorkspaceOptions options;
+  CheckWithin("link_radius", FLAGS_link_radius, .005, 1);
+  options.link_radius = FLAGS_link_radius;
+  if (!FLAGS_tool_box.empty()) {
+    options.tool_box = ParseBox("tool_box", FLAGS_tool_box);
+  }
+  if (!FLAGS_floor.empty()) {
+    const std::vector<double> height = ParseNumbers("floor", FLAGS_floor);
+    if (height.size() != 1) {
+      throw UsageError("--floor: found '" + FLAGS_floor +
+                       "', expected one height, m");
+    }
+    options.floor = height[0];
+  }
+  std::istringstream boxes(FLAGS_obstacles);
+  for (std::string box; std::getline(boxes, box, ';');) {
+    options.obstacles.push_back(ParseBox("obstacles", box));
+  }
+  try {
+    return {robot, options, limits.lower, limits.upper};
+  } catch (const std::invalid_argument& error) {
+    throw InputError(RobotPathFromFlags(), "", "",
+                     std::string("within the limits ") + error.what());
+  }
+}
+
 ExcitationCriterion CriterionFromFlags() {
   return ParseChoice<ExcitationCriterion>(
       "criterion", FLAGS_criterion,
@@ -120,29 +178,21 @@ ExcitationCriterion CriterionFromFlags() {
 }  // namespace
 
 const std::vector<std::string>& ExcitationFlagNames() {
-  static const std::vector<std::string> kNames = {"target",
-                                                  "criterion",
-                                                  "given",
-                                                  "duration",
-                                                  "periods",
-                                                  "harmonics",
-                                                  "position_limits",
-                                                  "velocity_limits",
-                                                  "acceleration_limits",
-                                                  "effort_limits",
-                                                  "use",
-                                                  "log_rate",
-                                                  "torque_noise",
-                                                  "static_poses",
-                                                  "instrument",
-                                                  "pose_noise",
-                                                  "seed"};
+  static const std::vector<std::string> kNames = {
+      "target",          "criterion",       "given",
+      "duration",        "periods",         "harmonics",
+      "position_limits", "velocity_limits", "acceleration_limits",
+      "effort_limits",   "tool_box",        "floor",
+      "obstacles",       "link_radius",     "use",
+      "log_rate",        "torque_noise",    "static_poses",
+      "instrument",      "pose_noise",      "seed"};
   return kNames;
 }
 
 ExcitationOptions ExcitationOptionsFromFlags(
     const Robot& robot, std::vector<std::string>* assumed) {
-  constexpr double kHighest = .5;  // Hz, unless asked for
+  // Hz, unless asked for: effects show in what is quick.
+  const double highest = FLAGS_separate.empty() ? .5 : 1;
   ExcitationOptions options;
   CheckWithin("duration", FLAGS_duration, .5, 1000);
   CheckWithin("periods", FLAGS_periods, 1, 100);
@@ -150,7 +200,7 @@ ExcitationOptions ExcitationOptionsFromFlags(
   options.periods = FLAGS_periods;
   const double period = FLAGS_duration / FLAGS_periods;
   options.harmonics =
-      std::max(5, static_cast<int>(std::lround(kHighest * period)));
+      std::max(5, static_cast<int>(std::lround(highest * period)));
   if (FLAGS_harmonics != 0) {
     CheckWithin("harmonics", FLAGS_harmonics, 2, 100);
     options.harmonics = FLAGS_harmonics;
@@ -159,6 +209,10 @@ ExcitationOptions ExcitationOptionsFromFlags(
   options.rate_hz = FLAGS_log_rate;
   options.criterion = CriterionFromFlags();
   options.limits = LimitsFromFlags(robot, assumed);
+  options.workspace = WorkspaceFromFlags(robot, options.limits);
+  if (options.workspace.empty()) {
+    assumed->push_back("nothing is in the way (--floor, --obstacles)");
+  }
   options.seed = SeedFromFlags();
   return options;
 }
@@ -187,8 +241,13 @@ std::optional<PostureOptions> PostureOptionsFromFlags(
   }
   options.lower = limits.lower;
   options.upper = limits.upper;
+  options.workspace = WorkspaceFromFlags(robot, limits);
   options.seed = SeedFromFlags();
   return options;
+}
+
+std::vector<const Effect*> SeparatedEffectsFromFlags() {
+  return ParseEffects("separate", FLAGS_separate);
 }
 
 DesignTarget TargetFromFlags() {

@@ -7,6 +7,7 @@
 #include "calib/design_target.h"
 #include "calib/excitation.h"
 #include "calib/posture_design.h"
+#include "model/effects/effects.h"
 #include "model/robot.h"
 
 namespace armcal {
@@ -24,6 +25,8 @@ std::optional<PostureOptions> PostureOptionsFromFlags(
     const Robot& robot, std::vector<std::string>* assumed);
 
 DesignTarget TargetFromFlags();  // --target
+// Of --separate; empty: none are asked for.
+std::vector<const Effect*> SeparatedEffectsFromFlags();
 // Shares of usual torques, per joint: --torque_noise.
 Eigen::VectorXd NoiseSharesFromFlags(int num_joints);
 std::vector<std::string> GivenLogsFromFlags();  // --given

@@ -123,6 +123,20 @@ std::vector<TimeRange> ParseRanges(const std::string& flag,
   return ranges;
 }
 
+std::vector<const Effect*> ParseEffects(const std::string& flag,
+                                        const std::string& text) {
+  std::vector<const Effect*> effects;
+  for (const std::string& name : SplitAtCommas(text)) {
+    effects.push_back(FindEffect(name));
+    if (effects.back() != nullptr) continue;
+    std::string all;
+    for (const Effect& effect : Effects()) all += " " + effect.name;
+    throw UsageError("--" + flag + ": found '" + name + "', expected some of" +
+                     all);
+  }
+  return effects;
+}
+
 void RefuseChoice(const std::string& flag, const std::string& value,
                   const std::vector<std::string>& choices) {
   throw UsageError("--" + flag + ": found '" + value + "', expected one of " +

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "model/effects/effects.h"
 #include "model/log_reader.h"
 #include "model/robot.h"
 #include "model/time_base.h"
@@ -38,6 +39,10 @@ double PositiveNumber(const std::string& flag, const std::string& text);
 std::vector<TimeRange> ParseRanges(const std::string& flag,
                                    const std::string& text);
 std::vector<std::string> SplitAtCommas(const std::string& text);
+
+// The effects of a list of names.
+std::vector<const Effect*> ParseEffects(const std::string& flag,
+                                        const std::string& text);
 
 // The entry of `choices` called `value`; UsageError lists them.
 template <class T>

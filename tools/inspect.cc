@@ -40,7 +40,13 @@ int RunInspect() {
   const LogReaderOptions options = LogOptionsFromFlags(robot);
   if (!FLAGS_log.empty()) {
     for (const std::string& path : LogsFromFlags()) {
-      logs.push_back(InspectLog(robot, path, options));
+      LogInspection log = InspectLog(robot, path, options);
+      if (log.as_it_is) {
+        log.coverage = CoverageOf(robot, path, options);
+        log.findings.insert(log.findings.end(), log.coverage.findings.begin(),
+                            log.coverage.findings.end());
+      }
+      logs.push_back(log);
     }
   }
   OutputFolder out(OutFromFlags());
