@@ -302,11 +302,24 @@ PostureDesign DesignPostures(const Robot& robot,
   return design;
 }
 
+namespace {
+
+Postures UsualPostures(const Robot& robot, const PostureOptions& options) {
+  return {robot, options,
+          RandomPostures(options, options.candidates, options.seed)};
+}
+
+}  // namespace
+
+std::vector<MatrixXd> PostureEquations(const Robot& robot,
+                                       const PostureOptions& options,
+                                       const MatrixXd& q) {
+  return UsualPostures(robot, options).Rows(q);
+}
+
 double PostureCriterion(const Robot& robot, const PostureOptions& options,
                         const MatrixXd& q) {
-  const Postures postures(
-      robot, options,
-      RandomPostures(options, options.candidates, options.seed));
+  const Postures postures = UsualPostures(robot, options);
   Choice choice(postures, options.criterion);
   for (const MatrixXd& rows : postures.Rows(q)) choice.Add(rows);
   return choice.Value();

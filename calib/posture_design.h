@@ -51,6 +51,12 @@ struct PostureDesign {
 // workspace.
 PostureDesign DesignPostures(const Robot& robot, const PostureOptions& options);
 
+// The equations of each posture in units of the noise, rows x unknowns: what of
+// the geometry, the instrument and the target such postures tell.
+std::vector<Eigen::MatrixXd> PostureEquations(const Robot& robot,
+                                              const PostureOptions& options,
+                                              const Eigen::MatrixXd& q);
+
 // What such postures tell.
 double PostureCriterion(const Robot& robot, const PostureOptions& options,
                         const Eigen::MatrixXd& q);

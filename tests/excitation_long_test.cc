@@ -84,6 +84,36 @@ struct RatedDesign {
     return std::log(stddev.cwiseQuotient(all.scale).maxCoeff());
   }
 
+  // No motion has a smaller largest standard deviation: viscous and Coulomb
+  // friction of a joint are the slope and the intercept of a line over speeds
+  // from 0 to the limit, which samples at its two ends tell best (a share w of
+  // them at 0), were all else known.
+  double LeastWorst() const {
+    VectorXd slope = VectorXd::Zero(robot.num_joints()), intercept = slope;
+    const double samples = options.duration_s * options.rate_hz;
+    for (int k = 0; k < model.size(); ++k) {
+      const ModelParameter& p = model.parameters()[k];
+      if (!p.is_joint_term) continue;
+      const double unit =
+          options.torque_noise[p.block] / std::sqrt(samples) / all.scale[k];
+      if (p.term == JointTerm::kViscous) {
+        slope[p.block] = unit / options.limits.velocity[p.block];
+      }
+      if (p.term == JointTerm::kCoulomb) intercept[p.block] = unit;
+    }
+    double least = 0;
+    for (int j = 0; j < robot.num_joints(); ++j) {
+      double of_joint = std::numeric_limits<double>::infinity();
+      for (double w = .01; w < 1; w += .01) {
+        of_joint =
+            std::min(of_joint, std::max(intercept[j] / std::sqrt(w),
+                                        slope[j] / std::sqrt(w * (1 - w))));
+      }
+      least = std::max(least, of_joint);
+    }
+    return least;
+  }
+
   Robot robot;
   ModelParameters model;
   DesignQuantities all;
@@ -116,15 +146,17 @@ TEST_P(RatedArms, DesignsBeatTheBestOfAThousandRandomMotions) {
   const Excitation by_worst = run(ExcitationCriterion::kWorst);
   const double volume = std::exp(2 * (by_volume.criterion - random.volume));
   const double worst = std::exp(design.Worst(by_worst) - random.worst);
+  const double least = design.LeastWorst() / std::exp(random.worst);
   std::printf(
       "%s: %d parameters, variance %.2f (det^(1/m); determinant 10^%.0f), "
-      "worst standard deviation %.2f times the best of 1000, %.0f s; limits "
-      "used %.4f and %.4f\n",
+      "worst standard deviation %.2f times the best of 1000 (no motion can: "
+      "%.2f), %.0f s; limits used %.4f and %.4f\n",
       GetParam(), design.model.size(), volume,
-      design.model.size() * std::log10(volume), worst, seconds, by_volume.used,
-      by_worst.used);
+      design.model.size() * std::log10(volume), worst, least, seconds,
+      by_volume.used, by_worst.used);
   EXPECT_LT(volume, .6);
-  EXPECT_LT(worst, .6);
+  // Where limits of velocity leave little room for that, near what they leave.
+  EXPECT_LT(worst, std::max(.6, 1.8 * least));
 }
 
 // The motion as a controller's reference.
