@@ -6,8 +6,7 @@
 
 #include "calib/design_target.h"
 #include "calib/excitation.h"
-#include "calib/identifiability.h"
-#include "model/effects/effects.h"
+#include "calib/separation_question.h"
 #include "model/model_parameters.h"
 #include "model/robot.h"
 
@@ -27,23 +26,6 @@ struct SeparatedSize {
 struct EffectSeparation {
   Excitation motion;  // criterion: log of the largest stddev over size
   std::vector<SeparatedSize> sizes;
-};
-
-// What is asked: effects whose torque is linear in a size. Throws
-// std::invalid_argument where one is not, or no joint of the robot shows it.
-struct SeparationQuestion {
-  SeparationQuestion(const Robot& robot, const std::vector<const Effect*>& list,
-                     const ModelParameters& model, const MotionLimits& limits);
-
-  struct Column {
-    const Effect* effect;
-    int joint, parameter;
-    Eigen::VectorXd p;  // with this one of its usual size, no other
-    double size;
-  };
-  MotionScale scale;  // of a motion with half of the velocities
-  std::vector<Column> columns;
-  std::vector<JointType> joint_types;
 };
 
 // The motion within the limits that makes the least certain of the sizes of

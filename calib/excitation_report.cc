@@ -75,6 +75,7 @@ std::string MotionTable(const ExcitationSummary& summary) {
 // The wanted quantities that will be known worst, relative to their scale.
 std::string StddevTable(const ExcitationSummary& summary) {
   constexpr int kMost = 12;
+  constexpr double kUnseen = 100;  // times what matters
   const DesignQuantities& design = summary.quantities.design;
   const VectorXd& stddev = summary.excitation.stddev;
   std::vector<int> order(design.wanted.size());
@@ -91,7 +92,8 @@ std::string StddevTable(const ExcitationSummary& summary) {
     text += "  " + name + Padded(Rounded(summary.quantities.nominal[w]), 10) +
             " +- " + Rounded(stddev[w]) + " " + summary.quantities.units[w];
     if (summary.given_stddev.size() > 0) {
-      text += std::isfinite(summary.given_stddev[w])
+      const double before = summary.given_stddev[w] / design.scale[order[k]];
+      text += before < kUnseen
                   ? "  (before: " + Rounded(summary.given_stddev[w]) + ")"
                   : "  (before: not seen)";
     }

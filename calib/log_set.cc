@@ -70,7 +70,12 @@ void LogSet::VisitKept(const Visit& visit, int log,
         std::ceil((time - trajectory->t0) / trajectory->dt - 1e-6);
     return static_cast<int>(std::clamp<double>(row, begin, end));
   };
-  for (const TimeRange& range : kept_[log]) {
+  // What is between two of them is a gap.
+  const int segment = trajectory->segment;
+  const int count = static_cast<int>(kept_[log].size());
+  for (int k = 0; k < count; ++k) {
+    const TimeRange& range = kept_[log][k];
+    trajectory->segment = segment * count + k;
     trajectory->core_begin = row_at(range.begin);
     trajectory->core_end = row_at(range.end);
     if (trajectory->core_begin < trajectory->core_end) visit(log, *trajectory);

@@ -75,7 +75,7 @@ TEST_F(SegmentSelectionTest, TheTellingStretchComesFirst) {
 }
 
 // What the selection says of standard deviations is what a calibration on it
-// finds.
+// finds, errors of equations being independent.
 TEST_F(SegmentSelectionTest, CalibratesNearlyAsWell) {
   const SegmentSelection selection =
       SelectSegments(robot_, *linear_, options_, 5, 1.25, &*logs_);
@@ -85,10 +85,12 @@ TEST_F(SegmentSelectionTest, CalibratesNearlyAsWell) {
   ASSERT_TRUE(few.solved) << few.reason;
   EXPECT_EQ(few.identifiability.batch_rank,
             linear_->identifiability.batch_rank);
-  const double ratio = std::exp(
-      (few.stddev.array().log() - linear_->stddev.array().log()).mean());
+  const auto stddev = [](const LinearCalibration& result) {
+    return result.independent_covariance.diagonal().cwiseSqrt().array().log();
+  };
+  const double ratio = std::exp((stddev(few) - stddev(*linear_)).mean());
   EXPECT_GT(ratio, 1);
-  EXPECT_LT(ratio, 1.6);
+  EXPECT_NEAR(ratio, selection.stddev_ratio, .15);
 }
 
 TEST_F(SegmentSelectionTest, PiecesAreInOrderAndTouchingOnesAreOne) {

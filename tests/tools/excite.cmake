@@ -38,7 +38,7 @@ if(NOT header STREQUAL "t,q1,q2,qd1,qd2,qdd1,qdd2")
   fail("the trajectory's header is ${header}")
 endif()
 list(GET rows 1 first)
-if(NOT first MATCHES "^0,[^,]+,[^,]+,")
+if(NOT first MATCHES "^0\\.0+,[^,]+,[^,]+,")
   fail("the trajectory begins with ${first}")
 endif()
 file(READ ${WORK_DIR}/out/trajectory.csv trajectory)
@@ -55,7 +55,7 @@ run("played" simulate --robot=arm.yaml --motion=motion/trajectory.csv
     --out=played)
 expect_code(0)
 run("what it shows" calibrate --robot=arm.yaml --log=played/log.csv)
-expect_text(out "rank " "8 of 8")
+expect_text(out "rank " "13 of 13")
 
 # A log of one joint, and what it lacks.
 run("a poor log" simulate --robot=arm.yaml --duration=10 --joints=1 --out=poor)

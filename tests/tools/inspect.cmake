@@ -17,7 +17,7 @@ expect_code(0)
 run("nothing wrong" inspect --robot=arm.yaml --log=made/log.csv --out=out)
 expect_code(0)
 expect_text(out "arm: 2 joints" "nothing wrong was found" "made/log.csv"
-            "8 of 8 directions of the model parameters show"
+            "13 of 13 directions of the model parameters show"
             "nothing wrong was found")
 expect_empty(err)
 
