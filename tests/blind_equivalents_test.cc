@@ -43,20 +43,20 @@ TEST(EffectLikeness, TheFirstLinkOfAScaraIsAFlywheel) {
   EXPECT_GT(pairs[0].cosine, .99);
 }
 
-// Loads whose centres are on different sides of the tool are one kind: whoever
-// estimates a load estimates its centre.
-TEST(EffectLikeness, ALoadMayHaveAnyCentre) {
+// Tilts to different sides are one kind: whoever estimates a tilt estimates its
+// direction.
+TEST(EffectLikeness, ATiltMayHaveAnyDirection) {
   const BlindCase blind = Scara();
   EffectSignals signals(blind);
-  ChosenEffect here = Usual("payload", -1), there = here;
-  here.parameters.tail<3>() << .3, -.2, 0;
-  there.parameters.tail<3>() << -.4, .3, 0;
+  ChosenEffect here = Usual("base_tilt", -1), there = here;
+  here.parameters[1] = .5;
+  there.parameters[1] = 2;
   EXPECT_TRUE(signals.Add(here));
   EXPECT_TRUE(signals.Add(there));
-  EXPECT_TRUE(signals.Add(Usual("spring", 0)));
+  EXPECT_TRUE(signals.Add(Usual("stribeck", 0)));
   const auto pairs = signals.Alike();
   ASSERT_EQ(pairs.size(), 1u);
-  EXPECT_EQ(pairs[0].b.Text(), "payload");
+  EXPECT_EQ(pairs[0].b.Text(), "base_tilt");
 }
 
 TEST(EffectLikeness, NoKindIsLeftOut) {
