@@ -2,6 +2,8 @@
 
 #include <glog/logging.h>
 
+#include <Eigen/Eigenvalues>
+
 namespace armcal {
 
 using Eigen::MatrixXd;
@@ -24,11 +26,17 @@ void GapScreen::AddInformation(const MatrixXd& AtA, const VectorXd& Aty) {
   CHECK_EQ(known_.size(), 0);
   information_ += AtA;
   gradient_ += Aty;
-  // The root of a matrix that may be singular: A'A + eps = U'U.
-  MatrixXd regular = AtA;
-  regular.diagonal().array() += 1e-9;
-  known_root_ = regular.llt().matrixU();
-  known_ = known_root_.transpose().triangularView<Eigen::Lower>().solve(Aty);
+  // The root of a matrix that may be singular, which a triangular one of it
+  // would not survive: A'A = U'U with U = sqrt(values) vectors'.
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(AtA);
+  const VectorXd values = eigen.eigenvalues();
+  const double least = 1e-14 * values.cwiseAbs().maxCoeff();
+  const VectorXd root = values.cwiseMax(0).cwiseSqrt();
+  known_root_ = root.asDiagonal() * eigen.eigenvectors().transpose();
+  known_ = eigen.eigenvectors().transpose() * Aty;
+  for (Eigen::Index k = 0; k < known_.size(); ++k) {
+    known_[k] = values[k] > least ? known_[k] / root[k] : 0;
+  }
 }
 
 int GapScreen::AddColumn(JointRows column) {

@@ -53,9 +53,7 @@ expect_json(0 effects 0 joint_index)
 expect_json(reference floor_source)
 expect_json(mass effects 0 estimates 0 name)
 expect_json(kg effects 0 estimates 0 unit)
-# KNOWN FAULT: 0.504 +- 0.003 on a processor without FMA, 0.667 +- 0.0002 on one
-# with it; the truth is 0.5. To be .47 .53 again once that is understood.
-expect_between(.4 .7 effects 0 estimates 0 value)
+expect_between(.47 .53 effects 0 estimates 0 value)
 expect_between(90 101 gap torque removed_percent)
 
 run("the log it is compared with" diagnose ${robot} --log=before/log.csv
