@@ -3,6 +3,7 @@
 #include <glog/logging.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 namespace armcal {
 
@@ -31,11 +32,12 @@ void GapScreen::AddInformation(const MatrixXd& AtA, const VectorXd& Aty) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(AtA);
   const VectorXd values = eigen.eigenvalues();
   const double least = 1e-14 * values.cwiseAbs().maxCoeff();
-  const VectorXd root = values.cwiseMax(0).cwiseSqrt();
+  const VectorXd root = values.unaryExpr(
+      [least](double x) { return x > least ? std::sqrt(x) : 0; });
   known_root_ = root.asDiagonal() * eigen.eigenvectors().transpose();
   known_ = eigen.eigenvectors().transpose() * Aty;
   for (Eigen::Index k = 0; k < known_.size(); ++k) {
-    known_[k] = values[k] > least ? known_[k] / root[k] : 0;
+    known_[k] = root[k] > 0 ? known_[k] / root[k] : 0;
   }
 }
 

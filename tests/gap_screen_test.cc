@@ -159,6 +159,23 @@ TEST_F(GapScreenTest, ResidualBesideATorqueHoldsOtherDatasShare) {
               1e-5 * chi_squared);
 }
 
+// However sure they are of the directions that they see (a long log beside
+// noise that is small): nothing of the others is theirs.
+TEST_F(GapScreenTest, ResidualBesideATorqueKnowsWhatOtherDataDoNotSee) {
+  for (int k = 0; k < 20; ++k) {
+    other_A_ = 1e5 * RandomMatrix(&random_, 3, kBaseline);
+    other_y_ = 2e5 * RandomVector(&random_, 3);
+    GapScreen screen(baseline_, target_);
+    screen.AddInformation(other_A_.transpose() * other_A_,
+                          other_A_.transpose() * other_y_);
+    screen.Factor();
+    double chi_squared;
+    Estimate({}, &chi_squared);
+    EXPECT_NEAR(screen.ResidualBeside(JointRows(2)).squaredNorm(), chi_squared,
+                1e-3 * chi_squared);
+  }
+}
+
 // What the baseline spans is not to be seen in the data, what is orthogonal to
 // it is seen as a whole.
 TEST_F(GapScreenTest, VisibleIsWhatTheBaselineCannotTake) {
