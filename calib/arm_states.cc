@@ -4,11 +4,13 @@
 #include <cmath>
 #include <random>
 
+#include "model/uniform_draw.h"
+
 namespace armcal {
 namespace {
 
 double Uniform(std::mt19937_64* random, double low, double high) {
-  const double u = static_cast<double>((*random)() >> 11) * 0x1p-53;
+  const double u = UniformDraw(random);
   return low + (high - low) * u;
 }
 

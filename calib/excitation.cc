@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 
+#include "model/uniform_draw.h"
 #include "problems/motion_design.h"
 
 namespace armcal {
@@ -23,9 +24,7 @@ constexpr double kClearance = .01;   // m, for the same reason
 constexpr double kCheckRate = 1000;  // Hz
 constexpr int kMostTries = 20;       // of random motions, for one that is clear
 
-double Random(std::mt19937_64* random) {
-  return 2 * static_cast<double>((*random)() >> 11) * 0x1p-53 - 1;
-}
+double Random(std::mt19937_64* random) { return 2 * UniformDraw(random) - 1; }
 
 class Designer {
  public:

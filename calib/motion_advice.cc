@@ -8,6 +8,7 @@
 #include "calib/given_information.h"
 #include "calib/information_scale.h"
 #include "model/format.h"
+#include "model/uniform_draw.h"
 #include "problems/motion_information.h"
 #include "problems/motion_limits.h"
 
@@ -28,9 +29,7 @@ Motion MoveJoints(const MotionLimits& limits, const VectorXd& posture,
   motion.q = posture.transpose().replicate(samples, 1);
   motion.qd = motion.qdd = MatrixXd::Zero(samples, posture.size());
   std::mt19937_64 random(1);
-  const auto share = [&] {
-    return static_cast<double>(random() >> 11) * 0x1p-53;
-  };
+  const auto share = [&] { return UniformDraw(&random); };
   for (const int j : joints) {
     const double room = std::max(
         .1 * (limits.upper[j] - limits.lower[j]),

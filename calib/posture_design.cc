@@ -9,6 +9,7 @@
 
 #include "calib/pose_fit.h"
 #include "model/kinematics.h"
+#include "model/uniform_draw.h"
 
 namespace armcal {
 namespace {
@@ -27,7 +28,7 @@ MatrixXd RandomPostures(const PostureOptions& options, int count,
   int k = 0;
   for (int tries = 0; k < count && tries < kMostTries * count; ++tries) {
     for (Eigen::Index j = 0; j < q.cols(); ++j) {
-      const double share = static_cast<double>(random() >> 11) * 0x1p-53;
+      const double share = UniformDraw(&random);
       q(k, j) =
           options.lower[j] + share * (options.upper[j] - options.lower[j]);
     }

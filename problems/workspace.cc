@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "model/kinematics.h"
+#include "model/uniform_draw.h"
 
 namespace armcal {
 namespace {
@@ -106,7 +107,7 @@ void Workspace::AddPairs(const VectorXd& lower, const VectorXd& upper) {
   for (int s = 0; s < kPostures; ++s) {
     VectorXd q(lower.size());
     for (Eigen::Index j = 0; j < q.size(); ++j) {
-      const double share = static_cast<double>(random() >> 11) * 0x1p-53;
+      const double share = UniformDraw(&random);
       q[j] = lower[j] + share * (upper[j] - lower[j]);
     }
     const std::vector<Vector3d> centers = Centers(LinkPoses(robot_, q));

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <map>
 
+#include "model/uniform_draw.h"
+
 namespace armcal {
 namespace {
 
@@ -79,7 +81,7 @@ double Pick(std::mt19937_64* random, const std::vector<double>& values) {
 }  // namespace
 
 double Uniform(std::mt19937_64* random, double low, double high) {
-  const double u = static_cast<double>((*random)() >> 11) * 0x1p-53;
+  const double u = UniformDraw(random);
   return low + (high - low) * u;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "model/uniform_draw.h"
+
 namespace armcal {
 
 namespace {
@@ -12,7 +14,7 @@ constexpr double kFlank = .05;  // s
 }  // namespace
 
 double DrawUniform(double low, double high, std::mt19937_64* random) {
-  const double u = static_cast<double>((*random)() >> 11) * 0x1p-53;
+  const double u = UniformDraw(random);
   return low + (high - low) * u;
 }
 
