@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "calib/calibration_report.h"
+#include "calib/given_information.h"
 #include "calib/json_figures.h"
 #include "calib/outlier_report.h"
 #include "calib/verdict.h"
@@ -50,11 +51,13 @@ json TransitionJson(const CoulombTransition& t, JointType type) {
 json JointsJson(const Robot& robot, const LogSet& training,
                 const LinearCalibration& result) {
   json joints = json::array();
+  const Eigen::VectorXd density = ErrorDensity(result);
   for (int i = 0; i < robot.num_joints(); ++i) {
     const Joint& joint = robot.links[i].joint;
     json entry = {{"name", joint.name},
                   {"unit", EffortUnit(joint.type)},
-                  {"noise_stddev", JsonNumber(result.noise[i])}};
+                  {"noise_stddev", JsonNumber(result.noise[i])},
+                  {"noise_density", JsonNumber(density[i])}};
     if (result.training) SetJointFigures(*result.training, "", i, &entry);
     if (result.validation) {
       SetJointFigures(*result.validation, "validation_", i, &entry);

@@ -26,7 +26,7 @@ CurrentStudy StudyCurrents(const GainFit& fit, RobustLoss loss,
   std::vector<ResidualStatistics> statistics(
       fit.noise.size(), ResidualStatistics(rows_per_window));
   const auto curvature = [loss](double r) {
-    return std::max(0.0, EvaluateLoss(loss, r).slope);
+    return InformingSlope(EvaluateLoss(loss, r));
   };
   const CurrentFactors inside =
       pass->Factors("autocorrelation", fit.estimate, fit.noise, curvature,
@@ -67,23 +67,19 @@ MatrixXd Jacobian(const CurrentRow& row, const GainEstimate& estimate,
 // Equations in units of noise: U are the gradients of the currents.
 FittedRow MakeFittedRow(const CurrentRow& row, const GainFit& fit,
                         RobustLoss loss, const MatrixXd& B) {
-  FittedRow fitted{Jacobian(row, fit.estimate, fit.noise, B), row.r, {}, {}};
+  FittedRow fitted{Jacobian(row, fit.estimate, fit.noise, B), row.r, {}, row.r};
   fitted.U.col(fit.reference).setZero();  // is known
   for (int i = 0; i < row.r.size(); ++i) {
     fitted.used.push_back(fit.noise[i] > 0);
     const LossAt at = EvaluateLoss(loss, row.r[i]);
-    fitted.inside.push_back(at.slope > 0);
+    fitted.slope[i] = InformingSlope(at);
     fitted.r[i] *= at.weight;
   }
   return fitted;
 }
 
 Score MakeScore(const FittedRow& row) {
-  MatrixXd inside = row.U;
-  for (int i = 0; i < row.r.size(); ++i) {
-    if (!row.inside[i]) inside.row(i).setZero();
-  }
-  return {row.U.transpose() * row.r, inside, inside};
+  return {row.U.transpose() * row.r, row.U, row.slope.asDiagonal() * row.U};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "calib/given_information.h"
 
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -48,6 +49,9 @@ Motion MotionAt(const Trajectory& trajectory, const std::vector<int>& samples) {
 // The variance of a mean weighted by phi over a window of length L is the
 // density times (2 / L) int phi^2 ds / (int phi ds)^2.
 VectorXd ErrorDensity(const LinearCalibration& linear) {
+  if (linear.rows.identification != Identification::kWeak) {
+    return VectorXd::Constant(linear.noise.size(), std::nan(""));
+  }
   return linear.noise.cwiseAbs2() *
          (linear.rows.window_s / (2 * SquareOverMean()));
 }

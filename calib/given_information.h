@@ -12,7 +12,8 @@ namespace armcal {
 
 // Power of each joint's torque error per Hz of bandwidth, (N m)^2 s: the
 // variance of a sample times the time it stands for. From the scatter of a
-// calibration's equations, which holds what the model lacks as well.
+// calibration's equations, which holds what the model lacks as well; NaN where
+// they are not of the weak form.
 Eigen::VectorXd ErrorDensity(const LinearCalibration& linear);
 
 // What a stretch of a log's motion tells about the parameters of a model.

@@ -55,9 +55,9 @@ LinkInformation Spread(const LinkInformation& torques,
 Score MakeScore(const FittedRow& row) {
   Score score{row.U.transpose() * row.r, row.U, {}};
   for (int i = 0; i < row.r.size(); ++i) {
-    if (!row.used[i] || !row.inside[i]) score.C.row(i).setZero();
+    if (!row.used[i]) score.C.row(i).setZero();
   }
-  score.U = score.C;
+  score.U = row.slope.asDiagonal() * score.C;
   return score;
 }
 
@@ -180,13 +180,12 @@ FittedRow LinkPass::MakeFittedRow(const Residual& residual,
                                   const VectorXd& noise) const {
   const VectorXd whiten = (linear_.inflation * noise).cwiseInverse();
   FittedRow row{whiten.asDiagonal() * columns.Sorted(residual.U),
-                residual.r / linear_.inflation,
-                linear_.used[residual.log],
-                {}};
+                residual.r / linear_.inflation, linear_.used[residual.log],
+                VectorXd(residual.r.size())};
   for (int i = 0; i < row.r.size(); ++i) {
     const LossAt loss = EvaluateLoss(linear_.loss, residual.r[i]);
     row.r[i] *= loss.weight;
-    row.inside.push_back(loss.slope > 0);
+    row.slope[i] = InformingSlope(loss);
   }
   return row;
 }
@@ -221,9 +220,12 @@ LinkInformation LinkPass::Inform(const ArmValues& at, const VectorXd& noise,
         });
   };
   TriangularFactor factor(static_cast<int>(size));
-  run("information", [&](const Residual&, const FittedRow&, const Score& s) {
-    for (Eigen::Index i = 0; i < s.C.rows(); ++i) factor.Add(s.C.row(i), 0, 1);
-  });
+  run("information",
+      [&](const Residual&, const FittedRow& row, const Score& score) {
+        for (Eigen::Index i = 0; i < score.C.rows(); ++i) {
+          factor.Add(score.C.row(i), 0, std::sqrt(row.slope[i]));
+        }
+      });
   LinkInformation information;
   information.R = factor.Triangle().topLeftCorner(size, size);
   const MatrixXd gain = Gain(information.R, columns, others, prior);

@@ -8,15 +8,17 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+double InformingSlope(const LossAt& loss) { return std::max(loss.slope, .01); }
+
 OverlapCovariance::OverlapCovariance(int num_joints, int num_parameters,
                                      int rows_per_window)
     : lags_(rows_per_window),
       distances_(2 * lags_ - 1),
       rows_(VectorXd::Zero(num_joints)),
-      inside_(rows_),
-      products_(MatrixXd::Zero(num_joints, lags_)),
-      squares_(num_joints * distances_,
-               MatrixXd::Zero(num_parameters, num_parameters)) {}
+      products_(MatrixXd::Zero(num_joints, lags_)) {
+  const MatrixXd zero = MatrixXd::Zero(num_parameters, num_parameters);
+  squares_.assign(num_joints * distances_, {zero, zero, zero});
+}
 
 void OverlapCovariance::Break() { recent_.clear(); }
 
@@ -26,35 +28,38 @@ void OverlapCovariance::Add(const FittedRow& row) {
   for (int i = 0; i < row.r.size(); ++i) {
     if (!row.used[i]) continue;
     rows_[i] += 1;
-    inside_[i] += row.inside[i];
     for (int d = 0; d < static_cast<int>(recent_.size()); ++d) {
-      if (d < lags_) products_(i, d) += row.r[i] * recent_[d].r[i];
-      squares_[i * distances_ + d].noalias() +=
-          row.U.row(i).transpose() * recent_[d].U.row(i);
+      const FittedRow& other = recent_[d];
+      Squares& squares = squares_[i * distances_ + d];
+      const MatrixXd square = row.U.row(i).transpose() * other.U.row(i);
+      squares.mean += .5 * (row.slope[i] + other.slope[i]) * square;
+      if (d >= lags_) continue;
+      products_(i, d) += row.r[i] * other.r[i];
+      squares.all += square;
+      squares.both += row.slope[i] * other.slope[i] * square;
     }
   }
 }
 
-// How much smaller products_ are for the fit. With the hat matrix H and the
-// errors' covariance W, residuals have (I - H) W (I - H)'.
+// How much smaller products_ are for the fit. With the hat matrix H, whose
+// rows the loss's slopes scale, and the errors' covariance W, residuals have
+// (I - H) W (I - H)'.
 MatrixXd OverlapCovariance::Taken(const MatrixXd& gain, const VectorXd& scale,
                                   const MatrixXd& c,
                                   const MatrixXd& covariance) const {
   MatrixXd taken = MatrixXd::Zero(c.rows(), lags_);
   for (int i = 0; i < scale.size(); ++i) {
     if (rows_[i] == 0) continue;
-    const double slope = inside_[i] / rows_[i];
     const double square = scale[i] * scale[i];
     VectorXd hat(distances_);
     for (int d = 0; d < distances_; ++d) {
-      hat[d] = square * gain.cwiseProduct(Square(i, d)).sum();
+      hat[d] = square * gain.cwiseProduct(Square(i, d).mean).sum();
     }
     for (int l = 0; l < lags_; ++l) {
       for (int k = 1 - lags_; k < lags_; ++k) {
-        taken(i, l) += 2 * slope * c(i, std::abs(k)) * hat[std::abs(l + k)];
+        taken(i, l) += 2 * c(i, std::abs(k)) * hat[std::abs(l + k)];
       }
-      taken(i, l) -=
-          slope * slope * square * covariance.cwiseProduct(Square(i, l)).sum();
+      taken(i, l) -= square * covariance.cwiseProduct(Square(i, l).both).sum();
     }
   }
   return taken;
@@ -68,9 +73,10 @@ MatrixXd OverlapCovariance::Value(const MatrixXd& gain,
     MatrixXd sum = MatrixXd::Zero(gain.rows(), gain.cols());
     for (int i = 0; i < scale.size(); ++i) {
       const double square = scale[i] * scale[i];
-      sum += square * c(i, 0) * Square(i, 0);
+      sum += square * c(i, 0) * Square(i, 0).all;
       for (int l = 1; l < lags_; ++l) {
-        sum += square * c(i, l) * (Square(i, l) + Square(i, l).transpose());
+        const MatrixXd& all = Square(i, l).all;
+        sum += square * c(i, l) * (all + all.transpose());
       }
     }
     covariance = gain * sum * gain.transpose();

@@ -4,16 +4,26 @@
 #include <deque>
 #include <vector>
 
+#include "problems/robust_loss.h"
+
 namespace armcal {
 
 // One row of every joint's equations in a fit. U: n x parameters; r: residuals
 // in units of their noise, weighed by the loss, 0 where the equation is not
-// used; inside: whether the loss is quadratic there.
+// used; slope: by which the loss passes on a residual's change.
 struct FittedRow {
   Eigen::MatrixXd U;
   Eigen::VectorXd r;
-  std::vector<bool> used, inside;
+  std::vector<bool> used;
+  Eigen::VectorXd slope;
 };
+
+// The slope of a loss as an equation's information has it. Equations beyond
+// the bend count a hundredth: where the few that tell a parameter happen to lie
+// there (a log that hardly crosses standstill, and Coulomb friction's width),
+// the data do not tell nothing of it. More would call them as good as the rest
+// where they are there because the model does not hold.
+double InformingSlope(const LossAt& loss);
 
 // The covariance of an estimate x = gain * sum of scale_i u_i' r_i if errors
 // follow each other only where rows overlap: from the products of the rows
@@ -31,7 +41,12 @@ class OverlapCovariance {
                         const Eigen::VectorXd& scale) const;
 
  private:
-  const Eigen::MatrixXd& Square(int i, int d) const {
+  // Sums of u(t)' u(t - d) of a joint: as they are, times the mean slope of
+  // both ends, times both slopes.
+  struct Squares {
+    Eigen::MatrixXd all, mean, both;
+  };
+  const Squares& Square(int i, int d) const {
     return squares_[i * distances_ + d];
   }
   Eigen::MatrixXd Taken(const Eigen::MatrixXd& gain,
@@ -39,10 +54,9 @@ class OverlapCovariance {
                         const Eigen::MatrixXd& covariance) const;
 
   int lags_, distances_;
-  Eigen::VectorXd rows_, inside_;
-  Eigen::MatrixXd products_;  // joint x lag: sums of r(t) r(t - lag)
-  // Joint, distance: sums of u(t)' u(t - d).
-  std::vector<Eigen::MatrixXd> squares_;
+  Eigen::VectorXd rows_;
+  Eigen::MatrixXd products_;      // joint x lag: sums of r(t) r(t - lag)
+  std::vector<Squares> squares_;  // joint, distance
   std::deque<FittedRow> recent_;
 };
 

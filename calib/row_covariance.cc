@@ -18,9 +18,9 @@ using Eigen::VectorXd;
 struct RowStudy {
   // Of the worst joint's residuals, at the lag where rows no longer overlap.
   double autocorrelation = 0;
-  // Equations by the slope of their scores. Where the loss gives a residual up
-  // it is negative: only its mean tells what a joint's equations inform, which
-  // `slope` has as a share of the positive ones.
+  // Equations by InformingSlope. Where the loss gives a residual up the true
+  // one is negative: its mean tells what a joint's equations inform, which
+  // `slope` has as a share of what these have.
   BlockTriangularFactor sloping;
   VectorXd slope;
 };
@@ -29,7 +29,7 @@ RowStudy StudyRows(const LinearSolution& solution, const VectorXd& noise,
                    RobustLoss loss, int rows_per_window, ResidualPass* pass) {
   const int n = static_cast<int>(noise.size());
   RowStudy study{0, BlockTriangularFactor(pass->parameters()), {}};
-  VectorXd slopes = VectorXd::Zero(n), positive = slopes;
+  VectorXd slopes = VectorXd::Zero(n), informing = slopes;
   std::vector<ResidualStatistics> statistics(
       n, ResidualStatistics(rows_per_window));
   pass->Run("autocorrelation", solution.x, noise,
@@ -38,31 +38,28 @@ RowStudy StudyRows(const LinearSolution& solution, const VectorXd& noise,
                 if (!pass->uses(residual.log, i)) continue;
                 if (!residual.follows) statistics[i].Break();
                 statistics[i].Add(residual.r[i]);
-                const double slope = EvaluateLoss(loss, residual.r[i]).slope;
-                slopes[i] += slope;
-                if (slope <= 0) continue;
-                positive[i] += slope;
+                const LossAt at = EvaluateLoss(loss, residual.r[i]);
+                slopes[i] += at.slope;
+                informing[i] += InformingSlope(at);
                 study.sloping.Add(i, residual.row.U.row(i), residual.row.Y[i],
-                                  std::sqrt(slope));
+                                  std::sqrt(InformingSlope(at)));
               }
             });
   for (const ResidualStatistics& s : statistics) {
     study.autocorrelation =
         std::max(study.autocorrelation, s.Autocorrelation());
   }
-  study.slope = slopes.cwiseQuotient(positive.cwiseMax(1e-300)).cwiseMax(.1);
+  study.slope = slopes.cwiseQuotient(informing.cwiseMax(1e-300)).cwiseMax(.1);
   return study;
 }
 
-// What the score's covariance takes of a row, and what remains of it where the
-// loss is only linear.
 FittedRow MakeFittedRow(const RowResidual& residual, RobustLoss loss,
-                        const ResidualPass& pass) {
-  FittedRow row{residual.row.U, residual.r, {}, {}};
+                        const RowStudy& study, const ResidualPass& pass) {
+  FittedRow row{residual.row.U, residual.r, {}, study.slope};
   for (int i = 0; i < row.r.size(); ++i) {
     const LossAt at = EvaluateLoss(loss, residual.r[i]);
     row.used.push_back(pass.uses(residual.log, i));
-    row.inside.push_back(at.slope > 0);
+    row.slope[i] *= InformingSlope(at);
     row.r[i] *= at.weight;
   }
   return row;
@@ -80,9 +77,8 @@ Score MakeScore(const FittedRow& row, const LinearSolution& solution,
     const VectorXd c =
         solution.weight[i] * row.U.row(i).segment(begin, size).transpose();
     score.value.segment(begin, size) += noise[i] * row.r[i] * c;
-    if (!row.inside[i]) continue;
     score.C.row(i).segment(begin, size) = c.transpose();
-    score.U.row(i) = row.U.row(i);
+    score.U.row(i) = row.slope[i] * row.U.row(i);
   }
   return score;
 }
@@ -101,7 +97,8 @@ MatrixXd RaiseToLogScatter(const MatrixXd& covariance, const MatrixXd& gain,
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                                          const VectorXd& noise, RobustLoss loss,
                                          const ReferenceScale& reference,
-                                         long rows, int rows_per_window,
+                                         const MatrixXd& wanted, long rows,
+                                         int rows_per_window,
                                          ResidualPass* pass) {
   const int m = pass->parameters().size();
   const RowStudy study =
@@ -125,19 +122,21 @@ CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
   MatrixXd sums = MatrixXd::Zero(m, pass->num_logs());
   pass->Run("covariance", solution.x, noise, [&](const RowResidual& residual) {
     if (!residual.follows) scores.Break(), overlap.Break();
-    const FittedRow row = MakeFittedRow(residual, loss, *pass);
+    const FittedRow row = MakeFittedRow(residual, loss, study, *pass);
     const Score score = MakeScore(row, solution, noise, pass->parameters());
     scores.Add(score);
     overlap.Add(row);
     sums.col(residual.log) += score.value;
   });
-  MatrixXd covariance = linearised.CovarianceFromScores(scores.Value());
+  const MatrixXd gain = wanted * linearised.gain;
+  MatrixXd covariance = gain * scores.Value() * gain.transpose();
   if (!solution.own_block_only) {
     const VectorXd scale = solution.weight.cwiseProduct(noise);
+    const MatrixXd least = overlap.Value(linearised.gain, scale);
     covariance =
-        RaiseTo(overlap.Value(linearised.gain, scale).diagonal(), covariance);
+        RaiseTo((wanted * least * wanted.transpose()).diagonal(), covariance);
   }
-  estimate.covariance = RaiseToLogScatter(covariance, linearised.gain, sums);
+  estimate.covariance = RaiseToLogScatter(covariance, gain, sums);
   estimate.method =
       "Newey-West over " + std::to_string(estimate.window) + " rows";
   if (pass->num_logs() >= 3) {

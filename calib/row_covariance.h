@@ -11,7 +11,7 @@
 namespace armcal {
 
 struct CovarianceEstimate {
-  Eigen::MatrixXd covariance;  // m x m, of the parameters
+  Eigen::MatrixXd covariance;  // p x p, of the wanted parameters
   std::string method;          // a phrase for reports
   int window = 1;              // of the scores, in rows
   int rows_per_window = 1;     // as given
@@ -30,12 +30,14 @@ Eigen::MatrixXd RaiseToLogScatter(const Eigen::MatrixXd& covariance,
 // Deviations are at least what errors that are correlated only where rows
 // overlap make of them, and with three logs or more at least what the scatter
 // of the logs' score sums shows: something may change from log to log
-// (temperature, wear, a torque scale). `loss`: that of the solution.
-// Two passes over the logs.
+// (temperature, wear, a torque scale). `loss`: that of the solution; `wanted`:
+// p x m, takes the solution's m parameters to those of interest. Two passes
+// over the logs.
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                                          const Eigen::VectorXd& noise,
                                          RobustLoss loss,
                                          const ReferenceScale& reference,
+                                         const Eigen::MatrixXd& wanted,
                                          long rows, int rows_per_window,
                                          ResidualPass* pass);
 

@@ -50,16 +50,11 @@ struct WidthsUnknown {
     }
     return spread;
   }
-  // The covariance of the base parameters, which add up their columns.
-  MatrixXd Fold(const MatrixXd& covariance) const {
-    const int m = base.back() + 1;
-    MatrixXd folded = MatrixXd::Zero(m, m);
-    for (int i = 0; i < parameters.size(); ++i) {
-      for (int j = 0; j < parameters.size(); ++j) {
-        folded(base[i], base[j]) += covariance(i, j);
-      }
-    }
-    return folded;
+  // Base parameters add up their columns.
+  MatrixXd Fold() const {
+    MatrixXd fold = MatrixXd::Zero(base.back() + 1, parameters.size());
+    for (int k = 0; k < parameters.size(); ++k) fold(base[k], k) = 1;
+    return fold;
   }
 
   ModelParameters parameters;
@@ -75,8 +70,10 @@ CovarianceEstimate EstimateCovariance(
     const LinearCalibration& result) {
   const int correlated = CorrelatedRows(rows);
   if (result.transitions.empty() || options.transition || !solution.weighted) {
+    const Eigen::Index m = solution.x.size();
     return EstimateRowCovariance(solution, result.noise, loss, reference,
-                                 result.equations, correlated, pass);
+                                 MatrixXd::Identity(m, m), result.equations,
+                                 correlated, pass);
   }
   const WidthsUnknown wider(robot, options, result);
   LinearSolution spread = solution;
@@ -84,11 +81,9 @@ CovarianceEstimate EstimateCovariance(
   ReferenceScale columns = reference;
   columns.columns = reference.columns(Eigen::all, wider.base);
   ResidualPass wider_pass = pass->WithParameters(wider.parameters);
-  CovarianceEstimate estimate =
-      EstimateRowCovariance(spread, result.noise, loss, columns,
-                            result.equations, correlated, &wider_pass);
-  estimate.covariance = wider.Fold(estimate.covariance);
-  return estimate;
+  return EstimateRowCovariance(spread, result.noise, loss, columns,
+                               wider.Fold(), result.equations, correlated,
+                               &wider_pass);
 }
 
 }  // namespace armcal
