@@ -83,21 +83,7 @@ bool SameNumber(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)) + 1e-12;
 }
 
-void Check(const JsonValue& root, const Robot& robot) {
-  root.At("format").Expect("armcal calibration 1",
-                           ", the format this version reads");
-  const std::string other =
-      ", the robot of --robot: this is a calibration of another robot";
-  root.At("robot").Expect(robot.name, other);
-  const JsonValue joints = root.At("joints");
-  const std::vector<JsonValue> entries = joints.Entries();
-  if (static_cast<int>(entries.size()) != robot.num_joints()) {
-    joints.Refuse("expected " + std::to_string(robot.num_joints()) +
-                  " joints, as the robot of --robot has");
-  }
-  for (int j = 0; j < robot.num_joints(); ++j) {
-    entries[j].At("name").Expect(robot.links[j].joint.name, other);
-  }
+void ExpectRefined(const JsonValue& root) {
   const JsonValue estimate = root.At("estimate");
   if (estimate.Text() != "refined") {
     estimate.Refuse(
@@ -231,6 +217,23 @@ std::string Canonical(const std::string& path) {
 
 }  // namespace
 
+void ExpectCalibrationOf(const Robot& robot, const JsonValue& root) {
+  root.At("format").Expect("armcal calibration 1",
+                           ", the format this version reads");
+  const std::string other =
+      ", the robot of --robot: this is a calibration of another robot";
+  root.At("robot").Expect(robot.name, other);
+  const JsonValue joints = root.At("joints");
+  const std::vector<JsonValue> entries = joints.Entries();
+  if (static_cast<int>(entries.size()) != robot.num_joints()) {
+    joints.Refuse("expected " + std::to_string(robot.num_joints()) +
+                  " joints, as the robot of --robot has");
+  }
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    entries[j].At("name").Expect(robot.links[j].joint.name, other);
+  }
+}
+
 bool CalibratedRobot::Saw(const std::string& log,
                           const TimeRange& range) const {
   for (size_t k = 0; k < logs.size(); ++k) {
@@ -245,7 +248,8 @@ bool CalibratedRobot::Saw(const std::string& log,
 CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal) {
   const nlohmann::json parsed = ReadJson(path);
   const JsonValue root(path, "", parsed);
-  Check(root, nominal);
+  ExpectCalibrationOf(nominal, root);
+  ExpectRefined(root);
   CalibratedRobot result;
   result.transitions = ReadTransitions(root, nominal);
   result.robot = ReadRobotOf(root, nominal);

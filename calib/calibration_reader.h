@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/json_value.h"
 #include "model/joint_term.h"
 #include "model/robot.h"
 #include "model/time_base.h"
@@ -24,6 +25,9 @@ struct CalibratedRobot {
   // whatever path from the current folder.
   bool Saw(const std::string& log, const TimeRange& range) const;
 };
+
+// Throws InputError unless `root` is a calibration of this robot.
+void ExpectCalibrationOf(const Robot& robot, const JsonValue& root);
 
 // Reads the calibration.json that `armcal calibrate` wrote for `nominal`, the
 // robot of the same robot file. Lengths that were recovered and geometry that

@@ -7,6 +7,7 @@
 
 #include "calib/effect_separation.h"
 #include "calib/excitation_report.h"
+#include "calib/given_calibration.h"
 #include "calib/given_information.h"
 #include "calib/linear_calibration.h"
 #include "calib/posture_report.h"
@@ -48,11 +49,10 @@ ModelParameters ModelFor(const Robot& robot, DesignTarget target) {
   return {robot, options};
 }
 
-// From existing logs: how large errors of the torque are, and what is known.
-void LearnFromLogs(const Robot& robot, double rate_hz, const Progress& progress,
-                   Design* design) {
-  const std::vector<std::string> paths = GivenLogsFromFlags();
-  if (paths.empty()) return;
+GivenCalibration LearnFromLogs(const Robot& robot,
+                               const std::vector<std::string>& paths,
+                               const ModelParameters& model,
+                               const Progress& progress) {
   LogSet logs(paths, LogOptionsFromFlags(robot), CropFromFlags());
   LinearCalibrationOptions options;
   options.joint_terms = kTerms;
@@ -64,9 +64,20 @@ void LearnFromLogs(const Robot& robot, double rate_hz, const Progress& progress,
     throw InputError(paths[0], "", "", "--given: " + linear.reason);
   }
   const Eigen::VectorXd density = ErrorDensity(linear);
-  design->known =
-      GivenInformation(robot, design->model, density, progress, &logs);
-  design->noise = (density * rate_hz).cwiseSqrt();
+  return {density, GivenInformation(robot, model, density, progress, &logs)};
+}
+
+// How large errors of the torque are, and what is known already.
+void LearnFromGiven(const Robot& robot, double rate_hz,
+                    const Progress& progress, Design* design) {
+  const Given given = GivenFromFlags();
+  if (given.empty()) return;
+  const GivenCalibration known =
+      given.calibration.empty()
+          ? LearnFromLogs(robot, given.logs, design->model, progress)
+          : ReadGivenCalibration(given.calibration, robot, design->model);
+  design->known = known.A;
+  design->noise = (known.density * rate_hz).cwiseSqrt();
 }
 
 Design MakeDesign(const Robot& robot, const ExcitationOptions& options,
@@ -80,7 +91,7 @@ Design MakeDesign(const Robot& robot, const ExcitationOptions& options,
       Eigen::VectorXd::Zero(robot.num_joints()), design.model.Values(robot));
   const Eigen::VectorXd shares = NoiseSharesFromFlags(robot.num_joints());
   design.noise = shares.cwiseProduct(design.reference.torque);
-  LearnFromLogs(robot, options.rate_hz, options.progress, &design);
+  LearnFromGiven(robot, options.rate_hz, options.progress, &design);
   for (const Link& link : robot.links) {
     if (!link.has_inertial) {
       assumed->push_back("nothing weighs link " + link.name);
@@ -129,7 +140,7 @@ Excitation RunParameters(const Robot& robot, const Design& design,
       DesignExcitation(robot, design.model, quantities.design, options);
   ExcitationSummary summary{robot, options, quantities, excitation,
                             {},    assumed, {}};
-  if (!GivenLogsFromFlags().empty()) {
+  if (!GivenFromFlags().empty()) {
     summary.given_stddev = PredictedStddev(
         quantities.design,
         Eigen::MatrixXd::Zero(design.model.size(), design.model.size()));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 
@@ -57,8 +58,10 @@ DEFINE_string(instrument, "target",
               "the tool), pose (of the tool)");
 DEFINE_string(pose_noise, "0.0001,0.0001",
               "of what is measured at postures, m and rad");
-DEFINE_string(given, "",
-              "logs that exist: the motion adds what they do not tell");
+DEFINE_string(
+    given, "",
+    "logs or a calibration.json that exist: the motion adds what they "
+    "do not tell");
 
 namespace armcal {
 namespace {
@@ -265,8 +268,20 @@ Eigen::VectorXd NoiseSharesFromFlags(int num_joints) {
                    "', expected numbers above 0");
 }
 
-std::vector<std::string> GivenLogsFromFlags() {
-  return SplitAtCommas(FLAGS_given);
+Given GivenFromFlags() {
+  const std::vector<std::string> paths = SplitAtCommas(FLAGS_given);
+  const auto is_calibration = [](const std::string& path) {
+    return std::filesystem::path(path).extension() == ".json";
+  };
+  if (std::none_of(paths.begin(), paths.end(), is_calibration)) {
+    return {paths, ""};
+  }
+  if (paths.size() > 1) {
+    throw UsageError("--given=" + FLAGS_given +
+                     ": expected one calibration.json alone, or logs: a "
+                     "calibration holds what its own logs tell");
+  }
+  return {{}, paths[0]};
 }
 
 }  // namespace armcal

@@ -29,6 +29,12 @@ DesignTarget TargetFromFlags();  // --target
 std::vector<const Effect*> SeparatedEffectsFromFlags();
 // Shares of usual torques, per joint: --torque_noise.
 Eigen::VectorXd NoiseSharesFromFlags(int num_joints);
-std::vector<std::string> GivenLogsFromFlags();  // --given
+// --given: logs, the path of a calibration, or nothing.
+struct Given {
+  std::vector<std::string> logs;
+  std::string calibration;
+  bool empty() const { return logs.empty() && calibration.empty(); }
+};
+Given GivenFromFlags();  // throws UsageError
 
 }  // namespace armcal

@@ -60,13 +60,21 @@ expect_text(out "rank " "13 of 13")
 # A log of one joint, and what it lacks.
 run("a poor log" simulate --robot=arm.yaml --duration=10 --joints=1 --out=poor)
 expect_code(0)
-run("what it lacks" calibrate --robot=arm.yaml --log=poor/log.csv)
+run("what it lacks" calibrate --robot=arm.yaml --log=poor/log.csv --out=known)
 expect_code(1)
 expect_text(out "not identifiable:" "to see more: move joint2")
 run("what to add" excite --robot=arm.yaml --given=poor/log.csv --duration=8
     --criterion=worst --out=out)
 expect_code(0)
 expect_text(out "(before: not seen)")
+file(REMOVE ${WORK_DIR}/poor/log.csv)
+run("what to add to its calibration" excite --robot=arm.yaml
+    --given=known/calibration.json --duration=8 --criterion=worst --out=out)
+expect_code(0)
+expect_text(out "(before: not seen)")
+run("calibrations do not add up" excite --robot=arm.yaml
+    --given=known/calibration.json,played/log.csv)
+expect_refusal(2 "--given=" "one calibration.json alone, or logs")
 
 run("above the floor" excite --robot=arm.yaml --duration=8 --floor=-.45
     --link_radius=.04 --out=out)
