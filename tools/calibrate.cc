@@ -17,10 +17,12 @@
 #include "tools/calibrate_payload.h"
 #include "tools/calibrate_poses.h"
 #include "tools/calibrate_refined.h"
+#include "tools/command_report.h"
 #include "tools/correct_trajectories.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
+#include "tools/report/report_data.h"
 
 DEFINE_string(
     geometry, "known",
@@ -201,6 +203,43 @@ std::optional<SegmentSelection> SelectFromFlags(const Task& task,
                         training);
 }
 
+// Of the parameters that the logs show.
+nlohmann::json CorrelationJson(const LinearCalibration& result) {
+  std::vector<int> seen;
+  nlohmann::json names = nlohmann::json::array(), values = names;
+  for (int k = 0; k < result.x.size(); ++k) {
+    if (!result.identifiable[k] || !(result.stddev[k] > 0)) continue;
+    seen.push_back(k);
+    names.push_back(result.parameters.parameters()[k].name);
+  }
+  for (const int r : seen) {
+    nlohmann::json row = nlohmann::json::array();
+    for (const int c : seen) {
+      row.push_back(std::round(1e3 * result.covariance(r, c) /
+                               (result.stddev[r] * result.stddev[c])) /
+                    1e3);
+    }
+    values.push_back(row);
+  }
+  return {{"names", names}, {"values", values}};
+}
+
+// Of the held-out logs where there are some.
+std::string ReportHtml(const Robot& robot, const LinearCalibration& result,
+                       const nlohmann::json& json, const Progress& progress,
+                       LogSet* training, LogSet* held_out) {
+  LogSet* const shown = held_out != nullptr ? held_out : training;
+  std::vector<std::string> files = LogsFromFlags();
+  for (const std::string& path : ValidationLogsFromFlags()) {
+    files.push_back(path);
+  }
+  ReportContent content = StartReport("calibrate", robot, json, files);
+  content.torques = TracesJson(
+      robot, {{"calibrated", result.parameters, result.x}}, shown, progress);
+  content.extra["correlation"] = CorrelationJson(result);
+  return ReportPage(content);
+}
+
 int RunCalibrate() {
   if (PosesAloneFromFlags()) return CalibratePosesFromFlags(RobotFromFlags());
   Task task = TaskFromFlags();
@@ -240,6 +279,10 @@ int RunCalibrate() {
   out.Add("calibration.json", json.dump(2) + "\n");
   out.Add("covariance.csv", CovarianceCsv(result));
   out.Add("outliers.csv", OutlierCsv(robot, training));
+  if (!OutFromFlags().empty()) {
+    out.Add("report.html", ReportHtml(robot, result, json, task.linear.progress,
+                                      &training, held_out));
+  }
   out.Write();
   for (const std::string& note : robot.notes) {
     std::cout << "note       " << note << "\n";

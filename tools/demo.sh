@@ -48,5 +48,6 @@ run build/armcal diagnose --robot=data/scara/robot.yaml \
 
 say "The result of 1 is in $PWD/armcal-out/scara: calibration.json for programs \
 (docs/calibrate.md explains every key) and covariance.csv, how the errors of the \
-numbers hang together. What 3 was to find is in armcal-out/secret2/truth.json, what it \
+numbers hang together; report.html there and in armcal-out/diagnosis is to be looked at \
+in a browser. What 3 was to find is in armcal-out/secret2/truth.json, what it \
 found in armcal-out/diagnosis (docs/diagnose.md)."

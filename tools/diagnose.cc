@@ -10,9 +10,11 @@
 #include "calib/gap_report.h"
 #include "model/effects/effects.h"
 #include "tools/calibrate_refined.h"
+#include "tools/command_report.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
+#include "tools/report/report_data.h"
 #include "tools/simulation_flags.h"
 
 DECLARE_string(controller);
@@ -59,7 +61,21 @@ void SetController(const Robot& robot, const LogReaderOptions& log_options,
       ControllerFromFlags(robot, options->commanded[0].log.qref.row(0));
 }
 
-int Finish(const Robot& robot, const GapDiagnosis& diagnosis) {
+std::string ReportHtml(const Robot& robot, const nlohmann::json& json,
+                       const Progress& progress, LogSet* logs) {
+  std::vector<std::string> files = LogsFromFlags();
+  for (const std::vector<std::string>& more :
+       {ValidationLogsFromFlags(), SplitAtCommas(FLAGS_reference)}) {
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  ReportContent content = StartReport("diagnose", robot, json, files);
+  content.torques = TracesJson(robot, {TraceRobot("the robot file", robot, {})},
+                               logs, progress);
+  return ReportPage(content);
+}
+
+int Finish(const Robot& robot, const GapDiagnosis& diagnosis,
+           const Progress& progress, LogSet* logs) {
   OutputFolder out(OutFromFlags());
   const RobotExport corrected = ExportCorrectedRobot(
       diagnosis.corrected, robot,
@@ -69,6 +85,9 @@ int Finish(const Robot& robot, const GapDiagnosis& diagnosis) {
   out.Add("diagnosis.json", json.dump(2) + "\n");
   out.Add("robot.urdf", corrected.urdf);
   out.Add("effects.json", corrected.effects.dump(2) + "\n");
+  if (!OutFromFlags().empty()) {
+    out.Add("report.html", ReportHtml(robot, json, progress, logs));
+  }
   out.Write();
   std::cout << FullReport(diagnosis);
   return diagnosis.verdict == GapVerdict::kNotTestable ? kExitNegative
@@ -105,7 +124,8 @@ int RunDiagnose() {
   options.seed = SeedFromFlags();
   const GapDiagnosis diagnosis =
       DiagnoseGap(robot, options, &training, validation.get(), reference.get());
-  return Finish(robot, diagnosis);
+  return Finish(robot, diagnosis, options.progress,
+                validation ? validation.get() : &training);
 }
 
 }  // namespace

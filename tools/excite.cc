@@ -14,10 +14,12 @@
 #include "model/input_error.h"
 #include "model/log_writer.h"
 #include "tools/calibrate_refined.h"
+#include "tools/command_report.h"
 #include "tools/excite_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
+#include "tools/report/report_data.h"
 
 namespace armcal {
 namespace {
@@ -100,6 +102,26 @@ Design MakeDesign(const Robot& robot, const ExcitationOptions& options,
   return design;
 }
 
+// Positions and velocities of one period, and where the numbers come from.
+std::string ReportHtml(const Robot& robot, const nlohmann::json& json,
+                       const Log& motion) {
+  const Given given = GivenFromFlags();
+  std::vector<std::string> files = given.logs;
+  if (!given.calibration.empty()) files.push_back(given.calibration);
+  ReportContent content = StartReport("excite", robot, json, files);
+  if (motion.size() == 0) return ReportPage(content);
+  nlohmann::json joints = nlohmann::json::array();
+  for (const Link& link : robot.links) {
+    joints.push_back(
+        {{"name", link.joint.name}, {"unit", PositionUnit(link.joint.type)}});
+  }
+  content.extra["motion"] = {{"t", RoundedJson(motion.t)},
+                             {"q", SignalsJson(motion.q)},
+                             {"qd", SignalsJson(motion.qd)},
+                             {"joints", joints}};
+  return ReportPage(content);
+}
+
 int RunPostures(const Robot& robot, const PostureOptions& options,
                 const std::vector<std::string>& assumed) {
   const PostureDesign design = [&] {
@@ -112,7 +134,11 @@ int RunPostures(const Robot& robot, const PostureOptions& options,
   const PostureSummary summary{robot, options, design, assumed};
   OutputFolder out(OutFromFlags());
   out.Add("postures.csv", PostureText(design));
-  out.Add("excite.json", ToJson(summary).dump(2) + "\n");
+  const nlohmann::json json = ToJson(summary);
+  out.Add("excite.json", json.dump(2) + "\n");
+  if (!OutFromFlags().empty()) {
+    out.Add("report.html", ReportHtml(robot, json, Log()));
+  }
   out.Write();
   std::cout << FullReport(summary);
   return kExitOk;
@@ -120,12 +146,17 @@ int RunPostures(const Robot& robot, const PostureOptions& options,
 
 void WriteMotion(const ExcitationSummary& summary) {
   OutputFolder out(OutFromFlags());
+  const nlohmann::json json = ToJson(summary);
+  Log motion;
   if (summary.excitation.numbers.size() > 0) {
-    out.Add("trajectory.csv",
-            LogText(MotionLog(summary.excitation, summary.options.periods,
-                              summary.options.rate_hz)));
+    motion = MotionLog(summary.excitation, summary.options.periods,
+                       summary.options.rate_hz);
+    out.Add("trajectory.csv", LogText(motion));
   }
-  out.Add("excite.json", ToJson(summary).dump(2) + "\n");
+  out.Add("excite.json", json.dump(2) + "\n");
+  if (!OutFromFlags().empty()) {
+    out.Add("report.html", ReportHtml(summary.robot, json, motion));
+  }
   out.Write();
   std::cout << FullReport(summary);
 }

@@ -7,9 +7,11 @@
 
 #include "calib/calibration_reader.h"
 #include "calib/verification_report.h"
+#include "tools/command_report.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
+#include "tools/report/report_data.h"
 #include "tools/simulation_flags.h"
 
 DECLARE_string(controller);
@@ -51,9 +53,27 @@ std::optional<ClosedLoopComparison> CloseLoop(
   return CompareClosedLoop(file, calibrated, controller, log);
 }
 
-int Finish(const Robot& file, const VerificationReport& report) {
+std::string ReportHtml(const Robot& file, const VerificationReport& report,
+                       const nlohmann::json& json,
+                       const nlohmann::json& torques) {
+  std::vector<std::string> files = report.logs;
+  if (!FLAGS_calibration.empty()) files.push_back(FLAGS_calibration);
+  ReportContent content = StartReport("verify", file, json, files);
+  content.torques = torques;
+  for (const Link& link : file.links) {
+    content.extra["joints"].push_back(link.joint.name);
+  }
+  return ReportPage(content);
+}
+
+int Finish(const Robot& file, const VerificationReport& report,
+           const nlohmann::json& torques) {
   OutputFolder out(OutFromFlags());
-  out.Add("verification.json", ToJson(report).dump(2) + "\n");
+  const nlohmann::json json = ToJson(report);
+  out.Add("verification.json", json.dump(2) + "\n");
+  if (!OutFromFlags().empty()) {
+    out.Add("report.html", ReportHtml(file, report, json, torques));
+  }
   out.Write();
   for (const std::string& note : file.notes) {
     std::cout << "note       " << note << "\n";
@@ -62,10 +82,23 @@ int Finish(const Robot& file, const VerificationReport& report) {
   return report.passed() ? kExitOk : kExitNegative;
 }
 
-// What logs say, where there are any.
-void VerifyOnLogs(const Robot& file, const CalibratedRobot* calibrated,
-                  const VerificationOptions& options,
-                  VerificationReport* report) {
+// The torques of the file's robot, and of the calibrated one.
+nlohmann::json Traces(const Robot& file, const CalibratedRobot* calibrated,
+                      const Progress& progress, LogSet* logs) {
+  if (OutFromFlags().empty()) return nlohmann::json::array();
+  std::vector<TracedModel> models = {TraceRobot("the robot file", file, {})};
+  if (calibrated != nullptr) {
+    models.push_back(
+        TraceRobot("calibrated", calibrated->robot, calibrated->transitions));
+  }
+  return TracesJson(file, models, logs, progress);
+}
+
+// What logs say, where there are any; returns their torques.
+nlohmann::json VerifyOnLogs(const Robot& file,
+                            const CalibratedRobot* calibrated,
+                            const VerificationOptions& options,
+                            VerificationReport* report) {
   report->logs = LogsFromFlags();
   LogSet logs(report->logs, LogOptionsFromFlags(file), CropFromFlags());
   if (calibrated != nullptr) report->seen_logs = SeenLogs(*calibrated, logs);
@@ -75,8 +108,10 @@ void VerifyOnLogs(const Robot& file, const CalibratedRobot* calibrated,
   rollouts.progress = options.progress;
   report->rollouts = CompareRollouts(file, calibrated, rollouts,
                                      logs.bandwidth_hz(), report->seed, &logs);
-  if (FLAGS_controller.empty()) return;
-  report->closed_loop = CloseLoop(file, calibrated, report->logs);
+  if (!FLAGS_controller.empty()) {
+    report->closed_loop = CloseLoop(file, calibrated, report->logs);
+  }
+  return Traces(file, calibrated, options.progress, &logs);
 }
 
 int RunVerify() {
@@ -98,12 +133,14 @@ int RunVerify() {
   options.progress = [&bar](const std::string& stage, double fraction) {
     bar.Show(stage, fraction);
   };
+  nlohmann::json torques = nlohmann::json::array();
   if (FLAGS_log.empty()) {
     report.verification = Verify(report.robot, options, nullptr);
   } else {
-    VerifyOnLogs(file, calibrated ? &*calibrated : nullptr, options, &report);
+    torques = VerifyOnLogs(file, calibrated ? &*calibrated : nullptr, options,
+                           &report);
   }
-  return Finish(file, report);
+  return Finish(file, report, torques);
 }
 
 }  // namespace

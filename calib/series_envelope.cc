@@ -1,0 +1,51 @@
+#include "calib/series_envelope.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+
+namespace armcal {
+namespace {
+
+void Merge(const SeriesEnvelope::Bin& next, SeriesEnvelope::Bin* bin) {
+  bin->end = next.end;
+  bin->low = bin->low.cwiseMin(next.low);
+  bin->high = bin->high.cwiseMax(next.high);
+  bin->samples += next.samples;
+}
+
+}  // namespace
+
+SeriesEnvelope::SeriesEnvelope(int num_signals, int most_bins)
+    : num_signals_(num_signals), most_bins_(most_bins) {
+  CHECK_GE(most_bins, 2);
+}
+
+void SeriesEnvelope::Add(double t, const Eigen::VectorXd& values) {
+  CHECK_EQ(values.size(), num_signals_);
+  const Bin sample{t, t, values, values, follows_, 1};
+  const bool joins =
+      follows_ && !bins_.empty() && bins_.back().samples < samples_per_bin_;
+  follows_ = true;
+  if (joins) {
+    Merge(sample, &bins_.back());
+    return;
+  }
+  if (bins_.size() == most_bins_) Halve();
+  bins_.push_back(sample);
+}
+
+void SeriesEnvelope::Break() { follows_ = false; }
+
+// A gap shorter than a bin is lost: nobody would see it.
+void SeriesEnvelope::Halve() {
+  std::vector<Bin> half;
+  for (size_t k = 0; k < bins_.size(); k += 2) {
+    half.push_back(std::move(bins_[k]));
+    if (k + 1 < bins_.size()) Merge(bins_[k + 1], &half.back());
+  }
+  bins_ = std::move(half);
+  samples_per_bin_ *= 2;
+}
+
+}  // namespace armcal

@@ -1,0 +1,46 @@
+#include "tools/command_report.h"
+
+#include <gflags/gflags.h>
+
+#include "tools/command.h"
+#include "tools/input_flags.h"
+#include "tools/report/report_data.h"
+
+namespace armcal {
+
+namespace {
+
+// As they would be typed, in the order of --help.
+std::vector<std::string> GivenFlags(const std::string& command) {
+  std::vector<std::string> given;
+  for (const Command& known : Commands()) {
+    if (known.name != command) continue;
+    for (const std::string& flag : known.flags) {
+      const auto info = gflags::GetCommandLineFlagInfoOrDie(flag.c_str());
+      if (!info.is_default)
+        given.push_back("--" + flag + "=" + info.current_value);
+    }
+  }
+  return given;
+}
+
+}  // namespace
+
+ReportContent StartReport(const std::string& command, const Robot& robot,
+                          const nlohmann::json& result,
+                          const std::vector<std::string>& files) {
+  ReportContent content;
+  content.command = command;
+  content.robot = robot.name;
+  content.result = result;
+  content.skeleton = SkeletonJson(robot, BentPosture(robot));
+  content.arguments = {"armcal", command};
+  for (const std::string& flag : GivenFlags(command)) {
+    content.arguments.push_back(flag);
+  }
+  content.files.push_back(HashFile(RobotPathFromFlags()));
+  for (const std::string& file : files) content.files.push_back(HashFile(file));
+  return content;
+}
+
+}  // namespace armcal

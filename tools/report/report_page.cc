@@ -1,0 +1,138 @@
+#include "tools/report/report_page.h"
+
+#include <ceres/version.h>
+#include <openssl/evp.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <fstream>
+#include <string_view>
+
+#include "model/input_error.h"
+#include "tools/report/assets.h"
+
+namespace armcal {
+namespace {
+
+using Digest = std::array<unsigned char, 32>;
+
+// SHA-256, piece by piece.
+class Hash {
+ public:
+  Hash() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
+  }
+  void Add(std::string_view text) {
+    EVP_DigestUpdate(context_.get(), text.data(), text.size());
+  }
+  Digest Value() {
+    Digest digest{};
+    EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr);
+    return digest;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+// The source expression of a content security policy.
+std::string PolicySource(std::string_view script) {
+  Hash hash;
+  hash.Add(script);
+  const Digest digest = hash.Value();
+  std::array<unsigned char, 48> text{};
+  EVP_EncodeBlock(text.data(), digest.data(), digest.size());
+  return std::string("'sha256-") + reinterpret_cast<char*>(text.data()) + "'";
+}
+
+// JSON that may stand in a script element: nothing in it ends the element.
+std::string ScriptSafe(const nlohmann::json& data) {
+  using nlohmann::json;
+  const std::string text =
+      data.dump(-1, ' ', false, json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) safe += c == '<' ? "\\u003c" : std::string(1, c);
+  return safe;
+}
+
+nlohmann::json Versions() {
+  return {{"armcal", ARMCAL_VERSION},
+          {"ceres", CERES_VERSION_STRING},
+          {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." +
+                        std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                        std::to_string(EIGEN_MINOR_VERSION)}};
+}
+
+nlohmann::json PageData(const ReportContent& content) {
+  nlohmann::json files = nlohmann::json::array();
+  for (const SourceFile& file : content.files) {
+    files.push_back(
+        {{"path", file.path}, {"sha256", file.sha256}, {"bytes", file.bytes}});
+  }
+  return {{"command", content.command},
+          {"robot", content.robot},
+          {"result", content.result},
+          {"torques", content.torques},
+          {"skeleton", content.skeleton},
+          {"extra", content.extra},
+          {"provenance",
+           {{"arguments", content.arguments},
+            {"versions", Versions()},
+            {"files", files}}}};
+}
+
+std::string Element(const std::string& tag, const std::string& attributes,
+                    std::string_view content) {
+  return "<" + tag + attributes + ">" + std::string(content) + "</" + tag +
+         ">\n";
+}
+
+}  // namespace
+
+SourceFile HashFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path, "", "", "cannot be read");
+  SourceFile source{path, "", 0};
+  Hash hash;
+  std::array<char, 1 << 16> block{};
+  while (file.read(block.data(), block.size()), file.gcount() > 0) {
+    hash.Add({block.data(), static_cast<size_t>(file.gcount())});
+    source.bytes += file.gcount();
+  }
+  for (const unsigned char byte : hash.Value()) {
+    source.sha256 += "0123456789abcdef"[byte >> 4];
+    source.sha256 += "0123456789abcdef"[byte & 15];
+  }
+  return source;
+}
+
+std::string ReportPage(const ReportContent& content) {
+  const std::string_view scripts[] = {DygraphsScript(), ChartsScript(),
+                                      ReportScript()};
+  std::string sources, elements;
+  for (const std::string_view script : scripts) {
+    sources += " " + PolicySource(script);
+    elements += Element("script", "", script);
+  }
+  const std::string policy =
+      "default-src 'none'; script-src" + sources +
+      "; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
+      "form-action 'none'";
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n"
+         "<meta charset=\"utf-8\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
+         policy +
+         "\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width\">\n"
+         "<title>armcal</title>\n" +
+         Element("style", "", DygraphsStyle()) +
+         Element("style", "", ReportStyle()) +
+         "</head>\n<body>\n<main id=\"page\"></main>\n"
+         "<noscript>This report draws itself with a script.</noscript>\n" +
+         Element("script", " type=\"application/json\" id=\"data\"",
+                 ScriptSafe(PageData(content))) +
+         elements + "</body>\n</html>\n";
+}
+
+}  // namespace armcal
