@@ -7,9 +7,9 @@
 #include "model/decimal_time.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
+#include "model/line_source.h"
 #include "model/log_columns.h"
 #include "model/log_row.h"
-#include "model/text_source.h"
 #include "model/torque_columns.h"
 
 namespace armcal {
@@ -26,7 +26,7 @@ struct LogReader::Impl {
   Impl(const std::string& path, const LogReaderOptions& options)
       : path(path),
         joints(static_cast<int>(options.joint_names.size())),
-        source(path),
+        source(OpenLines(path)),
         columns(path, Header(), options.joint_names),
         time_column(columns.FindTime(&time_decimals)),
         row(path, columns, time_column) {
@@ -52,7 +52,7 @@ struct LogReader::Impl {
 
   std::string_view Header() {
     std::string_view line;
-    if (!source.NextLine(&line)) {
+    if (!source->NextLine(&line)) {
       throw InputError(path, "", "", "the file is empty");
     }
     return line;
@@ -60,10 +60,10 @@ struct LogReader::Impl {
 
   // The next row that is not blank; blank ones may only end the file.
   bool NextRow(std::string_view* line) {
-    if (!source.NextLine(line)) return false;
+    if (!source->NextLine(line)) return false;
     if (!IsBlank(*line)) return true;
-    const long blank = source.row();
-    while (source.NextLine(line)) {
+    const long blank = source->row();
+    while (source->NextLine(line)) {
       if (IsBlank(*line)) continue;
       throw InputError(path, "row " + std::to_string(blank), "",
                        "the row is empty, and more rows follow");
@@ -74,7 +74,7 @@ struct LogReader::Impl {
   // Seconds since the first row of the log.
   double ReadTime(std::string_view field) {
     const auto place = [&] {
-      return "row " + std::to_string(source.row()) + ", column " +
+      return "row " + std::to_string(source->row()) + ", column " +
              columns.name(time_column);
     };
     DecimalTime time;
@@ -99,7 +99,7 @@ struct LogReader::Impl {
     values.resize(size + row.width());
     std::string_view field;
     if (!row.Parse(line, values.data() + size, &field)) {
-      row.Refuse(line, source.row(), source.cut());
+      row.Refuse(line, source->row(), source->cut());
     }
     times.push_back(ReadTime(field));
   }
@@ -111,7 +111,7 @@ struct LogReader::Impl {
     times.clear();
     std::string_view line;
     while (static_cast<int>(times.size()) < max_rows && NextRow(&line)) {
-      if (times.empty()) log->first_row = source.row();
+      if (times.empty()) log->first_row = source->row();
       AddRow(line);
     }
     if (!started) {
@@ -138,7 +138,7 @@ struct LogReader::Impl {
   }
 
   void Rewind() {
-    source.Rewind();
+    source->Rewind();
     Header();
     started = false;
   }
@@ -147,7 +147,7 @@ struct LogReader::Impl {
 
   std::string path;
   int joints;
-  TextSource source;
+  std::unique_ptr<LineSource> source;
   LogColumns columns;
   int time_decimals = 0;
   int time_column;

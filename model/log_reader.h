@@ -30,7 +30,8 @@ struct LogReaderOptions {
   bool want_temperature = false;
 };
 
-// Reads a CSV or gzipped CSV log block by block in constant memory.
+// Reads a CSV or gzipped CSV log block by block in constant memory, or an .npz
+// (npz_source.h) held in it.
 //
 // Header: `t` (or time, timestamp, __time) and per joint either by number
 // (1-based) q1 qd1 qdd1 tau1 i1 qref1 temp1 or by name shoulder/position|

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "model/line_source.h"
+
 namespace armcal {
 
 // The lines of a text file, plain or gzipped (told apart by the first two
@@ -13,24 +15,24 @@ namespace armcal {
 // Throws InputError for what cannot be read as text: a missing file, a
 // directory, a gzip stream that is truncated, damaged or followed by other
 // bytes, NUL bytes, UTF-16, a line longer than a block.
-class TextSource {
+class TextSource : public LineSource {
  public:
   static constexpr int kBlockBytes = 1 << 20;
 
   // `block_bytes` is the longest line accepted; tests make it small.
   explicit TextSource(const std::string& path, int block_bytes = kBlockBytes);
-  ~TextSource();
+  ~TextSource() override;
   TextSource(TextSource&&) noexcept;
 
   // The next line without its LF or CRLF, and without a byte order mark if it
   // is the first; false at the end. *line lives until the next call.
-  bool NextLine(std::string_view* line);
+  bool NextLine(std::string_view* line) override;
   // The 1-based number of the last line read, as an editor counts; 0 before.
-  long row() const;
+  long row() const override;
   // Whether the last line read ended with the file instead of a line break.
-  bool cut() const;
+  bool cut() const override;
   // Starts again at the first line. Throws for a pipe.
-  void Rewind();
+  void Rewind() override;
 
  private:
   struct Impl;
