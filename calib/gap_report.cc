@@ -147,10 +147,17 @@ std::string Simulated(const ForwardGap& forward) {
       gap.nominal, gap.refit, gap.after);
 }
 
+// What probabilities of effects are worth in words; "confident" is .8.
+const char* Lacks(double least_probability) {
+  if (least_probability >= .8) return "lacks";
+  return least_probability >= .5 ? "probably lacks" : "may lack";
+}
+
 // What happened, and what the model lacks.
 std::string Findings(const GapDiagnosis& diagnosis) {
   std::string touched;
   std::vector<std::string> names;
+  double least = 1;
   for (const FoundEffect& found : diagnosis.effects) {
     const size_t times = found.contacts.size();
     if (times > 0) {
@@ -158,19 +165,26 @@ std::string Findings(const GapDiagnosis& diagnosis) {
                 (times == 1 ? "once" : std::to_string(times) + " times");
     } else {
       names.push_back(Named(*found.effect, found.joint, diagnosis));
+      least = std::min(least, found.probability);
     }
   }
   if (names.empty()) return touched;
   std::string text = (touched.empty() ? "The" : touched + "; the") +
-                     std::string(" model lacks ") + names[0];
+                     std::string(" model ") + Lacks(least) + " " + names[0];
   for (size_t k = 1; k < names.size(); ++k) {
     text += (k + 1 < names.size() ? ", " : " and ") + names[k];
   }
-  if (!std::isfinite(diagnosis.torque.removed_percent)) return text;
+  const double removed = diagnosis.torque.removed_percent;
+  if (!std::isfinite(removed)) return text;
+  if (removed < .5) {
+    return text +
+           ", which does not shrink the gap on data not used for "
+           "choosing";
+  }
   return text + Format(
                     ", which removes %.0f %% of the gap that refitting "
                     "leaves on data not used for choosing",
-                    diagnosis.torque.removed_percent);
+                    removed);
 }
 
 std::string Drifts(const std::vector<RunDrift>& drifts) {

@@ -62,6 +62,20 @@ TEST(BriefReport, NamesWhatIsMissingAndHowMuchItMatters) {
             "shoulder; something else is left.");
 }
 
+// Words are no surer than the probability, and no shrinking is claimed where
+// there is none.
+TEST(BriefReport, SaysHowSureItIs) {
+  GapDiagnosis diagnosis = Diagnosis();
+  diagnosis.effects.resize(1);
+  diagnosis.effects[0].probability = .6;
+  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("probably lacks stribeck"));
+  diagnosis.effects[0].probability = .3;
+  diagnosis.torque.removed_percent = -47;
+  EXPECT_EQ(BriefReport(diagnosis),
+            "The model may lack stribeck on elbow, which does not shrink the "
+            "gap on data not used for choosing.");
+}
+
 FoundEffect Touched() {
   FoundEffect found = Found("external_contact", -1);
   Contact contact;

@@ -234,6 +234,7 @@ std::string ReportHtml(const Robot& robot, const LinearCalibration& result,
     files.push_back(path);
   }
   ReportContent content = StartReport("calibrate", robot, json, files);
+  if (!result.solved) return ReportPage(content);
   content.torques = TracesJson(
       robot, {{"calibrated", result.parameters, result.x}}, shown, progress);
   content.extra["correlation"] = CorrelationJson(result);

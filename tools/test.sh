@@ -31,11 +31,13 @@ run_tests() {
 tools/setup.sh
 selection=(-LE long)
 if $full; then
-  run_tests build-sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+  run_tests build-sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DLONG_TESTS=ON \
     -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=all"
   selection=()
+  run_tests build -DLONG_TESTS=ON
+else
+  run_tests build
 fi
-run_tests build
 # ctest counts a test that skips all its cases as passed.
 if [[ ! -d ../shared ]]; then
   echo "test.sh: there is no ../shared (gold numbers, logs of real robots);" \
