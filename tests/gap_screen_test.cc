@@ -74,6 +74,22 @@ class GapScreenTest : public testing::Test {
     return x;
   }
 
+  // Other data that fit them exactly.
+  void SeeThreeDirections(double size) {
+    other_A_ = size * RandomMatrix(&random_, 3, kBaseline);
+    other_y_ = 2 * size * RandomVector(&random_, 3);
+  }
+  void ExpectTheJointResidual(double tolerance) const {
+    GapScreen screen(baseline_, target_);
+    screen.AddInformation(other_A_.transpose() * other_A_,
+                          other_A_.transpose() * other_y_);
+    screen.Factor();
+    double chi_squared;
+    Estimate({}, &chi_squared);
+    EXPECT_NEAR(screen.ResidualBeside(JointRows(2)).squaredNorm(), chi_squared,
+                tolerance * chi_squared);
+  }
+
   std::mt19937_64 random_{1};
   std::vector<MatrixXd> baseline_;
   JointRows target_;
@@ -147,32 +163,16 @@ TEST_F(GapScreenTest, ResidualBesideATorqueHasChiSquaredAsItsNorm) {
 
 // But for what the other data's own noise leaves, whatever the torque is.
 TEST_F(GapScreenTest, ResidualBesideATorqueHoldsOtherDatasShare) {
-  other_A_ = RandomMatrix(&random_, 3, kBaseline);  // they see three directions
-  other_y_ = 2 * RandomVector(&random_, 3);         // and fit them exactly
-  GapScreen screen(baseline_, target_);
-  screen.AddInformation(other_A_.transpose() * other_A_,
-                        other_A_.transpose() * other_y_);
-  screen.Factor();
-  double chi_squared;
-  Estimate({}, &chi_squared);
-  EXPECT_NEAR(screen.ResidualBeside(JointRows(2)).squaredNorm(), chi_squared,
-              1e-5 * chi_squared);
+  SeeThreeDirections(1);
+  ExpectTheJointResidual(1e-5);
 }
 
 // However sure they are of the directions that they see (a long log beside
 // noise that is small): nothing of the others is theirs.
 TEST_F(GapScreenTest, ResidualBesideATorqueKnowsWhatOtherDataDoNotSee) {
   for (int k = 0; k < 20; ++k) {
-    other_A_ = 1e5 * RandomMatrix(&random_, 3, kBaseline);
-    other_y_ = 2e5 * RandomVector(&random_, 3);
-    GapScreen screen(baseline_, target_);
-    screen.AddInformation(other_A_.transpose() * other_A_,
-                          other_A_.transpose() * other_y_);
-    screen.Factor();
-    double chi_squared;
-    Estimate({}, &chi_squared);
-    EXPECT_NEAR(screen.ResidualBeside(JointRows(2)).squaredNorm(), chi_squared,
-                1e-3 * chi_squared);
+    SeeThreeDirections(1e5);
+    ExpectTheJointResidual(1e-3);
   }
 }
 

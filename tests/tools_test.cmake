@@ -16,6 +16,20 @@ macro(run case_name)
                   RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
 endmacro()
 
+# arm.yaml: two links that swing in a vertical plane. `first` and `second` are
+# more of a joint's entries, each after a comma.
+function(write_arm name first second)
+  file(WRITE ${WORK_DIR}/arm.yaml "name: ${name}
+gravity: [0, -9.81, 0]
+convention: standard
+links:
+  - {joint: revolute, a: .4, mass: 5, com: [-.2, 0, 0], inertia: [.01, .07, .07],
+     viscous: 2, coulomb: 3, armature: .3${first}}
+  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
+     viscous: 1, coulomb: 2, armature: .2${second}}
+")
+endfunction()
+
 # Tells the first thing that is wrong with a run; the others follow from it.
 function(fail text)
   get_property(failed GLOBAL PROPERTY failed_case)

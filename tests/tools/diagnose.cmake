@@ -1,14 +1,6 @@
 # diagnose: simulated logs of an arm, with and without what its file lacks.
 
-file(WRITE ${WORK_DIR}/arm.yaml "name: arm
-gravity: [0, -9.81, 0]
-convention: standard
-links:
-  - {joint: revolute, a: .4, mass: 5, com: [-.2, 0, 0], inertia: [.01, .07, .07],
-     viscous: 2, coulomb: 3, armature: .3}
-  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
-     viscous: 1, coulomb: 2, armature: .2}
-")
+write_arm(arm "" "")
 set(robot --robot=arm.yaml)
 
 # Runs of one true robot, whose numbers are 2 % off the file's.

@@ -1,17 +1,8 @@
 # armcal excite: a motion within its limits, what it adds to logs, postures,
 # refusals.
 
-file(WRITE ${WORK_DIR}/arm.yaml "name: arm
-gravity: [0, -9.81, 0]
-convention: standard
-links:
-  - {joint: revolute, a: .4, mass: 5, com: [-.2, 0, 0], inertia: [.01, .07, .07],
-     viscous: 2, coulomb: 3, armature: .3,
-     limits: {lower: -2, upper: 2, velocity: 2}}
-  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
-     viscous: 1, coulomb: 2, armature: .2,
-     limits: {lower: -2.5, upper: 2.5, velocity: 3}}
-")
+write_arm(arm ", limits: {lower: -2, upper: 2, velocity: 2}"
+          ", limits: {lower: -2.5, upper: 2.5, velocity: 3}")
 
 run("a motion" excite --robot=arm.yaml --duration=10 --out=out)
 expect_code(0)

@@ -1,14 +1,6 @@
 # Logs as NumPy writes them: the same digits as from CSV, and what is refused.
 
-file(WRITE ${WORK_DIR}/arm.yaml "name: arm
-gravity: [0, -9.81, 0]
-convention: standard
-links:
-  - {joint: revolute, a: .4, mass: 5, com: [-.2, 0, 0], inertia: [.01, .07, .07],
-     viscous: 2, coulomb: 3, armature: .3}
-  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
-     viscous: 1, coulomb: 2, armature: .2}
-")
+write_arm(arm "" "")
 run("a log" simulate --robot=arm.yaml --duration=20 --log_rate=100 --out=made)
 expect_code(0)
 find_program(python python3 HINTS /usr/bin NO_DEFAULT_PATH)

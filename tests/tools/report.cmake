@@ -1,18 +1,9 @@
 # report.html of every command, and where Chromium is there what it draws: no
 # error, no request, names as text.
 
-file(WRITE ${WORK_DIR}/arm.yaml "name: '</script><img src=x onerror=alert(1)>'
-gravity: [0, -9.81, 0]
-convention: standard
-links:
-  - {joint: revolute, joint_name: '<b>elbow</b>', a: .4, mass: 5,
-     com: [-.2, 0, 0], inertia: [.01, .07, .07],
-     viscous: 2, coulomb: 3, armature: .3,
-     limits: {lower: -2, upper: 2, velocity: 2}}
-  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
-     viscous: 1, coulomb: 2, armature: .2,
-     limits: {lower: -2.5, upper: 2.5, velocity: 3}}
-")
+write_arm("'</script><img src=x onerror=alert(1)>'"
+          ", joint_name: '<b>elbow</b>', limits: {lower: -2, upper: 2, velocity: 2}"
+          ", limits: {lower: -2.5, upper: 2.5, velocity: 3}")
 run("a log" simulate --robot=arm.yaml --duration=20 --log_rate=100
     --effects=viscous_friction@2 --out=made)
 expect_code(0)

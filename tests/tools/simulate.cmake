@@ -1,14 +1,6 @@
 # armcal simulate: logs that armcal calibrate reads, truth apart, refusals.
 
-file(WRITE ${WORK_DIR}/arm.yaml "name: arm
-gravity: [0, -9.81, 0]
-convention: standard
-links:
-  - {joint: revolute, a: .4, mass: 5, com: [-.2, 0, 0], inertia: [.01, .07, .07],
-     viscous: 2, coulomb: 3, armature: .3}
-  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
-     viscous: 1, coulomb: 2, armature: .2}
-")
+write_arm(arm "" "")
 
 run("a log and its truth" simulate --robot=arm.yaml --duration=12 --out=out
     --effects=stribeck@2 --truth=secret)

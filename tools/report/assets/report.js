@@ -23,10 +23,12 @@
     calibrate: () => {
       const passed = !result.verdict || result.verdict.passed;
       const held = result.validation_stacked_residual_percent;
-      const fit = `The torque is explained to ${percent(result.stacked_residual_percent)}` +
-          (isNumber(held) ? `, on motion it has not seen to ${percent(held)}.` : '.');
-      return {good: passed, sentence: passed ? fit : 'This calibration is worth nothing as it is.',
-              reasons: passed ? [] : [...result.verdict.reasons, fit]};
+      const left = result.stacked_residual_percent;
+      const fit = !isNumber(left) ? [] : [`All but ${percent(left)} of the torque is explained` +
+          (isNumber(held) ? `, and all but ${percent(held)} on motion it has not seen.` : '.')];
+      return {good: passed,
+              sentence: passed ? fit[0] || 'Calibrated.' : 'This calibration is worth nothing as it is.',
+              reasons: passed ? [] : [...result.verdict.reasons, ...fit]};
     },
     verify: () => ({
       good: result.passed,
@@ -135,7 +137,8 @@
 
   // -- calibration ---------------------------------------------------------------
 
-  const jointTable = () => data.command === 'calibrate' && table(
+  const jointTable = () => data.command === 'calibrate' &&
+      (result.joints || []).some((j) => isNumber(j.torque_rms)) && table(
       ['joint', 'torque rms', 'residual', 'held out', 'sample noise', 'friction turns over within'],
       result.joints.map((j) => [
         j.name, `${number(j.torque_rms)} ${j.unit}`,
