@@ -203,27 +203,6 @@ std::optional<SegmentSelection> SelectFromFlags(const Task& task,
                         training);
 }
 
-// Of the parameters that the logs show.
-nlohmann::json CorrelationJson(const LinearCalibration& result) {
-  std::vector<int> seen;
-  nlohmann::json names = nlohmann::json::array(), values = names;
-  for (int k = 0; k < result.x.size(); ++k) {
-    if (!result.identifiable[k] || !(result.stddev[k] > 0)) continue;
-    seen.push_back(k);
-    names.push_back(result.parameters.parameters()[k].name);
-  }
-  for (const int r : seen) {
-    nlohmann::json row = nlohmann::json::array();
-    for (const int c : seen) {
-      row.push_back(std::round(1e3 * result.covariance(r, c) /
-                               (result.stddev[r] * result.stddev[c])) /
-                    1e3);
-    }
-    values.push_back(row);
-  }
-  return {{"names", names}, {"values", values}};
-}
-
 // Of the held-out logs where there are some.
 std::string ReportHtml(const Robot& robot, const LinearCalibration& result,
                        const nlohmann::json& json, const Progress& progress,
@@ -237,7 +216,7 @@ std::string ReportHtml(const Robot& robot, const LinearCalibration& result,
   if (!result.solved) return ReportPage(content);
   content.torques = TracesJson(
       robot, {{"calibrated", result.parameters, result.x}}, shown, progress);
-  content.extra["correlation"] = CorrelationJson(result);
+  content.extra["correlation"] = CorrelationsJson(result);
   return ReportPage(content);
 }
 

@@ -127,6 +127,26 @@ json SignalsJson(const Eigen::MatrixXd& columns) {
   return list;
 }
 
+json CorrelationsJson(const LinearCalibration& result) {
+  json names = json::array(), values = json::array();
+  std::vector<int> seen;
+  for (int k = 0; k < result.x.size(); ++k) {
+    if (!result.identifiable[k] || !(result.stddev[k] > 0)) continue;
+    seen.push_back(k);
+    names.push_back(result.parameters.parameters()[k].name);
+  }
+  for (const int r : seen) {
+    json row = json::array();
+    for (const int c : seen) {
+      const double correlation =
+          result.covariance(r, c) / (result.stddev[r] * result.stddev[c]);
+      row.push_back(std::round(1e3 * correlation) / 1e3);
+    }
+    values.push_back(row);
+  }
+  return {{"names", names}, {"values", values}};
+}
+
 json SkeletonJson(const Robot& robot, const VectorXd& q) {
   json points = json::array();
   const auto add = [&points](const Eigen::Vector3d& p) {

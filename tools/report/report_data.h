@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "calib/linear_calibration.h"
 #include "calib/log_set.h"
 #include "calib/torque_trace.h"
 #include "model/robot.h"
@@ -25,6 +26,10 @@ nlohmann::json TracesJson(const Robot& robot,
 // Numbers of 5 digits; a list per column.
 nlohmann::json RoundedJson(const Eigen::VectorXd& values);
 nlohmann::json SignalsJson(const Eigen::MatrixXd& columns);
+
+// {names, values: a list per row}: correlations of the parameters that the logs
+// show, to three decimals.
+nlohmann::json CorrelationsJson(const LinearCalibration& result);
 
 // Origins of the links and the tool at a posture, base to tip: [[x, y, z]], m.
 nlohmann::json SkeletonJson(const Robot& robot, const Eigen::VectorXd& q);
