@@ -1,6 +1,5 @@
 #include "calib/arm_covariance.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +7,7 @@
 #include "calib/overlap_covariance.h"
 #include "calib/posterior.h"
 #include "calib/row_covariance.h"
+#include "model/dense_solvers.h"
 
 namespace armcal {
 namespace {

@@ -3,10 +3,10 @@
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "model/dense_solvers.h"
 #include "problems/dense_solver.h"
 
 namespace armcal {

@@ -1,9 +1,10 @@
 #include "calib/gain_start.h"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "model/dense_solvers.h"
 
 namespace armcal {
 namespace {

@@ -2,8 +2,9 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "model/dense_solvers.h"
 
 namespace armcal {
 

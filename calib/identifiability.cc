@@ -3,12 +3,12 @@
 #include <glog/logging.h>
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "calib/combination.h"
+#include "model/dense_solvers.h"
 
 namespace armcal {
 namespace {

@@ -1,10 +1,10 @@
 #include "calib/information_scale.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "calib/design_target.h"
 #include "calib/given_information.h"
+#include "model/dense_solvers.h"
 #include "problems/motion_limits.h"
 
 namespace armcal {

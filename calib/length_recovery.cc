@@ -2,10 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "model/dense_solvers.h"
 
 namespace armcal {
 namespace {

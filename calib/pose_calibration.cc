@@ -1,12 +1,12 @@
 #include "calib/pose_calibration.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 
 #include "calib/pose_fit.h"
+#include "model/dense_solvers.h"
 
 namespace armcal {
 namespace {

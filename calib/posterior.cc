@@ -1,10 +1,10 @@
 #include "calib/posterior.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
+
+#include "model/dense_solvers.h"
 
 namespace armcal {
 

@@ -1,12 +1,12 @@
 #include "calib/trajectory_refinement.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <vector>
 
 #include "calib/calibration_model.h"
 #include "calib/trajectory_covariance.h"
 #include "calib/trajectory_pass.h"
+#include "model/dense_solvers.h"
 
 namespace armcal {
 namespace {

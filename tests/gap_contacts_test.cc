@@ -2,11 +2,11 @@
 
 #include <gmock/gmock.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "model/dense_solvers.h"
 #include "model/kinematics.h"
 #include "tests/sample_motion.h"
 #include "tests/sample_robots.h"

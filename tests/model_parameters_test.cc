@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "model/dense_solvers.h"
 #include "model/inverse_dynamics.h"
 #include "tests/sample_robots.h"
 

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <vector>
 
+#include "model/dense_solvers.h"
 #include "tests/sample_motion.h"
 #include "tests/sample_robots.h"
 
