@@ -7,7 +7,6 @@
 #include "tools/report/report_data.h"
 
 namespace armcal {
-
 namespace {
 
 // As they would be typed, in the order of --help.
@@ -17,8 +16,8 @@ std::vector<std::string> GivenFlags(const std::string& command) {
     if (known.name != command) continue;
     for (const std::string& flag : known.flags) {
       const auto info = gflags::GetCommandLineFlagInfoOrDie(flag.c_str());
-      if (!info.is_default)
-        given.push_back("--" + flag + "=" + info.current_value);
+      if (info.is_default) continue;
+      given.push_back("--" + flag + "=" + info.current_value);
     }
   }
   return given;

@@ -60,9 +60,6 @@ std::string ReportHtml(const Robot& file, const VerificationReport& report,
   if (!FLAGS_calibration.empty()) files.push_back(FLAGS_calibration);
   ReportContent content = StartReport("verify", file, json, files);
   content.torques = torques;
-  for (const Link& link : file.links) {
-    content.extra["joints"].push_back(link.joint.name);
-  }
   return ReportPage(content);
 }
 

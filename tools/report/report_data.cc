@@ -106,8 +106,8 @@ json TracesJson(const Robot& robot, const std::vector<TracedModel>& models,
                     {"labels", labels},
                     {"t", TimesJson(trace.torque)},
                     {"joints", joints}});
-    if (trace.residual) {
-      list.back()["spectrum"] = SpectrumJson(*trace.residual, count, n);
+    if (!trace.residual.empty()) {
+      list.back()["spectrum"] = SpectrumJson(trace.residual, count, n);
     }
   }
   return list;
@@ -156,7 +156,7 @@ json SkeletonJson(const Robot& robot, const VectorXd& q) {
     add(pose.translation());
   }
   add(ToolPose(robot, q).translation());
-  return points;
+  return {{"joints", robot.JointNames()}, {"points", points}};
 }
 
 VectorXd BentPosture(const Robot& robot) {

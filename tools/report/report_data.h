@@ -31,7 +31,8 @@ nlohmann::json SignalsJson(const Eigen::MatrixXd& columns);
 // show, to three decimals.
 nlohmann::json CorrelationsJson(const LinearCalibration& result);
 
-// Origins of the links and the tool at a posture, base to tip: [[x, y, z]], m.
+// {joints: [name], points: [[x, y, z]]}: origins of the links and the tool at a
+// posture, base to tip, m.
 nlohmann::json SkeletonJson(const Robot& robot, const Eigen::VectorXd& q);
 // The posture in the middle of a robot's limits that is not stretched out.
 Eigen::VectorXd BentPosture(const Robot& robot);

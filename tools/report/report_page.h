@@ -20,10 +20,10 @@ struct ReportContent {
   std::string command;    // "calibrate", "verify", "diagnose", "excite"
   std::string robot;      // its name
   nlohmann::json result;  // the command's own JSON
-  nlohmann::json torques = nlohmann::json::array();   // TracesJson
-  nlohmann::json skeleton = nlohmann::json::array();  // SkeletonJson
-  nlohmann::json extra = nlohmann::json::object();    // of one command only
-  std::vector<std::string> arguments;                 // the command line
+  nlohmann::json torques = nlohmann::json::array();  // TracesJson
+  nlohmann::json skeleton;                           // SkeletonJson
+  nlohmann::json extra = nlohmann::json::object();   // of one command only
+  std::vector<std::string> arguments;                // the command line
   std::vector<SourceFile> files;
 };
 

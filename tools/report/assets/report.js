@@ -254,9 +254,9 @@
             joints.map((j) => [j.name, j.unit, shade(j.nominal_rms, j.floor_rms),
                                shade(j.refit_rms, j.floor_rms), shade(j.after_rms, j.floor_rms),
                                number(j.floor_rms), j.organised_by || '–'])),
-      data.skeleton.length ? html('h3', {}, 'Where on the robot (orange: the model as it is, beyond the noise)') : null,
-      data.skeleton.length ? skeleton(data.skeleton, joints.map((j) => j.name),
-                                      joints.map((j) => beyond(j.nominal_rms, j.floor_rms))) : null];
+      data.skeleton ? html('h3', {}, 'Where on the robot (orange: the model as it is, beyond the noise)') : null,
+      data.skeleton ? skeleton(data.skeleton.points, data.skeleton.joints,
+                               joints.map((j) => beyond(j.nominal_rms, j.floor_rms))) : null];
   };
 
   const untestable = () => {
@@ -310,8 +310,8 @@
 
   // -- where it comes from -------------------------------------------------------
 
-  const robot = () => data.command !== 'diagnose' && data.skeleton.length > 0 &&
-      [skeleton(data.skeleton, (result.joints || []).map((j) => j.name), null),
+  const robot = () => data.command !== 'diagnose' && data.skeleton &&
+      [skeleton(data.skeleton.points, data.skeleton.joints, null),
        note('Joint axes of the robot file, at a bent posture. Drag, or use the arrow keys.')];
 
   const provenance = () => {
