@@ -1,5 +1,6 @@
 #include "calib/power_spectrum.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <unsupported/Eigen/FFT>
@@ -9,9 +10,20 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+VectorXd HannWindow(int size) {
+  const VectorXd phase =
+      VectorXd::LinSpaced(size, 0, size - 1) * (2 * M_PI / size);
+  return (1 - phase.array().cos()) / 2;
+}
+
+}  // namespace
+
 PowerSpectrum::PowerSpectrum(int num_signals, double dt, int window)
     : dt_(dt),
       window_(window),
+      hann_(HannWindow(window)),
       recent_(window, num_signals),
       sums_(MatrixXd::Zero(window / 2 + 1, num_signals)) {}
 
@@ -28,18 +40,15 @@ void PowerSpectrum::Break() { filled_ = 0; }
 
 void PowerSpectrum::AddWindow() {
   Eigen::FFT<double> fft;
-  const VectorXd phase =
-      VectorXd::LinSpaced(window_, 0, window_ - 1) * (2 * M_PI / window_);
-  const VectorXd hann = (1 - phase.array().cos()) / 2;
+  Eigen::VectorXcd transform;
+  const double power = hann_.squaredNorm();
   for (Eigen::Index j = 0; j < recent_.cols(); ++j) {
     const VectorXd x =
-        (recent_.col(j).array() - recent_.col(j).mean()) * hann.array();
-    Eigen::VectorXcd transform;
+        (recent_.col(j).array() - recent_.col(j).mean()) * hann_.array();
     fft.fwd(transform, x);
     for (Eigen::Index k = 0; k < sums_.rows(); ++k) {
       const bool twice = k > 0 && 2 * k < window_;
-      sums_(k, j) +=
-          (twice ? 2 : 1) * std::norm(transform[k]) * dt_ / hann.squaredNorm();
+      sums_(k, j) += (twice ? 2 : 1) * std::norm(transform[k]) * dt_ / power;
     }
   }
   ++windows_;

@@ -24,6 +24,7 @@ class PowerSpectrum {
 
   double dt_;
   int window_;
+  Eigen::VectorXd hann_;
   Eigen::MatrixXd recent_;  // window x signal
   int filled_ = 0;
   Eigen::MatrixXd sums_;

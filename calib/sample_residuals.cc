@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "calib/torque_residual.h"
+
 namespace armcal {
 
 using Eigen::MatrixXd;
@@ -9,12 +11,8 @@ using Eigen::VectorXd;
 
 MatrixXd SampleResiduals(const Trajectory& t, const VectorXd& x,
                          MotionRegressor* regressor) {
-  MatrixXd grid(t.size(), t.num_joints()), U;
   regressor->Enter(t);
-  for (int k = 0; k < t.size(); ++k) {
-    regressor->Differential(k, &U);
-    grid.row(k) = (U * x).transpose();
-  }
+  const MatrixXd grid = PredictTorques(t, x, regressor);
   MatrixXd residuals = t.samples.tau;
   for (int k = 0; k < t.samples.size(); ++k) {
     const double place = std::clamp(t.samples.place[k], 0.0, t.size() - 1.0);

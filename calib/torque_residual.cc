@@ -11,6 +11,16 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+MatrixXd PredictTorques(const Trajectory& trajectory, const VectorXd& x,
+                        MotionRegressor* regressor) {
+  MatrixXd predicted(trajectory.size(), trajectory.num_joints()), U;
+  for (int k = 0; k < trajectory.size(); ++k) {
+    regressor->Differential(k, &U);
+    predicted.row(k) = U * x;
+  }
+  return predicted;
+}
+
 TorqueResidual::TorqueResidual(int num_joints) {
   for (Sums* sums : {&moving_, &whole_}) {
     sums->torque = sums->residual = Eigen::ArrayXd::Zero(num_joints);
@@ -19,12 +29,7 @@ TorqueResidual::TorqueResidual(int num_joints) {
 
 void TorqueResidual::Add(const Trajectory& trajectory, const VectorXd& x,
                          double bandwidth_hz, MotionRegressor* regressor) {
-  const int n = trajectory.num_joints();
-  MatrixXd predicted(trajectory.size(), n), U;
-  for (int k = 0; k < trajectory.size(); ++k) {
-    regressor->Differential(k, &U);
-    predicted.row(k) = U * x;
-  }
+  MatrixXd predicted = PredictTorques(trajectory, x, regressor);
   MatrixXd recorded = trajectory.tau_recorded;
   if (bandwidth_hz > 0) {
     predicted = ZeroPhaseLowPass(predicted, 1 / trajectory.dt, bandwidth_hz);

@@ -10,6 +10,12 @@
 
 namespace armcal {
 
+// Torques of parameters x at every sample of a trajectory that `regressor` has
+// entered, samples in rows.
+Eigen::MatrixXd PredictTorques(const Trajectory& trajectory,
+                               const Eigen::VectorXd& x,
+                               MotionRegressor* regressor);
+
 // How far predicted torques are from recorded ones, over the samples of one or
 // several logs: both low-passed at the bandwidth (order 4, zero phase). All
 // vectors have an entry per joint; a percentage is 100 |tau - tau_hat| / |tau|

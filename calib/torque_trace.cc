@@ -2,6 +2,7 @@
 
 #include <glog/logging.h>
 
+#include "calib/torque_residual.h"
 #include "problems/identification_rows.h"
 
 namespace armcal {
@@ -14,13 +15,11 @@ using Eigen::VectorXd;
 MatrixXd Predict(const std::vector<TracedModel>& models, const Trajectory& t,
                  std::vector<MotionRegressor>* regressors) {
   const int n = t.num_joints();
-  MatrixXd predicted(t.size(), n * static_cast<int>(models.size())), U;
+  MatrixXd predicted(t.size(), n * static_cast<int>(models.size()));
   for (size_t m = 0; m < models.size(); ++m) {
     (*regressors)[m].Enter(t);
-    for (int k = 0; k < t.size(); ++k) {
-      (*regressors)[m].Differential(k, &U);
-      predicted.row(k).segment(static_cast<int>(m) * n, n) = U * models[m].x;
-    }
+    predicted.middleCols(static_cast<int>(m) * n, n) =
+        PredictTorques(t, models[m].x, &(*regressors)[m]);
   }
   return predicted;
 }
@@ -38,14 +37,14 @@ std::vector<TorqueTrace> TraceTorques(const std::vector<TracedModel>& models,
   int segment = -1;
   logs->ForEach("torques", progress, [&](int log, const Trajectory& t) {
     if (traces.empty() || traces.back().log != log) {
-      traces.push_back({log, {n * (1 + 2 * count), most_bins}, {}});
-      traces.back().residual.emplace(n * count, t.dt);
+      traces.push_back(
+          {log, {n * (1 + 2 * count), most_bins}, {n * count, t.dt}});
       regressors.clear();
       for (const TracedModel& m : models) regressors.emplace_back(m.parameters);
       segment = t.segment;
     }
     TorqueTrace& trace = traces.back();
-    if (t.segment != segment) trace.torque.Break(), trace.residual->Break();
+    if (t.segment != segment) trace.torque.Break(), trace.residual.Break();
     segment = t.segment;
     const MatrixXd predicted = Predict(models, t, &regressors);
     VectorXd all(n * (1 + 2 * count));
@@ -55,12 +54,9 @@ std::vector<TorqueTrace> TraceTorques(const std::vector<TracedModel>& models,
       const VectorXd residual = tau.replicate(count, 1) - model;
       all << tau, model, residual;
       trace.torque.Add(t.time(k), all);
-      trace.residual->Add(residual);
+      trace.residual.Add(residual);
     }
   });
-  for (TorqueTrace& trace : traces) {
-    if (trace.residual->empty()) trace.residual.reset();
-  }
   return traces;
 }
 

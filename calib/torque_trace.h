@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +25,7 @@ struct TorqueTrace {
   SeriesEnvelope torque;
   // Of recorded minus predicted torque, n signals per model; empty where the
   // log is shorter than a window.
-  std::optional<PowerSpectrum> residual;
+  PowerSpectrum residual;
 };
 
 // Of every log, in one pass.

@@ -1,45 +1,28 @@
 #include "model/npz_source.h"
 
 #include <algorithm>
-#include <map>
 
 #include "model/input_error.h"
 #include "model/input_text.h"
+#include "model/log_signal.h"
 #include "model/zip_archive.h"
 
 namespace armcal {
 namespace {
-
-// What others call a log's signals.
-const std::map<std::string, std::string> kSignalNames = {
-    {"position", "q"},
-    {"velocity", "qd"},
-    {"acceleration", "qdd"},
-    {"effort", "tau"},
-    {"torque", "tau"},
-    {"current", "i"},
-    {"reference", "qref"},
-    {"temperature", "temp"},
-    {"q", "q"},
-    {"qd", "qd"},
-    {"qdd", "qdd"},
-    {"tau", "tau"},
-    {"i", "i"},
-    {"qref", "qref"},
-    {"temp", "temp"}};
-// And each joint's, where joints have names.
-const std::map<std::string, std::string> kJointSignals = {
-    {"q", "position"},      {"qd", "velocity"}, {"qdd", "acceleration"},
-    {"tau", "effort"},      {"i", "current"},   {"qref", "reference"},
-    {"temp", "temperature"}};
 
 bool IsOneOf(const std::string& name,
              std::initializer_list<const char*> names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool IsTime(const std::string& name) {
-  return IsOneOf(name, {"t", "time", "timestamp", "__time"});
+// The signal that an array of this name holds; null for others.
+const SignalNames* FindSignal(const std::string& name) {
+  if (name == "torque") return &NamesOf(Signal::kEffort);
+  for (const Signal signal : kSignals) {
+    const SignalNames& names = NamesOf(signal);
+    if (name == names.number_prefix || name == names.path_part) return &names;
+  }
+  return nullptr;
 }
 
 std::string WithoutExtension(const std::string& name) {
@@ -63,16 +46,16 @@ NpzSource::NpzSource(const std::string& path) : path_(path) {
     }
     if (!values.numeric() || name.find_first_of("\"\r\n") != name.npos)
       continue;
-    if (IsTime(name)) rows_ = std::max(rows_, values.rows());
+    if (IsTimeName(name)) rows_ = std::max(rows_, values.rows());
     found.push_back({name, std::move(values)});
   }
   if (std::none_of(found.begin(), found.end(),
-                   [](const Array& a) { return IsTime(a.name); })) {
+                   [](const Array& a) { return IsTimeName(a.name); })) {
     throw InputError(path, "", "",
                      "has no array of times: expected t, time or timestamp");
   }
   for (Array& array : found) {
-    const bool signal = kSignalNames.count(array.name) > 0;
+    const bool signal = FindSignal(array.name) != nullptr;
     if (array.values.rows() != rows_) {
       if (!signal) continue;
       throw InputError(path, "array " + array.name,
@@ -88,16 +71,15 @@ NpzSource::NpzSource(const std::string& path) : path_(path) {
 
 void NpzSource::AddToHeader(const Array& array,
                             const std::vector<std::string>& joints) {
-  const auto signal = kSignalNames.find(array.name);
-  const std::string name =
-      signal == kSignalNames.end() ? array.name : signal->second;
+  const SignalNames* const signal = FindSignal(array.name);
   const long columns = array.values.columns();
+  const bool named = static_cast<long>(joints.size()) == columns;
   for (long k = 0; k < columns; ++k) {
-    std::string column = name;
-    if (signal != kSignalNames.end()) {
-      column = static_cast<long>(joints.size()) == columns
-                   ? joints[k] + "/" + kJointSignals.at(name)
-                   : name + std::to_string(k + 1);
+    std::string column = array.name;
+    if (signal != nullptr) {
+      column = named
+                   ? joints[k] + "/" + std::string(signal->path_part)
+                   : std::string(signal->number_prefix) + std::to_string(k + 1);
     } else if (columns > 1) {
       column += std::to_string(k + 1);
     }

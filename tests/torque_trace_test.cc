@@ -49,8 +49,8 @@ TEST(TorqueTrace, HoldsRecordedPredictedAndTheirDifference) {
     }
   }
   EXPECT_EQ(spikes, 1);
-  ASSERT_TRUE(traces[0].residual);
-  EXPECT_EQ(traces[0].residual->Density().cols(), 6);
+  ASSERT_FALSE(traces[0].residual.empty());
+  EXPECT_EQ(traces[0].residual.Density().cols(), 6);
 }
 
 }  // namespace
