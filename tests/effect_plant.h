@@ -89,9 +89,9 @@ class EffectPlant {
   // from the change that is expected, as a share of it in rms.
   double Disagreement(const Effect& effect, int joint) const {
     Eigen::VectorXd p = arm_.Sizes(effect, joint);
-    // Of the usual size it is a thousandth of the torque, and two logs without
-    // effects differ by a tenth of that.
-    if (effect.name == "elasticity") p[0] *= 3;
+    // Of its usual size it is as small as two logs without effects differ by
+    // (1 mN m rms); this is one of its larger sizes.
+    if (effect.name == "elasticity") p[0] *= 8;
     SimulatedRobot robot = Bare();
     effect.apply(arm_.Site(joint), p, &robot);
     const Log log = Run(robot);
