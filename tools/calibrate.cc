@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include "calib/calibration_report.h"
 #include "calib/drive_gains_report.h"
@@ -18,7 +17,9 @@
 #include "tools/calibrate_poses.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
+#include "tools/console.h"
 #include "tools/correct_trajectories.h"
+#include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
@@ -42,28 +43,48 @@ DEFINE_string(coulomb_width, "auto",
               "speed such as 0.02rad/s, or a displacement such as 0.001rad, "
               "for all joints");
 DEFINE_string(window, "",
-              "length of the weak form's test functions, s; default: 1.5 "
+              "`S` length of the weak form's test functions, s; default: 1.5 "
               "periods of the bandwidth, at least 0.3");
-DEFINE_string(intervals, "",
-              "integral model: t1:t2[,t3:t4...], s; default: side by side");
-DEFINE_double(interval, 0.5, "integral model: length of intervals, s");
+DEFINE_string(
+    intervals, "",
+    "`T1:T2[,..]` integral model: from T1 to T2, s; default: side by side");
+DEFINE_double(interval, 0.5, "`S` integral model: length of intervals");
 DEFINE_bool(select, false,
             "calibrate on the segments of the logs that tell most, as few as "
             "tell nearly all");
-DEFINE_double(segment, 5, "length of segments for --select, s");
+DEFINE_double(segment, 5, "`S` length of segments for --select");
 DEFINE_string(quadrature, "trapezoid", "integral model: trapezoid, simpson");
 
 namespace armcal {
 namespace {
 
+const FlagChoices<GeometryKnowledge> kGeometries(
+    "geometry", {{"known", GeometryKnowledge::kKnown},
+                 {"lengths", GeometryKnowledge::kNonzeroLengths},
+                 {"all_lengths", GeometryKnowledge::kAllLengths},
+                 {"offsets", GeometryKnowledge::kKnown},
+                 {"refine", GeometryKnowledge::kKnown}});
+const FlagChoices<JointTerm> kJointTerms("joint_terms",
+                                         {{"viscous", JointTerm::kViscous},
+                                          {"coulomb", JointTerm::kCoulomb},
+                                          {"offset", JointTerm::kOffset},
+                                          {"armature", JointTerm::kArmature}},
+                                         true);
+const FlagChoices<Identification> kIdentifications(
+    "identification", {{"weak", Identification::kWeak},
+                       {"differential", Identification::kDifferential},
+                       {"integral", Identification::kIntegral}});
+const FlagChoices<LinearSolver> kSolvers("solver",
+                                         {{"weighted", LinearSolver::kWeighted},
+                                          {"batch", LinearSolver::kBatch},
+                                          {"recursive",
+                                           LinearSolver::kRecursive}});
+const FlagChoices<Quadrature> kQuadratures(
+    "quadrature",
+    {{"trapezoid", Quadrature::kTrapezoid}, {"simpson", Quadrature::kSimpson}});
+
 GeometryKnowledge GeometryFromFlags(const Robot& robot) {
-  const auto knowledge = ParseChoice<GeometryKnowledge>(
-      "geometry", FLAGS_geometry,
-      {{"known", GeometryKnowledge::kKnown},
-       {"lengths", GeometryKnowledge::kNonzeroLengths},
-       {"all_lengths", GeometryKnowledge::kAllLengths},
-       {"offsets", GeometryKnowledge::kKnown},
-       {"refine", GeometryKnowledge::kKnown}});
+  const GeometryKnowledge knowledge = kGeometries.Parse(FLAGS_geometry);
   if (knowledge != GeometryKnowledge::kNonzeroLengths) return knowledge;
   for (const Link& link : robot.links) {
     if (!link.unknown_lengths.empty()) {
@@ -77,12 +98,7 @@ std::vector<JointTerm> JointTermsFromFlags() {
   std::vector<JointTerm> terms;
   if (FLAGS_joint_terms == "none") return terms;
   for (const std::string& name : SplitAtCommas(FLAGS_joint_terms)) {
-    const JointTerm term =
-        ParseChoice<JointTerm>("joint_terms", name,
-                               {{"viscous", JointTerm::kViscous},
-                                {"coulomb", JointTerm::kCoulomb},
-                                {"offset", JointTerm::kOffset},
-                                {"armature", JointTerm::kArmature}});
+    const JointTerm term = kJointTerms.Parse(name);
     if (std::count(terms.begin(), terms.end(), term) > 0) {
       throw UsageError("--joint_terms: found '" + FLAGS_joint_terms +
                        "', expected " + name + " only once");
@@ -116,21 +132,10 @@ LinearCalibrationOptions OptionsFromFlags(const Robot& robot) {
   options.geometry = GeometryFromFlags(robot);
   options.joint_terms = JointTermsFromFlags();
   options.transition = TransitionFromFlags();
-  options.identification = ParseChoice<Identification>(
-      "identification", FLAGS_identification,
-      {{"weak", Identification::kWeak},
-       {"differential", Identification::kDifferential},
-       {"integral", Identification::kIntegral}});
-  options.solver =
-      ParseChoice<LinearSolver>("solver", FLAGS_solver,
-                                {{"weighted", LinearSolver::kWeighted},
-                                 {"batch", LinearSolver::kBatch},
-                                 {"recursive", LinearSolver::kRecursive}});
+  options.identification = kIdentifications.Parse(FLAGS_identification);
+  options.solver = kSolvers.Parse(FLAGS_solver);
   options.loss = LossFromFlags();
-  options.quadrature =
-      ParseChoice<Quadrature>("quadrature", FLAGS_quadrature,
-                              {{"trapezoid", Quadrature::kTrapezoid},
-                               {"simpson", Quadrature::kSimpson}});
+  options.quadrature = kQuadratures.Parse(FLAGS_quadrature);
   if (!FLAGS_window.empty()) {
     options.window_s = PositiveNumber("window", FLAGS_window);
   }
@@ -224,10 +229,8 @@ int RunCalibrate() {
   if (PosesAloneFromFlags()) return CalibratePosesFromFlags(RobotFromFlags());
   Task task = TaskFromFlags();
   const Robot& robot = task.robot;
-  ProgressBar bar;
-  task.linear.progress = [&bar](const std::string& stage, double fraction) {
-    bar.Show(stage, fraction);
-  };
+  ProgressBar bar("opening the logs");
+  task.linear.progress = bar.Callback();
   if (task.refinement) task.refinement->options.progress = task.linear.progress;
   const auto gains = DriveGainsFromFlags(robot, task.linear, &task.logs);
   if (gains && !gains->solved) return ReportUnsolvedGains(robot, *gains);
@@ -256,7 +259,8 @@ int RunCalibrate() {
   OutputFolder out(OutFromFlags());
   const bool refined =
       Refine(task, result, &training, held_out, &json, &report, &out);
-  out.Add("calibration.json", json.dump(2) + "\n");
+  const std::string text = json.dump(2) + "\n";
+  out.Add("calibration.json", text);
   out.Add("covariance.csv", CovarianceCsv(result));
   out.Add("outliers.csv", OutlierCsv(robot, training));
   if (!OutFromFlags().empty()) {
@@ -264,25 +268,9 @@ int RunCalibrate() {
                                       &training, held_out));
   }
   out.Write();
-  for (const std::string& note : robot.notes) {
-    std::cout << "note       " << note << "\n";
-  }
-  std::cout << report;
-  return refined && Shortcomings(robot, result).empty() ? kExitOk
-                                                        : kExitNegative;
-}
-
-std::vector<std::string> FlagNames() {
-  std::vector<std::string> names = InputFlagNames();
-  for (const char* name :
-       {"geometry",     "identification", "solver",     "loss",
-        "joint_terms",  "coulomb_width",  "window",     "intervals",
-        "interval",     "quadrature",     "estimate",   "trust",
-        "length_trust", "angle_trust",    "trajectory", "payload_mass",
-        "payload_log",  "poses",          "select",     "segment"}) {
-    names.push_back(name);
-  }
-  return names;
+  const bool good = refined && Shortcomings(robot, result).empty();
+  Print({text, report, robot.name + ": ", good, robot.notes});
+  return good ? kExitOk : kExitNegative;
 }
 
 }  // namespace
@@ -293,7 +281,24 @@ Command CalibrateCommand() {
       "dynamics and geometry of an arm from logs of its joint positions and "
       "torques, and from measured poses, with standard deviations, ranks, "
       "a held-out check and a robot file for simulators",
-      FlagNames(), &RunCalibrate};
+      {{"robot and logs", {"robot", "log", "validate", "bandwidth"}},
+       {"what is estimated", {"geometry", "estimate", "trust", "poses"}},
+       {"more of the logs",
+        {"crop", "validate_crop", "select", "segment"},
+        false},
+       TorqueFlags(),
+       {"payload", {"payload_mass", "payload_log"}, false},
+       {"equations and solver",
+        {"identification", "solver", "loss", "trajectory", "joint_terms",
+         "coulomb_width", "window", "interval", "intervals", "quadrature"},
+        false},
+       {"trust in geometry", {"length_trust", "angle_trust"}, false},
+       ChainFlags()},
+      {"armcal calibrate --robot=arm.urdf --log=mon.csv --validate=tue.csv "
+       "--out=made",
+       "armcal calibrate --robot=arm.yaml --log=log.csv.gz --geometry=lengths",
+       "armcal calibrate --robot=arm.urdf --log=log.csv --json | jq .rank"},
+      &RunCalibrate};
 }
 
 }  // namespace armcal

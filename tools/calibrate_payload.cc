@@ -3,22 +3,22 @@
 #include <gflags/gflags.h>
 
 #include <algorithm>
-#include <iostream>
 #include <string>
 #include <vector>
 
 #include "calib/drive_gains_report.h"
 #include "tools/command.h"
+#include "tools/console.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 
 DEFINE_string(payload_mass, "",
-              "kg, of the payload in --payload_log: the torque constants are "
+              "`KG` of the payload in --payload_log: the torque constants are "
               "estimated from the currents of --log (bare arm) and "
               "--payload_log");
 DEFINE_string(payload_log, "",
-              "logs of the same arm with a payload of --payload_mass fixed to "
-              "its last link: D[,E...]");
+              "`FILES` logs of the same arm with a payload of "
+              "--payload_mass fixed to its last link");
 
 namespace armcal {
 namespace {
@@ -90,10 +90,11 @@ int ReportUnsolvedGains(const Robot& robot, const DriveGains& gains) {
                          {"robot", robot.name}};
   AddDriveGains(gains, &json);
   OutputFolder out(OutFromFlags());
-  out.Add("calibration.json", json.dump(2) + "\n");
+  const std::string text = json.dump(2) + "\n";
+  out.Add("calibration.json", text);
   out.Add("covariance.csv", "\n");  // no older matrix beside a refusal
   out.Write();
-  std::cout << DriveGainsReport(gains);
+  Print({text, DriveGainsReport(gains), robot.name + ": ", false, {}});
   return kExitNegative;
 }
 

@@ -2,8 +2,6 @@
 
 #include <gflags/gflags.h>
 
-#include <iostream>
-
 #include "calib/pose_calibration.h"
 #include "calib/pose_report.h"
 #include "calib/verdict.h"
@@ -12,35 +10,47 @@
 #include "model/urdf_writer.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command.h"
+#include "tools/console.h"
+#include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
+#include "tools/progress_bar.h"
 
 DECLARE_string(geometry);
 DECLARE_string(log);
 
-DEFINE_string(poses, "",
-              "CSV of measured poses: q1.. with x1 y1 z1 [x2 ..] (targets), "
-              "x y z qw qx qy qz (tool poses) or length1 (draw wire)");
+DEFINE_string(
+    poses, "",
+    "`FILE` CSV of measured poses: q1.. with x1 y1 z1 [x2 ..] (targets), "
+    "x y z qw qx qy qz (tool poses) or length1 (draw wire)");
 
 namespace armcal {
+namespace {
+
+using Refine = RefineGeometry;
+// Those of --geometry that need no log.
+const FlagChoices<Refine> kGeometries("geometry",
+                                      {{"known", Refine::kNothing},
+                                       {"offsets", Refine::kOffsets},
+                                       {"refine", Refine::kAll}});
+
+}  // namespace
 
 bool PosesAloneFromFlags() { return !FLAGS_poses.empty() && FLAGS_log.empty(); }
 
 int CalibratePosesFromFlags(const Robot& robot) {
-  using Refine = RefineGeometry;
   PoseCalibrationOptions options;
-  options.refine = ParseChoice<Refine>("geometry", FLAGS_geometry,
-                                       {{"known", Refine::kNothing},
-                                        {"offsets", Refine::kOffsets},
-                                        {"refine", Refine::kAll}});
+  options.refine = kGeometries.Parse(FLAGS_geometry);
   options.loss = LossFromFlags().value_or(options.loss);
   const ArmTrust trust = TrustFromFlags();
   options.prior_length = trust.length;
   options.prior_angle = trust.angle;
   const PoseMeasurements measured = ReadPoses(FLAGS_poses, robot.JointNames());
+  const ProgressBar bar("fitting the poses");
   const PoseCalibration result = CalibratePoses(robot, measured, options);
   OutputFolder out(OutFromFlags());
-  out.Add("calibration.json", PoseJson(robot, measured, result).dump(2) + "\n");
+  const std::string json = PoseJson(robot, measured, result).dump(2) + "\n";
+  out.Add("calibration.json", json);
   if (result.solved) {
     out.Add("robot.urdf", robot.dh_convention
                               ? MakeUrdf(result.robot)
@@ -48,8 +58,10 @@ int CalibratePosesFromFlags(const Robot& robot) {
                                            true, BaseFromFlags()));
   }
   out.Write();
-  std::cout << PoseReport(robot, measured, result);
-  return Shortcomings(robot, result).empty() ? kExitOk : kExitNegative;
+  const bool good = Shortcomings(robot, result).empty();
+  Print(
+      {json, PoseReport(robot, measured, result), robot.name + ": ", good, {}});
+  return good ? kExitOk : kExitNegative;
 }
 
 }  // namespace armcal

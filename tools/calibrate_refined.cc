@@ -9,6 +9,7 @@
 #include "model/urdf_update.h"
 #include "model/urdf_writer.h"
 #include "tools/command.h"
+#include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 
 DECLARE_string(geometry);
@@ -21,17 +22,23 @@ DEFINE_string(estimate, "auto",
 DEFINE_double(trust, 0.5,
               "relative standard deviation of the robot file's inertial "
               "parameters, which tie what the logs do not show");
-DEFINE_double(length_trust, 0.01,
-              "standard deviation of the robot file's lengths where they are "
-              "refined, m");
-DEFINE_double(angle_trust, 0.02,
-              "standard deviation of the robot file's angles where they are "
-              "refined, and of the base's tilt, rad");
+DEFINE_double(
+    length_trust, 0.01,
+    "`M` standard deviation of the robot file's lengths where they are "
+    "refined, m");
+DEFINE_double(
+    angle_trust, 0.02,
+    "`RAD` standard deviation of the robot file's angles where they are "
+    "refined, and of the base's tilt, rad");
 
 namespace armcal {
 namespace {
 
 enum class Estimate { kAuto, kRefined, kLinear };
+const FlagChoices<Estimate> kEstimates("estimate",
+                                       {{"auto", Estimate::kAuto},
+                                        {"refined", Estimate::kRefined},
+                                        {"linear", Estimate::kLinear}});
 
 double PositiveFlag(const std::string& name, double value,
                     const std::string& expected) {
@@ -81,10 +88,7 @@ std::optional<RefineGeometry> RefineGeometryFromFlags() {
 
 std::optional<Refinement> RefinementFromFlags(
     const Robot& robot, const LinearCalibrationOptions& options) {
-  const auto estimate = ParseChoice<Estimate>("estimate", FLAGS_estimate,
-                                              {{"auto", Estimate::kAuto},
-                                               {"refined", Estimate::kRefined},
-                                               {"linear", Estimate::kLinear}});
+  const Estimate estimate = kEstimates.Parse(FLAGS_estimate);
   const auto geometry = RefineGeometryFromFlags();
   const bool poses = !FLAGS_poses.empty();
   Refinement refinement;

@@ -9,11 +9,33 @@
 
 namespace armcal {
 
+std::vector<std::string> Command::FlagNames() const {
+  std::vector<std::string> names;
+  for (const FlagGroup& group : groups) {
+    names.insert(names.end(), group.flags.begin(), group.flags.end());
+  }
+  return names;
+}
+
 const std::vector<Command>& Commands() {
-  static const std::vector<Command> kCommands = {
-      CalibrateCommand(), VerifyCommand(), DiagnoseCommand(),
-      SimulateCommand(),  ExciteCommand(), InspectCommand()};
+  static const std::vector<Command> kCommands = [] {
+    std::vector<Command> commands = {CalibrateCommand(), VerifyCommand(),
+                                     DiagnoseCommand(),  SimulateCommand(),
+                                     ExciteCommand(),    InspectCommand()};
+    for (Command& command : commands) {
+      command.groups.push_back(
+          {"output", {"out", "json", "quiet", "flagfile"}});
+    }
+    return commands;
+  }();
   return kCommands;
+}
+
+const Command* FindCommand(const std::string& name) {
+  for (const Command& command : Commands()) {
+    if (name == command.name) return &command;
+  }
+  return nullptr;
 }
 
 }  // namespace armcal

@@ -12,13 +12,10 @@ namespace {
 // As they would be typed, in the order of --help.
 std::vector<std::string> GivenFlags(const std::string& command) {
   std::vector<std::string> given;
-  for (const Command& known : Commands()) {
-    if (known.name != command) continue;
-    for (const std::string& flag : known.flags) {
-      const auto info = gflags::GetCommandLineFlagInfoOrDie(flag.c_str());
-      if (info.is_default) continue;
-      given.push_back("--" + flag + "=" + info.current_value);
-    }
+  for (const std::string& flag : FindCommand(command)->FlagNames()) {
+    const auto info = gflags::GetCommandLineFlagInfoOrDie(flag.c_str());
+    if (info.is_default) continue;
+    given.push_back("--" + flag + "=" + info.current_value);
   }
   return given;
 }

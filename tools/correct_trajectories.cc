@@ -6,6 +6,7 @@
 
 #include "calib/trajectory_refinement.h"
 #include "tools/command.h"
+#include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 
 DECLARE_string(estimate);
@@ -19,10 +20,10 @@ namespace armcal {
 
 namespace {
 
-bool IsAskedFor() {
-  return ParseChoice<bool>("trajectory", FLAGS_trajectory,
-                           {{"measured", false}, {"corrected", true}});
-}
+const FlagChoices<bool> kTrajectories("trajectory", {{"measured", false},
+                                                     {"corrected", true}});
+
+bool IsAskedFor() { return kTrajectories.Parse(FLAGS_trajectory); }
 
 }  // namespace
 

@@ -3,7 +3,6 @@
 #include <gflags/gflags.h>
 
 #include <cmath>
-#include <iostream>
 #include <memory>
 
 #include "calib/corrected_robot_export.h"
@@ -11,6 +10,7 @@
 #include "model/effects/effects.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
+#include "tools/console.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
@@ -23,9 +23,10 @@ DEFINE_bool(forward, true,
             "simulate the held-out logs as well: along their commands with "
             "--controller, else over windows of 0.5 s");
 DEFINE_string(reference, "",
-              "log of the same robot from before: the model is fitted to it "
+              "`FILES` logs of the same robot from before: the model is "
+              "fitted to it "
               "first, and the diagnosis says what has changed since");
-DEFINE_string(without, "", "effects that are not considered, comma separated");
+DEFINE_string(without, "", "`A[,B..]` effects that are not considered");
 
 namespace armcal {
 namespace {
@@ -82,16 +83,18 @@ int Finish(const Robot& robot, const GapDiagnosis& diagnosis,
       robot.dh_convention ? "" : RobotPathFromFlags(), BaseFromFlags());
   nlohmann::json json = ToJson(diagnosis);
   json["not_in_urdf"] = corrected.losses;
-  out.Add("diagnosis.json", json.dump(2) + "\n");
+  const std::string text = json.dump(2) + "\n";
+  out.Add("diagnosis.json", text);
   out.Add("robot.urdf", corrected.urdf);
   out.Add("effects.json", corrected.effects.dump(2) + "\n");
   if (!OutFromFlags().empty()) {
     out.Add("report.html", ReportHtml(robot, json, progress, logs));
   }
   out.Write();
-  std::cout << FullReport(diagnosis);
-  return diagnosis.verdict == GapVerdict::kNotTestable ? kExitNegative
-                                                       : kExitOk;
+  const bool tested = diagnosis.verdict != GapVerdict::kNotTestable;
+  const std::string report = FullReport(diagnosis);
+  Print({text, report, report.substr(0, report.find('\n')), tested, {}});
+  return tested ? kExitOk : kExitNegative;
 }
 
 int RunDiagnose() {
@@ -101,11 +104,9 @@ int RunDiagnose() {
   const Robot robot = RobotFromFlags();
   LogReaderOptions log_options = LogOptionsFromFlags(robot);
   log_options.want_temperature = true;
+  ProgressBar bar("opening the logs");
   LogSet training(LogsFromFlags(), log_options, CropFromFlags());
-  ProgressBar bar;
-  options.progress = [&bar](const std::string& stage, double fraction) {
-    bar.Show(stage, fraction);
-  };
+  options.progress = bar.Callback();
   options.baseline.trust = TrustInFile();
   options.bandwidth_hz =
       BandwidthFromFlags().value_or(DiagnosisBandwidth(training.time_bases()));
@@ -134,10 +135,16 @@ Command DiagnoseCommand() {
   return {"diagnose",
           "where the sim-to-real gap lies, which effect causes it, and how far "
           "it shrinks once that effect is in the model",
-          {"robot", "log", "validate", "reference", "trust", "bandwidth",
-           "crop", "validate_crop", "out", "base", "tip", "gravity",
-           "torque_kind", "torque_constants", "gear_ratios", "seed",
-           "controller", "forward", "without"},
+          {{"robot and logs",
+            {"robot", "log", "reference", "validate", "bandwidth", "crop"}},
+           {"diagnosis", {"trust", "without", "forward", "controller", "seed"}},
+           {"more of the logs", {"validate_crop"}, false},
+           TorqueFlags(),
+           ChainFlags()},
+          {"armcal diagnose --robot=arm.urdf --log=today.csv "
+           "--reference=january.csv",
+           "armcal diagnose --robot=arm.urdf --log=today.csv --json | "
+           "jq .verdict"},
           &RunDiagnose};
 }
 

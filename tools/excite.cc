@@ -2,9 +2,6 @@
 
 #include <gflags/gflags.h>
 
-#include <iostream>
-#include <stdexcept>
-
 #include "calib/effect_separation.h"
 #include "calib/excitation_report.h"
 #include "calib/given_calibration.h"
@@ -15,6 +12,7 @@
 #include "model/log_writer.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
+#include "tools/console.h"
 #include "tools/excite_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
@@ -124,23 +122,20 @@ std::string ReportHtml(const Robot& robot, const nlohmann::json& json,
 
 int RunPostures(const Robot& robot, const PostureOptions& options,
                 const std::vector<std::string>& assumed) {
-  const PostureDesign design = [&] {
-    try {
-      return DesignPostures(robot, options);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(RobotPathFromFlags(), "", "", error.what());
-    }
-  }();
+  const ProgressBar bar("designing postures");
+  const PostureDesign design =
+      MakeForRobot("", [&] { return DesignPostures(robot, options); });
   const PostureSummary summary{robot, options, design, assumed};
   OutputFolder out(OutFromFlags());
   out.Add("postures.csv", PostureText(design));
   const nlohmann::json json = ToJson(summary);
-  out.Add("excite.json", json.dump(2) + "\n");
+  const std::string text = json.dump(2) + "\n";
+  out.Add("excite.json", text);
   if (!OutFromFlags().empty()) {
     out.Add("report.html", ReportHtml(robot, json, Log()));
   }
   out.Write();
-  std::cout << FullReport(summary);
+  Print({text, FullReport(summary), "", true, {}});
   return kExitOk;
 }
 
@@ -153,12 +148,13 @@ void WriteMotion(const ExcitationSummary& summary) {
                        summary.options.rate_hz);
     out.Add("trajectory.csv", LogText(motion));
   }
-  out.Add("excite.json", json.dump(2) + "\n");
+  const std::string text = json.dump(2) + "\n";
+  out.Add("excite.json", text);
   if (!OutFromFlags().empty()) {
     out.Add("report.html", ReportHtml(summary.robot, json, motion));
   }
   out.Write();
-  std::cout << FullReport(summary);
+  Print({text, FullReport(summary), "", true, {}});
 }
 
 Excitation RunParameters(const Robot& robot, const Design& design,
@@ -184,14 +180,9 @@ Excitation RunSeparation(const Robot& robot, const Design& design,
                          const std::vector<const Effect*>& effects,
                          const ExcitationOptions& options,
                          const std::vector<std::string>& assumed) {
-  const SeparationQuestion question = [&]() -> SeparationQuestion {
-    try {
-      return {robot, effects, design.model, options.limits};
-    } catch (const std::invalid_argument& error) {
-      throw InputError(RobotPathFromFlags(), "", "",
-                       std::string("--separate: ") + error.what());
-    }
-  }();
+  const auto question = MakeForRobot("--separate: ", [&] {
+    return SeparationQuestion(robot, effects, design.model, options.limits);
+  });
   const EffectSeparation separation =
       SeparateEffects(robot, design.model, question, design.known, options);
   const NamedQuantities quantities = Quantities(robot, separation);
@@ -209,10 +200,8 @@ int RunMotion(const Robot& robot) {
   std::vector<std::string> assumed;
   ExcitationOptions options = ExcitationOptionsFromFlags(robot, &assumed);
   const std::vector<const Effect*> effects = SeparatedEffectsFromFlags();
-  ProgressBar bar;
-  options.progress = [&bar](const std::string& stage, double fraction) {
-    bar.Show(stage, fraction);
-  };
+  ProgressBar bar("preparing the design");
+  options.progress = bar.Callback();
   const Design design = MakeDesign(robot, options, &assumed);
   options.torque_noise = design.noise;
   const Excitation excitation =
@@ -232,17 +221,19 @@ int RunExcite() {
 }  // namespace
 
 Command ExciteCommand() {
-  std::vector<std::string> flags = {"robot", "out", "base", "tip", "gravity"};
-  const auto& own = ExcitationFlagNames();
-  flags.insert(flags.end(), own.begin(), own.end());
-  for (const char* name : {"trust", "length_trust", "bandwidth", "crop",
-                           "torque_kind", "torque_constants", "gear_ratios"}) {
-    flags.push_back(name);
-  }
-  return {"excite",
-          "the motion that tells most about a robot within its limits, and how "
-          "well it will tell",
-          flags, &RunExcite};
+  std::vector<FlagGroup> groups = ExcitationFlagGroups();
+  groups.push_back({"logs that exist", {"bandwidth", "crop"}, false});
+  groups.push_back(TorqueFlags());
+  groups.push_back(ChainFlags());
+  return {
+      "excite",
+      "the motion that tells most about a robot within its limits, and how "
+      "well it will tell",
+      groups,
+      {"armcal excite --robot=arm.urdf --duration=20 --floor=0 --out=motion",
+       "armcal excite --robot=arm.urdf --separate=elasticity,delay "
+       "--given=log.csv"},
+      &RunExcite};
 }
 
 }  // namespace armcal

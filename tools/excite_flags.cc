@@ -6,11 +6,10 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
-#include <stdexcept>
 
-#include "model/input_error.h"
 #include "model/input_text.h"
 #include "tools/command.h"
+#include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 #include "tools/simulation_flags.h"
 
@@ -26,28 +25,31 @@ DEFINE_string(criterion, "D",
               "(sum of variances), worst (largest standard deviation)");
 DEFINE_string(
     separate, "",
-    "effects that the motion is to tell apart on every joint, such as "
-    "elasticity,delay, instead of a --target");
+    "`A,B[,..]` effects that the motion is to tell apart on every joint, "
+    "instead of a --target");
 DEFINE_int32(harmonics, 0,
              "of the base frequency, per joint; default: up to 0.5 Hz");
 DEFINE_int32(periods, 1, "equal periods that the motion consists of");
-DEFINE_string(position_limits, "",
-              "lower:upper[,lower:upper..], rad or m; default: the file's");
-DEFINE_string(velocity_limits, "",
-              "rad/s or m/s, one number or one per joint; default: the file's");
+DEFINE_string(
+    position_limits, "",
+    "`LOW:HIGH[,..]`, one or one per joint, rad or m; default: the file's");
+DEFINE_string(
+    velocity_limits, "",
+    "`V[,..]` rad/s or m/s, one number or one per joint; default: the file's");
 DEFINE_string(
     acceleration_limits, "",
-    "rad/s^2 or m/s^2; default: three times the velocity in a second");
-DEFINE_string(effort_limits, "", "N m or N; default: the file's");
-DEFINE_string(tool_box, "",
-              "x:x,y:y,z:z in the base's frame, m, that the tool's point stays "
-              "in; default: anywhere");
+    "`A[,..]` rad/s^2 or m/s^2; default: three times the velocity in a second");
+DEFINE_string(effort_limits, "", "`T[,..]` N m or N; default: the file's");
+DEFINE_string(
+    tool_box, "",
+    "`BOX` x:x,y:y,z:z in the base's frame, m, that the tool's point stays "
+    "in; default: anywhere");
 DEFINE_string(
     floor, "",
-    "height that links stay above, m, against gravity from the base's "
+    "`M` height that links stay above, against gravity from the base's "
     "origin; default: none");
 DEFINE_string(obstacles, "",
-              "boxes that links stay out of: x:x,y:y,z:z[;x:x,y:y,z:z..], m");
+              "`BOXES` that links stay out of: x:x,y:y,z:z[;x:x,y:y,z:z..], m");
 DEFINE_double(link_radius, .06, "of the links, for --floor and --obstacles, m");
 DEFINE_double(use, .95, "share of the limits that the motion may use");
 DEFINE_int32(static_poses, 0,
@@ -58,13 +60,26 @@ DEFINE_string(instrument, "target",
               "the tool), pose (of the tool)");
 DEFINE_string(pose_noise, "0.0001,0.0001",
               "of what is measured at postures, m and rad");
-DEFINE_string(
-    given, "",
-    "logs or a calibration.json that exist: the motion adds what they "
-    "do not tell");
+DEFINE_string(given, "",
+              "`FILES` logs or a calibration.json that exist: the "
+              "motion adds what they "
+              "do not tell");
 
 namespace armcal {
 namespace {
+
+const FlagChoices<ExcitationCriterion> kCriteria(
+    "criterion", {{"D", ExcitationCriterion::kD},
+                  {"A", ExcitationCriterion::kA},
+                  {"worst", ExcitationCriterion::kWorst}});
+const FlagChoices<PoseInstrument> kInstruments(
+    "instrument",
+    {{"target", PoseInstrument::kTarget}, {"pose", PoseInstrument::kPose}});
+const FlagChoices<DesignTarget> kTargets("target",
+                                         {{"model", DesignTarget::kModel},
+                                          {"physical", DesignTarget::kPhysical},
+                                          {"geometry",
+                                           DesignTarget::kGeometry}});
 
 void CheckWithin(const char* flag, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -162,34 +177,29 @@ Workspace WorkspaceFromFlags(const Robot& robot, const MotionLimits& limits) {
   for (std::string box; std::getline(boxes, box, ';');) {
     options.obstacles.push_back(ParseBox("obstacles", box));
   }
-  try {
-    return {robot, options, limits.lower, limits.upper};
-  } catch (const std::invalid_argument& error) {
-    throw InputError(RobotPathFromFlags(), "", "",
-                     std::string("within the limits ") + error.what());
-  }
+  return MakeForRobot("within the limits ", [&] {
+    return Workspace(robot, options, limits.lower, limits.upper);
+  });
 }
 
 ExcitationCriterion CriterionFromFlags() {
-  return ParseChoice<ExcitationCriterion>(
-      "criterion", FLAGS_criterion,
-      {{"D", ExcitationCriterion::kD},
-       {"A", ExcitationCriterion::kA},
-       {"worst", ExcitationCriterion::kWorst}});
+  return kCriteria.Parse(FLAGS_criterion);
 }
 
 }  // namespace
 
-const std::vector<std::string>& ExcitationFlagNames() {
-  static const std::vector<std::string> kNames = {
-      "target",          "criterion",       "given",
-      "duration",        "periods",         "harmonics",
-      "position_limits", "velocity_limits", "acceleration_limits",
-      "effort_limits",   "tool_box",        "floor",
-      "obstacles",       "link_radius",     "use",
-      "log_rate",        "torque_noise",    "static_poses",
-      "instrument",      "pose_noise",      "seed"};
-  return kNames;
+std::vector<FlagGroup> ExcitationFlagGroups() {
+  return {{"what is to be learnt",
+           {"robot", "target", "separate", "given", "static_poses"}},
+          {"motion", {"duration", "floor", "obstacles", "tool_box"}},
+          {"limits",
+           {"position_limits", "velocity_limits", "acceleration_limits",
+            "effort_limits"}},
+          {"more of the motion",
+           {"use", "criterion", "periods", "harmonics", "link_radius",
+            "log_rate", "torque_noise", "trust", "length_trust", "seed"},
+           false},
+          {"postures", {"instrument", "pose_noise"}, false}};
 }
 
 ExcitationOptions ExcitationOptionsFromFlags(
@@ -226,9 +236,7 @@ std::optional<PostureOptions> PostureOptionsFromFlags(
   CheckWithin("static_poses", FLAGS_static_poses, 1, 1000);
   PostureOptions options;
   options.count = FLAGS_static_poses;
-  options.instrument = ParseChoice<PoseInstrument>(
-      "instrument", FLAGS_instrument,
-      {{"target", PoseInstrument::kTarget}, {"pose", PoseInstrument::kPose}});
+  options.instrument = kInstruments.Parse(FLAGS_instrument);
   options.criterion = CriterionFromFlags();
   const std::vector<double> noise =
       ParseNumbers("pose_noise", FLAGS_pose_noise);
@@ -253,12 +261,7 @@ std::vector<const Effect*> SeparatedEffectsFromFlags() {
   return ParseEffects("separate", FLAGS_separate);
 }
 
-DesignTarget TargetFromFlags() {
-  return ParseChoice<DesignTarget>("target", FLAGS_target,
-                                   {{"model", DesignTarget::kModel},
-                                    {"physical", DesignTarget::kPhysical},
-                                    {"geometry", DesignTarget::kGeometry}});
-}
+DesignTarget TargetFromFlags() { return kTargets.Parse(FLAGS_target); }
 
 Eigen::VectorXd NoiseSharesFromFlags(int num_joints) {
   const Eigen::VectorXd shares =

@@ -9,10 +9,11 @@
 #include "calib/posture_design.h"
 #include "model/effects/effects.h"
 #include "model/robot.h"
+#include "tools/command.h"
 
 namespace armcal {
 
-const std::vector<std::string>& ExcitationFlagNames();
+std::vector<FlagGroup> ExcitationFlagGroups();
 
 // What the flags of armcal excite ask of a motion, but for the noise; where
 // neither they nor the robot file say, `assumed` gets a sentence. Throws

@@ -8,38 +8,63 @@
 #include "model/input_text.h"
 #include "model/robot_reader.h"
 #include "tools/command.h"
+#include "tools/flag_choices.h"
 
-DEFINE_string(robot, "", "robot file: .urdf, or .yaml with a DH table");
-DEFINE_string(base, "", "URDF link the arm starts at; default: the root");
-DEFINE_string(tip, "", "URDF link the arm ends at; default: the only one");
+DEFINE_string(robot, "", "`FILE` robot: .urdf, or .yaml with a DH table");
+DEFINE_string(base, "", "`LINK` that the arm starts at; default: the root");
+DEFINE_string(tip, "", "`LINK` that the arm ends at; default: the only one");
 DEFINE_string(gravity, "",
-              "gravity vector in the base frame, m/s^2, such as 0,0,-9.81; "
+              "`X,Y,Z` gravity in the base frame, m/s^2; "
               "default: the robot file's, for URDF 0,0,-9.81");
-DEFINE_string(
-    log, "", "logs to calibrate on or to verify with, CSV or CSV.gz: A[,B...]");
-DEFINE_string(validate, "", "logs held out to check the result: C[,D...]");
+DEFINE_string(log, "",
+              "`FILES` logs A[,B..] to calibrate on or to verify with");
+DEFINE_string(validate, "", "`FILES` logs held out to check the result");
 DEFINE_string(torque_constants, "",
-              "per joint, N m/A: torque = constant x gear ratio x current");
-DEFINE_string(gear_ratios, "", "per joint; default: 1");
+              "`K1,K2..` per joint, N m/A: torque = constant x gear ratio x "
+              "current");
+DEFINE_string(gear_ratios, "", "`N1,N2..` per joint; default: 1");
 DEFINE_string(torque_kind, "auto",
               "what the log's torque is: auto, link, motor (motor side, times "
               "gear ratio), current, command");
 DEFINE_string(bandwidth, "",
-              "cutoff of the zero-phase low pass, Hz; 0: data as they are; "
+              "`HZ` cutoff of the zero-phase low pass; 0: data as they are; "
               "default: 10 times the motion's frequency, 8 to 20 Hz");
 DEFINE_string(crop, "",
-              "use only t0:t1 of --log, s since its first row; default: all "
+              "`T0:T1` of --log to use, s since its first row; default: all "
               "(standstill is left out by itself)");
 DEFINE_string(validate_crop, "",
-              "use only t0:t1 of the logs held out; default: all");
+              "`T0:T1` of the logs held out to use; default: all");
 DEFINE_string(loss, "auto",
               "what large residuals count: auto (huber for torques, tukey for "
               "poses), huber, cauchy, tukey, squared (all alike, and no gross "
               "error is taken out of the torque)");
-DEFINE_string(out, "", "folder for the result files; default: write none");
+DEFINE_string(out, "", "`DIR` for the result files; default: write none");
 
 namespace armcal {
 namespace {
+
+const FlagChoices<TorqueKind> kTorqueKinds("torque_kind",
+                                           {{"auto", TorqueKind::kAuto},
+                                            {"link", TorqueKind::kLink},
+                                            {"motor", TorqueKind::kMotor},
+                                            {"current", TorqueKind::kCurrent},
+                                            {"command", TorqueKind::kCommand}});
+const FlagChoices<std::optional<RobustLoss>> kLosses(
+    "loss", {{"auto", std::nullopt},
+             {"huber", RobustLoss::kHuber},
+             {"cauchy", RobustLoss::kCauchy},
+             {"tukey", RobustLoss::kTukey},
+             {"squared", RobustLoss::kSquared}});
+
+std::vector<std::string> EffectNames() {
+  std::vector<std::string> names;
+  for (const Effect& effect : Effects()) names.push_back(effect.name);
+  return names;
+}
+
+FlagWords EffectWords() { return {EffectNames(), true}; }
+const FlagWordsAdded kSeparated("separate", &EffectWords);
+const FlagWordsAdded kLeftOut("without", &EffectWords);
 
 std::vector<std::string> FileNames(const std::string& flag,
                                    const std::string& value) {
@@ -62,13 +87,14 @@ double ParseOne(const std::string& flag, const std::string& text) {
 
 }  // namespace
 
-const std::vector<std::string>& InputFlagNames() {
-  static const std::vector<std::string> kNames = {
-      "robot",      "log",     "validate",      "out",
-      "bandwidth",  "crop",    "validate_crop", "base",
-      "tip",        "gravity", "torque_kind",   "torque_constants",
-      "gear_ratios"};
-  return kNames;
+FlagGroup TorqueFlags() {
+  return {"torques of logs",
+          {"torque_kind", "torque_constants", "gear_ratios"},
+          false};
+}
+
+FlagGroup ChainFlags() {
+  return {"chain of the robot", {"base", "tip", "gravity"}, false};
 }
 
 std::vector<std::string> SplitAtCommas(const std::string& text) {
@@ -129,18 +155,9 @@ std::vector<const Effect*> ParseEffects(const std::string& flag,
   for (const std::string& name : SplitAtCommas(text)) {
     effects.push_back(FindEffect(name));
     if (effects.back() != nullptr) continue;
-    std::string all;
-    for (const Effect& effect : Effects()) all += " " + effect.name;
-    throw UsageError("--" + flag + ": found '" + name + "', expected some of" +
-                     all);
+    RefuseChoice(flag, name, EffectNames());
   }
   return effects;
-}
-
-void RefuseChoice(const std::string& flag, const std::string& value,
-                  const std::vector<std::string>& choices) {
-  throw UsageError("--" + flag + ": found '" + value + "', expected one of " +
-                   JoinNames(choices));
 }
 
 Robot RobotFromFlags() {
@@ -162,13 +179,7 @@ Robot RobotFromFlags() {
 LogReaderOptions LogOptionsFromFlags(const Robot& robot) {
   LogReaderOptions options;
   options.joint_names = robot.JointNames();
-  options.torque_kind =
-      ParseChoice<TorqueKind>("torque_kind", FLAGS_torque_kind,
-                              {{"auto", TorqueKind::kAuto},
-                               {"link", TorqueKind::kLink},
-                               {"motor", TorqueKind::kMotor},
-                               {"current", TorqueKind::kCurrent},
-                               {"command", TorqueKind::kCommand}});
+  options.torque_kind = kTorqueKinds.Parse(FLAGS_torque_kind);
   options.torque_constants =
       ParseNumbers("torque_constants", FLAGS_torque_constants);
   options.gear_ratios = ParseNumbers("gear_ratios", FLAGS_gear_ratios);
@@ -234,15 +245,7 @@ std::optional<double> BandwidthFromFlags() {
   return hz;
 }
 
-std::optional<RobustLoss> LossFromFlags() {
-  return ParseChoice<std::optional<RobustLoss>>(
-      "loss", FLAGS_loss,
-      {{"auto", std::nullopt},
-       {"huber", RobustLoss::kHuber},
-       {"cauchy", RobustLoss::kCauchy},
-       {"tukey", RobustLoss::kTukey},
-       {"squared", RobustLoss::kSquared}});
-}
+std::optional<RobustLoss> LossFromFlags() { return kLosses.Parse(FLAGS_loss); }
 
 std::string OutFromFlags() { return FLAGS_out; }
 std::string BaseFromFlags() { return FLAGS_base; }

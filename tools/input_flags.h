@@ -5,16 +5,19 @@
 #include <vector>
 
 #include "model/effects/effects.h"
+#include "model/input_error.h"
 #include "model/log_reader.h"
 #include "model/robot.h"
 #include "model/time_base.h"
 #include "problems/robust_loss.h"
+#include "tools/command.h"
 
 namespace armcal {
 
 // The flags that commands share, parsed in one place. All throw UsageError for
 // a value that is not what the flag takes, InputError for what files hold.
-const std::vector<std::string>& InputFlagNames();
+FlagGroup TorqueFlags();  // how a log's torques are to be read
+FlagGroup ChainFlags();   // which chain of the robot file, and how it hangs
 
 Robot RobotFromFlags();  // --robot --base --tip --gravity
 LogReaderOptions LogOptionsFromFlags(const Robot& robot);
@@ -44,23 +47,16 @@ std::vector<std::string> SplitAtCommas(const std::string& text);
 std::vector<const Effect*> ParseEffects(const std::string& flag,
                                         const std::string& text);
 
-// The entry of `choices` called `value`; UsageError lists them.
-template <class T>
-T ParseChoice(const std::string& flag, const std::string& value,
-              const std::vector<std::pair<std::string, T>>& choices);
-[[noreturn]] void RefuseChoice(const std::string& flag,
-                               const std::string& value,
-                               const std::vector<std::string>& choices);
-
-template <class T>
-T ParseChoice(const std::string& flag, const std::string& value,
-              const std::vector<std::pair<std::string, T>>& choices) {
-  std::vector<std::string> names;
-  for (const auto& [name, choice] : choices) {
-    if (name == value) return choice;
-    names.push_back(name);
+// What `make` returns for the robot; where it cannot be (invalid_argument, as
+// calib/ throws it), InputError that names the robot file. `where` precedes the
+// reason.
+template <class Make>
+auto MakeForRobot(const std::string& where, Make make) {
+  try {
+    return make();
+  } catch (const std::invalid_argument& error) {
+    throw InputError(RobotPathFromFlags(), "", "", where + error.what());
   }
-  RefuseChoice(flag, value, names);
 }
 
 }  // namespace armcal

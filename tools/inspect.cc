@@ -2,13 +2,13 @@
 
 #include <gflags/gflags.h>
 
-#include <iostream>
-
 #include "calib/inspection_report.h"
 #include "calib/robot_audit.h"
 #include "model/log_writer.h"
+#include "tools/console.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
+#include "tools/progress_bar.h"
 
 DECLARE_string(log);
 
@@ -35,11 +35,13 @@ int RunInspect() {
     throw UsageError("--fix needs --out=FOLDER to write to");
   }
   const Robot robot = RobotFromFlags();
+  ProgressBar bar("inspecting");
   const std::vector<InspectionFinding> of_robot = AuditRobot(robot);
   std::vector<LogInspection> logs;
   const LogReaderOptions options = LogOptionsFromFlags(robot);
   if (!FLAGS_log.empty()) {
     for (const std::string& path : LogsFromFlags()) {
+      bar.Show("inspecting " + path, -1);
       LogInspection log = InspectLog(robot, path, options);
       if (log.as_it_is) {
         log.coverage = CoverageOf(robot, path, options);
@@ -50,12 +52,13 @@ int RunInspect() {
     }
   }
   OutputFolder out(OutFromFlags());
-  out.Add("inspect.json", ToJson(robot, of_robot, logs).dump(2) + "\n");
+  const std::string json = ToJson(robot, of_robot, logs).dump(2) + "\n";
+  out.Add("inspect.json", json);
   if (FLAGS_fix) AddMended(robot, options, logs, &out);
   out.Write();
-  std::cout << FullReport(robot, of_robot, logs);
   bool clean = of_robot.empty();
   for (const LogInspection& log : logs) clean = clean && log.findings.empty();
+  Print({json, FullReport(robot, of_robot, logs), "", clean, {}});
   return clean ? kExitOk : kExitNegative;
 }
 
@@ -64,8 +67,11 @@ int RunInspect() {
 Command InspectCommand() {
   return {"inspect",
           "what a robot file or a log holds, and what is wrong with it",
-          {"robot", "log", "out", "fix", "base", "tip", "gravity",
-           "torque_kind", "torque_constants", "gear_ratios"},
+          {{"robot and logs", {"robot", "log", "fix"}},
+           TorqueFlags(),
+           ChainFlags()},
+          {"armcal inspect --robot=arm.urdf --log=log.csv",
+           "armcal inspect --robot=arm.urdf --log=log.csv --fix --out=mended"},
           &RunInspect};
 }
 

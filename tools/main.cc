@@ -4,7 +4,6 @@
 #include <glog/logging.h>
 
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -12,52 +11,89 @@
 
 #include "model/input_error.h"
 #include "tools/command.h"
+#include "tools/completion.h"
+#include "tools/console.h"
+#include "tools/flag_parser.h"
+#include "tools/interruption.h"
+#include "tools/manual.h"
+#include "tools/nearest_name.h"
 #include "tools/usage.h"
+#include "tools/version.h"
 
 namespace armcal {
 namespace {
 
-bool IsHelp(const char* argument) {
-  for (const char* help : {"-h", "-help", "--help", "help"}) {
-    if (std::strcmp(argument, help) == 0) return true;
+using Words = std::vector<std::string>;
+
+bool IsOneOf(const std::string& word, const Words& words) {
+  for (const std::string& one : words) {
+    if (one == word) return true;
   }
   return false;
 }
 
-int Run(const Command& command, int argc, char** argv) {
-  for (int k = 1; k < argc; ++k) {
-    if (IsHelp(argv[k])) {
-      std::cout << CommandHelp(command);
-      return kExitOk;
-    }
-  }
-  ParseFlags(command, argc, argv);
-  return command.run();
-}
+const Words kHelp = {"-h", "-help", "--help", "help"};
+const Words kFullHelp = {"--helpfull", "-helpfull", "--all"};
 
-[[noreturn]] void RefuseCommand(const std::string& name) {
-  std::vector<std::string> names;
+const Command& CommandNamed(const std::string& name) {
+  if (const Command* command = FindCommand(name)) return *command;
+  Words names = {"completion", "help"};
   for (const Command& command : Commands()) names.push_back(command.name);
-  const std::string nearest = NearestName(name, names);
-  throw UsageError("unknown command '" + name + "'" +
-                   (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
+  throw UsageError("unknown command '" + name + "'" + DidYouMean(name, names) +
                    "; see armcal --help");
 }
 
-int Main(int argc, char** argv) {
-  if (argc < 2 || IsHelp(argv[1])) {
-    (argc < 2 ? std::cerr : std::cout) << GeneralHelp();
-    return argc < 2 ? kExitUsage : kExitOk;
+// "help", "help COMMAND", "help COMMAND --all"; "help --man" is for packages.
+int Help(const Words& words) {
+  if (words.empty()) {
+    PrintText(GeneralHelp());
+  } else if (words[0] == "--man") {
+    PrintText(ManualPage());
+  } else {
+    const bool all = words.size() > 1 && IsOneOf(words[1], kFullHelp);
+    PrintText(CommandHelp(CommandNamed(words[0]), all));
   }
-  if (std::strcmp(argv[1], "--version") == 0) {
-    std::cout << "armcal " ARMCAL_VERSION "\n";
+  return kExitOk;
+}
+
+int Run(const Command& command, int argc, char** argv) {
+  for (int k = 1; k < argc; ++k) {
+    const bool all = IsOneOf(argv[k], kFullHelp);
+    if (!all && !IsOneOf(argv[k], kHelp)) continue;
+    PrintText(CommandHelp(command, all));
     return kExitOk;
   }
-  for (const Command& command : Commands()) {
-    if (std::strcmp(argv[1], command.name) != 0) continue;
-    return Run(command, argc - 1, argv + 1);
+  const auto places = ParseFlags(command, argc, argv);
+  try {
+    return command.run();
+  } catch (const UsageError& error) {
+    // "--bandwidth: found .." of a flag file's line.
+    const std::string text = error.what();
+    const std::string name = text.substr(0, text.find_first_of(": ="));
+    const auto place =
+        places.find(name.substr(std::min<size_t>(2, name.size())));
+    if (place == places.end()) throw;
+    throw UsageError(place->second + text);
   }
-  RefuseCommand(argv[1]);
+}
+
+int Main(int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << GeneralHelp();
+    return kExitUsage;
+  }
+  const Words words(argv + 1, argv + argc);
+  const Words rest(words.begin() + 1, words.end());
+  if (IsOneOf(words[0], kHelp)) return Help(rest);
+  if (words[0] == "--version") {
+    PrintText(VersionText());
+    return kExitOk;
+  }
+  if (words[0] == "completion") {
+    PrintText(Completion(rest));
+    return kExitOk;
+  }
+  return Run(CommandNamed(words[0]), argc - 1, argv + 1);
 }
 
 // After glog has said which CHECK failed.
@@ -70,20 +106,21 @@ int Main(int argc, char** argv) {
 }  // namespace armcal
 
 int main(int argc, char** argv) {
+  armcal::PrepareProcess();
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);
   google::InstallFailureFunction(&armcal::FailInternally);
   try {
     return armcal::Main(argc, argv);
   } catch (const armcal::UsageError& error) {
-    std::cerr << "armcal: " << error.what() << "\n";
+    armcal::PrintError(error.what());
     return armcal::kExitUsage;
   } catch (const armcal::InputError& error) {
-    std::cerr << "armcal: " << error.what() << "\n";
+    armcal::PrintError(error.what());
     return armcal::kExitBadInput;
   } catch (const std::exception& error) {
-    std::cerr << "armcal: internal error: " << error.what()
-              << "\nThis is a bug in armcal; please report it.\n";
+    armcal::PrintError(std::string("internal error: ") + error.what() +
+                       "\nThis is a bug in armcal; please report it.");
     return armcal::kExitInternal;
   }
 }

@@ -2,12 +2,11 @@
 
 #include <gflags/gflags.h>
 
-#include <iostream>
-
 #include "model/input_text.h"
 #include "model/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
 #include "tools/command.h"
+#include "tools/console.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
@@ -19,7 +18,7 @@ DECLARE_string(torque_constants);
 
 DEFINE_bool(list_effects, false, "print the effects and their parameters");
 DEFINE_bool(temperature, false, "log the joints' temperatures too");
-DEFINE_string(truth, "", "folder for truth.json; default: --out");
+DEFINE_string(truth, "", "`DIR` for truth.json; default: --out");
 
 namespace armcal {
 namespace {
@@ -86,7 +85,7 @@ LogWriterOptions WriterFromFlags(int num_joints) {
 
 int Simulate() {
   if (FLAGS_list_effects) {
-    std::cout << EffectList();
+    Print({EffectListJson(), EffectList(), "", true, {}});
     return kExitOk;
   }
   Scenario scenario = ScenarioFromFlags();
@@ -98,7 +97,7 @@ int Simulate() {
   }
   if (OutFromFlags().empty()) throw UsageError("--out=DIR is needed");
   const LogWriterOptions writer = WriterFromFlags(scenario.model.num_joints());
-  ProgressBar bar;
+  ProgressBar bar("simulating");
   scenario.loop.progress = [&bar](double share) {
     bar.Show("simulating", share);
   };
@@ -106,44 +105,12 @@ int Simulate() {
   if (!FLAGS_temperature) run.run.log.temperature.resize(0, 0);
   OutputFolder out(OutFromFlags()), secret(FLAGS_truth, "--truth");
   out.Add("log.csv", LogText(run.run.log, writer));
-  (FLAGS_truth.empty() ? out : secret)
-      .Add("truth.json", TruthJson(scenario, run).dump(2) + "\n");
+  const std::string truth = TruthJson(scenario, run).dump(2) + "\n";
+  (FLAGS_truth.empty() ? out : secret).Add("truth.json", truth);
   OutputFolder::WriteTogether({&secret, &out});
-  std::cout << Report(scenario, run);
+  Print({truth, Report(scenario, run), "", run.run.finite, {}});
   return run.run.finite ? kExitOk : kExitNegative;
 }
-
-constexpr const char* kFlags[] = {"robot",
-                                  "effects",
-                                  "list_effects",
-                                  "robot_error",
-                                  "motion",
-                                  "duration",
-                                  "size",
-                                  "speed",
-                                  "joints",
-                                  "standstill",
-                                  "controller",
-                                  "friction_width",
-                                  "encoder_resolution",
-                                  "encoder_noise",
-                                  "torque_noise",
-                                  "coloured_noise",
-                                  "noise_correlation",
-                                  "torque_delay",
-                                  "torque_constants",
-                                  "temperature",
-                                  "log_rate",
-                                  "jitter",
-                                  "lost",
-                                  "step",
-                                  "seed",
-                                  "run",
-                                  "out",
-                                  "truth",
-                                  "base",
-                                  "tip",
-                                  "gravity"};
 
 }  // namespace
 
@@ -151,7 +118,21 @@ Command SimulateCommand() {
   return {"simulate",
           "writes the log of a simulated robot with hidden effects, and the "
           "truth in a separate file",
-          {std::begin(kFlags), std::end(kFlags)},
+          {{"robot", {"robot", "effects", "list_effects", "robot_error"}},
+           {"motion", {"motion", "duration", "size", "speed"}},
+           {"log", {"log_rate", "truth", "seed", "run"}},
+           {"more of the motion",
+            {"joints", "standstill", "controller", "friction_width", "step"},
+            false},
+           {"sensors",
+            {"encoder_resolution", "encoder_noise", "torque_noise",
+             "coloured_noise", "noise_correlation", "torque_delay",
+             "torque_constants", "temperature", "jitter", "lost"},
+            false},
+           ChainFlags()},
+          {"armcal simulate --robot=arm.urdf --effects=stribeck@2 --out=run "
+           "--truth=secret",
+           "armcal simulate --list_effects"},
           Simulate};
 }
 

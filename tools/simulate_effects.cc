@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "model/input_text.h"
 #include "tools/command.h"
+#include "tools/flag_choices.h"
+#include "tools/nearest_name.h"
 #include "tools/simulate_sizes.h"
 #include "tools/usage.h"
 
@@ -28,14 +31,19 @@ std::vector<std::string> Split(const std::string& text, char at) {
   return parts;
 }
 
+FlagWords KindNames() {
+  FlagWords names;
+  for (const HiddenEffect& effect : HiddenEffects()) {
+    names.words.push_back(effect.name);
+  }
+  return names;
+}
+const FlagWordsAdded kKinds("effects", &KindNames);
+
 const HiddenEffect& FindKind(const std::string& name) {
   const HiddenEffect* kind = FindHiddenEffect(name);
   if (kind) return *kind;
-  std::vector<std::string> names;
-  for (const HiddenEffect& effect : HiddenEffects()) {
-    names.push_back(effect.name);
-  }
-  const std::string nearest = NearestName(name, names);
+  const std::string nearest = NearestName(name, KindNames().words);
   Refuse(name, nearest.empty() ? "an effect; --list_effects shows them"
                                : "an effect, such as " + nearest);
 }
@@ -154,6 +162,27 @@ std::string EffectList() {
              "instead, with their unit: payload:mass=2kg.",
              0) +
          "\n" + known + "\nEffects that it has none for:\n\n" + unknown;
+}
+
+std::string EffectListJson() {
+  nlohmann::json effects = nlohmann::json::array();
+  for (const HiddenEffect& effect : HiddenEffects()) {
+    nlohmann::json parameters = nlohmann::json::array();
+    for (const EffectParameter& parameter : effect.parameters) {
+      parameters.push_back({{"name", parameter.name},
+                            {"unit", parameter.unit},
+                            {"usual", parameter.usual},
+                            {"least", parameter.least},
+                            {"most", parameter.most}});
+    }
+    effects.push_back(
+        {{"effect", effect.name},
+         {"of_joint", effect.scope == HiddenEffect::Scope::kJoint},
+         {"in_catalogue", effect.in_catalogue},
+         {"description", effect.sentence},
+         {"parameters", parameters}});
+  }
+  return effects.dump(2) + "\n";
 }
 
 }  // namespace armcal

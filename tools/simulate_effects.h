@@ -14,7 +14,8 @@ namespace armcal {
 std::vector<ChosenEffect> ParseEffects(const std::string& text,
                                        const Scenario& scenario);
 
-// All kinds with their parameters, for people.
+// All kinds with their parameters, for people and for programs.
 std::string EffectList();
+std::string EffectListJson();
 
 }  // namespace armcal

@@ -11,21 +11,22 @@
 #include "tools/simulation_flags.h"
 
 DEFINE_string(effects, "",
-              "hidden effects, NAME[@JOINT][:PARAMETER=VALUE,..] with a "
+              "`EFFECTS` hidden, NAME[@JOINT][:PARAMETER=VALUE,..] with a "
               "semicolon between them; --list_effects shows all");
 DEFINE_double(robot_error, 0,
               "relative standard deviation by which the real robot's masses, "
               "inertias and friction differ from the robot file");
 DEFINE_double(friction_width, 0.005,
               "speed within which friction changes sign, rad/s");
-DEFINE_string(motion, "fourier",
-              "what to follow: fourier, points (rests between moves), or a CSV "
-              "with t,q1..[,qd1..,qdd1..]");
-DEFINE_double(duration, 20, "of a motion that is not from a file, s");
+DEFINE_string(
+    motion, "fourier",
+    "`FILE` or what to follow: fourier, points (rests between moves), or a CSV "
+    "with t,q1..[,qd1..,qdd1..]");
+DEFINE_double(duration, 20, "`S` of a motion that is not from a file");
 DEFINE_double(size, 0.8, "share of the joints' range that they use");
 DEFINE_double(speed, 1, "share of the joints' speed that they use");
-DEFINE_string(joints, "", "that they move, such as 1,2; default: all");
-DEFINE_double(standstill, 1, "before and after the motion, s");
+DEFINE_string(joints, "", "`1,2..` that they move; default: all");
+DEFINE_double(standstill, 1, "`S` before and after the motion");
 DEFINE_string(encoder_resolution, "5e-6",
               "rad or m, one number or one per joint; 0: exact");
 DEFINE_string(encoder_noise, "3e-6", "standard deviation, the same way");
@@ -35,7 +36,8 @@ DEFINE_string(torque_noise, "0.01",
 DEFINE_string(coloured_noise, "0.005", "correlated, the same way");
 DEFINE_double(noise_correlation, 0.05, "of the correlated noise, s");
 DEFINE_double(torque_delay, 0, "of the log's torques behind positions, s");
-DEFINE_double(log_rate, 250, "Hz; simulated: has to divide the controller's");
+DEFINE_double(log_rate, 250,
+              "`HZ` of the log; simulated: has to divide the controller's");
 DEFINE_double(jitter, 0, "of the sampling instants, standard deviation, s");
 DEFINE_double(lost, 0, "share of samples that are lost");
 DEFINE_uint64(run, 0,

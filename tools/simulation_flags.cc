@@ -6,9 +6,10 @@
 #include "tools/input_flags.h"
 
 DEFINE_uint64(seed, 0, "of everything that is drawn at random");
-DEFINE_string(controller, "",
-              "YAML with the controller's rate, kp, kd, ki, torque_limit, "
-              "velocity_filter, feedforward; default: 8 Hz per joint");
+DEFINE_string(
+    controller, "",
+    "`FILE` YAML with the controller's rate, kp, kd, ki, torque_limit, "
+    "velocity_filter, feedforward; default: 8 Hz per joint");
 
 namespace armcal {
 

@@ -2,12 +2,12 @@
 
 #include <gflags/gflags.h>
 
-#include <iostream>
 #include <optional>
 
 #include "calib/calibration_reader.h"
 #include "calib/verification_report.h"
 #include "tools/command_report.h"
+#include "tools/console.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
@@ -17,9 +17,10 @@
 DECLARE_string(controller);
 DECLARE_string(log);
 
-DEFINE_string(calibration, "",
-              "calibration.json of armcal calibrate for --robot: its refined "
-              "parameters are verified; default: the robot file's own");
+DEFINE_string(
+    calibration, "",
+    "`FILE` calibration.json of armcal calibrate for --robot: its refined "
+    "parameters are verified; default: the robot file's own");
 
 namespace armcal {
 namespace {
@@ -67,15 +68,14 @@ int Finish(const Robot& file, const VerificationReport& report,
            const nlohmann::json& torques) {
   OutputFolder out(OutFromFlags());
   const nlohmann::json json = ToJson(report);
-  out.Add("verification.json", json.dump(2) + "\n");
+  const std::string text = json.dump(2) + "\n";
+  out.Add("verification.json", text);
   if (!OutFromFlags().empty()) {
     out.Add("report.html", ReportHtml(file, report, json, torques));
   }
   out.Write();
-  for (const std::string& note : file.notes) {
-    std::cout << "note       " << note << "\n";
-  }
-  std::cout << FullReport(report);
+  Print({text, FullReport(report), file.name + ": ", report.passed(),
+         file.notes});
   return report.passed() ? kExitOk : kExitNegative;
 }
 
@@ -126,10 +126,8 @@ int RunVerify() {
   report.calibration_converged = !calibrated || calibrated->converged;
   VerificationOptions options;
   options.seed = report.seed = SeedFromFlags();
-  ProgressBar bar;
-  options.progress = [&bar](const std::string& stage, double fraction) {
-    bar.Show(stage, fraction);
-  };
+  ProgressBar bar("verifying");
+  options.progress = bar.Callback();
   nlohmann::json torques = nlohmann::json::array();
   if (FLAGS_log.empty()) {
     report.verification = Verify(report.robot, options, nullptr);
@@ -143,14 +141,19 @@ int RunVerify() {
 }  // namespace
 
 Command VerifyCommand() {
-  return {"verify",
-          "a robot, or a calibration of it, against an independent engine "
-          "(Simbody): torques, mass matrix, gravity, energy; and simulated "
-          "over stretches of a log, before and after calibration",
-          {"robot", "calibration", "log", "controller", "crop", "bandwidth",
-           "out", "seed", "base", "tip", "gravity", "torque_kind",
-           "torque_constants", "gear_ratios"},
-          &RunVerify};
+  return {
+      "verify",
+      "a robot, or a calibration of it, against an independent engine "
+      "(Simbody): torques, mass matrix, gravity, energy; and simulated "
+      "over stretches of a log, before and after calibration",
+      {{"robot and logs", {"robot", "calibration", "log", "crop", "bandwidth"}},
+       {"simulation", {"controller", "seed"}},
+       TorqueFlags(),
+       ChainFlags()},
+      {"armcal verify --robot=arm.urdf",
+       "armcal verify --robot=arm.urdf --log=tue.csv "
+       "--calibration=made/calibration.json"},
+      &RunVerify};
 }
 
 }  // namespace armcal

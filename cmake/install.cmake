@@ -1,0 +1,74 @@
+# cmake --install BUILD, and packages by cpack -G DEB: `runtime` is the program
+# with its manual page and completion, `development` the libraries with headers
+# for find_package(armcal).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# Manual and completion, as the program itself writes them.
+set(documents ${CMAKE_CURRENT_BINARY_DIR}/documents)
+set(completions share/bash-completion/completions/armcal
+    share/zsh/vendor-completions/_armcal
+    share/fish/vendor_completions.d/armcal.fish)
+set(written ${documents}/armcal.1.gz)
+set(commands COMMAND sh -c
+    "$<TARGET_FILE:armcal> help --man | gzip -9n > ${written}")
+foreach(file ${completions})
+  string(REGEX REPLACE "^share/(bash|zsh|fish).*" "\\1" shell ${file})
+  list(APPEND written ${documents}/${file})
+  list(APPEND commands COMMAND sh -c
+       "$<TARGET_FILE:armcal> completion ${shell} > ${documents}/${file}")
+  get_filename_component(folder ${file} DIRECTORY)
+  file(MAKE_DIRECTORY ${documents}/${folder})
+  install(FILES ${documents}/${file} DESTINATION ${folder} COMPONENT runtime)
+endforeach()
+add_custom_command(OUTPUT ${written} ${commands} DEPENDS armcal VERBATIM)
+add_custom_target(documents ALL DEPENDS ${written})
+install(TARGETS armcal COMPONENT runtime)
+install(FILES ${documents}/armcal.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+        COMPONENT runtime)
+# Debian's policy: the licence of a package is the file `copyright`.
+foreach(package armcal armcal-dev)
+  set(component runtime)
+  if(package STREQUAL armcal-dev)
+    set(component development)
+  endif()
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
+          RENAME copyright COMPONENT ${component})
+endforeach()
+
+# Headers are included as here, "model/robot.h", from include/armcal.
+set(headers ${CMAKE_INSTALL_INCLUDEDIR}/armcal)
+foreach(library ${exported})
+  set_target_properties(${library} PROPERTIES OUTPUT_NAME armcal_${library})
+  target_compile_features(${library} PUBLIC cxx_std_17)
+  target_include_directories(${library} INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${headers}>)
+endforeach()
+# What programs link: all of the libraries.
+add_library(all_of_armcal INTERFACE)
+set_target_properties(all_of_armcal PROPERTIES EXPORT_NAME armcal)
+target_link_libraries(all_of_armcal INTERFACE ${exported})
+foreach(folder model problems calib)
+  install(DIRECTORY ${folder} DESTINATION ${headers} COMPONENT development
+          FILES_MATCHING PATTERN "*.h" PATTERN hidden EXCLUDE)
+endforeach()
+install(TARGETS ${exported} all_of_armcal EXPORT armcal COMPONENT development)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/armcal)
+install(EXPORT armcal NAMESPACE armcal:: FILE armcalTargets.cmake
+        DESTINATION ${package} COMPONENT development)
+
+# A program that links static libraries links what those need as well.
+set(find_dependencies "")
+foreach(dependency ${dependencies})
+  string(APPEND find_dependencies "find_dependency(${dependency})\n")
+endforeach()
+configure_package_config_file(cmake/armcalConfig.cmake.in
+  ${CMAKE_CURRENT_BINARY_DIR}/armcalConfig.cmake INSTALL_DESTINATION ${package})
+write_basic_package_version_file(
+  ${CMAKE_CURRENT_BINARY_DIR}/armcalConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/armcalConfig.cmake
+        ${CMAKE_CURRENT_BINARY_DIR}/armcalConfigVersion.cmake
+        DESTINATION ${package} COMPONENT development)
+
+include(cmake/package.cmake)

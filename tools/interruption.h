@@ -1,0 +1,25 @@
+#pragma once
+
+namespace armcal {
+
+// From now on Ctrl-C, SIGTERM and SIGHUP clear the terminal's progress line and
+// end armcal by that signal (exit code 130, 143, 129 in a shell). Those that
+// are ignored, as under nohup, stay so. Stdin, stdout and stderr that were
+// closed are opened such that their use fails, so that no result file takes
+// their place.
+void PrepareProcess();
+
+// While one of these lives, results are being written: a signal ends armcal
+// only after it, when they are whole or gone.
+class Uninterrupted {
+ public:
+  Uninterrupted();
+  ~Uninterrupted();
+  Uninterrupted(const Uninterrupted&) = delete;
+  Uninterrupted& operator=(const Uninterrupted&) = delete;
+
+  // A signal waits: what takes long should be given up.
+  static bool IsAwaited();
+};
+
+}  // namespace armcal
