@@ -17,6 +17,8 @@ cores=$(nproc)
 options=(-G Ninja -DBUILD_TESTING=ON)
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+else
+  options+=(-DPRECOMPILE=ON)
 fi
 # Configures, builds and tests in folder $1 with the CMake options that follow.
 run_tests() {
