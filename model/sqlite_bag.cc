@@ -2,10 +2,40 @@
 
 #include <sqlite3.h>
 
+#include <filesystem>
+
 #include "model/input_error.h"
 #include "model/input_text.h"
 
 namespace armcal {
+namespace {
+
+// A file that no one writes: SQLite then leaves nothing beside it, also in
+// folders that may not be written to. Messages that a recorder left in a -wal
+// file would be lost.
+std::string Immutable(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path + "-wal", error)) return path;
+  std::string uri = "file:";
+  for (const char c : path) {
+    switch (c) {
+      case '%':
+        uri += "%25";
+        break;
+      case '?':
+        uri += "%3f";
+        break;
+      case '#':
+        uri += "%23";
+        break;
+      default:
+        uri += c;
+    }
+  }
+  return uri + "?immutable=1";
+}
+
+}  // namespace
 
 bool IsSqlite(std::string_view first_bytes) {
   return first_bytes.substr(0, 15) == "SQLite format 3";
@@ -28,7 +58,8 @@ void SqliteBag::Open() {
   constexpr int kMostBytes = 64 << 20;  // of a message
   sqlite3* base = nullptr;
   const int code =
-      sqlite3_open_v2(path_.c_str(), &base, SQLITE_OPEN_READONLY, nullptr);
+      sqlite3_open_v2(Immutable(path_).c_str(), &base,
+                      SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
   base_.reset(base);
   if (code != SQLITE_OK) Refuse();
   // What a file says must not run.

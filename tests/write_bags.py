@@ -14,7 +14,7 @@ import scipy.io
 from mcap.writer import CompressionType
 from mcap.writer import Writer as McapWriter
 from mcap_ros2.writer import Writer as Ros2Writer
-from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as BagWriter
 from rosbags.typesys import Stores, get_typestore
 
@@ -68,10 +68,12 @@ class Log:
                 yield stamp + LATENCY + 9, state(stamp + 9, ['finger'], [0.1], [], [np.nan])
 
 
-def bag(folder, plugin, topics):
+def bag(folder, plugin, topics, compression=CompressionMode.NONE):
     """rosbags' folder of `topics`, {name: [(received, message)]}."""
     shutil.rmtree(folder, ignore_errors=True)
-    with BagWriter(folder, version=9, storage_plugin=plugin) as writer:
+    writer = BagWriter(folder, version=9, storage_plugin=plugin)
+    writer.set_compression(compression, CompressionFormat.ZSTD)
+    with writer:
         for name, messages in topics.items():
             messages = list(messages)
             connection = writer.add_connection(name, messages[0][1].__msgtype__, typestore=ROS)
@@ -155,6 +157,17 @@ def write_split(log, folder):
     metadata.write_text(text.replace(line, both, 1))
 
 
+def write_beginnings(log, folder):
+    """The first messages, packed one by one; one joint in each of two topics."""
+    bag(folder / 'packed', StoragePlugin.MCAP, {'/joint_states': few(log.states())},
+        CompressionMode.MESSAGE)
+
+    def half(j):
+        return STATE, few([(stamp, cdr(state(stamp, [log.names[j]], [q[j]], [], [tau[j]])))
+                           for stamp, q, tau in zip(log.stamps, log.q, log.tau)])
+    mcap(folder / 'halves.mcap', {'/left': half(0), '/right': half(1)})
+
+
 def write_refused(log, folder):
     """What cannot be read as it is, or only with a flag."""
     def write(name, messages, kind=STATE, **options):
@@ -204,6 +217,7 @@ def main():
     folder = pathlib.Path(sys.argv[2])
     folder.mkdir(exist_ok=True)
     write_whole(log, folder)
+    write_beginnings(log, folder)
     write_refused(log, folder)
     write_mat(log, folder)
 
