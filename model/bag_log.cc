@@ -57,7 +57,7 @@ bool BagLog::IsWanted(const BagTopic& about) const {
 }
 
 BagLog::Topic& BagLog::FindTopic(const BagTopic& about) {
-  const auto [at, is_new] = topics_.try_emplace(about.name);
+  const auto [at, is_new] = topics_.try_emplace({about.name, about.type});
   Topic& topic = at->second;
   if (!is_new) return topic;
   topic.about = about;
@@ -216,7 +216,8 @@ void BagLog::AddArray(const BagMessage& message, Topic* topic) {
 
 std::vector<JointSeries> BagLog::TakeSeries() {
   for (const LogTopic& chosen : chosen_) {
-    if (topics_.count(chosen.name) > 0) continue;
+    const auto at = topics_.lower_bound({chosen.name, ""});
+    if (at != topics_.end() && at->first.first == chosen.name) continue;
     throw InputError(path_, "topic " + OneLine(chosen.name), "",
                      "is not in the bag; " + Topics());
   }
@@ -226,8 +227,9 @@ std::vector<JointSeries> BagLog::TakeSeries() {
 
 std::string BagLog::Topics() const {
   std::vector<std::string> list;
-  for (const auto& [name, topic] : topics_) {
-    std::string text = OneLine(name) + " (" + OneLine(topic.about.type);
+  for (const auto& [name_and_type, topic] : topics_) {
+    const BagTopic& about = topic.about;
+    std::string text = OneLine(about.name) + " (" + OneLine(about.type);
     if (!topic.names.empty()) {
       text += " of " + JoinNames({topic.names.begin(), topic.names.end()});
     }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/bag_file.h"
@@ -68,9 +69,9 @@ class BagLog {
   std::string path_;
   std::vector<std::string> joint_names_;
   std::vector<LogTopic> chosen_;
-  bool all_states_ = false;              // JointState of topics not chosen
-  Signal effort_;                        // what a JointState's effort is
-  std::map<std::string, Topic> topics_;  // by name
+  bool all_states_ = false;  // JointState of topics not chosen
+  Signal effort_;            // what a JointState's effort is
+  std::map<std::pair<std::string, std::string>, Topic> topics_;  // name, type
   std::vector<JointSeries> series_;
   JointState state_;
   std::vector<double> array_;
