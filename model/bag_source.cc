@@ -112,6 +112,10 @@ void BagSource::Join(const std::vector<JointSeries>& series) {
                             : at[column.series]->value(column.channel));
     }
   }
+  CheckTimes(rows.topic);
+}
+
+void BagSource::CheckTimes(const std::string& topic) const {
   if (times_.empty()) {
     throw InputError(path_, "", "",
                      "the messages that are to be joined are of different "
@@ -119,7 +123,7 @@ void BagSource::Join(const std::vector<JointSeries>& series) {
                          about_);
   }
   if (times_.size() > 1 && times_.front() == 0 && times_.back() == 0) {
-    throw InputError(path_, "topic " + OneLine(rows.topic), "",
+    throw InputError(path_, "topic " + OneLine(topic), "",
                      "the stamps in the headers are all 0: expected times");
   }
 }

@@ -35,6 +35,7 @@ class BagSource : public LineSource {
                     const std::vector<JointSeries>& series);
   void NoteEfforts();
   void Join(const std::vector<JointSeries>& series);
+  void CheckTimes(const std::string& topic) const;
 
   std::string path_, about_, header_, line_;
   std::vector<std::string> joint_names_;
