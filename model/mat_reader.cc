@@ -1,6 +1,6 @@
 #include "model/mat_reader.h"
 
-#include <H5Epublic.h>
+#include <hdf5/serial/H5Epublic.h>
 #include <matio.h>
 
 #include <algorithm>
