@@ -70,17 +70,17 @@ if(NOT code EQUAL 0 OR NOT out STREQUAL expected)
   fail("the same as from CSV expected: ${expected}")
 endif()
 
-foreach(case
-    "short.npz|array q: found '1999 rows': expected 2000, as many as the array of times"
+foreach(refusal
+    "short.npz|array q: found '2200 rows': expected 2201, as many as the array of times"
     "timeless.npz|row 1: no time column: expected t, time"
     "nan.npz|row 7, column tau1: found 'nan'"
     "cut.npz|is a zip archive without its directory"
     "damaged.npz|is damaged in "
     "objects.npz|row 1: no torque: missing tau1")
-  string(REPLACE "|" ";" case "${case}")
-  list(POP_FRONT case name)
+  string(REPLACE "|" ";" refusal "${refusal}")
+  list(POP_FRONT refusal name)
   run("${name}" calibrate --robot=arm.yaml --log=npz/${name} --out=out)
-  expect_refusal(3 "npz/${name}: ${case}")
+  expect_refusal(3 "npz/${name}: ${refusal}")
 endforeach()
 
 run("topics" calibrate --robot=arm.yaml --log=few/two_arms.mcap
