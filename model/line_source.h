@@ -3,6 +3,9 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "model/log_topic.h"
 
 namespace armcal {
 
@@ -20,10 +23,21 @@ class LineSource {
   virtual bool cut() const = 0;
   // Starts again at the first line. Throws InputError for a pipe.
   virtual void Rewind() = 0;
+  // What else there is to know about the file where a column is missing.
+  virtual std::string About() const { return ""; }
 };
 
-// By the file's first bytes, never by its name: NumPy's .npz (npz_source.h),
-// else text, plain or gzipped (text_source.h). Throws InputError.
-std::unique_ptr<LineSource> OpenLines(const std::string& path);
+// What a file needs to be asked for that has more in it than one table.
+struct LineOptions {
+  std::vector<std::string> joint_names;  // the robot's, base to tip
+  std::vector<LogTopic> topics;          // of bags; empty: all of JointState
+  bool effort_is_current = false;        // of JointState, as UR robots have it
+};
+
+// By the file's first bytes, never by its name: a ROS 2 bag (bag_source.h),
+// also as a folder, NumPy's .npz and MATLAB's .mat (array_source.h), else text,
+// plain or gzipped (text_source.h). Throws InputError.
+std::unique_ptr<LineSource> OpenLines(const std::string& path,
+                                      const LineOptions& options);
 
 }  // namespace armcal

@@ -47,8 +47,9 @@ bool EndsWithPart(std::string_view path, std::string_view part) {
 }  // namespace
 
 LogColumns::LogColumns(const std::string& file, std::string_view header,
-                       const std::vector<std::string>& joint_names)
-    : file_(file), joint_names_(joint_names) {
+                       const std::vector<std::string>& joint_names,
+                       const std::string& about)
+    : file_(file), about_(about), joint_names_(joint_names) {
   // numpy.savetxt makes the header a comment.
   if (!header.empty() && header.front() == '#') header.remove_prefix(1);
   separator_ = FindSeparator(header);
@@ -251,9 +252,10 @@ std::string LogColumns::Unrecognised() const {
     if (known || names_[i].empty()) continue;
     if (++count <= kShown) AddTo(&list, Quoted(names_[i]));
   }
-  if (count == 0) return "";
+  const std::string about = about_.empty() ? "" : "; " + about_;
+  if (count == 0) return about;
   if (count > kShown) AddTo(&list, std::to_string(count - kShown) + " more");
-  return "; not recognised: " + list;
+  return "; not recognised: " + list + about;
 }
 
 void LogColumns::Refuse(const std::string& expected) const {

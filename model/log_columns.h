@@ -20,9 +20,11 @@ struct LogColumn {
 // whatever they hold.
 class LogColumns {
  public:
-  // `file` is for messages. Throws InputError where there is no header.
+  // `file` is for messages, `about` for those on missing columns. Throws
+  // InputError where there is no header.
   LogColumns(const std::string& file, std::string_view header,
-             const std::vector<std::string>& joint_names);
+             const std::vector<std::string>& joint_names,
+             const std::string& about = "");
 
   char separator() const { return separator_; }
   // Fields in a row.
@@ -42,6 +44,9 @@ class LogColumns {
                               const std::string& advice = "") const;
   // The columns Find() looks for where there are none: "tau2 or elbow/effort".
   std::string Missing(Signal signal) const;
+  // What else the file has, which ends messages on missing columns: "; not
+  // recognised: ...".
+  std::string Unrecognised() const;
 
  private:
   struct Match {
@@ -61,10 +66,9 @@ class LogColumns {
   void CheckJointCount(Signal signal) const;
   // "the robot has 7 joints, the log holds q1..q6".
   std::string CountsOf(Signal signal) const;
-  std::string Unrecognised() const;
   [[noreturn]] void Refuse(const std::string& expected) const;
 
-  std::string file_;
+  std::string file_, about_;
   std::vector<std::string> joint_names_;
   char separator_ = ',';
   std::vector<std::string> names_;

@@ -26,8 +26,9 @@ struct LogReader::Impl {
   Impl(const std::string& path, const LogReaderOptions& options)
       : path(path),
         joints(static_cast<int>(options.joint_names.size())),
-        source(OpenLines(path)),
-        columns(path, Header(), options.joint_names),
+        source(OpenLines(path, {options.joint_names, options.topics,
+                                options.torque_kind == TorqueKind::kCurrent})),
+        columns(path, Header(), options.joint_names, source->About()),
         time_column(columns.FindTime(&time_decimals)),
         row(path, columns, time_column) {
     CheckTorqueFactors(options);

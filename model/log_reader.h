@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/log.h"
+#include "model/log_topic.h"
 
 namespace armcal {
 
@@ -22,6 +23,7 @@ struct LogReaderOptions {
   TorqueKind torque_kind = TorqueKind::kAuto;
   std::vector<double> torque_constants;  // N m/A per joint; empty: not given
   std::vector<double> gear_ratios;       // per joint; empty: 1
+  std::vector<LogTopic> topics;          // of a bag (line_source.h)
   bool need_torque = true;
   // Columns that are in the log and not wanted are not looked at.
   bool want_velocity = false;
@@ -30,8 +32,8 @@ struct LogReaderOptions {
   bool want_temperature = false;
 };
 
-// Reads a CSV or gzipped CSV log block by block in constant memory, or an .npz
-// (npz_source.h) held in it.
+// Reads a CSV or gzipped CSV log block by block in constant memory, or another
+// format (line_source.h) held in it.
 //
 // Header: `t` (or time, timestamp, __time) and per joint either by number
 // (1-based) q1 qd1 qdd1 tau1 i1 qref1 temp1 or by name shoulder/position|

@@ -6,9 +6,9 @@
 
 #include "model/input_error.h"
 #include "model/input_text.h"
+#include "model/line_source.h"
 #include "model/log_columns.h"
 #include "model/log_row.h"
-#include "model/text_source.h"
 
 namespace armcal {
 namespace {
@@ -129,9 +129,10 @@ void CheckValues(const std::string& path, const PoseMeasurements& measured) {
 
 PoseMeasurements ReadPoses(const std::string& path,
                            const std::vector<std::string>& joint_names) {
-  TextSource source(path);
+  const std::unique_ptr<LineSource> source =
+      OpenLines(path, {joint_names, {}, false});
   std::string_view line;
-  if (!source.NextLine(&line)) {
+  if (!source->NextLine(&line)) {
     throw InputError(path, "", "", "the file is empty");
   }
   const LogColumns columns(path, line, joint_names);
@@ -140,14 +141,14 @@ PoseMeasurements ReadPoses(const std::string& path,
   std::vector<double> values;
   std::string_view no_time;
   PoseMeasurements result;
-  while (source.NextLine(&line)) {
+  while (source->NextLine(&line)) {
     if (Trim(line).empty()) continue;
     values.resize(values.size() + row.width());
     double* const last = values.data() + values.size() - row.width();
     if (!row.Parse(line, last, &no_time)) {
-      row.Refuse(line, source.row(), source.cut());
+      row.Refuse(line, source->row(), source->cut());
     }
-    result.row.push_back(source.row());
+    result.row.push_back(source->row());
   }
   if (result.row.empty()) {
     throw InputError(path, "", "", "the file has a header and no rows");

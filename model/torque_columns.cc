@@ -74,7 +74,8 @@ TorqueKind ChooseKind(const std::string& file, const LogColumns& columns,
   throw InputError(file, "row 1", "",
                    "no torque: missing " + columns.Missing(Signal::kEffort) +
                        "; or currents (i1 or " + options.joint_names[0] +
-                       "/current, ..) with --torque_constants");
+                       "/current, ..) with --torque_constants" +
+                       columns.Unrecognised());
 }
 
 // Says so where constants are given that currents would need.

@@ -26,6 +26,9 @@ DEFINE_string(gear_ratios, "", "`N1,N2..` per joint; default: 1");
 DEFINE_string(torque_kind, "auto",
               "what the log's torque is: auto, link, motor (motor side, times "
               "gear ratio), current, command");
+DEFINE_string(topics, "",
+              "`A,SIGNAL:B..` topics of ROS 2 bags, as in /joint_states,"
+              "effort:/torques; default: all of JointState");
 DEFINE_string(bandwidth, "",
               "`HZ` cutoff of the zero-phase low pass; 0: data as they are; "
               "default: 10 times the motion's frequency, 8 to 20 Hz");
@@ -77,6 +80,22 @@ std::vector<std::string> FileNames(const std::string& flag,
   return names;
 }
 
+// "/joint_states" or "effort:/torques".
+LogTopic ParseTopic(const std::string& text) {
+  const size_t colon = text.find(':');
+  if (colon == std::string::npos && !text.empty()) return {text, std::nullopt};
+  std::vector<std::string> signals;
+  for (const Signal signal : kSignals) {
+    signals.emplace_back(NamesOf(signal).path_part);
+    if (colon + 1 < text.size() && text.substr(0, colon) == signals.back()) {
+      return {text.substr(colon + 1), signal};
+    }
+  }
+  throw UsageError("--topics: found '" + text +
+                   "', expected a topic's name, or one of " +
+                   JoinNames(signals) + " and a colon before it");
+}
+
 double ParseOne(const std::string& flag, const std::string& text) {
   const std::optional<double> number = ParseNumber(text);
   if (!number || !std::isfinite(*number)) {
@@ -89,7 +108,7 @@ double ParseOne(const std::string& flag, const std::string& text) {
 
 FlagGroup TorqueFlags() {
   return {"torques of logs",
-          {"torque_kind", "torque_constants", "gear_ratios"},
+          {"torque_kind", "torque_constants", "gear_ratios", "topics"},
           false};
 }
 
@@ -183,6 +202,9 @@ LogReaderOptions LogOptionsFromFlags(const Robot& robot) {
   options.torque_constants =
       ParseNumbers("torque_constants", FLAGS_torque_constants);
   options.gear_ratios = ParseNumbers("gear_ratios", FLAGS_gear_ratios);
+  for (const std::string& topic : SplitAtCommas(FLAGS_topics)) {
+    options.topics.push_back(ParseTopic(topic));
+  }
   return options;
 }
 

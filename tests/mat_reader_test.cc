@@ -1,0 +1,88 @@
+#include "model/mat_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "model/input_error.h"
+#include "model/log_reader.h"
+#include "tests/temp_file.h"
+
+namespace armcal {
+namespace {
+
+LogReaderOptions Options() {
+  LogReaderOptions options;
+  options.joint_names = {"joint1", "joint2"};
+  return options;
+}
+
+std::string Bytes(const std::string& name) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(FORMATS_DIR "/" + name, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+std::string Refusal(const std::string& bytes) {
+  const std::string path = WriteFile(bytes, "log.mat");
+  return MessageOf<InputError>(path, [&] { ReadWholeLog(path, Options()); });
+}
+
+// SciPy wrote v4 and v5, h5py v7.3, of the log in data/log_formats. That of v5
+// is a structure, compressed, whose columns have names and are the other way
+// round.
+TEST(MatReader, ReadsWhatOthersWrite) {
+  const Log csv = ReadWholeLog(DATA_DIR "/log_formats/log.csv", Options());
+  for (const char* name : {"v4.mat", "v5.mat", "v73.mat"}) {
+    const Log log =
+        ReadWholeLog(FORMATS_DIR "/" + std::string(name), Options());
+    ASSERT_EQ(log.size(), csv.size()) << name;
+    EXPECT_TRUE(log.t == csv.t && log.q == csv.q && log.tau == csv.tau) << name;
+  }
+}
+
+TEST(MatReader, TellsFilesByTheirFirstBytes) {
+  EXPECT_TRUE(IsMatFile("MATLAB 5.0 MAT-file"));
+  EXPECT_TRUE(IsMatFile(Bytes("v4.mat").substr(0, 24)));
+  // Big endian: 1000, 3 rows, 1 column, real, a name of 2 bytes.
+  EXPECT_TRUE(IsMatFile(
+      std::string("\0\0\x3\xe8\0\0\0\3\0\0\0\1\0\0\0\0\0\0\0\2", 20)));
+  EXPECT_FALSE(IsMatFile("t,q1,q2,tau1,tau2\n0.0,1"));
+  EXPECT_FALSE(IsMatFile(std::string(24, '\0')));
+  EXPECT_FALSE(IsMatFile(""));
+}
+
+TEST(MatReader, RefusesFilesThatAreCutOff) {
+  for (const char* name : {"v4.mat", "v5.mat", "v73.mat"}) {
+    const std::string whole = Bytes(name);
+    for (size_t size = whole.size() - 1; size > 200; size -= whole.size() / 9) {
+      EXPECT_NE(Refusal(whole.substr(0, size)), "") << name << " " << size;
+    }
+  }
+  const std::string v5 = Bytes("v5.mat");
+  EXPECT_EQ(Refusal(v5.substr(0, v5.size() - 1)),
+            "FILE: is cut off: expected a whole MAT-file");
+}
+
+TEST(MatReader, NoticesDamageOfWhatIsCompressed) {
+  const std::string whole = Bytes("v5.mat");
+  for (size_t at = 300; at < whole.size(); at += 41) {
+    std::string damaged = whole;
+    damaged[at] ^= 0x10;
+    EXPECT_NE(Refusal(damaged), "") << at;
+  }
+}
+
+TEST(MatReader, SaysWhichArraysThereAre) {
+  std::string text = Bytes("v4.mat");
+  // The name of the first variable, t.
+  ASSERT_EQ(text.substr(20, 2), std::string("t\0", 2));
+  text[20] = 'x';
+  EXPECT_EQ(Refusal(text),
+            "FILE: row 1: no time column: expected t, time, "
+            "timestamp or __time; not recognised: 'x'");
+}
+
+}  // namespace
+}  // namespace armcal
