@@ -78,7 +78,7 @@ std::function<void(const std::string&, double)> ProgressBar::Callback() {
 }
 
 std::string ProgressBar::Line(Clock::time_point now) const {
-  constexpr int kWidth = 24;
+  constexpr int kWidth = 20;
   char text[200];
   std::snprintf(text, sizeof(text), "%-22.40s ", stage_.c_str());
   std::string line = text;
@@ -94,8 +94,7 @@ std::string ProgressBar::Line(Clock::time_point now) const {
   const double so_far = Seconds(told_ - stage_start_).count();
   if (fraction_ > 0 && fraction_ < 1 && so_far > .5) {
     const double left = so_far * (1 - fraction_) / fraction_;
-    line += ", step done in about " +
-            ClockText(left - Seconds(now - told_).count());
+    line += ", step ends in " + ClockText(left - Seconds(now - told_).count());
   }
   return line;
 }

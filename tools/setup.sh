@@ -8,6 +8,7 @@ packages=(
   libeigen3-dev libgflags-dev libgoogle-glog-dev libtinyxml2-dev libyaml-cpp-dev
   nlohmann-json3-dev zlib1g-dev libceres-dev libsimbody-dev libboost-dev
   libssl-dev libjs-dygraphs libgtest-dev libgmock-dev libmujoco-dev python3-numpy
+  dpkg-dev file groff-base
 )
 
 missing=()

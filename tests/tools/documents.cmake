@@ -47,7 +47,7 @@ run_blocks(docs/calibrate.md)
 
 foreach(command calibrate excite inspect)
   file(READ ${root}/docs/${command}.md text)
-  run("flags of ${command}" ${command} --help)
+  run("flags of ${command}" ${command} --helpfull)
   string(REGEX MATCHALL "\n  --[a-z_]+" flags "${out}")
   foreach(flag ${flags})
     string(STRIP "${flag}" flag)
