@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
       std::cerr << "not calibrated: " << result.reason << "\n";
       return 1;
     }
+    std::cout.precision(5);
     const auto& parameters = result.parameters.parameters();
     for (int k = 0; k < result.x.size(); ++k) {
       std::cout << parameters[k].name << " = " << result.x[k] << " +- "
