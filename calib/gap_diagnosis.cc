@@ -46,6 +46,10 @@ class Diagnoser {
     AdvanceTorque(delay_, &segments);
     return segments;
   }
+  // Steps whose length depends on what is found.
+  void Tell(const std::string& step) const {
+    if (options_.progress) options_.progress(step, -1);
+  }
   // Friction is the model's at the temperature of the first sample read.
   void KnowUsualTemperature(std::vector<GapSegment>* segments);
   void Fit(const std::vector<GapSegment>& segments,
@@ -87,6 +91,7 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
       Read(training, split ? LogPart::kHeldOut : LogPart::kAll,
            reference == nullptr);
   std::vector<GapSegment> before = Read(reference, LogPart::kAll);
+  Tell("fitting the baseline");
   const LackedFamilies lacked =
       FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
                         before.empty() ? segments : before);
@@ -104,9 +109,11 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   }
   result_.ladder = lacked;
   has_reference_ = reference != nullptr;
+  Tell("choosing effects");
   Fit(segments, before, split);
   held_out_.emplace(*fit_, split ? segments : Read(validation, LogPart::kAll),
                     split ? LogPart::kHeldOut : LogPart::kAll, !split);
+  Tell("checking what was held out");
   result_.bandwidth_hz = options_.bandwidth_hz;
   result_.floor = fit_->noise().source;
   result_.torque =
@@ -217,6 +224,7 @@ void Diagnoser::Simulate(LogSet* held_out, bool split) {
          {&robots.nominal, &robots.refit, &robots.after}) {
       each->delay += delay_;
     }
+    Tell("simulating what was held out");
     result_.forward =
         ForwardGapInLoop(robots, robot_, *options_.controller,
                          options_.commanded, options_.seed, counted);
@@ -226,6 +234,7 @@ void Diagnoser::Simulate(LogSet* held_out, bool split) {
   const RecordedPositions positions =
       AuditPositions(options_.progress, held_out);
   if (positions.noise.size() == 0) return;
+  Tell("simulating what was held out");
   result_.forward =
       ForwardGapInWindows(robots, held_out_->segments(),
                           {positions.noise, positions.rate_hz,

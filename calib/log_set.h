@@ -10,7 +10,7 @@
 
 namespace armcal {
 
-// Told what is being done and how far it is, 0 to 1.
+// Told what is being done and how far it is, 0 to 1; below 0: nobody knows.
 using Progress = std::function<void(const std::string& stage, double fraction)>;
 // Gross errors in torque samples, a list per log in the order of rows.
 using OutlierLists = std::vector<std::vector<TorqueOutlier>>;

@@ -26,6 +26,8 @@ add_custom_target(documents ALL DEPENDS ${written})
 install(TARGETS armcal COMPONENT runtime)
 install(FILES ${documents}/armcal.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
         COMPONENT runtime)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/armcal
+        COMPONENT runtime)
 # Debian's policy: the licence of a package is the file `copyright`.
 foreach(package armcal armcal-dev)
   set(component runtime)
@@ -71,4 +73,6 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/armcalConfig.cmake
         ${CMAKE_CURRENT_BINARY_DIR}/armcalConfigVersion.cmake
         DESTINATION ${package} COMPONENT development)
 
-include(cmake/package.cmake)
+if(PROJECT_IS_TOP_LEVEL)
+  include(cmake/package.cmake)
+endif()

@@ -1,4 +1,4 @@
-# cmake -DARMCAL=... -DDATA_DIR=... -DWORK_DIR=... -DCASES=... -P tools_test.cmake
+# cmake -DARMCAL=... -DBUILD_DIR=... -DDATA_DIR=... -DWORK_DIR=... -DCASES=... -P tools_test.cmake
 #
 # Runs the armcal binary as a person would and matches what it prints, its exit
 # code and what it leaves on disk. CASES is one of the files in tests/tools/.

@@ -51,7 +51,12 @@ if [[ $funcstack[1] == _armcal ]]; then _armcal; else compdef _armcal armcal; fi
 )";
 
 constexpr char kFish[] = R"(# armcal in fish: armcal completion fish | source
-complete -c armcal -f -a '((commandline -po)[1] completion --line (commandline -cp | string collect))'
+function __armcal
+  set -l words (commandline -po)
+  command $words[1] completion --line (commandline -cp | string collect) \
+    2>/dev/null
+end
+complete -c armcal -f -a '(__armcal)'
 )";
 
 bool BeginsWith(const std::string& text, const std::string& begin) {

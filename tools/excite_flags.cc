@@ -35,10 +35,10 @@ DEFINE_string(
     "`LOW:HIGH[,..]`, one or one per joint, rad or m; default: the file's");
 DEFINE_string(
     velocity_limits, "",
-    "`V[,..]` rad/s or m/s, one number or one per joint; default: the file's");
+    "`V[,..]` rad/s or m/s, one or one per joint; default: the file's");
 DEFINE_string(
     acceleration_limits, "",
-    "`A[,..]` rad/s^2 or m/s^2; default: three times the velocity in a second");
+    "`A[,..]` rad/s^2 or m/s^2; default: 3 times the velocity in 1 s");
 DEFINE_string(effort_limits, "", "`T[,..]` N m or N; default: the file's");
 DEFINE_string(
     tool_box, "",
@@ -52,9 +52,7 @@ DEFINE_string(obstacles, "",
               "`BOXES` that links stay out of: x:x,y:y,z:z[;x:x,y:y,z:z..], m");
 DEFINE_double(link_radius, .06, "of the links, for --floor and --obstacles, m");
 DEFINE_double(use, .95, "share of the limits that the motion may use");
-DEFINE_int32(static_poses, 0,
-             "design so many postures for a calibration of the geometry "
-             "instead of a motion");
+DEFINE_int32(static_poses, 0, "`N` postures for geometry instead of a motion");
 DEFINE_string(instrument, "target",
               "what is measured at postures: target (position of a target on "
               "the tool), pose (of the tool)");

@@ -45,6 +45,7 @@ std::vector<GivenFlag> ReadFlagFile(const std::string& path) {
   std::vector<GivenFlag> flags;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
     line = std::string(Trim(line));
     if (line.empty() || line[0] == '#') continue;
     flags.push_back(

@@ -141,6 +141,9 @@ void OutputFolder::WriteTogether(const std::vector<OutputFolder*>& folders) {
       locks.push_back(std::make_unique<Lock>(path));
     }
     for (const OutputFolder* folder : folders) folder->RenameThem();
+  } catch (const Interruption&) {
+    // The signal ends armcal right after this.
+    for (const OutputFolder* folder : folders) folder->RemoveThem();
   } catch (...) {
     for (const OutputFolder* folder : folders) folder->RemoveThem();
     throw;

@@ -78,15 +78,18 @@ std::function<void(const std::string&, double)> ProgressBar::Callback() {
 }
 
 std::string ProgressBar::Line(Clock::time_point now) const {
-  constexpr int kWidth = 24;
+  constexpr int kWidth = 20;
   char text[200];
-  std::snprintf(text, sizeof(text), "%-22.40s ", stage_.c_str());
+  // A step that is done, and nothing is said of the next one.
+  const bool done = fraction_ >= 1 && now - told_ > std::chrono::seconds(1);
+  const std::string stage = done ? "after " + stage_ : stage_;
+  std::snprintf(text, sizeof(text), "%-22.50s ", stage.c_str());
   std::string line = text;
-  if (fraction_ >= 0) {
-    const int done = static_cast<int>(kWidth * fraction_ + 0.5);
+  if (fraction_ >= 0 && !done) {
+    const int filled = static_cast<int>(kWidth * fraction_ + 0.5);
     std::snprintf(text, sizeof(text), "[%s%s] %3.0f %%  ",
-                  std::string(done, '#').c_str(),
-                  std::string(kWidth - done, '.').c_str(), 100 * fraction_);
+                  std::string(filled, '#').c_str(),
+                  std::string(kWidth - filled, '.').c_str(), 100 * fraction_);
     line += text;
   }
   line += ClockText(Seconds(now - start_).count());
@@ -94,8 +97,7 @@ std::string ProgressBar::Line(Clock::time_point now) const {
   const double so_far = Seconds(told_ - stage_start_).count();
   if (fraction_ > 0 && fraction_ < 1 && so_far > .5) {
     const double left = so_far * (1 - fraction_) / fraction_;
-    line += ", step done in about " +
-            ClockText(left - Seconds(now - told_).count());
+    line += ", step ends in " + ClockText(left - Seconds(now - told_).count());
   }
   return line;
 }

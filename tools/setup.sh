@@ -9,6 +9,7 @@ packages=(
   nlohmann-json3-dev zlib1g-dev libsqlite3-dev libzstd-dev liblz4-dev
   libmatio-dev libceres-dev libsimbody-dev libboost-dev
   libssl-dev libjs-dygraphs libgtest-dev libgmock-dev libmujoco-dev python3-numpy
+  dpkg-dev file groff-base
 )
 
 missing=()

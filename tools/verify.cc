@@ -152,7 +152,7 @@ Command VerifyCommand() {
        ChainFlags()},
       {"armcal verify --robot=arm.urdf",
        "armcal verify --robot=arm.urdf --log=tue.csv "
-       "--calibration=made/calibration.json"},
+       "--calibration=calibration.json"},
       &RunVerify};
 }
 

@@ -16,16 +16,55 @@ expect_empty(out)
 
 run("version" --version)
 expect_code(0)
-if(NOT out MATCHES "^armcal [0-9]+\\.[0-9]+\n$")
-  fail("armcal X.Y expected")
+if(NOT out MATCHES "^armcal [0-9]+\\.[0-9]+\nCeres 2\\.[0-9.]+, Eigen 3\\.[0-9.]+, Simbody 3\\.[0-9.]+\n$")
+  fail("armcal X.Y and the versions of its libraries expected")
 endif()
 
 run("help of a command" calibrate --help)
 expect_code(0)
-expect_text(out "armcal calibrate --flags" "--robot " "--log " "--geometry " "--solver ")
-if(out MATCHES " \n" OR out MATCHES "[^\n]{81}")
-  fail("help has blanks at a line's end or lines over 80 columns")
+expect_text(out "usage: armcal calibrate --flags" "--robot=FILE " "--log=FILES "
+            "--geometry=WORD " "--json " "armcal calibrate --helpfull"
+            "--solver" "examples" "  armcal calibrate --robot=")
+set(short "${out}")
+run("the same help" help calibrate)
+if(NOT out STREQUAL short)
+  fail("armcal help calibrate differs from armcal calibrate --help")
 endif()
+run("all of its help" calibrate --helpfull)
+expect_code(0)
+expect_text(out "--robot=FILE " "--solver=WORD " "weighted (noise of every joint")
+set(full "${out}")
+run("all of it the other way" help calibrate --all)
+if(NOT out STREQUAL full)
+  fail("armcal help calibrate --all differs from armcal calibrate --helpfull")
+endif()
+
+# Help fits a screen, and its examples are command lines that armcal takes:
+# their files are not there, and nothing else is wrong (simulate lists effects).
+foreach(command calibrate verify diagnose simulate excite inspect)
+  run("help of ${command}" ${command} --help)
+  string(REGEX MATCHALL "\n" lines "${out}")
+  list(LENGTH lines count)
+  if(count LESS 20 OR count GREATER 50)
+    fail("help of ${command} has ${count} lines, 20 to 50 expected")
+  endif()
+  if(out MATCHES " \n" OR out MATCHES "[^\n]{81}")
+    fail("help has blanks at a line's end or lines over 80 columns")
+  endif()
+  string(REGEX MATCHALL "\n  armcal [^\n|]+" examples "${out}")
+  if(NOT examples)
+    fail("help of ${command} has no examples")
+  endif()
+  foreach(example ${examples})
+    string(REGEX REPLACE "^\n  armcal " "" example "${example}")
+    separate_arguments(flags UNIX_COMMAND "${example}")
+    run("${example}" ${flags})
+    if(NOT "${code} ${err}" MATCHES "^3 armcal: arm\\.(urdf|yaml)" AND
+       NOT example MATCHES "list_effects")
+      fail("exit code 3 for the robot file that is not there expected")
+    endif()
+  endforeach()
+endforeach()
 
 run("unknown command" calibrat)
 expect_refusal(2 "unknown command 'calibrat'" "did you mean calibrate?" "armcal --help")
@@ -37,6 +76,10 @@ expect_refusal(2 "unknown command '--robot=")
 run("unknown flag" calibrate --lgo=a.csv)
 expect_refusal(2 "unknown flag --lgo of armcal calibrate" "did you mean --log?"
                "armcal calibrate --help")
+run("a switch turned off" diagnose --noforward ${robot})
+expect_refusal(2 "--log=FILE is needed")
+run("no switch" diagnose --norobot)
+expect_refusal(2 "unknown flag --norobot")
 run("unlike any flag" calibrate --frobnicate)
 expect_refusal(2 "unknown flag --frobnicate of armcal calibrate; see")
 run("a flag of glog" calibrate --logtostderr=1)
@@ -67,6 +110,7 @@ foreach(pair
     "--intervals=0:|--intervals: found '0:', expected t1:t2 with both ends"
     "--gravity=0,0|--gravity: found '0,0', expected three numbers"
     "--solver=fast|--solver: found 'fast', expected one of weighted, batch, recursive"
+    "--solver=weigthed|expected one of weighted, batch, recursive\; did you mean weighted?"
     "--geometry=x|--geometry: found 'x', expected one of known"
     "--joint_terms=stiction|--joint_terms: found 'stiction', expected one of viscous"
     "--joint_terms=viscous,viscous|--joint_terms: found 'viscous,viscous', expected viscous only once"
