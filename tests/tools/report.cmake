@@ -1,8 +1,9 @@
 # report.html of every command, and where Chromium is there what it draws: no
 # error, no request, names as text.
 
+string(REPEAT "elbow-" 40 long)
 write_arm("'</script><img src=x onerror=alert(1)>'"
-          ", joint_name: '<b>elbow</b>', limits: {lower: -2, upper: 2, velocity: 2}"
+          ", joint_name: '<b>elbow</b> مفصل 🦾 ${long}', limits: {lower: -2, upper: 2, velocity: 2}"
           ", limits: {lower: -2.5, upper: 2.5, velocity: 3}")
 run("a log" simulate --robot=arm.yaml --duration=20 --log_rate=100
     --effects=viscous_friction@2 --out=made)

@@ -229,8 +229,10 @@ const charts = (() => {
   // chains: [{points: [[x, y, z]], colour, width, dash, opacity, shares}], the
   // names at the joints of the first; shares: per segment 0 to 1. Turned with
   // the mouse or the arrow keys.
+  // Null where all is one point.
   const skeleton = (chains, names) => {
     const size = 420, tall = 330, all = chains.flatMap((chain) => chain.points);
+    if (all.every((p) => Math.hypot(...p.map((x, k) => x - all[0][k])) < 1e-6)) return null;
     const view = svg('svg', {viewBox: `0 0 ${size} ${tall}`, class: 'skeleton', tabindex: 0,
                              role: 'img', 'aria-label': 'the robot; arrow keys turn it'});
     // Seen from where it is widest.
@@ -268,7 +270,7 @@ const charts = (() => {
     const labels = () => {
       const placed = [];
       chains[0].points.slice(0, -1).map(project).forEach(([x, y], k) => {
-        const near = placed.find((p) => Math.hypot(p.x - x, p.y - y) < 12);
+        const near = placed.find((p) => Math.hypot(p.x - x, p.y - y) < 20);
         if (near) near.names.push(names[k]);
         else placed.push({x, y, names: [names[k]]});
       });

@@ -49,7 +49,7 @@
   const rolloutSentence = () => {
     const last = (result.rollout || []).filter((r) => isNumber(r.ratio)).pop();
     return last ? ` Simulated for ${number(last.window_s)} s, the calibrated robot is off by ` +
-        `${number(last.ratio)} of what the file’s is.` : '';
+        `${number(100 * last.ratio)} % of what the file’s is.` : '';
   };
 
   const header = () => {
@@ -222,15 +222,26 @@
 
   // Lengths in mm and angles in degrees.
   const read = (g) => g.unit === 'rad' ? [180 / Math.PI, '°'] : g.unit === 'm' ? [1e3, 'mm'] : [1, g.unit || ''];
+  // Where the instrument sees the robot, of which the file says nothing.
+  const placed = (g) => String(g.name).startsWith('base.');
   const geometryTable = () => table(
       ['parameter', 'file', 'calibrated ± standard deviation', 'change', 'unit'],
       result.geometry.map((g) => {
         const [scale, unit] = read(g), value = isNumber(g.used) ? g.used : g.value;
         const told = g.identifiable !== false && isNumber(value);
-        return [g.symbol || g.name, isNumber(g.nominal) ? scale * g.nominal : '–',
+        return [g.symbol || g.name, isNumber(g.nominal) && !placed(g) ? scale * g.nominal : '–',
                 told ? plusMinus(scale * value, scale * g.stddev) : 'the data do not tell',
-                told && isNumber(g.nominal) ? scale * (value - g.nominal) : '–', unit];
+                told && isNumber(g.nominal) && !placed(g) ? scale * (value - g.nominal) : '–', unit];
       }), true);
+  // Sentences about one name each that say the same, as one.
+  const alike = (sentences) => {
+    const names = new Map();
+    for (const sentence of sentences) {
+      const space = sentence.indexOf(' '), rest = sentence.slice(space + 1);
+      names.set(rest, [...(names.get(rest) || []), sentence.slice(0, space)]);
+    }
+    return [...names].map(([rest, of]) => `${of.join(', ')} ${rest}`);
+  };
   // Deviations are enlarged by 1, 2 or 5 times a power of ten, to about an
   // eighth of the robot.
   const enlargement = (deviation, size) => {
@@ -258,7 +269,7 @@
   };
   const geometry = () => (result.geometry || []).length > 0 && [
     ...geometryPicture(), geometryTable(),
-    ...((result.held || []).length ? [heading('Kept as in the file'), list(result.held)] : [])];
+    ...((result.held || []).length ? [heading('Kept as in the file'), list(alike(result.held))] : [])];
 
   const poses = () => {
     const p = (data.extra.geometry || {}).poses;
@@ -288,6 +299,7 @@
 
   // -- diagnosis -----------------------------------------------------------------
 
+  const whole = (interval) => (interval || []).length === 2 && interval.every(isNumber);
   const effects = () => {
     if (data.command !== 'diagnose') return null;
     const candidates = result.candidates || [];
@@ -296,7 +308,7 @@
         (c.joint ? ' on ' + c.joint : jointName(c.joint_index));
     const chart = bars(candidates.slice(0, 12).map((c) => ({
       label: name(c), value: 100 * c.probability, colour: c.probability >= .8 ? 'c2' : 'c1',
-      note: Math.round(100 * c.probability) + ' %'})), '%', {top: 100});
+      note: c.probability < .005 ? 'less than 1 %' : Math.round(100 * c.probability) + ' %'})), '%', {top: 100});
     return [
       chart ? heading('How likely each is') : null,
       chart || html('p', {}, 'No effect is claimed.'),
@@ -305,11 +317,11 @@
           name(e),
           (e.estimates || []).map((s) => `${s.name} ${plusMinus(s.value, s.stddev)} ${s.unit}`).join(', '),
           isNumber(e.removed_percent)
-              ? `${percent(e.removed_percent)} [${(e.ci95 || []).map(number).join(', ')}]` : '–',
+              ? percent(e.removed_percent) + (whole(e.ci95) ? ` [${e.ci95.map(number).join(', ')}]` : '') : '–',
           (e.equivalent || []).map((q) => typeof q === 'string' ? q : name(q)).join(', ') || '–'])) : null,
-      found.length ? note('In brackets: the 95 % interval of what it removes of the gap that fitting again ' +
-                          'leaves, on data that nothing was fitted to.') : null,
-      ...found.filter((e) => e.separate_by).map((e) => note(e.separate_by))];
+      found.some((e) => isNumber(e.removed_percent)) ? note('Of the gap that fitting again leaves, on motion that ' +
+          'nothing was fitted to' + (found.some((e) => whole(e.ci95)) ? '; in brackets its 95 % interval.' : '.')) : null,
+      ...found.filter((e) => e.separate_by).map((e) => note(`To tell ${name(e)} from the others: ${e.separate_by}.`))];
   };
   const jointName = (index) => index > 0 && result.where && result.where.joints[index - 1]
       ? ' on ' + result.where.joints[index - 1].name : '';
@@ -323,15 +335,20 @@
 
   const gap = () => {
     if (!result.gap) return null;
+    const left = (g, removed) => g.refit - (g.refit - g.floor) * removed / 100;
     const part = (title, g) => g && isNumber(g.refit) ? [
       heading(title),
       bars([['model as it is', g.nominal, 'c2'], ['fitted again', g.refit, 'c1'],
             ['with the effects', (result.effects || []).length ? g.after : null, 'c3'],
             ['noise', g.floor, 'c0']].map(
-               ([label, value, c]) => ({label, value, colour: c})), 'times the noise', {log: true}),
+               ([label, value, c]) => Object.assign({label, value, colour: c},
+                   c === 'c3' && whole(g.ci95) ? {low: left(g, g.ci95[1]), high: left(g, g.ci95[0])} : {})),
+               'times the noise', {log: true}),
       (result.effects || []).length && isNumber(g.removed_percent)
-          ? html('p', {}, `The effects remove ${percent(g.removed_percent)} of what fitting again leaves` +
-                 (g.ci95 && isNumber(g.ci95[0]) ? ` (95 %: ${g.ci95.map(number).join(' to ')}).` : '.')) : null] : [];
+          ? html('p', {}, (g.removed_percent < 0 ? 'The effects do not shrink it: they remove '
+                                                 : 'The effects remove ') +
+                 `${percent(g.removed_percent)} of what fitting again leaves` +
+                 (whole(g.ci95) ? ` (95 %: ${g.ci95.map(number).join(' to ')}).` : '.')) : null] : [];
     return [...part('Torque on motion that nothing was fitted to, mean square', result.gap.torque),
             ...part('Positions when it is simulated, mean square', result.gap.forward)];
   };
@@ -339,6 +356,8 @@
   const where = () => {
     if (!result.where) return null;
     const joints = result.where.joints, any = (result.effects || []).length > 0;
+    const u = result.unexplained || {};
+    const drawn = data.skeleton && skeleton([{points: data.skeleton.points}], data.skeleton.joints);
     const shade = (value, floor) => html('span', {class: 'shade', style:
         `background: color-mix(in srgb, var(--c2) ${Math.round(60 * beyond(value, floor))}%, transparent)`},
         number(value));
@@ -350,8 +369,10 @@
                                j.floor_rms, j.organised_by || '–'])),
       note('rms of what is left of the torque; clear at the noise, full orange at ten times the noise. ' +
            'Follows: what orders the residual most, if anything does.'),
-      data.skeleton ? heading('On the robot: ' + (any ? 'model as it is, and with the effects' : 'model as it is')) : null,
-      data.skeleton ? html('div', {class: 'beside'}, columns.filter(([, key]) => key !== 'refit_rms').map(
+      u.share >= .01 ? html('p', {}, `No effect explains ${percent(100 * u.share)} of what fitting again leaves beyond ` +
+          `the noise: most of it on ${u.joint}` + (u.organised_by ? `, where it follows ${u.organised_by}.` : '.')) : null,
+      drawn ? heading('On the robot: ' + (any ? 'model as it is, and with the effects' : 'model as it is')) : null,
+      drawn ? html('div', {class: 'beside'}, columns.filter(([, key]) => key !== 'refit_rms').map(
           ([title, key]) => html('figure', {}, [
             skeleton([{points: data.skeleton.points,
                        shares: joints.map((j) => beyond(j[key], j.floor_rms))}], data.skeleton.joints),
@@ -381,14 +402,15 @@
     energy_max_rel: 'energy', energy_drift_rel: 'energy drift of Simbody’s simulation',
     own_energy_drift_rel: 'energy drift of ours', own_consistency_rel: 'forward, then inverse dynamics'};
   const checks = () => data.command === 'verify' && table(
-      ['check', 'largest relative difference', 'at most', ''],
-      (result.checks || []).map((c) => [checkNames[c.name] || c.name.replace(/_/g, ' '), c.value, c.threshold,
+      ['check', 'largest (relative) difference', 'at most', ''],
+      (result.checks || []).map((c) => [checkNames[c.name] || c.name.replace(/_/g, ' ')
+          .replace('rollout ratio low', 'error of the simulation over the file’s, low end of its interval,'), c.value, c.threshold,
                                         c.passed ? '✓' : '✗ failed']));
   const rollouts = () => (result.rollout || []).length > 0 && result.rollout.flatMap((r) => [
     html('h3', {}, `${number(r.window_s)} s from the log’s states, rms of positions in ${r.unit}`),
-    bars([{label: 'the file’s robot', value: r.before_rms, colour: 'c4',
+    bars([{label: 'the file’s robot', value: r.before_rms, colour: 'c2',
            low: (r.before_ci95 || [])[0], high: (r.before_ci95 || [])[1]},
-          {label: 'calibrated', value: r.after_rms, colour: 'c3',
+          {label: 'calibrated', value: r.after_rms, colour: 'c1',
            low: (r.ci95 || [])[0], high: (r.ci95 || [])[1]}], r.unit),
     note(`median of ${r.windows} windows with its 95 % interval` +
          (isNumber(r.ratio) ? `; the ratio is ${number(r.ratio)}` : ''))]);
@@ -405,7 +427,8 @@
             (result.joints || []).map((l) => [l.name, l.lower, l.upper, l.velocity, l.acceleration]))];
   };
   const predicted = () => data.command === 'excite' && (result.parameters || []).length > 0 && table(
-      ['quantity', 'predicted standard deviation', 'before', 'unit'],
+      ['quantity', 'predicted standard deviation', result.parameters.some((p) => isNumber(p.given_stddev))
+          ? 'known before' : data.extra.postures ? 'with random postures' : 'with a random motion', 'unit'],
       result.parameters.map((p) => [p.name, number(p.stddev),
         isNumber(p.given_stddev) ? number(p.given_stddev)
             : isNumber(p.random_stddev) ? number(p.random_stddev) : '–', p.unit]), true);
@@ -420,10 +443,12 @@
 
   // -- where it comes from -------------------------------------------------------
 
-  const robot = () => data.command !== 'diagnose' && data.skeleton && !data.extra.postures &&
-      !(data.extra.geometry || {}).skeleton &&
-      [skeleton([{points: data.skeleton.points}], data.skeleton.joints),
-       note('Joint axes of the robot file, at a bent posture. Drag, or use the arrow keys.')];
+  const robot = () => {
+    if (data.command === 'diagnose' || !data.skeleton || data.extra.postures) return null;
+    if ((data.extra.geometry || {}).skeleton) return null;
+    const drawn = skeleton([{points: data.skeleton.points}], data.skeleton.joints);
+    return drawn && [drawn, note('Joint axes of the robot file, at a bent posture. Drag, or use the arrow keys.')];
+  };
 
   const provenance = () => {
     const p = data.provenance;
