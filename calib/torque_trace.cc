@@ -56,7 +56,8 @@ void TorqueTrace::Break() {
 }
 
 int MostTraceBins(int logs, int num_joints, int num_models) {
-  constexpr int kNumbers = 800'000;  // of about 7 characters
+  constexpr int kNumbers = 600'000;  // of about 8 characters
+  logs = std::min(logs, kMostDrawnLogs);
   const int per_bin = 2 * num_joints * (1 + 2 * num_models);
   return std::clamp(kNumbers / std::max(1, logs * per_bin), 20, 2000);
 }

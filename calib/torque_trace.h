@@ -40,7 +40,9 @@ struct TorqueTrace {
   std::vector<ResidualMap> where;  // per joint, over the last model's torque
 };
 
-// Bins of a log's trace with which the page of all of them stays below 10 MB.
+// Bins of a log's trace with which a page stays below 10 MB, and the logs that
+// it draws at most.
+constexpr int kMostDrawnLogs = 30;
 int MostTraceBins(int logs, int num_joints, int num_models);
 
 // Of every log, in one pass; low-passed at four times the bandwidth. Standstill

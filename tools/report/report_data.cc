@@ -116,6 +116,7 @@ json TracesJson(const Robot& robot, const std::vector<std::string>& labels,
   json list = json::array();
   const int n = robot.num_joints(), count = static_cast<int>(labels.size());
   for (const TorqueTrace& trace : traces) {
+    if (list.size() == kMostDrawnLogs) break;
     json joints = json::array();
     for (int j = 0; j < n; ++j) {
       joints.push_back(
@@ -123,6 +124,7 @@ json TracesJson(const Robot& robot, const std::vector<std::string>& labels,
       joints.back()["where"] = MapJson(trace.where[j], count);
     }
     list.push_back({{"log", logs.path(trace.log)},
+                    {"logs", traces.size()},
                     {"labels", labels},
                     {"t", TimesJson(trace.torque)},
                     {"joints", joints}});

@@ -15,10 +15,10 @@ namespace armcal {
 TracedModel TraceRobot(const std::string& label, const Robot& robot,
                        const std::vector<CoulombTransition>& transitions);
 
-// [{log, labels: [model], t, joints: [{name, unit, position_unit, low, high,
-// where}], spectrum}], with `low` and `high` a list per signal of TorqueTrace
-// and `where` ProfileJson of each coordinate. Numbers have 5 digits; null ends
-// a stretch.
+// [{log, logs: how many there are, labels: [model], t, joints: [{name, unit,
+// position_unit, low, high, where}], spectrum}], with `low` and `high` a list
+// per signal of TorqueTrace and `where` ProfileJson of each coordinate. Numbers
+// have 5 digits; null ends a stretch.
 nlohmann::json TracesJson(const Robot& robot,
                           const std::vector<std::string>& labels,
                           const std::vector<TorqueTrace>& traces,

@@ -90,7 +90,8 @@
     const choice = html('select', {}, traces.map((trace, k) =>
         html('option', {value: k}, shortened(trace.log, 90))));
     choice.addEventListener('change', () => show(Number(choice.value)));
-    return [html('label', {class: 'choice'}, ['Log ', choice]), place];
+    return [html('label', {class: 'choice'}, ['Log ', choice]), traces[0].logs > traces.length
+        ? note(`The first ${traces.length} of ${traces[0].logs} logs are drawn.`) : null, place];
   };
 
   const heldOut = data.command === 'diagnose'
@@ -299,9 +300,10 @@
 
   // -- diagnosis -----------------------------------------------------------------
 
+  const testable = result.verdict !== 'not_testable';
   const whole = (interval) => (interval || []).length === 2 && interval.every(isNumber);
   const effects = () => {
-    if (data.command !== 'diagnose') return null;
+    if (data.command !== 'diagnose' || !testable) return null;
     const candidates = result.candidates || [];
     const found = result.effects || [];
     const name = (c) => String(c.effect).replace(/_/g, ' ') +
@@ -326,7 +328,7 @@
   const jointName = (index) => index > 0 && result.where && result.where.joints[index - 1]
       ? ' on ' + result.where.joints[index - 1].name : '';
 
-  const absorbed = () => (result.absorbed || []).length > 0 && [
+  const absorbed = () => testable && (result.absorbed || []).length > 0 && [
     table(['parameter', 'model as it was', 'fitted ± standard deviation', 'unit', 'in its standard deviations'],
           result.absorbed.map((p) => [p.name, p.nominal, plusMinus(p.value, p.stddev), p.unit,
                                       p.prior_deviations])),
@@ -369,7 +371,7 @@
                                j.floor_rms, j.organised_by || '–'])),
       note('rms of what is left of the torque; clear at the noise, full orange at ten times the noise. ' +
            'Follows: what orders the residual most, if anything does.'),
-      u.share >= .01 ? html('p', {}, `No effect explains ${percent(100 * u.share)} of what fitting again leaves beyond ` +
+      testable && u.share >= .01 ? html('p', {}, `No effect explains ${percent(100 * u.share)} of what fitting again leaves beyond ` +
           `the noise: most of it on ${u.joint}` + (u.organised_by ? `, where it follows ${u.organised_by}.` : '.')) : null,
       drawn ? heading('On the robot: ' + (any ? 'model as it is, and with the effects' : 'model as it is')) : null,
       drawn ? html('div', {class: 'beside'}, columns.filter(([, key]) => key !== 'refit_rms').map(
