@@ -8,6 +8,7 @@
 #include "calib/gap_fit.h"
 #include "calib/gap_held_out.h"
 #include "calib/gap_reference.h"
+#include "calib/gap_trace.h"
 
 namespace armcal {
 namespace {
@@ -116,8 +117,9 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   Tell("checking what was held out");
   result_.bandwidth_hz = options_.bandwidth_hz;
   result_.floor = fit_->noise().source;
+  const HeldOut::Residuals residuals = held_out_->AllResiduals();
   result_.torque =
-      ShrinkFigures(held_out_->AllSquares(),
+      ShrinkFigures(held_out_->SquaresOf(residuals),
                     VarianceDoubt(fit_->noise().source) / 2, options_.seed);
   for (int j = 0; j < robot_.num_joints(); ++j) {
     result_.joints.push_back(JointFigures(j));
@@ -128,6 +130,8 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   result_.effects = findings.effects;
   result_.candidates = findings.candidates;
   found_without_name_ = findings.without_name;
+  result_.traces =
+      TraceHeldOut(held_out_->rows(), residuals, !result_.effects.empty());
   Simulate(split ? training : validation, split);
   result_.moved = ListMoved(*fit_, fit_->refined().baseline);
   result_.shown = ListShown(*fit_, fit_->refined().baseline);

@@ -23,6 +23,7 @@
 #include "calib/gap_verdict.h"
 #include "calib/gap_where.h"
 #include "calib/log_set.h"
+#include "calib/torque_trace.h"
 #include "model/time_base.h"
 
 namespace armcal {
@@ -70,6 +71,7 @@ struct GapDiagnosis {
   LackedFamilies ladder;  // what the file gives no joint at all
   CorrectedRobot corrected;
   std::vector<JointGap> joints;
+  std::vector<TorqueTrace> traces;  // of what is held out, TraceHeldOut
   Unexplained unexplained;
   std::vector<DataFinding> data;
   std::vector<UntestableEffect> untestable;

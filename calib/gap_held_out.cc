@@ -147,17 +147,15 @@ MatrixXd HeldOut::Deviations(const MatrixXd& residual) const {
   return deviations;
 }
 
-MatrixXd HeldOut::Squares(const std::vector<GapCandidate>& effects,
-                          const VectorXd& baseline) const {
-  return Deviations(Residual(effects, baseline)).cwiseAbs2();
+HeldOut::Residuals HeldOut::AllResiduals() const {
+  return {Residual({}, fit_.before()), Residual({}, fit_.refit()),
+          Residual(fit_.refined().effects, fit_.refined().baseline)};
 }
 
-HeldOutSquares HeldOut::AllSquares() const {
-  HeldOutSquares squares;
-  squares.nominal = Squares({}, fit_.before());
-  squares.refit = Squares({}, fit_.refit());
-  squares.after = Squares(fit_.refined().effects, fit_.refined().baseline);
-  return squares;
+HeldOutSquares HeldOut::SquaresOf(const Residuals& residuals) const {
+  return {Deviations(residuals.nominal).cwiseAbs2(),
+          Deviations(residuals.refit).cwiseAbs2(),
+          Deviations(residuals.after).cwiseAbs2()};
 }
 
 JointRows HeldOut::Whitened(const MatrixXd& residual) const {

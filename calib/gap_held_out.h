@@ -23,11 +23,14 @@ class HeldOut {
   const std::vector<GapSegment>& segments() const {
     return data_->rows().segments();
   }
-  // Squares over variances, thinned samples x n; NaN where a joint stands.
-  Eigen::MatrixXd Squares(const std::vector<GapCandidate>& effects,
-                          const Eigen::VectorXd& baseline) const;
-  // Of the file's robot, the refitted one and the one with the effects.
-  HeldOutSquares AllSquares() const;
+  // Recorded minus predicted torque, thinned samples x n, N m or N: of the
+  // file's robot (or the reference's), the refitted one and the one with the
+  // effects.
+  struct Residuals {
+    Eigen::MatrixXd nominal, refit, after;
+  };
+  Residuals AllResiduals() const;
+  HeldOutSquares SquaresOf(const Residuals& residuals) const;
   // What the k-th effect does beside the others: by how much it lowers the mean
   // square, that of all being `after`, and whether these data are what it says.
   struct Merit {

@@ -137,7 +137,8 @@ std::string NonlinearCalibrator::StartPoses(const PoseMeasurements& measured,
   const PoseSolution alone = SolvePoses(measured, options_.refine, &*pose_fit_);
   values_.poses = alone.unknowns;
   result->poses.emplace();
-  result->poses->before_rms = alone.before_rms;
+  result->poses->before = alone.before;
+  result->poses->before_rms = Rms(alone.before);
   result->poses->noise = pose_fit_->noise();
   return alone.refusal;
 }
@@ -256,7 +257,7 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
     result.validation = Evaluate(result.robot, validation);
   }
   if (poses != nullptr) {
-    const auto distances =
+    const auto& distances = result.poses->after =
         pose_fit_->Distances(pose_fit_->AllRows(), values_.poses);
     result.poses->rms = Rms(distances);
     result.poses->max = *std::max_element(distances.begin(), distances.end());

@@ -41,7 +41,8 @@ struct PhysicalParameter {
 struct PoseFigures {
   double rms = 0;  // m, distances per target or pose
   double max = 0;
-  double before_rms = 0;  // only the instrument's frame fitted
+  double before_rms = 0;              // only the instrument's frame fitted
+  std::vector<double> before, after;  // the distances, m
   PoseNoise noise;
 };
 

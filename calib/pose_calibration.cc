@@ -122,7 +122,8 @@ PoseCalibration CalibratePoses(const Robot& robot,
   result.extent = Extent(measured);
   const PoseSolution solution = SolvePoses(measured, options.refine, &fit);
   result.reason = solution.refusal;
-  result.before_rms = solution.before_rms;
+  result.before = solution.before;
+  result.before_rms = Rms(solution.before);
   result.held = solution.held;
   if (!result.reason.empty()) return result;
   const PoseUnknowns& unknowns = solution.unknowns;
@@ -131,10 +132,10 @@ PoseCalibration CalibratePoses(const Robot& robot,
   result.solved = true;
   result.reason = "solved";
   result.noise = fit.noise();
-  const std::vector<double> distances = fit.Distances(rows, unknowns);
-  result.rms = Rms(distances);
-  result.median = Median(distances);
-  result.max = *std::max_element(distances.begin(), distances.end());
+  result.after = fit.Distances(rows, unknowns);
+  result.rms = Rms(result.after);
+  result.median = Median(result.after);
+  result.max = *std::max_element(result.after.begin(), result.after.end());
   result.outliers = FindOutliers(fit, unknowns, rows);
   std::vector<int> inliers;
   std::set_difference(rows.begin(), rows.end(), result.outliers.begin(),

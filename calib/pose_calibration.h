@@ -44,7 +44,9 @@ struct PoseCalibration {
   Eigen::VectorXd travel;  // per joint, rad or m
   double extent = 0;       // m, rms of measured positions about their mean
   PoseNoise noise;
-  double before_rms = 0;  // m, distances per target, only the frame fitted
+  // m, per pose and target: with only the frame fitted, with the estimate.
+  std::vector<double> before, after;
+  double before_rms = 0;  // m, only the frame fitted
   double rms = 0;         // m, all poses
   double inlier_rms = 0;
   double median = 0;

@@ -240,7 +240,7 @@ PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
              "the instrument's frame cannot be found")) {
     return solution;
   }
-  solution.before_rms = Rms(fit->Distances(rows, solution.unknowns));
+  solution.before = fit->Distances(rows, solution.unknowns);
   solve(refine, "the geometry cannot be solved for");
   return solution;
 }

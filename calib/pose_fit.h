@@ -100,7 +100,7 @@ struct PoseSolution {
   PoseUnknowns unknowns;
   std::vector<bool> free;         // of the geometry's parameters
   std::vector<std::string> held;  // sentences
-  double before_rms = 0;          // m, with only the frame fitted
+  std::vector<double> before;     // distances, m, with only the frame fitted
 };
 PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
                         PoseFit* fit);

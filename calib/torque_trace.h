@@ -6,6 +6,7 @@
 
 #include "calib/log_set.h"
 #include "calib/power_spectrum.h"
+#include "calib/residual_map.h"
 #include "calib/series_envelope.h"
 #include "model/model_parameters.h"
 
@@ -18,17 +19,34 @@ struct TracedModel {
   Eigen::VectorXd x;
 };
 
-// Torques of one log, N m or N, low-passed at four times the bandwidth.
+// Torques of one log, N m or N, that recorded, and predicted by models.
 struct TorqueTrace {
-  int log = 0;
+  TorqueTrace(int log, int num_joints, int num_models, int most_bins, double dt,
+              int spectrum_window = 512);
+
+  // A sample: recorded, n entries, and every model's, n x models. `moves`: the
+  // joints whose residual counts for `where`, all where it is empty.
+  void Add(double t, const Eigen::VectorXd& recorded,
+           const Eigen::MatrixXd& predicted, const Eigen::VectorXd& q,
+           const Eigen::VectorXd& qd, const std::vector<bool>& moves);
+  void Break();  // the next sample does not follow the last
+
+  int log;
   // n signals each: recorded, of every model, recorded minus every model's.
   SeriesEnvelope torque;
   // Of recorded minus predicted torque, n signals per model; empty where the
   // log is shorter than a window.
   PowerSpectrum residual;
+  std::vector<ResidualMap> where;  // per joint, over the last model's torque
 };
 
-// Of every log, in one pass.
+// Bins of a log's trace with which a page stays below 10 MB, and the logs that
+// it draws at most.
+constexpr int kMostDrawnLogs = 30;
+int MostTraceBins(int logs, int num_joints, int num_models);
+
+// Of every log, in one pass; low-passed at four times the bandwidth. Standstill
+// does not count for `where`.
 std::vector<TorqueTrace> TraceTorques(const std::vector<TracedModel>& models,
                                       int most_bins, const Progress& progress,
                                       LogSet* logs);

@@ -49,6 +49,14 @@ TEST(TorqueTrace, HoldsRecordedPredictedAndTheirDifference) {
     }
   }
   EXPECT_EQ(spikes, 1);
+  // What half the torque leaves is the load itself.
+  const BinnedProfile& load = traces[0].where[2].load;
+  EXPECT_GT(load.size(), 15);
+  for (int k = 0; k < load.size(); ++k) {
+    if (load.samples(k) == 0) continue;
+    EXPECT_NEAR(load.Mean(k)[1], load.begin() + (k + .5) * load.width(),
+                load.width() / 2 + tolerance);
+  }
   ASSERT_FALSE(traces[0].residual.empty());
   EXPECT_EQ(traces[0].residual.Density().cols(), 6);
 }

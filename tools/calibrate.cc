@@ -16,14 +16,13 @@
 #include "tools/calibrate_payload.h"
 #include "tools/calibrate_poses.h"
 #include "tools/calibrate_refined.h"
-#include "tools/command_report.h"
+#include "tools/calibrate_report.h"
 #include "tools/console.h"
 #include "tools/correct_trajectories.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
-#include "tools/report/report_data.h"
 
 DEFINE_string(
     geometry, "known",
@@ -177,19 +176,19 @@ Task TaskFromFlags() {
 // Adds the robot for simulators to the outputs. False where one was asked for
 // and there is none.
 bool Refine(const Task& task, const LinearCalibration& linear, LogSet* training,
-            LogSet* held_out, nlohmann::json* json, std::string* report,
-            OutputFolder* out) {
+            LogSet* held_out, std::optional<NonlinearCalibration>* refined,
+            nlohmann::json* json, std::string* report, OutputFolder* out) {
   if (!task.refinement || !linear.solved) return true;
   const Refinement& refinement = *task.refinement;
   if (!refinement.why_not.empty()) {
     *report += "no robot file: " + refinement.why_not + "\n";
     return !refinement.asked_for;
   }
-  const NonlinearCalibration refined = CalibrateNonlinear(
+  *refined = CalibrateNonlinear(
       task.robot, linear, refinement.options, training, held_out,
       refinement.poses ? &*refinement.poses : nullptr);
-  *report += AddRefinedOutputs(task.robot, refined, json, out);
-  return refined.converged() || !refinement.asked_for;
+  *report += AddRefinedOutputs(task.robot, **refined, json, out);
+  return (*refined)->converged() || !refinement.asked_for;
 }
 
 // With --select the segments to calibrate on take the place of all logs.
@@ -206,23 +205,6 @@ std::optional<SegmentSelection> SelectFromFlags(const Task& task,
   if (!all.solved) return {};
   return SelectSegments(task.robot, all, task.linear, FLAGS_segment, kMostRatio,
                         training);
-}
-
-// Of the held-out logs where there are some.
-std::string ReportHtml(const Robot& robot, const LinearCalibration& result,
-                       const nlohmann::json& json, const Progress& progress,
-                       LogSet* training, LogSet* held_out) {
-  LogSet* const shown = held_out != nullptr ? held_out : training;
-  std::vector<std::string> files = LogsFromFlags();
-  for (const std::string& path : ValidationLogsFromFlags()) {
-    files.push_back(path);
-  }
-  ReportContent content = StartReport("calibrate", robot, json, files);
-  if (!result.solved) return ReportPage(content);
-  content.torques = TracesJson(
-      robot, {{"calibrated", result.parameters, result.x}}, shown, progress);
-  content.extra["correlation"] = CorrelationsJson(result);
-  return ReportPage(content);
 }
 
 int RunCalibrate() {
@@ -257,16 +239,18 @@ int RunCalibrate() {
   if (gains) AddDriveGains(*gains, &json);
   if (selection) json["selection"] = ToJson(*selection, training);
   OutputFolder out(OutFromFlags());
+  std::optional<NonlinearCalibration> arm;
   const bool refined =
-      Refine(task, result, &training, held_out, &json, &report, &out);
+      Refine(task, result, &training, held_out, &arm, &json, &report, &out);
   const std::string text = json.dump(2) + "\n";
   out.Add("calibration.json", text);
   out.Add("covariance.csv", CovarianceCsv(result));
   out.Add("outliers.csv", OutlierCsv(robot, training));
-  if (!OutFromFlags().empty()) {
-    out.Add("report.html", ReportHtml(robot, result, json, task.linear.progress,
-                                      &training, held_out));
-  }
+  AddCalibrationReport(
+      robot, json,
+      {result, arm ? &*arm : nullptr,
+       held_out != nullptr ? held_out : &training, task.linear.progress},
+      &out);
   out.Write();
   const bool good = refined && Shortcomings(robot, result).empty();
   Print({text, report, robot.name + ": ", good, robot.notes});

@@ -8,6 +8,7 @@
 
 #include "calib/drive_gains_report.h"
 #include "tools/command.h"
+#include "tools/command_report.h"
 #include "tools/console.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
@@ -93,6 +94,9 @@ int ReportUnsolvedGains(const Robot& robot, const DriveGains& gains) {
   const std::string text = json.dump(2) + "\n";
   out.Add("calibration.json", text);
   out.Add("covariance.csv", "\n");  // no older matrix beside a refusal
+  std::vector<std::string> files = LogsFromFlags();
+  for (const std::string& log : PayloadLogs()) files.push_back(log);
+  AddReport("calibrate", robot, json, files, nullptr, &out);
   out.Write();
   Print({text, DriveGainsReport(gains), robot.name + ": ", false, {}});
   return kExitNegative;

@@ -9,7 +9,9 @@
 #include "model/urdf_update.h"
 #include "model/urdf_writer.h"
 #include "tools/calibrate_refined.h"
+#include "tools/calibrate_report.h"
 #include "tools/command.h"
+#include "tools/command_report.h"
 #include "tools/console.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
@@ -49,18 +51,25 @@ int CalibratePosesFromFlags(const Robot& robot) {
   const ProgressBar bar("fitting the poses");
   const PoseCalibration result = CalibratePoses(robot, measured, options);
   OutputFolder out(OutFromFlags());
-  const std::string json = PoseJson(robot, measured, result).dump(2) + "\n";
-  out.Add("calibration.json", json);
+  const nlohmann::json json = PoseJson(robot, measured, result);
+  const std::string text = json.dump(2) + "\n";
+  out.Add("calibration.json", text);
   if (result.solved) {
     out.Add("robot.urdf", robot.dh_convention
                               ? MakeUrdf(result.robot)
                               : UpdateUrdf(RobotPathFromFlags(), result.robot,
                                            true, BaseFromFlags()));
   }
+  const auto draw = [&](ReportContent* content) {
+    if (!result.solved) return;
+    content->extra["geometry"] =
+        GeometryDrawing(result.robot, result.before, result.after);
+  };
+  AddReport("calibrate", robot, json, {FLAGS_poses}, draw, &out);
   out.Write();
   const bool good = Shortcomings(robot, result).empty();
   Print(
-      {json, PoseReport(robot, measured, result), robot.name + ": ", good, {}});
+      {text, PoseReport(robot, measured, result), robot.name + ": ", good, {}});
   return good ? kExitOk : kExitNegative;
 }
 

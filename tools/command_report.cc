@@ -22,9 +22,12 @@ std::vector<std::string> GivenFlags(const std::string& command) {
 
 }  // namespace
 
-ReportContent StartReport(const std::string& command, const Robot& robot,
-                          const nlohmann::json& result,
-                          const std::vector<std::string>& files) {
+void AddReport(const std::string& command, const Robot& robot,
+               const nlohmann::json& result,
+               const std::vector<std::string>& files,
+               const std::function<void(ReportContent*)>& complete,
+               OutputFolder* out) {
+  if (OutFromFlags().empty()) return;
   ReportContent content;
   content.command = command;
   content.robot = robot.name;
@@ -36,7 +39,8 @@ ReportContent StartReport(const std::string& command, const Robot& robot,
   }
   content.files.push_back(HashFile(RobotPathFromFlags()));
   for (const std::string& file : files) content.files.push_back(HashFile(file));
-  return content;
+  if (complete) complete(&content);
+  out->Add("report.html", ReportPage(content));
 }
 
 }  // namespace armcal

@@ -1,19 +1,23 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "model/robot.h"
+#include "tools/output_folder.h"
 #include "tools/report/report_page.h"
 
 namespace armcal {
 
-// report.html of this run, but for what only the command itself knows: its
-// command line, the robot at a bent posture, and the hashes of the robot file
-// and of `files`.
-ReportContent StartReport(const std::string& command, const Robot& robot,
-                          const nlohmann::json& result,
-                          const std::vector<std::string>& files);
+// Adds report.html to the results, where --out asks for any: `result`, the
+// command line, the robot at a bent posture, the hashes of the robot file and
+// of `files`, and what `complete` (or null) knows besides.
+void AddReport(const std::string& command, const Robot& robot,
+               const nlohmann::json& result,
+               const std::vector<std::string>& files,
+               const std::function<void(ReportContent*)>& complete,
+               OutputFolder* out);
 
 }  // namespace armcal

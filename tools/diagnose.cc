@@ -62,21 +62,27 @@ void SetController(const Robot& robot, const LogReaderOptions& log_options,
       ControllerFromFlags(robot, options->commanded[0].log.qref.row(0));
 }
 
-std::string ReportHtml(const Robot& robot, const nlohmann::json& json,
-                       const Progress& progress, LogSet* logs) {
+// What is held out, by the models of the diagnosis.
+nlohmann::json Torques(const Robot& robot, const GapDiagnosis& diagnosis,
+                       const LogSet& logs) {
+  const bool reference = !FLAGS_reference.empty();
+  std::vector<std::string> labels = {
+      reference ? "as in the reference" : "the robot file", "fitted again"};
+  if (!diagnosis.effects.empty()) labels.push_back("with the effects");
+  return TracesJson(robot, labels, diagnosis.traces, logs);
+}
+
+std::vector<std::string> FilesRead() {
   std::vector<std::string> files = LogsFromFlags();
   for (const std::vector<std::string>& more :
        {ValidationLogsFromFlags(), SplitAtCommas(FLAGS_reference)}) {
     files.insert(files.end(), more.begin(), more.end());
   }
-  ReportContent content = StartReport("diagnose", robot, json, files);
-  content.torques = TracesJson(robot, {TraceRobot("the robot file", robot, {})},
-                               logs, progress);
-  return ReportPage(content);
+  return files;
 }
 
 int Finish(const Robot& robot, const GapDiagnosis& diagnosis,
-           const Progress& progress, LogSet* logs) {
+           const LogSet& logs) {
   OutputFolder out(OutFromFlags());
   const RobotExport corrected = ExportCorrectedRobot(
       diagnosis.corrected, robot,
@@ -87,9 +93,10 @@ int Finish(const Robot& robot, const GapDiagnosis& diagnosis,
   out.Add("diagnosis.json", text);
   out.Add("robot.urdf", corrected.urdf);
   out.Add("effects.json", corrected.effects.dump(2) + "\n");
-  if (!OutFromFlags().empty()) {
-    out.Add("report.html", ReportHtml(robot, json, progress, logs));
-  }
+  const auto draw = [&](ReportContent* content) {
+    content->torques = Torques(robot, diagnosis, logs);
+  };
+  AddReport("diagnose", robot, json, FilesRead(), draw, &out);
   out.Write();
   const bool tested = diagnosis.verdict != GapVerdict::kNotTestable;
   const std::string report = FullReport(diagnosis);
@@ -125,8 +132,7 @@ int RunDiagnose() {
   options.seed = SeedFromFlags();
   const GapDiagnosis diagnosis =
       DiagnoseGap(robot, options, &training, validation.get(), reference.get());
-  return Finish(robot, diagnosis, options.progress,
-                validation ? validation.get() : &training);
+  return Finish(robot, diagnosis, validation ? *validation : training);
 }
 
 }  // namespace

@@ -100,24 +100,25 @@ Design MakeDesign(const Robot& robot, const ExcitationOptions& options,
   return design;
 }
 
-// Positions and velocities of one period, and where the numbers come from.
-std::string ReportHtml(const Robot& robot, const nlohmann::json& json,
-                       const Log& motion) {
-  const Given given = GivenFromFlags();
-  std::vector<std::string> files = given.logs;
-  if (!given.calibration.empty()) files.push_back(given.calibration);
-  ReportContent content = StartReport("excite", robot, json, files);
-  if (motion.size() == 0) return ReportPage(content);
+// Positions and velocities of one period.
+nlohmann::json MotionJson(const Robot& robot, const Log& motion) {
+  if (motion.size() == 0) return nullptr;
   nlohmann::json joints = nlohmann::json::array();
   for (const Link& link : robot.links) {
     joints.push_back(
         {{"name", link.joint.name}, {"unit", PositionUnit(link.joint.type)}});
   }
-  content.extra["motion"] = {{"t", RoundedJson(motion.t)},
-                             {"q", SignalsJson(motion.q)},
-                             {"qd", SignalsJson(motion.qd)},
-                             {"joints", joints}};
-  return ReportPage(content);
+  return {{"t", RoundedJson(motion.t)},
+          {"q", SignalsJson(motion.q)},
+          {"qd", SignalsJson(motion.qd)},
+          {"joints", joints}};
+}
+
+std::vector<std::string> FilesRead() {
+  const Given given = GivenFromFlags();
+  std::vector<std::string> files = given.logs;
+  if (!given.calibration.empty()) files.push_back(given.calibration);
+  return files;
 }
 
 int RunPostures(const Robot& robot, const PostureOptions& options,
@@ -131,9 +132,10 @@ int RunPostures(const Robot& robot, const PostureOptions& options,
   const nlohmann::json json = ToJson(summary);
   const std::string text = json.dump(2) + "\n";
   out.Add("excite.json", text);
-  if (!OutFromFlags().empty()) {
-    out.Add("report.html", ReportHtml(robot, json, Log()));
-  }
+  const auto draw = [&](ReportContent* content) {
+    content->extra["postures"] = PosturesJson(robot, design.q);
+  };
+  AddReport("excite", robot, json, FilesRead(), draw, &out);
   out.Write();
   Print({text, FullReport(summary), "", true, {}});
   return kExitOk;
@@ -150,9 +152,10 @@ void WriteMotion(const ExcitationSummary& summary) {
   }
   const std::string text = json.dump(2) + "\n";
   out.Add("excite.json", text);
-  if (!OutFromFlags().empty()) {
-    out.Add("report.html", ReportHtml(summary.robot, json, motion));
-  }
+  const auto draw = [&](ReportContent* content) {
+    content->extra["motion"] = MotionJson(summary.robot, motion);
+  };
+  AddReport("excite", summary.robot, json, FilesRead(), draw, &out);
   out.Write();
   Print({text, FullReport(summary), "", true, {}});
 }

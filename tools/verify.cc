@@ -54,25 +54,17 @@ std::optional<ClosedLoopComparison> CloseLoop(
   return CompareClosedLoop(file, calibrated, controller, log);
 }
 
-std::string ReportHtml(const Robot& file, const VerificationReport& report,
-                       const nlohmann::json& json,
-                       const nlohmann::json& torques) {
-  std::vector<std::string> files = report.logs;
-  if (!FLAGS_calibration.empty()) files.push_back(FLAGS_calibration);
-  ReportContent content = StartReport("verify", file, json, files);
-  content.torques = torques;
-  return ReportPage(content);
-}
-
 int Finish(const Robot& file, const VerificationReport& report,
            const nlohmann::json& torques) {
   OutputFolder out(OutFromFlags());
   const nlohmann::json json = ToJson(report);
   const std::string text = json.dump(2) + "\n";
   out.Add("verification.json", text);
-  if (!OutFromFlags().empty()) {
-    out.Add("report.html", ReportHtml(file, report, json, torques));
-  }
+  std::vector<std::string> files = report.logs;
+  if (!FLAGS_calibration.empty()) files.push_back(FLAGS_calibration);
+  AddReport(
+      "verify", file, json, files,
+      [&](ReportContent* content) { content->torques = torques; }, &out);
   out.Write();
   Print({text, FullReport(report), file.name + ": ", report.passed(),
          file.notes});

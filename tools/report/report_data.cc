@@ -5,16 +5,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "model/kinematics.h"
-
 namespace armcal {
 namespace {
 
 using Eigen::VectorXd;
 using nlohmann::json;
-
-// So that a page stays below 10 MB whatever the logs.
-int MostBins(int logs) { return std::clamp(12'000 / logs, 200, 2000); }
 
 json Short(double value) {
   if (!std::isfinite(value)) return nullptr;
@@ -54,8 +49,35 @@ json JointTraceJson(const Joint& joint, int j, int n, int models,
   }
   return {{"name", joint.name},
           {"unit", EffortUnit(joint.type)},
+          {"position_unit", PositionUnit(joint.type)},
           {"low", low},
           {"high", high}};
+}
+
+// {begin, width, mean: per model, per bin, rms}; null where a bin is empty.
+json ProfileJson(const BinnedProfile& profile, int models) {
+  json mean = json::array(), rms = json::array();
+  for (int m = 0; m < models; ++m) {
+    json means = json::array(), sizes = json::array();
+    for (int k = 0; k < profile.size(); ++k) {
+      const bool any = profile.samples(k) > 0;
+      means.push_back(any ? Short(profile.Mean(k)[m]) : json());
+      sizes.push_back(any ? Short(profile.Rms(k)[m]) : json());
+    }
+    mean.push_back(means);
+    rms.push_back(sizes);
+  }
+  return {{"begin", profile.begin()},
+          {"width", profile.width()},
+          {"mean", mean},
+          {"rms", rms}};
+}
+
+json MapJson(const ResidualMap& map, int models) {
+  return {{"position", ProfileJson(map.position, models)},
+          {"velocity", ProfileJson(map.velocity, models)},
+          {"load", ProfileJson(map.load, models)},
+          {"time", ProfileJson(map.time, models)}};
 }
 
 // {f, density: per model, per joint}.
@@ -89,20 +111,20 @@ TracedModel TraceRobot(const std::string& label, const Robot& robot,
   return {label, parameters, parameters.Values(robot)};
 }
 
-json TracesJson(const Robot& robot, const std::vector<TracedModel>& models,
-                LogSet* logs, const Progress& progress) {
+json TracesJson(const Robot& robot, const std::vector<std::string>& labels,
+                const std::vector<TorqueTrace>& traces, const LogSet& logs) {
   json list = json::array();
-  const int n = robot.num_joints(), count = static_cast<int>(models.size());
-  json labels = json::array();
-  for (const TracedModel& model : models) labels.push_back(model.label);
-  for (const TorqueTrace& trace :
-       TraceTorques(models, MostBins(logs->size()), progress, logs)) {
+  const int n = robot.num_joints(), count = static_cast<int>(labels.size());
+  for (const TorqueTrace& trace : traces) {
+    if (list.size() == kMostDrawnLogs) break;
     json joints = json::array();
     for (int j = 0; j < n; ++j) {
       joints.push_back(
           JointTraceJson(robot.links[j].joint, j, n, count, trace.torque));
+      joints.back()["where"] = MapJson(trace.where[j], count);
     }
-    list.push_back({{"log", logs->path(trace.log)},
+    list.push_back({{"log", logs.path(trace.log)},
+                    {"logs", traces.size()},
                     {"labels", labels},
                     {"t", TimesJson(trace.torque)},
                     {"joints", joints}});
@@ -111,6 +133,16 @@ json TracesJson(const Robot& robot, const std::vector<TracedModel>& models,
     }
   }
   return list;
+}
+
+json TracesJson(const Robot& robot, const std::vector<TracedModel>& models,
+                LogSet* logs, const Progress& progress) {
+  const int count = static_cast<int>(models.size());
+  const int bins = MostTraceBins(logs->size(), robot.num_joints(), count);
+  std::vector<std::string> labels;
+  for (const TracedModel& model : models) labels.push_back(model.label);
+  return TracesJson(robot, labels, TraceTorques(models, bins, progress, logs),
+                    *logs);
 }
 
 json RoundedJson(const VectorXd& values) {
@@ -127,36 +159,52 @@ json SignalsJson(const Eigen::MatrixXd& columns) {
   return list;
 }
 
-json CorrelationsJson(const LinearCalibration& result) {
-  json names = json::array(), values = json::array();
+json CorrelationsJson(const std::string& title,
+                      const std::vector<std::string>& names,
+                      const Eigen::MatrixXd& covariance,
+                      const std::vector<bool>& identifiable) {
+  json shown = json::array(), values = json::array();
   std::vector<int> seen;
-  for (int k = 0; k < result.x.size(); ++k) {
-    if (!result.identifiable[k] || !(result.stddev[k] > 0)) continue;
+  for (int k = 0; k < covariance.rows(); ++k) {
+    if (!identifiable[k] || !(covariance(k, k) > 0)) continue;
     seen.push_back(k);
-    names.push_back(result.parameters.parameters()[k].name);
+    shown.push_back(names[k]);
   }
   for (const int r : seen) {
     json row = json::array();
     for (const int c : seen) {
       const double correlation =
-          result.covariance(r, c) / (result.stddev[r] * result.stddev[c]);
+          covariance(r, c) / std::sqrt(covariance(r, r) * covariance(c, c));
       row.push_back(std::round(1e3 * correlation) / 1e3);
     }
     values.push_back(row);
   }
-  return {{"names", names}, {"values", values}};
+  return {{"title", title}, {"names", shown}, {"values", values}};
 }
 
 json SkeletonJson(const Robot& robot, const VectorXd& q) {
-  json points = json::array();
-  const auto add = [&points](const Eigen::Vector3d& p) {
-    points.push_back({Short(p.x()), Short(p.y()), Short(p.z())});
-  };
-  for (const Eigen::Isometry3d& pose : LinkPoses(robot, q)) {
-    add(pose.translation());
+  return {{"joints", robot.JointNames()},
+          {"points", PosturesJson(robot, q.transpose())[0]}};
+}
+
+json PosturesJson(const Robot& robot, const Eigen::MatrixXd& q) {
+  json postures = json::array();
+  for (Eigen::Index k = 0; k < q.rows(); ++k) {
+    json points = json::array();
+    const auto add = [&points](const Eigen::Isometry3d& pose) {
+      const Eigen::Vector3d p = pose.translation();
+      points.push_back({Short(p.x()), Short(p.y()), Short(p.z())});
+    };
+    const VectorXd posture = q.row(k);
+    Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();
+    for (int i = 0; i < robot.num_joints(); ++i) {
+      add(X_WP * robot.links[i].X_PF);
+      X_WP = X_WP * robot.links[i].X_PL(posture[i]);
+    }
+    add(X_WP * robot.X_LT);
+    postures.push_back(points);
   }
-  add(ToolPose(robot, q).translation());
-  return {{"joints", robot.JointNames()}, {"points", points}};
+  return postures;
 }
 
 VectorXd BentPosture(const Robot& robot) {

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "calib/linear_calibration.h"
 #include "calib/log_set.h"
 #include "calib/torque_trace.h"
 #include "model/robot.h"
@@ -16,9 +15,15 @@ namespace armcal {
 TracedModel TraceRobot(const std::string& label, const Robot& robot,
                        const std::vector<CoulombTransition>& transitions);
 
-// [{log, labels: [model], joints: [{name, unit, t, low, high}], spectrum}],
-// with `low` and `high` a list per signal of TorqueTrace. Numbers
+// [{log, logs: how many there are, labels: [model], t, joints: [{name, unit,
+// position_unit, low, high, where}], spectrum}], with `low` and `high` a list
+// per signal of TorqueTrace and `where` ProfileJson of each coordinate. Numbers
 // have 5 digits; null ends a stretch.
+nlohmann::json TracesJson(const Robot& robot,
+                          const std::vector<std::string>& labels,
+                          const std::vector<TorqueTrace>& traces,
+                          const LogSet& logs);
+// Of the logs' torques.
 nlohmann::json TracesJson(const Robot& robot,
                           const std::vector<TracedModel>& models, LogSet* logs,
                           const Progress& progress);
@@ -27,13 +32,18 @@ nlohmann::json TracesJson(const Robot& robot,
 nlohmann::json RoundedJson(const Eigen::VectorXd& values);
 nlohmann::json SignalsJson(const Eigen::MatrixXd& columns);
 
-// {names, values: a list per row}: correlations of the parameters that the logs
-// show, to three decimals.
-nlohmann::json CorrelationsJson(const LinearCalibration& result);
+// {title, names, values: a list per row}: correlations of the parameters that
+// the logs show, to three decimals.
+nlohmann::json CorrelationsJson(const std::string& title,
+                                const std::vector<std::string>& names,
+                                const Eigen::MatrixXd& covariance,
+                                const std::vector<bool>& identifiable);
 
-// {joints: [name], points: [[x, y, z]]}: origins of the links and the tool at a
+// {joints: [name], points: [[x, y, z]]}: where the joints are and the tool at a
 // posture, base to tip, m.
 nlohmann::json SkeletonJson(const Robot& robot, const Eigen::VectorXd& q);
+// [points of SkeletonJson], a posture per row.
+nlohmann::json PosturesJson(const Robot& robot, const Eigen::MatrixXd& q);
 // The posture in the middle of a robot's limits that is not stretched out.
 Eigen::VectorXd BentPosture(const Robot& robot);
 

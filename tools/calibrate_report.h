@@ -1,0 +1,31 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "calib/linear_calibration.h"
+#include "calib/log_set.h"
+#include "calib/nonlinear_calibration.h"
+#include "model/robot.h"
+#include "tools/output_folder.h"
+
+namespace armcal {
+
+// What report.html shows of a calibration beside its JSON.
+struct CalibrationDrawing {
+  const LinearCalibration& linear;
+  const NonlinearCalibration* refined;  // null: there is none
+  LogSet* logs;                         // whose torques are drawn
+  Progress progress;
+};
+
+void AddCalibrationReport(const Robot& robot, const nlohmann::json& json,
+                          const CalibrationDrawing& drawing, OutputFolder* out);
+
+// {skeleton, poses}: a calibrated geometry, and distances of poses before and
+// after, m.
+nlohmann::json GeometryDrawing(const Robot& calibrated,
+                               const std::vector<double>& before,
+                               const std::vector<double>& after);
+
+}  // namespace armcal
