@@ -197,6 +197,11 @@ def main():
         all_of.check_links(name)
         all_of.run(name)
     if not options.only:
+        stale = subprocess.run([sys.executable, "docs/effects/write_pages.py",
+                                "--check"], cwd=all_of.root, text=True,
+                               capture_output=True, check=False)
+        if stale.returncode != 0:
+            all_of.fault("docs/effects", stale.stdout + stale.stderr)
         all_of.check_flags()
         all_of.check_keys()
     print(f"{all_of.ran} blocks run, {all_of.left} left to the reader")
