@@ -43,6 +43,8 @@ def shares(hits, count):
 
 
 def recognised(name, figures_of):
+    if figures_of is None:
+        return "It has not been in an evaluation yet."
     seen, faint = figures_of["seen"], figures_of["faint"]
     text = (f"On the blind bench `{name}` was named, on the right joint, in "
             f"{shares(*seen)} cases in which it was clear (ENR 0.32 and more)")
@@ -160,7 +162,7 @@ confidence in 9.
 def index(texts, known, others):
     rows, hits, total = [], 0, 0
     for name, text in texts.items():
-        seen = known[name]["seen"]
+        seen = known[name]["seen"] if name in known else (0, 0)
         hits, total = hits + seen[0], total + seen[1]
         kin_of = ", ".join(f"`{x}`" + (" of another joint" if x == name else "")
                            for x in sorted(others.get(name, {})))
@@ -177,7 +179,7 @@ def main():
     others = alike()
     files = {"README.md": index(texts, known, others)}
     for name, text in texts.items():
-        files[f"{name}.md"] = page(name, text, known[name], others, texts)
+        files[f"{name}.md"] = page(name, text, known.get(name), others, texts)
     if "--check" in sys.argv:
         stale = [name for name, text in files.items()
                  if not (HERE / name).exists() or
