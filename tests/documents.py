@@ -14,8 +14,9 @@ agree within 5 %, a unit of the last digit shown, or where both are below 1e-7
   ```text within 20%     of figures that hang on chance
   ```sh on your robot    not run: it needs what only the reader has
 
-Besides, each page of a command explains every flag of its --help and every key
-of the JSON files that the documents made, and links lead somewhere. Prints each
+Besides, each page of a command explains every flag of its help (docs/README.md
+those that all share) and every key of the JSON files that the documents made,
+links lead somewhere, and docs/effects is what its script writes. Prints each
 fault in a line; exit code 1 if there is any.
 """
 
@@ -158,6 +159,7 @@ class Documents:
                 continue
             page = self.root / "docs" / f"{command}.md"
             text = page.read_text() if page.exists() else ""
+            text += (self.root / "docs" / "README.md").read_text()
             for flag in flags:
                 if not re.search(f"`{flag}[=`]", text):
                     self.fault(f"docs/{command}.md", f"{flag} is not explained")
