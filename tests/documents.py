@@ -25,10 +25,10 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
-import time
 
 PAGES = {  # whose page explains the keys of a file
     "calibration.json": "calibrate", "verification.json": "verify",
@@ -80,11 +80,33 @@ def first_missing(shown, found, tolerance):
     return None
 
 
+def cpu_seconds():
+    """Of the commands that were run."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def tolerance_of(words):
     if words == "exact":
         return 0
     share = re.fullmatch(r"within (\d+)%", words)
     return int(share[1]) / 100 if share else .05
+
+
+def check_itself():
+    """What would let everything pass is noticed."""
+    right = [("a  1.00 m", "a 1.04 m", .05), ("x 3", "x 4", .05),
+             ("e 2e-16", "e 7e-15", .05), ("n 3 of 4", "n 3 of 4", 0)]
+    wrong = [("a 1.00 m", "a 1.20 m", .05), ("a 1 m", "a 1 mm", .05),
+             ("a 1", "a 1 1", .05), ("n 3 of 4", "n 4 of 4", 0),
+             ("a 0.5", "a -0.5", .3), ("e 2e-16", "e 2e-6", .05)]
+    for shown, found, tolerance in right:
+        assert same_line(shown, found, tolerance), (shown, found)
+    for shown, found, tolerance in wrong:
+        assert not same_line(shown, found, tolerance), (shown, found)
+    assert first_missing("a\n...\nc", "a\nb\nc", 0) is None
+    assert first_missing("a\nc", "a\nb\nc", 0) == "c"
+    assert first_missing("...\nc\na", "a\nb\nc", 0) == "a"
 
 
 class Documents:
@@ -109,7 +131,7 @@ class Documents:
     def run(self, document):
         text = (self.root / document).read_text()
         blocks = FENCE.findall(text)
-        folder, started = None, time.monotonic()
+        folder, started = None, cpu_seconds()
         for k, (language, words, body) in enumerate(blocks):
             if language != "sh" or not re.search(r"\barmcal\b [a-z-]", body):
                 continue
@@ -135,7 +157,7 @@ class Documents:
                     self.fault(document, f"`{name}` does not print\n{missing}"
                                          f"\nbut\n{output}")
         if folder:
-            print(f"{document}: {time.monotonic() - started:.1f} s")
+            print(f"{document}: {cpu_seconds() - started:.1f} CPU s")
 
     def check_links(self, document):
         path = self.root / document
@@ -151,6 +173,25 @@ class Documents:
             if done.returncode == 0:
                 return done.stdout
         return ""
+
+    def check_effects(self):
+        """Pages are what their script writes, and simulate knows what they
+        say to try."""
+        done = subprocess.run([sys.executable, "docs/effects/write_pages.py",
+                               "--check"], cwd=self.root, text=True,
+                              capture_output=True, check=False)
+        if done.returncode != 0:
+            self.fault("docs/effects", done.stdout + done.stderr)
+        for page in sorted((self.root / "docs" / "effects").glob("*.md")):
+            tried = re.search("Try it: `armcal ([^`]*)`", page.read_text())
+            if not tried:
+                continue
+            done = subprocess.run(
+                f"{self.armcal} {tried[1]} --duration=1", shell=True,
+                cwd=self.scratch("effects"), capture_output=True, text=True,
+                check=False)
+            if done.returncode != 0:
+                self.fault(f"docs/effects/{page.name}", done.stderr)
 
     def check_flags(self):
         for command in re.findall(r"^  ([a-z]+)  ", self.help_of(), re.M):
@@ -196,6 +237,7 @@ def main():
         parser.add_argument(f"--{name}", required=True)
     parser.add_argument("--only", help="run one document, check no keys")
     options = parser.parse_args()
+    check_itself()
     all_of = Documents(options)
     names = sorted(str(path.relative_to(all_of.root)) for pattern in (
         "README.md", "docs/*.md", "docs/effects/*.md", "data/*/README.md")
@@ -204,11 +246,7 @@ def main():
         all_of.check_links(name)
         all_of.run(name)
     if not options.only:
-        stale = subprocess.run([sys.executable, "docs/effects/write_pages.py",
-                                "--check"], cwd=all_of.root, text=True,
-                               capture_output=True, check=False)
-        if stale.returncode != 0:
-            all_of.fault("docs/effects", stale.stdout + stale.stderr)
+        all_of.check_effects()
         all_of.check_flags()
         all_of.check_keys()
     print(f"{all_of.ran} blocks run, {all_of.left} left to the reader")

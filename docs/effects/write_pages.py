@@ -104,7 +104,7 @@ def page(name, text, figures_of, others, names):
         kin(name, others, names), "",
         "## How well it is recognised", "", recognised(name, figures_of), "",
         "## In simulators", "", text["simulators"], "",
-        f"Try it: `armcal simulate --robot=arm.yaml --effects=\""
+        f"Try it: `armcal simulate --robot=data/six_axis/real.yaml --effects=\""
         f"{text['inject']}\" --out=run`. [All effects](README.md)", ""]
     out = []
     for line in lines:
