@@ -15,7 +15,7 @@ agree within 5 %, a unit of the last digit shown, or where both are below 1e-7
   ```sh on your robot    not run: it needs what only the reader has
 
 Besides, each page of a command explains every flag of its help (docs/README.md
-those that all share) and every key of the JSON files that the documents made,
+or docs/command_line.md those that all share) and every key of the JSON files that the documents made,
 links lead somewhere, and docs/effects is what its script writes. Prints each
 fault in a line; exit code 1 if there is any.
 """
@@ -124,6 +124,7 @@ class Documents:
         folder = self.work / re.sub(r"\W+", "_", document)
         shutil.rmtree(folder, ignore_errors=True)
         (folder / "build").mkdir(parents=True)
+        (folder / "armcal-out").mkdir()
         (folder / "build" / "armcal").symlink_to(self.armcal)
         (folder / "data").symlink_to(self.root / "data")
         return folder
@@ -194,13 +195,16 @@ class Documents:
                 self.fault(f"docs/effects/{page.name}", done.stderr)
 
     def check_flags(self):
+        shared = [self.root / "docs" / name
+                  for name in ("README.md", "command_line.md")]
         for command in re.findall(r"^  ([a-z]+)  ", self.help_of(), re.M):
             flags = re.findall(r"^  (--[a-z_]+)", self.help_of(command), re.M)
             if not flags:
                 continue
             page = self.root / "docs" / f"{command}.md"
             text = page.read_text() if page.exists() else ""
-            text += (self.root / "docs" / "README.md").read_text()
+            text += "".join(path.read_text() for path in shared
+                            if path.exists())
             for flag in flags:
                 if not re.search(f"`{flag}[=`]", text):
                     self.fault(f"docs/{command}.md", f"{flag} is not explained")

@@ -84,7 +84,8 @@ def needed(text):
 def kin(name, others, names):
     """What an ordinary motion does not tell it from."""
     if name not in others:
-        return "No other effect of the catalogue was alike on all of the motion."
+        return ("No other effect of the catalogue was alike on an ordinary motion "
+                "(cosine below 0.95 on each of five arms).")
     parts = []
     for other, arms in sorted(others[name].items()):
         text = f"[`{other}`]({other}.md)" if other in names else f"`{other}`"
