@@ -18,7 +18,8 @@ endmacro()
 
 # tests/documents.py runs the blocks and compares what they print.
 set(case "documents")
-execute_process(COMMAND python3 ${root}/tests/documents.py --armcal=${ARMCAL}
+find_program(python python3 HINTS /usr/bin NO_DEFAULT_PATH)
+execute_process(COMMAND ${python} ${root}/tests/documents.py --armcal=${ARMCAL}
                 --root=${root} --work=${WORK_DIR}/documents
                 RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
 message("${out}")
