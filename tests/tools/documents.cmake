@@ -1,5 +1,5 @@
-# What the documents say: the commands in them run, and docs/calibrate.md names
-# every flag and every key of calibration.json.
+# What the documents say: the commands in them run and print what stands there,
+# and the page of a command names all of its flags and keys.
 get_filename_component(root ${DATA_DIR} DIRECTORY)
 
 # Cuts the next block of a language off the front of `rest`; empty if none.
@@ -16,64 +16,14 @@ macro(take_block language block)
   endif()
 endmacro()
 
-# Runs the sh blocks of a document that call armcal, from the repository's root
-# as they are meant, but with results in WORK_DIR.
-function(run_blocks document)
-  file(READ ${root}/${document} rest)
-  set(blocks 0)
-  take_block(sh block)
-  while(NOT block STREQUAL "")
-    if(block MATCHES "build/armcal")
-      math(EXPR blocks "${blocks} + 1")
-      set(case "${document}, block ${blocks}")
-      string(REPLACE "build/armcal" "${ARMCAL}" block "${block}")
-      string(REPLACE "armcal-out" "${WORK_DIR}" block "${block}")
-      execute_process(COMMAND bash -e -c "${block}" WORKING_DIRECTORY ${root}
-                      RESULT_VARIABLE code OUTPUT_VARIABLE out
-                      ERROR_VARIABLE err)
-      expect_code(0)
-      expect_text(out "rank       6 of 6")
-    endif()
-    take_block(sh block)
-  endwhile()
-  if(blocks EQUAL 0)
-    message(SEND_ERROR "${document}: no block that calls armcal")
-  endif()
-endfunction()
-
-run_blocks(README.md)
-run_blocks(data/scara/README.md)
-run_blocks(docs/calibrate.md)
-run_blocks(docs/command_line.md)
-
-foreach(command calibrate excite inspect)
-  file(READ ${root}/docs/${command}.md text)
-  file(READ ${root}/docs/command_line.md of_all_commands)
-  string(APPEND text "${of_all_commands}")
-  run("flags of ${command}" ${command} --helpfull)
-  string(REGEX MATCHALL "\n  --[a-z_]+" flags "${out}")
-  foreach(flag ${flags})
-    string(STRIP "${flag}" flag)
-    if(NOT text MATCHES "`${flag}[=`]")
-      fail("docs/${command}.md does not explain ${flag}")
-    endif()
-  endforeach()
-endforeach()
-file(READ ${root}/docs/calibrate.md text)
-
-run("keys" calibrate --robot=${DATA_DIR}/scara/robot.yaml
-    --log=${DATA_DIR}/scara/B.csv.gz --validate=${DATA_DIR}/scara/A.csv.gz
-    --geometry=lengths --out=out)
+# tests/documents.py runs the blocks and compares what they print.
+set(case "documents")
+find_program(python python3 HINTS /usr/bin NO_DEFAULT_PATH)
+execute_process(COMMAND ${python} ${root}/tests/documents.py --armcal=${ARMCAL}
+                --root=${root} --work=${WORK_DIR}/documents
+                RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
+message("${out}")
 expect_code(0)
-file(READ ${WORK_DIR}/out/calibration.json json)
-string(REGEX MATCHALL "\"[a-z_0-9]+\":" keys "${json}")
-list(REMOVE_DUPLICATES keys)
-foreach(key ${keys})
-  string(REGEX REPLACE "[\":]" "" key "${key}")
-  if(NOT text MATCHES "`${key}(\\[\\])?`")
-    fail("docs/calibrate.md does not explain the key ${key}")
-  endif()
-endforeach()
 
 # The examples of both formats are read; they are too short for a result.
 file(READ ${root}/docs/robot_files.md rest)

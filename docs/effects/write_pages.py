@@ -1,0 +1,224 @@
+#!/usr/bin/env python3
+"""Writes the pages of this folder from effects.toml, figures.py,
+recognition.json and tests/blind/equivalents.json. With --check it writes
+nothing and names the pages that differ. Python 3.11, no packages."""
+
+import json
+import pathlib
+import re
+import sys
+import tomllib
+
+import figures
+
+HERE = pathlib.Path(__file__).parent
+EQUIVALENTS = HERE.parent.parent / "tests" / "blind" / "equivalents.json"
+
+
+def title(name):
+    return name.replace("_", " ").capitalize()
+
+
+def alike():
+    """name: {other: {arms}}, declared equivalents."""
+    found = {}
+    for arm, pairs in json.loads(EQUIVALENTS.read_text()).items():
+        for pair in pairs:
+            a, b = pair["a"]["effect"], pair["b"]["effect"]
+            for one, other in {(a, b), (b, a)}:
+                found.setdefault(one, {}).setdefault(other, set()).add(arm)
+    return found
+
+
+def table(rows):
+    lines = ["| name | unit | meaning |", "|---|---|---|"]
+    for row in rows:
+        name, turning, sliding, meaning = (x.strip() for x in row.split("|"))
+        unit = turning if turning == sliding else f"{turning}; {sliding}"
+        lines.append(f"| `{name}` | {unit} | {meaning} |")
+    return lines
+
+
+def shares(hits, count):
+    return f"{hits} of {count}"
+
+
+def recognised(name, figures_of):
+    if figures_of is None:
+        return "It has not been in an evaluation yet."
+    seen, faint = figures_of["seen"], figures_of["faint"]
+    text = (f"On the blind bench `{name}` was named, on the right joint, in "
+            f"{shares(*seen)} cases in which it was clear (ENR 0.32 and more)")
+    text += f" and in {shares(*faint)} in which it was faint (0.17 to 0.32)."
+    told = [f"`{other}` {count}" for other, count in
+            figures_of["instead"].items()]
+    elsewhere = seen[1] - seen[0] - sum(figures_of["instead"].values())
+    if elsewhere:
+        told.append(f"the same on another joint {elsewhere}")
+    if told:
+        text += " Told instead, of the clear ones: " + ", ".join(told) + "."
+    error = figures_of["size_error"]
+    if error:
+        text += (f" Its size is off by {100 * error[0]:.2g} % in the median "
+                 f"and by {100 * error[1]:.2g} % at the 90th percentile "
+                 f"({error[2]} cases).")
+    return text + (" So few cases leave wide margins: see "
+                   "[accuracy](../accuracy.md#diagnosis).")
+
+
+def needed(text):
+    """The size from which it shows, of a study on simulated arms."""
+    if "needs" not in text:
+        return []
+    size = text["needs"].removesuffix(" *")
+    line = (f"Size that just shows (ENR 0.32): {size}, in 40 s of rich motion "
+            "of a simulated six-axis arm with 1 % of torque noise and a file "
+            "that is 2 to 4 % off.")
+    if size != text["needs"]:
+        line += (" Here it is the file that limits, not the noise: the model's "
+                 "own numbers take smaller ones. A reference log lowers this in "
+                 "proportion.")
+    return ["", line]
+
+
+def kin(name, others, names):
+    """What an ordinary motion does not tell it from."""
+    if name not in others:
+        return ("No other effect of the catalogue was alike on an ordinary motion "
+                "(cosine below 0.95 on each of five arms).")
+    parts = []
+    for other, arms in sorted(others[name].items()):
+        text = f"[`{other}`]({other}.md)" if other in names else f"`{other}`"
+        if other == name:
+            text += " of another joint"
+        elif other not in names:
+            text += " (not in the catalogue)"
+        parts.append(f"{text} ({', '.join(sorted(arms))})")
+    return ("Alike on an ordinary motion (cosine of at least 0.95 beside what "
+            "the model takes, on the arms named): " + "; ".join(parts) + ".")
+
+
+def page(name, text, figures_of, others, names):
+    joint = "the whole robot" if text.get("scope") == "robot" else "one joint"
+    lines = [
+        "<!-- Written by write_pages.py from effects.toml: change that. -->",
+        f"# {title(name)}", "", f"`{name}`, of {joint}.", "", "```",
+        text["law"], "```", "", text["cause"], "",
+        f"![What {name} leaves in the torque of a joint: against what orders "
+        f"it, and over time]({name}.svg)", "",
+        "## Parameters", "", *table(text.get("estimates",
+                                             text["parameters"]))]
+    if "estimates" in text:
+        lines += ["", "These are the estimates of diagnosis.json; effects.json "
+                  "has what `Apply` takes:", "", *table(text["parameters"])]
+    lines += [
+        "", "Units with a semicolon: of a revolute joint; of a prismatic one."
+        if any(row.split("|")[1].strip() != row.split("|")[2].strip()
+               for row in text["parameters"]) else "",
+        "", "## In the residual", "", text["residual"], "",
+        "## When it is visible", "", text["visible"], *needed(text), "",
+        "## What it is taken for", "", text["tell"], "",
+        kin(name, others, names), "",
+        "## How well it is recognised", "", recognised(name, figures_of), "",
+        "## In simulators", "", text["simulators"], "",
+        f"Try it: `armcal simulate --robot=data/six_axis/real.yaml --effects=\""
+        f"{text['inject']}\" --out=run`. [All effects](README.md)", ""]
+    out = []
+    for line in lines:
+        if line or (out and out[-1]):
+            out.append(line)
+    return "\n".join(out) + "\n"
+
+
+INDEX = """<!-- Written by write_pages.py: change that. -->
+# Effects
+
+What [diagnose](../diagnose.md) has names for: {count} laws that rigid bodies with viscous
+and Coulomb friction lack. `tau` is the torque that the motor needs beyond the model
+(recorded minus predicted), v the joint's velocity, ID inverse dynamics, sign(v) rounded as
+the joint's own Coulomb friction is. SI units.
+
+Each page has the law, its parameters as the result files have them, what it leaves in the
+residual, which motion shows it, what it is taken for, how well it is recognised and what
+simulators have for it. Figures are of one small arm and one motion (`figures.py`), so that
+they can be compared: left the residual against what orders it, right over time, shaded
+where the joint moves forwards.
+
+| effect | law | clear cases named | alike on an ordinary motion |
+|---|---|---|---|
+{rows}
+
+"Clear" is an effect whose torque is at least 0.32 of the noise's after all that the model
+may vary has been fitted to it (ENR, [blind bench](../../tests/blind/README.md)); {hits} of
+{total} were named with class and joint right in the evaluation of 2026-11-21 (commit
+eaa5e611, seed 1789257233), on five arms, one fifth of them with poor motion. Seven cases of an
+effect say little about that effect: 7 of 7 is 59 to 100 % (95 %).
+
+## Which of them is mine
+
+| the residual | look at |
+|---|---|
+| flips with the direction | `coulomb_friction`, `stribeck`, `load_friction`, `position_friction`, `presliding`, `thermal_friction` |
+| flips with another joint's direction | `coupled_friction`, `torque_crosstalk` |
+| grows with speed | `viscous_friction`, `quadratic_friction`, `asymmetric_friction` |
+| follows acceleration | `armature`, `link_inertia`, `elasticity`, `time_base` |
+| repeats with position | `spring`, `cable`, `torque_ripple`, `position_friction` |
+| follows gravity, on several joints | `payload`, `link_inertia`, `link_length`, `encoder_offset`, `base_tilt` |
+| follows the torque itself | `torque_gain`, `torque_nonlinearity`, `torque_saturation`, `torque_deadband` |
+| comes where torque changes fast | `delay`, `backlash`, `elasticity` |
+| is there at rest | `torque_offset`, `vibration`, `time_drift` |
+| comes once | `external_contact` |
+
+What it has no name for (a brake that drags, a belt that slips, a load that sloshes ...):
+`armcal simulate --list_effects` has 13 of them. A diagnosis should then say `unknown`; it
+did, or named what cannot be told from it, in 47 of 56 cases, and named something else with
+confidence in 9.
+"""
+
+
+def linked(text, names):
+    """With links from names in backquotes."""
+    head, mark, table_of = text.partition("## Which of them is mine")
+    return head + mark + re.sub(
+        "`([a-z_]+)`", lambda m: f"[`{m[1]}`]({m[1]}.md)"
+        if m[1] in names else m[0], table_of)
+
+
+def index(texts, known, others):
+    rows, hits, total = [], 0, 0
+    for name, text in texts.items():
+        seen = known[name]["seen"] if name in known else (0, 0)
+        hits, total = hits + seen[0], total + seen[1]
+        kin_of = ", ".join(f"`{x}`" + (" of another joint" if x == name else "")
+                           for x in sorted(others.get(name, {})))
+        law = text["law"].replace("|", "\\|")
+        rows.append(f"| [`{name}`]({name}.md) | {law} | {shares(*seen)} | "
+                    f"{kin_of} |")
+    return linked(INDEX.format(count=len(texts), rows="\n".join(rows),
+                               hits=hits, total=total), texts)
+
+
+def main():
+    texts = tomllib.loads((HERE / "effects.toml").read_text())
+    known = json.loads((HERE / "recognition.json").read_text())["effects"]
+    others = alike()
+    files = {"README.md": index(texts, known, others)}
+    for name, text in texts.items():
+        files[f"{name}.md"] = page(name, text, known.get(name), others, texts)
+    if "--check" in sys.argv:
+        stale = [name for name, text in files.items()
+                 if not (HERE / name).exists() or
+                 (HERE / name).read_text() != text]
+        stale += [f"{name}.svg" for name in texts
+                  if not (HERE / f"{name}.svg").exists()]
+        for name in stale:
+            print(f"docs/effects/{name} is not what write_pages.py writes")
+        sys.exit(1 if stale else 0)
+    for name in texts:
+        files[f"{name}.svg"] = figures.draw(name)
+    for name, text in files.items():
+        (HERE / name).write_text(text)
+
+
+if __name__ == "__main__":
+    main()
