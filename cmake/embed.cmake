@@ -1,20 +1,30 @@
 # embed(OUT NAME FILE [NAME FILE ...])
 #
 # Assembler source, whose path goes into OUT, that puts each file byte by byte
-# between the symbols embedded_NAME and embedded_NAME_end.
+# between the symbols embedded_NAME and embedded_NAME_end; files of the same NAME
+# that follow each other make one.
 function(embed out)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${out}.S)
   set(text ".section .rodata\n")
   set(files)
+  set(last)
   while(ARGN)
     list(POP_FRONT ARGN name file)
     if(NOT EXISTS ${file})
       message(FATAL_ERROR "${file} is missing: run tools/setup.sh")
     endif()
-    string(APPEND text ".global embedded_${name}\n.global embedded_${name}_end\n"
-           "embedded_${name}:\n.incbin \"${file}\"\nembedded_${name}_end:\n")
+    if(NOT name STREQUAL last)
+      if(last)
+        string(APPEND text "embedded_${last}_end:\n")
+      endif()
+      string(APPEND text ".global embedded_${name}\n"
+             ".global embedded_${name}_end\nembedded_${name}:\n")
+      set(last ${name})
+    endif()
+    string(APPEND text ".incbin \"${file}\"\n")
     list(APPEND files ${file})
   endwhile()
+  string(APPEND text "embedded_${last}_end:\n")
   string(APPEND text ".section .note.GNU-stack,\"\",%progbits\n")
   file(CONFIGURE OUTPUT ${source} CONTENT "${text}" @ONLY)
   set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}")

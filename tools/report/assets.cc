@@ -4,8 +4,6 @@
 extern "C" {
 extern const char embedded_dygraphs_script[], embedded_dygraphs_script_end[];
 extern const char embedded_dygraphs_style[], embedded_dygraphs_style_end[];
-extern const char embedded_charts_script[], embedded_charts_script_end[];
-extern const char embedded_plots_script[], embedded_plots_script_end[];
 extern const char embedded_report_script[], embedded_report_script_end[];
 extern const char embedded_report_style[], embedded_report_style_end[];
 }
@@ -24,12 +22,6 @@ std::string_view DygraphsScript() {
 }
 std::string_view DygraphsStyle() {
   return Between(embedded_dygraphs_style, embedded_dygraphs_style_end);
-}
-std::string_view ChartsScript() {
-  return Between(embedded_charts_script, embedded_charts_script_end);
-}
-std::string_view PlotsScript() {
-  return Between(embedded_plots_script, embedded_plots_script_end);
 }
 std::string_view ReportScript() {
   return Between(embedded_report_script, embedded_report_script_end);

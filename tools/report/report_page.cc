@@ -108,8 +108,7 @@ SourceFile HashFile(const std::string& path) {
 }
 
 std::string ReportPage(const ReportContent& content) {
-  const std::string_view scripts[] = {DygraphsScript(), ChartsScript(),
-                                      PlotsScript(), ReportScript()};
+  const std::string_view scripts[] = {DygraphsScript(), ReportScript()};
   std::string sources, elements;
   for (const std::string_view script : scripts) {
     sources += " " + PolicySource(script);

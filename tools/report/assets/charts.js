@@ -34,6 +34,14 @@ const charts = (() => {
   const shortened = (text, most) =>
       [...String(text)].length > most ? [...String(text)].slice(0, most - 1).join('') + '…' : String(text);
 
+  // In words.
+  const percent = (x) => isNumber(x) ? number(x) + ' %' : '–';
+  const plusMinus = (value, stddev) =>
+      isNumber(stddev) ? `${number(value)} ± ${number(stddev)}` : number(value);
+  const note = (text) => html('p', {class: 'faint'}, text);
+  const heading = (text) => html('h3', {}, text);
+  const list = (items) => html('ul', {}, items.map((item) => html('li', {}, item)));
+
   // What a line of each kind looks like: colour, dashes and width, so that
   // none carries the meaning alone.
   const styles = {
@@ -312,5 +320,5 @@ const charts = (() => {
   };
 
   return {html, svg, number, isNumber, shortened, styleOf, legend, table, bars, interval, beyond,
-          profile, correlations, strongest, skeleton};
+          profile, correlations, strongest, skeleton, percent, plusMinus, note, heading, list};
 })();
