@@ -4,11 +4,10 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build python3
+  g++ cmake ninja-build python3 dpkg-dev file groff-base
   libeigen3-dev libgflags-dev libgoogle-glog-dev libtinyxml2-dev libyaml-cpp-dev
   nlohmann-json3-dev zlib1g-dev libceres-dev libsimbody-dev libboost-dev
   libssl-dev libjs-dygraphs libgtest-dev libgmock-dev libmujoco-dev python3-numpy
-  dpkg-dev file groff-base
 )
 
 missing=()
