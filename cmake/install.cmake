@@ -9,9 +9,11 @@ set(documents ${CMAKE_CURRENT_BINARY_DIR}/documents)
 set(completions share/bash-completion/completions/armcal
     share/zsh/vendor-completions/_armcal
     share/fish/vendor_completions.d/armcal.fish)
-set(written ${documents}/armcal.1.gz)
+set(written ${documents}/armcal.1.gz ${documents}/changelog.gz)
 set(commands COMMAND sh -c
-    "$<TARGET_FILE:armcal> help --man | gzip -9n > ${written}")
+    "$<TARGET_FILE:armcal> help --man | gzip -9n > ${documents}/armcal.1.gz"
+    COMMAND sh -c
+    "gzip -9n < ${PROJECT_SOURCE_DIR}/CHANGELOG.md > ${documents}/changelog.gz")
 foreach(file ${completions})
   string(REGEX REPLACE "^share/(bash|zsh|fish).*" "\\1" shell ${file})
   list(APPEND written ${documents}/${file})
@@ -21,14 +23,16 @@ foreach(file ${completions})
   file(MAKE_DIRECTORY ${documents}/${folder})
   install(FILES ${documents}/${file} DESTINATION ${folder} COMPONENT runtime)
 endforeach()
-add_custom_command(OUTPUT ${written} ${commands} DEPENDS armcal VERBATIM)
+add_custom_command(OUTPUT ${written} ${commands} VERBATIM
+                   DEPENDS armcal ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
 add_custom_target(documents ALL DEPENDS ${written})
 install(TARGETS armcal COMPONENT runtime)
 install(FILES ${documents}/armcal.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
         COMPONENT runtime)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/armcal
         COMPONENT runtime)
-# Debian's policy: the licence of a package is the file `copyright`.
+# Debian's policy: the licence of a package is the file `copyright`, beside a
+# changelog.
 foreach(package armcal armcal-dev)
   set(component runtime)
   if(package STREQUAL armcal-dev)
@@ -36,6 +40,8 @@ foreach(package armcal armcal-dev)
   endif()
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
           RENAME copyright COMPONENT ${component})
+  install(FILES ${documents}/changelog.gz COMPONENT ${component}
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package})
 endforeach()
 
 # Headers are included as here, "model/robot.h", from include/armcal.

@@ -118,6 +118,14 @@ std::string OfFlags(const Command& command, const std::string& word,
   return text;
 }
 
+std::string Beginning(const Words& words, const std::string& word) {
+  std::string text;
+  for (const std::string& one : words) {
+    if (BeginsWith(one, word)) text += one + "\n";
+  }
+  return text;
+}
+
 std::string Candidates(const std::string& line) {
   const size_t blank = line.find_last_of(" \t");
   const std::string word =
@@ -131,6 +139,8 @@ std::string Candidates(const std::string& line) {
       text += command.name + ("\t" + std::string(command.summary)) + "\n";
     }
   }
+  if (name.empty()) text += Beginning({"completion", "help"}, word);
+  if (name == "completion") text += Beginning({"bash", "zsh", "fish"}, word);
   const Command* command = FindCommand(name);
   if (command == nullptr) return text;
   const size_t equals = word.find('=');

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -23,8 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Ends the writing of results; the signal ends armcal then.
-class Interruption {};
+// Ends the writing of results, and unwinding the signal ends armcal: main() has
+// to know this for an exception that it catches, or nothing is unwound.
+class Interruption : public std::exception {};
 
 void CheckSignals() {
   if (Uninterrupted::IsAwaited()) throw Interruption();
@@ -141,9 +143,6 @@ void OutputFolder::WriteTogether(const std::vector<OutputFolder*>& folders) {
       locks.push_back(std::make_unique<Lock>(path));
     }
     for (const OutputFolder* folder : folders) folder->RenameThem();
-  } catch (const Interruption&) {
-    // The signal ends armcal right after this.
-    for (const OutputFolder* folder : folders) folder->RemoveThem();
   } catch (...) {
     for (const OutputFolder* folder : folders) folder->RemoveThem();
     throw;
