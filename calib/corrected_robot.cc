@@ -56,6 +56,7 @@ CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
   CorrectedRobot corrected;
   corrected.delay = baseline.DelayAt(x);
   corrected.width = scale.width;
+  corrected.scale = scale;
   const Robot fitted = baseline.With(x);
   corrected.plant.robot = fitted;
   for (const KnownEffect& known : baseline.KnownAt(x)) {

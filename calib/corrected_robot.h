@@ -26,6 +26,7 @@ struct CorrectedRobot {
   SimulatedRobot plant;
   std::vector<std::vector<CoulombPart>> coulomb;  // per joint, in `plant`
   Eigen::VectorXd width;  // of effects' own friction: MotionScale's
+  MotionScale scale;      // of the motion that it was fitted to
   std::vector<CarriedEffect> effects;
   // By how much recorded torque is later than the motion, s: the timing that
   // was fitted. It is not in the plant, since only who replays a log knows

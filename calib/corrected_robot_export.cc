@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "calib/json_figures.h"
+#include "calib/possible_links.h"
 #include "model/urdf_update.h"
 #include "model/urdf_writer.h"
 
@@ -20,11 +22,56 @@ std::string Short(double x) {
   return text;
 }
 
-// The term of a joint that URDF has a field for and the effect adds to.
-double* UrdfTerm(const GapCandidate& found, Joint* joint) {
-  if (found.effect->name == "viscous_friction") return &joint->viscous;
-  if (found.effect->name == "coulomb_friction") return &joint->coulomb;
+using Add = void (*)(const GapCandidate& found, Joint* joint,
+                     JointDrive* drive);
+
+// An effect that formats have fields for: how it adds to them, and the field
+// that some formats lack.
+struct HeldEffect {
+  const char* effect;
+  std::optional<RobotField> field;
+  Add add;
+};
+
+// As the effects' own `apply` has it, with the sign of a robot file's fields.
+const HeldEffect kHeldEffects[] = {
+    {"viscous_friction", std::nullopt,
+     [](const GapCandidate& found, Joint* joint, JointDrive*) {
+       joint->viscous += found.p[0];
+     }},
+    {"coulomb_friction", std::nullopt,
+     [](const GapCandidate& found, Joint* joint, JointDrive*) {
+       joint->coulomb += found.p[0];
+     }},
+    {"torque_offset", RobotField::kOffset,
+     [](const GapCandidate& found, Joint* joint, JointDrive*) {
+       joint->offset += found.p[0];
+     }},
+    {"torque_gain", RobotField::kGain,
+     [](const GapCandidate& found, Joint*, JointDrive* drive) {
+       drive->gain /= 1 + found.p[0];
+     }},
+    {"spring", RobotField::kSpring,
+     [](const GapCandidate& found, Joint*, JointDrive* drive) {
+       drive->rest = found.p[1] / found.p[0];
+       drive->stiffness = found.p[0];
+     }}};
+
+const HeldEffect* FindHeld(const CarriedEffect& effect) {
+  if (effect.found.joint < 0) return nullptr;
+  for (const HeldEffect& held : kHeldEffects) {
+    if (effect.found.effect->name != held.effect) continue;
+    const bool no_spring =
+        held.field == RobotField::kSpring && effect.found.p[0] <= 0;
+    return no_spring ? nullptr : &held;
+  }
   return nullptr;
+}
+
+bool IsIn(const RobotFormat& format, const CarriedEffect& effect) {
+  const HeldEffect* held = FindHeld(effect);
+  return effect.in_robot ||
+         (held != nullptr && (!held->field || format.Holds(*held->field)));
 }
 
 // Friction that brakes: URDF readers refuse any other.
@@ -33,50 +80,87 @@ void ForbidPushing(const char* what, double* value, const Joint& joint,
   if (*value >= 0) return;
   losses->push_back(std::string(what) + " friction of joint " + joint.name +
                     " was fitted as " + Short(*value) +
-                    " and is 0 in the URDF, which cannot push");
+                    " and is 0 in the file, which cannot push");
   *value = 0;
 }
 
-void KeepPossibleLinks(const Robot& file, Robot* robot,
-                       std::vector<std::string>* losses) {
-  for (int i = 0; i < robot->num_joints(); ++i) {
-    const InertialParameters& body = robot->links[i].inertial;
+// Which links cannot exist, and why.
+std::string Impossible(const Robot& robot) {
+  std::string text;
+  for (const Link& link : robot.links) {
+    const InertialParameters& body = link.inertial;
     if (body.ToVector().isZero(0)) continue;
     const std::string why = WhyUnphysical(body);
     if (why.empty()) continue;
-    losses->push_back("link " + robot->links[i].name +
-                      " keeps the file's inertia: what was fitted cannot "
-                      "exist (" +
-                      why + ")");
+    text += (text.empty() ? "" : "; ") + link.name + ": " + why;
+  }
+  return text;
+}
+
+void KeepFileLinks(const Robot& file, Robot* robot) {
+  for (int i = 0; i < robot->num_joints(); ++i) {
+    const InertialParameters& body = robot->links[i].inertial;
+    if (body.ToVector().isZero(0) || WhyUnphysical(body).empty()) continue;
     robot->links[i].inertial = file.links[i].inertial;
   }
 }
 
-// What URDF can hold of it.
-Robot UrdfRobot(const CorrectedRobot& corrected, const Robot& file,
-                std::vector<std::string>* losses) {
-  Robot robot = corrected.plant.robot;
-  for (const CarriedEffect& effect : corrected.effects) {
-    if (effect.found.joint < 0) continue;
-    Joint& joint = robot.links[effect.found.joint].joint;
-    double* term = UrdfTerm(effect.found, &joint);
-    if (term != nullptr) *term += effect.found.p[0];
+// Simulators take bodies that can exist only. A motor on a spring keeps its
+// inertia.
+void MakeLinksPossible(const CorrectedRobot& corrected, const Robot& file,
+                       Robot* robot, std::vector<std::string>* losses) {
+  const std::string why = Impossible(*robot);
+  if (why.empty()) return;
+  std::vector<bool> free_armature(robot->num_joints(), true);
+  for (const Transmission& law : corrected.plant.transmissions) {
+    free_armature[law.joint] = false;
   }
-  KeepPossibleLinks(file, &robot, losses);
+  const auto possible =
+      FindPossibleLinks(*robot, file, corrected.scale, free_armature);
+  if (!possible || !Impossible(possible->robot).empty()) {
+    KeepFileLinks(file, robot);
+    losses->push_back(
+        "links keep the file's inertia where what was fitted "
+        "cannot exist (" +
+        why + ")");
+    return;
+  }
+  *robot = possible->robot;
+  std::string differs;
+  for (int j = 0; j < robot->num_joints(); ++j) {
+    differs += (j == 0 ? "" : ", ") + robot->links[j].joint.name + " " +
+               Short(possible->differs_percent[j]) + " %";
+  }
+  losses->push_back("what was fitted cannot exist (" + why +
+                    "): the links are the nearest that can, whose torques in "
+                    "motion like the log's differ by (rms) " +
+                    differs);
+}
+
+// What the format can hold of it.
+RobotDescription Describe(const CorrectedRobot& corrected, const Robot& file,
+                          const RobotFormat& format,
+                          std::vector<std::string>* losses) {
+  RobotDescription description{corrected.plant.robot, {}};
+  Robot& robot = description.robot;
+  description.drives.resize(robot.num_joints());
+  for (const CarriedEffect& effect : corrected.effects) {
+    const HeldEffect* held = FindHeld(effect);
+    if (held == nullptr || !IsIn(format, effect)) continue;
+    const int j = effect.found.joint;
+    held->add(effect.found, &robot.links[j].joint, &description.drives[j]);
+  }
+  MakeLinksPossible(corrected, file, &robot, losses);
   for (Link& link : robot.links) {
     ForbidPushing("viscous", &link.joint.viscous, link.joint, losses);
     ForbidPushing("Coulomb", &link.joint.coulomb, link.joint, losses);
+    ForbidPushing("armature", &link.joint.armature, link.joint, losses);
   }
-  return robot;
+  return description;
 }
 
-bool IsInUrdf(const CarriedEffect& effect) {
-  Joint unused;
-  return effect.in_robot || (effect.found.joint >= 0 &&
-                             UrdfTerm(effect.found, &unused) != nullptr);
-}
-
-std::string Sentence(const CarriedEffect& effect, const Robot& robot) {
+std::string Sentence(const RobotFormat& format, const CarriedEffect& effect,
+                     const Robot& robot) {
   std::string values;
   for (const EffectEstimate& estimate : effect.estimates) {
     values += (values.empty() ? "" : ", ") + estimate.name + " " +
@@ -84,31 +168,47 @@ std::string Sentence(const CarriedEffect& effect, const Robot& robot) {
               (estimate.unit == "1" ? "" : " " + estimate.unit);
   }
   const int j = effect.found.joint;
-  return "URDF has no field for " + effect.found.effect->name +
+  return std::string(format.title) + " has no field for " +
+         effect.found.effect->name +
          (j < 0 ? "" : " of joint " + robot.links[j].joint.name) + " (" +
          values + "): see effects.json";
 }
 
-void AddLosses(const CorrectedRobot& corrected, const Robot& robot,
+void AddLosses(const CorrectedRobot& corrected, const RobotFormat& format,
+               const RobotDescription& description,
                std::vector<std::string>* losses) {
-  for (const std::string& loss : UrdfLosses(robot)) losses->push_back(loss);
+  const std::string title = format.title;
+  for (const std::string& loss : Losses(format, description)) {
+    losses->push_back(loss);
+  }
   for (const CarriedEffect& effect : corrected.effects) {
-    if (!IsInUrdf(effect)) losses->push_back(Sentence(effect, robot));
+    if (IsIn(format, effect)) continue;
+    losses->push_back(Sentence(format, effect, description.robot));
   }
   for (const std::vector<CoulombPart>& parts : corrected.coulomb) {
     if (parts.front().force == 0 && parts.size() == 1) continue;
-    losses->push_back(
-        "URDF has no field for how friction changes sign through zero "
-        "velocity: see effects.json");
+    losses->push_back(title +
+                      " has no field for how friction changes sign through "
+                      "zero velocity: see effects.json");
     break;
   }
   if (std::abs(corrected.delay) >= kNoDelay) {
-    losses->push_back("URDF has no field for time: torque was recorded " +
+    losses->push_back(title + " has no field for time: torque was recorded " +
                       Short(1e3 * std::abs(corrected.delay)) + " ms " +
                       (corrected.delay > 0 ? "after" : "before") +
                       " the motion");
   }
   for (const std::string& note : corrected.notes) losses->push_back(note);
+}
+
+RobotFile MakeFile(const CorrectedRobot& corrected, const Robot& file,
+                   const RobotFormat& format) {
+  RobotFile result{&format, "", {}};
+  const RobotDescription description =
+      Describe(corrected, file, format, &result.losses);
+  AddLosses(corrected, format, description, &result.losses);
+  result.text = format.write(description);
+  return result;
 }
 
 bool SameGeometry(const Robot& a, const Robot& b) {
@@ -138,6 +238,14 @@ json JointJson(const CorrectedRobot& corrected, int j) {
           {"effect_width", JsonNumber(corrected.width[j])}};
 }
 
+std::vector<std::string> FormatsWith(const CarriedEffect& effect) {
+  std::vector<std::string> names;
+  for (const RobotFormat& format : RobotFormats()) {
+    if (IsIn(format, effect)) names.push_back(format.name);
+  }
+  return names;
+}
+
 json EffectJson(const CarriedEffect& effect, const Robot& robot) {
   const Effect& law = *effect.found.effect;
   const int j = effect.found.joint;
@@ -153,21 +261,38 @@ json EffectJson(const CarriedEffect& effect, const Robot& robot) {
           {"joint", j < 0 ? "" : robot.links[j].joint.name},
           {"joint_index", j + 1},
           {"law", law.law},
-          {"in_urdf", IsInUrdf(effect)},
+          {"in_urdf", IsIn(UrdfFormat(), effect)},
+          {"in", FormatsWith(effect)},
           {"parameters", parameters}};
 }
 
 }  // namespace
 
-RobotExport ExportCorrectedRobot(const CorrectedRobot& corrected,
-                                 const Robot& file, const std::string& urdf,
-                                 const std::string& base) {
+nlohmann::json RobotFilesJson(const std::vector<RobotFile>& files) {
+  json list = json::array();
+  for (const RobotFile& file : files) {
+    list.push_back({{"format", file.format->name},
+                    {"file", file.format->file},
+                    {"losses", file.losses}});
+  }
+  return list;
+}
+
+RobotExport ExportCorrectedRobot(
+    const CorrectedRobot& corrected, const Robot& file, const std::string& urdf,
+    const std::string& base, const std::vector<const RobotFormat*>& formats) {
   RobotExport result;
-  const Robot robot = UrdfRobot(corrected, file, &result.losses);
-  AddLosses(corrected, robot, &result.losses);
+  const RobotFormat of_urdf = UrdfFormat();
+  const RobotDescription description =
+      Describe(corrected, file, of_urdf, &result.losses);
+  const Robot& robot = description.robot;
+  AddLosses(corrected, of_urdf, description, &result.losses);
   result.urdf = urdf.empty()
                     ? MakeUrdf(robot)
                     : UpdateUrdf(urdf, robot, !SameGeometry(robot, file), base);
+  for (const RobotFormat* format : formats) {
+    result.files.push_back(MakeFile(corrected, file, *format));
+  }
   json joints = json::array(), effects = json::array();
   for (int j = 0; j < robot.num_joints(); ++j) {
     joints.push_back(JointJson(corrected, j));

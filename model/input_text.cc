@@ -80,7 +80,9 @@ std::string WhyNotNumbers(std::string_view text, int count,
                           const std::string& unit, double* values) {
   const std::string what = std::string(count == 1 ? "number" : "numbers") +
                            (unit.empty() ? "" : " in " + unit);
-  const std::string many = count == 1 ? "a " : "three ";
+  static const char* const kCounts[] = {"a ",    "two ",  "three ",
+                                        "four ", "five ", "six "};
+  const std::string many = kCounts[count - 1];
   const std::vector<std::string_view> words = SplitWords(text);
   const bool comma = text.find(',') != std::string_view::npos;
   const std::string expected =

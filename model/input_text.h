@@ -18,7 +18,7 @@ std::string_view Trim(std::string_view text, std::string_view of = " ");
 // left over ("2kg", "2,5"). The number may be nan or inf.
 std::optional<double> ParseNumber(std::string_view text);
 
-// Reads `count` finite numbers (1 or 3) separated by blanks. Returns an empty
+// Reads `count` finite numbers (1 to 6) separated by blanks. Returns an empty
 // text where values[0..count-1] were set, otherwise what was expected, such as
 // "expected a number in kg".
 std::string WhyNotNumbers(std::string_view text, int count,

@@ -4,10 +4,12 @@
 #include <cctype>
 #include <filesystem>
 
-#include "model/dh_reader.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
+#include "model/mjcf_reader.h"
 #include "model/urdf_reader.h"
+#include "model/xml_element.h"
+#include "model/yaml_reader.h"
 
 namespace armcal {
 namespace {
@@ -28,24 +30,39 @@ void RefuseOverflow(const std::string& path, const Robot& robot) {
                    "the numbers of the tool are too large to calculate with");
 }
 
-Robot ReadByEnding(const std::string& path, const RobotReaderOptions& options) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  if (ending == ".urdf" || ending == ".xml") return ReadUrdf(path, options);
-  if (ending == ".yaml" || ending == ".yml") return ReadDhTable(path, options);
-  if (ending == ".xacro") {
-    throw InputError(path, "", "", "expected a plain URDF: run xacro first");
-  }
-  throw InputError(path, "", ending,
-                   "expected a robot file that ends in .urdf or .xml (URDF) or "
-                   ".yaml or .yml (DH table)");
+RobotFileKind KindOfXml(const std::string& path) {
+  const XmlFile file(path);
+  const std::string tag = file.root().tag();
+  if (tag == "robot") return RobotFileKind::kUrdf;
+  if (tag == "mujoco") return RobotFileKind::kMjcf;
+  file.root().Refuse("", tag,
+                     "expected the root element <robot> (URDF) or <mujoco> "
+                     "(MJCF)");
 }
 
 }  // namespace
 
+RobotFileKind KindOfRobotFile(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (ending == ".urdf" || ending == ".xml" || ending == ".mjcf") {
+    return KindOfXml(path);
+  }
+  if (ending == ".yaml" || ending == ".yml") return RobotFileKind::kYaml;
+  if (ending == ".xacro") {
+    throw InputError(path, "", "", "expected a plain URDF: run xacro first");
+  }
+  throw InputError(path, "", ending,
+                   "expected a robot file that ends in .urdf, .xml or .mjcf "
+                   "(URDF or MJCF) or .yaml or .yml (DH table or poses)");
+}
+
 Robot ReadRobot(const std::string& path, const RobotReaderOptions& options) {
-  const Robot robot = ReadByEnding(path, options);
+  const RobotFileKind kind = KindOfRobotFile(path);
+  const Robot robot = kind == RobotFileKind::kUrdf   ? ReadUrdf(path, options)
+                      : kind == RobotFileKind::kMjcf ? ReadMjcf(path, options)
+                                                     : ReadYaml(path, options);
   RefuseOverflow(path, robot);
   return robot;
 }

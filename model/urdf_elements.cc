@@ -40,49 +40,29 @@ Matrix3d ReadInertia(const XmlElement& inertia) {
   return I;
 }
 
-void ReadInertial(const XmlElement& inertial, UrdfLink* link) {
+void ReadInertial(const XmlElement& inertial, TreeLink* link) {
   const double mass = inertial.RequiredChild("mass").NonNegative("value", "kg");
   const Isometry3d X_LI = ReadOrigin(inertial);
   const Matrix3d inertia = ReadInertia(inertial.RequiredChild("inertia"));
-  if (mass == 0) {
-    link->notes.push_back("link " + Quoted(link->name) +
-                          " has mass 0, read as no inertia given");
-    return;
-  }
-  link->has_inertial = true;
-  link->inertial =
-      InertialParameters::FromCenterOfMass(mass, Vector3d::Zero(), inertia)
-          .ReexpressIn(X_LI);
-  const std::string why = WhyUnphysical(link->inertial);
-  if (!why.empty()) {
-    link->notes.push_back("the inertia of link " + Quoted(link->name) +
-                          " is no rigid body's (" + why +
-                          "); it serves as a start value only");
-  }
+  SetInertial(mass, inertia, X_LI, link);
 }
 
-void ReadAxis(const XmlElement& element, UrdfJoint* joint) {
+void ReadAxis(const XmlElement& element, TreeJoint* joint) {
   const std::optional<XmlElement> axis = element.Child("axis");
   if (!axis) return;  // URDF's default is x
   const Vector3d xyz = axis->Vector("xyz", "");
-  const double length = xyz.stableNorm();
-  if (length < 1e-6) {
+  if (xyz.stableNorm() < kShortestAxis) {
     axis->Refuse("xyz",
                  JoinNames({NumberText(xyz[0]) + " " + NumberText(xyz[1]) +
                             " " + NumberText(xyz[2])}),
                  "expected an axis that is not zero");
   }
-  joint->axis = xyz / length;
-  if (std::abs(length - 1) > 1e-3) {
-    joint->notes.push_back("the axis of joint " + Quoted(joint->joint.name) +
-                           " has length " + NumberText(length) +
-                           ", normalised to 1");
-  }
+  SetAxis(xyz, joint);
 }
 
 // Exporters write 0 where they do not know a limit, so 0 is no limit.
 double ReadPositiveLimit(const XmlElement& limit, const char* attribute,
-                         const std::string& unit, UrdfJoint* joint) {
+                         const std::string& unit, TreeJoint* joint) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   if (!limit.Has(attribute)) return kNone;
   const double value = limit.NonNegative(attribute, unit);
@@ -92,7 +72,7 @@ double ReadPositiveLimit(const XmlElement& limit, const char* attribute,
   return kNone;
 }
 
-void ReadPositionLimits(const XmlElement& limit, UrdfJoint* joint) {
+void ReadPositionLimits(const XmlElement& limit, TreeJoint* joint) {
   const std::string unit = PositionUnit(joint->joint.type);
   const bool has_lower = limit.Has("lower"), has_upper = limit.Has("upper");
   // URDF: an absent one is 0, and a continuous joint has neither.
@@ -115,7 +95,7 @@ void ReadPositionLimits(const XmlElement& limit, UrdfJoint* joint) {
   joint->joint.upper = upper;
 }
 
-void ReadLimit(const XmlElement& element, UrdfJoint* joint) {
+void ReadLimit(const XmlElement& element, TreeJoint* joint) {
   const JointType type = joint->joint.type;
   const std::optional<XmlElement> limit = element.Child("limit");
   if (limit) {
@@ -144,7 +124,7 @@ void ReadDynamics(const XmlElement& element, Joint* joint) {
   }
 }
 
-void ReadType(const XmlElement& element, UrdfJoint* joint) {
+void ReadType(const XmlElement& element, TreeJoint* joint) {
   joint->type = element.Name("type");
   for (const JointType type :
        {JointType::kRevolute, JointType::kContinuous, JointType::kPrismatic}) {
@@ -163,8 +143,8 @@ void ReadType(const XmlElement& element, UrdfJoint* joint) {
 }
 
 int ReadLinkOfJoint(const XmlElement& element, const char* tag,
-                    const std::vector<UrdfLink>& links,
-                    const UrdfLinkIndex& index) {
+                    const std::vector<TreeLink>& links,
+                    const LinkIndex& index) {
   const XmlElement end = element.RequiredChild(tag);
   const std::string name = end.Name("link");
   const auto found = index.find(name);
@@ -176,14 +156,8 @@ int ReadLinkOfJoint(const XmlElement& element, const char* tag,
 
 }  // namespace
 
-std::string LinkNames(const std::vector<UrdfLink>& links) {
-  std::vector<std::string> names;
-  for (const UrdfLink& link : links) names.push_back(link.name);
-  return JoinNames(names);
-}
-
-UrdfLink ReadUrdfLink(XmlElement element) {
-  UrdfLink link;
+TreeLink ReadUrdfLink(XmlElement element) {
+  TreeLink link;
   link.name = element.Name("name");
   link.line = element.line();
   element.SetOwner("link " + Quoted(link.name));
@@ -193,9 +167,9 @@ UrdfLink ReadUrdfLink(XmlElement element) {
   return link;
 }
 
-UrdfJoint ReadUrdfJoint(XmlElement element, const std::vector<UrdfLink>& links,
-                        const UrdfLinkIndex& index) {
-  UrdfJoint joint;
+TreeJoint ReadUrdfJoint(XmlElement element, const std::vector<TreeLink>& links,
+                        const LinkIndex& index) {
+  TreeJoint joint;
   joint.joint.name = element.Name("name");
   joint.line = element.line();
   element.SetOwner("joint " + Quoted(joint.joint.name));

@@ -6,18 +6,13 @@
 
 namespace armcal {
 
-// Reads the chain base..tip of a URDF file. Fixed joints are lumped: their
-// child's inertia moves to the link they are fixed to (also links fixed to the
-// chain that lie beside it), links beside the chain that move are dropped;
-// Robot::notes says which. Inertia of links fixed to the base is ignored.
-// Strict: every number must be one ("2kg", "nan", "1,5" are refused with line
-// and attribute); DOCTYPE, loops, two parents, unknown joint types, non-finite
-// or negative masses, zero axes, swapped limits, unexpanded xacro, duplicate
-// names are refused. Accepted with a note: mass 0 (no inertia given), inertia
-// that no rigid body has (a start value), limits that are missing or 0 (none).
-// The tool frame is the tip that the options name or the only fixed leaf beyond
-// the last joint, else the last link's frame. No entity, mesh or other file is
-// ever opened. Throws InputError.
+// Reads the chain base..tip of a URDF file, see MakeChainRobot. Strict: every
+// number must be one ("2kg", "nan", "1,5" are refused with line and attribute);
+// DOCTYPE, loops, two parents, unknown joint types, non-finite or negative
+// masses, zero axes, swapped limits, unexpanded xacro, duplicate names are
+// refused. Accepted with a note: mass 0 (no inertia given), inertia that no
+// rigid body has (a start value), limits that are missing or 0 (none). No
+// entity, mesh or other file is ever opened. Throws InputError.
 Robot ReadUrdf(const std::string& path, const RobotReaderOptions& options);
 
 }  // namespace armcal

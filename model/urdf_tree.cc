@@ -5,41 +5,35 @@
 
 #include "model/input_error.h"
 #include "model/input_text.h"
+#include "model/urdf_elements.h"
 #include "model/xml_element.h"
 
 namespace armcal {
 namespace {
 
-void RefuseDuplicate(const XmlElement& element, const std::string& name,
-                     int first_line) {
-  element.Refuse("name", name,
-                 "expected a name that is not yet used (line " +
-                     std::to_string(first_line) + ")");
-}
-
-void ReadLinks(const XmlElement& root, UrdfTree* tree, UrdfLinkIndex* index) {
+void ReadLinks(const XmlElement& root, RobotTree* tree, LinkIndex* index) {
   for (const XmlElement& element : root.Children("link")) {
-    UrdfLink link = ReadUrdfLink(element);
+    TreeLink link = ReadUrdfLink(element);
     const int number = static_cast<int>(tree->links.size());
     const auto [at, is_new] = index->emplace(link.name, number);
     if (!is_new) {
-      RefuseDuplicate(element, link.name, tree->links[at->second].line);
+      element.RefuseUsedName(link.name, tree->links[at->second].line);
     }
     tree->links.push_back(std::move(link));
   }
 }
 
-void ReadJoints(const XmlElement& root, const UrdfLinkIndex& links,
-                UrdfTree* tree) {
+void ReadJoints(const XmlElement& root, const LinkIndex& links,
+                RobotTree* tree) {
   std::unordered_map<std::string, int> index;
   for (XmlElement element : root.Children("joint")) {
-    UrdfJoint joint = ReadUrdfJoint(element, tree->links, links);
+    TreeJoint joint = ReadUrdfJoint(element, tree->links, links);
     const int number = static_cast<int>(tree->joints.size());
     const auto [at, is_new] = index.emplace(joint.joint.name, number);
     if (!is_new) {
-      RefuseDuplicate(element, joint.joint.name, tree->joints[at->second].line);
+      element.RefuseUsedName(joint.joint.name, tree->joints[at->second].line);
     }
-    UrdfLink& child = tree->links[joint.child];
+    TreeLink& child = tree->links[joint.child];
     if (child.parent_joint >= 0) {
       element.SetOwner("joint " + Quoted(joint.joint.name));
       const Joint& other = tree->joints[child.parent_joint].joint;
@@ -56,7 +50,7 @@ void ReadJoints(const XmlElement& root, const UrdfLinkIndex& links,
 
 // As no link has two parents, what cannot be reached from a root is or hangs on
 // a loop; walking up from there ends in it.
-void RefuseLoops(const std::string& path, const UrdfTree& tree) {
+void RefuseLoops(const std::string& path, const RobotTree& tree) {
   std::vector<char> reached(tree.links.size(), 0);
   std::vector<int> open = tree.roots;
   while (!open.empty()) {
@@ -78,7 +72,7 @@ void RefuseLoops(const std::string& path, const UrdfTree& tree) {
     for (int k = parent(link); k != link; k = parent(k)) {
       names.insert(names.begin(), tree.links[k].name);
     }
-    const UrdfJoint& joint = tree.joints[tree.links[link].parent_joint];
+    const TreeJoint& joint = tree.joints[tree.links[link].parent_joint];
     throw InputError(
         path,
         "line " + std::to_string(joint.line) + ", joint " +
@@ -89,22 +83,15 @@ void RefuseLoops(const std::string& path, const UrdfTree& tree) {
 
 }  // namespace
 
-std::optional<int> UrdfTree::FindLink(const std::string& link_name) const {
-  for (size_t i = 0; i < links.size(); ++i) {
-    if (links[i].name == link_name) return static_cast<int>(i);
-  }
-  return std::nullopt;
-}
-
-UrdfTree ReadUrdfTree(const std::string& path) {
+RobotTree ReadUrdfTree(const std::string& path) {
   const XmlFile file(path);
   const XmlElement root = file.root();
   if (root.tag() != "robot") {
     root.Refuse("", root.tag(), "expected the root element <robot>");
   }
-  UrdfTree tree;
+  RobotTree tree;
   tree.name = root.Has("name") ? root.Name("name") : "robot";
-  UrdfLinkIndex index;
+  LinkIndex index;
   ReadLinks(root, &tree, &index);
   if (tree.links.empty()) {
     root.Refuse("", "", "expected at least one <link>");

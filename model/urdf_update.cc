@@ -7,7 +7,7 @@
 
 #include "model/input_error.h"
 #include "model/input_text.h"
-#include "model/urdf_chain.h"
+#include "model/robot_chain.h"
 #include "model/urdf_tree.h"
 #include "model/urdf_values.h"
 
@@ -28,7 +28,7 @@ XMLElement* Find(XMLElement* root, const char* tag, const std::string& name) {
 }
 
 // The link gets what the links that are fixed to it do not have already.
-void DistributeInertia(const InertialParameters& total, const UrdfTree& tree,
+void DistributeInertia(const InertialParameters& total, const RobotTree& tree,
                        int head, XMLElement* root) {
   const RigidGroup group = FindGroup(tree, head);
   XMLElement* link = Find(root, "link", tree.links[head].name);
@@ -50,9 +50,10 @@ void DistributeInertia(const InertialParameters& total, const UrdfTree& tree,
   SetInertial(total, link);
 }
 
-int FindJoint(const std::string& path, const UrdfTree& tree, const Link& link) {
+int FindJoint(const std::string& path, const RobotTree& tree,
+              const Link& link) {
   for (size_t j = 0; j < tree.joints.size(); ++j) {
-    const UrdfJoint& joint = tree.joints[j];
+    const TreeJoint& joint = tree.joints[j];
     if (joint.joint.name == link.joint.name && !joint.is_fixed &&
         tree.links[joint.child].name == link.name) {
       return static_cast<int>(j);
@@ -66,8 +67,8 @@ int FindJoint(const std::string& path, const UrdfTree& tree, const Link& link) {
 // Sets the origin of joint `j` so that its frame has the pose X_HJ in `head`,
 // which fixed joints connect to its parent.
 void SetJointOrigin(const std::string& path, int head, int j,
-                    const Isometry3d& X_HJ, UrdfTree* tree, XMLElement* root) {
-  UrdfJoint& joint = tree->joints[j];
+                    const Isometry3d& X_HJ, RobotTree* tree, XMLElement* root) {
+  TreeJoint& joint = tree->joints[j];
   const RigidGroup group = FindGroup(*tree, head);
   if (std::count(group.links.begin(), group.links.end(), joint.parent) == 0) {
     throw InputError(
@@ -78,7 +79,7 @@ void SetJointOrigin(const std::string& path, int head, int j,
   SetOrigin(joint.X_PJ, Find(root, "joint", joint.joint.name));
 }
 
-int FindBase(const std::string& path, const UrdfTree& tree,
+int FindBase(const std::string& path, const RobotTree& tree,
              const std::string& base, int first_joint) {
   int link = tree.joints[first_joint].parent;
   if (base.empty()) {
@@ -96,7 +97,7 @@ int FindBase(const std::string& path, const UrdfTree& tree,
 
 void SetGeometry(const std::string& path, const Robot& robot,
                  const std::vector<int>& joints, const std::string& base,
-                 UrdfTree* tree, XMLElement* root) {
+                 RobotTree* tree, XMLElement* root) {
   int head = FindBase(path, *tree, base, joints.front());
   for (size_t i = 0; i < joints.size(); ++i) {
     const Link& link = robot.links[i];
@@ -113,7 +114,7 @@ void SetGeometry(const std::string& path, const Robot& robot,
 
 std::string UpdateUrdf(const std::string& path, const Robot& robot,
                        bool geometry, const std::string& base) {
-  UrdfTree tree = ReadUrdfTree(path);
+  RobotTree tree = ReadUrdfTree(path);
   std::vector<int> joints;
   for (const Link& link : robot.links) {
     joints.push_back(FindJoint(path, tree, link));

@@ -3,7 +3,8 @@
 #include <tinyxml2.h>
 
 #include <cmath>
-#include <cstdio>
+
+#include "model/exact_text.h"
 
 namespace armcal {
 
@@ -23,12 +24,7 @@ Vector3d RollPitchYaw(const Matrix3d& R) {
 
 }  // namespace
 
-// No "-0".
-std::string Digits(double x) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.10g", x == 0 ? 0.0 : x);
-  return text;
-}
+std::string Digits(double x) { return ExactText(x); }
 
 std::string Digits(const Vector3d& v) {
   return Digits(v.x()) + " " + Digits(v.y()) + " " + Digits(v.z());

@@ -16,7 +16,7 @@ namespace armcal {
 // Values as a URDF file has them, in SI units, set in its elements; what an
 // element lacks is added.
 
-// Ten digits, which is more than any calibration knows.
+// All digits: a robot is the same in every format.
 std::string Digits(double x);
 std::string Digits(const Eigen::Vector3d& v);
 

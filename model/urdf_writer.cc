@@ -3,7 +3,6 @@
 #include <tinyxml2.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "model/urdf_values.h"
 
@@ -65,19 +64,8 @@ Isometry3d UrdfFrame(const Link& link) {
   return on_axis ? link.X_ML : Isometry3d::Identity();  // X_MU
 }
 
-// For people to read: every joint is named, as each value would be missed.
-void AddLoss(const std::string& what, const Robot& robot, double Joint::*value,
-             std::vector<std::string>* losses) {
-  std::string values;
-  for (const Link& link : robot.links) {
-    const double x = link.joint.*value;
-    if (x == 0) continue;
-    char text[40];
-    std::snprintf(text, sizeof(text), " %.4g", x);
-    values += (values.empty() ? "" : ", ") + link.joint.name + text;
-  }
-  if (values.empty()) return;
-  losses->push_back("URDF has no field for " + what + " (" + values + ")");
+std::string WriteUrdf(const RobotDescription& description) {
+  return MakeUrdf(description.robot);
 }
 
 }  // namespace
@@ -118,16 +106,18 @@ std::string MakeUrdf(const Robot& robot) {
   return XmlText(document);
 }
 
+RobotFormat UrdfFormat() {
+  return {"urdf",
+          "URDF",
+          "robot.urdf",
+          {RobotField::kArmature, RobotField::kOffset, RobotField::kSpring,
+           RobotField::kGain, RobotField::kGravity},
+          &WriteUrdf,
+          nullptr};
+}
+
 std::vector<std::string> UrdfLosses(const Robot& robot) {
-  std::vector<std::string> losses;
-  AddLoss("armature", robot, &Joint::armature, &losses);
-  AddLoss("constant torque", robot, &Joint::offset, &losses);
-  const Vector3d& g = robot.gravity;
-  if ((g - Vector3d(0, 0, -g.norm())).norm() > 1e-9) {
-    losses.push_back("URDF has no field for gravity, which here is " +
-                     Digits(g) + " m/s^2, not along -z");
-  }
-  return losses;
+  return Losses(UrdfFormat(), {robot, {}});
 }
 
 }  // namespace armcal

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/robot.h"
+#include "model/robot_format.h"
 
 namespace armcal {
 
@@ -12,6 +12,8 @@ namespace armcal {
 // base link "base_link", the tool as a fixed link if it has a name. What URDF
 // has no field for is left out: see UrdfLosses.
 std::string MakeUrdf(const Robot& robot);
+
+RobotFormat UrdfFormat();
 
 // What a URDF cannot say of this robot, a sentence for each kind with the
 // joints' values: armature (kg m^2 or kg), constant torques (N m or N), gravity

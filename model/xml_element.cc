@@ -193,6 +193,12 @@ void XmlElement::Numbers(const char* attribute, int count,
   if (!why.empty()) Refuse(attribute, text, why);
 }
 
+void XmlElement::RefuseUsedName(const std::string& name, int first) const {
+  Refuse("name", name,
+         "expected a name that is not yet used (line " + std::to_string(first) +
+             ")");
+}
+
 void XmlElement::Refuse(const std::string& attribute, const std::string& found,
                         const std::string& expected) const {
   int line = element_->GetLineNum();

@@ -25,6 +25,7 @@ class XmlElement {
   std::string tag() const;
   int line() const;
 
+  // Of that tag; null: all.
   std::vector<XmlElement> Children(const char* tag) const;
   // The child of that tag, if any; two are refused.
   std::optional<XmlElement> Child(const char* tag) const;
@@ -41,15 +42,18 @@ class XmlElement {
   // Three finite numbers.
   Eigen::Vector3d Vector(const char* attribute, const std::string& unit) const;
 
+  // `count` finite numbers, 1 to 6.
+  void Numbers(const char* attribute, int count, const std::string& unit,
+               double* values) const;
+
+  // Throws InputError for a name that the element on line `first` has already.
+  [[noreturn]] void RefuseUsedName(const std::string& name, int first) const;
   // Throws InputError at this element, or at `attribute` where it is not empty.
   [[noreturn]] void Refuse(const std::string& attribute,
                            const std::string& found,
                            const std::string& expected) const;
 
  private:
-  void Numbers(const char* attribute, int count, const std::string& unit,
-               double* values) const;
-
   const std::string* file_;
   const tinyxml2::XMLElement* element_;
   std::string owner_;

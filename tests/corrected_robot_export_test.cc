@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
+
 #include "model/effects/effects.h"
+#include "model/inverse_dynamics.h"
 #include "model/urdf_reader.h"
 #include "model/urdf_writer.h"
 #include "tests/corrected_arm.h"
@@ -12,9 +15,10 @@ namespace armcal {
 namespace {
 
 using Eigen::VectorXd;
+using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
-
 using testing::Not;
 
 class Export : public testing::Test {
@@ -37,7 +41,13 @@ class Export : public testing::Test {
                  const std::string& path = "") {
     const GapBaseline baseline = arm_.Baseline();
     return ExportCorrectedRobot(
-        MakeCorrectedRobot(baseline, x, effects, arm_.scale), arm_.file, path);
+        MakeCorrectedRobot(baseline, x, effects, arm_.scale), arm_.file, path,
+        "", AllFormats());
+  }
+  static std::vector<const RobotFormat*> AllFormats() {
+    std::vector<const RobotFormat*> formats;
+    for (const RobotFormat& format : RobotFormats()) formats.push_back(&format);
+    return formats;
   }
   VectorXd Nothing() { return VectorXd::Zero(arm_.Baseline().size()); }
   static Robot Read(const std::string& urdf) {
@@ -86,6 +96,27 @@ TEST_F(Export, SaysWhatUrdfCannotHoldAndKeepsItBesides) {
   EXPECT_NEAR(out.effects["delay_s"], 1e-3, 1e-12);
 }
 
+// A spring is in MJCF and SDF, a gain in MJCF alone.
+TEST_F(Export, FormatsHoldWhatTheyHaveFieldsFor) {
+  const RobotExport out =
+      Of(Nothing(), {Found("spring", 1, Eigen::Vector2d(20, 6)),
+                     Found("torque_gain", 0, VectorXd::Constant(1, .25))});
+  EXPECT_THAT(out.effects["effects"][0]["in"], ElementsAre("mjcf", "sdf"));
+  EXPECT_THAT(out.effects["effects"][1]["in"], ElementsAre("mjcf"));
+  std::map<std::string, RobotFile> files;
+  for (const RobotFile& file : out.files) files[file.format->name] = file;
+  EXPECT_THAT(files["mjcf"].text, AllOf(HasSubstr("stiffness=\"20\""),
+                                        HasSubstr("springref=\"0.3\""),
+                                        HasSubstr("gainprm=\"0.8\"")));
+  EXPECT_THAT(files["mjcf"].losses, Not(Contains(HasSubstr("spring"))));
+  EXPECT_THAT(files["yaml"].losses,
+              Contains("YAML has no field for spring of joint " +
+                       arm_.file.links[1].joint.name +
+                       " (stiffness 20 N m/rad, neutral 0.3 rad): see "
+                       "effects.json"));
+  EXPECT_EQ(RobotFilesJson(out.files)[0]["file"], "robot.urdf");
+}
+
 // The friction's mixture of widths is what a simulator with laws needs: the
 // forces add up to the joint's Coulomb friction.
 TEST_F(Export, JsonHasTheFrictionOfEveryJoint) {
@@ -120,9 +151,28 @@ TEST_F(Export, UpdatesTheRobotsOwnFile) {
   EXPECT_THAT(out.losses, Not(Contains(HasSubstr("payload"))));
 }
 
-TEST_F(Export, WhatCannotExistStaysOutAndIsSaid) {
+// A link as light as nothing: its neighbours take what logs show of it.
+TEST_F(Export, LinksAreTheNearestThatCanExist) {
   VectorXd x = Nothing();
   x[0] = -30;  // the first link's mass, of 5 %
+  const RobotExport out = Of(x, {});
+  const Robot robot = Read(out.urdf);
+  const Robot fitted = arm_.Baseline().With(x);
+  ASSERT_NE(WhyUnphysical(fitted.links[0].inertial), "");
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(WhyUnphysical(robot.links[i].inertial), "");
+    const VectorXd q = UniformVector(&random, 3, -1, 1);
+    const VectorXd qd = UniformVector(&random, 3, -1, 1);
+    const VectorXd tau = InverseDynamics(fitted, q, qd, qd);
+    EXPECT_LE((InverseDynamics(robot, q, qd, qd) - tau).norm(),
+              .01 * tau.norm());
+  }
+  EXPECT_THAT(out.losses, Contains(HasSubstr("the nearest that can")));
+}
+
+TEST_F(Export, FrictionDoesNotPush) {
+  VectorXd x = Nothing();
   const GapBaseline baseline = arm_.Baseline();
   for (int c = 0; c < baseline.size(); ++c) {
     const BaselineColumn& column = baseline.columns()[c];
@@ -132,11 +182,7 @@ TEST_F(Export, WhatCannotExistStaysOutAndIsSaid) {
     }
   }
   const RobotExport out = Of(x, {});
-  const Robot robot = Read(out.urdf);
-  EXPECT_NEAR(robot.links[0].inertial.mass, arm_.file.links[0].inertial.mass,
-              1e-8);
-  EXPECT_EQ(robot.links[1].joint.viscous, 0);
-  EXPECT_THAT(out.losses, Contains(HasSubstr("keeps the file's inertia")));
+  EXPECT_EQ(Read(out.urdf).links[1].joint.viscous, 0);
   EXPECT_THAT(out.losses, Contains(HasSubstr("which cannot push")));
 }
 

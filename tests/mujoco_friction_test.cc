@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/inverse_dynamics.h"
+#include "tests/calibrated_robot.h"
 #include "tests/mujoco_model.h"
 #include "tests/nonlinear_runs.h"
 

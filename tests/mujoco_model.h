@@ -1,7 +1,6 @@
 #pragma once
 
-// A robot in MuJoCo, from the URDF that MakeUrdf writes: a referee that shares
-// no code.
+// A robot in MuJoCo: a referee that shares no code.
 
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
@@ -12,8 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "calib/nonlinear_calibration.h"
-#include "model/robot_reader.h"
 #include "model/urdf_writer.h"
 #include "tests/temp_file.h"
 
@@ -22,14 +19,20 @@ namespace armcal {
 using MujocoModel = std::unique_ptr<mjModel, void (*)(mjModel*)>;
 using MujocoData = std::unique_ptr<mjData, void (*)(mjData*)>;
 
-// Null, and a failure of the test, where MuJoCo refuses the file. Gravity,
-// which URDF cannot say, is the robot's.
-inline MujocoModel LoadInMujoco(const Robot& robot) {
-  const std::string path = WriteFile(MakeUrdf(robot), "mujoco.urdf");
+// Null, and a failure of the test, where MuJoCo refuses the text.
+inline MujocoModel LoadTextInMujoco(const std::string& xml,
+                                    const std::string& name) {
+  const std::string path = WriteFile(xml, name);
   char error[1000] = "";
   MujocoModel model(mj_loadXML(path.c_str(), nullptr, error, sizeof(error)),
                     mj_deleteModel);
-  EXPECT_NE(model, nullptr) << error;
+  EXPECT_NE(model, nullptr) << error << "\n" << xml;
+  return model;
+}
+
+// The URDF that MakeUrdf writes. Gravity, which it cannot say, is the robot's.
+inline MujocoModel LoadInMujoco(const Robot& robot) {
+  MujocoModel model = LoadTextInMujoco(MakeUrdf(robot), "mujoco.urdf");
   if (model == nullptr) return model;
   EXPECT_EQ(model->nv, robot.num_joints());
   mju_copy3(model->opt.gravity, robot.gravity.data());
@@ -83,27 +86,5 @@ struct MujocoJoints {
     return saturated;
   }
 };
-
-// The physically consistent robot of a log of shared/data; currents where
-// torque constants are given.
-inline Robot CalibratedRobot(const std::string& folder, const std::string& log,
-                             double bandwidth_hz,
-                             const std::vector<double>& torque_constants) {
-  const std::string data = SHARED_DIR "/data/" + folder;
-  const Robot robot = ReadRobot(data + "robot.urdf", {});
-  LogReaderOptions reader;
-  reader.joint_names = robot.JointNames();
-  reader.torque_constants = torque_constants;
-  LogSet logs({data + log}, reader, {});
-  LinearCalibrationOptions options;
-  options.bandwidth_hz = bandwidth_hz;
-  const auto linear = CalibrateLinear(robot, options, &logs, nullptr);
-  return CalibrateNonlinear(robot, linear, {}, &logs, nullptr).robot;
-}
-
-inline Robot CalibratedUr10e() {
-  return CalibratedRobot("ur10e_free/", "id_30s.csv", 6,
-                         {14.87, 13.26, 11.13, 10.62, 11.03, 11.47});
-}
 
 }  // namespace armcal

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "model/inverse_dynamics.h"
+#include "tests/calibrated_robot.h"
 #include "tests/mujoco_model.h"
 #include "tests/nonlinear_runs.h"
 

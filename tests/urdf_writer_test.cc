@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/dh_reader.h"
+#include "model/yaml_reader.h"
 #include "tests/same_robot.h"
 
 namespace armcal {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "tests/dh_text.h"
+#include "tests/yaml_text.h"
 
 namespace armcal {
 namespace {

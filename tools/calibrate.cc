@@ -277,6 +277,7 @@ Command CalibrateCommand() {
          "coulomb_width", "window", "interval", "intervals", "quadrature"},
         false},
        {"trust in geometry", {"length_trust", "angle_trust"}, false},
+       {"robot files", {"export"}, false},
        ChainFlags()},
       {"armcal calibrate --robot=arm.urdf --log=mon.csv --validate=tue.csv "
        "--out=made",

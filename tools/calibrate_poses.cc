@@ -6,6 +6,7 @@
 #include "calib/pose_report.h"
 #include "calib/verdict.h"
 #include "model/pose_reader.h"
+#include "model/robot_reader.h"
 #include "model/urdf_update.h"
 #include "model/urdf_writer.h"
 #include "tools/calibrate_refined.h"
@@ -13,6 +14,7 @@
 #include "tools/command.h"
 #include "tools/command_report.h"
 #include "tools/console.h"
+#include "tools/export_flags.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
@@ -43,6 +45,7 @@ bool PosesAloneFromFlags() { return !FLAGS_poses.empty() && FLAGS_log.empty(); }
 int CalibratePosesFromFlags(const Robot& robot) {
   PoseCalibrationOptions options;
   options.refine = kGeometries.Parse(FLAGS_geometry);
+  const auto formats = ExportBesideUrdfFromFlags();
   options.loss = LossFromFlags().value_or(options.loss);
   const ArmTrust trust = TrustFromFlags();
   options.prior_length = trust.length;
@@ -51,15 +54,18 @@ int CalibratePosesFromFlags(const Robot& robot) {
   const ProgressBar bar("fitting the poses");
   const PoseCalibration result = CalibratePoses(robot, measured, options);
   OutputFolder out(OutFromFlags());
-  const nlohmann::json json = PoseJson(robot, measured, result);
+  nlohmann::json json = PoseJson(robot, measured, result);
+  std::string report = PoseReport(robot, measured, result);
+  if (result.solved) {
+    const std::string path = RobotPathFromFlags();
+    out.Add("robot.urdf",
+            KindOfRobotFile(path) == RobotFileKind::kUrdf
+                ? UpdateUrdf(path, result.robot, true, BaseFromFlags())
+                : MakeUrdf(result.robot));
+    report += AddExports(result.robot, formats, &json, &out);
+  }
   const std::string text = json.dump(2) + "\n";
   out.Add("calibration.json", text);
-  if (result.solved) {
-    out.Add("robot.urdf", robot.dh_convention
-                              ? MakeUrdf(result.robot)
-                              : UpdateUrdf(RobotPathFromFlags(), result.robot,
-                                           true, BaseFromFlags()));
-  }
   const auto draw = [&](ReportContent* content) {
     if (!result.solved) return;
     content->extra["geometry"] =
@@ -68,8 +74,7 @@ int CalibratePosesFromFlags(const Robot& robot) {
   AddReport("calibrate", robot, json, {FLAGS_poses}, draw, &out);
   out.Write();
   const bool good = Shortcomings(robot, result).empty();
-  Print(
-      {text, PoseReport(robot, measured, result), robot.name + ": ", good, {}});
+  Print({text, report, robot.name + ": ", good, {}});
   return good ? kExitOk : kExitNegative;
 }
 

@@ -6,9 +6,11 @@
 
 #include "calib/nonlinear_report.h"
 #include "model/input_text.h"
+#include "model/robot_reader.h"
 #include "model/urdf_update.h"
 #include "model/urdf_writer.h"
 #include "tools/command.h"
+#include "tools/export_flags.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 
@@ -61,7 +63,7 @@ std::string WhyNotRefined(const Robot& robot,
 
 void AddRobotFiles(const std::string& robot_path, const Robot& robot,
                    bool geometry, OutputFolder* out) {
-  if (robot.dh_convention) {
+  if (KindOfRobotFile(robot_path) != RobotFileKind::kUrdf) {
     out->Add("robot.urdf", MakeUrdf(robot));
     return;
   }
@@ -91,6 +93,7 @@ std::optional<Refinement> RefinementFromFlags(
   const Estimate estimate = kEstimates.Parse(FLAGS_estimate);
   const auto geometry = RefineGeometryFromFlags();
   const bool poses = !FLAGS_poses.empty();
+  ExportFromFlags();  // refused before anything is calculated
   Refinement refinement;
   refinement.options.trust = TrustFromFlags();
   refinement.options.pose_loss =
@@ -122,7 +125,8 @@ std::string AddRefinedOutputs(const Robot& robot,
   for (const std::string& loss : UrdfLosses(refined.robot)) {
     report += "robot.urdf  " + loss + "\n";
   }
-  return report;
+  return report +
+         AddExports(refined.robot, ExportBesideUrdfFromFlags(), json, out);
 }
 
 }  // namespace armcal

@@ -8,9 +8,11 @@
 #include "calib/corrected_robot_export.h"
 #include "calib/gap_report.h"
 #include "model/effects/effects.h"
+#include "model/robot_reader.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
 #include "tools/console.h"
+#include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
@@ -84,11 +86,14 @@ std::vector<std::string> FilesRead() {
 int Finish(const Robot& robot, const GapDiagnosis& diagnosis,
            const LogSet& logs) {
   OutputFolder out(OutFromFlags());
+  const std::string path = RobotPathFromFlags();
   const RobotExport corrected = ExportCorrectedRobot(
       diagnosis.corrected, robot,
-      robot.dh_convention ? "" : RobotPathFromFlags(), BaseFromFlags());
+      KindOfRobotFile(path) == RobotFileKind::kUrdf ? path : "",
+      BaseFromFlags(), ExportBesideUrdfFromFlags());
   nlohmann::json json = ToJson(diagnosis);
   json["not_in_urdf"] = corrected.losses;
+  const std::string losses = AddFiles(corrected.files, &json, &out);
   const std::string text = json.dump(2) + "\n";
   out.Add("diagnosis.json", text);
   out.Add("robot.urdf", corrected.urdf);
@@ -99,13 +104,14 @@ int Finish(const Robot& robot, const GapDiagnosis& diagnosis,
   AddReport("diagnose", robot, json, FilesRead(), draw, &out);
   out.Write();
   const bool tested = diagnosis.verdict != GapVerdict::kNotTestable;
-  const std::string report = FullReport(diagnosis);
+  const std::string report = FullReport(diagnosis) + losses;
   Print({text, report, report.substr(0, report.find('\n')), tested, {}});
   return tested ? kExitOk : kExitNegative;
 }
 
 int RunDiagnose() {
   CheckLogsApart();
+  ExportFromFlags();  // refused before anything is calculated
   DiagnosisOptions options;
   options.without = LeftOutEffects();
   const Robot robot = RobotFromFlags();
@@ -146,6 +152,7 @@ Command DiagnoseCommand() {
            {"diagnosis", {"trust", "without", "forward", "controller", "seed"}},
            {"more of the logs", {"validate_crop"}, false},
            TorqueFlags(),
+           {"robot files", {"export"}, false},
            ChainFlags()},
           {"armcal diagnose --robot=arm.urdf --log=today.csv "
            "--reference=january.csv",

@@ -10,8 +10,9 @@
 #include "tools/command.h"
 #include "tools/flag_choices.h"
 
-DEFINE_string(robot, "", "`FILE` robot: .urdf, or .yaml with a DH table");
-DEFINE_string(base, "", "`LINK` that the arm starts at; default: the root");
+DEFINE_string(robot, "", "`FILE` robot: URDF, MJCF or YAML");
+DEFINE_string(base, "",
+              "`LINK` (body) that the arm starts at; default: the root");
 DEFINE_string(tip, "", "`LINK` that the arm ends at; default: the only one");
 DEFINE_string(gravity, "",
               "`X,Y,Z` gravity in the base frame, m/s^2; "

@@ -6,6 +6,7 @@
 #include "calib/robot_audit.h"
 #include "model/log_writer.h"
 #include "tools/console.h"
+#include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/progress_bar.h"
@@ -34,6 +35,10 @@ int RunInspect() {
   if (FLAGS_fix && OutFromFlags().empty()) {
     throw UsageError("--fix needs --out=FOLDER to write to");
   }
+  const auto formats = ExportFromFlags();
+  if (!formats.empty() && OutFromFlags().empty()) {
+    throw UsageError("--export needs --out=FOLDER to write to");
+  }
   const Robot robot = RobotFromFlags();
   ProgressBar bar("inspecting");
   const std::vector<InspectionFinding> of_robot = AuditRobot(robot);
@@ -52,13 +57,15 @@ int RunInspect() {
     }
   }
   OutputFolder out(OutFromFlags());
-  const std::string json = ToJson(robot, of_robot, logs).dump(2) + "\n";
-  out.Add("inspect.json", json);
+  nlohmann::json json = ToJson(robot, of_robot, logs);
+  const std::string losses = AddExports(robot, formats, &json, &out);
+  const std::string text = json.dump(2) + "\n";
+  out.Add("inspect.json", text);
   if (FLAGS_fix) AddMended(robot, options, logs, &out);
   out.Write();
   bool clean = of_robot.empty();
   for (const LogInspection& log : logs) clean = clean && log.findings.empty();
-  Print({json, FullReport(robot, of_robot, logs), "", clean, {}});
+  Print({text, FullReport(robot, of_robot, logs) + losses, "", clean, {}});
   return clean ? kExitOk : kExitNegative;
 }
 
@@ -67,11 +74,12 @@ int RunInspect() {
 Command InspectCommand() {
   return {"inspect",
           "what a robot file or a log holds, and what is wrong with it",
-          {{"robot and logs", {"robot", "log", "fix"}},
+          {{"robot and logs", {"robot", "log", "fix", "export"}},
            TorqueFlags(),
            ChainFlags()},
           {"armcal inspect --robot=arm.urdf --log=log.csv",
-           "armcal inspect --robot=arm.urdf --log=log.csv --fix --out=mended"},
+           "armcal inspect --robot=arm.urdf --log=log.csv --fix --out=mended",
+           "armcal inspect --robot=arm.urdf --export=mjcf,sdf --out=other"},
           &RunInspect};
 }
 

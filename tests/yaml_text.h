@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "model/dh_reader.h"
+#include "model/yaml_reader.h"
 #include "tests/refusal.h"
 
 namespace armcal {
@@ -46,16 +46,15 @@ inline Robot Read(const std::string& text,
                   const RobotReaderOptions& options = {}) {
   const std::string path = TempPath();
   std::ofstream(path, std::ios::binary) << text;
-  const Robot robot = ReadDhTable(path, options);
+  const Robot robot = ReadYaml(path, options);
   std::remove(path.c_str());
   return robot;
 }
 
 inline std::string Refusal(const std::string& text,
                            const RobotReaderOptions& options = {}) {
-  return RefusalOf(TempPath(), text, [&](const std::string& path) {
-    ReadDhTable(path, options);
-  });
+  return RefusalOf(TempPath(), text,
+                   [&](const std::string& path) { ReadYaml(path, options); });
 }
 
 // Of a changed kScara.

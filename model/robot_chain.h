@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "model/urdf_tree.h"
+#include "model/robot_tree.h"
 
 namespace armcal {
 
-// A way through a URDF tree; links and joints by index.
-struct UrdfChain {
+// A way through the tree of a robot file; links and joints by index.
+struct RobotChain {
   int base = -1;
   int tip = -1;
   std::vector<int> joints;  // base to tip, the fixed ones left out; at least 1
@@ -20,8 +20,8 @@ struct UrdfChain {
 // empty `tip` the only moved link beyond which nothing moves; where there are
 // several, where the links are unknown or not connected by joints that armcal
 // can handle, it throws InputError.
-UrdfChain ChooseChain(const std::string& path, const UrdfTree& tree,
-                      const std::string& base, const std::string& tip);
+RobotChain ChooseChain(const std::string& path, const RobotTree& tree,
+                       const std::string& base, const std::string& tip);
 
 // A link (the head) and all that fixed joints attach to it further out.
 struct RigidGroup {
@@ -31,12 +31,12 @@ struct RigidGroup {
   std::vector<int> joints;  // the joints that leave the group, not fixed
 };
 
-RigidGroup FindGroup(const UrdfTree& tree, int head);
+RigidGroup FindGroup(const RobotTree& tree, int head);
 Eigen::Isometry3d PoseInGroup(const RigidGroup& group, int link);
 
 // Visits the groups that joints move beyond the link `base`, near ones first.
 void VisitMovedGroups(
-    const UrdfTree& tree, int base,
+    const RobotTree& tree, int base,
     const std::function<void(int head, const RigidGroup&)>& visit);
 
 }  // namespace armcal

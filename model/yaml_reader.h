@@ -6,11 +6,11 @@
 
 namespace armcal {
 
-// Reads a robot given as a DH table in YAML:
+// Reads a robot given in YAML, as a DH table or by the poses of its joints:
 //
 //   name: scara
 //   gravity: [0, 0, 9.8]          # in the base frame, m/s^2
-//   convention: standard          # or modified; see DhParameters
+//   convention: standard          # or modified, see DhParameters; or poses
 //   links:                        # base to tip
 //     - name: upper_arm           # optional: link1, link2, ...
 //       joint: revolute           # or continuous, prismatic
@@ -24,14 +24,22 @@ namespace armcal {
 //       inertia: [Ixx, Ixy, Iyy, Ixz, Iyz, Izz]  # about the com, kg m^2; or
 //                                 # [Ixx, Iyy, Izz]
 //       limits: {lower: , upper: , velocity: , effort: }
-//       viscous: , coulomb: , armature:          # of the joint
+//       viscous: , coulomb: , armature: , offset:  # of the joint
 //       unknown: [a, d]           # lengths to be estimated
 //       zero: [hx, hy]            # inertial parameters zero by symmetry
 //   tool: {x: , y: , z: , roll: , pitch: , yaw: }   # on the last link
 //
+// With convention poses, in place of a, d, alpha, theta and unknown:
+//       pose: {xyz: [0, 0, 0.3], rpy: [0, 0, 0]}  # of the joint, on the
+//                                 # parent, as URDF's origin; see ReadYamlPose
+//       axis: [0, 0, 1]           # in the joint's frame, default z
+//       link_pose: {xyz: , rpy: } # of the link, in the joint's moved frame
+// With any: inertial: [m, hx, hy, hz, Ixx, Ixy, Iyy, Ixz, Iyz, Izz] about the
+// link's origin in place of mass, com and inertia; tool: {name: , pose: {}}.
+//
 // Only convention, links and each link's joint are required; gravity defaults
 // to 0 0 -9.81, a mass without inertia is a point mass. Unknown, duplicate and
 // misspelt keys are refused, and --base and --tip. Throws InputError.
-Robot ReadDhTable(const std::string& path, const RobotReaderOptions& options);
+Robot ReadYaml(const std::string& path, const RobotReaderOptions& options);
 
 }  // namespace armcal

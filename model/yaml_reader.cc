@@ -1,13 +1,16 @@
-#include "model/dh_reader.h"
+#include "model/yaml_reader.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
+#include "model/axis_rotation.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
+#include "model/robot_tree.h"
 #include "model/yaml_node.h"
+#include "model/yaml_pose.h"
 
 namespace armcal {
 namespace {
@@ -78,6 +81,7 @@ void ReadJoint(const YamlNode& entry, const std::string& default_name,
   joint->coulomb = NonNegativeOr0(entry, "coulomb", unit);
   joint->armature = NonNegativeOr0(entry, "armature",
                                    IsRotational(joint->type) ? "kg m^2" : "kg");
+  joint->offset = NumberOr(entry, "offset", unit, 0);
 }
 
 Matrix3d ReadInertia(const YamlNode& node) {
@@ -97,25 +101,44 @@ Matrix3d ReadInertia(const YamlNode& node) {
   return I;
 }
 
-void ReadInertial(const YamlNode& entry, Robot* robot, Link* link) {
+// From the centre of mass, or about the link's origin as armcal has it.
+std::optional<InertialParameters> ReadBody(const YamlNode& entry) {
   const std::optional<YamlNode> com = entry.Child("com");
   const std::optional<YamlNode> inertia = entry.Child("inertia");
   const std::optional<YamlNode> mass = entry.Child("mass");
+  const std::optional<YamlNode> all = entry.Child("inertial");
+  if (all) {
+    if (mass || com || inertia) {
+      all->Refuse("expected either inertial or mass, com and inertia");
+    }
+    const Eigen::VectorXd v = all->Vector("kg, kg m, kg m^2");
+    if (v.size() != 10 || v[0] < 0) {
+      all->Refuse(
+          "expected m, hx, hy, hz, Ixx, Ixy, Iyy, Ixz, Iyz, Izz, a mass that "
+          "is not negative");
+    }
+    return InertialParameters::FromVector(v);
+  }
   if (!mass && (com || inertia)) {
     (com ? com : inertia)->Refuse("expected the link's mass as well");
   }
-  if (!mass) return;
-  const double kilograms = mass->NonNegative("kg");
+  if (!mass) return std::nullopt;
   const Vector3d c = com ? com->Vector3("m") : Vector3d::Zero();
   const Matrix3d I = inertia ? ReadInertia(*inertia) : Matrix3d::Zero();
+  return InertialParameters::FromCenterOfMass(mass->NonNegative("kg"), c, I);
+}
+
+void ReadInertial(const YamlNode& entry, Robot* robot, Link* link) {
+  const std::optional<InertialParameters> body = ReadBody(entry);
+  if (!body) return;
   const std::string name = Quoted(link->name);
-  if (kilograms == 0) {
+  if (body->mass == 0) {
     robot->notes.push_back("link " + name +
                            " has mass 0, read as no inertia given");
     return;
   }
   link->has_inertial = true;
-  link->inertial = InertialParameters::FromCenterOfMass(kilograms, c, I);
+  link->inertial = *body;
   const std::string why = WhyUnphysical(link->inertial);
   if (why.empty()) return;
   robot->notes.push_back("the inertia of link " + name +
@@ -146,29 +169,59 @@ void ReadZeroInertials(const YamlNode& entry, Link* link) {
   }
 }
 
-Link ReadLink(const YamlNode& entry, DhConvention convention,
-              const std::string& number, Robot* robot) {
-  entry.ExpectKeys({"name", "joint", "joint_name", "a", "d", "alpha", "theta",
-                    "mass", "com", "inertia", "limits", "viscous", "coulomb",
-                    "armature", "unknown", "zero"});
-  Link link;
-  const std::optional<YamlNode> name = entry.Child("name");
-  link.name = name ? name->Name() : "link" + number;
-  ReadJoint(entry, "joint" + number, &link.joint);
+void ReadDhRow(const YamlNode& entry, DhConvention convention, Link* link) {
   DhParameters dh;
   dh.a = NumberOr(entry, "a", "m", 0);
   dh.d = NumberOr(entry, "d", "m", 0);
   dh.alpha = NumberOr(entry, "alpha", "rad", 0);
   dh.theta = NumberOr(entry, "theta", "rad", 0);
-  SetDhPose(dh, convention, &link);
-  ReadInertial(entry, robot, &link);
+  SetDhPose(dh, convention, link);
   const std::optional<YamlNode> unknown = entry.Child("unknown");
-  if (unknown) link.unknown_lengths = unknown->Choices({"a", "d"});
+  if (unknown) link->unknown_lengths = unknown->Choices({"a", "d"});
+}
+
+void ReadPoses(const YamlNode& entry, Link* link) {
+  const auto pose = entry.Child("pose"), axis = entry.Child("axis"),
+             link_pose = entry.Child("link_pose");
+  if (pose) link->X_PF = ReadYamlPose(*pose);
+  if (link_pose) link->X_ML = ReadYamlPose(*link_pose);
+  if (!axis) return;
+  const Vector3d xyz = axis->Vector3("1");
+  if (xyz.stableNorm() < kShortestAxis) {
+    axis->Refuse("expected an axis that is not zero");
+  }
+  const Matrix3d R = RotationOntoAxis(xyz.stableNormalized());
+  link->X_PF = link->X_PF * Eigen::Isometry3d(R);
+  link->X_ML = Eigen::Isometry3d(R.transpose()) * link->X_ML;
+}
+
+Link ReadLink(const YamlNode& entry,
+              const std::optional<DhConvention>& convention,
+              const std::string& number, Robot* robot) {
+  std::vector<std::string> keys = {
+      "name",    "joint",   "joint_name", "mass",   "com",  "inertia", "limits",
+      "viscous", "coulomb", "armature",   "offset", "zero", "inertial"};
+  const std::vector<std::string> of_row =
+      convention
+          ? std::vector<std::string>{"a", "d", "alpha", "theta", "unknown"}
+          : std::vector<std::string>{"pose", "axis", "link_pose"};
+  keys.insert(keys.begin() + 3, of_row.begin(), of_row.end());
+  entry.ExpectKeys(keys);
+  Link link;
+  const std::optional<YamlNode> name = entry.Child("name");
+  link.name = name ? name->Name() : "link" + number;
+  ReadJoint(entry, "joint" + number, &link.joint);
+  if (convention) {
+    ReadDhRow(entry, *convention, &link);
+  } else {
+    ReadPoses(entry, &link);
+  }
+  ReadInertial(entry, robot, &link);
   ReadZeroInertials(entry, &link);
   return link;
 }
 
-void ReadLinks(const YamlNode& links, DhConvention convention, Robot* robot) {
+void ReadLinks(const YamlNode& links, Robot* robot) {
   const std::vector<YamlNode> entries = links.Entries();
   if (entries.empty()) links.Refuse("expected at least one link");
   if (entries.size() > kMaxJoints) {
@@ -176,8 +229,8 @@ void ReadLinks(const YamlNode& links, DhConvention convention, Robot* robot) {
   }
   std::set<std::string> link_names, joint_names;
   for (size_t i = 0; i < entries.size(); ++i) {
-    const Link link =
-        ReadLink(entries[i], convention, std::to_string(i + 1), robot);
+    const Link link = ReadLink(entries[i], robot->dh_convention,
+                               std::to_string(i + 1), robot);
     if (!link_names.insert(link.name).second) {
       entries[i].Refuse("the link name " + Quoted(link.name) +
                         " is used before");
@@ -191,11 +244,20 @@ void ReadLinks(const YamlNode& links, DhConvention convention, Robot* robot) {
 }
 
 void ReadTool(const YamlNode& tool, Robot* robot) {
-  tool.ExpectKeys({"x", "y", "z", "roll", "pitch", "yaw"});
+  const auto name = tool.Child("name"), pose = tool.Child("pose");
+  if (pose) {
+    tool.ExpectKeys({"name", "pose"});
+  } else {
+    tool.ExpectKeys({"name", "x", "y", "z", "roll", "pitch", "yaw"});
+  }
   const auto get = [&](const char* key, const char* unit) {
     return NumberOr(tool, key, unit, 0);
   };
-  robot->tool_name = "tool";
+  robot->tool_name = name ? name->Name() : "tool";
+  if (pose) {
+    robot->X_LT = ReadYamlPose(*pose);
+    return;
+  }
   // Not by Eigen's <<, which must not be left by an exception.
   robot->X_LT.translation() =
       Vector3d(get("x", "m"), get("y", "m"), get("z", "m"));
@@ -205,12 +267,12 @@ void ReadTool(const YamlNode& tool, Robot* robot) {
 
 }  // namespace
 
-Robot ReadDhTable(const std::string& path, const RobotReaderOptions& options) {
+Robot ReadYaml(const std::string& path, const RobotReaderOptions& options) {
   for (const auto& [flag, value] : {std::make_pair("--base", options.base),
                                     std::make_pair("--tip", options.tip)}) {
     if (value.empty()) continue;
     throw InputError(path, flag, OneLine(value),
-                     "expected no such flag with a DH table, which is one "
+                     "expected no such flag with a YAML robot, which is one "
                      "chain");
   }
   const YamlNode root = YamlNode::ReadFile(path);
@@ -221,12 +283,11 @@ Robot ReadDhTable(const std::string& path, const RobotReaderOptions& options) {
   const std::optional<YamlNode> gravity = root.Child("gravity");
   if (gravity) robot.gravity = gravity->Vector3("m/s^2");
   if (options.gravity) robot.gravity = *options.gravity;
-  const bool is_standard =
-      root.RequiredChild("convention").Choice({"standard", "modified"}) ==
-      "standard";
-  robot.dh_convention =
-      is_standard ? DhConvention::kStandard : DhConvention::kModified;
-  ReadLinks(root.RequiredChild("links"), *robot.dh_convention, &robot);
+  const std::string convention = root.RequiredChild("convention")
+                                     .Choice({"standard", "modified", "poses"});
+  if (convention == "standard") robot.dh_convention = DhConvention::kStandard;
+  if (convention == "modified") robot.dh_convention = DhConvention::kModified;
+  ReadLinks(root.RequiredChild("links"), &robot);
   const std::optional<YamlNode> tool = root.Child("tool");
   if (tool) ReadTool(*tool, &robot);
   return robot;

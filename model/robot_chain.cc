@@ -1,4 +1,4 @@
-#include "model/urdf_chain.h"
+#include "model/robot_chain.h"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ using Eigen::Isometry3d;
 
 constexpr int kMaxJoints = 64;
 
-int RequireLink(const std::string& path, const UrdfTree& tree,
+int RequireLink(const std::string& path, const RobotTree& tree,
                 const std::string& flag, const std::string& name) {
   const std::optional<int> link = tree.FindLink(name);
   if (link) return *link;
@@ -20,7 +20,7 @@ int RequireLink(const std::string& path, const UrdfTree& tree,
                    "expected one of the links " + LinkNames(tree.links));
 }
 
-int ChooseBase(const std::string& path, const UrdfTree& tree,
+int ChooseBase(const std::string& path, const RobotTree& tree,
                const std::string& base) {
   if (!base.empty()) return RequireLink(path, tree, "--base", base);
   if (tree.roots.size() == 1) return tree.roots.front();
@@ -30,7 +30,7 @@ int ChooseBase(const std::string& path, const UrdfTree& tree,
                    "expected one root link: choose one with --base");
 }
 
-int ChooseTip(const std::string& path, const UrdfTree& tree, int base,
+int ChooseTip(const std::string& path, const RobotTree& tree, int base,
               const std::string& tip) {
   if (!tip.empty()) return RequireLink(path, tree, "--tip", tip);
   std::vector<int> leaves;
@@ -52,14 +52,13 @@ int ChooseTip(const std::string& path, const UrdfTree& tree, int base,
   return leaves.front();
 }
 
-void RequireUsable(const std::string& path, const UrdfTree& tree,
-                   const UrdfJoint& joint) {
+void RequireUsable(const std::string& path, const RobotTree& tree,
+                   const TreeJoint& joint) {
   const std::string place = "line " + std::to_string(joint.line) + ", joint " +
                             Quoted(joint.joint.name);
   if (!joint.is_supported) {
     throw InputError(path, place, joint.type,
-                     "expected a revolute, continuous, prismatic or fixed "
-                     "joint in the chain; --base=" +
+                     "expected " + tree.joint_types + " in the chain; --base=" +
                          OneLine(tree.links[joint.child].name) +
                          " starts behind it");
   }
@@ -71,7 +70,7 @@ void RequireUsable(const std::string& path, const UrdfTree& tree,
 }
 
 // The moving joints from base to tip.
-std::vector<int> FindChain(const std::string& path, const UrdfTree& tree,
+std::vector<int> FindChain(const std::string& path, const RobotTree& tree,
                            int base, int tip) {
   std::vector<int> chain;
   for (int link = tip; link != base;) {
@@ -101,14 +100,14 @@ std::vector<int> FindChain(const std::string& path, const UrdfTree& tree,
 
 }  // namespace
 
-RigidGroup FindGroup(const UrdfTree& tree, int head) {
+RigidGroup FindGroup(const RobotTree& tree, int head) {
   RigidGroup group{{head}, {Isometry3d::Identity()}, {}};
   for (size_t i = 0; i < group.links.size(); ++i) {
     for (const int j : tree.links[group.links[i]].child_joints) {
-      const UrdfJoint& joint = tree.joints[j];
+      const TreeJoint& joint = tree.joints[j];
       if (joint.is_fixed) {
         group.links.push_back(joint.child);
-        group.X_HLs.push_back(group.X_HLs[i] * joint.X_PJ);
+        group.X_HLs.push_back(group.X_HLs[i] * joint.X_PJ * joint.X_JL);
       } else {
         group.joints.push_back(j);
       }
@@ -123,7 +122,7 @@ Isometry3d PoseInGroup(const RigidGroup& group, int link) {
 }
 
 void VisitMovedGroups(
-    const UrdfTree& tree, int base,
+    const RobotTree& tree, int base,
     const std::function<void(int head, const RigidGroup&)>& visit) {
   std::vector<int> open = {base};
   while (!open.empty()) {
@@ -137,9 +136,9 @@ void VisitMovedGroups(
   }
 }
 
-UrdfChain ChooseChain(const std::string& path, const UrdfTree& tree,
-                      const std::string& base, const std::string& tip) {
-  UrdfChain chain;
+RobotChain ChooseChain(const std::string& path, const RobotTree& tree,
+                       const std::string& base, const std::string& tip) {
+  RobotChain chain;
   chain.base = ChooseBase(path, tree, base);
   chain.tip = ChooseTip(path, tree, chain.base, tip);
   chain.joints = FindChain(path, tree, chain.base, chain.tip);

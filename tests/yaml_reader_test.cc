@@ -1,4 +1,4 @@
-#include "model/dh_reader.h"
+#include "model/yaml_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/dh_text.h"
+#include "tests/yaml_text.h"
 
 namespace armcal {
 namespace {
@@ -17,7 +17,7 @@ using testing::IsEmpty;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(DhReader, ReadsEveryField) {
+TEST(YamlReader, ReadsEveryField) {
   const Robot robot = Read(kScara);
   EXPECT_EQ(robot.name, "scara");
   EXPECT_EQ(robot.gravity, Vector3d(0, 0, 9.8));
@@ -49,7 +49,7 @@ TEST(DhReader, ReadsEveryField) {
 }
 
 // The tip of a SCARA in closed form.
-TEST(DhReader, ScaraTip) {
+TEST(YamlReader, ScaraTip) {
   const Robot robot = Read(kScara);
   const double q1 = 0.3, q2 = -0.7, q3 = 0.06;
   const Eigen::Isometry3d X = robot.links[0].X_PL(q1) *
@@ -66,7 +66,7 @@ TEST(DhReader, ScaraTip) {
 }
 
 // Craig's convention moves along x before it turns about z.
-TEST(DhReader, ModifiedConventionAndDefaults) {
+TEST(YamlReader, ModifiedConventionAndDefaults) {
   const Robot robot = Read(
       "convention: modified\n"
       "links:\n"
@@ -81,7 +81,7 @@ TEST(DhReader, ModifiedConventionAndDefaults) {
                   .isApprox(Vector3d(std::cos(0.4), 0, std::sin(0.4)), 1e-15));
 }
 
-TEST(DhReader, NotesAndOptions) {
+TEST(YamlReader, NotesAndOptions) {
   RobotReaderOptions options;
   options.gravity = Vector3d(1, 2, 3);
   const Robot robot = Read(
@@ -101,18 +101,18 @@ TEST(DhReader, NotesAndOptions) {
           "inequality); it serves as a start value only"));
   options.tip = "tool";
   EXPECT_EQ(Refusal(kScara, options),
-            "--tip: found 'tool': expected no such flag with a DH table, which "
-            "is one chain");
+            "--tip: found 'tool': expected no such flag with a YAML robot, "
+            "which is one chain");
 }
 
-class DhRefusal : public testing::TestWithParam<Case> {};
+class YamlRefusal : public testing::TestWithParam<Case> {};
 
-TEST_P(DhRefusal, SaysWhereAndWhy) {
+TEST_P(YamlRefusal, SaysWhereAndWhy) {
   EXPECT_EQ(Refusal(GetParam()), GetParam().message);
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Tables, DhRefusal,
+    Tables, YamlRefusal,
     testing::Values(
         Case{"convention: standard\n", "",
              "line 1: expected a key 'convention'"},
@@ -156,10 +156,11 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"{z: -0.05,", "{y: 5 mm,",
              "line 21, tool.y: found '5 mm': expected a number in m"},
         Case{"{z: -0.05,", "{height: 1,",
-             "line 21, tool: found 'height': expected one of the keys x, y, z, "
+             "line 21, tool: found 'height': expected one of the keys name, x, "
+             "y, z, "
              "roll, pitch, yaw"}));
 
-TEST(DhReader, RefusesTooFewOrTooManyLinks) {
+TEST(YamlReader, RefusesTooFewOrTooManyLinks) {
   EXPECT_EQ(Refusal("convention: standard\nlinks: []\n"),
             "line 2, links: found 'a list of 0': expected at least one link");
   std::string many = "convention: standard\nlinks:\n";

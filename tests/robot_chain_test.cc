@@ -1,4 +1,4 @@
-#include "model/urdf_chain.h"
+#include "model/robot_chain.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ std::string Branched() {
          "<transmission name='t'><joint name='j1'/></transmission><gazebo/>";
 }
 
-TEST(UrdfChain, ChoosesAChain) {
+TEST(RobotChain, ChoosesAChain) {
   RobotReaderOptions options;
   options.tip = "b";
   Robot robot = Read(Branched(), options);
@@ -57,7 +57,7 @@ TEST(UrdfChain, ChoosesAChain) {
   EXPECT_EQ(robot.notes.size(), 3u);
 }
 
-TEST(UrdfChain, GravityIsInTheBaseLinksFrame) {
+TEST(RobotChain, GravityIsInTheBaseLinksFrame) {
   RobotReaderOptions options;
   options.tip = "tool";
   options.base = "base";  // its y points up
@@ -73,23 +73,24 @@ TEST(UrdfChain, GravityIsInTheBaseLinksFrame) {
   EXPECT_THAT(robot.JointNames(), ElementsAre("j2"));
   EXPECT_EQ(robot.gravity, Vector3d(0, 0, -9.81));
   EXPECT_EQ(robot.notes.back(),
-            "gravity is taken along -z of the base link, which joint 'j1' "
+            "gravity is taken as 0 0 -9.81 m/s^2 in the base link's frame, "
+            "which joint 'j1' "
             "moves");
   options.base = "base";
   EXPECT_THAT(Read(LinkXml("box") + Branched(), options).JointNames(),
               ElementsAre("j1", "j2"));
 }
 
-class UrdfChainRefusal : public testing::TestWithParam<Case> {};
+class RobotChainRefusal : public testing::TestWithParam<Case> {};
 
-TEST_P(UrdfChainRefusal, SaysWhereAndWhy) {
+TEST_P(RobotChainRefusal, SaysWhereAndWhy) {
   EXPECT_EQ(Refusal(GetParam()), GetParam().message);
 }
 
 #define NAMES "expected one of the links base, upper, fore"
 
 INSTANTIATE_TEST_SUITE_P(
-    Chains, UrdfChainRefusal,
+    Chains, RobotChainRefusal,
     testing::Values(
         Case{"<link name=\"fore\"/>",
              "<link name=\"fore\"/><link name=\"box\"/>",
@@ -113,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
              "found 'finger, fore': expected one chain: choose its last link "
              "with --tip"}));
 
-TEST(UrdfChain, BaseAndTip) {
+TEST(RobotChain, BaseAndTip) {
   const auto refusal = [](const std::string& base, const std::string& tip) {
     RobotReaderOptions options;
     options.base = base;
@@ -132,7 +133,7 @@ TEST(UrdfChain, BaseAndTip) {
             "to 'base'");
 }
 
-TEST(UrdfChain, LongChains) {
+TEST(RobotChain, LongChains) {
   const auto chain = [](int joints) {
     std::string text = "<robot><link name='l0'/>";
     for (int i = 1; i <= joints; ++i) {

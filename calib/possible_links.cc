@@ -1,0 +1,134 @@
+#include "calib/possible_links.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "calib/link_start.h"
+#include "model/inverse_dynamics.h"
+#include "problems/inertial_coordinates.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kStates = 200;
+constexpr double kDifference = 1e-2;  // of a joint's rms torque
+constexpr double kTrust = .5;
+
+struct State {
+  VectorXd q, qd, qdd;
+};
+
+double Draw(double low, double high, std::mt19937_64* random) {
+  const double unit = static_cast<double>((*random)() >> 11) * 0x1p-53;
+  return low + (high - low) * unit;
+}
+
+// Uniform over the range of positions, and as large as usual.
+State DrawState(const MotionScale& scale, std::mt19937_64* random) {
+  const Eigen::Index n = scale.low.size();
+  const double usual = std::sqrt(3.);  // of a uniform draw of rms 1
+  State state{VectorXd(n), VectorXd(n), VectorXd(n)};
+  for (Eigen::Index j = 0; j < n; ++j) {
+    state.q[j] = Draw(scale.low[j], scale.high[j], random);
+    state.qd[j] = usual * scale.speed[j] * Draw(-1, 1, random);
+    state.qdd[j] = usual * scale.acceleration[j] * Draw(-1, 1, random);
+  }
+  return state;
+}
+
+// The torque is linear in the inertial parameters of links[k] and in the
+// joints' armature: columns in that order, a row per state and joint.
+MatrixXd TorqueColumns(Robot robot, const std::vector<int>& links,
+                       const MotionScale& scale) {
+  const int n = robot.num_joints(), m = 10 * static_cast<int>(links.size());
+  MatrixXd columns = MatrixXd::Zero(kStates * n, m + n);
+  std::mt19937_64 random(1);
+  for (Link& link : robot.links) link.inertial = InertialParameters();
+  for (int s = 0; s < kStates; ++s) {
+    const State state = DrawState(scale, &random);
+    for (int k = 0; k < m; ++k) {
+      InertialParameters& body = robot.links[links[k / 10]].inertial;
+      body = InertialParameters::FromVector(Vector10d::Unit(k % 10));
+      columns.block(s * n, k, n, 1) =
+          InverseDynamics(robot, state.q, state.qd, state.qdd);
+      body = InertialParameters();
+    }
+    columns.block(s * n, m, n, n) = state.qdd.asDiagonal();
+  }
+  return columns;
+}
+
+double Rms(const VectorXd& torque, int joint, int n) {
+  const Eigen::Map<const VectorXd, 0, Eigen::InnerStride<>> of_joint(
+      torque.data() + joint, torque.size() / n, Eigen::InnerStride<>(n));
+  return std::sqrt(of_joint.squaredNorm() / of_joint.size());
+}
+
+// Bodies inside what can exist, then the joints' armature.
+VectorXd StartValues(const Robot& robot, const Robot& file,
+                     const std::vector<int>& links) {
+  const int m = 10 * static_cast<int>(links.size());
+  VectorXd x(m + robot.num_joints());
+  for (size_t k = 0; k < links.size(); ++k) {
+    const InertialParameters& fitted = robot.links[links[k]].inertial;
+    const bool possible = WhyUnphysical(fitted).empty();
+    const Vector10d c = LogCholeskyFromInertial(
+        (possible ? fitted : file.links[links[k]].inertial).ToVector(), .01,
+        .01);
+    InertialFromLogCholesky(c.data(), x.data() + 10 * k);
+  }
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    x[m + j] = robot.links[j].joint.armature;
+  }
+  return x;
+}
+
+}  // namespace
+
+std::optional<PossibleLinks> FindPossibleLinks(
+    const Robot& robot, const Robot& file, const MotionScale& scale,
+    const std::vector<bool>& free_armature) {
+  const int n = robot.num_joints();
+  std::vector<int> links;
+  for (int i = 0; i < n; ++i) {
+    if (!robot.links[i].inertial.ToVector().isZero(0)) links.push_back(i);
+  }
+  const int m = 10 * static_cast<int>(links.size());
+  const MatrixXd columns = TorqueColumns(robot, links, scale);
+  const VectorXd start = StartValues(robot, file, links);
+  VectorXd fitted = start;
+  for (size_t k = 0; k < links.size(); ++k) {
+    fitted.segment<10>(10 * k) = robot.links[links[k]].inertial.ToVector();
+  }
+  const VectorXd torque = columns * fitted;
+  MatrixXd R = columns;
+  for (int r = 0; r < R.rows(); ++r) {
+    R.row(r) /= kDifference * std::max(1e-9, Rms(torque, r % n, n));
+  }
+  std::vector<TermRange> ranges;
+  for (int j = 0; j < n; ++j) {
+    const bool free = free_armature[j] && start[m + j] > 0;
+    ranges.push_back(free ? TermRange::kPositive : TermRange::kHeld);
+  }
+  const auto found = StartLinks(R, R * fitted, kTrust, ranges, start);
+  if (!found) return std::nullopt;
+  PossibleLinks possible{robot, VectorXd(n)};
+  for (size_t k = 0; k < links.size(); ++k) {
+    possible.robot.links[links[k]].inertial =
+        InertialParameters::FromVector(found->segment<10>(10 * k));
+  }
+  const VectorXd difference = columns * *found - torque;
+  for (int j = 0; j < n; ++j) {
+    possible.robot.links[j].joint.armature = (*found)[m + j];
+    possible.differs_percent[j] =
+        100 * Rms(difference, j, n) / std::max(1e-9, Rms(torque, j, n));
+  }
+  return possible;
+}
+
+}  // namespace armcal

@@ -1,0 +1,52 @@
+# --export: robots in other formats, which armcal reads again.
+write_arm(arm ", limits: {lower: -2, upper: 2, velocity: 2, effort: 100}"
+          ", limits: {lower: -2.5, upper: 2.5, velocity: 3, effort: 50}")
+run("a log" simulate --robot=arm.yaml --duration=10 --log_rate=100 --out=made)
+expect_code(0)
+
+run("convert" inspect --robot=arm.yaml --export=urdf,mjcf,sdf,yaml --out=files)
+expect_code(0)
+expect_text(out "robot.xml  MJCF has no field for velocity limits"
+            "robot.sdf  SDF leaves gravity to the world")
+file(READ ${WORK_DIR}/files/inspect.json json)
+string(JSON count LENGTH "${json}" robot_files)
+string(JSON format GET "${json}" robot_files 1 format)
+string(JSON loss GET "${json}" robot_files 1 losses 0)
+if(NOT count EQUAL 4 OR NOT format STREQUAL "mjcf" OR
+   NOT loss MATCHES "velocity limits")
+  fail("inspect.json: robot_files ${count} ${format} ${loss}")
+endif()
+
+# The same robot, the same calibration: of the first figures a log gives.
+function(fitted file)
+  run("calibrate ${file}" calibrate --robot=${file} --log=made/log.csv
+      --export=mjcf,yaml --out=fitted)
+  expect_code(0)
+  file(READ ${WORK_DIR}/fitted/calibration.json json)
+  set(figures "")
+  foreach(k RANGE 5)
+    string(JSON value GET "${json}" model_parameters ${k} value)
+    string(SUBSTRING "${value}000000000000" 0 13 value)
+    list(APPEND figures "${value}")
+  endforeach()
+  string(JSON files LENGTH "${json}" robot_files)
+  set(result "${files} ${figures}" PARENT_SCOPE)
+endfunction()
+fitted(arm.yaml)
+set(from_table "${result}")
+fitted(files/robot.yaml)
+set(from_yaml "${result}")
+fitted(files/robot.xml)
+if(NOT result STREQUAL from_table OR NOT from_yaml STREQUAL from_table)
+  fail("calibrated apart: ${from_table}, ${from_yaml}, ${result}")
+endif()
+run("what was written" inspect --robot=fitted/robot.xml)
+if(code EQUAL 3)
+  fail("armcal does not read its own robot.xml")
+endif()
+
+run("an unknown format" calibrate --robot=arm.yaml --log=made/log.csv
+    --export=mjcf,xml --out=bad)
+expect_refusal(2 "--export: found 'xml', expected one of urdf, mjcf, sdf, yaml")
+run("nowhere to write" inspect --robot=arm.yaml --export=sdf)
+expect_refusal(2 "--export needs --out=FOLDER")

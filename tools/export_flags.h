@@ -1,0 +1,26 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "calib/corrected_robot_export.h"
+#include "tools/output_folder.h"
+
+namespace armcal {
+
+// --export: the formats that the robot is written in. UsageError for any other.
+std::vector<const RobotFormat*> ExportFromFlags();
+// The same for a command that writes robot.urdf in any case.
+std::vector<const RobotFormat*> ExportBesideUrdfFromFlags();
+
+// Adds the files to the folder, and where there are any robot_files[] {format,
+// file, losses[]} to `json`. Returns what is lost, a line each.
+std::string AddFiles(const std::vector<RobotFile>& files, nlohmann::json* json,
+                     OutputFolder* out);
+// The same of a robot in these formats.
+std::string AddExports(const Robot& robot,
+                       const std::vector<const RobotFormat*>& formats,
+                       nlohmann::json* json, OutputFolder* out);
+
+}  // namespace armcal
