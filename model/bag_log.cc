@@ -226,17 +226,28 @@ std::vector<JointSeries> BagLog::TakeSeries() {
 }
 
 std::string BagLog::Topics() const {
-  std::vector<std::string> list;
+  constexpr size_t kMostTopics = 40;
+  // Those of types that are read come first, as the list may be cut short.
+  std::vector<std::string> list, others;
   for (const auto& [name_and_type, topic] : topics_) {
     const BagTopic& about = topic.about;
+    const bool read =
+        IsJointState(about.type) || IsFloat64MultiArray(about.type);
     std::string text = OneLine(about.name) + " (" + OneLine(about.type);
     if (!topic.names.empty()) {
       text += " of " + JoinNames({topic.names.begin(), topic.names.end()});
     }
-    list.push_back(text + ")");
+    (read ? list : others).push_back(text + ")");
   }
-  return list.empty() ? "the bag has no topics"
-                      : "the bag has " + JoinNames(list);
+  list.insert(list.end(), others.begin(), others.end());
+  std::string text;
+  for (size_t k = 0; k < std::min(list.size(), kMostTopics); ++k) {
+    text += (k > 0 ? ", " : "") + list[k];
+  }
+  if (list.size() > kMostTopics) {
+    text += " and " + std::to_string(list.size() - kMostTopics) + " more";
+  }
+  return list.empty() ? "the bag has no topics" : "the bag has " + text;
 }
 
 }  // namespace armcal

@@ -5,9 +5,9 @@
 
 #include "model/bag_folder.h"
 #include "model/bag_log.h"
+#include "model/exact_digits.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
-#include "model/number_text.h"
 
 namespace armcal {
 
@@ -134,10 +134,10 @@ bool BagSource::NextLine(std::string_view* line) {
     *line = header_;
   } else {
     line_.clear();
-    AppendExactly(times_[row_ - 1], &line_);
+    AppendExactDigits(times_[row_ - 1], &line_);
     for (size_t c = 0; c < columns_.size(); ++c) {
       line_ += ',';
-      AppendExactly(values_[(row_ - 1) * columns_.size() + c], &line_);
+      AppendExactDigits(values_[(row_ - 1) * columns_.size() + c], &line_);
     }
     *line = line_;
   }

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "model/number_text.h"
+#include "model/exact_digits.h"
 
 namespace armcal {
 namespace {
@@ -12,7 +12,7 @@ template <typename T>
 void Append(const char* bytes, std::string* line) {
   T value;
   std::memcpy(&value, bytes, sizeof(T));
-  AppendExactly(value, line);
+  AppendExactDigits(value, line);
 }
 
 }  // namespace

@@ -138,12 +138,18 @@ TEST(BagSource, SaysWhatIsWrong) {
             "(sensor_msgs/msg/JointState)");
 }
 
+// With all their names, however long the line.
 TEST(BagSource, RefusesOtherRobots) {
   LogReaderOptions options = Options();
   options.joint_names = {"joint1", "wrist"};
   EXPECT_EQ(Refusal(kFolder + "lz4.mcap", options),
             "FILE: no message gives the position of wrist; the bag has "
             "/joint_states (sensor_msgs/msg/JointState of joint1, joint2)");
+  EXPECT_EQ(RefusalOf("long_names.mcap"),
+            "FILE: no message gives the position of joint1, joint2; the bag "
+            "has /joint_states (sensor_msgs/msg/JointState of "
+            "elbow_of_the_left_arm_joint, shoulder_of_the_left_arm_joint, "
+            "wrist_of_the_left_arm_joint)");
 }
 
 // Before the end of the data nothing may pass for a shorter log.

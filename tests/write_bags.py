@@ -183,6 +183,8 @@ def write_refused(log, folder):
     write('odd_type', few(once), kind='control_msgs/msg/DynamicJointState')
     write('json', few([(r, b'{}') for r, _ in once]), encoding='json')
     write('no_stamps', few([(r, m[:4] + bytes(8) + m[12:]) for r, m in once]))
+    names = [f'{name}_of_the_left_arm_joint' for name in ('shoulder', 'elbow', 'wrist')]
+    write('long_names', few([(r, cdr(state(r, names, [0, 0, 0]))) for r, _ in once]))
     mcap(folder / 'two_arms.mcap', {'/joint_states': (STATE, few(once)),
                                     '/simulated/joint_states': (STATE, few(once))})
 

@@ -17,7 +17,8 @@ DEFINE_string(gravity, "",
               "`X,Y,Z` gravity in the base frame, m/s^2; "
               "default: the robot file's, for URDF 0,0,-9.81");
 DEFINE_string(log, "",
-              "`FILES` logs A[,B..] to calibrate on or to verify with");
+              "`FILES` logs A[,B..] to calibrate on or to verify with: CSV, "
+              "ROS 2 bags, .npz, .mat");
 DEFINE_string(validate, "", "`FILES` logs held out to check the result");
 DEFINE_string(torque_constants, "",
               "`K1,K2..` per joint, N m/A: torque = constant x gear ratio x "

@@ -87,6 +87,6 @@ run("topics" calibrate --robot=arm.yaml --log=few/two_arms.mcap
     --topics=/joint_states,torque:/torques)
 expect_refusal(2 "--topics: found 'torque:/torques', expected a topic's name, or one of position, velocity")
 run("topic not there" inspect --robot=arm.yaml --log=few/log.db3 --topics=/states)
-expect_refusal(3 "few/log.db3: topic /states: is not in the bag; the bag has /chatter (std_msgs/msg/String), /joint_states")
+expect_refusal(3 "few/log.db3: topic /states: is not in the bag; the bag has /joint_states (sensor_msgs/msg/JointState), /chatter (std_msgs/msg/String)")
 run("no efforts" inspect --robot=arm.yaml --log=few/nan_effort.mcap)
 expect_text(err "the effort of joint1, joint2 is empty or NaN in all messages")

@@ -8,7 +8,7 @@ namespace armcal {
 
 // Appends as many digits as bring the same number back.
 template <typename Number>
-void AppendExactly(Number value, std::string* text) {
+void AppendExactDigits(Number value, std::string* text) {
   std::array<char, 40> digits;
   const auto end =
       std::to_chars(digits.data(), digits.data() + digits.size(), value);
