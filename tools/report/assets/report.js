@@ -28,7 +28,7 @@
                                : 'This robot did not pass.') + rolloutSentence(),
       reasons: result.reasons || []}),
     diagnose: () => ({
-      good: result.verdict === 'explained' || result.verdict === 'noise_floor',
+      good: ['explained', 'absorbed', 'noise_floor'].includes(result.verdict),
       sentence: result.sentence, reasons: []}),
     excite: () => ({
       good: result.designed !== false,
