@@ -17,6 +17,17 @@ const calibrationSections = (data) => {
         j.coulomb_transition
             ? `${number(j.coulomb_transition.width)} ${j.coulomb_transition.unit}` : '–']));
 
+  const driveGains = () => {
+    if (!(result.drive_gains || []).length) return null;
+    const load = result.payload || {}, axes = ['x', 'y', 'z'].map((axis) => isNumber(load['com_' + axis])
+        ? `${axis} ${plusMinus(1e3 * load['com_' + axis], 1e3 * load[`com_${axis}_stddev`])} mm`
+        : `${axis} not seen`);
+    return [table(['joint', 'torque per current ± standard deviation', 'unit'], result.drive_gains.map((g) => [
+              g.name, g.identifiable ? plusMinus(g.value, g.stddev) : g.reason || 'the data do not tell', g.unit])),
+            result.drive_gains.some((g) => g.identifiable) && note(`From the known payload of ${number(load.mass)} kg; its centre of mass is found at ${axes.join(', ')}. ` +
+                 'Torques below are currents times these values, which are taken for exact.')];
+  };
+
   const parameterTable = (list) => {
     if (!list || list.length === 0) return null;
     const prior = list.some((p) => isNumber(p.prior));
@@ -143,5 +154,5 @@ const calibrationSections = (data) => {
               ? ` Given up as wrong: rows ${result.poses.outlier_rows.slice(0, 20).join(', ')}.` : ''))];
   };
 
-  return {jointTable, geometry, poses, parameters, correlation, rank};
+  return {driveGains, jointTable, geometry, poses, parameters, correlation, rank};
 };

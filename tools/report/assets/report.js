@@ -10,6 +10,10 @@
 
   const verdicts = {
     calibrate: () => {
+      const termination = result.termination || {};
+      if (!result.verdict && termination.converged === false) {
+        return {good: false, sentence: 'Not calibrated.', reasons: [termination.reason]};
+      }
       const passed = !result.verdict || result.verdict.passed;
       const held = result.validation_stacked_residual_percent;
       const left = result.stacked_residual_percent;
@@ -28,7 +32,7 @@
                                : 'This robot did not pass.') + rolloutSentence(),
       reasons: result.reasons || []}),
     diagnose: () => ({
-      good: result.verdict === 'explained' || result.verdict === 'noise_floor',
+      good: ['explained', 'absorbed', 'noise_floor'].includes(result.verdict),
       sentence: result.sentence, reasons: []}),
     excite: () => ({
       good: result.designed !== false,
@@ -125,12 +129,12 @@
   };
 
   const {torques, maps, spectra} = torqueSections(data);
-  const {jointTable, geometry, poses, parameters, correlation, rank} = calibrationSections(data);
+  const {driveGains, jointTable, geometry, poses, parameters, correlation, rank} = calibrationSections(data);
   const {dataFindings, effects, absorbed, gap, where, untestable} = diagnosisSections(data);
   const sections = [
     ['The data', dataFindings], ['Which effect', effects], ['What was only a wrong parameter', absorbed],
     ['How far the gap shrinks', gap], ['Where it lies', where],
-    ['Joints', jointTable], ['Checks', checks], ['Simulated from the log', rollouts],
+    ['Torque per current', driveGains], ['Joints', jointTable], ['Checks', checks], ['Simulated from the log', rollouts],
     ['The motion', motion], ['The postures', postures], ['What it will tell', predicted], ['Assumed', assumed],
     ['Geometry', geometry], ['Pose by pose', poses],
     ['Torque, recorded and predicted', torques], ['What the residual follows', maps],
