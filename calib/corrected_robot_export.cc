@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "calib/friction_share.h"
 #include "calib/json_figures.h"
 #include "calib/possible_links.h"
 #include "model/urdf_update.h"
@@ -146,9 +147,15 @@ RobotDescription Describe(const CorrectedRobot& corrected, const Robot& file,
   description.drives.resize(robot.num_joints());
   for (const CarriedEffect& effect : corrected.effects) {
     const HeldEffect* held = FindHeld(effect);
-    if (held == nullptr || !IsIn(format, effect)) continue;
     const int j = effect.found.joint;
-    held->add(effect.found, &robot.links[j].joint, &description.drives[j]);
+    if (held != nullptr && IsIn(format, effect)) {
+      held->add(effect.found, &robot.links[j].joint, &description.drives[j]);
+    } else if (j >= 0) {
+      const FrictionShare share =
+          ShareOfFriction(effect, corrected.plant.robot, corrected.scale);
+      robot.links[j].joint.viscous += share.viscous;
+      robot.links[j].joint.coulomb += share.coulomb;
+    }
   }
   MakeLinksPossible(corrected, file, &robot, losses);
   for (Link& link : robot.links) {
@@ -174,6 +181,16 @@ std::string Sentence(const RobotFormat& format, const CarriedEffect& effect,
          values + "): see effects.json";
 }
 
+// What stands in the file in its stead.
+std::string ShareSentence(const CorrectedRobot& corrected,
+                          const CarriedEffect& effect) {
+  const FrictionShare share =
+      ShareOfFriction(effect, corrected.plant.robot, corrected.scale);
+  if (share.viscous == 0 && share.coulomb == 0) return "";
+  return "; its share of viscous friction " + Short(share.viscous) +
+         " and of Coulomb friction " + Short(share.coulomb) + " is in the file";
+}
+
 void AddLosses(const CorrectedRobot& corrected, const RobotFormat& format,
                const RobotDescription& description,
                std::vector<std::string>* losses) {
@@ -183,7 +200,8 @@ void AddLosses(const CorrectedRobot& corrected, const RobotFormat& format,
   }
   for (const CarriedEffect& effect : corrected.effects) {
     if (IsIn(format, effect)) continue;
-    losses->push_back(Sentence(format, effect, description.robot));
+    losses->push_back(Sentence(format, effect, description.robot) +
+                      ShareSentence(corrected, effect));
   }
   for (const std::vector<CoulombPart>& parts : corrected.coulomb) {
     if (parts.front().force == 0 && parts.size() == 1) continue;

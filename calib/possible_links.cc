@@ -88,16 +88,42 @@ VectorXd StartValues(const Robot& robot, const Robot& file,
   return x;
 }
 
+std::vector<int> LinksWithInertia(const Robot& robot) {
+  std::vector<int> links;
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    if (!robot.links[i].inertial.ToVector().isZero(0)) links.push_back(i);
+  }
+  return links;
+}
+
+// In units of what a joint's torque may differ by.
+MatrixXd Weighted(MatrixXd columns, const VectorXd& usual_torque) {
+  const Eigen::Index n = usual_torque.size();
+  for (Eigen::Index r = 0; r < columns.rows(); ++r) {
+    columns.row(r) /= kDifference * std::max(1e-9, usual_torque[r % n]);
+  }
+  return columns;
+}
+
+Robot WithValues(Robot robot, const std::vector<int>& links,
+                 const VectorXd& x) {
+  for (size_t k = 0; k < links.size(); ++k) {
+    robot.links[links[k]].inertial =
+        InertialParameters::FromVector(x.segment<10>(10 * k));
+  }
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    robot.links[j].joint.armature = x[10 * links.size() + j];
+  }
+  return robot;
+}
+
 }  // namespace
 
 std::optional<PossibleLinks> FindPossibleLinks(
     const Robot& robot, const Robot& file, const MotionScale& scale,
     const std::vector<bool>& free_armature) {
   const int n = robot.num_joints();
-  std::vector<int> links;
-  for (int i = 0; i < n; ++i) {
-    if (!robot.links[i].inertial.ToVector().isZero(0)) links.push_back(i);
-  }
+  const std::vector<int> links = LinksWithInertia(robot);
   const int m = 10 * static_cast<int>(links.size());
   const MatrixXd columns = TorqueColumns(robot, links, scale);
   const VectorXd start = StartValues(robot, file, links);
@@ -105,11 +131,7 @@ std::optional<PossibleLinks> FindPossibleLinks(
   for (size_t k = 0; k < links.size(); ++k) {
     fitted.segment<10>(10 * k) = robot.links[links[k]].inertial.ToVector();
   }
-  const VectorXd torque = columns * fitted;
-  MatrixXd R = columns;
-  for (int r = 0; r < R.rows(); ++r) {
-    R.row(r) /= kDifference * std::max(1e-9, Rms(torque, r % n, n));
-  }
+  const MatrixXd R = Weighted(columns, scale.torque);
   std::vector<TermRange> ranges;
   for (int j = 0; j < n; ++j) {
     const bool free = free_armature[j] && start[m + j] > 0;
@@ -117,16 +139,11 @@ std::optional<PossibleLinks> FindPossibleLinks(
   }
   const auto found = StartLinks(R, R * fitted, kTrust, ranges, start);
   if (!found) return std::nullopt;
-  PossibleLinks possible{robot, VectorXd(n)};
-  for (size_t k = 0; k < links.size(); ++k) {
-    possible.robot.links[links[k]].inertial =
-        InertialParameters::FromVector(found->segment<10>(10 * k));
-  }
-  const VectorXd difference = columns * *found - torque;
+  PossibleLinks possible{WithValues(robot, links, *found), VectorXd(n)};
+  const VectorXd difference = columns * (*found - fitted);
   for (int j = 0; j < n; ++j) {
-    possible.robot.links[j].joint.armature = (*found)[m + j];
     possible.differs_percent[j] =
-        100 * Rms(difference, j, n) / std::max(1e-9, Rms(torque, j, n));
+        100 * Rms(difference, j, n) / std::max(1e-9, scale.torque[j]);
   }
   return possible;
 }

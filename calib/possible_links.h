@@ -14,7 +14,8 @@ namespace armcal {
 // shared out is for the file's sake only.
 struct PossibleLinks {
   Robot robot;
-  // Of the torques in such motion, how much differs per joint, rms, percent.
+  // How much torques differ in such motion, rms, percent of the joint's rms
+  // torque in the log.
   Eigen::VectorXd differs_percent;
 };
 

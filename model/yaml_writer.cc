@@ -105,6 +105,21 @@ void AddBody(const Link& link, std::string* text) {
   }
 }
 
+void AddLink(const Link& link, const std::optional<DhConvention>& convention,
+             std::string* text) {
+  const Joint& joint = link.joint;
+  *text += "  - name: " + Name(link.name) + "\n";
+  *text += "    joint: " + std::string(JointTypeName(joint.type)) + "\n";
+  *text += "    joint_name: " + Name(joint.name) + "\n";
+  AddPlace(link, convention, text);
+  AddBody(link, text);
+  AddLimits(joint, text);
+  AddIf(joint.viscous != 0, "viscous", joint.viscous, text);
+  AddIf(joint.coulomb != 0, "coulomb", joint.coulomb, text);
+  AddIf(joint.armature != 0, "armature", joint.armature, text);
+  AddIf(joint.offset != 0, "offset", joint.offset, text);
+}
+
 // The table's convention where every link still is a row of it.
 std::optional<DhConvention> ConventionOf(const Robot& robot) {
   if (!robot.dh_convention) return std::nullopt;
@@ -128,19 +143,7 @@ std::string MakeYaml(const RobotDescription& description) {
           : *convention == DhConvention::kStandard ? "standard\n"
                                                    : "modified\n";
   text += "links:\n";
-  for (const Link& link : robot.links) {
-    const Joint& joint = link.joint;
-    text += "  - name: " + Name(link.name) + "\n";
-    text += "    joint: " + std::string(JointTypeName(joint.type)) + "\n";
-    text += "    joint_name: " + Name(joint.name) + "\n";
-    AddPlace(link, convention, &text);
-    AddBody(link, &text);
-    AddLimits(joint, &text);
-    AddIf(joint.viscous != 0, "viscous", joint.viscous, &text);
-    AddIf(joint.coulomb != 0, "coulomb", joint.coulomb, &text);
-    AddIf(joint.armature != 0, "armature", joint.armature, &text);
-    AddIf(joint.offset != 0, "offset", joint.offset, &text);
-  }
+  for (const Link& link : robot.links) AddLink(link, convention, &text);
   if (!robot.tool_name.empty()) {
     text += "tool: {name: " + Name(robot.tool_name) +
             ", pose: " + Pose(robot.X_LT) + "}\n";

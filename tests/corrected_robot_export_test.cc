@@ -117,6 +117,16 @@ TEST_F(Export, FormatsHoldWhatTheyHaveFieldsFor) {
   EXPECT_EQ(RobotFilesJson(out.files)[0]["file"], "robot.urdf");
 }
 
+// Presliding is Coulomb friction to a joint that moves on.
+TEST_F(Export, LawsOfFrictionLeaveTheirShare) {
+  const RobotExport out =
+      Of(Nothing(), {Found("presliding", 2, Eigen::Vector2d(1.5, .003))});
+  const double before = arm_.file.links[2].joint.coulomb;
+  EXPECT_NEAR(Read(out.urdf).links[2].joint.coulomb, before + 1.5, 1e-6);
+  EXPECT_NEAR(Read(out.urdf).links[2].joint.viscous, 3, 1e-6);
+  EXPECT_THAT(out.losses, Contains(HasSubstr("of Coulomb friction 1.5 is in")));
+}
+
 // The friction's mixture of widths is what a simulator with laws needs: the
 // forces add up to the joint's Coulomb friction.
 TEST_F(Export, JsonHasTheFrictionOfEveryJoint) {
