@@ -17,12 +17,11 @@
 #include "tools/calibrate_poses.h"
 #include "tools/calibrate_refined.h"
 #include "tools/calibrate_report.h"
-#include "tools/console.h"
 #include "tools/correct_trajectories.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
-#include "tools/progress_bar.h"
+#include "tools/report/report_data.h"
 
 DEFINE_string(
     geometry, "known",
@@ -162,12 +161,14 @@ struct Task {
   LogReaderOptions logs;
 };
 
-Task TaskFromFlags() {
+Task TaskFromFlags(const CommandInput& input) {
   Task task;
-  task.robot = RobotFromFlags();
+  task.robot = RobotFromFlags(input);
   task.linear = OptionsFromFlags(task.robot);
+  task.linear.progress = input.progress;
   CheckTrajectoryFlag(task.linear);
   task.refinement = RefinementFromFlags(task.robot, task.linear);
+  if (task.refinement) task.refinement->options.progress = input.progress;
   task.logs = LogOptionsFromFlags(task.robot);
   CheckLogsApart();
   return task;
@@ -177,17 +178,21 @@ Task TaskFromFlags() {
 // and there is none.
 bool Refine(const Task& task, const LinearCalibration& linear, LogSet* training,
             LogSet* held_out, std::optional<NonlinearCalibration>* refined,
-            nlohmann::json* json, std::string* report, OutputFolder* out) {
+            nlohmann::json* json, CommandOutcome* outcome) {
   if (!task.refinement || !linear.solved) return true;
   const Refinement& refinement = *task.refinement;
   if (!refinement.why_not.empty()) {
-    *report += "no robot file: " + refinement.why_not + "\n";
+    outcome->output.text += "no robot file: " + refinement.why_not + "\n";
     return !refinement.asked_for;
   }
   *refined = CalibrateNonlinear(
       task.robot, linear, refinement.options, training, held_out,
       refinement.poses ? &*refinement.poses : nullptr);
-  *report += AddRefinedOutputs(task.robot, **refined, json, out);
+  AddRefinedOutputs(task.robot, **refined, json, outcome);
+  if ((*refined)->solved) {
+    outcome->model = std::make_shared<TracedModel>(
+        TraceRobot("calibrated", (*refined)->robot, linear.transitions));
+  }
   return (*refined)->converged() || !refinement.asked_for;
 }
 
@@ -207,15 +212,13 @@ std::optional<SegmentSelection> SelectFromFlags(const Task& task,
                         training);
 }
 
-int RunCalibrate() {
-  if (PosesAloneFromFlags()) return CalibratePosesFromFlags(RobotFromFlags());
-  Task task = TaskFromFlags();
+CommandOutcome RunCalibrate(const CommandInput& input) {
+  if (PosesAloneFromFlags()) return CalibratePosesFromFlags(input);
+  Task task = TaskFromFlags(input);
   const Robot& robot = task.robot;
-  ProgressBar bar("opening the logs");
-  task.linear.progress = bar.Callback();
-  if (task.refinement) task.refinement->options.progress = task.linear.progress;
+  input.Begin("opening the logs");
   const auto gains = DriveGainsFromFlags(robot, task.linear, &task.logs);
-  if (gains && !gains->solved) return ReportUnsolvedGains(robot, *gains);
+  if (gains && !gains->solved) return UnsolvedGains(robot, *gains);
   LogSet training(LogsFromFlags(), task.logs, CropFromFlags());
   LogSet validation(ValidationLogsFromFlags(), task.logs,
                     ValidationCropFromFlags());
@@ -223,7 +226,9 @@ int RunCalibrate() {
 
   const std::optional<SegmentSelection> selection =
       SelectFromFlags(task, &training);
-  std::string report = gains ? DriveGainsReport(*gains) : "";
+  CommandOutcome outcome;
+  std::string& report = outcome.output.text;
+  if (gains) report = DriveGainsReport(*gains);
   if (selection) {
     report += SelectionText(*selection, training);
     training.Keep(selection->Stretches(training));
@@ -234,27 +239,32 @@ int RunCalibrate() {
       AdviseMotions(robot, result, task.linear, &training);
   const std::string corrected =
       CorrectTrajectories(robot, task.linear, &training, held_out, &result);
+  if (result.solved) {
+    outcome.model = std::make_shared<TracedModel>(
+        TracedModel{"calibrated", result.parameters, result.x});
+  }
+  outcome.brief = BriefReport(robot, result);
   nlohmann::json json = ToJson(robot, training, held_out, result);
   report += FullReport(robot, training, result) + corrected;
   if (gains) AddDriveGains(*gains, &json);
   if (selection) json["selection"] = ToJson(*selection, training);
-  OutputFolder out(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   std::optional<NonlinearCalibration> arm;
   const bool refined =
-      Refine(task, result, &training, held_out, &arm, &json, &report, &out);
-  const std::string text = json.dump(2) + "\n";
-  out.Add("calibration.json", text);
+      Refine(task, result, &training, held_out, &arm, &json, &outcome);
+  outcome.output.json = json.dump(2) + "\n";
+  out.Add("calibration.json", outcome.output.json);
   out.Add("covariance.csv", CovarianceCsv(result));
   out.Add("outliers.csv", OutlierCsv(robot, training));
   AddCalibrationReport(
       robot, json,
       {result, arm ? &*arm : nullptr,
-       held_out != nullptr ? held_out : &training, task.linear.progress},
+       held_out != nullptr ? held_out : &training, input.progress},
       &out);
-  out.Write();
-  const bool good = refined && Shortcomings(robot, result).empty();
-  Print({text, report, robot.name + ": ", good, robot.notes});
-  return good ? kExitOk : kExitNegative;
+  outcome.output.verdict = robot.name + ": ";
+  outcome.output.positive = refined && Shortcomings(robot, result).empty();
+  outcome.output.notes = robot.notes;
+  return outcome;
 }
 
 }  // namespace

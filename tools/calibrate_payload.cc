@@ -9,9 +9,7 @@
 #include "calib/drive_gains_report.h"
 #include "tools/command.h"
 #include "tools/command_report.h"
-#include "tools/console.h"
 #include "tools/input_flags.h"
-#include "tools/output_folder.h"
 
 DEFINE_string(payload_mass, "",
               "`KG` of the payload in --payload_log: the torque constants are "
@@ -86,20 +84,21 @@ std::optional<DriveGains> DriveGainsFromFlags(
   return gains;
 }
 
-int ReportUnsolvedGains(const Robot& robot, const DriveGains& gains) {
+CommandOutcome UnsolvedGains(const Robot& robot, const DriveGains& gains) {
   nlohmann::json json = {{"format", "armcal calibration 1"},
                          {"robot", robot.name}};
   AddDriveGains(gains, &json);
-  OutputFolder out(OutFromFlags());
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   const std::string text = json.dump(2) + "\n";
   out.Add("calibration.json", text);
   out.Add("covariance.csv", "\n");  // no older matrix beside a refusal
   std::vector<std::string> files = LogsFromFlags();
   for (const std::string& log : PayloadLogs()) files.push_back(log);
   AddReport("calibrate", robot, json, files, nullptr, &out);
-  out.Write();
-  Print({text, DriveGainsReport(gains), robot.name + ": ", false, {}});
-  return kExitNegative;
+  outcome.output = {
+      text, DriveGainsReport(gains), robot.name + ": ", false, {}};
+  return outcome;
 }
 
 }  // namespace armcal

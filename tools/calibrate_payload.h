@@ -6,6 +6,7 @@
 #include "calib/linear_calibration.h"
 #include "model/log_reader.h"
 #include "model/robot.h"
+#include "tools/command.h"
 
 namespace armcal {
 
@@ -16,7 +17,7 @@ std::optional<DriveGains> DriveGainsFromFlags(
     const Robot& robot, const LinearCalibrationOptions& options,
     LogReaderOptions* log_options);
 
-// What there is to tell of gains that are not solved: the exit code.
-int ReportUnsolvedGains(const Robot& robot, const DriveGains& gains);
+// What there is to tell of gains that are not solved.
+CommandOutcome UnsolvedGains(const Robot& robot, const DriveGains& gains);
 
 }  // namespace armcal

@@ -13,12 +13,9 @@
 #include "tools/calibrate_report.h"
 #include "tools/command.h"
 #include "tools/command_report.h"
-#include "tools/console.h"
 #include "tools/export_flags.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
-#include "tools/output_folder.h"
-#include "tools/progress_bar.h"
 
 DECLARE_string(geometry);
 DECLARE_string(log);
@@ -42,7 +39,8 @@ const FlagChoices<Refine> kGeometries("geometry",
 
 bool PosesAloneFromFlags() { return !FLAGS_poses.empty() && FLAGS_log.empty(); }
 
-int CalibratePosesFromFlags(const Robot& robot) {
+CommandOutcome CalibratePosesFromFlags(const CommandInput& input) {
+  const Robot robot = RobotFromFlags(input);
   PoseCalibrationOptions options;
   options.refine = kGeometries.Parse(FLAGS_geometry);
   const auto formats = ExportBesideUrdfFromFlags();
@@ -51,12 +49,14 @@ int CalibratePosesFromFlags(const Robot& robot) {
   options.prior_length = trust.length;
   options.prior_angle = trust.angle;
   const PoseMeasurements measured = ReadPoses(FLAGS_poses, robot.JointNames());
-  const ProgressBar bar("fitting the poses");
+  input.Begin("fitting the poses");
   const PoseCalibration result = CalibratePoses(robot, measured, options);
-  OutputFolder out(OutFromFlags());
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   nlohmann::json json = PoseJson(robot, measured, result);
   std::string report = PoseReport(robot, measured, result);
   if (result.solved) {
+    outcome.robot = result.robot;
     const std::string path = RobotPathFromFlags();
     out.Add("robot.urdf",
             KindOfRobotFile(path) == RobotFileKind::kUrdf
@@ -72,10 +72,9 @@ int CalibratePosesFromFlags(const Robot& robot) {
         GeometryDrawing(result.robot, result.before, result.after);
   };
   AddReport("calibrate", robot, json, {FLAGS_poses}, draw, &out);
-  out.Write();
   const bool good = Shortcomings(robot, result).empty();
-  Print({text, report, robot.name + ": ", good, {}});
-  return good ? kExitOk : kExitNegative;
+  outcome.output = {text, report, robot.name + ": ", good, {}};
+  return outcome;
 }
 
 }  // namespace armcal

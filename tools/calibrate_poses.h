@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/robot.h"
+#include "tools/command.h"
 
 namespace armcal {
 
@@ -8,6 +8,6 @@ namespace armcal {
 bool PosesAloneFromFlags();
 
 // Calibrates the geometry alone.
-int CalibratePosesFromFlags(const Robot& robot);
+CommandOutcome CalibratePosesFromFlags(const CommandInput& input);
 
 }  // namespace armcal

@@ -113,20 +113,21 @@ std::optional<Refinement> RefinementFromFlags(
   return refinement;
 }
 
-std::string AddRefinedOutputs(const Robot& robot,
-                              const NonlinearCalibration& refined,
-                              nlohmann::json* json, OutputFolder* out) {
+void AddRefinedOutputs(const Robot& robot, const NonlinearCalibration& refined,
+                       nlohmann::json* json, CommandOutcome* outcome) {
+  std::string& report = outcome->output.text;
   AddRefined(refined, json);
-  std::string report = NonlinearReport(robot, refined);
-  if (!refined.solved) return report;
+  report += NonlinearReport(robot, refined);
+  if (!refined.solved) return;
+  outcome->robot = refined.robot;
+  OutputFolder* const out = &outcome->folders[0];
   AddRobotFiles(RobotPathFromFlags(), refined.robot, refined.refined_geometry,
                 out);
   out->Add("parameters_covariance.csv", ParametersCovarianceCsv(refined));
   for (const std::string& loss : UrdfLosses(refined.robot)) {
     report += "robot.urdf  " + loss + "\n";
   }
-  return report +
-         AddExports(refined.robot, ExportBesideUrdfFromFlags(), json, out);
+  report += AddExports(refined.robot, ExportBesideUrdfFromFlags(), json, out);
 }
 
 }  // namespace armcal

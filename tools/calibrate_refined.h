@@ -9,7 +9,7 @@
 #include "calib/nonlinear_calibration.h"
 #include "model/pose_reader.h"
 #include "model/robot.h"
-#include "tools/output_folder.h"
+#include "tools/command.h"
 
 namespace armcal {
 
@@ -31,10 +31,9 @@ std::optional<Refinement> RefinementFromFlags(
 // Whether --geometry asks for the arm's parameters to be refined, and which.
 std::optional<RefineGeometry> RefineGeometryFromFlags();
 
-// The report of a refined calibration, the figures and files of which are
-// added.
-std::string AddRefinedOutputs(const Robot& robot,
-                              const NonlinearCalibration& refined,
-                              nlohmann::json* json, OutputFolder* out);
+// Adds what a refined calibration says, its figures, robot and files; these to
+// the first folder.
+void AddRefinedOutputs(const Robot& robot, const NonlinearCalibration& refined,
+                       nlohmann::json* json, CommandOutcome* outcome);
 
 }  // namespace armcal

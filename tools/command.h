@@ -1,10 +1,19 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "calib/log_set.h"
+#include "model/robot.h"
+#include "tools/console.h"
+#include "tools/output_folder.h"
+
 namespace armcal {
+
+struct TracedModel;  // calib/torque_trace.h
 
 enum ExitCode {
   kExitOk = 0,
@@ -27,7 +36,30 @@ struct FlagGroup {
   bool usual = true;  // others are only named by --help; --helpfull has them
 };
 
-// A command of the armcal binary: flags -> library call -> print. To add one,
+// What a command is given beside its flags.
+struct CommandInput {
+  std::optional<Robot> robot;  // instead of that in the file of --robot
+  Progress progress;           // a fraction below 0: nobody knows
+
+  void Begin(const std::string& stage) const {
+    if (progress) progress(stage, -1);
+  }
+};
+
+// What a command has to say. Who runs it prints and writes.
+struct CommandOutcome {
+  Output output;
+  std::vector<OutputFolder> folders;  // result files, all of them or none
+  std::string brief;  // a sentence of the text, where there is one
+  // Of calibrate and diagnose, where there is one: calibrated, corrected.
+  std::optional<Robot> robot;
+  // Of calibrate: what predicts torques.
+  std::shared_ptr<const TracedModel> model;
+
+  ExitCode code() const { return output.positive ? kExitOk : kExitNegative; }
+};
+
+// A command of armcal: flags -> library call -> outcome. To add one,
 // write its file and its line in command.cc. Help, the manual page and the
 // shells' completion follow from this table and from the flags' definitions,
 // whose descriptions hold the value's form in backquotes: "robot `FILE`: ...".
@@ -36,7 +68,7 @@ struct Command {
   const char* summary;             // one line
   std::vector<FlagGroup> groups;   // in the order of help; no others are taken
   std::vector<const char*> usage;  // command lines as they are typed
-  int (*run)();
+  CommandOutcome (*run)(const CommandInput& input);
 
   std::vector<std::string> FlagNames() const;
 };

@@ -57,21 +57,23 @@ void PrintText(const std::string& text) {
                    std::string("cannot be written: ") + std::strerror(errno));
 }
 
-void Print(const Output& output) {
-  EndProgress();
-  const bool to_people = !FLAGS_json && !FLAGS_quiet;
+std::string TextWithNotes(const Output& output) {
   std::string text;
   for (const std::string& note : output.notes) {
-    if (to_people) {
-      text += "note       " + note + "\n";
-    } else {
-      PrintError("note: " + note);
-    }
+    text += "note       " + note + "\n";
   }
-  text += output.text;
+  return text + output.text;
+}
+
+void Print(const Output& output) {
+  EndProgress();
+  if (FLAGS_json || FLAGS_quiet) {
+    for (const std::string& note : output.notes) PrintError("note: " + note);
+  }
   if (FLAGS_json) {
     PrintText(output.json);
   } else if (!FLAGS_quiet) {
+    const std::string text = TextWithNotes(output);
     PrintText(TakesColour(STDOUT_FILENO) ? Coloured(text, output) : text);
   }
 }

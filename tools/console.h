@@ -14,6 +14,9 @@ struct Output {
   std::vector<std::string> notes;  // of what was read, one sentence each
 };
 
+// The text with its notes before it.
+std::string TextWithNotes(const Output& output);
+
 // To stdout: the text with its notes, or with --json the document instead, or
 // with --quiet nothing; --json and --quiet tell the notes on stderr. Colours
 // only on terminals. Throws InputError where stdout does not take it: what was

@@ -11,11 +11,9 @@
 #include "model/robot_reader.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
-#include "tools/console.h"
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
-#include "tools/progress_bar.h"
 #include "tools/report/report_data.h"
 #include "tools/simulation_flags.h"
 
@@ -83,9 +81,10 @@ std::vector<std::string> FilesRead() {
   return files;
 }
 
-int Finish(const Robot& robot, const GapDiagnosis& diagnosis,
-           const LogSet& logs) {
-  OutputFolder out(OutFromFlags());
+CommandOutcome Finish(const Robot& robot, const GapDiagnosis& diagnosis,
+                      const LogSet& logs) {
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   const std::string path = RobotPathFromFlags();
   const RobotExport corrected = ExportCorrectedRobot(
       diagnosis.corrected, robot,
@@ -102,24 +101,26 @@ int Finish(const Robot& robot, const GapDiagnosis& diagnosis,
     content->torques = Torques(robot, diagnosis, logs);
   };
   AddReport("diagnose", robot, json, FilesRead(), draw, &out);
-  out.Write();
   const bool tested = diagnosis.verdict != GapVerdict::kNotTestable;
   const std::string report = FullReport(diagnosis) + losses;
-  Print({text, report, report.substr(0, report.find('\n')), tested, {}});
-  return tested ? kExitOk : kExitNegative;
+  outcome.output = {
+      text, report, report.substr(0, report.find('\n')), tested, {}};
+  outcome.brief = BriefReport(diagnosis);
+  outcome.robot = diagnosis.corrected.plant.robot;
+  return outcome;
 }
 
-int RunDiagnose() {
+CommandOutcome RunDiagnose(const CommandInput& input) {
   CheckLogsApart();
   ExportFromFlags();  // refused before anything is calculated
   DiagnosisOptions options;
   options.without = LeftOutEffects();
-  const Robot robot = RobotFromFlags();
+  const Robot robot = RobotFromFlags(input);
   LogReaderOptions log_options = LogOptionsFromFlags(robot);
   log_options.want_temperature = true;
-  ProgressBar bar("opening the logs");
+  input.Begin("opening the logs");
   LogSet training(LogsFromFlags(), log_options, CropFromFlags());
-  options.progress = bar.Callback();
+  options.progress = input.progress;
   options.baseline.trust = TrustInFile();
   options.bandwidth_hz =
       BandwidthFromFlags().value_or(DiagnosisBandwidth(training.time_bases()));

@@ -12,11 +12,9 @@
 #include "model/log_writer.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
-#include "tools/console.h"
 #include "tools/excite_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
-#include "tools/progress_bar.h"
 #include "tools/report/report_data.h"
 
 namespace armcal {
@@ -121,13 +119,13 @@ std::vector<std::string> FilesRead() {
   return files;
 }
 
-int RunPostures(const Robot& robot, const PostureOptions& options,
-                const std::vector<std::string>& assumed) {
-  const ProgressBar bar("designing postures");
+CommandOutcome RunPostures(const Robot& robot, const PostureOptions& options,
+                           const std::vector<std::string>& assumed) {
   const PostureDesign design =
       MakeForRobot("", [&] { return DesignPostures(robot, options); });
   const PostureSummary summary{robot, options, design, assumed};
-  OutputFolder out(OutFromFlags());
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   out.Add("postures.csv", PostureText(design));
   const nlohmann::json json = ToJson(summary);
   const std::string text = json.dump(2) + "\n";
@@ -136,16 +134,17 @@ int RunPostures(const Robot& robot, const PostureOptions& options,
     content->extra["postures"] = PosturesJson(robot, design.q);
   };
   AddReport("excite", robot, json, FilesRead(), draw, &out);
-  out.Write();
-  Print({text, FullReport(summary), "", true, {}});
-  return kExitOk;
+  outcome.output = {text, FullReport(summary), "", true, {}};
+  return outcome;
 }
 
-void WriteMotion(const ExcitationSummary& summary) {
-  OutputFolder out(OutFromFlags());
+CommandOutcome Finish(const ExcitationSummary& summary) {
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   const nlohmann::json json = ToJson(summary);
   Log motion;
-  if (summary.excitation.numbers.size() > 0) {
+  const bool found = summary.excitation.numbers.size() > 0;
+  if (found) {
     motion = MotionLog(summary.excitation, summary.options.periods,
                        summary.options.rate_hz);
     out.Add("trajectory.csv", LogText(motion));
@@ -156,13 +155,13 @@ void WriteMotion(const ExcitationSummary& summary) {
     content->extra["motion"] = MotionJson(summary.robot, motion);
   };
   AddReport("excite", summary.robot, json, FilesRead(), draw, &out);
-  out.Write();
-  Print({text, FullReport(summary), "", true, {}});
+  outcome.output = {text, FullReport(summary), "", found, {}};
+  return outcome;
 }
 
-Excitation RunParameters(const Robot& robot, const Design& design,
-                         const ExcitationOptions& options,
-                         const std::vector<std::string>& assumed) {
+CommandOutcome RunParameters(const Robot& robot, const Design& design,
+                             const ExcitationOptions& options,
+                             const std::vector<std::string>& assumed) {
   const NamedQuantities quantities =
       MakeDesignQuantities(robot, design.model, kTerms, TargetFromFlags(),
                            TrustFromFlags(), design.reference, design.known);
@@ -175,14 +174,13 @@ Excitation RunParameters(const Robot& robot, const Design& design,
         quantities.design,
         Eigen::MatrixXd::Zero(design.model.size(), design.model.size()));
   }
-  WriteMotion(summary);
-  return excitation;
+  return Finish(summary);
 }
 
-Excitation RunSeparation(const Robot& robot, const Design& design,
-                         const std::vector<const Effect*>& effects,
-                         const ExcitationOptions& options,
-                         const std::vector<std::string>& assumed) {
+CommandOutcome RunSeparation(const Robot& robot, const Design& design,
+                             const std::vector<const Effect*>& effects,
+                             const ExcitationOptions& options,
+                             const std::vector<std::string>& assumed) {
   const auto question = MakeForRobot("--separate: ", [&] {
     return SeparationQuestion(robot, effects, design.model, options.limits);
   });
@@ -195,30 +193,30 @@ Excitation RunSeparation(const Robot& robot, const Design& design,
   for (size_t k = 0; k < separation.sizes.size(); ++k) {
     summary.alone_stddev[static_cast<long>(k)] = separation.sizes[k].alone;
   }
-  WriteMotion(summary);
-  return separation.motion;
+  return Finish(summary);
 }
 
-int RunMotion(const Robot& robot) {
+CommandOutcome RunMotion(const Robot& robot, const CommandInput& input) {
   std::vector<std::string> assumed;
   ExcitationOptions options = ExcitationOptionsFromFlags(robot, &assumed);
   const std::vector<const Effect*> effects = SeparatedEffectsFromFlags();
-  ProgressBar bar("preparing the design");
-  options.progress = bar.Callback();
+  input.Begin("preparing the design");
+  options.progress = input.progress;
   const Design design = MakeDesign(robot, options, &assumed);
   options.torque_noise = design.noise;
-  const Excitation excitation =
-      effects.empty() ? RunParameters(robot, design, options, assumed)
-                      : RunSeparation(robot, design, effects, options, assumed);
-  return excitation.numbers.size() > 0 ? kExitOk : kExitNegative;
+  return effects.empty()
+             ? RunParameters(robot, design, options, assumed)
+             : RunSeparation(robot, design, effects, options, assumed);
 }
 
-int RunExcite() {
-  const Robot robot = RobotFromFlags();
+CommandOutcome RunExcite(const CommandInput& input) {
+  const Robot robot = RobotFromFlags(input);
   std::vector<std::string> assumed;
   const std::optional<PostureOptions> postures =
       PostureOptionsFromFlags(robot, &assumed);
-  return postures ? RunPostures(robot, *postures, assumed) : RunMotion(robot);
+  if (!postures) return RunMotion(robot, input);
+  input.Begin("designing postures");
+  return RunPostures(robot, *postures, assumed);
 }
 
 }  // namespace

@@ -181,7 +181,8 @@ std::vector<const Effect*> ParseEffects(const std::string& flag,
   return effects;
 }
 
-Robot RobotFromFlags() {
+Robot RobotFromFlags(const CommandInput& input) {
+  if (input.robot) return *input.robot;
   if (FLAGS_robot.empty()) throw UsageError("--robot=FILE is needed");
   RobotReaderOptions options;
   options.base = FLAGS_base;

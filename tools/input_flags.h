@@ -19,7 +19,8 @@ namespace armcal {
 FlagGroup TorqueFlags();  // how a log's torques are to be read
 FlagGroup ChainFlags();   // which chain of the robot file, and how it hangs
 
-Robot RobotFromFlags();  // --robot --base --tip --gravity
+// --robot --base --tip --gravity, unless the input has a robot.
+Robot RobotFromFlags(const CommandInput& input);
 LogReaderOptions LogOptionsFromFlags(const Robot& robot);
 std::string RobotPathFromFlags();
 std::vector<std::string> LogsFromFlags();            // --log

@@ -5,11 +5,9 @@
 #include "calib/inspection_report.h"
 #include "calib/robot_audit.h"
 #include "model/log_writer.h"
-#include "tools/console.h"
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
-#include "tools/progress_bar.h"
 
 DECLARE_string(log);
 
@@ -31,7 +29,7 @@ void AddMended(const Robot& robot, const LogReaderOptions& options,
   }
 }
 
-int RunInspect() {
+CommandOutcome RunInspect(const CommandInput& input) {
   if (FLAGS_fix && OutFromFlags().empty()) {
     throw UsageError("--fix needs --out=FOLDER to write to");
   }
@@ -39,14 +37,14 @@ int RunInspect() {
   if (!formats.empty() && OutFromFlags().empty()) {
     throw UsageError("--export needs --out=FOLDER to write to");
   }
-  const Robot robot = RobotFromFlags();
-  ProgressBar bar("inspecting");
+  const Robot robot = RobotFromFlags(input);
+  input.Begin("inspecting");
   const std::vector<InspectionFinding> of_robot = AuditRobot(robot);
   std::vector<LogInspection> logs;
   const LogReaderOptions options = LogOptionsFromFlags(robot);
   if (!FLAGS_log.empty()) {
     for (const std::string& path : LogsFromFlags()) {
-      bar.Show("inspecting " + path, -1);
+      input.Begin("inspecting " + path);
       LogInspection log = InspectLog(robot, path, options);
       if (log.as_it_is) {
         log.coverage = CoverageOf(robot, path, options);
@@ -56,17 +54,18 @@ int RunInspect() {
       logs.push_back(log);
     }
   }
-  OutputFolder out(OutFromFlags());
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   nlohmann::json json = ToJson(robot, of_robot, logs);
   const std::string losses = AddExports(robot, formats, &json, &out);
   const std::string text = json.dump(2) + "\n";
   out.Add("inspect.json", text);
   if (FLAGS_fix) AddMended(robot, options, logs, &out);
-  out.Write();
   bool clean = of_robot.empty();
   for (const LogInspection& log : logs) clean = clean && log.findings.empty();
-  Print({text, FullReport(robot, of_robot, logs) + losses, "", clean, {}});
-  return clean ? kExitOk : kExitNegative;
+  outcome.output = {
+      text, FullReport(robot, of_robot, logs) + losses, "", clean, {}};
+  return outcome;
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "tools/interruption.h"
 #include "tools/manual.h"
 #include "tools/nearest_name.h"
+#include "tools/progress_bar.h"
 #include "tools/usage.h"
 #include "tools/version.h"
 
@@ -56,6 +57,14 @@ int Help(const Words& words) {
   return kExitOk;
 }
 
+int RunAndTell(const Command& command) {
+  ProgressBar bar("reading the input");
+  CommandOutcome outcome = command.run({std::nullopt, bar.Callback()});
+  OutputFolder::WriteTogether(&outcome.folders);
+  Print(outcome.output);
+  return outcome.code();
+}
+
 int Run(const Command& command, int argc, char** argv) {
   for (int k = 1; k < argc; ++k) {
     const bool all = IsOneOf(argv[k], kFullHelp);
@@ -65,7 +74,7 @@ int Run(const Command& command, int argc, char** argv) {
   }
   const auto places = ParseFlags(command, argc, argv);
   try {
-    return command.run();
+    return RunAndTell(command);
   } catch (const UsageError& error) {
     // "--bandwidth: found .." of a flag file's line.
     const std::string text = error.what();

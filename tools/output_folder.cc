@@ -129,22 +129,22 @@ void OutputFolder::RemoveThem() const {
   }
 }
 
-void OutputFolder::WriteTogether(const std::vector<OutputFolder*>& folders) {
+void OutputFolder::WriteTogether(std::vector<OutputFolder>* folders) {
   const Uninterrupted whole_or_gone;
   try {
-    for (OutputFolder* folder : folders) folder->WriteTemporaries();
+    for (OutputFolder& folder : *folders) folder.WriteTemporaries();
     // Each once and in one order, or runs might wait for each other.
     std::set<std::string> paths;
-    for (const OutputFolder* folder : folders) {
-      if (!folder->path_.empty()) paths.insert(fs::canonical(folder->path_));
+    for (const OutputFolder& folder : *folders) {
+      if (!folder.path_.empty()) paths.insert(fs::canonical(folder.path_));
     }
     std::vector<std::unique_ptr<Lock>> locks;
     for (const std::string& path : paths) {
       locks.push_back(std::make_unique<Lock>(path));
     }
-    for (const OutputFolder* folder : folders) folder->RenameThem();
+    for (const OutputFolder& folder : *folders) folder.RenameThem();
   } catch (...) {
-    for (const OutputFolder* folder : folders) folder->RemoveThem();
+    for (const OutputFolder& folder : *folders) folder.RemoveThem();
     throw;
   }
 }

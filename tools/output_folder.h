@@ -17,10 +17,13 @@ class OutputFolder {
                         const std::string& flag = "--out");
 
   void Add(const std::string& name, std::string content);
-  // Creates the folder if need be. Throws InputError naming the flag.
-  void Write() { WriteTogether({this}); }
-  // All of several folders' files, or none.
-  static void WriteTogether(const std::vector<OutputFolder*>& folders);
+  // Name and content.
+  const std::vector<std::pair<std::string, std::string>>& files() const {
+    return files_;
+  }
+  // All of several folders' files, or none. Creates the folders if need be.
+  // Throws InputError naming the flag.
+  static void WriteTogether(std::vector<OutputFolder>* folders);
 
  private:
   class Lock;  // of a folder, while files are renamed

@@ -6,10 +6,8 @@
 #include "model/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
 #include "tools/command.h"
-#include "tools/console.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
-#include "tools/progress_bar.h"
 #include "tools/simulate_effects.h"
 #include "tools/simulate_flags.h"
 #include "tools/simulation_flags.h"
@@ -83,12 +81,13 @@ LogWriterOptions WriterFromFlags(int num_joints) {
   return writer;
 }
 
-int Simulate() {
+CommandOutcome Simulate(const CommandInput& input) {
+  CommandOutcome outcome;
   if (FLAGS_list_effects) {
-    Print({EffectListJson(), EffectList(), "", true, {}});
-    return kExitOk;
+    outcome.output = {EffectListJson(), EffectList(), "", true, {}};
+    return outcome;
   }
-  Scenario scenario = ScenarioFromFlags();
+  Scenario scenario = ScenarioFromFlags(input);
   if (!LogRateFits(scenario.loop)) {
     throw UsageError("--log_rate: found '" +
                      NumberText(scenario.loop.sensors.log_rate_hz) +
@@ -97,9 +96,9 @@ int Simulate() {
   }
   if (OutFromFlags().empty()) throw UsageError("--out=DIR is needed");
   const LogWriterOptions writer = WriterFromFlags(scenario.model.num_joints());
-  ProgressBar bar("simulating");
-  scenario.loop.progress = [&bar](double share) {
-    bar.Show("simulating", share);
+  input.Begin("simulating");
+  scenario.loop.progress = [&input](double share) {
+    if (input.progress) input.progress("simulating", share);
   };
   ScenarioRun run = RunScenario(scenario);
   if (!FLAGS_temperature) run.run.log.temperature.resize(0, 0);
@@ -107,9 +106,9 @@ int Simulate() {
   out.Add("log.csv", LogText(run.run.log, writer));
   const std::string truth = TruthJson(scenario, run).dump(2) + "\n";
   (FLAGS_truth.empty() ? out : secret).Add("truth.json", truth);
-  OutputFolder::WriteTogether({&secret, &out});
-  Print({truth, Report(scenario, run), "", run.run.finite, {}});
-  return run.run.finite ? kExitOk : kExitNegative;
+  outcome.folders = {secret, out};
+  outcome.output = {truth, Report(scenario, run), "", run.run.finite, {}};
+  return outcome;
 }
 
 }  // namespace

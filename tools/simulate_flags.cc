@@ -130,9 +130,9 @@ void RequireMasses(const Robot& robot) {
 
 }  // namespace
 
-Scenario ScenarioFromFlags() {
+Scenario ScenarioFromFlags(const CommandInput& input) {
   Scenario scenario;
-  scenario.model = RobotFromFlags();
+  scenario.model = RobotFromFlags(input);
   RequireMasses(scenario.model);
   scenario.robot_error = Within("robot_error", FLAGS_robot_error, 0, .5);
   scenario.zero_velocity =

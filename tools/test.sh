@@ -36,9 +36,9 @@ if $full; then
   run_tests build-sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DLONG_TESTS=ON \
     -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=all"
   selection=()
-  run_tests build -DLONG_TESTS=ON
+  run_tests build -DPYTHON=ON -DLONG_TESTS=ON
 else
-  run_tests build
+  run_tests build -DPYTHON=ON
 fi
 # ctest counts a test that skips all its cases as passed.
 if [[ ! -d ../shared ]]; then

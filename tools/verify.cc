@@ -7,10 +7,8 @@
 #include "calib/calibration_reader.h"
 #include "calib/verification_report.h"
 #include "tools/command_report.h"
-#include "tools/console.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
-#include "tools/progress_bar.h"
 #include "tools/report/report_data.h"
 #include "tools/simulation_flags.h"
 
@@ -54,9 +52,10 @@ std::optional<ClosedLoopComparison> CloseLoop(
   return CompareClosedLoop(file, calibrated, controller, log);
 }
 
-int Finish(const Robot& file, const VerificationReport& report,
-           const nlohmann::json& torques) {
-  OutputFolder out(OutFromFlags());
+CommandOutcome Finish(const Robot& file, const VerificationReport& report,
+                      const nlohmann::json& torques) {
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   const nlohmann::json json = ToJson(report);
   const std::string text = json.dump(2) + "\n";
   out.Add("verification.json", text);
@@ -65,10 +64,9 @@ int Finish(const Robot& file, const VerificationReport& report,
   AddReport(
       "verify", file, json, files,
       [&](ReportContent* content) { content->torques = torques; }, &out);
-  out.Write();
-  Print({text, FullReport(report), file.name + ": ", report.passed(),
-         file.notes});
-  return report.passed() ? kExitOk : kExitNegative;
+  outcome.output = {text, FullReport(report), file.name + ": ", report.passed(),
+                    file.notes};
+  return outcome;
 }
 
 // The torques of the file's robot, and of the calibrated one.
@@ -103,11 +101,11 @@ nlohmann::json VerifyOnLogs(const Robot& file,
   return Traces(file, calibrated, options.progress, &logs);
 }
 
-int RunVerify() {
+CommandOutcome RunVerify(const CommandInput& input) {
   if (!FLAGS_controller.empty() && LogsFromFlags().size() != 1) {
     throw UsageError("--controller follows the command of one log: --log=FILE");
   }
-  const Robot file = RobotFromFlags();
+  const Robot file = RobotFromFlags(input);
   std::optional<CalibratedRobot> calibrated;
   if (!FLAGS_calibration.empty()) {
     calibrated = ReadCalibration(FLAGS_calibration, file);
@@ -118,8 +116,8 @@ int RunVerify() {
   report.calibration_converged = !calibrated || calibrated->converged;
   VerificationOptions options;
   options.seed = report.seed = SeedFromFlags();
-  ProgressBar bar("verifying");
-  options.progress = bar.Callback();
+  input.Begin("verifying");
+  options.progress = input.progress;
   nlohmann::json torques = nlohmann::json::array();
   if (FLAGS_log.empty()) {
     report.verification = Verify(report.robot, options, nullptr);

@@ -1,0 +1,307 @@
+"""Commands give what the armcal binary gives, from files and from arrays."""
+
+import gzip
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+import armcal
+import numpy as np
+
+ARMCAL = os.environ["ARMCAL"]
+SCARA = pathlib.Path(os.environ["DATA_DIR"]) / "scara"
+# The command tests' arm, which has masses to refine.
+ARM = """name: swing
+gravity: [0, -9.81, 0]
+convention: standard
+links:
+  - {joint: revolute, a: .4, mass: 5, com: [-.2, 0, 0], inertia: [.01, .07, .07],
+     viscous: 2, coulomb: 3, armature: .3}
+  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
+     viscous: 1, coulomb: 2, armature: .2}
+"""
+
+
+class InFolder(unittest.TestCase):
+    """Works in a folder with an arm and two logs of it, of one simulation."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.before = os.getcwd()
+        cls.folder = tempfile.TemporaryDirectory()
+        os.chdir(cls.folder.name)
+        pathlib.Path("arm.yaml").write_text(ARM)
+        for run in (1, 2):
+            cls.armcal("simulate", "--robot=arm.yaml", "--duration=10",
+                       "--log_rate=100", "--robot_error=0.02", f"--run={run}",
+                       f"--out=run{run}")
+        cls.robot = armcal.read_robot("arm.yaml")
+
+    @classmethod
+    def tearDownClass(cls):
+        os.chdir(cls.before)
+        cls.folder.cleanup()
+
+    @staticmethod
+    def armcal(*arguments):
+        found = subprocess.run([ARMCAL, *arguments], check=False, text=True,
+                               capture_output=True)
+        if found.returncode > 1:
+            raise RuntimeError(found.stderr)
+        return found.stdout
+
+    def expect_files(self, result, folder):
+        names = {path.name for path in pathlib.Path(folder).iterdir()}
+        self.assertEqual(names, set(result.files) | {"report.html"})
+        for name, content in result.files.items():
+            self.assertEqual(content, pathlib.Path(folder, name).read_bytes(),
+                             name)
+
+
+class Calibrate(InFolder):
+
+    def test_refined_as_the_command_line(self):
+        printed = self.armcal(
+            "calibrate", "--robot=arm.yaml", "--log=run1/log.csv",
+            "--validate=run2/log.csv", "--trust=0.3", "--crop=1:9",
+            "--out=refined")
+        result = armcal.calibrate(self.robot, "run1/log.csv",
+                                  validate=pathlib.Path("run2/log.csv"),
+                                  trust=0.3, crop=(1, 9))
+        self.expect_files(result, "refined")
+        self.assertEqual(result.report(), printed)
+        expected = json.loads(pathlib.Path(
+            "refined/calibration.json").read_text())
+        self.assertEqual(result.to_dict(), expected)
+        self.assertTrue(result.passed and result.converged)
+        self.check_parameters(result, expected)
+        # What armcal writes for simulators is what the robot is.
+        with open("again.urdf", "w", encoding="utf-8") as file:
+            file.write(result.robot.to_urdf())
+        self.assertEqual(pathlib.Path("again.urdf").read_bytes(),
+                         result.files["robot.urdf"])
+        result.write("written")
+        self.assertEqual(pathlib.Path("written/calibration.json").read_bytes(),
+                         result.files["calibration.json"])
+
+    def check_parameters(self, result, expected):
+        self.assertEqual(result.estimate, "refined")
+        self.assertEqual(result.names,
+                         [p["name"] for p in expected["parameters"]])
+        self.assertEqual(result.covariance.shape, 2 * (len(result.names),))
+        # Two ways of writing one number.
+        np.testing.assert_allclose(
+            np.sqrt(np.diag(result.covariance)[result.identifiable]),
+            result.stddev[result.identifiable], rtol=1e-12)
+        self.assertTrue(np.isinf(result.stddev[~result.identifiable]).all())
+        self.assertEqual(result.parameters["joint1.viscous"],
+                         result.robot.viscous[0])
+        self.assertEqual(len(result.model_parameters),
+                         len(expected["model_parameters"]))
+
+    def test_linear_and_its_torques(self):
+        logs = [SCARA / "A.csv.gz", SCARA / "B.csv.gz"]
+        options = dict(geometry="lengths", bandwidth=0, joint_terms="none")
+        result = armcal.calibrate(SCARA / "robot.yaml", logs,
+                                  validate=SCARA / "C.csv.gz",
+                                  estimate="linear", **options)
+        self.assertEqual((result.estimate, result.robot), ("linear", None))
+        found = dict(zip(result.names, result.values))
+        for name, value in {"Izz[1]": 17.55, "Izz[2]": 7.55, "m[3]": 3.11,
+                            "a1*hx[2]": 2.343}.items():  # the paper's
+            self.assertAlmostEqual(found[name], value, places=6)
+        self.assertIn("scara: 6 model parameters", result.brief_report())
+        traces = result.torques()
+        self.assertEqual([trace.path for trace in traces],
+                         [str(log) for log in logs])
+        with gzip.open(logs[1], "rt") as file:
+            names = file.readline().strip().split(",")
+            rows = np.loadtxt(file, delimiter=",")
+        tau = rows[:, [names.index(f"tau{k}") for k in range(1, 5)]]
+        np.testing.assert_allclose(traces[1].t, rows[:, 0] - rows[0, 0],
+                                   atol=1e-9)
+        np.testing.assert_allclose(traces[1].measured, tau, atol=1e-9)
+        np.testing.assert_allclose(traces[1].predicted, tau, atol=1e-6)
+
+    def test_torques_are_those_of_the_residual_figures(self):
+        # Without filters, which differ for the two.
+        result = armcal.calibrate(self.robot, "run1/log.csv", bandwidth=0,
+                                  validate="run2/log.csv")
+        for log, prefix in ((None, ""), ("run2/log.csv", "validation_")):
+            (trace,) = result.torques(log)
+            rms = np.sqrt(np.mean((trace.measured - trace.predicted)**2, 0))
+            np.testing.assert_allclose(
+                rms, [joint[prefix + "whole_log_residual_rms"]
+                      for joint in result.joints], rtol=1e-9)
+
+    def test_arrays_as_the_file(self):
+        rows = np.genfromtxt("run1/log.csv", delimiter=",", names=True)
+        signals = {name: np.stack([rows[f"{name}{k}"] for k in (1, 2)], -1)
+                   for name in ("q", "tau")}
+        log = armcal.Log(t=rows["t"], name="log.csv", **signals)
+        from_arrays = armcal.calibrate(self.robot, log)
+        from_file = armcal.calibrate(self.robot, "run1/log.csv")
+        self.assertEqual(
+            from_arrays.files["calibration.json"],
+            from_file.files["calibration.json"].replace(b"run1/log.csv",
+                                                        b"log.csv"))
+        for name in ("covariance.csv", "parameters_covariance.csv"):
+            self.assertEqual(from_arrays.files[name], from_file.files[name])
+        (trace,) = from_arrays.torques()
+        self.assertGreater(len(trace.t), 900)
+        read = armcal.read_log("run1/log.csv", self.robot)
+        np.testing.assert_array_equal(read.q, signals["q"])
+        np.testing.assert_allclose(read.t, rows["t"] - rows["t"][0],
+                                   atol=1e-12)
+
+    def test_refusals(self):
+        log = "run1/log.csv"
+        short = armcal.Log(t=[0, 1], q=np.zeros((2, 3)), tau=np.zeros((2, 3)),
+                           name="monday")
+        for options, text in (
+                (dict(log=log, geometry="round"),
+                 "--geometry: found 'round', expected one of"),
+                (dict(log=log, geometri="known"), "did you mean --geometry"),
+                (dict(log=log, gravity="0,0,1"), "gravity: give it to read"),
+                (dict(log=log, validate=log), "--validate names run1/log.csv"),
+                (dict(log="a,b.csv"), "log: found 'a,b.csv'"),
+                (dict(log=log, crop=(1, 2, 3)), "crop: found 3 numbers"),
+                (dict(log="nowhere.csv"), "nowhere.csv"),
+                (dict(log=None), "--log=FILE is needed"),
+                (dict(log=short), "^monday: ")):
+            with self.assertRaisesRegex(ValueError, text):
+                armcal.calibrate(self.robot, **options)
+        for arrays, text in (
+                (dict(t=[0, 1], q=[[1, 2]]), r"q: found shape \(1, 2\)"),
+                (dict(t=[0, 1], q=np.zeros((2, 3)), tau=np.zeros((2, 2))),
+                 r"tau: found shape \(2, 2\), expected \(2, 3\)"),
+                (dict(t=[[0]], q=[[1]]), r"t: found shape \(1, 1\)")):
+            with self.assertRaisesRegex(ValueError, text):
+                armcal.Log(**arrays)
+        with self.assertRaises(TypeError):
+            armcal.calibrate(self.robot, log, trust=object())
+
+
+class OtherCommands(InFolder):
+
+    def test_diagnose(self):
+        flags = ["--validate=run2/log.csv", "--forward=false",
+                 "--without=vibration,presliding"]
+        self.armcal("diagnose", "--robot=arm.yaml", "--log=run1/log.csv",
+                    "--out=diagnosed", *flags)
+        result = armcal.diagnose(self.robot, "run1/log.csv",
+                                 validate="run2/log.csv", forward=False,
+                                 without=["vibration", "presliding"])
+        self.expect_files(result, "diagnosed")
+        self.assertEqual(result.verdict, result.to_dict()["verdict"])
+        self.assertTrue(result.brief_report())
+        self.assertEqual(result.robot.num_joints, 2)
+
+    def test_simulate_inspect_verify_excite(self):
+        result = armcal.simulate(self.robot, duration=10, log_rate=100,
+                                 robot_error=0.02, run=1)
+        for name, content in result.files.items():
+            self.assertEqual(content, pathlib.Path("run1", name).read_bytes())
+        self.assertEqual(result.log.tau.shape, (len(result.log), 2))
+
+        self.armcal("inspect", "--robot=arm.yaml", "--log=run1/log.csv",
+                    "--out=inspected")
+        inspected = armcal.inspect(self.robot, "run1/log.csv")
+        self.assertEqual(
+            inspected.files["inspect.json"],
+            pathlib.Path("inspected/inspect.json").read_bytes())
+
+        calibration = armcal.calibrate(self.robot, result.log)
+        verified = armcal.verify(self.robot, calibration=calibration)
+        self.assertTrue(verified.passed, verified.report())
+        self.assertEqual(verified.to_dict()["calibration"],
+                         "calibration.json")
+
+        excited = armcal.excite(self.robot, duration=4, harmonics=2,
+                                position_limits="-1:1", velocity_limits=2)
+        self.assertEqual(excited.trajectory.q.shape,
+                         excited.trajectory.qd.shape)
+        self.assertLessEqual(np.abs(excited.trajectory.q).max(), 1 + 1e-9)
+
+    def test_a_robot_that_is_in_no_file(self):
+        gone = self.robot.replace(gravity=[0, 0, -9.81])
+        self.assertLess(
+            np.abs(armcal.simulate(gone, duration=2, torque_noise=0,
+                                   coloured_noise=0).log.tau).max(), 60)
+        found = armcal.calibrate(gone, "run1/log.csv").robot
+        self.assertEqual(list(found.gravity), [0, 0, -9.81])
+
+
+class Running(InFolder):
+
+    def test_progress_while_other_threads_run(self):
+        count, seen = [0], []
+
+        def spin():
+            while not seen or seen[-1][1] < 2:
+                count[0] += 1
+                time.sleep(1e-4)
+
+        thread = threading.Thread(target=spin)
+        thread.start()
+        stages = []
+
+        def progress(stage, share):
+            stages.append((stage, share))
+            seen.append((count[0], 0))
+
+        armcal.calibrate(self.robot, "run1/log.csv", progress=progress)
+        seen.append((count[0], 2))
+        thread.join()
+        self.assertGreater(seen[-1][0], seen[0][0])
+        self.assertTrue(all(share <= 1 for _, share in stages))
+        self.assertIn("opening the logs", [stage for stage, _ in stages])
+
+    def test_threads_take_turns(self):
+        found = [None, None]
+
+        def run(k):
+            found[k] = armcal.calibrate(self.robot, f"run{k + 1}/log.csv",
+                                        joint_terms=["viscous", "coulomb"][:k]
+                                        or None)
+
+        threads = [threading.Thread(target=run, args=(k,)) for k in (0, 1)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(
+            found[0].to_dict(),
+            armcal.calibrate(self.robot, "run1/log.csv").to_dict())
+        self.assertIn("run2", found[1].to_dict()["logs"][0]["file"])
+
+    def test_exceptions_of_progress_end_it(self):
+        def stop(stage, share):
+            raise KeyError(stage)
+
+        with self.assertRaises(KeyError):
+            armcal.calibrate(self.robot, "run1/log.csv", progress=stop)
+
+        def again(stage, share):
+            armcal.inspect(self.robot)
+
+        with self.assertRaisesRegex(armcal.UsageError, "already"):
+            armcal.calibrate(self.robot, "run1/log.csv", progress=again)
+        armcal.calibrate(self.robot, "run1/log.csv")  # all is as before
+
+    def test_ctrl_c(self):
+        timer = threading.Timer(.05, os.kill, (os.getpid(), signal.SIGINT))
+        with self.assertRaises(KeyboardInterrupt):
+            timer.start()
+            armcal.diagnose(self.robot, "run1/log.csv")
+        timer.join()
+
+
+if __name__ == "__main__":
+    unittest.main()

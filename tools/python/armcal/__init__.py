@@ -1,0 +1,28 @@
+"""armcal: calibrates a robot arm's dynamics from its logs and says why its
+simulation differs from the real machine.
+
+    robot = armcal.read_robot("arm.urdf")
+    result = armcal.calibrate(robot, "log.csv", validate="other.csv")
+    print(result.report())
+
+Units are SI and radians. Bad input raises InputError, a wrong option
+UsageError; both are ValueErrors.
+"""
+
+from armcal import plot
+from armcal._armcal import (INERTIAL_NAMES, INERTIAL_UNITS, InputError,
+                            PredictedLog, Robot, UsageError, __version__,
+                            options, read_robot)
+from armcal.commands import (calibrate, diagnose, excite, inspect, simulate,
+                             verify)
+from armcal.log import Log, read_log
+from armcal.results import (Calibration, Diagnosis, Estimates, Excitation,
+                            Inspection, Result, Simulation, Verification)
+
+__all__ = [
+    "Calibration", "Diagnosis", "Estimates", "Excitation", "INERTIAL_NAMES",
+    "INERTIAL_UNITS", "InputError", "Inspection", "Log", "PredictedLog",
+    "Result", "Robot", "Simulation", "UsageError", "Verification",
+    "__version__", "calibrate", "diagnose", "excite", "inspect", "options",
+    "plot", "read_log", "read_robot", "simulate", "verify",
+]

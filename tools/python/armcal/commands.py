@@ -1,0 +1,241 @@
+"""The commands of the armcal binary as functions. An option has the name of
+the command's flag; armcal.options(command) lists them all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from inspect import signature
+from typing import Any, Callable, Dict, List, Optional, Tuple, Union
+
+from armcal import _armcal
+from armcal.log import Log, read_log
+from armcal.option_text import option_text
+from armcal.results import (Calibration, Diagnosis, Excitation, Inspection,
+                            Result, Simulation, Verification)
+
+RobotLike = Union[_armcal.Robot, str, "os.PathLike[str]"]
+LogLike = Union[Log, str, "os.PathLike[str]"]
+Logs = Union[LogLike, List[LogLike], Tuple[LogLike, ...]]
+Progress = Optional[Callable[[str, float], None]]
+
+# They say where the robot is from, which its object knows.
+_ROBOT_FLAGS = ("robot", "base", "tip", "gravity")
+# They say what is printed, which here is nothing.
+_PRINT_FLAGS = ("json", "quiet")
+
+
+def _robot(robot: RobotLike) -> _armcal.Robot:
+    if isinstance(robot, _armcal.Robot):
+        return robot
+    return _armcal.read_robot(robot)
+
+
+class _Staging:
+    """A folder for what exists only in memory while a command reads it."""
+
+    def __init__(self) -> None:
+        self._folder = tempfile.TemporaryDirectory(prefix="armcal-")
+        self._staged: Dict[int, Tuple[Any, str]] = {}
+
+    def __enter__(self) -> "_Staging":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self._folder.cleanup()
+
+    def file(self, value: Any) -> Any:
+        """The path of a Log or a Calibration; other values as they are."""
+        if isinstance(value, (list, tuple)):
+            return [self.file(part) for part in value]
+        if not isinstance(value, (Log, Result)):
+            return value
+        if id(value) not in self._staged:
+            # One name may stand for several logs.
+            folder = os.path.join(self._folder.name, str(len(self._staged)))
+            os.mkdir(folder)
+            self._staged[id(value)] = (value, self._write(value, folder))
+        return self._staged[id(value)][1]
+
+    def _write(self, value: Any, folder: str) -> str:
+        if isinstance(value, Log):
+            path = os.path.join(folder, value.name)
+            value.savez(path)
+            return path
+        value.write(folder)
+        return os.path.join(folder, value.json_name)
+
+    def named(self, text: str) -> str:
+        """A text of the command without the folder's name."""
+        for value, path in self._staged.values():
+            name = value.name if isinstance(value, Log) else value.json_name
+            text = text.replace(path, name)
+        return text
+
+    def texts(self, options: Dict[str, Any]) -> Dict[str, str]:
+        return {name: option_text(name, self.file(value))
+                for name, value in options.items() if value is not None}
+
+
+def _paths(name: str, logs: Any) -> Any:
+    """Logs as a list; a path with a comma would be two."""
+    listed = list(logs) if isinstance(logs, (list, tuple)) else [logs]
+    for log in listed:
+        if isinstance(log, (str, os.PathLike)) and "," in os.fspath(log):
+            raise ValueError(f"{name}: found {os.fspath(log)!r}, expected a "
+                             "path without a comma; several go in a list")
+    return listed
+
+
+def _run(command: str, robot: _armcal.Robot, options: Dict[str, Any],
+         progress: Progress
+         ) -> Tuple[_armcal.Outcome, str, Dict[str, bytes]]:
+    for name in _ROBOT_FLAGS:
+        if name in options:
+            raise _armcal.UsageError(f"{name}: give it to read_robot")
+    for name in ("log", "validate", "reference", "payload_log"):
+        if options.get(name) is not None:
+            options[name] = _paths(name, options[name])
+    with _Staging() as staging:
+        flags = staging.texts(options)
+        flags["robot"] = robot.path
+        try:
+            outcome = _armcal.run(command, flags, robot, progress,
+                                  write="out" in flags)
+        except (_armcal.InputError, _armcal.UsageError) as error:
+            raise type(error)(staging.named(str(error))) from None
+        files = {name: staging.named(content.decode()).encode()
+                 for name, content in outcome.files.items()}
+        return outcome, staging.named(outcome.text), files
+
+
+def _tracer(robot: _armcal.Robot, log: Optional[Logs],
+            options: Dict[str, Any]) -> Callable[..., List[_armcal.PredictedLog]]:
+    reading = {name: options.get(name)
+               for name in ("torque_kind", "torque_constants", "gear_ratios")}
+
+    def trace(outcome: _armcal.Outcome, found: Dict[str, Any],
+              other: Optional[Logs]) -> List[_armcal.PredictedLog]:
+        shown = dict(reading)
+        shown["log"] = _paths("log", log if other is None else other)
+        if other is None:
+            shown["crop"] = options.get("crop")
+        if "drive_gains" in found:
+            shown["torque_kind"] = "current"
+            shown["torque_constants"] = [gain["value"]
+                                         for gain in found["drive_gains"]]
+            shown["gear_ratios"] = options.get("gear_ratios")
+        with _Staging() as staging:
+            return _armcal.trace(outcome, robot, staging.texts(shown),
+                                 found["bandwidth_hz"])
+
+    return trace
+
+
+def calibrate(robot: RobotLike, log: Optional[Logs] = None, *,
+              validate: Optional[Logs] = None, progress: Progress = None,
+              **options: Any) -> Calibration:
+    """Dynamics and geometry of an arm from logs of its joint positions and
+    torques, and from measured poses.
+
+    robot     a Robot or its file
+    log       logs to calibrate on, paths or Logs; None: from poses alone
+    validate  logs held out to check the result
+    progress  is called with what is being done and its share, 0 to 1; below 0
+              nobody knows
+    """
+    arm = _robot(robot)
+    run = _run("calibrate", arm, {**options, "log": log, "validate": validate},
+               progress)
+    return Calibration(*run, trace=_tracer(arm, log, options))
+
+
+def diagnose(robot: RobotLike, log: Logs, *, validate: Optional[Logs] = None,
+             reference: Optional[Logs] = None, progress: Progress = None,
+             **options: Any) -> Diagnosis:
+    """Where the sim-to-real gap lies, which effect causes it, and how far it
+    shrinks once that effect is in the model.
+
+    log        logs of the real machine, paths or Logs
+    validate   logs held out that the figures are of
+    reference  logs of the same robot from before
+    """
+    return Diagnosis(*_run("diagnose", _robot(robot),
+                           {**options, "log": log, "validate": validate,
+                            "reference": reference}, progress))
+
+
+def verify(robot: RobotLike, log: Optional[Logs] = None, *,
+           calibration: Union[Calibration, str, "os.PathLike[str]",
+                              None] = None,
+           progress: Progress = None, **options: Any) -> Verification:
+    """A robot, or a calibration of it, against an independent engine.
+
+    calibration  a Calibration or its calibration.json; robot is then the one
+                 that it was made of
+    """
+    return Verification(*_run("verify", _robot(robot),
+                              {**options, "log": log,
+                               "calibration": calibration}, progress))
+
+
+def inspect(robot: RobotLike, log: Optional[Logs] = None,
+            **options: Any) -> Inspection:
+    """What a robot file or a log holds, and what is wrong with it."""
+    return Inspection(*_run("inspect", _robot(robot), {**options, "log": log},
+                            None))
+
+
+def _log_of(name: str, files: Dict[str, bytes], robot: _armcal.Robot,
+            torque: bool, **options: Any) -> Log:
+    with tempfile.TemporaryDirectory(prefix="armcal-") as folder:
+        path = os.path.join(folder, name)
+        with open(path, "wb") as file:
+            file.write(files[name])
+        return read_log(path, robot, torque=torque, **options)
+
+
+def excite(robot: RobotLike, *, progress: Progress = None,
+           **options: Any) -> Excitation:
+    """A motion, or postures, that show an arm's parameters within its limits.
+
+    given  logs or a Calibration that are there already
+    """
+    arm = _robot(robot)
+    outcome, text, files = _run("excite", arm, options, progress)
+    name = "trajectory.csv"
+    return Excitation(outcome, text, files, _log_of(
+        name, files, arm, False) if name in files else None)
+
+
+def simulate(robot: RobotLike, *, progress: Progress = None,
+             **options: Any) -> Simulation:
+    """The log of a simulated robot with hidden effects, and the truth."""
+    arm = _robot(robot)
+    if options.get("list_effects"):
+        raise _armcal.UsageError("list_effects is for the command line")
+    # The command wants a folder; without one nothing is written.
+    written = options.get("out") is not None
+    with tempfile.TemporaryDirectory(prefix="armcal-") as folder:
+        outcome, text, files = _run(
+            "simulate", arm,
+            options if written else {**options, "out": folder}, progress)
+    constants = options.get("torque_constants")
+    return Simulation(outcome, text, files, _log_of(
+        "log.csv", files, arm, True, torque_constants=constants))
+
+
+def _add_options(function: Callable[..., Any], command: str) -> None:
+    """Adds to a docstring what --help says."""
+    own = signature(function).parameters
+    lines = [f"{name:<20} {text}" + (f" (default {default})" if default else "")
+             for name, (default, text) in _armcal.options(command).items()
+             if name not in own and name not in _ROBOT_FLAGS + _PRINT_FLAGS]
+    function.__doc__ = "\n    ".join(
+        [(function.__doc__ or "").rstrip(), "", "Options:", *lines, ""])
+
+
+_FUNCTIONS: List[Callable[..., Any]] = [calibrate, diagnose, verify, inspect,
+                                        excite, simulate]
+for _function in _FUNCTIONS:
+    _add_options(_function, _function.__name__)

@@ -1,0 +1,221 @@
+#include "tools/python/command_binding.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <thread>
+
+#include "calib/torque_trace.h"
+#include "model/log_reader.h"
+#include "model/trajectory.h"
+#include "tools/flag_text.h"
+#include "tools/input_flags.h"
+#include "tools/python/flag_session.h"
+#include "tools/python/robot_file.h"
+#include "tools/python/samples.h"
+
+namespace armcal {
+namespace {
+
+namespace py = pybind11;
+
+// Passes progress on to Python, and signals such as Ctrl-C, some times a
+// second; from the thread of the command only, which an exception ends.
+class Reporter {
+ public:
+  explicit Reporter(py::object callback) : callback_(std::move(callback)) {}
+  ~Reporter() {
+    const py::gil_scoped_acquire acquire;
+    callback_ = py::none();
+  }
+  Reporter(const Reporter&) = delete;
+  Reporter& operator=(const Reporter&) = delete;
+
+  Progress AsProgress() {
+    return [this](const std::string& stage, double fraction) {
+      Report(stage, fraction);
+    };
+  }
+
+ private:
+  void Report(const std::string& stage, double fraction) {
+    const auto now = std::chrono::steady_clock::now();
+    const bool news = stage != stage_ || fraction >= 1;
+    if (std::this_thread::get_id() != thread_) return;
+    if (!news && now - last_ < std::chrono::milliseconds(50)) return;
+    last_ = now;
+    stage_ = stage;
+    CheckSignals();
+    if (callback_.is_none()) return;
+    const py::gil_scoped_acquire acquire;
+    callback_(stage, fraction);
+  }
+
+  py::object callback_;
+  std::thread::id thread_ = std::this_thread::get_id();
+  std::chrono::steady_clock::time_point last_;
+  std::string stage_;
+};
+
+// What Python sees of a CommandOutcome.
+struct Outcome {
+  int code = 0;
+  std::string text, brief;
+  std::vector<std::pair<std::string, std::string>> files;
+  std::optional<RobotFile> robot;
+  std::shared_ptr<const TracedModel> model;
+};
+
+// Holds no GIL.
+CommandOutcome RunWithFlags(const std::string& name, const FlagTexts& flags,
+                            const CommandInput& input, bool write) {
+  const Command& command = CommandNamed(name);
+  const FlagSession session(command, flags);
+  CommandOutcome outcome = command.run(input);
+  if (write) OutputFolder::WriteTogether(&outcome.folders);
+  return outcome;
+}
+
+Outcome Run(const std::string& command, const FlagTexts& flags,
+            const std::optional<RobotFile>& robot, const py::object& progress,
+            bool write) {
+  Reporter reporter(progress);
+  const py::gil_scoped_release release;
+  CommandInput input;
+  if (robot) input.robot = robot->robot;
+  input.progress = reporter.AsProgress();
+  const CommandOutcome found = RunWithFlags(command, flags, input, write);
+  Outcome outcome{found.code(), TextWithNotes(found.output),
+                  found.brief,  {},
+                  {},           found.model};
+  for (const OutputFolder& folder : found.folders) {
+    for (const auto& file : folder.files()) outcome.files.push_back(file);
+  }
+  if (found.robot) {
+    outcome.robot =
+        RobotFile{*found.robot, robot ? robot->path : "",
+                  robot ? robot->base : "", robot ? robot->tip : ""};
+  }
+  return outcome;
+}
+
+py::dict FilesOf(const Outcome& outcome) {
+  py::dict files;
+  for (const auto& [name, content] : outcome.files) {
+    files[py::str(name)] = py::bytes(content);
+  }
+  return files;
+}
+
+// {name: (default, description)}, in the order of --help.
+py::dict OptionsOf(const std::string& command) {
+  py::dict options;
+  for (const std::string& flag : CommandNamed(command).FlagNames()) {
+    const FlagText text(flag);
+    options[py::str(flag)] =
+        py::make_tuple(text.default_value, text.description);
+  }
+  return options;
+}
+
+// A log with `model`'s prediction.
+struct PredictedLog {
+  std::string path;
+  Eigen::VectorXd t;
+  Eigen::MatrixXd measured, predicted;
+};
+
+PredictedLog FromTrace(const TorqueTrace& trace, const std::string& path,
+                       int n) {
+  const auto& bins = trace.torque.bins();  // a sample each
+  const auto size = static_cast<Eigen::Index>(bins.size());
+  PredictedLog log{path, Eigen::VectorXd(size), Eigen::MatrixXd(size, n),
+                   Eigen::MatrixXd(size, n)};
+  for (Eigen::Index k = 0; k < size; ++k) {
+    log.t[k] = bins[k].begin;
+    log.measured.row(k) = bins[k].low.head(n).transpose();
+    log.predicted.row(k) = bins[k].low.segment(n, n).transpose();
+  }
+  return log;
+}
+
+// Torques low-passed at four times the bandwidth, as report.html draws them.
+std::vector<PredictedLog> Trace(const Outcome& outcome, const RobotFile& robot,
+                                const FlagTexts& flags, double bandwidth_hz,
+                                const py::object& progress) {
+  constexpr int kMostSamples = 1 << 22;
+  if (outcome.model == nullptr) {
+    throw py::value_error("nothing was calibrated that predicts torques");
+  }
+  Reporter reporter(progress);
+  const py::gil_scoped_release release;
+  const auto logs = [&] {
+    const FlagSession session(CommandNamed("calibrate"), flags);
+    return std::make_unique<LogSet>(
+        LogsFromFlags(), LogOptionsFromFlags(robot.robot), CropFromFlags());
+  }();
+  logs->Prepare(bandwidth_hz, 0);
+  std::vector<PredictedLog> predicted;
+  for (const TorqueTrace& trace : TraceTorques(
+           {*outcome.model}, kMostSamples, reporter.AsProgress(), logs.get())) {
+    predicted.push_back(
+        FromTrace(trace, logs->path(trace.log), robot.robot.num_joints()));
+  }
+  return predicted;
+}
+
+Log ReadLog(const std::string& path, const RobotFile& robot,
+            const FlagTexts& flags, bool torque) {
+  LogReaderOptions options;
+  {
+    const FlagSession session(CommandNamed("inspect"), flags);
+    options = LogOptionsFromFlags(robot.robot);
+  }
+  options.need_torque = torque;
+  options.want_velocity = options.want_acceleration = true;
+  options.want_reference = options.want_temperature = true;
+  return ReadWholeLog(path, options);
+}
+
+}  // namespace
+
+void AddCommands(py::module_* module) {
+  py::class_<Outcome>(*module, "Outcome", "What a command has to say.")
+      .def_readonly("code", &Outcome::code, "The command's exit code, 0 or 1.")
+      .def_readonly("text", &Outcome::text, "What it prints.")
+      .def_readonly("brief", &Outcome::brief, "A sentence of it, or nothing.")
+      .def_property_readonly("files", &FilesOf, "Its result files.")
+      .def_readonly("robot", &Outcome::robot, "Calibrated or corrected.");
+  py::class_<PredictedLog>(*module, "PredictedLog",
+                           "A log's torques and those of a calibrated model.")
+      .def_readonly("path", &PredictedLog::path, "The log.")
+      .def_readonly("t", &PredictedLog::t, "(N,), s since its first row.")
+      .def_readonly("measured", &PredictedLog::measured, "(N, n), N m or N.")
+      .def_readonly("predicted", &PredictedLog::predicted, "(N, n), N m or N.");
+  py::class_<Log>(*module, "LogArrays", "Signals of a log, empty if not in it.")
+      .def_readonly("t", &Log::t)
+      .def_readonly("q", &Log::q)
+      .def_readonly("qd", &Log::qd)
+      .def_readonly("qdd", &Log::qdd)
+      .def_readonly("tau", &Log::tau)
+      .def_readonly("qref", &Log::qref)
+      .def_readonly("temperature", &Log::temperature);
+  module->def("run", &Run, py::arg("command"), py::arg("flags"),
+              py::arg("robot") = py::none(), py::arg("progress") = py::none(),
+              py::arg("write") = false,
+              "Runs a command of the armcal binary; with write its files go to "
+              "the folders that the flags name.");
+  module->def("options", &OptionsOf, py::arg("command"),
+              "{name: (default, description)} of a command's flags.");
+  module->def("trace", &Trace, py::arg("outcome"), py::arg("robot"),
+              py::arg("flags"), py::arg("bandwidth_hz"),
+              py::arg("progress") = py::none(),
+              "Measured and predicted torques of logs.");
+  module->def("read_log", &ReadLog, py::arg("path"), py::arg("robot"),
+              py::arg("flags"), py::arg("torque") = true,
+              py::call_guard<py::gil_scoped_release>(),
+              "The signals of a log that the robot has joints for.");
+}
+
+}  // namespace armcal

@@ -1,0 +1,25 @@
+// The compiled part of the Python package armcal.
+
+#include <glog/logging.h>
+#include <pybind11/pybind11.h>
+
+#include "model/input_error.h"
+#include "tools/command.h"
+#include "tools/python/command_binding.h"
+#include "tools/python/robot_binding.h"
+
+PYBIND11_MODULE(_armcal, module) {
+  namespace py = pybind11;
+  FLAGS_logtostderr = true;  // else glog writes to files in /tmp
+  module.attr("__version__") = ARMCAL_VERSION;
+  py::register_exception<armcal::InputError>(module, "InputError",
+                                             PyExc_ValueError)
+      .attr("__doc__") =
+      "Bad input: the file, the place in it, the value "
+      "found and what was expected.";
+  py::register_exception<armcal::UsageError>(module, "UsageError",
+                                             PyExc_ValueError)
+      .attr("__doc__") = "An option that is not known, or its value.";
+  armcal::AddRobot(&module);
+  armcal::AddCommands(&module);
+}

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "model/robot.h"
+
+namespace armcal {
+
+// A robot with where it was read from, which commands hash and whose text
+// they keep where they write a robot file.
+struct RobotFile {
+  Robot robot;
+  std::string path, base, tip;
+};
+
+}  // namespace armcal
