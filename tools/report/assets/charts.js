@@ -35,9 +35,16 @@ const charts = (() => {
       [...String(text)].length > most ? [...String(text)].slice(0, most - 1).join('') + '…' : String(text);
 
   // In words.
-  const percent = (x) => isNumber(x) ? number(x) + ' %' : '–';
-  const plusMinus = (value, stddev) =>
-      isNumber(stddev) ? `${number(value)} ± ${number(stddev)}` : number(value);
+  const percent = (x) => !isNumber(x) ? '–'
+      : (Math.abs(x) < 10 ? number(Number(x.toPrecision(2))) : number(Number(x.toFixed(1)))) + ' %';
+  // The deviation with two digits, the value with as many decimals.
+  const plusMinus = (value, stddev) => {
+    if (!isNumber(stddev)) return number(value);
+    const decimals = Math.max(0, 1 - Math.floor(Math.log10(stddev)));
+    return !(stddev > 0) || decimals > 7 || Math.max(Math.abs(value), stddev) >= 1e5
+        ? `${number(value)} ± ${number(stddev)}`
+        : `${value.toFixed(decimals)} ± ${stddev.toFixed(decimals)}`.replace(/-/g, '−');
+  };
   const note = (text) => html('p', {class: 'faint'}, text);
   const heading = (text) => html('h3', {}, text);
   const list = (items) => html('ul', {}, items.map((item) => html('li', {}, item)));
