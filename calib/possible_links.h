@@ -22,8 +22,10 @@ struct PossibleLinks {
 // Moves inertia between links, and between links and the armature of the joints
 // `free_armature`, as little as it takes (StartLinks) from links as they are,
 // or as the file has them where they cannot exist: torques of motion in the
-// range of `scale` count where they differ by a percent. Links without inertia
-// stay so. Nothing where numbers overflow.
+// range of `scale` count where they differ by a percent. Where no links come
+// near, as a weak joint's torque was fitted that needs negative inertia, the
+// file's links count for more than that. Links without inertia stay so. Nothing
+// where numbers overflow.
 std::optional<PossibleLinks> FindPossibleLinks(
     const Robot& robot, const Robot& file, const MotionScale& scale,
     const std::vector<bool>& free_armature);
