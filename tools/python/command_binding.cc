@@ -12,7 +12,7 @@
 #include "tools/flag_text.h"
 #include "tools/input_flags.h"
 #include "tools/python/flag_session.h"
-#include "tools/python/robot_file.h"
+#include "tools/python/loaded_robot.h"
 #include "tools/python/samples.h"
 
 namespace armcal {
@@ -63,7 +63,7 @@ struct Outcome {
   int code = 0;
   std::string text, brief;
   std::vector<std::pair<std::string, std::string>> files;
-  std::optional<RobotFile> robot;
+  std::optional<LoadedRobot> robot;
   std::shared_ptr<const TracedModel> model;
 };
 
@@ -78,7 +78,7 @@ CommandOutcome RunWithFlags(const std::string& name, const FlagTexts& flags,
 }
 
 Outcome Run(const std::string& command, const FlagTexts& flags,
-            const std::optional<RobotFile>& robot, const py::object& progress,
+            const std::optional<LoadedRobot>& robot, const py::object& progress,
             bool write) {
   Reporter reporter(progress);
   const py::gil_scoped_release release;
@@ -94,8 +94,8 @@ Outcome Run(const std::string& command, const FlagTexts& flags,
   }
   if (found.robot) {
     outcome.robot =
-        RobotFile{*found.robot, robot ? robot->path : "",
-                  robot ? robot->base : "", robot ? robot->tip : ""};
+        LoadedRobot{*found.robot, robot ? robot->path : "",
+                    robot ? robot->base : "", robot ? robot->tip : ""};
   }
   return outcome;
 }
@@ -141,7 +141,8 @@ PredictedLog FromTrace(const TorqueTrace& trace, const std::string& path,
 }
 
 // Torques low-passed at four times the bandwidth, as report.html draws them.
-std::vector<PredictedLog> Trace(const Outcome& outcome, const RobotFile& robot,
+std::vector<PredictedLog> Trace(const Outcome& outcome,
+                                const LoadedRobot& robot,
                                 const FlagTexts& flags, double bandwidth_hz,
                                 const py::object& progress) {
   constexpr int kMostSamples = 1 << 22;
@@ -165,7 +166,7 @@ std::vector<PredictedLog> Trace(const Outcome& outcome, const RobotFile& robot,
   return predicted;
 }
 
-Log ReadLog(const std::string& path, const RobotFile& robot,
+Log ReadLog(const std::string& path, const LoadedRobot& robot,
             const FlagTexts& flags, bool torque) {
   LogReaderOptions options;
   {

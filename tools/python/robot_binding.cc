@@ -13,7 +13,7 @@
 #include "model/robot_reader.h"
 #include "model/urdf_update.h"
 #include "model/urdf_writer.h"
-#include "tools/python/robot_file.h"
+#include "tools/python/loaded_robot.h"
 #include "tools/python/samples.h"
 
 namespace armcal {
@@ -25,9 +25,9 @@ using Array = py::array_t<double>;
 using RowMajor =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-RobotFile ReadRobotFile(const std::filesystem::path& path,
-                        const std::string& base, const std::string& tip,
-                        const py::object& gravity) {
+LoadedRobot ReadLoadedRobot(const std::filesystem::path& path,
+                            const std::string& base, const std::string& tip,
+                            const py::object& gravity) {
   RobotReaderOptions options;
   options.base = base;
   options.tip = tip;
@@ -37,7 +37,7 @@ RobotFile ReadRobotFile(const std::filesystem::path& path,
   return {ReadRobot(path.string(), options), path.string(), base, tip};
 }
 
-std::vector<std::string> LinkNames(const RobotFile& file) {
+std::vector<std::string> LinkNames(const LoadedRobot& file) {
   std::vector<std::string> names;
   for (const Link& link : file.robot.links) names.push_back(link.name);
   return names;
@@ -46,7 +46,7 @@ std::vector<std::string> LinkNames(const RobotFile& file) {
 // A property of all joints.
 template <class T>
 auto JointProperty(T Joint::*member) {
-  return [member](const RobotFile& file) {
+  return [member](const LoadedRobot& file) {
     Eigen::VectorXd values(file.robot.num_joints());
     for (int j = 0; j < values.size(); ++j) {
       values[j] = file.robot.links[j].joint.*member;
@@ -55,7 +55,7 @@ auto JointProperty(T Joint::*member) {
   };
 }
 
-std::vector<std::string> JointTexts(const RobotFile& file,
+std::vector<std::string> JointTexts(const LoadedRobot& file,
                                     const char* (*text)(JointType)) {
   std::vector<std::string> texts;
   for (const Link& link : file.robot.links) {
@@ -64,7 +64,7 @@ std::vector<std::string> JointTexts(const RobotFile& file,
   return texts;
 }
 
-RowMajor InertialRows(const RobotFile& file) {
+RowMajor InertialRows(const LoadedRobot& file) {
   RowMajor rows(file.robot.num_joints(), 10);
   for (int j = 0; j < rows.rows(); ++j) {
     rows.row(j) = file.robot.links[j].inertial.ToVector().transpose();
@@ -103,11 +103,11 @@ void SetJoints(const char* name, const py::object& given, double Joint::*member,
   }
 }
 
-RobotFile Replace(const RobotFile& from, const py::object& inertial,
-                  const py::object& gravity, const py::object& viscous,
-                  const py::object& coulomb, const py::object& armature,
-                  const py::object& offset) {
-  RobotFile file = from;
+LoadedRobot Replace(const LoadedRobot& from, const py::object& inertial,
+                    const py::object& gravity, const py::object& viscous,
+                    const py::object& coulomb, const py::object& armature,
+                    const py::object& offset) {
+  LoadedRobot file = from;
   Robot* const robot = &file.robot;
   if (!inertial.is_none()) SetInertial(inertial, robot);
   if (!gravity.is_none()) {
@@ -120,7 +120,7 @@ RobotFile Replace(const RobotFile& from, const py::object& inertial,
   return file;
 }
 
-Array InverseDynamicsOf(const RobotFile& file, const py::object& q_given,
+Array InverseDynamicsOf(const LoadedRobot& file, const py::object& q_given,
                         const py::object& qd_given,
                         const py::object& qdd_given) {
   const int n = file.robot.num_joints();
@@ -135,7 +135,7 @@ Array InverseDynamicsOf(const RobotFile& file, const py::object& q_given,
 
 // Torques are linear in the inertial parameters: a column is the torque of a
 // robot that has one of them, 1, and nothing else.
-Array RegressorOf(const RobotFile& file, const py::object& q_given,
+Array RegressorOf(const LoadedRobot& file, const py::object& q_given,
                   const py::object& qd_given, const py::object& qdd_given) {
   const int n = file.robot.num_joints();
   const Samples q = ReadSamples("q", q_given, n);
@@ -154,7 +154,7 @@ Array RegressorOf(const RobotFile& file, const py::object& q_given,
   });
 }
 
-Array ForwardDynamicsOf(const RobotFile& file, const py::object& q_given,
+Array ForwardDynamicsOf(const LoadedRobot& file, const py::object& q_given,
                         const py::object& qd_given,
                         const py::object& tau_given) {
   const int n = file.robot.num_joints();
@@ -167,7 +167,7 @@ Array ForwardDynamicsOf(const RobotFile& file, const py::object& q_given,
   });
 }
 
-Array MassMatrixOf(const RobotFile& file, const py::object& q_given) {
+Array MassMatrixOf(const LoadedRobot& file, const py::object& q_given) {
   const int n = file.robot.num_joints();
   const Samples q = ReadSamples("q", q_given, n);
   return ForSamples(q, {n, n}, [&](long k, double* M) {
@@ -175,7 +175,7 @@ Array MassMatrixOf(const RobotFile& file, const py::object& q_given) {
   });
 }
 
-Array GravityTorqueOf(const RobotFile& file, const py::object& q_given) {
+Array GravityTorqueOf(const LoadedRobot& file, const py::object& q_given) {
   const int n = file.robot.num_joints();
   const Samples q = ReadSamples("q", q_given, n);
   return ForSamples(q, {n}, [&](long k, double* tau) {
@@ -187,14 +187,14 @@ void StorePose(const Eigen::Isometry3d& X, double* values) {
   Eigen::Map<RowMajor>(values, 4, 4) = X.matrix();
 }
 
-Array ToolPoseOf(const RobotFile& file, const py::object& q_given) {
+Array ToolPoseOf(const LoadedRobot& file, const py::object& q_given) {
   const Samples q = ReadSamples("q", q_given, file.robot.num_joints());
   return ForSamples(q, {4, 4}, [&](long k, double* values) {
     StorePose(ToolPose(file.robot, q.at(k)), values);
   });
 }
 
-Array LinkPosesOf(const RobotFile& file, const py::object& q_given) {
+Array LinkPosesOf(const LoadedRobot& file, const py::object& q_given) {
   const int n = file.robot.num_joints();
   const Samples q = ReadSamples("q", q_given, n);
   return ForSamples(q, {n, 4, 4}, [&](long k, double* values) {
@@ -205,55 +205,57 @@ Array LinkPosesOf(const RobotFile& file, const py::object& q_given) {
   });
 }
 
-std::string Describe(const RobotFile& file) {
+std::string Describe(const LoadedRobot& file) {
   return "<armcal.Robot '" + file.robot.name + "', " +
          std::to_string(file.robot.num_joints()) + " joints>";
 }
 
-std::string UpdatedUrdf(const RobotFile& file,
+std::string UpdatedUrdf(const LoadedRobot& file,
                         const std::filesystem::path& path, bool geometry) {
   return UpdateUrdf(path.empty() ? file.path : path.string(), file.robot,
                     geometry, file.base);
 }
 
-void AddProperties(py::class_<RobotFile>* robot) {
+void AddProperties(py::class_<LoadedRobot>* robot) {
   const auto add = [robot](const char* name, auto get, const char* doc) {
     robot->def_property_readonly(name, get, doc);
   };
   add(
-      "name", [](const RobotFile& f) { return f.robot.name; }, "Of the file.");
+      "name", [](const LoadedRobot& f) { return f.robot.name; },
+      "Of the file.");
   add(
-      "path", [](const RobotFile& f) { return f.path; },
+      "path", [](const LoadedRobot& f) { return f.path; },
       "The file it is from.");
   add(
-      "base", [](const RobotFile& f) { return f.base; },
+      "base", [](const LoadedRobot& f) { return f.base; },
       "As it was asked for.");
   add(
-      "tip", [](const RobotFile& f) { return f.tip; }, "As it was asked for.");
+      "tip", [](const LoadedRobot& f) { return f.tip; },
+      "As it was asked for.");
   add(
-      "num_joints", [](const RobotFile& f) { return f.robot.num_joints(); },
+      "num_joints", [](const LoadedRobot& f) { return f.robot.num_joints(); },
       "n.");
   add(
-      "joint_names", [](const RobotFile& f) { return f.robot.JointNames(); },
+      "joint_names", [](const LoadedRobot& f) { return f.robot.JointNames(); },
       "n names, base to tip.");
   add("link_names", &LinkNames, "n names, base to tip.");
   add(
       "joint_types",
-      [](const RobotFile& f) { return JointTexts(f, &JointTypeName); },
+      [](const LoadedRobot& f) { return JointTexts(f, &JointTypeName); },
       "revolute, continuous or prismatic.");
   add(
       "position_units",
-      [](const RobotFile& f) { return JointTexts(f, &PositionUnit); },
+      [](const LoadedRobot& f) { return JointTexts(f, &PositionUnit); },
       "rad or m.");
   add(
       "effort_units",
-      [](const RobotFile& f) { return JointTexts(f, &EffortUnit); },
+      [](const LoadedRobot& f) { return JointTexts(f, &EffortUnit); },
       "N m or N.");
   add(
-      "gravity", [](const RobotFile& f) { return f.robot.gravity; },
+      "gravity", [](const LoadedRobot& f) { return f.robot.gravity; },
       "(3,), in the base's frame, m/s^2.");
   add(
-      "notes", [](const RobotFile& f) { return f.robot.notes; },
+      "notes", [](const LoadedRobot& f) { return f.robot.notes; },
       "What the reader changed or dropped, a sentence each.");
   add("inertial_parameters", &InertialRows,
       "(n, 10): m, hx, hy, hz, Ixx, Ixy, Iyy, Ixz, Iyz, Izz of every link "
@@ -271,7 +273,7 @@ void AddProperties(py::class_<RobotFile>* robot) {
       "(n,), a constant torque, N m or N.");
 }
 
-void AddDynamics(py::class_<RobotFile>* robot) {
+void AddDynamics(py::class_<LoadedRobot>* robot) {
   robot
       ->def("inverse_dynamics", &InverseDynamicsOf, py::arg("q"), py::arg("qd"),
             py::arg("qdd"),
@@ -298,7 +300,7 @@ void AddDynamics(py::class_<RobotFile>* robot) {
 }  // namespace
 
 void AddRobot(py::module_* module) {
-  py::class_<RobotFile> robot(
+  py::class_<LoadedRobot> robot(
       *module, "Robot",
       "A serial arm of n joints. Functions take N samples, shape (N, n), or a "
       "single one, shape (n,); then their results have no first axis.");
@@ -312,17 +314,18 @@ void AddRobot(py::module_* module) {
            py::arg("armature") = none, py::arg("offset") = none,
            "This robot with other values, shapes as of the properties.")
       .def(
-          "to_urdf", [](const RobotFile& f) { return MakeUrdf(f.robot); },
+          "to_urdf", [](const LoadedRobot& f) { return MakeUrdf(f.robot); },
           "A URDF of the chain alone, without meshes.")
       .def("update_urdf", &UpdatedUrdf, py::arg("path") = "",
            py::arg("geometry") = false,
            "The URDF file at path (default: the one it is from) with its "
            "numbers changed to this robot's; its origins too with geometry.")
       .def(
-          "urdf_losses", [](const RobotFile& f) { return UrdfLosses(f.robot); },
+          "urdf_losses",
+          [](const LoadedRobot& f) { return UrdfLosses(f.robot); },
           "What a URDF cannot say of this robot, a sentence each.")
       .def("__repr__", &Describe);
-  module->def("read_robot", &ReadRobotFile, py::arg("path"),
+  module->def("read_robot", &ReadLoadedRobot, py::arg("path"),
               py::arg("base") = "", py::arg("tip") = "",
               py::arg("gravity") = none,
               "The robot of a .urdf, or of a .yaml with a DH table; of a URDF "

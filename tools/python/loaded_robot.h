@@ -8,7 +8,7 @@ namespace armcal {
 
 // A robot with where it was read from, which commands hash and whose text
 // they keep where they write a robot file.
-struct RobotFile {
+struct LoadedRobot {
   Robot robot;
   std::string path, base, tip;
 };
