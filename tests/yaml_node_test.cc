@@ -36,14 +36,15 @@ INSTANTIATE_TEST_SUITE_P(
              "line 9, links[1]: found 'a': the key is given twice"},
         Case{"alpha: 0", "alhpa: 0",
              "line 9, links[1]: found 'alhpa': expected one of the keys name, "
-             "joint, joint_name, a, d, alpha, theta, mass, com, inertia, "
-             "limits, viscous, coulomb, armature, unknown, zero"},
+             "joint, joint_name, a, d, alpha, theta, unknown, mass, com, "
+             "inertia, "
+             "limits, viscous, coulomb, armature, offset, zero, inertial"},
         Case{"name: scara", "base: b",
              "line 1: found 'base': expected one of the keys name, gravity, "
              "convention, links, tool"},
         Case{"standard", "craig",
              "line 3, convention: found 'craig': expected one of standard, "
-             "modified"},
+             "modified, poses"},
         Case{"    joint: revolute\n", "",
              "line 5, links[1]: expected a key 'joint'"},
         Case{"[0, 0, 9.8]", "[0, 9.8]",
@@ -71,10 +72,11 @@ TEST(YamlNodeTest, WholeFiles) {
   EXPECT_EQ(Refusal("5\n"),
             "line 1: found '5': expected a map with the keys name, gravity, "
             "convention, links, tool");
-  EXPECT_EQ(Refusal("convention: standard\nlinks: &a [*a]\n"),
-            "line 2, links[1]: found 'a list of 1': expected a map with the "
-            "keys name, joint, joint_name, a, d, alpha, theta, mass, com, "
-            "inertia, limits, viscous, coulomb, armature, unknown, zero");
+  EXPECT_EQ(
+      Refusal("convention: standard\nlinks: &a [*a]\n"),
+      "line 2, links[1]: found 'a list of 1': expected a map with the "
+      "keys name, joint, joint_name, a, d, alpha, theta, unknown, mass, com, "
+      "inertia, limits, viscous, coulomb, armature, offset, zero, inertial");
   EXPECT_THAT(Refusal("links: " + std::string(100000, '[')),
               testing::StartsWith("line 1: not well-formed YAML ("));
 }

@@ -22,8 +22,8 @@ DEFINE_string(estimate, "auto",
               "the model parameters), linear (model parameters only), auto "
               "(refined where the robot file has masses to start from)");
 DEFINE_double(trust, 0.5,
-              "relative standard deviation of the robot file's inertial "
-              "parameters, which tie what the logs do not show");
+              "relative standard deviation of the file's inertial "
+              "parameters, tying what logs do not show");
 DEFINE_double(
     length_trust, 0.01,
     "`M` standard deviation of the robot file's lengths where they are "

@@ -17,9 +17,7 @@ DEFINE_string(tip, "", "`LINK` that the arm ends at; default: the only one");
 DEFINE_string(gravity, "",
               "`X,Y,Z` gravity in the base frame, m/s^2; "
               "default: the robot file's, for URDF 0,0,-9.81");
-DEFINE_string(log, "",
-              "`FILES` logs A[,B..] to calibrate on or to verify with: CSV, "
-              "ROS 2 bags, .npz, .mat");
+DEFINE_string(log, "", "`FILES` logs A[,B..]: CSV, ROS 2 bags, .npz, .mat");
 DEFINE_string(validate, "", "`FILES` logs held out to check the result");
 DEFINE_string(torque_constants, "",
               "`K1,K2..` per joint, N m/A: torque = constant x gear ratio x "
@@ -29,8 +27,8 @@ DEFINE_string(torque_kind, "auto",
               "what the log's torque is: auto, link, motor (motor side, times "
               "gear ratio), current, command");
 DEFINE_string(topics, "",
-              "`A,SIGNAL:B..` topics of ROS 2 bags, as in /joint_states,"
-              "effort:/torques; default: all of JointState");
+              "`A,SIGNAL:B..` topics of ROS 2 bags, as in "
+              "/joint_states,effort:/torques");
 DEFINE_string(bandwidth, "",
               "`HZ` cutoff of the zero-phase low pass; 0: data as they are; "
               "default: 10 times the motion's frequency, 8 to 20 Hz");
