@@ -123,7 +123,7 @@ PoseCalibration CalibratePoses(const Robot& robot,
   const PoseSolution solution = SolvePoses(measured, options.refine, &fit);
   result.reason = solution.refusal;
   result.before = solution.before;
-  result.before_rms = Rms(solution.before);
+  result.before_rms = solution.before.empty() ? 0 : Rms(solution.before);
   result.held = solution.held;
   if (!result.reason.empty()) return result;
   const PoseUnknowns& unknowns = solution.unknowns;

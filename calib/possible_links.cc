@@ -7,6 +7,7 @@
 
 #include "calib/link_start.h"
 #include "model/inverse_dynamics.h"
+#include "model/uniform_draw.h"
 #include "problems/inertial_coordinates.h"
 
 namespace armcal {
@@ -28,8 +29,7 @@ struct State {
 };
 
 double Draw(double low, double high, std::mt19937_64* random) {
-  const double unit = static_cast<double>((*random)() >> 11) * 0x1p-53;
-  return low + (high - low) * unit;
+  return low + (high - low) * UniformDraw(random);
 }
 
 // Uniform over the range of positions, and as large as usual.

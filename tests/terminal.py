@@ -163,6 +163,12 @@ def ignored():
     expect(run.wait() == 0, 'SIGHUP must stay ignored')
 
 
+try:
+    for end in pty.openpty():
+        os.close(end)
+except OSError as error:
+    print(f'skipped: there are no pseudo-terminals here ({error})')
+    sys.exit(0)
 for test in (colours, width, progress, writing, ignored):
     start = time.time()
     test()

@@ -1,5 +1,5 @@
-// As hidden_forms_test.cc, for torques of position and time, contacts, drives
-// and gears.
+// As hidden_forms_long_test.cc, for torques of position and time, contacts,
+// drives and gears.
 #include <gtest/gtest.h>
 
 #include <cmath>
