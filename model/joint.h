@@ -50,15 +50,6 @@ inline const char* EffortUnit(JointType type) {
 }
 
 // X_FM(q), the pose of the moved frame M in the fixed frame F.
-inline Eigen::Isometry3d JointTransform(JointType type, double q) {
-  Eigen::Isometry3d X_FM = Eigen::Isometry3d::Identity();
-  if (IsRotational(type)) {
-    X_FM.linear() =
-        Eigen::AngleAxisd(q, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  } else {
-    X_FM.translation().z() = q;
-  }
-  return X_FM;
-}
+Eigen::Isometry3d JointTransform(JointType type, double q);
 
 }  // namespace armcal

@@ -7,6 +7,10 @@ using Eigen::Isometry3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
 
+Isometry3d Link::X_PL(double q) const {
+  return X_PF * JointTransform(joint.type, q) * X_ML;
+}
+
 std::vector<std::string> Robot::JointNames() const {
   std::vector<std::string> names;
   for (const Link& link : links) names.push_back(link.joint.name);

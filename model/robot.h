@@ -29,9 +29,7 @@ struct Link {
   // Inertial parameters that are declared zero by symmetry: of "hx".."Izz".
   std::vector<std::string> zero_inertials;
 
-  Eigen::Isometry3d X_PL(double q) const {
-    return X_PF * JointTransform(joint.type, q) * X_ML;
-  }
+  Eigen::Isometry3d X_PL(double q) const;
 };
 
 // Rz(yaw) Ry(pitch) Rx(roll) of rpy = (roll, pitch, yaw), as URDF means it.
