@@ -6,16 +6,18 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Which folders a file may include from.
-set(from_model model)
-set(from_model/effects model model/effects)
-set(from_model/plant model model/plant)
-set(from_model/plant/hidden model model/plant model/plant/hidden)
-set(from_problems model model/effects problems)
-set(from_calib model model/effects model/plant problems calib)
+set(from_model model model/simd)
+set(from_model/simd ${from_model})
+set(from_model/effects ${from_model} model/effects)
+set(from_model/plant ${from_model} model/plant)
+set(from_model/plant/hidden ${from_model/plant} model/plant/hidden)
+set(from_problems ${from_model/effects} problems)
+set(from_calib ${from_problems} model/plant calib)
 set(from_tools ${from_calib} tools tools/report)
 set(from_tools/report ${from_tools})
 set(from_tools/python ${from_tools} tools/python)
-set(libraries model model/effects model/plant model/plant/hidden problems calib)
+set(libraries model model/simd model/effects model/plant model/plant/hidden
+    problems calib)
 set(folders ${libraries} tools tools/report tools/python)
 
 # Lines of a file of each kind; more than half above that is refused.

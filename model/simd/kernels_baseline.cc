@@ -1,0 +1,3 @@
+#define ARMCAL_INSTRUCTION_SET baseline
+#define ARMCAL_LANES 2
+#include "model/simd/kernel_table.inc"
