@@ -146,9 +146,12 @@ TEST(HiddenBodyPhysics, LooseBolt) {
 // A table without an effect would say nothing of it.
 TEST(HiddenPhysics, TablesHaveEveryEffect) {
   std::string tables;
-  for (const std::string family : {"friction", "drive", "torque", "body"}) {
+  for (const std::string family :
+       {"friction_physics", "drive_physics", "torque_physics_long",
+        "body_physics_long"}) {
     std::ifstream file(std::string(TESTS_DIR) + "/hidden_" + family +
-                       "_physics_test.cc");
+                       "_test.cc");
+    ASSERT_TRUE(file) << family;
     std::stringstream text;
     text << file.rdbuf();
     tables += text.str();
