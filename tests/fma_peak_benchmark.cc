@@ -21,7 +21,7 @@ constexpr long kRounds = 20000;
         __attribute__((vector_size((LANES) * sizeof(double))));          \
     Lanes sum[kChains];                                                  \
     for (int i = 0; i < kChains; ++i) sum[i] = Lanes{} + i;              \
-    const Lanes factor = Lanes{} + .999, term = Lanes{} + 1e-3;          \
+    const Lanes factor = Lanes{} + .999, term = Lanes{} + 5e-4;          \
     for (long round = 0; round < kRounds; ++round) {                     \
       for (int i = 0; i < kChains; ++i) sum[i] = sum[i] * factor + term; \
     }                                                                    \
