@@ -55,12 +55,15 @@ results=("$build/benchmarks.json")
   --benchmark_out="${results[0]}" --benchmark_out_format=json \
   --benchmark_display_aggregates_only=true >"$build/benchmarks.txt"
 if $peers; then
-  tests/peers/run.sh "$venv" "$build" "$build/peers.json" >&2
+  robot=../shared/data/ur10e_free/robot.urdf
+  [[ -f $robot ]] || robot=data/six_axis/robot.urdf
+  tests/peers/run.py "$venv/bin/python" "$build/armcal" "$robot" \
+    "$build/peers.json" >&2
   results+=("$build/peers.json")
 fi
 if $growth; then
   python3 tests/speed/growth.py --program "$build/tests/growth_case" \
     --out "$build/growth" >&2
-  results+=("$build/growth.json")
+  results+=("$build/growth/growth.json")
 fi
 python3 tests/speed/goals.py ${json:+--json "$json"} "${results[@]}"

@@ -12,6 +12,7 @@ floor and stretch say what it should be at most. Python's standard library only.
 
 import argparse
 import json
+import re
 import statistics
 import sys
 
@@ -121,7 +122,10 @@ def read(paths):
         repetitions = {}
         for run in content.get("benchmarks", []):
             if run["run_type"] == "iteration" and "items_per_second" in run:
-                repetitions.setdefault(run["run_name"], []).append(run)
+                # Without how often it was run: "Name/iterations:1/repeats:3".
+                name = re.sub("/(iterations|repeats|min_time):[^/]*", "",
+                              run["run_name"])
+                repetitions.setdefault(name, []).append(run)
         for name, runs in repetitions.items():
             seconds = [1 / run["items_per_second"] for run in runs]
             measured[name] = statistics.median(seconds)
@@ -173,6 +177,10 @@ def number(value, none="-"):
     return f"{text} (1/{1 / value:.0f})" if 0 < value < .1 else text
 
 
+def scientific(value):
+    return "-" if value is None else f"{value:.2g}"
+
+
 def duration(seconds):
     if seconds is None:
         return "not built"
@@ -207,7 +215,8 @@ def print_peers(peers):
             continue
         rows.append((peer["work"], duration(peer["ours_s"]),
                      duration(peer["theirs_s"]), number(peer.get("ratio")),
-                     number(peer["ours_error"]), number(peer["theirs_error"])))
+                     scientific(peer["ours_error"]),
+                     scientific(peer["theirs_error"])))
     if len(rows) > 1:
         print()
         print_table(rows)
