@@ -14,6 +14,14 @@ import numpy as np
 from mujoco import minimize, sysid
 
 STEPS = 10_000
+JOINT_TERMS = {"armature": .5, "damping": 1., "frictionloss": .1}
+
+
+def set_term(joint, name, value):
+    """Damping is a polynomial in the velocity; its first coefficient."""
+    old = np.atleast_1d(np.array(getattr(joint, name), dtype=float))
+    old[0] = value
+    setattr(joint, name, old if len(old) > 1 else value)
 
 
 def make_spec(urdf):
@@ -25,7 +33,8 @@ def make_spec(urdf):
                                  mujoco.mjtDisableBit.mjDSBL_LIMIT)
     for joint in spec.joints:
         # Explicit steps of 1 ms need some inertia at the wrist.
-        joint.armature, joint.damping, joint.frictionloss = .5, 1, .1
+        for name, value in JOINT_TERMS.items():
+            set_term(joint, name, value)
         spec.add_actuator(name=f"motor_{joint.name}", target=joint.name,
                           trntype=mujoco.mjtTrn.mjTRN_JOINT)
         spec.add_sensor(name=f"position_{joint.name}", objname=joint.name,
@@ -34,18 +43,34 @@ def make_spec(urdf):
     return spec
 
 
+def set_inertia(spec, parameter, name):
+    """What sysid's own modifier does, by principal axes: that one's full
+    inertia of a second body is refused by the compiler (4.0.0)."""
+    pi = sysid.pi_from_theta(parameter.value)
+    body, com = spec.body(name), pi[1:4] / pi[0]
+    cross = np.cross(np.eye(3), com)
+    inertia = pi[4:].reshape(3, 3) + pi[0] * cross @ cross
+    moments, axes = np.linalg.eigh(inertia)
+    axes[:, 0] *= np.linalg.det(axes)
+    quaternion = np.empty(4)
+    mujoco.mju_mat2Quat(quaternion, axes.ravel())
+    body.mass, body.ipos = pi[0], com
+    body.inertia, body.iquat = moments, quaternion
+    body.fullinertia = np.full(6, np.nan)
+
+
 def make_parameters(spec, model):
     parameters = sysid.ParameterDict()
     for body in spec.bodies[1:]:
         parameters.add(sysid.body_inertia_param(
-            spec, model, body.name, inertia_type=sysid.InertiaType.Pseudo))
+            spec, model, body.name, inertia_type=sysid.InertiaType.Pseudo,
+            modifier=lambda s, p, n=body.name: set_inertia(s, p, n)))
     for joint in spec.joints:
-        for name in "armature", "damping", "frictionloss":
-            value = float(np.ravel(getattr(joint, name))[0])
+        for name, value in JOINT_TERMS.items():
             parameters.add(sysid.Parameter(
                 f"{joint.name}_{name}", nominal=value, min_value=value / 2,
                 max_value=2 * value,
-                modifier=lambda s, p, j=joint.name, n=name: setattr(
+                modifier=lambda s, p, j=joint.name, n=name: set_term(
                     s.joint(j), n, p.value[0])))
     return parameters
 

@@ -15,6 +15,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree
 
 ROWS, HELD_OUT_ROWS = 100_000, 20_000
 HERE = pathlib.Path(__file__).resolve().parent
@@ -38,6 +39,17 @@ def run(command, folder, repetitions=1):
         best = min(best, usage.ru_utime + usage.ru_stime)
         peak = max(peak, usage.ru_maxrss / 1024)
     return path.read_text(encoding="utf-8"), best, peak
+
+
+def without_meshes(urdf, out):
+    """The robot alone: FIGAROH loads shapes, and a published file may name
+    meshes that are not here."""
+    tree = xml.etree.ElementTree.parse(urdf)
+    for link in tree.getroot().findall("link"):
+        for shape in link.findall("visual") + link.findall("collision"):
+            link.remove(shape)
+    tree.write(out)
+    return out
 
 
 def root_sum(values):
@@ -65,6 +77,7 @@ def main():
     python, armcal, urdf, out = sys.argv[1:]
     values = {}
     with tempfile.TemporaryDirectory() as folder:
+        urdf = without_meshes(urdf, os.path.join(folder, "robot.urdf"))
         logs = [os.path.join(folder, name) for name in ("log.csv", "held.csv")]
         for seed, (rows, log) in enumerate(zip((ROWS, HELD_OUT_ROWS), logs)):
             run([python, HERE / "write_log.py", urdf, str(rows), str(seed), log],
