@@ -12,6 +12,7 @@ import time
 import mujoco
 import numpy as np
 from mujoco import minimize, sysid
+from mujoco.sysid._src import model_modifier
 
 STEPS = 10_000
 JOINT_TERMS = {"armature": .5, "damping": 1., "frictionloss": .1}
@@ -46,7 +47,7 @@ def make_spec(urdf):
 def set_inertia(spec, parameter, name):
     """What sysid's own modifier does, by principal axes: that one's full
     inertia of a second body is refused by the compiler (4.0.0)."""
-    pi = sysid.pi_from_theta(parameter.value)
+    pi = model_modifier.pi_from_theta(parameter.value)
     body, com = spec.body(name), pi[1:4] / pi[0]
     cross = np.cross(np.eye(3), com)
     inertia = pi[4:].reshape(3, 3) + pi[0] * cross @ cross
@@ -84,7 +85,7 @@ def main():
                                for j in range(model.nu)])
     initial = sysid.create_initial_state(model, data.qpos, data.qvel, data.act)
     measured = sysid.TimeSeries.from_names(
-        t, np.zeros((STEPS, model.nsensordata)), model)
+        t, np.ones((STEPS, model.nsensordata)), model)
     parameters = make_parameters(spec, model)
     residual = sysid.build_residual_fn(
         models_sequences=[sysid.ModelSequences(
