@@ -1,0 +1,245 @@
+// What the nonlinear calibration is measured by: Ceres as one uses it at first,
+// a block of residuals per sample. Torques of a 6R arm with 60 inertial and 24
+// geometric parameters.
+
+#include <benchmark/benchmark.h>
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "model/inverse_dynamics.h"
+#include "tests/six_axis_torque.h"
+
+namespace armcal {
+namespace {
+
+constexpr int kJoints = 6, kInertial = 60, kGeometric = 24;
+constexpr int kSamples = 10000;
+
+struct TorqueResidual {
+  SixAxisSample sample;
+
+  template <class T>
+  bool operator()(const T* inertial, const T* dh, T* residual) const {
+    SixAxisTorque<T> arm;
+    arm.Evaluate(inertial, dh, sample, residual);
+    for (int j = 0; j < kJoints; ++j) residual[j] -= sample.tau[j];
+    return true;
+  }
+};
+using AutoDiffBlock =
+    ceres::AutoDiffCostFunction<TorqueResidual, kJoints, kInertial, kGeometric>;
+
+// The arm's parameters, a UR10e's size, and a log of it with noise.
+struct Problem {
+  Problem();
+
+  std::vector<double> inertial, geometric;
+  std::vector<SixAxisSample> samples;
+};
+
+Problem::Problem()
+    : inertial(kInertial),
+      geometric{0,   0,         .181,  0, 0,   -M_PI / 2, .176, -M_PI / 2,
+                .61, 0,         -.137, 0, .57, 0,         .02,  -M_PI / 2,
+                0,   -M_PI / 2, .12,   0, 0,   M_PI / 2,  .117, 0},
+      samples(kSamples) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const double masses[] = {7.4, 13, 4, 2, 2, .6};
+  for (int i = 0; i < kJoints; ++i) {
+    const double m = masses[i], I = .02 * m;
+    const double link[] = {m,
+                           .1 * m * u(random),
+                           .1 * m * u(random),
+                           .1 * m,
+                           1.2 * I,
+                           .1 * I,
+                           1.3 * I,
+                           .1 * I,
+                           .1 * I,
+                           1.1 * I};
+    std::copy(link, link + 10, &inertial[10 * i]);
+  }
+  std::normal_distribution<double> noise(0, .5);
+  for (SixAxisSample& sample : samples) {
+    for (int j = 0; j < kJoints; ++j) {
+      sample.q[j] = 3 * u(random);
+      sample.qd[j] = 2 * u(random);
+      sample.qdd[j] = 5 * u(random);
+    }
+    SixAxisTorque<double>().Evaluate(inertial.data(), geometric.data(), sample,
+                                     sample.tau);
+    for (double& tau : sample.tau) tau += noise(random);
+  }
+}
+
+// Largest difference of the torques to InverseDynamics', N m.
+double Error(const Problem& problem) {
+  Robot robot;
+  robot.gravity = {0, 0, -9.81};
+  for (int i = 0; i < kJoints; ++i) {
+    Link link;
+    const double* row = &problem.geometric[4 * i];
+    SetDhPose({row[0], row[2], row[1], row[3]}, DhConvention::kModified, &link);
+    link.inertial = InertialParameters::FromVector(
+        Eigen::Map<const Vector10d>(&problem.inertial[10 * i]));
+    robot.links.push_back(link);
+  }
+  double error = 0;
+  for (int k = 0; k < 100; ++k) {
+    const SixAxisSample& at = problem.samples[k];
+    using State = Eigen::Map<const Eigen::VectorXd>;
+    Eigen::VectorXd tau(kJoints);
+    SixAxisTorque<double>().Evaluate(problem.inertial.data(),
+                                     problem.geometric.data(), at, tau.data());
+    tau -= InverseDynamics(robot, State(at.q, kJoints), State(at.qd, kJoints),
+                           State(at.qdd, kJoints));
+    error = std::max(error, tau.lpNorm<Eigen::Infinity>());
+  }
+  return error;
+}
+
+const Problem& TheProblem() {
+  static const Problem problem;
+  return problem;
+}
+
+// One evaluation of residuals and Jacobian of a sample.
+void AutoDiff(benchmark::State& state) {
+  constexpr int kBlocks = 32;
+  const Problem& problem = TheProblem();
+  std::vector<std::unique_ptr<AutoDiffBlock>> blocks;
+  for (int k = 0; k < kBlocks; ++k) {
+    blocks.push_back(std::make_unique<AutoDiffBlock>(
+        new TorqueResidual{problem.samples[k]}));
+  }
+  const double* x[] = {problem.inertial.data(), problem.geometric.data()};
+  double residual[kJoints], of_inertial[kJoints * kInertial],
+      of_geometric[kJoints * kGeometric];
+  double* jacobian[] = {of_inertial, of_geometric};
+  for (auto _ : state) {
+    for (const auto& block : blocks) {
+      block->Evaluate(x, residual, jacobian);
+      benchmark::DoNotOptimize(of_geometric);
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * kBlocks);
+  state.counters["error"] = Error(problem);
+}
+BENCHMARK(AutoDiff)->Name("Ceres/autodiff");
+
+// A sample's residuals and Jacobian as they are at one point: what analytic
+// derivatives would give, at no cost, so that what is timed is Ceres alone.
+class StoredBlock
+    : public ceres::SizedCostFunction<kJoints, kInertial, kGeometric> {
+ public:
+  StoredBlock(const Problem& problem, const SixAxisSample& sample) {
+    const double* x[] = {problem.inertial.data(), problem.geometric.data()};
+    double* jacobian[] = {of_inertial_, of_geometric_};
+    AutoDiffBlock(new TorqueResidual{sample}).Evaluate(x, residual_, jacobian);
+  }
+
+  bool Evaluate(double const* const* x, double* residual,
+                double** jacobian) const override {
+    (void)x;
+    std::copy(residual_, residual_ + kJoints, residual);
+    if (jacobian == nullptr) return true;
+    if (jacobian[0] != nullptr) {
+      std::copy(std::begin(of_inertial_), std::end(of_inertial_), jacobian[0]);
+    }
+    if (jacobian[1] != nullptr) {
+      std::copy(std::begin(of_geometric_), std::end(of_geometric_),
+                jacobian[1]);
+    }
+    return true;
+  }
+
+ private:
+  double residual_[kJoints];
+  double of_inertial_[kJoints * kInertial];
+  double of_geometric_[kJoints * kGeometric];
+};
+
+// x minus where it began, with a weight that makes the problem full rank.
+struct Prior {
+  std::vector<double> x0;
+  double weight;
+
+  template <class T>
+  bool operator()(T const* const* x, T* residual) const {
+    for (size_t k = 0; k < x0.size(); ++k) {
+      residual[k] = weight * (x[0][k] - x0[k]);
+    }
+    return true;
+  }
+};
+
+struct BlockPerSample {
+  BlockPerSample() : x(TheProblem()) {
+    for (const SixAxisSample& sample : x.samples) {
+      problem.AddResidualBlock(new StoredBlock(x, sample), nullptr,
+                               x.inertial.data(), x.geometric.data());
+    }
+    AddPrior(&x.inertial, 10);
+    AddPrior(&x.geometric, 200);
+  }
+  void AddPrior(std::vector<double>* values, double weight) {
+    auto* prior = new ceres::DynamicAutoDiffCostFunction<Prior>(
+        new Prior{*values, weight});
+    prior->AddParameterBlock(static_cast<int>(values->size()));
+    prior->SetNumResiduals(static_cast<int>(values->size()));
+    problem.AddResidualBlock(prior, nullptr, values->data());
+  }
+
+  Problem x;
+  ceres::Problem problem;
+};
+
+// Items are iterations: Jacobian, normal equations, step, cost.
+void Iteration(benchmark::State& state) {
+  BlockPerSample blocks;
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = 1;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  long evaluations = 0;
+  for (auto _ : state) {
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &blocks.problem, &summary);
+    evaluations += summary.num_jacobian_evaluations;
+  }
+  state.SetItemsProcessed(std::max(evaluations, 1L));
+}
+BENCHMARK(Iteration)->Name("Ceres/iteration")->Iterations(2)->Repetitions(5);
+
+void SparseQrCovariance(benchmark::State& state) {
+  BlockPerSample blocks;
+  double* inertial = blocks.x.inertial.data();
+  double* geometric = blocks.x.geometric.data();
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::SPARSE_QR;
+  options.num_threads = 1;
+  for (auto _ : state) {
+    ceres::Covariance covariance(options);
+    if (!covariance.Compute({{inertial, inertial},
+                             {inertial, geometric},
+                             {geometric, geometric}},
+                            &blocks.problem)) {
+      state.SkipWithError("no covariance");
+    }
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(SparseQrCovariance)
+    ->Name("Ceres/covariance_sparse_qr")
+    ->Iterations(1)
+    ->Repetitions(3);
+
+}  // namespace
+}  // namespace armcal
