@@ -64,6 +64,7 @@ class ModelParameters {
   // `robot`, an arm of the same structure.
   Eigen::VectorXd Values(const Robot& robot) const;
 
+  const ProximalChain& chain() const { return chain_; }
   // The unknown lengths, and what X is made of before regrouping:
   // X = regrouping() * X_full; the first moment_columns().size() entries of
   // X_full are moments times lengths, the others joint terms.

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "model/simd/chain_constants.h"
+
 namespace armcal::simd {
 
 // What is computed for many samples at once, `lanes` of them side by side. The
@@ -15,6 +17,23 @@ struct Kernels {
   // sin and cos of `count` angles, rad.
   void (*sine_cosine)(const double* angle, long count, double* sine,
                       double* cosine);
+
+  // A regressor's columns, as BatchRegressor has them: U; P and D; and those of
+  // one sample, whose arithmetic is not done in lanes.
+  void (*differential)(const ChainConstants& chain, const ChainMotion& motion,
+                       long count, double* const* out, long stride);
+  void (*momentum)(const ChainConstants& chain, const ChainMotion& motion,
+                   long count, double* const* P, double* const* D, long stride);
+  void (*differential_of_one)(const ChainConstants& chain,
+                              const ChainMotion& motion, long sample,
+                              double* const* out, long stride);
+  void (*momentum_of_one)(const ChainConstants& chain,
+                          const ChainMotion& motion, long sample,
+                          double* const* P, double* const* D, long stride);
+  // Torques of links with `inertia` (ten parameters each) to tau[joint].
+  void (*inverse_dynamics)(const ChainConstants& chain, const double* inertia,
+                           const ChainMotion& motion, long count,
+                           double* const* tau);
 };
 
 // Of the instruction sets that this processor has, the least first.

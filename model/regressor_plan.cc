@@ -1,0 +1,204 @@
+#include "model/regressor_plan.h"
+
+#include <algorithm>
+
+namespace armcal {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using simd::LinkConstants;
+using simd::LinkMoment;
+
+void Copy(const Matrix3d& m, double* to) {  // by rows
+  for (int k = 0; k < 9; ++k) to[k] = m(k / 3, k % 3);
+}
+void Copy(const Vector3d& v, double* to) {
+  for (int k = 0; k < 3; ++k) to[k] = v[k];
+}
+
+// X_PF: of the joint's fixed frame in the link before; X_ML: of the link in the
+// moved frame.
+LinkConstants MakeLink(JointType type, const Isometry3d& X_PF,
+                       const Isometry3d& X_ML) {
+  LinkConstants link{};
+  link.rotational = IsRotational(type);
+  const Matrix3d R_FP = X_PF.linear().transpose();
+  const Matrix3d R_LM = X_ML.linear().transpose();
+  // Rz(q)' leaves z, and turns x and y by -q.
+  const Matrix3d R = R_LM * R_FP;
+  const Matrix3d along = R_LM.col(2) * R_FP.row(2);
+  const Matrix3d across = R_LM.col(0) * R_FP.row(1) - R_LM.col(1) * R_FP.row(0);
+  Copy(link.rotational ? along : R, link.R0);
+  if (link.rotational) {
+    Copy(Matrix3d(R - along), link.Rc);
+    Copy(across, link.Rs);
+  }
+  const Vector3d axis = R_LM.col(2), p_ML = R_LM * X_ML.translation();
+  Copy(Vector3d(X_PF.translation()), link.p_PF);
+  Copy(p_ML, link.p_ML);
+  Copy(axis, link.axis);
+  link.has_offset = !link.rotational || !p_ML.isZero(0);
+  link.axis_index = -1;
+  for (int k = 0; k < 3 && !link.has_offset; ++k) {
+    const double sign = axis[k] < 0 ? -1 : 1;
+    if ((axis - sign * Vector3d::Unit(k)).norm() > 1e-15) continue;
+    link.axis_index = k;
+    link.axis_sign = sign;
+  }
+  return link;
+}
+
+LinkMoment MomentOf(Moment moment, bool rotational) {
+  switch (moment) {
+    case Moment::kM:
+      return simd::kSlidingMass;
+    case Moment::kHx:
+      return rotational ? simd::kHx : simd::kSlidingHx;
+    case Moment::kHy:
+      return rotational ? simd::kHy : simd::kSlidingHy;
+    case Moment::kHz:
+      return simd::kSlidingHz;
+    case Moment::kIxxMinusIyy:
+      return simd::kIxxMinusIyy;
+    case Moment::kIxy:
+      return simd::kIxy;
+    case Moment::kIxz:
+      return simd::kIxz;
+    case Moment::kIyz:
+      return simd::kIyz;
+    case Moment::kIzz:
+      break;
+  }
+  return simd::kIzzOfJoint;
+}
+
+// Numbers of row i's columns, ascending.
+std::vector<int> RowColumns(const RegressorColumns& columns, int i) {
+  std::vector<int> row;
+  for (size_t c = 0; c < columns.moments.size(); ++c) {
+    if (columns.moments[c].block >= i) row.push_back(columns.moment_index[c]);
+  }
+  for (size_t c = 0; c < columns.terms.size(); ++c) {
+    if (columns.terms[c].joint == i) row.push_back(columns.term_index[c]);
+  }
+  std::sort(row.begin(), row.end());
+  return row;
+}
+
+int PlaceIn(const std::vector<int>& row, int column) {
+  return std::lower_bound(row.begin(), row.end(), column) - row.begin();
+}
+
+}  // namespace
+
+RegressorPlan::RegressorPlan(const ProximalChain& chain,
+                             const std::vector<Length>& unknown,
+                             const RegressorColumns& columns) {
+  Isometry3d X_PF = Isometry3d::Identity();  // of G_i in J_{i-1}
+  for (const ProximalJoint& joint : chain.joints) {
+    const Isometry3d X_MJ(Eigen::AngleAxisd(joint.theta, Vector3d::UnitZ()));
+    links_.push_back(MakeLink(joint.type, X_PF, X_MJ));
+    links_.back().regrouped = true;
+    X_PF.linear() = joint.R;
+    X_PF.translation() = joint.p;
+  }
+  for (const Length& length : unknown) {
+    lengths_.push_back({length.joint, length.component});
+    links_[length.joint + 1].p_PF[length.component] = 0;
+  }
+  AddColumns(columns);
+  Connect(chain.gravity);
+}
+
+void RegressorPlan::AddColumns(const RegressorColumns& columns) {
+  const int n = num_joints();
+  std::vector<std::vector<int>> rows(n);
+  for (int i = 0; i < n; ++i) {
+    rows[i] = RowColumns(columns, i);
+    row_sizes_.push_back(static_cast<int>(rows[i].size()));
+  }
+  length_columns_.resize(n);
+  places_.resize(n);
+  for (int i = 0; i < n; ++i) {
+    LinkConstants& link = links_[i];
+    // (bit, number) of plain columns, which sort into the kernels' order, and
+    // the numbers of length columns.
+    std::vector<std::pair<unsigned, int>> plain;
+    std::vector<int> numbers;
+    for (size_t c = 0; c < columns.moments.size(); ++c) {
+      const MomentColumn& column = columns.moments[c];
+      if (column.block != i) continue;
+      const LinkMoment moment = MomentOf(column.moment, link.rotational);
+      if (column.length < 0) {
+        plain.push_back({moment, columns.moment_index[c]});
+        link.moments |= moment;
+        ++(moment < simd::kMass ? link.num_couples : link.num_wrenches);
+      } else {
+        length_columns_[i].push_back({moment, column.length});
+        numbers.push_back(columns.moment_index[c]);
+      }
+    }
+    std::sort(plain.begin(), plain.end());
+    for (int k = 0; k <= i; ++k) {
+      for (const auto& [bit, number] : plain) {
+        places_[i].push_back(PlaceIn(rows[k], number));
+      }
+      for (const int number : numbers) {
+        places_[i].push_back(PlaceIn(rows[k], number));
+      }
+    }
+  }
+  int coulomb = 0;
+  for (size_t c = 0; c < columns.terms.size(); ++c) {
+    const JointTermColumn& term = columns.terms[c];
+    terms_.push_back({term, PlaceIn(rows[term.joint], columns.term_index[c]),
+                      term.term == JointTerm::kCoulomb ? coulomb++ : -1});
+  }
+}
+
+RegressorPlan::RegressorPlan(const Robot& robot, bool with_columns) {
+  const int n = robot.num_joints();
+  length_columns_.resize(n);
+  places_.resize(n);
+  for (int i = 0; i < n; ++i) {
+    const Link& link = robot.links[i];
+    links_.push_back(MakeLink(link.joint.type, link.X_PF, link.X_ML));
+    row_sizes_.push_back(with_columns ? 10 * (n - i) : 1);
+    if (!with_columns) continue;
+    links_[i].num_couples = 6;
+    links_[i].num_wrenches = 4;
+    links_[i].moments = simd::kIxx | simd::kIxy | simd::kIyy | simd::kIxz |
+                        simd::kIyz | simd::kIzz | simd::kMass | simd::kHx |
+                        simd::kHy | simd::kHz;
+    for (int k = 0; k <= i; ++k) {
+      for (const int c : {4, 5, 6, 7, 8, 9, 0, 1, 2, 3}) {
+        places_[i].push_back(10 * (i - k) + c);
+      }
+    }
+  }
+  Connect(robot.gravity);
+}
+
+// The constants' pointers, once nothing moves any more.
+void RegressorPlan::Connect(const Vector3d& gravity) {
+  for (size_t i = 0; i < links_.size(); ++i) {
+    LinkConstants& link = links_[i];
+    link.num_length_columns = static_cast<int>(length_columns_[i].size());
+    link.length_columns = length_columns_[i].data();
+    link.places = places_[i].data();
+    chain_.most_couples = std::max(chain_.most_couples, link.num_couples);
+    chain_.most_wrenches = std::max(chain_.most_wrenches, link.num_wrenches);
+    chain_.most_length_columns =
+        std::max(chain_.most_length_columns, link.num_length_columns);
+  }
+  chain_.num_links = num_joints();
+  chain_.links = links_.data();
+  chain_.num_lengths = static_cast<int>(lengths_.size());
+  chain_.lengths = lengths_.data();
+  chain_.row_sizes = row_sizes_.data();
+  Copy(gravity, chain_.gravity);
+}
+
+}  // namespace armcal

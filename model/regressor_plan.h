@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "model/proximal_chain.h"
+#include "model/regressor.h"
+#include "model/robot.h"
+#include "model/simd/chain_constants.h"
+
+namespace armcal {
+
+// What the kernels of model/simd have to know of an arm and of the columns
+// wanted, prepared once.
+class RegressorPlan {
+ public:
+  // Columns of model parameters, in the frames J of the chain.
+  RegressorPlan(const ProximalChain& chain, const std::vector<Length>& unknown,
+                const RegressorColumns& columns);
+  // The ten inertial parameters of each link, in the links' frames; none of
+  // them where only the chain is wanted.
+  RegressorPlan(const Robot& robot, bool with_columns);
+  RegressorPlan(const RegressorPlan&) = delete;
+
+  const simd::ChainConstants& chain() const { return chain_; }
+  int num_joints() const { return static_cast<int>(links_.size()); }
+  int row_size(int i) const { return row_sizes_[i]; }
+
+  // A joint's own term: which place in its row, and of the Coulomb columns
+  // which.
+  struct Term {
+    JointTermColumn column;
+    int place;
+    int coulomb;
+  };
+  const std::vector<Term>& terms() const { return terms_; }
+
+ private:
+  void AddColumns(const RegressorColumns& columns);
+  void Connect(const Eigen::Vector3d& gravity);
+
+  std::vector<simd::LinkConstants> links_;
+  std::vector<simd::LengthConstants> lengths_;
+  std::vector<std::vector<simd::LengthColumn>> length_columns_;  // per link
+  std::vector<std::vector<int>> places_;                         // per link
+  std::vector<int> row_sizes_;
+  std::vector<Term> terms_;
+  simd::ChainConstants chain_{};
+};
+
+}  // namespace armcal

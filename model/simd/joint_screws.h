@@ -1,0 +1,97 @@
+#pragma once
+
+#include "model/simd/chain_constants.h"
+#include "model/simd/sine_cosine.h"
+#include "model/simd/vector3.h"
+
+namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
+
+template <class T>
+ARMCAL_INLINE T LoadAs(const double* from) {
+  T x;
+  __builtin_memcpy(&x, from, sizeof x);
+  return x;
+}
+template <class T>
+ARMCAL_INLINE void StoreAs(const T& x, double* to) {
+  __builtin_memcpy(to, &x, sizeof x);
+}
+
+// Scratch on the stack.
+#define ARMCAL_SCRATCH(type, count) \
+  static_cast<type*>(               \
+      __builtin_alloca_with_align((count) * sizeof(type) + sizeof(type), 512))
+
+// R_LP at q.
+template <class T>
+ARMCAL_INLINE Matrix3<T> Rotation(const LinkConstants& link, const T& q) {
+  T s{}, c{};
+  if (link.rotational) SineCosine(q, &s, &c);
+  const auto entry = [&](int k) {
+    return c * link.Rc[k] + (s * link.Rs[k] + link.R0[k]);
+  };
+  return {{entry(0), entry(1), entry(2)},
+          {entry(3), entry(4), entry(5)},
+          {entry(6), entry(7), entry(8)}};
+}
+
+// From Fo to Lo, in L.
+template <class T>
+ARMCAL_INLINE Vector3<T> Offset(const LinkConstants& link, const T& q) {
+  const Vector3<T> constant = Constant<T>(link.p_ML);
+  return link.rotational ? constant : constant + Times(link.axis, q);
+}
+
+// A unit of a joint's velocity as it moves the present link's frame, expressed
+// in it: angular, and linear of its origin. Of a prismatic joint `angular` is
+// 0, so that both kinds of joints have the same formulas.
+template <class T>
+struct Screw {
+  Vector3<T> angular, linear;
+};
+
+// To an origin that is moved by p.
+template <class T, class Vector>
+ARMCAL_INLINE void Shift(const Vector& p, Screw<T>* screw) {
+  screw->linear = screw->linear + Cross(screw->angular, p);
+}
+// From P, and its origin, to L at Fo.
+template <class T>
+ARMCAL_INLINE void EnterLink(const LinkConstants& link, const Matrix3<T>& E,
+                             Screw<T>* screw) {
+  Shift(link.p_PF, screw);
+  screw->angular = E * screw->angular;
+  screw->linear = E * screw->linear;
+}
+// The link's own joint's, in L at Fo.
+template <class T>
+ARMCAL_INLINE Screw<T> OwnScrew(const LinkConstants& link) {
+  const Vector3<T> axis = Constant<T>(link.axis), zero = {};
+  return link.rotational ? Screw<T>{axis, zero} : Screw<T>{zero, axis};
+}
+
+template <class T>
+struct Wrench {
+  Vector3<T> couple, force;  // about the link's origin
+};
+
+// e x a, with e the unit vector of the first moment.
+template <class T>
+ARMCAL_INLINE Vector3<T> UnitCross(unsigned moment, const Vector3<T>& a) {
+  const T zero = {};
+  if (moment & (kHx | kSlidingHx)) return {zero, -a.z, a.y};
+  if (moment & (kHy | kSlidingHy)) return {a.z, zero, -a.x};
+  return {-a.y, a.x, zero};
+}
+
+ARMCAL_INLINE const int* PlacesOfRow(const LinkConstants& link, int k) {
+  return link.places +
+         k * (link.num_couples + link.num_wrenches + link.num_length_columns);
+}
+
+template <class T>
+ARMCAL_INLINE T Power(const Screw<T>& screw, const Wrench<T>& wrench) {
+  return Dot(screw.angular, wrench.couple) + Dot(screw.linear, wrench.force);
+}
+
+}  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET
