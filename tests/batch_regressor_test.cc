@@ -175,20 +175,25 @@ TEST(BatchRegressor, GivesColumnsOfUnknownLengths) {
   }
 }
 
-// Links with frames anywhere; joints along any of their axes.
+Eigen::Isometry3d RandomPose(std::mt19937_64* random) {
+  Eigen::Isometry3d X(RotationFromRpy(UniformVector(random, 3, -3, 3)));
+  X.translation() = UniformVector(random, 3, -1, 1);
+  return X;
+}
+
+// Joints anywhere, along the z axes of their links' frames, along others of
+// them, or anyhow.
 Robot ArmWithFrames(int n, int trial, std::mt19937_64* random) {
   Robot robot = RandomArm(n, random);
   SetRandomInertials(random, &robot);
   for (Link& link : robot.links) {
-    if (trial % 3 == 0) continue;
-    const Eigen::Vector3d rpy =
-        trial % 3 == 1 ? Eigen::Vector3d(0, M_PI_2, trial % 2 * M_PI_2)
-                       : Eigen::Vector3d(UniformVector(random, 3, -3, 3));
-    link.X_ML.linear() = RotationFromRpy(rpy);
-    link.X_ML.translation().setZero();
-    if (trial % 3 == 2) {
-      link.X_ML.translation() = UniformVector(random, 3, -1, 1);
+    link.X_PF = RandomPose(random);
+    link.X_ML.setIdentity();
+    if (trial % 3 == 1) {
+      const double roll = trial % 2 * M_PI_2;
+      link.X_ML.linear() = RotationFromRpy({roll, M_PI_2, 0});
     }
+    if (trial % 3 == 2) link.X_ML = RandomPose(random);
   }
   return robot;
 }
