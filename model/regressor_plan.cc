@@ -134,7 +134,7 @@ void RegressorPlan::AddColumns(const RegressorColumns& columns) {
       if (column.length < 0) {
         plain.push_back({moment, columns.moment_index[c]});
         link.moments |= moment;
-        ++(moment < simd::kMass ? link.num_couples : link.num_wrenches);
+        ++link.num_moments;
       } else {
         length_columns_[i].push_back({moment, column.length});
         numbers.push_back(columns.moment_index[c]);
@@ -167,11 +167,8 @@ RegressorPlan::RegressorPlan(const Robot& robot, bool with_columns) {
     links_.push_back(MakeLink(link.joint.type, link.X_PF, link.X_ML));
     row_sizes_.push_back(with_columns ? 10 * (n - i) : 1);
     if (!with_columns) continue;
-    links_[i].num_couples = 6;
-    links_[i].num_wrenches = 4;
-    links_[i].moments = simd::kIxx | simd::kIxy | simd::kIyy | simd::kIxz |
-                        simd::kIyz | simd::kIzz | simd::kMass | simd::kHx |
-                        simd::kHy | simd::kHz;
+    links_[i].num_moments = 10;
+    links_[i].moments = simd::kMomentsOfLink;
     for (int k = 0; k <= i; ++k) {
       for (const int c : {4, 5, 6, 7, 8, 9, 0, 1, 2, 3}) {
         places_[i].push_back(10 * (i - k) + c);
@@ -188,8 +185,6 @@ void RegressorPlan::Connect(const Vector3d& gravity) {
     link.num_length_columns = static_cast<int>(length_columns_[i].size());
     link.length_columns = length_columns_[i].data();
     link.places = places_[i].data();
-    chain_.most_couples = std::max(chain_.most_couples, link.num_couples);
-    chain_.most_wrenches = std::max(chain_.most_wrenches, link.num_wrenches);
     chain_.most_length_columns =
         std::max(chain_.most_length_columns, link.num_length_columns);
   }

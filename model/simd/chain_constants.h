@@ -7,12 +7,11 @@ namespace armcal::simd {
 // columns are computed; frames P, F and M are those of model/robot.h.
 
 // What a column is the coefficient of: a moment of the link's inertia about Lo
-// in L. The last ones are the paper's: rows before the link's own have the
-// moment less the same inertia attached to the link before, at q = 0; those of
-// a prismatic joint are about Fo, which does not slide. Bits of
-// LinkConstants::moments.
+// in L. Some are the paper's: rows before the link's own have that moment less
+// the same inertia attached to the link before, at q = 0; those of a prismatic
+// joint are about Fo, which does not slide. Bits of LinkConstants::moments, in
+// whose order columns are written.
 enum LinkMoment : unsigned {
-  // Couples: no force.
   kIxx = 1 << 0,
   kIxy = 1 << 1,
   kIyy = 1 << 2,
@@ -20,8 +19,7 @@ enum LinkMoment : unsigned {
   kIyz = 1 << 4,
   kIzz = 1 << 5,
   kIxxMinusIyy = 1 << 6,  // (Ixx - Iyy) / 2
-  kIzzOfJoint = 1 << 7,   // the last couple, where it is one
-  // Wrenches.
+  kIzzOfJoint = 1 << 7,
   kMass = 1 << 8,
   kHx = 1 << 9,
   kHy = 1 << 10,
@@ -31,6 +29,13 @@ enum LinkMoment : unsigned {
   kSlidingHy = 1 << 14,
   kSlidingHz = 1 << 15,
 };
+constexpr unsigned kSlidingMoments =
+    kSlidingMass | kSlidingHx | kSlidingHy | kSlidingHz;
+// Kernels are compiled for these sets; others take a little longer.
+constexpr unsigned kMomentsOfLink =
+    kIxx | kIxy | kIyy | kIxz | kIyz | kIzz | kMass | kHx | kHy | kHz;
+constexpr unsigned kMomentsOfJoint =
+    kIxy | kIxz | kIyz | kIxxMinusIyy | kIzzOfJoint | kHx | kHy;
 
 // A moment times an unknown length: kHx, kHy or kSlidingMass.
 struct LengthColumn {
@@ -49,14 +54,13 @@ struct LinkConstants {
   int axis_index;
   double axis_sign;
   bool has_offset;  // Lo is not Fo: p_ML, or the way of a prismatic joint
-  // The moments of a prismatic joint are the paper's.
-  bool regrouped;
+  bool regrouped;   // the moments are the paper's
 
   unsigned moments;
-  int num_couples, num_wrenches, num_length_columns;
+  int num_moments, num_length_columns;
   const LengthColumn* length_columns;
-  // For rows 0 to the link's own, places of its columns in that row: couples
-  // and wrenches in the order of their bits, then length columns.
+  // For rows 0 to the link's own, places of its columns in that row: moments in
+  // the order of their bits, then length columns.
   const int* places;
 };
 
@@ -72,9 +76,9 @@ struct ChainConstants {
   const LinkConstants* links;
   int num_lengths;
   const LengthConstants* lengths;
-  double gravity[3];  // m/s^2, in the first P
-  int most_couples, most_wrenches, most_length_columns;  // of a link
-  const int* row_sizes;  // columns of each row, also those of joint terms
+  double gravity[3];        // m/s^2, in the first P
+  int most_length_columns;  // of a link
+  const int* row_sizes;     // columns of each row, also those of joint terms
 };
 
 // Motion of samples, an array per joint.

@@ -4,10 +4,20 @@
 
 namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 
-// The wrenches that a unit of each moment of a link's needs to move as it does.
-// `at`: of the link's frame.
+// One row's columns of one link: where the next goes.
+struct RowWriter {
+  double* row;
+  long stride;
+  const int* place;
 
-// Second moments: I alpha + omega x I omega, in the order of their bits.
+  template <class T>
+  ARMCAL_INLINE void Write(const T& value) {
+    StoreAs(value, row + *place++ * stride);
+  }
+};
+
+// What a unit of each second moment needs to move as its link does,
+// I alpha + omega x I omega, in the order of their bits.
 template <class T>
 ARMCAL_INLINE void SetCouples(unsigned moments, const Acceleration<T>& at,
                               Vector3<T>* couple) {
@@ -24,108 +34,73 @@ ARMCAL_INLINE void SetCouples(unsigned moments, const Acceleration<T>& at,
   if (moments & kIzzOfJoint) *couple++ = {yz, -xz, v.z};
 }
 
-// Column of B along the first moment.
+// The row of a joint with this screw. A unit of first moment along e needs the
+// force B e and the couple e x a, with a the acceleration of the origin.
 template <class T>
-ARMCAL_INLINE Vector3<T> UnitColumn(unsigned moment, const Matrix3<T>& B) {
-  if (moment & (kHx | kSlidingHx)) return Column(B, 0);
-  if (moment & (kHy | kSlidingHy)) return Column(B, 1);
-  return Column(B, 2);
+ARMCAL_INLINE void WriteMoments(unsigned moments, int num_couples,
+                                const Vector3<T>* couples,
+                                const Acceleration<T>& at,
+                                const Screw<T>& screw, RowWriter* to) {
+  for (int c = 0; c < num_couples; ++c) {
+    to->Write(Dot(screw.angular, couples[c]));
+  }
+  if (moments & kMass) to->Write(Dot(screw.linear, at.origin));
+  const Vector3<T> h =
+      Cross(at.origin, screw.angular) + TransposedTimes(at.B, screw.linear);
+  if (moments & kHx) to->Write(h.x);
+  if (moments & kHy) to->Write(h.y);
+  if (moments & kHz) to->Write(h.z);
 }
 
-// Mass and first moments, in the order of their bits. Those of a sliding link
-// are for its own row, where only forces count.
+// That of the link's own joint where Lo is on its axis, one of L's.
 template <class T>
-ARMCAL_INLINE void SetWrenches(unsigned moments, const Acceleration<T>& at,
-                               const Vector3<T>& offset_acceleration,
-                               Wrench<T>* wrench) {
-  const Vector3<T> none = {};
-  if (moments & kMass) *wrench++ = {none, at.origin};
-  for (unsigned h = kHx; h <= kHz; h *= 2) {
-    if (moments & h) {
-      *wrench++ = {UnitCross(h, at.origin), UnitColumn(h, at.B)};
-    }
+ARMCAL_INLINE void WriteOwnMoments(const LinkConstants& link, unsigned moments,
+                                   int num_couples, const Vector3<T>* couples,
+                                   const Acceleration<T>& at, RowWriter* to) {
+  for (int c = 0; c < num_couples; ++c) {
+    const T& along = link.axis_index == 0   ? couples[c].x
+                     : link.axis_index == 1 ? couples[c].y
+                                            : couples[c].z;
+    to->Write(along * link.axis_sign);
   }
-  if (moments & kSlidingMass) {
-    *wrench++ = {none, at.origin + offset_acceleration};
-  }
-  for (unsigned h = kSlidingHx; h <= kSlidingHz; h *= 2) {
-    if (moments & h) *wrench++ = {none, UnitColumn(h, at.B)};
-  }
+  if (moments & kMass) to->Write(T{});
+  const Vector3<T> h = Cross(at.origin, link.axis);
+  if (moments & kHx) to->Write(h.x);
+  if (moments & kHy) to->Write(h.y);
+  if (moments & kHz) to->Write(h.z);
 }
 
-// Takes away what the same inertia needs that is attached to the link before,
-// at q = 0 of a revolute joint and at Fo of a prismatic one.
-template <class T>
-ARMCAL_INLINE void Regroup(const LinkConstants& link, const Acceleration<T>& at,
-                           const Vector3<T>& offset,
-                           const Vector3<T>& offset_acceleration, const T& qd,
-                           const T& qdd, Vector3<T>* couples,
-                           Wrench<T>* wrench) {
-  if (link.moments & kIzzOfJoint) {
-    couples[link.num_couples - 1] = {at.omega.y * qd, -(at.omega.x * qd), qdd};
-  }
-  const Vector3<T> none = {};
-  if (link.moments & kSlidingMass) {
-    *wrench++ = {Cross(offset, at.origin + offset_acceleration),
-                 offset_acceleration};
-  }
-  for (unsigned h = kSlidingHx; h <= kSlidingHz; h *= 2) {
-    if (link.moments & h) {
-      *wrench++ = {UnitCross(h, offset_acceleration) +
-                       Cross(offset, UnitColumn(h, at.B)),
-                   none};
-    }
-  }
+constexpr int CountBits(unsigned bits) {
+  return bits == 0 ? 0 : static_cast<int>(bits & 1) + CountBits(bits >> 1);
 }
 
-// A unit of an unknown length in the present link's frame, and the acceleration
-// that it gives to what lies behind it.
-template <class T>
-struct LengthAcceleration {
-  Vector3<T> unit, acceleration;
-};
-
-// From P to L; `at` is still of P.
-template <class T>
-ARMCAL_INLINE void EnterLink(const ChainConstants& chain, int i,
-                             const Matrix3<T>& E, const Acceleration<T>& at,
-                             LengthAcceleration<T>* lengths) {
-  for (int u = 0; u < chain.num_lengths; ++u) {
-    const LengthConstants& length = chain.lengths[u];
-    if (length.link + 1 == i) {
-      lengths[u] = {Column(E, length.component),
-                    E * Column(at.B, length.component)};
-    } else if (length.link + 1 < i) {
-      lengths[u] = {E * lengths[u].unit, E * lengths[u].acceleration};
-    }
-  }
-}
-
-// A column of a moment times a length has no forces: couples for the rows of
-// joints before the length and behind it, and the value in its own row.
-template <class T>
-struct LengthCouples {
-  Vector3<T> before, behind;
-  T own;
-};
-
-template <class T>
-ARMCAL_INLINE LengthCouples<T> CouplesOf(
-    const LinkConstants& link, unsigned moment,
-    const LengthAcceleration<T>& length, const Acceleration<T>& at,
-    const Vector3<T>& offset, const Vector3<T>& offset_acceleration) {
-  const Vector3<T> axis = Constant<T>(link.axis);
-  LengthCouples<T> c;
-  if (link.rotational) {
-    c.behind = UnitCross(moment, length.acceleration);
-    c.before = c.behind + Cross(length.unit, UnitColumn(moment, at.B));
-    c.own = Dot(axis, c.behind);
+// The columns of link i's moments that do not slide, in rows 0 to i; kMoments:
+// which these are, 0: only `link` knows.
+template <unsigned kMoments, class T>
+ARMCAL_INLINE void WriteColumns(const LinkConstants& link, int i,
+                                const Acceleration<T>& at,
+                                const Screw<T>* screws, const T& qd,
+                                const T& qdd, double* const* out, long offset,
+                                long stride) {
+  const unsigned moments = kMoments != 0 ? kMoments : link.moments;
+  const int num_couples = kMoments != 0
+                              ? CountBits(kMoments & (kMass - 1))
+                              : __builtin_popcount(moments & (kMass - 1));
+  Vector3<T> couples[CountBits(kMass - 1)];
+  SetCouples(moments, at, couples);
+  RowWriter own = {out[i] + offset, stride, PlacesOfRow(link, i)};
+  if (link.axis_index >= 0) {
+    WriteOwnMoments(link, moments, num_couples, couples, at, &own);
   } else {
-    c.behind = Cross(offset, length.acceleration);
-    c.before = c.behind + Cross(length.unit, offset_acceleration);
-    c.own = Dot(axis, length.acceleration);
+    WriteMoments(moments, num_couples, couples, at, screws[i], &own);
   }
-  return c;
+  if (moments & kIzzOfJoint) {
+    couples[num_couples - 1] = {at.omega.y * qd, -(at.omega.x * qd), qdd};
+  }
+  for (int k = 0; k < i; ++k) {
+    RowWriter to = {out[k] + offset, stride, PlacesOfRow(link, k)};
+    WriteMoments(moments, num_couples, couples, at, screws[k], &to);
+  }
 }
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

@@ -75,7 +75,12 @@ struct Wrench {
   Vector3<T> couple, force;  // about the link's origin
 };
 
-// e x a, with e the unit vector of the first moment.
+template <class T>
+ARMCAL_INLINE T Power(const Screw<T>& screw, const Wrench<T>& wrench) {
+  return Dot(screw.angular, wrench.couple) + Dot(screw.linear, wrench.force);
+}
+
+// e x a, with e the unit vector of a first moment.
 template <class T>
 ARMCAL_INLINE Vector3<T> UnitCross(unsigned moment, const Vector3<T>& a) {
   const T zero = {};
@@ -84,14 +89,24 @@ ARMCAL_INLINE Vector3<T> UnitCross(unsigned moment, const Vector3<T>& a) {
   return {-a.y, a.x, zero};
 }
 
-ARMCAL_INLINE const int* PlacesOfRow(const LinkConstants& link, int k) {
-  return link.places +
-         k * (link.num_couples + link.num_wrenches + link.num_length_columns);
+// A set of moments that the compiler knows; 0: any.
+template <unsigned kMoments>
+struct MomentSet {
+  static constexpr unsigned kValue = kMoments;
+};
+template <class Function>
+ARMCAL_INLINE void ForMoments(unsigned moments, const Function& function) {
+  if (moments == kMomentsOfLink) {
+    function(MomentSet<kMomentsOfLink>());
+  } else if (moments == kMomentsOfJoint) {
+    function(MomentSet<kMomentsOfJoint>());
+  } else if (moments & ~kSlidingMoments) {
+    function(MomentSet<0>());
+  }
 }
 
-template <class T>
-ARMCAL_INLINE T Power(const Screw<T>& screw, const Wrench<T>& wrench) {
-  return Dot(screw.angular, wrench.couple) + Dot(screw.linear, wrench.force);
+ARMCAL_INLINE const int* PlacesOfRow(const LinkConstants& link, int k) {
+  return link.places + k * (link.num_moments + link.num_length_columns);
 }
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

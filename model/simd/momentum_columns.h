@@ -21,142 +21,114 @@ ARMCAL_INLINE void EnterLink(const LinkConstants& link, const Matrix3<T>& E,
   at->gravity = E * at->gravity;
 }
 
-// The momentum of a unit of a moment, and the wrench of gravity on it, which of
-// second moments is none and of the mass a force only.
+// A joint's screw S and V x S, with V the twist of its link. With h a link's
+// momentum, dL/dqd is S . h, and dL/dq is (V x S) . h + S . (its weight).
 template <class T>
-struct MomentumWrench {
-  Wrench<T> momentum;
-  Vector3<T> gravity_couple;
+struct MovingScrew {
+  Screw<T> screw, change;
 };
 
-// Second moments: I omega, in the order of their bits.
+// Of the link's own joint at Fo.
 template <class T>
-ARMCAL_INLINE void SetMomentumCouples(unsigned moments, const Vector3<T>& w,
-                                      Vector3<T>* couple) {
-  const T zero = {};
-  if (moments & kIxx) *couple++ = {w.x, zero, zero};
-  if (moments & kIxy) *couple++ = {w.y, w.x, zero};
-  if (moments & kIyy) *couple++ = {zero, w.y, zero};
-  if (moments & kIxz) *couple++ = {w.z, zero, w.x};
-  if (moments & kIyz) *couple++ = {zero, w.z, w.y};
-  if (moments & kIzz) *couple++ = {zero, zero, w.z};
-  if (moments & kIxxMinusIyy) *couple++ = {w.x, -w.y, zero};
-  if (moments & kIzzOfJoint) *couple++ = {zero, zero, w.z};
+ARMCAL_INLINE MovingScrew<T> OwnMovingScrew(const LinkConstants& link,
+                                            const Velocity<T>& at) {
+  const Vector3<T> rate = Cross(at.omega, link.axis), none = {};
+  if (!link.rotational) return {OwnScrew<T>(link), {none, rate}};
+  return {OwnScrew<T>(link), {rate, Cross(at.origin, link.axis)}};
 }
 
-// omega x e, with e the unit vector of the first moment.
-template <class T>
-ARMCAL_INLINE Vector3<T> CrossUnit(const Vector3<T>& omega, unsigned moment) {
-  const Vector3<T> none = {};
-  return none - UnitCross(moment, omega);
-}
+// One row's columns of one link: where the next go.
+struct MomentumWriter {
+  double *P, *D;
+  long stride;
+  const int* place;
 
-// Mass and first moments, in the order of their bits. Those of a sliding link
-// are for its own row, where only forces count.
-template <class T>
-ARMCAL_INLINE void SetMomentumWrenches(unsigned moments, const Velocity<T>& at,
-                                       const Vector3<T>& offset_velocity,
-                                       MomentumWrench<T>* wrench) {
-  const Vector3<T> none = {};
-  if (moments & kMass) *wrench++ = {{none, at.origin}, none};
-  for (unsigned h = kHx; h <= kHz; h *= 2) {
-    if (moments & h) {
-      *wrench++ = {{UnitCross(h, at.origin), CrossUnit(at.omega, h)},
-                   UnitCross(h, at.gravity)};
-    }
+  template <class T>
+  ARMCAL_INLINE void Write(const T& of_P, const T& of_D) {
+    const long at = *place++ * stride;
+    StoreAs(of_P, P + at);
+    StoreAs(of_D, D + at);
   }
-  if (moments & kSlidingMass) {
-    *wrench++ = {{none, at.origin + offset_velocity}, none};
-  }
-  for (unsigned h = kSlidingHx; h <= kSlidingHz; h *= 2) {
-    if (moments & h) *wrench++ = {{none, CrossUnit(at.omega, h)}, none};
-  }
-}
-
-// Takes away the momentum of the same inertia attached to the link before, at
-// q = 0 of a revolute joint and at Fo of a prismatic one.
-template <class T>
-ARMCAL_INLINE void RegroupMomentum(const LinkConstants& link,
-                                   const Velocity<T>& at,
-                                   const Vector3<T>& offset,
-                                   const Vector3<T>& offset_velocity,
-                                   const T& qd, Vector3<T>* couples,
-                                   MomentumWrench<T>* wrench) {
-  const T zero = {};
-  const Vector3<T> none = {};
-  if (link.moments & kIzzOfJoint) {
-    couples[link.num_couples - 1] = {zero, zero, qd};
-  }
-  if (link.moments & kSlidingMass) {
-    *wrench++ = {{Cross(offset, at.origin + offset_velocity), offset_velocity},
-                 Cross(offset, at.gravity)};
-  }
-  for (unsigned h = kSlidingHx; h <= kSlidingHz; h *= 2) {
-    if (link.moments & h) {
-      *wrench++ = {{UnitCross(h, offset_velocity) +
-                        Cross(offset, CrossUnit(at.omega, h)),
-                    none},
-                   none};
-    }
-  }
-}
-
-// A unit of an unknown length in the present link's frame, and the velocity
-// that it gives to what lies behind it.
-template <class T>
-struct LengthVelocity {
-  Vector3<T> unit, velocity;
 };
 
-// From P to L; `omega` is still of P.
+// Along `s` the angular momentum I w of a unit of the second moment; that of
+// kIzzOfJoint is given.
 template <class T>
-ARMCAL_INLINE void EnterLink(const ChainConstants& chain, int i,
-                             const Matrix3<T>& E, const Vector3<T>& omega,
-                             LengthVelocity<T>* lengths) {
-  for (int u = 0; u < chain.num_lengths; ++u) {
-    const LengthConstants& length = chain.lengths[u];
-    if (length.link + 1 == i) {
-      lengths[u].unit = Column(E, length.component);
-      lengths[u].velocity = Cross(E * omega, lengths[u].unit);
-    } else if (length.link + 1 < i) {
-      lengths[u] = {E * lengths[u].unit, E * lengths[u].velocity};
-    }
+ARMCAL_INLINE T Along(unsigned moment, const Vector3<T>& s, const Vector3<T>& w,
+                      const T& izz_of_joint) {
+  switch (moment) {
+    case kIxx:
+      return s.x * w.x;
+    case kIxy:
+      return s.x * w.y + s.y * w.x;
+    case kIyy:
+      return s.y * w.y;
+    case kIxz:
+      return s.x * w.z + s.z * w.x;
+    case kIyz:
+      return s.y * w.z + s.z * w.y;
+    case kIzz:
+      return s.z * w.z;
+    case kIxxMinusIyy:
+      return s.x * w.x - s.y * w.y;
+    default:
+      return s.z * izz_of_joint;
   }
 }
 
-// A column of a moment times a length has no forces: couples for the rows of
-// joints before the length and behind it; what the frame's change gives to
-// those behind; and the values in its own row.
+// The row of a joint. A unit of first moment along e has the momentum omega x
+// e, the angular momentum e x v of the origin's velocity v, and the weight's
+// couple e x g.
 template <class T>
-struct LengthMomentum {
-  Vector3<T> before, behind, change;
-  T own_P, own_D;
+ARMCAL_INLINE void WriteMoments(unsigned moments, const Velocity<T>& at,
+                                const T& izz_of_joint,
+                                const MovingScrew<T>& joint,
+                                MomentumWriter* to) {
+  const Screw<T>&S = joint.screw, &C = joint.change;
+  const Vector3<T>& w = at.omega;
+#pragma GCC unroll 8
+  for (unsigned moment = kIxx; moment < kMass; moment *= 2) {
+    if (!(moments & moment)) continue;
+    to->Write(Along(moment, S.angular, w, izz_of_joint),
+              Along(moment, C.angular, w, izz_of_joint));
+  }
+  if (moments & kMass) {
+    to->Write(Dot(S.linear, at.origin),
+              Dot(C.linear, at.origin) + Dot(S.linear, at.gravity));
+  }
+  const Vector3<T> P = Cross(at.origin, S.angular) + Cross(S.linear, w);
+  const Vector3<T> D = Cross(at.origin, C.angular) + Cross(C.linear, w) +
+                       Cross(at.gravity, S.angular);
+  if (moments & kHx) to->Write(P.x, D.x);
+  if (moments & kHy) to->Write(P.y, D.y);
+  if (moments & kHz) to->Write(P.z, D.z);
+}
+
+// Where samples' rows are.
+struct MomentumOutput {
+  double *const *P, *const *D;
+  long offset, stride;
+
+  MomentumWriter Row(const LinkConstants& link, int k, int column) const {
+    return {P[k] + offset, D[k] + offset, stride,
+            PlacesOfRow(link, k) + column};
+  }
 };
 
-template <class T>
-ARMCAL_INLINE LengthMomentum<T> MomentumOf(const LinkConstants& link,
-                                           unsigned moment,
-                                           const LengthVelocity<T>& length,
-                                           const Velocity<T>& at,
-                                           const Vector3<T>& offset,
-                                           const Vector3<T>& offset_velocity) {
-  const Vector3<T> axis = Constant<T>(link.axis);
-  const Vector3<T> axis_rate = Cross(at.omega, link.axis);
-  const Vector3<T> linear =
-      link.rotational ? CrossUnit(at.omega, moment) : offset_velocity;
-  LengthMomentum<T> m;
-  m.behind = link.rotational ? UnitCross(moment, length.velocity)
-                             : Cross(offset, length.velocity);
-  m.before = m.behind + Cross(length.unit, linear);
-  m.change = Cross(linear, length.velocity);
-  if (link.rotational) {
-    m.own_P = Dot(axis, m.behind);
-    m.own_D = Dot(axis_rate, m.behind) + Dot(axis, m.change);
-  } else {
-    m.own_P = Dot(axis, length.velocity);
-    m.own_D = Dot(axis_rate, length.velocity);
+// The columns of link i's moments that do not slide, in rows 0 to i; kMoments:
+// which these are, 0: only `link` knows.
+template <unsigned kMoments, class T>
+ARMCAL_INLINE void WriteColumns(const LinkConstants& link, int i,
+                                const Velocity<T>& at,
+                                const MovingScrew<T>* joints, const T& qd,
+                                const MomentumOutput& out) {
+  const unsigned moments = kMoments != 0 ? kMoments : link.moments;
+  MomentumWriter own = out.Row(link, i, 0);
+  WriteMoments(moments, at, at.omega.z, joints[i], &own);
+  for (int k = 0; k < i; ++k) {
+    MomentumWriter to = out.Row(link, k, 0);
+    WriteMoments(moments, at, qd, joints[k], &to);
   }
-  return m;
 }
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

@@ -1,0 +1,113 @@
+#pragma once
+
+#include "model/simd/differential_columns.h"
+
+namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
+
+// Columns that only model parameters have: moments of links that slide, and
+// moments times unknown lengths.
+
+// Column of B along a first moment.
+template <class T>
+ARMCAL_INLINE Vector3<T> UnitColumn(unsigned moment, const Matrix3<T>& B) {
+  if (moment & (kHx | kSlidingHx)) return Column(B, 0);
+  if (moment & (kHy | kSlidingHy)) return Column(B, 1);
+  return Column(B, 2);
+}
+
+// Where a sliding link's Lo is relative to Fo, and its acceleration.
+template <class T>
+struct Slide {
+  Vector3<T> offset, acceleration;
+};
+
+// A moment that slides, in rows 0 to i: what it needs beyond the same at Fo,
+// attached to the link before; in its own row the whole force.
+template <class T>
+ARMCAL_INLINE void WriteSliding(const LinkConstants& link, int i,
+                                const Acceleration<T>& at,
+                                const Slide<T>& slide, const Screw<T>* screws,
+                                double* const* out, long offset, long stride) {
+  int column = 0;
+  for (unsigned moment = kSlidingMass; moment <= kSlidingHz; moment *= 2) {
+    if (!(link.moments & moment)) continue;
+    Wrench<T> wrench;
+    Vector3<T> own;
+    if (moment == kSlidingMass) {
+      own = at.origin + slide.acceleration;
+      wrench = {Cross(slide.offset, own), slide.acceleration};
+    } else {
+      own = UnitColumn(moment, at.B);
+      wrench.couple =
+          UnitCross(moment, slide.acceleration) + Cross(slide.offset, own);
+      wrench.force = own - own;
+    }
+    const auto to = [&](int k) {
+      return out[k] + offset + PlacesOfRow(link, k)[column] * stride;
+    };
+    StoreAs(Dot(screws[i].linear, own), to(i));
+    for (int k = 0; k < i; ++k) StoreAs(Power(screws[k], wrench), to(k));
+    ++column;
+  }
+}
+
+// A unit of an unknown length in the present link's frame, and the acceleration
+// that it gives to what lies behind it.
+template <class T>
+struct LengthAcceleration {
+  Vector3<T> unit, acceleration;
+};
+
+// From P to L; `at` is still of P.
+template <class T>
+ARMCAL_INLINE void EnterLink(const ChainConstants& chain, int i,
+                             const Matrix3<T>& E, const Acceleration<T>& at,
+                             LengthAcceleration<T>* lengths) {
+  for (int u = 0; u < chain.num_lengths; ++u) {
+    const LengthConstants& length = chain.lengths[u];
+    if (length.link + 1 == i) {
+      lengths[u] = {Column(E, length.component),
+                    E * Column(at.B, length.component)};
+    } else if (length.link + 1 < i) {
+      lengths[u] = {E * lengths[u].unit, E * lengths[u].acceleration};
+    }
+  }
+}
+
+// Moments times lengths, in rows 0 to i. They need no forces: only couples,
+// others for joints before the length than for those behind it.
+template <class T>
+ARMCAL_INLINE void WriteLengths(const ChainConstants& chain, int i,
+                                const LengthAcceleration<T>* lengths,
+                                const Acceleration<T>& at,
+                                const Slide<T>& slide, const Screw<T>* screws,
+                                double* const* out, long offset, long stride) {
+  const LinkConstants& link = chain.links[i];
+  for (int c = 0; c < link.num_length_columns; ++c) {
+    const LengthColumn& column = link.length_columns[c];
+    const LengthAcceleration<T>& length = lengths[column.length];
+    Vector3<T> behind, before;
+    T own;
+    if (link.rotational) {
+      behind = UnitCross(column.moment, length.acceleration);
+      before = behind + Cross(length.unit, UnitColumn(column.moment, at.B));
+      own = Dot(screws[i].angular, behind);
+    } else {
+      behind = Cross(slide.offset, length.acceleration);
+      before = behind + Cross(length.unit, slide.acceleration);
+      own = Dot(screws[i].linear, length.acceleration);
+    }
+    const auto to = [&](int k) {
+      return out[k] + offset +
+             PlacesOfRow(link, k)[link.num_moments + c] * stride;
+    };
+    StoreAs(own, to(i));
+    const int last_before = chain.lengths[column.length].link;
+    for (int k = 0; k < i; ++k) {
+      StoreAs(Dot(screws[k].angular, k <= last_before ? before : behind),
+              to(k));
+    }
+  }
+}
+
+}  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

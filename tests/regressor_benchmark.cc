@@ -1,0 +1,178 @@
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <string>
+
+#include "model/batch_inverse_dynamics.h"
+#include "model/batch_regressor.h"
+#include "tests/benchmark_log.h"
+
+// Regressors and torques over batches of samples, and sample by sample.
+// Counters: seconds per sample; and flops per second, counted as the fewest
+// that the 60 columns of a 6R arm's links need (2049; 1242 of the torques), to
+// compare with FmaPeak.
+
+namespace armcal {
+namespace {
+
+constexpr int kSamples = 4096;
+constexpr int kChunk = 256;  // rows of the matrices that are filled
+constexpr double kRegressorFlops = 2049, kTorqueFlops = 1242;
+
+struct Arm {
+  Arm() : robot(BenchmarkRobot()), log(BenchmarkLog(robot, kSamples)) {
+    ModelParameters::Options options;
+    options.joint_terms = {JointTerm::kViscous, JointTerm::kCoulomb};
+    options.transitions.assign(robot.links.size(), {CoulombTransition()});
+    parameters = std::make_unique<ModelParameters>(robot, options);
+    coulomb = log.qd;
+  }
+  MotionColumns Motion(long first) const {
+    return {log.q, log.qd, log.qdd, coulomb, first};
+  }
+  Robot robot;
+  Log log;
+  std::unique_ptr<ModelParameters> parameters;
+  Eigen::MatrixXd coulomb;
+};
+
+const Arm& TheArm() {
+  static const Arm arm;
+  return arm;
+}
+
+// Matrices for `rows` samples of each joint's columns.
+class Matrices {
+ public:
+  Matrices(const BatchRegressor& regressor, long rows) {
+    for (int i = 0; i < regressor.num_joints(); ++i) {
+      values_.push_back(Eigen::MatrixXd::Zero(rows, regressor.row_size(i)));
+    }
+    for (Eigen::MatrixXd& matrix : values_) pointers_.push_back(matrix.data());
+  }
+  double* const* out() const { return pointers_.data(); }
+
+ private:
+  std::vector<Eigen::MatrixXd> values_;
+  std::vector<double*> pointers_;
+};
+
+void SetCounters(benchmark::State& state, long samples, double flops) {
+  const double all = static_cast<double>(samples);
+  using benchmark::Counter;
+  state.counters["per_sample"] =
+      Counter(all, Counter::kIsIterationInvariantRate | Counter::kInvert);
+  if (flops > 0) {
+    state.counters["flops"] =
+        Counter(all * flops, Counter::kIsIterationInvariantRate);
+  }
+}
+
+// Fills matrices of `rows` rows again and again.
+void Differential(benchmark::State& state, const BatchRegressor& regressor,
+                  long rows, double flops) {
+  const Matrices U(regressor, rows);
+  std::vector<MotionColumns> motions;
+  for (long first = 0; first + rows <= kSamples; first += rows) {
+    motions.push_back(TheArm().Motion(first));
+  }
+  for (auto _ : state) {
+    for (const MotionColumns& motion : motions) {
+      regressor.Differential(motion, rows, U.out(), rows);
+      benchmark::ClobberMemory();
+    }
+  }
+  SetCounters(state, kSamples, flops);
+}
+
+void Momentum(benchmark::State& state, const BatchRegressor& regressor) {
+  const Matrices P(regressor, kChunk), D(regressor, kChunk);
+  for (auto _ : state) {
+    for (long first = 0; first < kSamples; first += kChunk) {
+      regressor.Momentum(TheArm().Motion(first), kChunk, P.out(), D.out(),
+                         kChunk);
+      benchmark::ClobberMemory();
+    }
+  }
+  SetCounters(state, kSamples, 0);
+}
+
+void Torque(benchmark::State& state, const BatchInverseDynamics& dynamics) {
+  Eigen::MatrixXd tau(kSamples, TheArm().robot.num_joints());
+  std::vector<double*> columns;
+  for (int j = 0; j < tau.cols(); ++j) columns.push_back(tau.col(j).data());
+  for (auto _ : state) {
+    dynamics.Torque(TheArm().Motion(0), kSamples, columns.data());
+    benchmark::ClobberMemory();
+  }
+  SetCounters(state, kSamples, kTorqueFlops);
+}
+
+void SineCosine(benchmark::State& state, const simd::Kernels* kernels) {
+  const Eigen::MatrixXd& q = TheArm().log.q;
+  Eigen::MatrixXd sine = q, cosine = q;
+  for (auto _ : state) {
+    kernels->sine_cosine(q.data(), q.size(), sine.data(), cosine.data());
+    benchmark::ClobberMemory();
+  }
+  SetCounters(state, kSamples, 0);
+}
+
+// One sample at a time, as its callers hold it.
+void OneSample(benchmark::State& state, bool momentum) {
+  Regressor regressor = TheArm().parameters->MakeRegressor();
+  const Log& log = TheArm().log;
+  Eigen::MatrixXd U, D;
+  int s = 0;
+  for (auto _ : state) {
+    const Eigen::VectorXd q = log.q.row(s), qd = log.qd.row(s);
+    if (momentum) {
+      regressor.Momentum(q, qd, qd, &U, &D);
+    } else {
+      regressor.Differential(q, qd, log.qdd.row(s), qd, &U);
+    }
+    benchmark::DoNotOptimize(U.data());
+    s = (s + 1) % kSamples;
+  }
+  SetCounters(state, 1, 0);
+}
+
+void Register(const simd::Kernels* kernels) {
+  const auto add = [&](const std::string& name, const auto& run) {
+    benchmark::RegisterBenchmark(
+        (name + "/" + kernels->instruction_set).c_str(), run);
+  };
+  const auto links = [=] { return BatchRegressor(TheArm().robot, *kernels); };
+  const auto model = [=] {
+    return BatchRegressor(*TheArm().parameters, *kernels);
+  };
+  add("SineCosine", [=](auto& state) { SineCosine(state, kernels); });
+  add("LinkColumns", [=](auto& state) {
+    Differential(state, links(), kChunk, kRegressorFlops);
+  });
+  add("LinkColumnsInL1", [=](auto& state) {
+    Differential(state, links(), kernels->lanes, kRegressorFlops);
+  });
+  add("ModelColumns",
+      [=](auto& state) { Differential(state, model(), kChunk, 0); });
+  add("ModelMomentum", [=](auto& state) { Momentum(state, model()); });
+  add("LinkMomentum", [=](auto& state) { Momentum(state, links()); });
+  add("Torque", [=](auto& state) {
+    Torque(state, BatchInverseDynamics(TheArm().robot, *kernels));
+  });
+}
+
+const bool registered = [] {
+  for (const simd::Kernels* kernels : simd::AvailableKernels()) {
+    Register(kernels);
+  }
+  for (const bool momentum : {false, true}) {
+    benchmark::RegisterBenchmark(
+        momentum ? "RegressorMomentum" : "RegressorDifferential",
+        [=](auto& state) { OneSample(state, momentum); });
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace armcal
