@@ -39,6 +39,7 @@ LinkConstants MakeLink(JointType type, const Isometry3d& X_PF,
   Copy(Vector3d(X_PF.translation()), link.p_PF);
   Copy(p_ML, link.p_ML);
   Copy(axis, link.axis);
+  Copy(axis, link.rotational ? link.angular : link.linear);
   link.has_offset = !link.rotational || !p_ML.isZero(0);
   link.axis_index = -1;
   for (int k = 0; k < 3 && !link.has_offset; ++k) {

@@ -50,6 +50,10 @@ struct LinkConstants {
   double p_PF[3];  // m, of Fo in P, without the unknown lengths
   double p_ML[3];  // m, from Mo to Lo, in L
   double axis[3];  // of the joint, in L
+  // A unit of the joint's velocity moves L so: angular, and linear of Fo. One
+  // of them is the axis and the other 0, so that all joints have the same
+  // formulas.
+  double angular[3], linear[3];
   // Where Lo = Mo and the axis is one of L's: which, and its sense; else -1.
   int axis_index;
   double axis_sign;

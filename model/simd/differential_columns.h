@@ -52,16 +52,15 @@ ARMCAL_INLINE void WriteMoments(unsigned moments, int num_couples,
   if (moments & kHz) to->Write(h.z);
 }
 
-// That of the link's own joint where Lo is on its axis, one of L's.
-template <class T>
+// That of the link's own joint where Lo is on its axis, which is x, y or z of
+// L.
+template <class T, class Along>
 ARMCAL_INLINE void WriteOwnMoments(const LinkConstants& link, unsigned moments,
                                    int num_couples, const Vector3<T>* couples,
-                                   const Acceleration<T>& at, RowWriter* to) {
+                                   const Acceleration<T>& at,
+                                   const Along& along, RowWriter* to) {
   for (int c = 0; c < num_couples; ++c) {
-    const T& along = link.axis_index == 0   ? couples[c].x
-                     : link.axis_index == 1 ? couples[c].y
-                                            : couples[c].z;
-    to->Write(along * link.axis_sign);
+    to->Write(along(couples[c]) * link.axis_sign);
   }
   if (moments & kMass) to->Write(T{});
   const Vector3<T> h = Cross(at.origin, link.axis);
@@ -89,10 +88,21 @@ ARMCAL_INLINE void WriteColumns(const LinkConstants& link, int i,
   Vector3<T> couples[CountBits(kMass - 1)];
   SetCouples(moments, at, couples);
   RowWriter own = {out[i] + offset, stride, PlacesOfRow(link, i)};
-  if (link.axis_index >= 0) {
-    WriteOwnMoments(link, moments, num_couples, couples, at, &own);
-  } else {
-    WriteMoments(moments, num_couples, couples, at, screws[i], &own);
+  const auto write_own = [&](const auto& along) ARMCAL_LAMBDA {
+    WriteOwnMoments(link, moments, num_couples, couples, at, along, &own);
+  };
+  switch (link.axis_index) {
+    case 0:
+      write_own([](const Vector3<T>& couple) { return couple.x; });
+      break;
+    case 1:
+      write_own([](const Vector3<T>& couple) { return couple.y; });
+      break;
+    case 2:
+      write_own([](const Vector3<T>& couple) { return couple.z; });
+      break;
+    default:
+      WriteMoments(moments, num_couples, couples, at, screws[i], &own);
   }
   if (moments & kIzzOfJoint) {
     couples[num_couples - 1] = {at.omega.y * qd, -(at.omega.x * qd), qdd};

@@ -15,42 +15,6 @@ ARMCAL_INLINE Vector3<T> UnitColumn(unsigned moment, const Matrix3<T>& B) {
   return Column(B, 2);
 }
 
-// Where a sliding link's Lo is relative to Fo, and its acceleration.
-template <class T>
-struct Slide {
-  Vector3<T> offset, acceleration;
-};
-
-// A moment that slides, in rows 0 to i: what it needs beyond the same at Fo,
-// attached to the link before; in its own row the whole force.
-template <class T>
-ARMCAL_INLINE void WriteSliding(const LinkConstants& link, int i,
-                                const Acceleration<T>& at,
-                                const Slide<T>& slide, const Screw<T>* screws,
-                                double* const* out, long offset, long stride) {
-  int column = 0;
-  for (unsigned moment = kSlidingMass; moment <= kSlidingHz; moment *= 2) {
-    if (!(link.moments & moment)) continue;
-    Wrench<T> wrench;
-    Vector3<T> own;
-    if (moment == kSlidingMass) {
-      own = at.origin + slide.acceleration;
-      wrench = {Cross(slide.offset, own), slide.acceleration};
-    } else {
-      own = UnitColumn(moment, at.B);
-      wrench.couple =
-          UnitCross(moment, slide.acceleration) + Cross(slide.offset, own);
-      wrench.force = own - own;
-    }
-    const auto to = [&](int k) {
-      return out[k] + offset + PlacesOfRow(link, k)[column] * stride;
-    };
-    StoreAs(Dot(screws[i].linear, own), to(i));
-    for (int k = 0; k < i; ++k) StoreAs(Power(screws[k], wrench), to(k));
-    ++column;
-  }
-}
-
 // A unit of an unknown length in the present link's frame, and the acceleration
 // that it gives to what lies behind it.
 template <class T>
@@ -74,39 +38,68 @@ ARMCAL_INLINE void EnterLink(const ChainConstants& chain, int i,
   }
 }
 
-// Moments times lengths, in rows 0 to i. They need no forces: only couples,
-// others for joints before the length than for those behind it.
+// Link i's length column c, in rows 0 to i. It needs no force: only a couple,
+// another one `before` the length, for joints that move it, than `behind`.
 template <class T>
-ARMCAL_INLINE void WriteLengths(const ChainConstants& chain, int i,
-                                const LengthAcceleration<T>* lengths,
-                                const Acceleration<T>& at,
-                                const Slide<T>& slide, const Screw<T>* screws,
-                                double* const* out, long offset, long stride) {
+ARMCAL_INLINE void WriteLength(const ChainConstants& chain, int i, int c,
+                               const Vector3<T>& before,
+                               const Vector3<T>& behind, const T& own,
+                               const Screw<T>* screws, double* const* out,
+                               long offset, long stride) {
   const LinkConstants& link = chain.links[i];
-  for (int c = 0; c < link.num_length_columns; ++c) {
-    const LengthColumn& column = link.length_columns[c];
-    const LengthAcceleration<T>& length = lengths[column.length];
-    Vector3<T> behind, before;
-    T own;
-    if (link.rotational) {
-      behind = UnitCross(column.moment, length.acceleration);
-      before = behind + Cross(length.unit, UnitColumn(column.moment, at.B));
-      own = Dot(screws[i].angular, behind);
+  const int last_before = chain.lengths[link.length_columns[c].length].link;
+  for (int k = 0; k <= i; ++k) {
+    double* to =
+        out[k] + offset + PlacesOfRow(link, k)[link.num_moments + c] * stride;
+    StoreAs(k == i ? own
+                   : Dot(screws[k].angular, k <= last_before ? before : behind),
+            to);
+  }
+}
+
+// Where a sliding link's Lo is relative to Fo, and its acceleration.
+template <class T>
+struct Slide {
+  Vector3<T> offset, acceleration;
+};
+
+// All columns of a link that slides, in rows 0 to i: what it needs beyond the
+// same at Fo, attached to the link before; in its own row the whole force.
+template <class T>
+ARMCAL_INLINE void WriteSliding(const ChainConstants& chain, int i,
+                                const Acceleration<T>& at,
+                                const Slide<T>& slide,
+                                const LengthAcceleration<T>* lengths,
+                                const Screw<T>* screws, double* const* out,
+                                long offset, long stride) {
+  const LinkConstants& link = chain.links[i];
+  int column = 0;
+  for (unsigned moment = kSlidingMass; moment <= kSlidingHz; moment *= 2) {
+    if (!(link.moments & moment)) continue;
+    Wrench<T> wrench;
+    Vector3<T> own;
+    if (moment == kSlidingMass) {
+      own = at.origin + slide.acceleration;
+      wrench = {Cross(slide.offset, own), slide.acceleration};
     } else {
-      behind = Cross(slide.offset, length.acceleration);
-      before = behind + Cross(length.unit, slide.acceleration);
-      own = Dot(screws[i].linear, length.acceleration);
+      own = UnitColumn(moment, at.B);
+      wrench.couple =
+          UnitCross(moment, slide.acceleration) + Cross(slide.offset, own);
+      wrench.force = own - own;
     }
-    const auto to = [&](int k) {
-      return out[k] + offset +
-             PlacesOfRow(link, k)[link.num_moments + c] * stride;
-    };
-    StoreAs(own, to(i));
-    const int last_before = chain.lengths[column.length].link;
-    for (int k = 0; k < i; ++k) {
-      StoreAs(Dot(screws[k].angular, k <= last_before ? before : behind),
-              to(k));
+    for (int k = 0; k <= i; ++k) {
+      StoreAs(k == i ? Dot(screws[i].linear, own) : Power(screws[k], wrench),
+              out[k] + offset + PlacesOfRow(link, k)[column] * stride);
     }
+    ++column;
+  }
+  for (int c = 0; c < link.num_length_columns; ++c) {
+    const LengthAcceleration<T>& length =
+        lengths[link.length_columns[c].length];
+    const Vector3<T> behind = Cross(slide.offset, length.acceleration);
+    WriteLength(chain, i, c, behind + Cross(length.unit, slide.acceleration),
+                behind, Dot(screws[i].linear, length.acceleration), screws, out,
+                offset, stride);
   }
 }
 

@@ -13,41 +13,45 @@ __attribute__((noinline)) void DifferentialAt(const ChainConstants& chain,
                                               long stride) {
   auto* screws = ARMCAL_SCRATCH(Screw<T>, chain.num_links);
   auto* lengths = ARMCAL_SCRATCH(LengthAcceleration<T>, chain.num_lengths);
+  auto* angles = ARMCAL_SCRATCH(SineAndCosine<T>, chain.num_links);
+  SineCosineOfJoints(chain, motion, sample, angles);
   Acceleration<T> at = AtRest<T>(chain);
   for (int i = 0; i < chain.num_links; ++i) {
     const LinkConstants& link = chain.links[i];
     const T q = LoadAs<T>(motion.q[i] + sample);
     const T qd = LoadAs<T>(motion.qd[i] + sample);
     const T qdd = LoadAs<T>(motion.qdd[i] + sample);
-    const Matrix3<T> E = Rotation(link, q);
+    const Matrix3<T> E = Rotation(link, angles[i]);
     EnterLink(chain, i, E, at, lengths);
     EnterLink(link, E, &at);
     AddJoint(link, qd, qdd, &at);
     for (int k = 0; k < i; ++k) EnterLink(link, E, &screws[k]);
     screws[i] = OwnScrew<T>(link);
 
-    Slide<T> slide;
-    const auto leave_joint = [&] {
-      at.origin = at.origin + slide.acceleration;
-      for (int k = 0; k <= i; ++k) Shift(slide.offset, &screws[k]);
-    };
     if (link.has_offset) {
-      slide.offset = Offset(link, q);
-      slide.acceleration = OffsetAcceleration(link, slide.offset, qd, qdd, at);
-      if (!link.regrouped) leave_joint();
+      const Vector3<T> offset = Offset(link, q);
+      const Slide<T> slide = {offset,
+                              OffsetAcceleration(link, offset, qd, qdd, at)};
+      if (link.regrouped) {
+        WriteSliding(chain, i, at, slide, lengths, screws, out, sample, stride);
+      }
+      at.origin = at.origin + slide.acceleration;
+      for (int k = 0; k <= i; ++k) Shift(offset, &screws[k]);
+      if (link.regrouped) continue;
     }
-    const auto write = [&](auto moments) __attribute__((always_inline)) {
+    ForMoments(link.moments, [&](auto moments) ARMCAL_LAMBDA {
       WriteColumns<decltype(moments)::kValue>(link, i, at, screws, qd, qdd, out,
                                               sample, stride);
-    };
-    ForMoments(link.moments, write);
-    if (link.moments & kSlidingMoments) {
-      WriteSliding(link, i, at, slide, screws, out, sample, stride);
+    });
+    for (int c = 0; c < link.num_length_columns; ++c) {
+      const LengthColumn& column = link.length_columns[c];
+      const LengthAcceleration<T>& length = lengths[column.length];
+      const Vector3<T> behind = UnitCross(column.moment, length.acceleration);
+      WriteLength(chain, i, c,
+                  behind + Cross(length.unit, UnitColumn(column.moment, at.B)),
+                  behind, Dot(screws[i].angular, behind), screws, out, sample,
+                  stride);
     }
-    if (link.num_length_columns > 0) {
-      WriteLengths(chain, i, lengths, at, slide, screws, out, sample, stride);
-    }
-    if (link.has_offset && link.regrouped) leave_joint();
   }
 }
 

@@ -22,17 +22,33 @@ ARMCAL_INLINE void StoreAs(const T& x, double* to) {
   static_cast<type*>(               \
       __builtin_alloca_with_align((count) * sizeof(type) + sizeof(type), 512))
 
-// R_LP at q.
 template <class T>
-ARMCAL_INLINE Matrix3<T> Rotation(const LinkConstants& link, const T& q) {
-  T s{}, c{};
-  if (link.rotational) SineCosine(q, &s, &c);
-  const auto entry = [&](int k) {
-    return c * link.Rc[k] + (s * link.Rs[k] + link.R0[k]);
+struct SineAndCosine {
+  T sine, cosine;
+};
+// Of all joints' angles, which do not wait for one another.
+template <class T>
+ARMCAL_INLINE void SineCosineOfJoints(const ChainConstants& chain,
+                                      const ChainMotion& motion, long sample,
+                                      SineAndCosine<T>* of) {
+  for (int i = 0; i < chain.num_links; ++i) {
+    if (!chain.links[i].rotational) continue;
+    SineCosine(LoadAs<T>(motion.q[i] + sample), &of[i].sine, &of[i].cosine);
+  }
+}
+
+// R_LP.
+template <class T>
+ARMCAL_INLINE Matrix3<T> Rotation(const LinkConstants& link,
+                                  const SineAndCosine<T>& q) {
+  Matrix3<T> R = {Constant<T>(link.R0), Constant<T>(link.R0 + 3),
+                  Constant<T>(link.R0 + 6)};
+  if (!link.rotational) return R;
+  const auto row = [&](const Vector3<T>& constant, int k) {
+    return constant +
+           (Times(link.Rs + k, q.sine) + Times(link.Rc + k, q.cosine));
   };
-  return {{entry(0), entry(1), entry(2)},
-          {entry(3), entry(4), entry(5)},
-          {entry(6), entry(7), entry(8)}};
+  return {row(R.x, 0), row(R.y, 3), row(R.z, 6)};
 }
 
 // From Fo to Lo, in L.
@@ -42,9 +58,8 @@ ARMCAL_INLINE Vector3<T> Offset(const LinkConstants& link, const T& q) {
   return link.rotational ? constant : constant + Times(link.axis, q);
 }
 
-// A unit of a joint's velocity as it moves the present link's frame, expressed
-// in it: angular, and linear of its origin. Of a prismatic joint `angular` is
-// 0, so that both kinds of joints have the same formulas.
+// How a unit of a joint's velocity moves the present link's frame, expressed in
+// it: angular, and linear of its origin.
 template <class T>
 struct Screw {
   Vector3<T> angular, linear;
@@ -66,8 +81,7 @@ ARMCAL_INLINE void EnterLink(const LinkConstants& link, const Matrix3<T>& E,
 // The link's own joint's, in L at Fo.
 template <class T>
 ARMCAL_INLINE Screw<T> OwnScrew(const LinkConstants& link) {
-  const Vector3<T> axis = Constant<T>(link.axis), zero = {};
-  return link.rotational ? Screw<T>{axis, zero} : Screw<T>{zero, axis};
+  return {Constant<T>(link.angular), Constant<T>(link.linear)};
 }
 
 template <class T>

@@ -16,6 +16,7 @@ typedef double Lanes __attribute__((vector_size(kLanes * sizeof(double))));
 typedef long Integers __attribute__((vector_size(kLanes * sizeof(long))));
 
 #define ARMCAL_INLINE inline __attribute__((always_inline))
+#define ARMCAL_LAMBDA __attribute__((always_inline))
 
 ARMCAL_INLINE Lanes Load(const double* from) {
   Lanes x;

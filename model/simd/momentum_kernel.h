@@ -14,13 +14,15 @@ __attribute__((noinline)) void MomentumAt(const ChainConstants& chain,
   auto* joints = ARMCAL_SCRATCH(MovingScrew<T>, chain.num_links);
   auto* lengths = ARMCAL_SCRATCH(LengthVelocity<T>, chain.num_lengths);
   const MomentumOutput out = {P, D, sample, stride};
+  auto* angles = ARMCAL_SCRATCH(SineAndCosine<T>, chain.num_links);
+  SineCosineOfJoints(chain, motion, sample, angles);
   const Vector3<T> none = {};
   Velocity<T> at = {none, none, Constant<T>(chain.gravity)};
   for (int i = 0; i < chain.num_links; ++i) {
     const LinkConstants& link = chain.links[i];
     const T q = LoadAs<T>(motion.q[i] + sample);
     const T qd = LoadAs<T>(motion.qd[i] + sample);
-    const Matrix3<T> E = Rotation(link, q);
+    const Matrix3<T> E = Rotation(link, angles[i]);
     EnterLink(chain, i, E, at.omega, lengths);
     EnterLink(link, E, &at);
     for (int k = 0; k < i; ++k) {
@@ -31,31 +33,31 @@ __attribute__((noinline)) void MomentumAt(const ChainConstants& chain,
     if (link.rotational) at.omega = at.omega + way;
     joints[i] = OwnMovingScrew(link, at);
 
-    SlideVelocity<T> slide;
-    const auto leave_joint = [&] {
+    if (link.has_offset) {
+      SlideVelocity<T> slide;
+      slide.offset = Offset(link, q);
+      slide.velocity = Cross(at.omega, slide.offset);
+      if (!link.rotational) slide.velocity = slide.velocity + way;
+      if (link.regrouped) {
+        WriteSliding(chain, i, at, slide, lengths, joints, out);
+      }
       at.origin = at.origin + slide.velocity;
       for (int k = 0; k <= i; ++k) {
         Shift(slide.offset, &joints[k].screw);
         Shift(slide.offset, &joints[k].change);
       }
-    };
-    if (link.has_offset) {
-      slide.offset = Offset(link, q);
-      slide.velocity = Cross(at.omega, slide.offset);
-      if (!link.rotational) slide.velocity = slide.velocity + way;
-      if (!link.regrouped) leave_joint();
+      if (link.regrouped) continue;
     }
-    ForMoments(
-        link.moments, [&](auto moments) __attribute__((always_inline)) {
-          WriteColumns<decltype(moments)::kValue>(link, i, at, joints, qd, out);
-        });
-    if (link.moments & kSlidingMoments) {
-      WriteSliding(link, i, at, slide, joints, out);
+    ForMoments(link.moments, [&](auto moments) ARMCAL_LAMBDA {
+      WriteColumns<decltype(moments)::kValue>(link, i, at, joints, qd, out);
+    });
+    for (int c = 0; c < link.num_length_columns; ++c) {
+      const LengthColumn& column = link.length_columns[c];
+      const Vector3<T> linear = CrossUnit(at.omega, column.moment);
+      const Vector3<T> couple =
+          UnitCross(column.moment, lengths[column.length].velocity);
+      WriteLength(chain, i, c, linear, couple, lengths, joints, out);
     }
-    if (link.num_length_columns > 0) {
-      WriteLengths(chain, i, lengths, at, slide, joints, out);
-    }
-    if (link.has_offset && link.regrouped) leave_joint();
   }
 }
 

@@ -36,6 +36,8 @@ __attribute__((noinline)) void NewtonEulerAt(const ChainConstants& chain,
                                              const ChainMotion& motion,
                                              long sample, double* const* tau) {
   auto* links = ARMCAL_SCRATCH(LinkState<T>, chain.num_links);
+  auto* angles = ARMCAL_SCRATCH(SineAndCosine<T>, chain.num_links);
+  SineCosineOfJoints(chain, motion, sample, angles);
   Acceleration<T> at = AtRest<T>(chain);
   for (int i = 0; i < chain.num_links; ++i) {
     const LinkConstants& link = chain.links[i];
@@ -43,7 +45,7 @@ __attribute__((noinline)) void NewtonEulerAt(const ChainConstants& chain,
     const T q = LoadAs<T>(motion.q[i] + sample);
     const T qd = LoadAs<T>(motion.qd[i] + sample);
     const T qdd = LoadAs<T>(motion.qdd[i] + sample);
-    state.E = Rotation(link, q);
+    state.E = Rotation(link, angles[i]);
     EnterLink(link, state.E, &at);
     AddJoint(link, qd, qdd, &at);
     state.offset = Offset(link, q);
