@@ -27,13 +27,25 @@ struct SineAndCosine {
   T sine, cosine;
 };
 // Of all joints' angles, which do not wait for one another.
-template <class T>
 ARMCAL_INLINE void SineCosineOfJoints(const ChainConstants& chain,
                                       const ChainMotion& motion, long sample,
-                                      SineAndCosine<T>* of) {
+                                      SineAndCosine<Lanes>* of) {
   for (int i = 0; i < chain.num_links; ++i) {
     if (!chain.links[i].rotational) continue;
-    SineCosine(LoadAs<T>(motion.q[i] + sample), &of[i].sine, &of[i].cosine);
+    SineCosine(Load(motion.q[i] + sample), &of[i].sine, &of[i].cosine);
+  }
+}
+// Of one sample: its joints are the lanes.
+ARMCAL_INLINE void SineCosineOfJoints(const ChainConstants& chain,
+                                      const ChainMotion& motion, long sample,
+                                      SineAndCosine<double>* of) {
+  for (int first = 0; first < chain.num_links; first += kLanes) {
+    const int left = chain.num_links - first;
+    const int joints = left < kLanes ? left : kLanes;
+    Lanes q = {}, sine, cosine;
+    for (int k = 0; k < joints; ++k) q[k] = motion.q[first + k][sample];
+    SineCosine(q, &sine, &cosine);
+    for (int k = 0; k < joints; ++k) of[first + k] = {sine[k], cosine[k]};
   }
 }
 
