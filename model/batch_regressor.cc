@@ -42,7 +42,7 @@ BatchRegressor::BatchRegressor(const ModelParameters& parameters,
                                const simd::Kernels& kernels)
     : plan_(std::make_shared<RegressorPlan>(
           parameters.chain(), parameters.unknown_lengths(),
-          parameters.MakeRegressor().columns())),
+          parameters.MakeRegressor().columns(), RegressorPlan::Places::kRanks)),
       kernels_(&kernels) {}
 
 BatchRegressor::BatchRegressor(const Robot& robot, const simd::Kernels& kernels)

@@ -1,6 +1,7 @@
 #include "model/regressor_plan.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace armcal {
 namespace {
@@ -75,9 +76,15 @@ LinkMoment MomentOf(Moment moment, bool rotational) {
   return simd::kIzzOfJoint;
 }
 
-// Numbers of row i's columns, ascending.
-std::vector<int> RowColumns(const RegressorColumns& columns, int i) {
+// Numbers of row i's columns, ascending; those that are places themselves: all.
+std::vector<int> RowColumns(const RegressorColumns& columns, int i,
+                            RegressorPlan::Places places) {
   std::vector<int> row;
+  if (places == RegressorPlan::Places::kNumbers) {
+    row.resize(columns.size());
+    std::iota(row.begin(), row.end(), 0);
+    return row;
+  }
   for (size_t c = 0; c < columns.moments.size(); ++c) {
     if (columns.moments[c].block >= i) row.push_back(columns.moment_index[c]);
   }
@@ -96,7 +103,7 @@ int PlaceIn(const std::vector<int>& row, int column) {
 
 RegressorPlan::RegressorPlan(const ProximalChain& chain,
                              const std::vector<Length>& unknown,
-                             const RegressorColumns& columns) {
+                             const RegressorColumns& columns, Places places) {
   Isometry3d X_PF = Isometry3d::Identity();  // of G_i in J_{i-1}
   for (const ProximalJoint& joint : chain.joints) {
     const Isometry3d X_MJ(Eigen::AngleAxisd(joint.theta, Vector3d::UnitZ()));
@@ -109,15 +116,15 @@ RegressorPlan::RegressorPlan(const ProximalChain& chain,
     lengths_.push_back({length.joint, length.component});
     links_[length.joint + 1].p_PF[length.component] = 0;
   }
-  AddColumns(columns);
+  AddColumns(columns, places);
   Connect(chain.gravity);
 }
 
-void RegressorPlan::AddColumns(const RegressorColumns& columns) {
+void RegressorPlan::AddColumns(const RegressorColumns& columns, Places places) {
   const int n = num_joints();
   std::vector<std::vector<int>> rows(n);
   for (int i = 0; i < n; ++i) {
-    rows[i] = RowColumns(columns, i);
+    rows[i] = RowColumns(columns, i, places);
     row_sizes_.push_back(static_cast<int>(rows[i].size()));
   }
   length_columns_.resize(n);

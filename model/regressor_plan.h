@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "model/proximal_chain.h"
-#include "model/regressor.h"
+#include "model/regressor_columns.h"
 #include "model/robot.h"
 #include "model/simd/chain_constants.h"
 
@@ -13,9 +13,13 @@ namespace armcal {
 // wanted, prepared once.
 class RegressorPlan {
  public:
+  // Where a column goes in each row: to its rank among the columns that can be
+  // nonzero there, or to its number.
+  enum class Places { kRanks, kNumbers };
+
   // Columns of model parameters, in the frames J of the chain.
   RegressorPlan(const ProximalChain& chain, const std::vector<Length>& unknown,
-                const RegressorColumns& columns);
+                const RegressorColumns& columns, Places places);
   // The ten inertial parameters of each link, in the links' frames; none of
   // them where only the chain is wanted.
   RegressorPlan(const Robot& robot, bool with_columns);
@@ -35,7 +39,7 @@ class RegressorPlan {
   const std::vector<Term>& terms() const { return terms_; }
 
  private:
-  void AddColumns(const RegressorColumns& columns);
+  void AddColumns(const RegressorColumns& columns, Places places);
   void Connect(const Eigen::Vector3d& gravity);
 
   std::vector<simd::LinkConstants> links_;

@@ -68,7 +68,7 @@ class Rows {
   const long stride;
 };
 
-// One sample's P, D and U by automatic differentiation.
+// One sample's P, D and U of the model parameters by automatic differentiation.
 struct DualNumbers {
   using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
 
@@ -119,6 +119,23 @@ ModelParameters Model(const Robot& robot, GeometryKnowledge geometry) {
   return ModelParameters(robot, options);
 }
 
+double Error(const MatrixXd& value, const MatrixXd& truth) {
+  return (value - truth).cwiseAbs().maxCoeff() / truth.cwiseAbs().maxCoeff();
+}
+
+void ExpectOneSample(const ModelParameters& parameters, const Motion& motion,
+                     int s, const DualNumbers& truth) {
+  MatrixXd U, P, D;
+  Regressor regressor = parameters.MakeRegressor();
+  regressor.Differential(motion.q.row(s), motion.qd.row(s), motion.qdd.row(s),
+                         motion.coulomb.row(s), &U);
+  regressor.Momentum(motion.q.row(s), motion.qd.row(s), motion.coulomb.row(s),
+                     &P, &D);
+  EXPECT_LT(Error(U, truth.U), 1e-12);
+  EXPECT_LT(Error(P, truth.P), 1e-12);
+  EXPECT_LT(Error(D, truth.D), 1e-12);
+}
+
 void ExpectDualNumbers(const ModelParameters& parameters, int count,
                        std::mt19937_64* random) {
   const int n = parameters.num_joints();
@@ -132,6 +149,7 @@ void ExpectDualNumbers(const ModelParameters& parameters, int count,
     double worst = 0;
     for (int s = 0; s < count; s += 1 + count / 20) {
       const DualNumbers truth(parameters, motion, s);
+      ExpectOneSample(parameters, motion, s, truth);
       for (int i = 0; i < n; ++i) {
         const std::vector<int>& columns = parameters.row_columns(i);
         ASSERT_EQ(regressor.row_size(i), columns.size());
