@@ -166,20 +166,22 @@ void RegressorPlan::AddColumns(const RegressorColumns& columns, Places places) {
   }
 }
 
-RegressorPlan::RegressorPlan(const Robot& robot, bool with_columns) {
+RegressorPlan::RegressorPlan(const Robot& robot, Places places) {
   const int n = robot.num_joints();
   length_columns_.resize(n);
   places_.resize(n);
   for (int i = 0; i < n; ++i) {
     const Link& link = robot.links[i];
     links_.push_back(MakeLink(link.joint.type, link.X_PF, link.X_ML));
-    row_sizes_.push_back(with_columns ? 10 * (n - i) : 1);
-    if (!with_columns) continue;
+    const int first_row = places == Places::kRanks ? i : 0;
+    row_sizes_.push_back(places == Places::kNone ? 1 : 10 * (n - first_row));
+    if (places == Places::kNone) continue;
     links_[i].num_moments = 10;
     links_[i].moments = simd::kMomentsOfLink;
     for (int k = 0; k <= i; ++k) {
       for (const int c : {4, 5, 6, 7, 8, 9, 0, 1, 2, 3}) {
-        places_[i].push_back(10 * (i - k) + c);
+        const int first = places == Places::kRanks ? k : 0;  // link of the row
+        places_[i].push_back(10 * (i - first) + c);
       }
     }
   }

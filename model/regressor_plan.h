@@ -14,15 +14,14 @@ namespace armcal {
 class RegressorPlan {
  public:
   // Where a column goes in each row: to its rank among the columns that can be
-  // nonzero there, or to its number.
-  enum class Places { kRanks, kNumbers };
+  // nonzero there, or to its number; kNone: only the chain is wanted.
+  enum class Places { kRanks, kNumbers, kNone };
 
   // Columns of model parameters, in the frames J of the chain.
   RegressorPlan(const ProximalChain& chain, const std::vector<Length>& unknown,
                 const RegressorColumns& columns, Places places);
-  // The ten inertial parameters of each link, in the links' frames; none of
-  // them where only the chain is wanted.
-  RegressorPlan(const Robot& robot, bool with_columns);
+  // The ten inertial parameters of each link, in the links' frames.
+  RegressorPlan(const Robot& robot, Places places);
   RegressorPlan(const RegressorPlan&) = delete;
 
   const simd::ChainConstants& chain() const { return chain_; }

@@ -217,7 +217,7 @@ Robot ArmWithFrames(int n, int trial, std::mt19937_64* random) {
 }
 
 // Columns of the links' own parameters: the torque is linear in them, so each
-// is Newton-Euler with a unit of one of them; P and D are LinkRegressor's.
+// is Newton-Euler with a unit of one of them; P and D are LinkRegressor's sums.
 TEST(BatchRegressor, GivesTheLinksColumns) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 24; ++trial) {
@@ -227,15 +227,19 @@ TEST(BatchRegressor, GivesTheLinksColumns) {
     const Motion motion(&random, count, n, 0);
     const VectorXd q = motion.q.row(s), qd = motion.qd.row(s),
                    qdd = motion.qdd.row(s);
-    MatrixXd U_true(n, 10 * n), P_true, D_true;
+    MatrixXd U_true(n, 10 * n), P_true = U_true, D_true = U_true;
+    LinkRegressor links(robot);
     for (int c = 0; c < 10 * n; ++c) {
       Robot unit = robot;
       for (Link& link : unit.links) link.inertial = {};
       unit.links[c / 10].inertial =
           InertialParameters::FromVector(Vector10d::Unit(c % 10));
       U_true.col(c) = InverseDynamics(unit, q, qd, qdd);
+      VectorXd P, D;
+      links.Momentum(q, qd, VectorXd::Unit(10 * n, c), &P, &D);
+      P_true.col(c) = P;
+      D_true.col(c) = D;
     }
-    LinkRegressor(robot).Momentum(q, qd, &P_true, &D_true);
     for (const simd::Kernels* kernels : simd::AvailableKernels()) {
       SCOPED_TRACE(kernels->instruction_set);
       const BatchRegressor regressor(robot, *kernels);
