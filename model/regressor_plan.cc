@@ -120,41 +120,42 @@ RegressorPlan::RegressorPlan(const ProximalChain& chain,
   Connect(chain.gravity);
 }
 
+// Link i's columns of the model: returns their numbers in the order of
+// LinkConstants::places.
+std::vector<int> RegressorPlan::AddLink(const RegressorColumns& columns,
+                                        int i) {
+  LinkConstants& link = links_[i];
+  const unsigned all =
+      link.rotational ? simd::kMomentsOfJoint : simd::kSlidingMoments;
+  link.num_moments = __builtin_popcount(all);
+  std::vector<int> numbers(link.num_moments, -1);
+  for (size_t c = 0; c < columns.moments.size(); ++c) {
+    const MomentColumn& column = columns.moments[c];
+    if (column.block != i) continue;
+    const LinkMoment moment = MomentOf(column.moment, link.rotational);
+    if (column.length < 0) {
+      link.moments = all;
+      numbers[__builtin_popcount(all & (moment - 1))] = columns.moment_index[c];
+    } else {
+      length_columns_[i].push_back({moment, column.length});
+      numbers.push_back(columns.moment_index[c]);
+    }
+  }
+  return numbers;
+}
+
 void RegressorPlan::AddColumns(const RegressorColumns& columns, Places places) {
   const int n = num_joints();
-  std::vector<std::vector<int>> rows(n);
-  for (int i = 0; i < n; ++i) {
-    rows[i] = RowColumns(columns, i, places);
-    row_sizes_.push_back(static_cast<int>(rows[i].size()));
-  }
   length_columns_.resize(n);
   places_.resize(n);
+  std::vector<std::vector<int>> rows;
   for (int i = 0; i < n; ++i) {
-    LinkConstants& link = links_[i];
-    // (bit, number) of plain columns, which sort into the kernels' order, and
-    // the numbers of length columns.
-    std::vector<std::pair<unsigned, int>> plain;
-    std::vector<int> numbers;
-    for (size_t c = 0; c < columns.moments.size(); ++c) {
-      const MomentColumn& column = columns.moments[c];
-      if (column.block != i) continue;
-      const LinkMoment moment = MomentOf(column.moment, link.rotational);
-      if (column.length < 0) {
-        plain.push_back({moment, columns.moment_index[c]});
-        link.moments |= moment;
-        ++link.num_moments;
-      } else {
-        length_columns_[i].push_back({moment, column.length});
-        numbers.push_back(columns.moment_index[c]);
-      }
-    }
-    std::sort(plain.begin(), plain.end());
+    rows.push_back(RowColumns(columns, i, places));
+    row_sizes_.push_back(static_cast<int>(rows[i].size()));
+    const std::vector<int> numbers = AddLink(columns, i);
     for (int k = 0; k <= i; ++k) {
-      for (const auto& [bit, number] : plain) {
-        places_[i].push_back(PlaceIn(rows[k], number));
-      }
       for (const int number : numbers) {
-        places_[i].push_back(PlaceIn(rows[k], number));
+        places_[i].push_back(number < 0 ? -1 : PlaceIn(rows[k], number));
       }
     }
   }

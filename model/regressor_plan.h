@@ -38,6 +38,7 @@ class RegressorPlan {
   const std::vector<Term>& terms() const { return terms_; }
 
  private:
+  std::vector<int> AddLink(const RegressorColumns& columns, int i);
   void AddColumns(const RegressorColumns& columns, Places places);
   void Connect(const Eigen::Vector3d& gravity);
 
