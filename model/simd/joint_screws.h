@@ -31,8 +31,11 @@ ARMCAL_INLINE void SineCosineOfJoints(const ChainConstants& chain,
                                       const ChainMotion& motion, long sample,
                                       SineAndCosine<Lanes>* of) {
   for (int i = 0; i < chain.num_links; ++i) {
-    if (!chain.links[i].rotational) continue;
-    SineCosine(Load(motion.q[i] + sample), &of[i].sine, &of[i].cosine);
+    if (chain.links[i].rotational) {
+      SineCosine(Load(motion.q[i] + sample), &of[i].sine, &of[i].cosine);
+    } else {
+      of[i].sine = of[i].cosine = Lanes{};
+    }
   }
 }
 // Of one sample: its joints are the lanes.
@@ -49,18 +52,16 @@ ARMCAL_INLINE void SineCosineOfJoints(const ChainConstants& chain,
   }
 }
 
-// R_LP.
+// R_LP; of a prismatic joint Rc and Rs are 0.
 template <class T>
 ARMCAL_INLINE Matrix3<T> Rotation(const LinkConstants& link,
                                   const SineAndCosine<T>& q) {
-  Matrix3<T> R = {Constant<T>(link.R0), Constant<T>(link.R0 + 3),
-                  Constant<T>(link.R0 + 6)};
-  if (!link.rotational) return R;
-  const auto row = [&](const Vector3<T>& constant, int k) {
-    return constant +
-           (Times(link.Rs + k, q.sine) + Times(link.Rc + k, q.cosine));
+  const auto entry = [&](int k) ARMCAL_LAMBDA {
+    return q.sine * link.Rs[k] + (q.cosine * link.Rc[k] + link.R0[k]);
   };
-  return {row(R.x, 0), row(R.y, 3), row(R.z, 6)};
+  return {{entry(0), entry(1), entry(2)},
+          {entry(3), entry(4), entry(5)},
+          {entry(6), entry(7), entry(8)}};
 }
 
 // From Fo to Lo, in L.
