@@ -8,7 +8,8 @@ namespace armcal {
 
 BatchInverseDynamics::BatchInverseDynamics(const Robot& robot,
                                            const simd::Kernels& kernels)
-    : plan_(std::make_shared<RegressorPlan>(robot, false)),
+    : plan_(
+          std::make_shared<RegressorPlan>(robot, RegressorPlan::Places::kNone)),
       inertia_(10 * robot.num_joints()),
       kernels_(&kernels) {
   for (int i = 0; i < robot.num_joints(); ++i) {

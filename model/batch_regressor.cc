@@ -42,11 +42,13 @@ BatchRegressor::BatchRegressor(const ModelParameters& parameters,
                                const simd::Kernels& kernels)
     : plan_(std::make_shared<RegressorPlan>(
           parameters.chain(), parameters.unknown_lengths(),
-          parameters.MakeRegressor().columns())),
+          parameters.MakeRegressor().columns(), RegressorPlan::Places::kRanks)),
       kernels_(&kernels) {}
 
 BatchRegressor::BatchRegressor(const Robot& robot, const simd::Kernels& kernels)
-    : plan_(std::make_shared<RegressorPlan>(robot, true)), kernels_(&kernels) {}
+    : plan_(std::make_shared<RegressorPlan>(robot,
+                                            RegressorPlan::Places::kRanks)),
+      kernels_(&kernels) {}
 
 int BatchRegressor::num_joints() const { return plan_->num_joints(); }
 int BatchRegressor::row_size(int i) const { return plan_->row_size(i); }

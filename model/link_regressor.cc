@@ -2,6 +2,9 @@
 
 #include <glog/logging.h>
 
+#include "model/regressor_plan.h"
+#include "model/simd/kernels.h"
+
 namespace armcal {
 namespace {
 
@@ -42,6 +45,8 @@ LinkRegressor::LinkRegressor(const Robot& robot) : gravity_(robot.gravity) {
     joints_.push_back({link.joint.type, link.X_PF, link.X_ML});
   }
   state_.resize(joints_.size());
+  plan_ =
+      std::make_shared<RegressorPlan>(robot, RegressorPlan::Places::kNumbers);
 }
 
 void LinkRegressor::Propagate(const VectorXd& q, const VectorXd& qd) {
@@ -96,18 +101,19 @@ void LinkRegressor::Momentum(const VectorXd& q, const VectorXd& qd, MatrixXd* P,
                              MatrixXd* D) {
   const int n = num_joints();
   CHECK(q.size() == n && qd.size() == n);
-  Propagate(q, qd);
   P->setZero(n, 10 * n);
   D->setZero(n, 10 * n);
+  std::vector<const double*> motion(2 * n);
+  std::vector<double*> rows(2 * n);
   for (int i = 0; i < n; ++i) {
-    const Matrix6x10 h = LinkMomentum(i), g = LinkGravity(i);
-    for (int k = 0; k <= i; ++k) {
-      const JointState& s = state_[k];
-      P->block<1, 10>(k, 10 * i) = s.screw.transpose() * h;
-      D->block<1, 10>(k, 10 * i) =
-          s.screw_change.transpose() * h + s.screw.transpose() * g;
-    }
+    motion[i] = q.data() + i;
+    motion[n + i] = qd.data() + i;
+    rows[i] = P->data() + i;
+    rows[n + i] = D->data() + i;
   }
+  simd::BestKernels().momentum_of_one(
+      plan_->chain(), {motion.data(), motion.data() + n, nullptr}, 0,
+      rows.data(), rows.data() + n, n);
 }
 
 void LinkRegressor::Momentum(const VectorXd& q, const VectorXd& qd,

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "model/robot.h"
 
 namespace armcal {
+
+class RegressorPlan;
 
 // The regressor of the links' ten inertial parameters each (ToVector()'s order,
 // about the links' own frames), for a robot of known geometry: with V of all
@@ -17,10 +20,11 @@ class LinkRegressor {
   explicit LinkRegressor(const Robot& robot);
 
   int num_joints() const { return static_cast<int>(joints_.size()); }
-  // P and D: n x 10 n, zero below the block triangle.
+  // P and D: n x 10 n, zero below the block triangle. For many samples
+  // BatchRegressor is faster.
   void Momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                 Eigen::MatrixXd* P, Eigen::MatrixXd* D);
-  // P V and D V at once, n entries each.
+  // P V and D V at once, n entries each; shares no code with the other.
   void Momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                 const Eigen::VectorXd& V, Eigen::VectorXd* PV,
                 Eigen::VectorXd* DV);
@@ -47,6 +51,7 @@ class LinkRegressor {
   std::vector<ConstantJoint> joints_;
   Eigen::Vector3d gravity_;
   std::vector<JointState> state_;
+  std::shared_ptr<const RegressorPlan> plan_;
 };
 
 }  // namespace armcal

@@ -211,7 +211,6 @@ void MomentumRegressor<T>::Evaluate(const Vector& q, const Vector& qd,
   }
 }
 
-template class MomentumRegressor<double>;
 template class MomentumRegressor<
     Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>>;
 template class MomentumRegressor<Eigen::AutoDiffScalar<

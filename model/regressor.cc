@@ -1,36 +1,51 @@
 #include "model/regressor.h"
 
+#include <glog/logging.h>
+
+#include "model/regressor_plan.h"
+#include "model/simd/kernels.h"
+
 namespace armcal {
+namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+void Point(const VectorXd& x, std::vector<const double*>* to) {
+  CHECK_EQ(x.size(), to->size());
+  for (size_t i = 0; i < to->size(); ++i) (*to)[i] = x.data() + i;
+}
+
+// The matrix as zeros; its rows, which have a stride of their number.
+void PointToRows(int columns, MatrixXd* matrix, std::vector<double*>* rows) {
+  matrix->setZero(rows->size(), columns);
+  for (size_t i = 0; i < rows->size(); ++i) (*rows)[i] = matrix->data() + i;
+}
+
+}  // namespace
 
 Regressor::Regressor(const ProximalChain& chain,
                      const std::vector<Length>& unknown,
                      const RegressorColumns& columns)
     : num_joints_(static_cast<int>(chain.joints.size())),
       columns_(columns),
-      momentum_(chain, unknown),
-      momentum_rate_(chain, unknown) {
-  const int n = num_joints_;
-  const int m = static_cast<int>(columns.moments.size());
-  P_.resize(n, m);
-  D_.resize(n, m);
-  P_dual_.resize(n, m);
-  D_dual_.resize(n, m);
-  q_dual_.resize(n);
-  qd_dual_.resize(n);
-}
+      plan_(std::make_shared<RegressorPlan>(chain, unknown, columns,
+                                            RegressorPlan::Places::kNumbers)),
+      q_(num_joints_),
+      qd_(num_joints_),
+      qdd_(num_joints_),
+      rows_(num_joints_),
+      more_rows_(num_joints_) {}
 
 void Regressor::Momentum(const VectorXd& q, const VectorXd& qd,
                          const VectorXd& coulomb, MatrixXd* P, MatrixXd* D) {
-  momentum_.Evaluate(q, qd, columns_.moments, &P_, &D_);
-  P->setZero(num_joints_, columns_.size());
-  D->setZero(num_joints_, columns_.size());
-  for (size_t k = 0; k < columns_.moments.size(); ++k) {
-    P->col(columns_.moment_index[k]) = P_.col(k);
-    D->col(columns_.moment_index[k]) = D_.col(k);
-  }
+  Point(q, &q_);
+  Point(qd, &qd_);
+  PointToRows(columns_.size(), P, &rows_);
+  PointToRows(columns_.size(), D, &more_rows_);
+  simd::BestKernels().momentum_of_one(
+      plan_->chain(), {q_.data(), qd_.data(), nullptr}, 0, rows_.data(),
+      more_rows_.data(), num_joints_);
   int next = 0;
   for (size_t k = 0; k < columns_.terms.size(); ++k) {
     const JointTermColumn& term = columns_.terms[k];
@@ -43,21 +58,13 @@ void Regressor::Momentum(const VectorXd& q, const VectorXd& qd,
 void Regressor::Differential(const VectorXd& q, const VectorXd& qd,
                              const VectorXd& qdd, const VectorXd& coulomb,
                              MatrixXd* U) {
-  for (int i = 0; i < num_joints_; ++i) {
-    q_dual_[i].value() = q[i];
-    q_dual_[i].derivatives()[0] = qd[i];
-    qd_dual_[i].value() = qd[i];
-    qd_dual_[i].derivatives()[0] = qdd[i];
-  }
-  momentum_rate_.Evaluate(q_dual_, qd_dual_, columns_.moments, &P_dual_,
-                          &D_dual_);
-  U->setZero(num_joints_, columns_.size());
-  for (size_t k = 0; k < columns_.moments.size(); ++k) {
-    for (int i = 0; i <= columns_.moments[k].block; ++i) {
-      (*U)(i, columns_.moment_index[k]) =
-          P_dual_(i, k).derivatives()[0] - D_dual_(i, k).value();
-    }
-  }
+  Point(q, &q_);
+  Point(qd, &qd_);
+  Point(qdd, &qdd_);
+  PointToRows(columns_.size(), U, &rows_);
+  simd::BestKernels().differential_of_one(plan_->chain(),
+                                          {q_.data(), qd_.data(), qdd_.data()},
+                                          0, rows_.data(), num_joints_);
   int next = 0;
   for (size_t k = 0; k < columns_.terms.size(); ++k) {
     const JointTermColumn& term = columns_.terms[k];

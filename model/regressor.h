@@ -1,26 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/AutoDiff>
+#include <memory>
 #include <vector>
 
-#include "model/joint_term.h"
-#include "model/momentum_regressor.h"
+#include "model/regressor_columns.h"
 
 namespace armcal {
 
-// Which functions the columns of a regressor are: column moment_index[k] is
-// moments[k], column term_index[k] is terms[k].
-struct RegressorColumns {
-  std::vector<MomentColumn> moments;
-  std::vector<int> moment_index;
-  std::vector<JointTermColumn> terms;
-  std::vector<int> term_index;
+class RegressorPlan;
 
-  int size() const { return static_cast<int>(moments.size() + terms.size()); }
-};
-
-// Evaluates regressors state by state; keeps scratch, so use one per thread.
+// Evaluates regressors state by state, in closed form (model/simd); for many
+// states BatchRegressor is faster. MomentumRegressor, differentiated
+// automatically, is the oracle of both. Keeps scratch, so use one per thread.
 class Regressor {
  public:
   Regressor(const ProximalChain& chain, const std::vector<Length>& unknown,
@@ -31,8 +23,7 @@ class Regressor {
   void Momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                 const Eigen::VectorXd& coulomb, Eigen::MatrixXd* P,
                 Eigen::MatrixXd* D);
-  // U (n x columns) with tau = U X, (2.20); d/dt P by automatic
-  // differentiation along (qd, qdd).
+  // U (n x columns) with tau = U X, (2.20).
   void Differential(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                     const Eigen::VectorXd& qdd, const Eigen::VectorXd& coulomb,
                     Eigen::MatrixXd* U);
@@ -40,15 +31,11 @@ class Regressor {
   const RegressorColumns& columns() const { return columns_; }
 
  private:
-  using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
-
   int num_joints_;
   RegressorColumns columns_;
-  MomentumRegressor<double> momentum_;
-  MomentumRegressor<Dual> momentum_rate_;
-  MomentumRegressor<double>::Matrix P_, D_;
-  MomentumRegressor<Dual>::Matrix P_dual_, D_dual_;
-  MomentumRegressor<Dual>::Vector q_dual_, qd_dual_;
+  std::shared_ptr<const RegressorPlan> plan_;
+  std::vector<const double*> q_, qd_, qdd_;  // of each joint
+  std::vector<double*> rows_, more_rows_;
 };
 
 }  // namespace armcal

@@ -1,6 +1,7 @@
 #include "model/regressor_plan.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace armcal {
 namespace {
@@ -75,9 +76,15 @@ LinkMoment MomentOf(Moment moment, bool rotational) {
   return simd::kIzzOfJoint;
 }
 
-// Numbers of row i's columns, ascending.
-std::vector<int> RowColumns(const RegressorColumns& columns, int i) {
+// Numbers of row i's columns, ascending; those that are places themselves: all.
+std::vector<int> RowColumns(const RegressorColumns& columns, int i,
+                            RegressorPlan::Places places) {
   std::vector<int> row;
+  if (places == RegressorPlan::Places::kNumbers) {
+    row.resize(columns.size());
+    std::iota(row.begin(), row.end(), 0);
+    return row;
+  }
   for (size_t c = 0; c < columns.moments.size(); ++c) {
     if (columns.moments[c].block >= i) row.push_back(columns.moment_index[c]);
   }
@@ -96,7 +103,7 @@ int PlaceIn(const std::vector<int>& row, int column) {
 
 RegressorPlan::RegressorPlan(const ProximalChain& chain,
                              const std::vector<Length>& unknown,
-                             const RegressorColumns& columns) {
+                             const RegressorColumns& columns, Places places) {
   Isometry3d X_PF = Isometry3d::Identity();  // of G_i in J_{i-1}
   for (const ProximalJoint& joint : chain.joints) {
     const Isometry3d X_MJ(Eigen::AngleAxisd(joint.theta, Vector3d::UnitZ()));
@@ -109,45 +116,46 @@ RegressorPlan::RegressorPlan(const ProximalChain& chain,
     lengths_.push_back({length.joint, length.component});
     links_[length.joint + 1].p_PF[length.component] = 0;
   }
-  AddColumns(columns);
+  AddColumns(columns, places);
   Connect(chain.gravity);
 }
 
-void RegressorPlan::AddColumns(const RegressorColumns& columns) {
-  const int n = num_joints();
-  std::vector<std::vector<int>> rows(n);
-  for (int i = 0; i < n; ++i) {
-    rows[i] = RowColumns(columns, i);
-    row_sizes_.push_back(static_cast<int>(rows[i].size()));
+// Link i's columns of the model: returns their numbers in the order of
+// LinkConstants::places.
+std::vector<int> RegressorPlan::AddLink(const RegressorColumns& columns,
+                                        int i) {
+  LinkConstants& link = links_[i];
+  const unsigned all =
+      link.rotational ? simd::kMomentsOfJoint : simd::kSlidingMoments;
+  link.num_moments = __builtin_popcount(all);
+  std::vector<int> numbers(link.num_moments, -1);
+  for (size_t c = 0; c < columns.moments.size(); ++c) {
+    const MomentColumn& column = columns.moments[c];
+    if (column.block != i) continue;
+    const LinkMoment moment = MomentOf(column.moment, link.rotational);
+    if (column.length < 0) {
+      link.moments = all;
+      numbers[__builtin_popcount(all & (moment - 1))] = columns.moment_index[c];
+    } else {
+      length_columns_[i].push_back({moment, column.length});
+      numbers.push_back(columns.moment_index[c]);
+    }
   }
+  return numbers;
+}
+
+void RegressorPlan::AddColumns(const RegressorColumns& columns, Places places) {
+  const int n = num_joints();
   length_columns_.resize(n);
   places_.resize(n);
+  std::vector<std::vector<int>> rows;
   for (int i = 0; i < n; ++i) {
-    LinkConstants& link = links_[i];
-    // (bit, number) of plain columns, which sort into the kernels' order, and
-    // the numbers of length columns.
-    std::vector<std::pair<unsigned, int>> plain;
-    std::vector<int> numbers;
-    for (size_t c = 0; c < columns.moments.size(); ++c) {
-      const MomentColumn& column = columns.moments[c];
-      if (column.block != i) continue;
-      const LinkMoment moment = MomentOf(column.moment, link.rotational);
-      if (column.length < 0) {
-        plain.push_back({moment, columns.moment_index[c]});
-        link.moments |= moment;
-        ++link.num_moments;
-      } else {
-        length_columns_[i].push_back({moment, column.length});
-        numbers.push_back(columns.moment_index[c]);
-      }
-    }
-    std::sort(plain.begin(), plain.end());
+    rows.push_back(RowColumns(columns, i, places));
+    row_sizes_.push_back(static_cast<int>(rows[i].size()));
+    const std::vector<int> numbers = AddLink(columns, i);
     for (int k = 0; k <= i; ++k) {
-      for (const auto& [bit, number] : plain) {
-        places_[i].push_back(PlaceIn(rows[k], number));
-      }
       for (const int number : numbers) {
-        places_[i].push_back(PlaceIn(rows[k], number));
+        places_[i].push_back(number < 0 ? -1 : PlaceIn(rows[k], number));
       }
     }
   }
@@ -159,20 +167,22 @@ void RegressorPlan::AddColumns(const RegressorColumns& columns) {
   }
 }
 
-RegressorPlan::RegressorPlan(const Robot& robot, bool with_columns) {
+RegressorPlan::RegressorPlan(const Robot& robot, Places places) {
   const int n = robot.num_joints();
   length_columns_.resize(n);
   places_.resize(n);
   for (int i = 0; i < n; ++i) {
     const Link& link = robot.links[i];
     links_.push_back(MakeLink(link.joint.type, link.X_PF, link.X_ML));
-    row_sizes_.push_back(with_columns ? 10 * (n - i) : 1);
-    if (!with_columns) continue;
+    const int first_row = places == Places::kRanks ? i : 0;
+    row_sizes_.push_back(places == Places::kNone ? 1 : 10 * (n - first_row));
+    if (places == Places::kNone) continue;
     links_[i].num_moments = 10;
     links_[i].moments = simd::kMomentsOfLink;
     for (int k = 0; k <= i; ++k) {
       for (const int c : {4, 5, 6, 7, 8, 9, 0, 1, 2, 3}) {
-        places_[i].push_back(10 * (i - k) + c);
+        const int first = places == Places::kRanks ? k : 0;  // link of the row
+        places_[i].push_back(10 * (i - first) + c);
       }
     }
   }

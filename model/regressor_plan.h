@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "model/proximal_chain.h"
-#include "model/regressor.h"
+#include "model/regressor_columns.h"
 #include "model/robot.h"
 #include "model/simd/chain_constants.h"
 
@@ -13,12 +13,15 @@ namespace armcal {
 // wanted, prepared once.
 class RegressorPlan {
  public:
+  // Where a column goes in each row: to its rank among the columns that can be
+  // nonzero there, or to its number; kNone: only the chain is wanted.
+  enum class Places { kRanks, kNumbers, kNone };
+
   // Columns of model parameters, in the frames J of the chain.
   RegressorPlan(const ProximalChain& chain, const std::vector<Length>& unknown,
-                const RegressorColumns& columns);
-  // The ten inertial parameters of each link, in the links' frames; none of
-  // them where only the chain is wanted.
-  RegressorPlan(const Robot& robot, bool with_columns);
+                const RegressorColumns& columns, Places places);
+  // The ten inertial parameters of each link, in the links' frames.
+  RegressorPlan(const Robot& robot, Places places);
   RegressorPlan(const RegressorPlan&) = delete;
 
   const simd::ChainConstants& chain() const { return chain_; }
@@ -35,7 +38,8 @@ class RegressorPlan {
   const std::vector<Term>& terms() const { return terms_; }
 
  private:
-  void AddColumns(const RegressorColumns& columns);
+  std::vector<int> AddLink(const RegressorColumns& columns, int i);
+  void AddColumns(const RegressorColumns& columns, Places places);
   void Connect(const Eigen::Vector3d& gravity);
 
   std::vector<simd::LinkConstants> links_;

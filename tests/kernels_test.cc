@@ -35,6 +35,27 @@ TEST(Kernels, SinesAndCosinesAreTheLibrarys) {
   }
 }
 
+// Its bits are an angle's own: neither its place nor its neighbours, however
+// large, make a difference.
+TEST(Kernels, SinesDoNotDependOnTheirNeighbours) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> angle(-4, 4);
+  for (const Kernels* kernels : AvailableKernels()) {
+    SCOPED_TRACE(kernels->instruction_set);
+    for (int k = 0; k < 1000; ++k) {
+      const double q = angle(random);
+      double alone[2], among[2][19];
+      kernels->sine_cosine(&q, 1, &alone[0], &alone[1]);
+      std::vector<double> angles(19, k % 2 == 0 ? 1e6 : 1.);
+      const int place = k % 19;
+      angles[place] = q;
+      kernels->sine_cosine(angles.data(), 19, among[0], among[1]);
+      EXPECT_EQ(alone[0], among[0][place]) << place;
+      EXPECT_EQ(alone[1], among[1][place]) << place;
+    }
+  }
+}
+
 TEST(Kernels, WhatIsNoAngleHasNoSine) {
   const double nan = std::nan(""),
                inf = std::numeric_limits<double>::infinity();

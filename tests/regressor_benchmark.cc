@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -41,19 +42,23 @@ const Arm& TheArm() {
   return arm;
 }
 
-// Matrices for `rows` samples of each joint's columns.
+// Matrices for `rows` samples of each joint's columns, on borders of cache
+// lines.
 class Matrices {
  public:
   Matrices(const BatchRegressor& regressor, long rows) {
     for (int i = 0; i < regressor.num_joints(); ++i) {
-      values_.push_back(Eigen::MatrixXd::Zero(rows, regressor.row_size(i)));
+      const size_t bytes = rows * regressor.row_size(i) * sizeof(double);
+      values_.emplace_back(
+          static_cast<double*>(std::aligned_alloc(64, (bytes + 63) / 64 * 64)),
+          std::free);
+      pointers_.push_back(values_.back().get());
     }
-    for (Eigen::MatrixXd& matrix : values_) pointers_.push_back(matrix.data());
   }
   double* const* out() const { return pointers_.data(); }
 
  private:
-  std::vector<Eigen::MatrixXd> values_;
+  std::vector<std::unique_ptr<double, void (*)(void*)>> values_;
   std::vector<double*> pointers_;
 };
 

@@ -29,13 +29,14 @@ enum LinkMoment : unsigned {
   kSlidingHy = 1 << 14,
   kSlidingHz = 1 << 15,
 };
-constexpr unsigned kSlidingMoments =
-    kSlidingMass | kSlidingHx | kSlidingHy | kSlidingHz;
-// Kernels are compiled for these sets; others take a little longer.
+// What a link can have: these of its own, or of the paper's those of a revolute
+// or of a prismatic joint.
 constexpr unsigned kMomentsOfLink =
     kIxx | kIxy | kIyy | kIxz | kIyz | kIzz | kMass | kHx | kHy | kHz;
 constexpr unsigned kMomentsOfJoint =
     kIxy | kIxz | kIyz | kIxxMinusIyy | kIzzOfJoint | kHx | kHy;
+constexpr unsigned kSlidingMoments =
+    kSlidingMass | kSlidingHx | kSlidingHy | kSlidingHz;
 
 // A moment times an unknown length: kHx, kHy or kSlidingMass.
 struct LengthColumn {
@@ -60,11 +61,13 @@ struct LinkConstants {
   bool has_offset;  // Lo is not Fo: p_ML, or the way of a prismatic joint
   bool regrouped;   // the moments are the paper's
 
-  unsigned moments;
-  int num_moments, num_length_columns;
+  unsigned moments;  // one of the sets above, or none
+  int num_moments;
+  int num_length_columns;
   const LengthColumn* length_columns;
   // For rows 0 to the link's own, places of its columns in that row: moments in
-  // the order of their bits, then length columns.
+  // the order of their bits, -1 for one that is not wanted, then length
+  // columns.
   const int* places;
 };
 

@@ -73,9 +73,12 @@ ARMCAL_INLINE void WriteSliding(const ChainConstants& chain, int i,
                                 const Screw<T>* screws, double* const* out,
                                 long offset, long stride) {
   const LinkConstants& link = chain.links[i];
+  const auto row = [&](int k, int column) ARMCAL_LAMBDA {
+    return RowWriter<1, false>{
+        {out[k] + offset}, stride, PlacesOfRow(link, k) + column};
+  };
   int column = 0;
   for (unsigned moment = kSlidingMass; moment <= kSlidingHz; moment *= 2) {
-    if (!(link.moments & moment)) continue;
     Wrench<T> wrench;
     Vector3<T> own;
     if (moment == kSlidingMass) {
@@ -87,10 +90,10 @@ ARMCAL_INLINE void WriteSliding(const ChainConstants& chain, int i,
           UnitCross(moment, slide.acceleration) + Cross(slide.offset, own);
       wrench.force = own - own;
     }
-    for (int k = 0; k <= i; ++k) {
-      StoreAs(k == i ? Dot(screws[i].linear, own) : Power(screws[k], wrench),
-              out[k] + offset + PlacesOfRow(link, k)[column] * stride);
+    for (int k = 0; k < i; ++k) {
+      row(k, column).Write(Power(screws[k], wrench));
     }
+    row(i, column).Write(Dot(screws[i].linear, own));
     ++column;
   }
   for (int c = 0; c < link.num_length_columns; ++c) {

@@ -40,8 +40,8 @@ __attribute__((noinline)) void DifferentialAt(const ChainConstants& chain,
       if (link.regrouped) continue;
     }
     ForMoments(link.moments, [&](auto moments) ARMCAL_LAMBDA {
-      WriteColumns<decltype(moments)::kValue>(link, i, at, screws, qd, qdd, out,
-                                              sample, stride);
+      DifferentialColumns<decltype(moments)::kValue, T>::WriteAll(
+          link, i, at, screws, qd, qdd, out, sample, stride);
     });
     for (int c = 0; c < link.num_length_columns; ++c) {
       const LengthColumn& column = link.length_columns[c];

@@ -27,28 +27,41 @@ struct SineAndCosine {
   T sine, cosine;
 };
 // Of all joints' angles, which do not wait for one another.
-template <class T>
 ARMCAL_INLINE void SineCosineOfJoints(const ChainConstants& chain,
                                       const ChainMotion& motion, long sample,
-                                      SineAndCosine<T>* of) {
+                                      SineAndCosine<Lanes>* of) {
   for (int i = 0; i < chain.num_links; ++i) {
-    if (!chain.links[i].rotational) continue;
-    SineCosine(LoadAs<T>(motion.q[i] + sample), &of[i].sine, &of[i].cosine);
+    if (chain.links[i].rotational) {
+      SineCosine(Load(motion.q[i] + sample), &of[i].sine, &of[i].cosine);
+    } else {
+      of[i].sine = of[i].cosine = Lanes{};
+    }
+  }
+}
+// Of one sample: its joints are the lanes.
+ARMCAL_INLINE void SineCosineOfJoints(const ChainConstants& chain,
+                                      const ChainMotion& motion, long sample,
+                                      SineAndCosine<double>* of) {
+  for (int first = 0; first < chain.num_links; first += kLanes) {
+    const int left = chain.num_links - first;
+    const int joints = left < kLanes ? left : kLanes;
+    Lanes q = {}, sine, cosine;
+    for (int k = 0; k < joints; ++k) q[k] = motion.q[first + k][sample];
+    SineCosine(q, &sine, &cosine);
+    for (int k = 0; k < joints; ++k) of[first + k] = {sine[k], cosine[k]};
   }
 }
 
-// R_LP.
+// R_LP; of a prismatic joint Rc and Rs are 0.
 template <class T>
 ARMCAL_INLINE Matrix3<T> Rotation(const LinkConstants& link,
                                   const SineAndCosine<T>& q) {
-  Matrix3<T> R = {Constant<T>(link.R0), Constant<T>(link.R0 + 3),
-                  Constant<T>(link.R0 + 6)};
-  if (!link.rotational) return R;
-  const auto row = [&](const Vector3<T>& constant, int k) {
-    return constant +
-           (Times(link.Rs + k, q.sine) + Times(link.Rc + k, q.cosine));
+  const auto entry = [&](int k) ARMCAL_LAMBDA {
+    return q.sine * link.Rs[k] + (q.cosine * link.Rc[k] + link.R0[k]);
   };
-  return {row(R.x, 0), row(R.y, 3), row(R.z, 6)};
+  return {{entry(0), entry(1), entry(2)},
+          {entry(3), entry(4), entry(5)},
+          {entry(6), entry(7), entry(8)}};
 }
 
 // From Fo to Lo, in L.
@@ -103,7 +116,7 @@ ARMCAL_INLINE Vector3<T> UnitCross(unsigned moment, const Vector3<T>& a) {
   return {-a.y, a.x, zero};
 }
 
-// A set of moments that the compiler knows; 0: any.
+// A set of moments that the compiler knows.
 template <unsigned kMoments>
 struct MomentSet {
   static constexpr unsigned kValue = kMoments;
@@ -114,10 +127,27 @@ ARMCAL_INLINE void ForMoments(unsigned moments, const Function& function) {
     function(MomentSet<kMomentsOfLink>());
   } else if (moments == kMomentsOfJoint) {
     function(MomentSet<kMomentsOfJoint>());
-  } else if (moments & ~kSlidingMoments) {
-    function(MomentSet<0>());
   }
 }
+
+// One row's columns of one link, in as many outputs; kAll: every moment is
+// wanted.
+template <int kOutputs, bool kAll>
+struct RowWriter {
+  double* rows[kOutputs];
+  long stride;
+  const int* place;
+
+  template <class T, class... More>
+  ARMCAL_INLINE void Write(const T& value, const More&... more) {
+    static_assert(1 + sizeof...(More) == kOutputs, "a value for each output");
+    const int to = *place++;
+    if (!kAll && to < 0) return;
+    int output = 0;
+    StoreAs(value, rows[output++] + to * stride);
+    (StoreAs(more, rows[output++] + to * stride), ...);
+  }
+};
 
 ARMCAL_INLINE const int* PlacesOfRow(const LinkConstants& link, int k) {
   return link.places + k * (link.num_moments + link.num_length_columns);

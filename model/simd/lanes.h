@@ -26,6 +26,19 @@ ARMCAL_INLINE Lanes Load(const double* from) {
 ARMCAL_INLINE void Store(const Lanes& x, double* to) {
   __builtin_memcpy(to, &x, sizeof x);
 }
+// Whether a comparison holds in all lanes.
+ARMCAL_INLINE bool All(const Integers& holds) {
+#if defined(__AVX512DQ__)
+  return __builtin_ia32_cvtq2mask512(
+             (long long __attribute__((vector_size(64))))holds) == 0xff;
+#elif defined(__AVX2__)
+  return __builtin_ia32_movmskpd256((Lanes)holds) == 0xf;
+#else
+  bool all = true;
+  for (int k = 0; k < kLanes; ++k) all = all && holds[k] != 0;
+  return all;
+#endif
+}
 ARMCAL_INLINE Lanes Broadcast(double x) { return x - Lanes{}; }
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

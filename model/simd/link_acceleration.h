@@ -31,11 +31,9 @@ ARMCAL_INLINE void EnterLink(const LinkConstants& link, const Matrix3<T>& E,
 template <class T>
 ARMCAL_INLINE void AddJoint(const LinkConstants& link, const T& qd,
                             const T& qdd, Acceleration<T>* a) {
-  if (link.rotational) {
-    a->alpha =
-        a->alpha + Cross(a->omega, link.axis) * qd + Times(link.axis, qdd);
-    a->omega = a->omega + Times(link.axis, qd);
-  }
+  a->alpha =
+      a->alpha + Cross(a->omega, link.angular) * qd + Times(link.angular, qdd);
+  a->omega = a->omega + Times(link.angular, qd);
   const Vector3<T>&w = a->omega, &v = a->alpha;
   const T xx = w.x * w.x, yy = w.y * w.y, zz = w.z * w.z;
   const T xy = w.x * w.y, xz = w.x * w.z, yz = w.y * w.z;

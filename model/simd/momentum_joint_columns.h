@@ -53,7 +53,7 @@ ARMCAL_INLINE void WriteLength(const ChainConstants& chain, int i, int c,
   const Vector3<T> change = Cross(linear, lengths[u].velocity);
   for (int k = 0; k <= i; ++k) {
     const Screw<T>&S = joints[k].screw, &C = joints[k].change;
-    MomentumWriter row = out.Row(link, k, link.num_moments + c);
+    auto row = out.Row<true>(link, k, link.num_moments + c);
     if (k <= chain.lengths[u].link) {
       row.Write(Dot(S.angular, before), Dot(C.angular, before));
     } else if (k < i || link.rotational) {
@@ -85,7 +85,6 @@ ARMCAL_INLINE void WriteSliding(const ChainConstants& chain, int i,
   const Vector3<T> none = {};
   int column = 0;
   for (unsigned moment = kSlidingMass; moment <= kSlidingHz; moment *= 2) {
-    if (!(link.moments & moment)) continue;
     Vector3<T> own = at.origin + slide.velocity;
     Wrench<T> momentum = {Cross(slide.offset, own), slide.velocity};
     Vector3<T> weight = Cross(slide.offset, at.gravity);
@@ -98,12 +97,12 @@ ARMCAL_INLINE void WriteSliding(const ChainConstants& chain, int i,
     }
     for (int k = 0; k < i; ++k) {
       const MovingScrew<T>& joint = joints[k];
-      out.Row(link, k, column)
+      out.Row<false>(link, k, column)
           .Write(
               Power(joint.screw, momentum),
               Power(joint.change, momentum) + Dot(joint.screw.angular, weight));
     }
-    out.Row(link, i, column)
+    out.Row<false>(link, i, column)
         .Write(Dot(joints[i].screw.linear, own),
                Dot(joints[i].change.linear, own) +
                    Dot(joints[i].screw.linear, own_weight));

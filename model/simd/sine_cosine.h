@@ -26,23 +26,9 @@ ARMCAL_INLINE void ReducedSineCosine(const T& x, T* sine, T* cosine) {
   *cosine = 1 - .5 * z + z * z * c;
 }
 
-ARMCAL_INLINE void LibrarySineCosine(const Lanes& x, Lanes* sine,
-                                     Lanes* cosine) {
-  for (int k = 0; k < kLanes; ++k) {
-    (*sine)[k] = __builtin_sin(x[k]);
-    (*cosine)[k] = __builtin_cos(x[k]);
-  }
-}
-
-// sin and cos of x, rad, to 2.2e-16.
+// sin and cos of x, rad, to 2.2e-16. What a lane holds does not depend on the
+// others.
 ARMCAL_INLINE void SineCosine(const Lanes& x, Lanes* sine, Lanes* cosine) {
-  const Integers small = (x >= -kLargestAngle) & (x <= kLargestAngle);
-  bool all_small = true;
-  for (int k = 0; k < kLanes; ++k) all_small = all_small && small[k] != 0;
-  if (!all_small) {
-    LibrarySineCosine(x, sine, cosine);
-    return;
-  }
   // Rounds to an integer, which the lowest bits then hold.
   constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52
   const Lanes shifted = x * .63661977236758134308 + kRound;
@@ -59,11 +45,13 @@ ARMCAL_INLINE void SineCosine(const Lanes& x, Lanes* sine, Lanes* cosine) {
   const Lanes odd_cosine = swap ? s : c;
   *sine = (quadrant & 2) != 0 ? -odd_sine : odd_sine;
   *cosine = ((quadrant + 1) & 2) != 0 ? -odd_cosine : odd_cosine;
-}
-
-ARMCAL_INLINE void SineCosine(double x, double* sine, double* cosine) {
-  *sine = __builtin_sin(x);
-  *cosine = __builtin_cos(x);
+  const Integers small = (x >= -kLargestAngle) & (x <= kLargestAngle);
+  if (__builtin_expect(All(small), true)) return;
+  for (int k = 0; k < kLanes; ++k) {
+    if (small[k] != 0) continue;
+    (*sine)[k] = __builtin_sin(x[k]);
+    (*cosine)[k] = __builtin_cos(x[k]);
+  }
 }
 
 inline void SineCosineOfAll(const double* angle, long count, double* sine,
@@ -75,7 +63,14 @@ inline void SineCosineOfAll(const double* angle, long count, double* sine,
     Store(s, sine + k);
     Store(c, cosine + k);
   }
-  for (; k < count; ++k) SineCosine(angle[k], sine + k, cosine + k);
+  if (k == count) return;
+  Lanes rest = {};
+  for (long j = k; j < count; ++j) rest[j - k] = angle[j];
+  SineCosine(rest, &s, &c);
+  for (long j = k; j < count; ++j) {
+    sine[j] = s[j - k];
+    cosine[j] = c[j - k];
+  }
 }
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET
