@@ -5,7 +5,7 @@
 #   --quick        fewer repetitions
 #   --filter RE    only benchmarks whose names match
 #   --peers        beside other engines (tests/peers), fetched from PyPI
-#   --growth       growth with samples and joints; takes minutes
+#   --growth       growth with samples and joints: minutes, 4 GB of /tmp
 #   --build DIR    where to build, default build-bench
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -40,7 +40,8 @@ if $peers; then
 fi
 mkdir -p "$build"
 if ! { cmake -S . -B "$build" "${options[@]}" &&
-       cmake --build "$build" -j "$(nproc)" --target benchmarks armcal
+       cmake --build "$build" -j "$(nproc)" --target benchmarks armcal \
+         write_growth_log
      } >"$build/bench.log" 2>&1; then
   tail -50 "$build/bench.log" >&2
   exit 1
@@ -62,8 +63,8 @@ if $peers; then
   results+=("$build/peers.json")
 fi
 if $growth; then
-  python3 tests/speed/growth.py --program "$build/tests/growth_case" \
-    --out "$build/growth" >&2
+  python3 tests/speed/growth.py --armcal "$build/armcal" \
+    --write "$build/tests/write_growth_log" --out "$build/growth" >&2
   results+=("$build/growth/growth.json")
 fi
 python3 tests/speed/goals.py ${json:+--json "$json"} "${results[@]}"

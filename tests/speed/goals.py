@@ -4,7 +4,8 @@
     goals.py [--json OUT] BENCHMARKS.json [VALUES.json ..]
 
 BENCHMARKS.json is what Google Benchmark writes with repetitions; a benchmark's
-time is the median over them of the CPU time per item. VALUES.json are what the
+time is the median over them of the CPU time per item (items_per_second, or the
+counter per_sample). VALUES.json are what the
 other scripts of tests/speed and tests/peers write: {"values": {name: number}}.
 Every goal is a ratio of two of these numbers, so the machine's speed drops out;
 floor and stretch say what it should be at most. Python's standard library only.
@@ -22,23 +23,26 @@ import sys
 REGRESSOR_FLOPS = 2049
 BASE_QR_FLOPS = 9800
 
-REGRESSOR = "Regressor/chunk"
+REGRESSOR = "LinkColumns"
 PINOCCHIO_REGRESSOR = "Pinocchio/computeJointTorqueRegressor"
 
 
+INSTRUCTION_SETS = ["baseline", "avx2", "avx512"]
+
+
 class Measured(dict):
-    """Name to number; remembers which name was missing."""
+    """Name to number; a kernel's name to its best instruction set's."""
 
     def __missing__(self, name):
-        raise LookupError(name)
-
-    def peak(self):
-        """Flops per second of one core."""
-        return 1 / min(self[n] for n in ["FmaPeak/baseline", "FmaPeak/avx2",
-                                         "FmaPeak/avx512"] if n in self)
+        sets = [f"{name}/{s}" for s in INSTRUCTION_SETS]
+        found = [self[s] for s in sets if s in self]
+        if not found:
+            raise LookupError(name)
+        return min(found)
 
     def flop_limit(self, flops):
-        return flops / self.peak()
+        """Seconds that these take one core at its peak."""
+        return flops * self["FmaPeak"]
 
 
 # (what, floor, stretch, ratio); in the order of the issue.
@@ -46,7 +50,7 @@ GOALS = [
     ("regressor into chunks / Pinocchio's computeJointTorqueRegressor",
      .10, .05, lambda m: m[REGRESSOR] / m[PINOCCHIO_REGRESSOR]),
     ("regressor of one sample / Pinocchio's",
-     .30, .20, lambda m: m["Regressor/scalar"] / m[PINOCCHIO_REGRESSOR]),
+     .30, .20, lambda m: m["LinkColumnsOfOne"] / m[PINOCCHIO_REGRESSOR]),
     ("regressor into chunks / limit of its flops",
      3.0, 1.5, lambda m: m[REGRESSOR] / m.flop_limit(REGRESSOR_FLOPS)),
     ("1e6 samples to base parameters / structured flop limit",
@@ -87,10 +91,10 @@ GOALS = [
 # (work, ours, theirs): the same on the same robot and states.
 PEERS = [
     ("regressor, Pinocchio", REGRESSOR, PINOCCHIO_REGRESSOR),
-    ("regressor of one sample, Pinocchio", "Regressor/scalar",
+    ("regressor of one sample, Pinocchio", "LinkColumnsOfOne",
      PINOCCHIO_REGRESSOR),
-    ("inverse dynamics, Pinocchio", "InverseDynamics/chunk", "Pinocchio/rnea"),
-    ("inverse dynamics, MuJoCo", "InverseDynamics/chunk", "Mujoco/mj_inverse"),
+    ("inverse dynamics, Pinocchio", "Torque", "Pinocchio/rnea"),
+    ("inverse dynamics, MuJoCo", "Torque", "Mujoco/mj_inverse"),
     ("forward dynamics, Pinocchio", "ForwardDynamics/lanes", "Pinocchio/aba"),
     ("mass matrix, Pinocchio", "MassMatrix/lanes", "Pinocchio/crba"),
     ("RK4 step, MuJoCo", "Rollout/lanes", "Mujoco/mj_step_rk4"),
@@ -121,13 +125,15 @@ def read(paths):
         context.update(content.get("context", {}))
         repetitions = {}
         for run in content.get("benchmarks", []):
-            if run["run_type"] == "iteration" and "items_per_second" in run:
+            if run["run_type"] == "iteration" and (
+                    "items_per_second" in run or "per_sample" in run):
                 # Without how often it was run: "Name/iterations:1/repeats:3".
                 name = re.sub("/(iterations|repeats|min_time):[^/]*", "",
                               run["run_name"])
                 repetitions.setdefault(name, []).append(run)
         for name, runs in repetitions.items():
-            seconds = [1 / run["items_per_second"] for run in runs]
+            seconds = [run["per_sample"] if "per_sample" in run else
+                       1 / run["items_per_second"] for run in runs]
             measured[name] = statistics.median(seconds)
             details[name] = {"median_s": measured[name], "min_s": min(seconds),
                              "max_s": max(seconds), "repetitions": len(runs)}
@@ -162,7 +168,10 @@ def compare(measured, details):
         row = {"work": work, "ours": ours, "theirs": theirs}
         for side in ours, theirs:
             key = "ours_s" if side == ours else "theirs_s"
-            row[key] = measured.get(side)
+            try:
+                row[key] = measured[side]
+            except LookupError:
+                row[key] = None
             row[key.replace("_s", "_error")] = error_of(side)
         if row["ours_s"] is not None and row["theirs_s"] is not None:
             row["ratio"] = row["ours_s"] / row["theirs_s"]

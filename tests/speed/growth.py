@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""growth.py [--largest N] --program GROWTH_CASE --out FOLDER
+"""growth.py [--largest N] --armcal BINARY --write WRITE_GROWTH_LOG --out FOLDER
 
-How time and memory of a linear calibration grow with samples and with joints.
-Every case is a process of its own, run a few times: least CPU seconds of the
-calibration, as the case says it, and peak memory, as the kernel says it. The
-exponent of a power law is fitted to the upper half of every curve, where what
-does not grow is small, with its 95 % interval (Student's t of the residuals).
-Writes growth.json, growth.txt and growth.svg; Python's standard library only.
+How time and memory of `armcal calibrate` grow with samples and with joints, on
+logs of arms of general geometry. Every case is a process of its own, run a few
+times: its least CPU seconds and its peak memory, as the kernel says them; the
+log is read from a file and never held. The exponent of a power law is fitted to
+the upper half of every curve, where what does not grow is small, with its 95 %
+interval (Student's t of the residuals). Writes growth.json, growth.txt and
+growth.svg; Python's standard library only.
 """
 
 import argparse
@@ -16,36 +17,39 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 
-# What varies, its values, and the arguments of a case at such a value. To add a
-# curve: a line here, and arguments that the program knows.
+# What varies, its values, and joints and samples there. To add a curve: a line
+# here.
 CURVES = [
-    ("samples", [10 ** (k / 2) for k in range(6, 15)],
-     lambda n: ["samples", round(n), 6]),
-    ("joints", range(1, 13), lambda n: ["joints", 20000, n]),
+    ("samples", [10 ** (k / 2) for k in range(6, 15)], lambda x: (6, round(x))),
+    ("joints", range(1, 13), lambda x: (x, 100_000)),
 ]
-REPETITIONS = 3
+# The estimator whose cost is linear, on data taken as they are.
+FLAGS = ["--identification=differential", "--bandwidth=0", "--quiet"]
+REPETITIONS = 2
 # Two-sided 95 % quantiles of Student's t by degrees of freedom.
 STUDENT = [math.nan, 12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
            2.262, 2.228]
 
 
-def measure(program, arguments):
-    """Seconds, peak memory and the log's memory in MB of one case."""
-    seconds, peak, case = math.inf, math.inf, {}
-    for _ in range(REPETITIONS):
-        child = subprocess.Popen([program, *map(str, arguments)],
-                                 stdout=subprocess.PIPE)
-        output = child.stdout.read()
-        _, status, usage = os.wait4(child.pid, 0)
-        child.returncode = os.waitstatus_to_exitcode(status)
-        if child.returncode != 0:
-            sys.exit(f"growth.py: {program} {arguments}: exit code "
-                     f"{child.returncode}")
-        case = json.loads(output)
-        seconds = min(seconds, case["seconds"])
-        peak = min(peak, usage.ru_maxrss / 1024)
-    return {"seconds": seconds, "peak_mb": peak, "log_mb": case["log_mb"]}
+def measure(armcal, write, joints, samples):
+    """Seconds and peak memory in MB of one calibration."""
+    seconds, peak = math.inf, math.inf
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([write, str(joints), str(samples), folder], check=True)
+        command = [armcal, "calibrate", f"--robot={folder}/robot.urdf",
+                   f"--log={folder}/log.csv", f"--out={folder}/out", *FLAGS]
+        for _ in range(REPETITIONS):
+            child = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+            _, status, usage = os.wait4(child.pid, 0)
+            child.returncode = os.waitstatus_to_exitcode(status)
+            if child.returncode not in (0, 1):
+                sys.exit(f"growth.py: exit code {child.returncode}: "
+                         f"{' '.join(command)}")
+            seconds = min(seconds, usage.ru_utime + usage.ru_stime)
+            peak = min(peak, usage.ru_maxrss / 1024)
+    return {"seconds": seconds, "peak_mb": peak}
 
 
 def exponent(points, key):
@@ -63,10 +67,9 @@ def exponent(points, key):
 
 def describe(curves):
     for curve in curves:
-        yield f"{curve['over']:>10}  {'CPU s':>10}  {'peak MB':>8}  log MB"
+        yield f"{curve['over']:>10}  {'CPU s':>10}  {'peak MB':>8}"
         for p in curve["points"]:
-            yield (f"{p['x']:10.0f}  {p['seconds']:10.4g}  {p['peak_mb']:8.1f}"
-                   f"  {p['log_mb']:6.1f}")
+            yield f"{p['x']:10.0f}  {p['seconds']:10.4g}  {p['peak_mb']:8.1f}"
         for key, what in ("seconds", "time"), ("peak_mb", "memory"):
             fit = curve[key]
             yield (f"{what} grows as {curve['over']}^({fit['exponent']:.3f} "
@@ -132,28 +135,32 @@ def draw(curves):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[1])
-    parser.add_argument("--program", required=True)
+    parser.add_argument("--armcal", required=True)
+    parser.add_argument("--write", required=True)
     parser.add_argument("--out", required=True, type=pathlib.Path)
-    parser.add_argument("--largest", type=float, default=1e7,
-                        help="samples (default: 1e7)")
+    parser.add_argument("--largest", type=float, default=1e7, help="samples "
+                        "(default: 1e7, which writes a log of 4 GB)")
     arguments = parser.parse_args()
     curves = []
     for over, values, case in CURVES:
         points = []
         for x in values:
-            if x > arguments.largest:
+            joints, samples = case(x)
+            if over == "samples" and samples > arguments.largest:
                 continue
-            points.append({"x": x, **measure(arguments.program, case(x))})
+            samples = min(samples, round(arguments.largest))
+            points.append({"x": x, "joints": joints, "samples": samples,
+                           **measure(arguments.armcal, arguments.write, joints,
+                                     samples)})
             print(f"growth.py: {over} {x:.0f}: {points[-1]}", file=sys.stderr)
         curves.append({"over": over, "points": points,
                        "seconds": exponent(points, "seconds"),
                        "peak_mb": exponent(points, "peak_mb")})
-    beyond = {round(p["x"]): p["peak_mb"] - p["log_mb"]
-              for p in curves[0]["points"]}
+    peak = {round(p["x"]): p["peak_mb"] for p in curves[0]["points"]}
     values = {f"Growth/{c['over']}_{k}_exponent": c[k]["exponent"]
               for c in curves for k in ("seconds", "peak_mb")}
-    if 10 ** 4 in beyond and 10 ** 6 in beyond:
-        values["Memory/growth_mb"] = beyond[10 ** 6] - beyond[10 ** 4]
+    if 10 ** 4 in peak and 10 ** 6 in peak:
+        values["Memory/growth_mb"] = peak[10 ** 6] - peak[10 ** 4]
     arguments.out.mkdir(parents=True, exist_ok=True)
     text = "\n".join(describe(curves))
     print(text)
