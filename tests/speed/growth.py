@@ -54,7 +54,7 @@ def measure(armcal, write, joints, samples):
 
 def exponent(points, key):
     """Slope of log y over log x in the upper half, and half its interval."""
-    upper = [p for p in points[len(points) // 2:] if p[key] > 0]
+    upper = points[min(len(points) // 2, len(points) - 3):]
     x = [math.log(p["x"]) for p in upper]
     y = [math.log(p[key]) for p in upper]
     n, mx, my = len(x), sum(x) / len(x), sum(y) / len(y)
@@ -141,6 +141,8 @@ def main():
     parser.add_argument("--largest", type=float, default=1e7, help="samples "
                         "(default: 1e7, which writes a log of 4 GB)")
     arguments = parser.parse_args()
+    if arguments.largest < 1e4:
+        parser.error("--largest must be at least 1e4")
     curves = []
     for over, values, case in CURVES:
         points = []
