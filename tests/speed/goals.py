@@ -170,7 +170,9 @@ def compare(measured, details):
     def error_of(name):
         if name in details:
             return details[name].get("error")
-        return measured.get(ERRORS.get(name, ""), None)
+        of_sets = [details[f"Accuracy/{name}/{s}"]["error"]
+                   for s in INSTRUCTION_SETS if f"Accuracy/{name}/{s}" in details]
+        return max(of_sets) if of_sets else measured.get(ERRORS.get(name))
 
     for work, ours, theirs in PEERS:
         row = {"work": work, "ours": ours, "theirs": theirs}

@@ -92,7 +92,7 @@ def panel(curve, key, title, dx, dy):
     (x0, x1), (y0, y1) = decades
     at_x = lambda v: dx + LEFT + WIDTH * (math.log10(v) - x0) / (x1 - x0)
     at_y = lambda v: dy + TOP + HEIGHT * (y1 - math.log10(v)) / (y1 - y0)
-    out = [f'<text x="{dx + LEFT}" y="{dy + TOP - 10}">{title}</text>']
+    out = [f'<text x="{dx + 8}" y="{dy + TOP - 10}">{title}</text>']
     for k in range(x0, x1 + 1):
         out.append(f'<path d="M{at_x(10 ** k):.1f} {dy + TOP}v{HEIGHT}" '
                    f'stroke="{INK}" stroke-opacity=".3"/><text text-anchor='
