@@ -54,7 +54,7 @@ def measure(armcal, write, joints, samples):
 
 def exponent(points, key):
     """Slope of log y over log x in the upper half, and half its interval."""
-    upper = [p for p in points[len(points) // 2:] if p[key] > 0]
+    upper = points[min(len(points) // 2, len(points) - 3):]
     x = [math.log(p["x"]) for p in upper]
     y = [math.log(p[key]) for p in upper]
     n, mx, my = len(x), sum(x) / len(x), sum(y) / len(y)
@@ -92,7 +92,7 @@ def panel(curve, key, title, dx, dy):
     (x0, x1), (y0, y1) = decades
     at_x = lambda v: dx + LEFT + WIDTH * (math.log10(v) - x0) / (x1 - x0)
     at_y = lambda v: dy + TOP + HEIGHT * (y1 - math.log10(v)) / (y1 - y0)
-    out = [f'<text x="{dx + LEFT}" y="{dy + TOP - 10}">{title}</text>']
+    out = [f'<text x="{dx + 8}" y="{dy + TOP - 10}">{title}</text>']
     for k in range(x0, x1 + 1):
         out.append(f'<path d="M{at_x(10 ** k):.1f} {dy + TOP}v{HEIGHT}" '
                    f'stroke="{INK}" stroke-opacity=".3"/><text text-anchor='
@@ -141,6 +141,8 @@ def main():
     parser.add_argument("--largest", type=float, default=1e7, help="samples "
                         "(default: 1e7, which writes a log of 4 GB)")
     arguments = parser.parse_args()
+    if arguments.largest < 1e4:
+        parser.error("--largest must be at least 1e4")
     curves = []
     for over, values, case in CURVES:
         points = []

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "model/batch_regressor.h"
+#include "model/simd/kernels.h"
+#include "tests/fma_peak.h"
+#include "tests/sample_motion.h"
+#include "tests/sample_robots.h"
+
+// Kernels must not become slower unnoticed. Their time is compared with that of
+// as many multiply-adds in registers, in one process and in turns: a ratio that
+// the clock's rate and other programs leave alone, since the least of many runs
+// of some 50 us counts.
+
+namespace armcal {
+namespace {
+
+constexpr long kRows = 256, kStride = kRows + 8;
+// A quarter above what was measured when they were set, on an EPYC of Zen 4,
+// where a busy machine moves the ratios by 2 %. For a processor whose caches
+// are slower beside its arithmetic they may be too strict: tools/bench.sh says
+// what it reaches.
+struct Limits {
+  double regressor;
+};
+const std::map<std::string, Limits> kLimits = {
+    {"baseline", {3.8}}, {"avx2", {4.8}}, {"avx512", {3.5}}};
+constexpr int kAttempts = 2000;  // of 0.1 to 0.2 ms; ends when it is fast
+
+double Seconds(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double> took =
+      std::chrono::steady_clock::now() - start;
+  return took.count();
+}
+
+// Least time of `work`, over that of `flops` at the core's peak. `prepare` is
+// not timed.
+double TimesTheFlopLimit(const std::string& set, double flops, double limit,
+                         const std::function<void()>& prepare,
+                         const std::function<void()>& work) {
+  const MultiplyAdds multiply_adds = MultiplyAddsOf(set);
+  double peak = 0, least = 1e9;
+  for (int k = 0; k < kAttempts; ++k) {
+    peak = std::max(peak, multiply_adds.flops /
+                              Seconds([&] { (void)multiply_adds.run(); }));
+    prepare();
+    least = std::min(least, Seconds(work));
+    if (k > 20 && least * peak / flops <= limit) break;
+  }
+  return least * peak / flops;
+}
+
+class KernelSpeed : public testing::TestWithParam<const simd::Kernels*> {
+ protected:
+  void SetUp() override {
+#if !defined(NDEBUG) || defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "only an optimized build without sanitizers has a speed";
+#endif
+  }
+  std::string set() const { return GetParam()->instruction_set; }
+};
+
+// 2049 flops per sample of a 6R arm with links of ten parameters each.
+TEST_P(KernelSpeed, Regressor) {
+  std::mt19937_64 random(1);
+  Robot robot = SampleRobot("UR5 6R");
+  const Log log = RecordMotion(RandomMultisine(&random, 6), kRows, 1);
+  const BatchRegressor regressor(robot, *GetParam());
+  const MotionColumns motion(log.q, log.qd, log.qdd, {});
+  std::vector<std::vector<double>> rows;
+  std::vector<double*> out;
+  for (int i = 0; i < 6; ++i) {
+    rows.emplace_back(regressor.row_size(i) * kStride);
+    out.push_back(rows.back().data());
+  }
+  const double limit = kLimits.at(set()).regressor;
+  const double times = TimesTheFlopLimit(
+      set(), 2049. * kRows, limit, [] {},
+      [&] { regressor.Differential(motion, kRows, out.data(), kStride); });
+  std::printf("%s: %.2f times the flop limit\n", set().c_str(), times);
+  EXPECT_LE(times, limit);
+}
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, KernelSpeed,
+                         testing::ValuesIn(simd::AvailableKernels()),
+                         [](const auto& info) {
+                           return std::string(info.param->instruction_set);
+                         });
+
+}  // namespace
+}  // namespace armcal
