@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace armcal {
 
@@ -20,6 +21,16 @@ BlockTriangularFactor::BlockTriangularFactor(const ModelParameters& parameters,
     columns_.push_back(parameters.row_columns(i));
     factors_.emplace_back(static_cast<int>(columns_.back().size()), leaf_rows);
   }
+}
+
+BlockTriangularFactor::BlockTriangularFactor(
+    const ModelParameters& parameters, std::vector<TriangularFactor> factors)
+    : BlockTriangularFactor(parameters) {
+  CHECK_EQ(factors.size(), factors_.size());
+  for (size_t i = 0; i < factors.size(); ++i) {
+    CHECK_EQ(factors[i].columns(), factors_[i].columns());
+  }
+  factors_ = std::move(factors);
 }
 
 void BlockTriangularFactor::Add(int i, const Eigen::RowVectorXd& u, double y,

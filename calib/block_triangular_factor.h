@@ -20,6 +20,10 @@ class BlockTriangularFactor {
   explicit BlockTriangularFactor(const ModelParameters& parameters,
                                  long leaf_rows = TriangularFactor::kLeafRows);
 
+  // With each joint's factor known.
+  BlockTriangularFactor(const ModelParameters& parameters,
+                        std::vector<TriangularFactor> factors);
+
   // Adds joint i's equation u x = y times `weight`; u holds all parameters.
   void Add(int i, const Eigen::RowVectorXd& u, double y, double weight = 1);
   // Adds joint i's equations of another factor of the same parameters.

@@ -1,28 +1,11 @@
 #include "calib/ordered_work.h"
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "calib/thread_limit.h"
+
 namespace armcal {
-namespace {
-
-using Control = tbb::global_control;
-
-}  // namespace
-
-ThreadLimit::ThreadLimit(int threads)
-    : control_(threads == 0
-                   ? nullptr
-                   : new Control(Control::max_allowed_parallelism, threads)) {}
-
-ThreadLimit::~ThreadLimit() { delete static_cast<Control*>(control_); }
-
-int ThreadLimit::Active() {
-  return static_cast<int>(
-      Control::active_value(Control::max_allowed_parallelism));
-}
-
 // Two tasks for each thread, so that none waits for another's end.
 OrderedWork::OrderedWork()
     : threads_(ThreadLimit::Active()),

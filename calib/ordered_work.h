@@ -4,21 +4,6 @@
 
 namespace armcal {
 
-// As long as it lives, armcal's own work is on at most so many threads; 0: as
-// many as there are cores. Results do not depend on it.
-class ThreadLimit {
- public:
-  explicit ThreadLimit(int threads);
-  ~ThreadLimit();
-  ThreadLimit(const ThreadLimit&) = delete;
-  ThreadLimit& operator=(const ThreadLimit&) = delete;
-
-  static int Active();
-
- private:
-  void* control_;
-};
-
 // A sequence of tasks that threads share: prepared one after the other, worked
 // on by any thread, finished one after the other in the order they were
 // prepared in. Each has a slot to itself from its preparation to its end, of

@@ -12,6 +12,12 @@ using Eigen::MatrixXd;
 TriangularFactor::TriangularFactor(int columns, long leaf_rows)
     : leaf_rows_(leaf_rows), leaf_(columns) {}
 
+TriangularFactor::TriangularFactor(const MatrixXd& triangle, long rows)
+    : TriangularFactor(static_cast<int>(triangle.cols()) - 1) {
+  merged_ = triangle;
+  merged_rows_ = rows;
+}
+
 long TriangularFactor::rows() const {
   return leaves_ * leaf_rows_ + leaf_.rows() + merged_rows_;
 }

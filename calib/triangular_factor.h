@@ -16,6 +16,8 @@ class TriangularFactor {
  public:
   static constexpr long kLeafRows = 8 * LeafFactor::kChunkRows;
   explicit TriangularFactor(int columns, long leaf_rows = kLeafRows);
+  // Of `rows` equations whose triangle is known.
+  TriangularFactor(const Eigen::MatrixXd& triangle, long rows);
 
   int columns() const { return leaf_.columns(); }
   long rows() const;

@@ -8,7 +8,7 @@
 namespace armcal {
 namespace {
 
-constexpr int kBatch = 256;  // samples evaluated together
+constexpr int kBatch = 128;  // samples evaluated together, within the cache
 
 long Padded(long rows) { return (rows + 7) / 8 * 8; }
 

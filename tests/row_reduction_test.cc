@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "calib/thread_limit.h"
 #include "tests/sample_motion.h"
 #include "tests/sample_robots.h"
 

@@ -129,6 +129,17 @@ TEST(TriangularFactor, LeavesMayBeReducedElsewhere) {
   EXPECT_EQ(factor.Triangle(), whole.Triangle());
 }
 
+TEST(TriangularFactor, OfAKnownTriangleGoesOn) {
+  std::mt19937_64 random(9);
+  const MatrixXd Ay = RandomRows(500, 6, &random);
+  TriangularFactor first(5);
+  AddRows(Ay.topRows(300), &first);
+  TriangularFactor factor(first.Triangle(), first.rows());
+  EXPECT_EQ(factor.columns(), 5);
+  AddRows(Ay.bottomRows(200), &factor);
+  ExpectFactorOf(factor, Ay);
+}
+
 TEST(TriangularFactor, WeightsColumnsOfRows) {
   std::mt19937_64 random(8);
   const MatrixXd Ay = RandomRows(700, 6, &random);

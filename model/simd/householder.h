@@ -15,41 +15,44 @@ struct Panel {
   double T[kPanel][kPanel];  // upper triangle
 };
 
-// Of a panel of N columns: takes reflection J - 1 off those from J on (w times
-// column J - 1), then gives the products of column J with all.
+// Column J of a panel of N: takes the reflections before it off (w times their
+// columns), then gives its products with all columns, of which those behind it
+// are as they came.
 template <int N, int J>
 ARMCAL_INLINE void ReflectAndMultiply(double* X, long stride, long rows,
                                       const double* w, double* products) {
-  Lanes sum[N], W[N];
-  for (int c = 0; c < N; ++c) {
-    sum[c] = Lanes{};
-    W[c] = c >= J && J > 0 ? Broadcast(w[c]) : Lanes{};
-  }
+  Lanes sum[N], W[J + 1];
+  for (int c = 0; c < N; ++c) sum[c] = Lanes{};
+  for (int c = 0; c < J; ++c) W[c] = Broadcast(w[c]);
   for (long r = 0; r < rows; r += kLanes) {
-    const Lanes last = J > 0 ? Load(X + (J - 1) * stride + r) : Lanes{};
-    Lanes x = Load(X + J * stride + r);
-    if (J > 0) {
-      x -= W[J] * last;
-      Store(x, X + J * stride + r);
-    }
+    Lanes x = Load(X + J * stride + r), y[J + 1];
 #pragma GCC unroll 8
-    for (int c = 0; c < N; ++c) {
-      Lanes y = c == J ? x : c == J - 1 ? last : Load(X + c * stride + r);
-      if (J > 0 && c > J) {
-        y -= W[c] * last;
-        Store(y, X + c * stride + r);
-      }
-      sum[c] += x * y;
+    for (int c = 0; c < J; ++c) {
+      y[c] = LoadOnce(X + c * stride + r);
+      x -= W[c] * y[c];
     }
+    if (J > 0) Store(x, X + J * stride + r);
+#pragma GCC unroll 8
+    for (int c = 0; c < J; ++c) sum[c] += x * y[c];
+    sum[J] += x * x;
+#pragma GCC unroll 8
+    for (int c = J + 1; c < N; ++c) sum[c] += x * Load(X + c * stride + r);
   }
   for (int c = 0; c < N; ++c) products[c] = Sum(sum[c]);
 }
 
-// Reflections J.. N - 1 of a panel; R: from its diagonal block on.
+// Reflections J.. N - 1 of a panel; R: from its diagonal block on. z[c][b]:
+// what reflection b meets in column c, as V'X has it.
 template <int N, int J>
 ARMCAL_INLINE void FactorPanel(double* R, long r_stride, double* X, long stride,
-                               long rows, const double* w, Panel* panel) {
-  double products[N], next[N];
+                               long rows, double (*z)[kPanel], Panel* panel) {
+  double products[N], w[J + 1];
+  for (int b = 0; b < J; ++b) {
+    double t = 0;
+    for (int a = 0; a <= b; ++a) t += panel->T[a][b] * z[J][a];
+    R[b + J * r_stride] -= t;
+    w[b] = t * panel->scale[b];
+  }
   ReflectAndMultiply<N, J>(X, stride, rows, w, products);
   const double alpha = R[J + J * r_stride];
   double beta = alpha, tau = 0, scale = 0;
@@ -60,14 +63,11 @@ ARMCAL_INLINE void FactorPanel(double* R, long r_stride, double* X, long stride,
     scale = 1 / (alpha - beta);
   }
   R[J + J * r_stride] = beta;
-  for (int c = J + 1; c < N; ++c) {
-    double* r = R + J + c * r_stride;
-    const double t = tau * (*r + scale * products[c]);
-    *r -= t;
-    next[c] = t * scale;
-  }
   panel->scale[J] = scale;
   panel->T[J][J] = tau;
+  for (int c = J + 1; c < N; ++c) {
+    z[c][J] = R[J + c * r_stride] + scale * products[c];
+  }
   for (int b = 0; b < J; ++b) products[b] *= scale * panel->scale[b];
   for (int a = 0; a < J; ++a) {
     double t = 0;
@@ -76,7 +76,7 @@ ARMCAL_INLINE void FactorPanel(double* R, long r_stride, double* X, long stride,
     panel->T[J][a] = 0;
   }
   if constexpr (J + 1 < N) {
-    FactorPanel<N, J + 1>(R, r_stride, X, stride, rows, next, panel);
+    FactorPanel<N, J + 1>(R, r_stride, X, stride, rows, z, panel);
   }
 }
 
@@ -113,7 +113,7 @@ ARMCAL_INLINE void Reflect(const Panel& panel, const double* X, long stride,
       for (int c = 0; c < C; ++c) b[c] = Load(B + c * stride + r);
 #pragma GCC unroll 8
       for (int a = 0; a < kBlock; ++a) {
-        const Lanes x = Load(V + a * stride + r);
+        const Lanes x = LoadOnce(V + a * stride + r);
         for (int c = 0; c < C; ++c) b[c] -= x * W[c][a];
       }
       for (int c = 0; c < C; ++c) Store(b[c], B + c * stride + r);
@@ -125,7 +125,8 @@ template <int N>
 inline void FactorLastPanel(int width, double* R, long r_stride, double* X,
                             long stride, long rows, Panel* panel) {
   if (width == N) {
-    FactorPanel<N, 0>(R, r_stride, X, stride, rows, nullptr, panel);
+    double z[kPanel][kPanel];
+    FactorPanel<N, 0>(R, r_stride, X, stride, rows, z, panel);
   } else if constexpr (N > 1) {
     FactorLastPanel<N - 1>(width, R, r_stride, X, stride, rows, panel);
   }

@@ -40,7 +40,7 @@ ARMCAL_INLINE void BlockProducts(const double* A, long a_stride,
     for (int c = 0; c < C; ++c) b[c] = Load(B + c * b_stride + r);
 #pragma GCC unroll 8
     for (int a = 0; a < N; ++a) {
-      const Lanes x = Load(A + a * a_stride + r);
+      const Lanes x = LoadOnce(A + a * a_stride + r);
       for (int c = 0; c < C; ++c) sum[c][a] += x * b[c];
     }
   }
