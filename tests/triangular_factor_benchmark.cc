@@ -3,12 +3,15 @@
 #include <benchmark/benchmark.h>
 
 #include <Eigen/QR>
-#include <memory>
+#include <algorithm>
+#include <chrono>
+#include <random>
 #include <string>
+#include <vector>
 
+#include "calib/row_reduction.h"
 #include "calib/thread_limit.h"
 #include "calib/triangular_factor.h"
-#include "model/inverse_dynamics.h"
 #include "model/simd/kernels.h"
 #include "tests/benchmark_log.h"
 #include "tests/in_memory_calibration.h"
@@ -61,16 +64,22 @@ double QrFlops() {
   return flops;
 }
 
+// Items are samples, in CPU time; in elapsed time where threads are compared.
 void Calibrate(benchmark::State& state, Identification identification,
-               long samples, int threads) {
+               long samples, int threads, bool elapsed) {
   const Trajectory& log = BenchmarkTrajectory(samples);
   const ThreadLimit limit(threads);
+  const auto begin = std::chrono::steady_clock::now();
   for (auto _ : state) {
     const InMemoryCalibration calibration(Parameters(), Options(identification),
                                           log);
     benchmark::DoNotOptimize(calibration.covariance.data());
   }
+  const std::chrono::duration<double> seconds =
+      std::chrono::steady_clock::now() - begin;
+  const double items = static_cast<double>(state.iterations() * samples);
   state.SetItemsProcessed(state.iterations() * samples);
+  if (elapsed) state.counters["items_per_second"] = items / seconds.count();
   state.counters["qr_flops"] = QrFlops();
 }
 
@@ -104,6 +113,27 @@ void DenseQr(benchmark::State& state, long samples) {
   state.SetItemsProcessed(state.iterations() * samples);
 }
 
+// Rows alone, evaluated a leaf at a time; items are samples.
+void Rows(benchmark::State& state, Identification identification) {
+  const Trajectory& log = BenchmarkTrajectory(20000);
+  const RowOptions options = Options(identification);
+  MotionRegressor regressor(Parameters());
+  regressor.Enter(log);
+  const auto rows = MakeRows(log, options, regressor);
+  const long most = std::min(RowsPerLeaf(options), LeafFactor::kChunkRows);
+  JointColumns columns;
+  columns.Resize(RowSizes(regressor, 1), most);
+  RowScratch scratch;
+  for (auto _ : state) {
+    for (long begin = 0; begin < rows->size(); begin += most) {
+      rows->Evaluate(begin, std::min(most, rows->size() - begin),
+                     columns.data(), columns.stride(), &scratch);
+    }
+    benchmark::DoNotOptimize(columns.column(0, 0));
+  }
+  state.SetItemsProcessed(state.iterations() * log.size());
+}
+
 // The kernel alone: chunks of a joint's rows, items are flops.
 void Householder(benchmark::State& state, const simd::Kernels* kernels,
                  int columns) {
@@ -121,15 +151,14 @@ void Householder(benchmark::State& state, const simd::Kernels* kernels,
 template <class... Arguments>
 void Register(const std::string& name, Arguments... arguments) {
   benchmark::RegisterBenchmark(name.c_str(), arguments...)
-      ->Unit(benchmark::kMillisecond)
-      ->MeasureProcessCPUTime();
+      ->Unit(benchmark::kMillisecond);
 }
 
 const bool registered = [] {
   const auto differential = Identification::kDifferential;
   for (const long samples : {200000L, 1000000L}) {
     Register("LinearCalibration/" + std::to_string(samples), Calibrate,
-             differential, samples, 1);
+             differential, samples, 1, false);
   }
   Register("DenseQr/200000", DenseQr, 200000L);
   for (const simd::Kernels* kernels : simd::AvailableKernels()) {
@@ -140,16 +169,13 @@ const bool registered = [] {
     }
   }
   for (const int threads : {1, 2}) {
-    benchmark::RegisterBenchmark(
-        ("LinearCalibration/threads:" + std::to_string(threads)).c_str(),
-        Calibrate, differential, 200000L, threads)
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime();
+    Register("LinearCalibration/threads:" + std::to_string(threads), Calibrate,
+             differential, 200000L, threads, true);
   }
+  Register("WeakRows/chunk", Rows, Identification::kWeak);
+  Register("DifferentialRows/chunk", Rows, differential);
   Register("LinearCalibration/weak", Calibrate, Identification::kWeak, 200000L,
-           1);
-  Register("LinearCalibration/differential", Calibrate, differential, 200000L,
-           1);
+           1, false);
   return true;
 }();
 
