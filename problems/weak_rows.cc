@@ -68,6 +68,12 @@ double WeakRows::time(long row) const {
   return trajectory_.time(FirstSample(cells_[row]) + steps_ - steps_ / 2);
 }
 
+// Samples of one cell.
+struct WeakRows::Piece {
+  long cell, within;  // the first one's place in the cell
+  int place, length;  // in scratch->P and D
+};
+
 struct WeakRows::Output {
   long begin, end;  // rows
   double* const* columns;
@@ -79,39 +85,43 @@ struct WeakRows::Output {
 // cell, so that sums do not depend on what was evaluated together.
 void WeakRows::AddSamples(int first, int count, const Output& output,
                           RowScratch* scratch) const {
-  const simd::Kernels& kernels = simd::BestKernels();
-  const long stride = scratch->D.stride();
   for (int done = 0; done < count;) {
     const long sample = trajectory_.first_index + first + done;
-    const long cell = sample / hop_, within = sample % hop_;
     const int length =
-        static_cast<int>(std::min<long>(count - done, hop_ - within));
-    const auto open =
-        std::lower_bound(cells_.begin() + output.begin,
-                         cells_.begin() + output.end, cell - phases_ + 1);
+        static_cast<int>(std::min<long>(count - done, hop_ - sample % hop_));
     for (size_t i = 0; i < output.sizes.size(); ++i) {
-      const int size = output.sizes[i];
-      scratch->products.resize(2 * size * phases_);
-      double* of_phi = scratch->products.data();
-      double* of_rate = of_phi + size * phases_;
-      const int joint = static_cast<int>(i);
-      kernels.inner_products(phi_.data() + within, weight_stride_, phases_,
-                             scratch->D.column(joint, 0) + done, stride, size,
-                             Padded(length), of_phi);
-      kernels.inner_products(rate_.data() + within, weight_stride_, phases_,
-                             scratch->P.column(joint, 0) + done, stride,
-                             size - 1, Padded(length), of_rate);
-      for (auto w = open; w < cells_.begin() + output.end && *w <= cell; ++w) {
-        const long phase = cell - *w;
-        double* row = output.columns[i] + (w - cells_.begin() - output.begin);
-        for (int c = 0; c + 1 < size; ++c) {
-          const long at = c * phases_ + phase;
-          row[c * output.stride] -= of_rate[at] + of_phi[at];
-        }
-        row[(size - 1) * output.stride] += of_phi[(size - 1) * phases_ + phase];
-      }
+      AddPiece({sample / hop_, sample % hop_, done, length},
+               static_cast<int>(i), output, scratch);
     }
     done += length;
+  }
+}
+
+void WeakRows::AddPiece(const Piece& piece, int joint, const Output& output,
+                        RowScratch* scratch) const {
+  const simd::Kernels& kernels = simd::BestKernels();
+  const long stride = scratch->D.stride();
+  const int size = output.sizes[joint];
+  scratch->products.resize(2 * size * phases_);
+  double* of_phi = scratch->products.data();
+  double* of_rate = of_phi + size * phases_;
+  kernels.inner_products(phi_.data() + piece.within, weight_stride_, phases_,
+                         scratch->D.column(joint, 0) + piece.place, stride,
+                         size, Padded(piece.length), of_phi);
+  kernels.inner_products(rate_.data() + piece.within, weight_stride_, phases_,
+                         scratch->P.column(joint, 0) + piece.place, stride,
+                         size - 1, Padded(piece.length), of_rate);
+  const auto begin = cells_.begin() + output.begin;
+  const auto end = cells_.begin() + output.end;
+  for (auto w = std::lower_bound(begin, end, piece.cell - phases_ + 1);
+       w < end && *w <= piece.cell; ++w) {
+    const long phase = piece.cell - *w;
+    double* row = output.columns[joint] + (w - begin);
+    for (int c = 0; c + 1 < size; ++c) {
+      const long at = c * phases_ + phase;
+      row[c * output.stride] -= of_rate[at] + of_phi[at];
+    }
+    row[(size - 1) * output.stride] += of_phi[(size - 1) * phases_ + phase];
   }
 }
 

@@ -25,6 +25,7 @@ class WeakRows : public IdentificationRows {
                 RowScratch* scratch) const override;
 
  private:
+  struct Piece;
   struct Output;
   int FirstSample(long cell) const {
     return static_cast<int>(cell * hop_ - trajectory_.first_index);
@@ -33,6 +34,8 @@ class WeakRows : public IdentificationRows {
   void ListWindows();
   void AddSamples(int first, int count, const Output& output,
                   RowScratch* scratch) const;
+  void AddPiece(const Piece& piece, int joint, const Output& output,
+                RowScratch* scratch) const;
 
   const Trajectory& trajectory_;
   const MotionFunctions& functions_;
