@@ -4,21 +4,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace armcal {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-BlockTriangularFactor::BlockTriangularFactor(const ModelParameters& parameters)
+BlockTriangularFactor::BlockTriangularFactor(const ModelParameters& parameters,
+                                             long leaf_rows)
     : num_parameters_(parameters.size()) {
   for (int i = 0; i <= parameters.num_joints(); ++i) {
     block_begin_.push_back(parameters.block_begin(i));
   }
   for (int i = 0; i < parameters.num_joints(); ++i) {
     columns_.push_back(parameters.row_columns(i));
-    factors_.emplace_back(static_cast<int>(columns_.back().size()));
+    factors_.emplace_back(static_cast<int>(columns_.back().size()), leaf_rows);
   }
+}
+
+BlockTriangularFactor::BlockTriangularFactor(
+    const ModelParameters& parameters, std::vector<TriangularFactor> factors)
+    : BlockTriangularFactor(parameters) {
+  CHECK_EQ(factors.size(), factors_.size());
+  for (size_t i = 0; i < factors.size(); ++i) {
+    CHECK_EQ(factors[i].columns(), factors_[i].columns());
+  }
+  factors_ = std::move(factors);
 }
 
 void BlockTriangularFactor::Add(int i, const Eigen::RowVectorXd& u, double y,
@@ -30,6 +42,18 @@ void BlockTriangularFactor::Add(int i, const Eigen::RowVectorXd& u, double y,
 void BlockTriangularFactor::Merge(const BlockTriangularFactor& other, int i) {
   CHECK_EQ(other.num_parameters_, num_parameters_);
   factors_[i].Merge(other.factors_[i]);
+}
+
+void BlockTriangularFactor::TakeLeaves(std::vector<LeafFactor>* leaves) {
+  for (size_t i = 0; i < factors_.size(); ++i) {
+    factors_[i].TakeLeaf(&(*leaves)[i]);
+  }
+}
+
+void BlockTriangularFactor::PutLeaves(std::vector<LeafFactor>* leaves) {
+  for (size_t i = 0; i < factors_.size(); ++i) {
+    factors_[i].PutLeaf(&(*leaves)[i]);
+  }
 }
 
 double BlockTriangularFactor::ResidualNorm(int i, const VectorXd& x) const {

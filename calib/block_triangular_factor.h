@@ -10,18 +10,30 @@ namespace armcal {
 
 // The sufficient statistic of a log: for every joint i the triangular factor of
 // its equations [U_ii ... U_in | Y_i], updated by Householder QR as rows come
-// in. It needs the same memory for a log of any length, and from it follow the
+// in. It needs hardly more memory for longer logs, and from it follow the
 // recursive solution (2.28), the batch solution (2.25), every solution weighted
 // per joint, all residuals' norms, ranks and covariances; normal equations,
 // which square the condition, are never formed.
 class BlockTriangularFactor {
  public:
-  explicit BlockTriangularFactor(const ModelParameters& parameters);
+  // leaf_rows: of TriangularFactor.
+  explicit BlockTriangularFactor(const ModelParameters& parameters,
+                                 long leaf_rows = TriangularFactor::kLeafRows);
+
+  // With each joint's factor known.
+  BlockTriangularFactor(const ModelParameters& parameters,
+                        std::vector<TriangularFactor> factors);
 
   // Adds joint i's equation u x = y times `weight`; u holds all parameters.
   void Add(int i, const Eigen::RowVectorXd& u, double y, double weight = 1);
   // Adds joint i's equations of another factor of the same parameters.
   void Merge(const BlockTriangularFactor& other, int i);
+
+  // Of factors whose joints have all been given the same rows, the leaf under
+  // way and those after it, as in TriangularFactor; one per joint.
+  long leaf_rows() const { return factors_[0].leaf_rows(); }
+  void TakeLeaves(std::vector<LeafFactor>* leaves);
+  void PutLeaves(std::vector<LeafFactor>* leaves);
 
   int num_joints() const { return static_cast<int>(factors_.size()); }
   int num_parameters() const { return num_parameters_; }
@@ -31,7 +43,9 @@ class BlockTriangularFactor {
   const std::vector<int>& columns(int i) const { return columns_[i]; }
   long rows(int i) const { return factors_[i].rows(); }
   // Upper triangle of size columns(i).size() + 1, the right side last.
-  Eigen::MatrixXd Triangle(int i) const { return factors_[i].Triangle(); }
+  const Eigen::MatrixXd& Triangle(int i) const {
+    return factors_[i].Triangle();
+  }
 
   // Root of the sum of squared residuals of joint i's equations at x.
   double ResidualNorm(int i, const Eigen::VectorXd& x) const;

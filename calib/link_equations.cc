@@ -5,6 +5,7 @@
 
 #include "calib/posterior.h"
 #include "calib/robust_rows.h"
+#include "calib/row_reduction.h"
 #include "calib/triangular_factor.h"
 #include "problems/link_functions.h"
 #include "problems/weak_rows.h"
@@ -127,8 +128,9 @@ void LinkPass::ForEachResidual(
   int last_log = -1, last_segment = -1;
   logs_->ForEach(stage, progress_, [&](int log, const Trajectory& t) {
     functions[log].Enter(t);
-    ForEachWeakRow(
-        t, linear_.rows, &functions[log], [&](const IdentificationRow& row) {
+    const WeakRows rows(t, linear_.rows, functions[log]);
+    ForEachRowOnThreads(
+        rows, functions[log], [&](const IdentificationRow& row) {
           const bool follows = log == last_log && t.segment == last_segment;
           last_log = log, last_segment = t.segment;
           VectorXd r =

@@ -4,30 +4,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/row_reduction.h"
+
 namespace armcal {
 
 LogFactors::LogFactors(const ModelParameters& parameters,
-                       const RowOptions& rows, const Progress& progress,
+                       const RowOptions& options, const Progress& progress,
                        LogSet* logs)
-    : factors_(logs->size(), BlockTriangularFactor(parameters)),
+    : factors_(logs->size(),
+               BlockTriangularFactor(parameters, RowsPerLeaf(options))),
       mean_square_speed_(Eigen::ArrayXd::Zero(parameters.num_joints())),
       travel_(Eigen::VectorXd::Zero(parameters.num_joints())) {
   std::vector<MotionRegressor> regressors(logs->size(),
                                           MotionRegressor(parameters));
+  RowReduction reduction(parameters);
   double samples = 0;
   std::vector<Eigen::AlignedBox<double, Eigen::Dynamic>> met(
       logs->size(), Eigen::AlignedBox<double, Eigen::Dynamic>(travel_.size()));
   logs->ForEach("reading", progress, [&](int log, const Trajectory& t) {
-    for (int k = t.core_begin; k < t.core_end; ++k) {
-      mean_square_speed_ += t.qd.row(k).transpose().array().square();
-      met[log].extend(t.q.row(k).transpose().eval());
-    }
-    samples += t.core_end - t.core_begin;
-    ForEachRow(t, rows, &regressors[log], [&](const IdentificationRow& row) {
-      for (int i = 0; i < parameters.num_joints(); ++i) {
-        factors_[log].Add(i, row.U.row(i), row.Y[i]);
+    const int count = t.core_end - t.core_begin;
+    if (count == 0) return;
+    for (int j = 0; j < t.num_joints(); ++j) {
+      for (int k = t.core_begin; k < t.core_end; ++k) {
+        mean_square_speed_[j] += t.qd(k, j) * t.qd(k, j);
       }
-    });
+    }
+    const auto q = t.q.middleRows(t.core_begin, count);
+    met[log].extend(q.colwise().minCoeff().transpose().eval());
+    met[log].extend(q.colwise().maxCoeff().transpose().eval());
+    samples += count;
+    regressors[log].Enter(t);
+    reduction.Add(*MakeRows(t, options, regressors[log]), &factors_[log]);
   });
   if (samples > 0) mean_square_speed_ /= samples;
   for (const auto& box : met) {

@@ -14,7 +14,7 @@ namespace armcal {
 class LogFactors {
  public:
   // One pass over the logs.
-  LogFactors(const ModelParameters& parameters, const RowOptions& rows,
+  LogFactors(const ModelParameters& parameters, const RowOptions& options,
              const Progress& progress, LogSet* logs);
 
   const BlockTriangularFactor& log(int k) const { return factors_[k]; }

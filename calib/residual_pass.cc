@@ -1,5 +1,7 @@
 #include "calib/residual_pass.h"
 
+#include "calib/row_reduction.h"
+
 namespace armcal {
 
 ResidualPass::ResidualPass(const ModelParameters& parameters,
@@ -18,7 +20,9 @@ void ResidualPass::Run(const std::string& stage, const Eigen::VectorXd& x,
                                           MotionRegressor(parameters_));
   int last_log = -1, last_segment = -1;
   logs_->ForEach(stage, progress_, [&](int log, const Trajectory& t) {
-    ForEachRow(t, rows_, &regressors[log], [&](const IdentificationRow& row) {
+    regressors[log].Enter(t);
+    const auto rows = MakeRows(t, rows_, regressors[log]);
+    ForEachRowOnThreads(*rows, regressors[log], [&](const auto& row) {
       const bool follows = log == last_log && t.segment == last_segment;
       last_log = log, last_segment = t.segment;
       RowResidual residual{row, log, follows,

@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 MatrixXd SampleResiduals(const Trajectory& t, const VectorXd& x,
                          MotionRegressor* regressor) {
   regressor->Enter(t);
-  const MatrixXd grid = PredictTorques(t, x, regressor);
+  const MatrixXd grid = PredictTorques(t, x, *regressor);
   MatrixXd residuals = t.samples.tau;
   for (int k = 0; k < t.samples.size(); ++k) {
     const double place = std::clamp(t.samples.place[k], 0.0, t.size() - 1.0);

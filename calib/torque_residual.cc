@@ -12,11 +12,22 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 MatrixXd PredictTorques(const Trajectory& trajectory, const VectorXd& x,
-                        MotionRegressor* regressor) {
-  MatrixXd predicted(trajectory.size(), trajectory.num_joints()), U;
-  for (int k = 0; k < trajectory.size(); ++k) {
-    regressor->Differential(k, &U);
-    predicted.row(k) = U * x;
+                        const MotionRegressor& regressor) {
+  constexpr int kBatch = 256;
+  const auto& used = regressor.row_columns();
+  MatrixXd predicted(trajectory.size(), trajectory.num_joints());
+  JointColumns U;
+  U.Resize(RowSizes(regressor, 0), kBatch);
+  for (int first = 0; first < trajectory.size(); first += kBatch) {
+    const int count = std::min(kBatch, trajectory.size() - first);
+    regressor.Differential(first, count, U.data(), U.stride());
+    for (int i = 0; i < trajectory.num_joints(); ++i) {
+      predicted.col(i).segment(first, count) =
+          Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>(
+              U.column(i, 0), count, static_cast<int>(used[i].size()),
+              Eigen::OuterStride<>(U.stride())) *
+          x(used[i]);
+    }
   }
   return predicted;
 }
@@ -28,7 +39,8 @@ TorqueResidual::TorqueResidual(int num_joints) {
 }
 
 void TorqueResidual::Add(const Trajectory& trajectory, const VectorXd& x,
-                         double bandwidth_hz, MotionRegressor* regressor) {
+                         double bandwidth_hz,
+                         const MotionRegressor& regressor) {
   MatrixXd predicted = PredictTorques(trajectory, x, regressor);
   MatrixXd recorded = trajectory.tau_recorded;
   if (bandwidth_hz > 0) {
@@ -75,7 +87,7 @@ TorqueResidual EvaluateTorqueResidual(const ModelParameters& parameters,
                                           MotionRegressor(parameters));
   logs->ForEach(stage, progress, [&](int log, const Trajectory& t) {
     regressors[log].Enter(t);
-    residual.Add(t, x, bandwidth_hz, &regressors[log]);
+    residual.Add(t, x, bandwidth_hz, regressors[log]);
   });
   return residual;
 }

@@ -14,7 +14,7 @@ namespace armcal {
 // entered, samples in rows.
 Eigen::MatrixXd PredictTorques(const Trajectory& trajectory,
                                const Eigen::VectorXd& x,
-                               MotionRegressor* regressor);
+                               const MotionRegressor& regressor);
 
 // How far predicted torques are from recorded ones, over the samples of one or
 // several logs: both low-passed at the bandwidth (order 4, zero phase). All
@@ -33,7 +33,7 @@ class TorqueResidual {
 
   // Adds the core of a trajectory that `regressor` has entered.
   void Add(const Trajectory& trajectory, const Eigen::VectorXd& x,
-           double bandwidth_hz, MotionRegressor* regressor);
+           double bandwidth_hz, const MotionRegressor& regressor);
 
   // Without standstill, and of all samples.
   Figures moving() const { return MakeFigures(moving_); }

@@ -21,7 +21,7 @@ MatrixXd Predict(const std::vector<TracedModel>& models, const Trajectory& t,
   for (size_t m = 0; m < models.size(); ++m) {
     (*regressors)[m].Enter(t);
     predicted.middleCols(static_cast<int>(m) * n, n) =
-        PredictTorques(t, models[m].x, &(*regressors)[m]);
+        PredictTorques(t, models[m].x, (*regressors)[m]);
   }
   return predicted;
 }

@@ -6,49 +6,20 @@
 #include "model/low_pass.h"
 
 namespace armcal {
-namespace {
 
 using Eigen::MatrixXd;
-
-// Columns of one joint's equation at every sample, the torque last.
-void FillColumns(const MatrixXd& U, const Eigen::MatrixXd& tau, int sample,
-                 const ModelParameters& parameters,
-                 std::vector<MatrixXd>* columns) {
-  for (int i = 0; i < parameters.num_joints(); ++i) {
-    const std::vector<int>& used = parameters.row_columns(i);
-    MatrixXd& C = (*columns)[i];
-    for (size_t c = 0; c < used.size(); ++c) C(sample, c) = U(i, used[c]);
-    C(sample, used.size()) = tau(sample, i);
-  }
-}
-
-}  // namespace
 
 double DifferentialReach(const RowOptions& options) {
   return LowPassMemory(options.bandwidth_hz);
 }
 
-void ForEachDifferentialRow(const Trajectory& trajectory,
-                            const RowOptions& options,
-                            MotionRegressor* regressor, const RowSink& sink) {
-  const ModelParameters& parameters = regressor->parameters();
-  const int n = trajectory.num_joints();
-  const int samples = trajectory.size();
+DifferentialRows::DifferentialRows(const Trajectory& trajectory,
+                                   const RowOptions& options,
+                                   const MotionRegressor& regressor)
+    : trajectory_(trajectory), regressor_(regressor) {
   const double dt = trajectory.dt;
   const bool filter = options.bandwidth_hz > 0;
-  std::vector<MatrixXd> columns(n);
-  for (int i = 0; i < n; ++i) {
-    columns[i].resize(samples, parameters.row_columns(i).size() + 1);
-  }
-  MatrixXd U;
-  for (int k = 0; k < samples; ++k) {
-    regressor->Differential(k, &U);
-    FillColumns(U, trajectory.tau, k, parameters, &columns);
-  }
-  for (MatrixXd& C : columns) {
-    if (filter) C = ZeroPhaseLowPass(C, 1 / dt, options.bandwidth_hz);
-  }
-  const long stride =
+  const long apart =
       filter
           ? std::max(1L, static_cast<long>(0.25 / (options.bandwidth_hz * dt)))
           : 1;
@@ -56,23 +27,58 @@ void ForEachDifferentialRow(const Trajectory& trajectory,
   const int edge =
       filter ? static_cast<int>(std::ceil(1.5 / (options.bandwidth_hz * dt)))
              : 0;
-  IdentificationRow row;
-  row.U.setZero(n, parameters.size());
-  row.Y.resize(n);
   for (int k = std::max(edge, trajectory.core_begin);
-       k < std::min(samples - edge, trajectory.core_end); ++k) {
-    if ((trajectory.first_index + k) % stride != 0 || regressor->Useless(k)) {
+       k < std::min(trajectory.size() - edge, trajectory.core_end); ++k) {
+    if ((trajectory.first_index + k) % apart != 0 || regressor.Useless(k)) {
       continue;
     }
-    for (int i = 0; i < n; ++i) {
-      const std::vector<int>& used = parameters.row_columns(i);
-      for (size_t c = 0; c < used.size(); ++c) {
-        row.U(i, used[c]) = columns[i](k, c);
+    samples_.push_back(k);
+  }
+  if (filter) Filter(options.bandwidth_hz);
+}
+
+void DifferentialRows::Filter(double bandwidth_hz) {
+  std::vector<double*> columns;
+  for (const int size : RowSizes(regressor_, 1)) {
+    filtered_.emplace_back(trajectory_.size(), size);
+    columns.push_back(filtered_.back().data());
+  }
+  EvaluateRun(0, trajectory_.size(), columns.data(), trajectory_.size());
+  for (MatrixXd& C : filtered_) {
+    C = ZeroPhaseLowPass(C, 1 / trajectory_.dt, bandwidth_hz);
+  }
+}
+
+// Of samples that follow each other.
+void DifferentialRows::EvaluateRun(int first, long count, double* const* out,
+                                   long stride) const {
+  regressor_.Differential(first, static_cast<int>(count), out, stride);
+  const auto& columns = regressor_.row_columns();
+  for (size_t i = 0; i < columns.size(); ++i) {
+    std::copy_n(trajectory_.tau.col(static_cast<int>(i)).data() + first, count,
+                out[i] + static_cast<long>(columns[i].size()) * stride);
+  }
+}
+
+void DifferentialRows::Evaluate(long begin, long count, double* const* out,
+                                long stride, RowScratch*) const {
+  const size_t n = regressor_.row_columns().size();
+  for (size_t i = 0; i < filtered_.size(); ++i) {
+    for (Eigen::Index c = 0; c < filtered_[i].cols(); ++c) {
+      for (long r = 0; r < count; ++r) {
+        out[i][c * stride + r] = filtered_[i](samples_[begin + r], c);
       }
-      row.Y[i] = columns[i](k, used.size());
     }
-    row.time = trajectory.time(k);
-    sink(row);
+  }
+  if (!filtered_.empty()) return;
+  std::vector<double*> at(n);
+  for (long r = 0; r < count;) {
+    const int first = samples_[begin + r];
+    long run = 1;
+    while (r + run < count && samples_[begin + r + run] == first + run) ++run;
+    for (size_t i = 0; i < n; ++i) at[i] = out[i] + r;
+    EvaluateRun(first, run, at.data(), stride);
+    r += run;
   }
 }
 

@@ -24,43 +24,64 @@ double RowReach(const RowOptions& options) {
   return reach;
 }
 
-MotionRegressor::MotionRegressor(const ModelParameters& parameters)
-    : parameters_(parameters),
-      regressor_(parameters.MakeRegressor()),
-      coulomb_(regressor_.columns().terms) {}
-
-void MotionRegressor::Enter(const Trajectory& trajectory) {
-  trajectory_ = &trajectory;
-  states_ = coulomb_.Follow(trajectory);
+std::unique_ptr<IdentificationRows> MakeRows(const Trajectory& trajectory,
+                                             const RowOptions& options,
+                                             const MotionRegressor& regressor) {
+  switch (options.identification) {
+    case Identification::kWeak:
+      return std::make_unique<WeakRows>(trajectory, options, regressor);
+    case Identification::kDifferential:
+      return std::make_unique<DifferentialRows>(trajectory, options, regressor);
+    case Identification::kIntegral:
+      break;
+  }
+  return std::make_unique<IntegralRows>(trajectory, options, regressor);
 }
 
-void MotionRegressor::Momentum(int sample, Eigen::MatrixXd* P,
-                               Eigen::MatrixXd* D) {
-  regressor_.Momentum(trajectory_->q.row(sample), trajectory_->qd.row(sample),
-                      states_.row(sample), P, D);
+void RowBatch::Evaluate(const IdentificationRows& rows,
+                        const MotionFunctions& functions, RowScratch* scratch) {
+  columns.Resize(RowSizes(functions, 1), count);
+  rows.Evaluate(begin, count, columns.data(), columns.stride(), scratch);
 }
 
-void MotionRegressor::Differential(int sample, Eigen::MatrixXd* U) {
-  regressor_.Differential(trajectory_->q.row(sample),
-                          trajectory_->qd.row(sample),
-                          trajectory_->qdd.row(sample), states_.row(sample), U);
+void RowBatch::ForEachRow(const IdentificationRows& rows,
+                          const MotionFunctions& functions,
+                          IdentificationRow* row, const RowSink& sink) const {
+  const auto& used = functions.row_columns();
+  const int n = static_cast<int>(used.size());
+  row->U.setZero(n, functions.size());
+  row->Y.resize(n);
+  for (long r = 0; r < count; ++r) {
+    row->time = rows.time(begin + r);
+    for (int i = 0; i < n; ++i) {
+      const int size = static_cast<int>(used[i].size());
+      for (int c = 0; c < size; ++c) {
+        row->U(i, used[i][c]) = columns.column(i, c)[r];
+      }
+      row->Y[i] = columns.column(i, size)[r];
+    }
+    sink(*row);
+  }
 }
 
-bool MotionRegressor::Useless(int sample) const {
-  return coulomb_.size() > 0 && trajectory_->standstill[sample];
+void ForEachRow(const IdentificationRows& rows,
+                const MotionFunctions& functions, const RowSink& sink) {
+  constexpr long kBatch = 64;
+  RowBatch batch;
+  RowScratch scratch;
+  IdentificationRow row;
+  for (long begin = 0; begin < rows.size(); begin += kBatch) {
+    batch.begin = begin;
+    batch.count = std::min(kBatch, rows.size() - begin);
+    batch.Evaluate(rows, functions, &scratch);
+    batch.ForEachRow(rows, functions, &row, sink);
+  }
 }
 
 void ForEachRow(const Trajectory& trajectory, const RowOptions& options,
                 MotionRegressor* regressor, const RowSink& sink) {
   regressor->Enter(trajectory);
-  switch (options.identification) {
-    case Identification::kWeak:
-      return ForEachWeakRow(trajectory, options, regressor, sink);
-    case Identification::kDifferential:
-      return ForEachDifferentialRow(trajectory, options, regressor, sink);
-    case Identification::kIntegral:
-      return ForEachIntegralRow(trajectory, options, regressor, sink);
-  }
+  ForEachRow(*MakeRows(trajectory, options, *regressor), *regressor, sink);
 }
 
 }  // namespace armcal

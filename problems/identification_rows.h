@@ -2,11 +2,13 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <vector>
 
-#include "model/model_parameters.h"
 #include "model/time_base.h"
 #include "model/trajectory.h"
+#include "problems/joint_columns.h"
+#include "problems/motion_functions.h"
 
 namespace armcal {
 
@@ -37,49 +39,53 @@ struct IdentificationRow {
   Eigen::MatrixXd U;
   Eigen::VectorXd Y;
 };
+// What evaluations need room for; one per thread.
+struct RowScratch {
+  JointColumns P, D;
+  std::vector<double> products;
+};
 using RowSink = std::function<void(const IdentificationRow&)>;
 
 // How far rows reach beyond the sample they are assigned to, s.
 double RowReach(const RowOptions& options);
 
-// Columns P and D of the joints' equations tau = (d/dt P - D) x along a log.
-// Use a new one for each pass over a log, and Enter() each trajectory in turn:
-// the states of Coulomb friction are followed from one to the next.
-class MotionFunctions {
+// The rows of a trajectory's core in order of time, but for those that reach
+// into a useless sample. Any number of threads may evaluate them; a row is the
+// same bits whichever others it is evaluated with. Trajectory and functions
+// must stay.
+class IdentificationRows {
  public:
-  virtual ~MotionFunctions() = default;
-  virtual int size() const = 0;  // columns
-  virtual void Enter(const Trajectory& trajectory) = 0;
-  // P and D (n x size()) at a sample of the trajectory entered last.
-  virtual void Momentum(int sample, Eigen::MatrixXd* P, Eigen::MatrixXd* D) = 0;
-  // With Coulomb friction in the model, a sample at which the whole arm stands
-  // still says nothing: its friction can have any value.
-  virtual bool Useless(int sample) const = 0;
+  virtual ~IdentificationRows() = default;
+  virtual long size() const = 0;
+  virtual double time(long row) const = 0;  // s, its middle
+  // Rows begin .. begin + count - 1: of joint i, its row_columns() and then the
+  // right side, column c of row begin + r at out[i][c * stride + r].
+  virtual void Evaluate(long begin, long count, double* const* out, long stride,
+                        RowScratch* scratch) const = 0;
 };
 
-// Those of the model parameters.
-class MotionRegressor : public MotionFunctions {
- public:
-  explicit MotionRegressor(const ModelParameters& parameters);
+// Of the trajectory that `regressor` has entered.
+std::unique_ptr<IdentificationRows> MakeRows(const Trajectory& trajectory,
+                                             const RowOptions& options,
+                                             const MotionRegressor& regressor);
 
-  const ModelParameters& parameters() const { return parameters_; }
-  int size() const override { return parameters_.size(); }
-  void Enter(const Trajectory& trajectory) override;
-  void Momentum(int sample, Eigen::MatrixXd* P, Eigen::MatrixXd* D) override;
-  bool Useless(int sample) const override;
-  // U of (2.20) at a sample.
-  void Differential(int sample, Eigen::MatrixXd* U);
+// Some of them, evaluated together.
+struct RowBatch {
+  long begin = 0, count = 0;
+  JointColumns columns;  // per joint, the right side last
 
- private:
-  ModelParameters parameters_;
-  Regressor regressor_;
-  CoulombStates coulomb_;
-  const Trajectory* trajectory_ = nullptr;
-  Eigen::MatrixXd states_;
+  void Evaluate(const IdentificationRows& rows,
+                const MotionFunctions& functions, RowScratch* scratch);
+  // `sink` gets every row in *row.
+  void ForEachRow(const IdentificationRows& rows,
+                  const MotionFunctions& functions, IdentificationRow* row,
+                  const RowSink& sink) const;
 };
 
-// Calls `sink` for every row of the trajectory's core, in order of time. Rows
-// that reach into a useless sample are left out.
+// Calls `sink` for every row, in order.
+void ForEachRow(const IdentificationRows& rows,
+                const MotionFunctions& functions, const RowSink& sink);
+// The same of a trajectory, which is entered.
 void ForEachRow(const Trajectory& trajectory, const RowOptions& options,
                 MotionRegressor* regressor, const RowSink& sink);
 

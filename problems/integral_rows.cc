@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "model/simd/kernels.h"
 
 namespace armcal {
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+constexpr int kBatch = 256;  // samples evaluated together
 
 // Weight (in steps) of sample k of 0..steps. Simpson's rule of an odd number of
 // steps takes three eighths for the last three; one step is a trapezoid.
@@ -26,55 +26,108 @@ double QuadratureWeight(Quadrature rule, int k, int steps) {
   return weight;
 }
 
-// The first and last sample of every interval of the core.
-std::vector<std::pair<int, int>> IntervalSamples(const Trajectory& t,
-                                                 const RowOptions& options) {
-  std::vector<std::pair<int, int>> result;
-  if (!options.intervals.empty()) {
-    for (const TimeRange& interval : options.intervals) {
-      const long a = std::lround((interval.begin - t.t0) / t.dt);
-      const long b = std::lround((interval.end - t.t0) / t.dt);
-      if (a >= t.core_begin && a < t.core_end && b > a && b < t.size()) {
-        result.emplace_back(a, b);
-      }
-    }
-    return result;
-  }
-  if (options.interval_s > t.size() * t.dt) return result;
-  long steps = std::max(1L, std::lround(options.interval_s / t.dt));
-  if (options.quadrature == Quadrature::kSimpson) steps += steps % 2;
-  for (int a = t.core_begin; a < t.core_end; ++a) {
-    if ((t.first_index + a) % steps == 0 && a + steps < t.size()) {
-      result.emplace_back(a, a + steps);
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
-void ForEachIntegralRow(const Trajectory& trajectory, const RowOptions& options,
-                        MotionRegressor* regressor, const RowSink& sink) {
-  const int n = trajectory.num_joints();
-  MatrixXd P, D;
-  for (const auto& [begin, end] : IntervalSamples(trajectory, options)) {
-    IdentificationRow row;
-    row.time = trajectory.time((begin + end) / 2);
-    row.U.setZero(n, regressor->parameters().size());
-    row.Y.setZero(n);
-    bool use = true;
-    for (int k = begin; k <= end; ++k) {
-      regressor->Momentum(k, &P, &D);
-      const double w =
-          QuadratureWeight(options.quadrature, k - begin, end - begin) *
-          trajectory.dt;
-      row.U -= w * D;
-      row.Y += w * trajectory.tau.row(k).transpose();
-      if (k == begin) row.U -= P;
-      if (k == end) row.U += P;
-      use = use && !regressor->Useless(k);
+IntegralRows::IntegralRows(const Trajectory& trajectory,
+                           const RowOptions& options,
+                           const MotionFunctions& functions)
+    : trajectory_(trajectory),
+      functions_(functions),
+      quadrature_(options.quadrature) {
+  if (options.intervals.empty()) {
+    ListEqualIntervals(options);
+  } else {
+    ListIntervals(options);
+  }
+  intervals_.erase(
+      std::remove_if(intervals_.begin(), intervals_.end(),
+                     [this](const Interval& i) { return Useless(i); }),
+      intervals_.end());
+}
+
+void IntegralRows::ListIntervals(const RowOptions& options) {
+  const Trajectory& t = trajectory_;
+  for (const TimeRange& interval : options.intervals) {
+    const long a = std::lround((interval.begin - t.t0) / t.dt);
+    const long b = std::lround((interval.end - t.t0) / t.dt);
+    if (a >= t.core_begin && a < t.core_end && b > a && b < t.size()) {
+      intervals_.push_back({static_cast<int>(a), static_cast<int>(b)});
     }
-    if (use) sink(row);
+  }
+}
+
+// Side by side, in the core.
+void IntegralRows::ListEqualIntervals(const RowOptions& options) {
+  const Trajectory& t = trajectory_;
+  if (options.interval_s > t.size() * t.dt) return;
+  long steps = std::max(1L, std::lround(options.interval_s / t.dt));
+  if (quadrature_ == Quadrature::kSimpson) steps += steps % 2;
+  for (int a = t.core_begin; a < t.core_end; ++a) {
+    if ((t.first_index + a) % steps == 0 && a + steps < t.size()) {
+      intervals_.push_back({a, static_cast<int>(a + steps)});
+    }
+  }
+}
+
+bool IntegralRows::Useless(const Interval& interval) const {
+  for (int k = interval.begin; k <= interval.end; ++k) {
+    if (functions_.Useless(k)) return true;
+  }
+  return false;
+}
+
+double IntegralRows::time(long row) const {
+  const Interval& interval = intervals_[row];
+  return trajectory_.time((interval.begin + interval.end) / 2);
+}
+
+void IntegralRows::Evaluate(long begin, long count, double* const* out,
+                            long stride, RowScratch* scratch) const {
+  const std::vector<int> sizes = RowSizes(functions_, 1);
+  scratch->P.Resize(sizes, kBatch);
+  scratch->D.Resize(sizes, kBatch);
+  std::vector<double*> at(sizes.size());
+  for (long r = 0; r < count; ++r) {
+    for (size_t i = 0; i < sizes.size(); ++i) {
+      at[i] = out[i] + r;
+      for (int c = 0; c < sizes[i]; ++c) at[i][c * stride] = 0;
+    }
+    EvaluateRow(intervals_[begin + r], at.data(), stride, scratch);
+  }
+}
+
+void IntegralRows::EvaluateRow(const Interval& interval, double* const* out,
+                               long stride, RowScratch* scratch) const {
+  const std::vector<int> sizes = RowSizes(functions_, 1);
+  const JointColumns &P = scratch->P, &D = scratch->D;
+  const int steps = interval.end - interval.begin;
+  double weights[kBatch];
+  for (int done = 0; done <= steps; done += kBatch) {
+    const int count = std::min(kBatch, steps + 1 - done);
+    const int whole = (count + 7) / 8 * 8;
+    for (int k = 0; k < whole; ++k) {
+      weights[k] = k < count ? QuadratureWeight(quadrature_, done + k, steps) *
+                                   trajectory_.dt
+                             : 0;
+    }
+    const int first = interval.begin + done;
+    functions_.Momentum(first, count, P.data(), D.data(), D.stride());
+    for (int i = 0; i < static_cast<int>(sizes.size()); ++i) {
+      const int last = sizes[i] - 1;
+      std::copy_n(trajectory_.tau.col(i).data() + first, count,
+                  D.column(i, last));
+      scratch->products.resize(sizes[i]);
+      simd::BestKernels().inner_products(weights, kBatch, 1, D.column(i, 0),
+                                         D.stride(), sizes[i], whole,
+                                         scratch->products.data());
+      for (int c = 0; c < last; ++c) {
+        double* u = out[i] + c * stride;
+        *u -= scratch->products[c];
+        if (done == 0) *u -= P.column(i, c)[0];
+        if (done + count == steps + 1) *u += P.column(i, c)[count - 1];
+      }
+      out[i][last * stride] += scratch->products[last];
+    }
   }
 }
 

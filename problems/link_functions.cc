@@ -1,5 +1,7 @@
 #include "problems/link_functions.h"
 
+#include "problems/joint_columns.h"
+
 namespace armcal {
 namespace {
 
@@ -37,7 +39,18 @@ LinkFunctions::LinkFunctions(const Robot& robot,
     values[k] -= 2 * kStep;
     changed.SetValues(values);
     perturbed_.push_back(
-        {LinkRegressor(plus), LinkRegressor(changed.ApplyTo(robot))});
+        {BatchRegressor(plus), BatchRegressor(changed.ApplyTo(robot))});
+  }
+  const int n = robot.num_joints();
+  for (int i = 0; i < n; ++i) {
+    std::vector<int>& used = row_columns_.emplace_back();
+    for (int c = 10 * i; c < 10 * n; ++c) used.push_back(c);
+    for (size_t t = 0; t < terms.size(); ++t) {
+      if (terms[t].joint == i) used.push_back(10 * n + static_cast<int>(t));
+    }
+    for (size_t g = 0; g < refined.size(); ++g) {
+      used.push_back(10 * n + static_cast<int>(terms.size() + g));
+    }
   }
 }
 
@@ -50,30 +63,70 @@ bool LinkFunctions::Useless(int sample) const {
   return coulomb_.size() > 0 && trajectory_->standstill[sample];
 }
 
-void LinkFunctions::Momentum(int sample, MatrixXd* P, MatrixXd* D) {
-  const VectorXd q = trajectory_->q.row(sample);
-  const VectorXd qd = trajectory_->qd.row(sample);
+void LinkFunctions::Momentum(int first, int count, double* const* P,
+                             double* const* D, long stride) const {
+  regressor_.Momentum(Motion(first), count, P, D, stride);
+  AddTerms(first, count, P, D, stride);
+  AddGeometry(first, count, P, D, stride);
+}
+
+MotionColumns LinkFunctions::Motion(int first) const {
+  return MotionColumns(trajectory_->q, trajectory_->qd, trajectory_->qdd,
+                       states_, first);
+}
+
+void LinkFunctions::AddTerms(int first, int count, double* const* P,
+                             double* const* D, long stride) const {
   const int n = regressor_.num_joints();
-  MatrixXd P_links, D_links;
-  regressor_.Momentum(q, qd, &P_links, &D_links);
-  P->setZero(n, columns_);
-  D->setZero(n, columns_);
-  P->leftCols(10 * n) = P_links;
-  D->leftCols(10 * n) = D_links;
-  int column = 10 * n, coulomb = 0;
+  std::vector<long> next(n);
+  for (int i = 0; i < n; ++i) next[i] = regressor_.row_size(i) * stride;
+  int coulomb = 0;
   for (const JointTermColumn& term : terms_) {
     const int j = term.joint;
-    const double c =
-        term.term == JointTerm::kCoulomb ? states_(sample, coulomb++) : 0;
-    (*P)(j, column) = term.P(qd[j]);
-    (*D)(j, column++) = term.D(qd[j], c);
+    const int state = term.term == JointTerm::kCoulomb ? coulomb++ : -1;
+    for (int s = 0; s < count; ++s) {
+      const double c = state < 0 ? 0 : states_(first + s, state);
+      const double qd = trajectory_->qd(first + s, j);
+      P[j][next[j] + s] = term.P(qd);
+      D[j][next[j] + s] = term.D(qd, c);
+    }
+    next[j] += stride;
   }
-  VectorXd P_plus, D_plus, P_minus, D_minus;
-  for (Perturbed& arm : perturbed_) {
-    arm.plus.Momentum(q, qd, inertia_, &P_plus, &D_plus);
-    arm.minus.Momentum(q, qd, inertia_, &P_minus, &D_minus);
-    P->col(column) = (P_plus - P_minus) / (2 * kStep);
-    D->col(column++) = (D_plus - D_minus) / (2 * kStep);
+}
+
+// Central differences of P and D times the inertia.
+void LinkFunctions::AddGeometry(int first, int count, double* const* P,
+                                double* const* D, long stride) const {
+  if (perturbed_.empty()) return;
+  using Column = Eigen::Map<VectorXd>;
+  using Columns = Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>;
+  const int n = regressor_.num_joints();
+  const auto& last = row_columns_;
+  std::vector<int> sizes;
+  for (int i = 0; i < n; ++i) sizes.push_back(regressor_.row_size(i));
+  JointColumns P_of, D_of;
+  P_of.Resize(sizes, count);
+  D_of.Resize(sizes, count);
+  const long geometry = static_cast<long>(perturbed_.size());
+  for (long g = 0; g < geometry; ++g) {
+    for (const double sign : {1.0, -1.0}) {
+      const BatchRegressor& arm =
+          sign > 0 ? perturbed_[g].plus : perturbed_[g].minus;
+      arm.Momentum(Motion(first), count, P_of.data(), D_of.data(),
+                   P_of.stride());
+      for (int i = 0; i < n; ++i) {
+        const long at =
+            (static_cast<long>(last[i].size()) - geometry + g) * stride;
+        const auto V = sign / (2 * kStep) * inertia_.tail(sizes[i]);
+        for (const auto& [of, to] : {std::make_pair(&P_of, P[i] + at),
+                                     std::make_pair(&D_of, D[i] + at)}) {
+          const Columns columns(of->column(i, 0), count, sizes[i],
+                                Eigen::OuterStride<>(of->stride()));
+          if (sign > 0) Column(to, count).setZero();
+          Column(to, count) += columns * V;
+        }
+      }
+    }
   }
 }
 

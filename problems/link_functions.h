@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "model/arm_geometry.h"
+#include "model/batch_regressor.h"
 #include "model/joint_term.h"
-#include "model/link_regressor.h"
-#include "problems/identification_rows.h"
+#include "problems/motion_functions.h"
 
 namespace armcal {
 
@@ -21,24 +21,34 @@ class LinkFunctions : public MotionFunctions {
                 const ArmGeometry& geometry, const std::vector<int>& refined);
 
   int size() const override { return columns_; }
+  const std::vector<std::vector<int>>& row_columns() const override {
+    return row_columns_;
+  }
   void Enter(const Trajectory& trajectory) override;
-  void Momentum(int sample, Eigen::MatrixXd* P, Eigen::MatrixXd* D) override;
+  void Momentum(int first, int count, double* const* P, double* const* D,
+                long stride) const override;
   bool Useless(int sample) const override;
 
  private:
   // The arm with one geometric parameter a little larger and smaller.
   struct Perturbed {
-    LinkRegressor plus, minus;
+    BatchRegressor plus, minus;
   };
+  MotionColumns Motion(int first) const;
+  void AddTerms(int first, int count, double* const* P, double* const* D,
+                long stride) const;
+  void AddGeometry(int first, int count, double* const* P, double* const* D,
+                   long stride) const;
 
   std::vector<JointTermColumn> terms_;
-  LinkRegressor regressor_;
+  BatchRegressor regressor_;
   std::vector<Perturbed> perturbed_;
   Eigen::VectorXd inertia_;  // of all links, stacked
   CoulombStates coulomb_;
   const Trajectory* trajectory_ = nullptr;
   Eigen::MatrixXd states_;
   int columns_;
+  std::vector<std::vector<int>> row_columns_;
 };
 
 // The links' inertial parameters, stacked.

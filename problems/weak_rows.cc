@@ -3,93 +3,160 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/simd/kernels.h"
+
 namespace armcal {
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+constexpr int kBatch = 128;  // samples evaluated together, within the cache
 
-// phi and dphi/dt at the samples of a window, times dt (quadrature weights).
-struct TestFunction {
-  TestFunction(int steps, double dt) : phi(steps + 1), rate(steps + 1) {
-    for (int k = 0; k <= steps; ++k) {
-      const double s = 2.0 * k / steps - 1;
-      const double u = 1 - s * s;
-      phi[k] = u * u * u * u;
-      rate[k] = -8 * s * u * u * u * 2 / (steps * dt);
-    }
-    rate /= phi.sum();
-    phi /= phi.sum();
-  }
-  VectorXd phi, rate;
-};
-
-// Windows under way while samples pass: window w covers [w hop, w hop + steps].
-class WindowSums {
- public:
-  WindowSums(int steps, double dt) : steps_(steps), test_(steps, dt) {}
-
-  void Start(long sample, int n, int m) {
-    open_.push_back({sample, MatrixXd::Zero(n, m), VectorXd::Zero(n), true});
-  }
-  void Add(long sample, const MatrixXd& P, const MatrixXd& D,
-           const VectorXd& tau, bool useless) {
-    for (Window& w : open_) {
-      const long k = sample - w.begin;
-      w.U.noalias() -= test_.rate[k] * P + test_.phi[k] * D;
-      w.Y += test_.phi[k] * tau;
-      w.use = w.use && !useless;
-    }
-  }
-  // Emits the window that ends at `sample`, if one does.
-  void Emit(long sample, double time, const RowSink& sink) {
-    if (open_.empty() || open_.front().begin + steps_ != sample) return;
-    Window& w = open_.front();
-    if (w.use) sink({time, std::move(w.U), std::move(w.Y)});
-    open_.erase(open_.begin());
-  }
-
- private:
-  struct Window {
-    long begin;
-    MatrixXd U;
-    VectorXd Y;
-    bool use;
-  };
-  int steps_;
-  TestFunction test_;
-  std::vector<Window> open_;
-};
+long Padded(long rows) { return (rows + 7) / 8 * 8; }
 
 }  // namespace
 
-void ForEachWeakRow(const Trajectory& trajectory, const RowOptions& options,
-                    MotionFunctions* functions, const RowSink& sink) {
+WeakRows::WeakRows(const Trajectory& trajectory, const RowOptions& options,
+                   const MotionFunctions& functions)
+    : trajectory_(trajectory),
+      functions_(functions),
+      steps_(std::max(
+          8, static_cast<int>(std::lround(options.window_s / trajectory.dt)))),
+      hop_(std::max(1, steps_ / options.hops)),
+      phases_(static_cast<int>((steps_ + hop_ - 1) / hop_)),
+      weight_stride_(Padded(hop_)) {
   if (options.window_s > trajectory.size() * trajectory.dt) return;
-  const int n = trajectory.num_joints();
-  const int steps = std::max(
-      8, static_cast<int>(std::lround(options.window_s / trajectory.dt)));
-  const long hop = std::max(1, steps / options.hops);
+  SetTestFunction();
+  ListWindows();
+}
 
-  // Windows whose middle lies in the core.
-  const long first = trajectory.first_index;
-  const long core_begin = first + trajectory.core_begin;
-  const long core_end = first + trajectory.core_end;
-  long begin = std::max(first, core_begin - steps / 2);
-  begin = (begin + hop - 1) / hop * hop;
-  const long end = std::min(first + trajectory.size(), core_end + steps);
+void WeakRows::SetTestFunction() {
+  phi_.assign(weight_stride_ * phases_, 0);
+  rate_ = phi_;
+  double sum = 0;
+  // At the last sample, `steps_`, both are 0.
+  for (int k = 0; k < steps_; ++k) {
+    const double s = 2.0 * k / steps_ - 1;
+    const double u = 1 - s * s;
+    const long at = k / hop_ * weight_stride_ + k % hop_;
+    phi_[at] = u * u * u * u;
+    rate_[at] = -8 * s * u * u * u * 2 / (steps_ * trajectory_.dt);
+    sum += phi_[at];
+  }
+  for (double& x : phi_) x /= sum;
+  for (double& x : rate_) x /= sum;
+}
 
-  WindowSums windows(steps, trajectory.dt);
-  MatrixXd P, D;
-  for (long sample = begin; sample < end; ++sample) {
-    const int k = static_cast<int>(sample - first);
-    if (sample % hop == 0 && sample + steps / 2 < core_end &&
-        sample + steps < first + trajectory.size()) {
-      windows.Start(sample, n, functions->size());
+// Those whose middle lies in the core.
+void WeakRows::ListWindows() {
+  const long first = trajectory_.first_index;
+  const long end = first + trajectory_.size();
+  const long core_end = first + trajectory_.core_end;
+  std::vector<int> useless(trajectory_.size() + 1, 0);  // before each sample
+  for (int k = 0; k < trajectory_.size(); ++k) {
+    useless[k + 1] = useless[k] + (functions_.Useless(k) ? 1 : 0);
+  }
+  const long begin =
+      std::max(first, first + trajectory_.core_begin - steps_ / 2);
+  for (long cell = (begin + hop_ - 1) / hop_;; ++cell) {
+    const long sample = cell * hop_;
+    if (sample + steps_ / 2 >= core_end || sample + steps_ >= end) break;
+    const long k = sample - first;
+    if (useless[k + steps_ + 1] == useless[k]) cells_.push_back(cell);
+  }
+}
+
+double WeakRows::time(long row) const {
+  return trajectory_.time(FirstSample(cells_[row]) + steps_ - steps_ / 2);
+}
+
+// Samples of one cell.
+struct WeakRows::Piece {
+  long cell, within;  // the first one's place in the cell
+  int place, length;  // in scratch->P and D
+};
+
+struct WeakRows::Output {
+  long begin, end;  // rows
+  double* const* columns;
+  long stride;
+  std::vector<int> sizes;  // columns of each joint, with the right side
+};
+
+// Adds what samples in scratch->P and D contribute to the windows, cell by
+// cell, so that sums do not depend on what was evaluated together.
+void WeakRows::AddSamples(int first, int count, const Output& output,
+                          RowScratch* scratch) const {
+  for (int done = 0; done < count;) {
+    const long sample = trajectory_.first_index + first + done;
+    const int length =
+        static_cast<int>(std::min<long>(count - done, hop_ - sample % hop_));
+    for (size_t i = 0; i < output.sizes.size(); ++i) {
+      AddPiece({sample / hop_, sample % hop_, done, length},
+               static_cast<int>(i), output, scratch);
     }
-    functions->Momentum(k, &P, &D);
-    windows.Add(sample, P, D, trajectory.tau.row(k), functions->Useless(k));
-    windows.Emit(sample, trajectory.time(k - steps / 2), sink);
+    done += length;
+  }
+}
+
+void WeakRows::AddPiece(const Piece& piece, int joint, const Output& output,
+                        RowScratch* scratch) const {
+  const simd::Kernels& kernels = simd::BestKernels();
+  const long stride = scratch->D.stride();
+  const int size = output.sizes[joint];
+  scratch->products.resize(2 * size * phases_);
+  double* of_phi = scratch->products.data();
+  double* of_rate = of_phi + size * phases_;
+  kernels.inner_products(phi_.data() + piece.within, weight_stride_, phases_,
+                         scratch->D.column(joint, 0) + piece.place, stride,
+                         size, Padded(piece.length), of_phi);
+  kernels.inner_products(rate_.data() + piece.within, weight_stride_, phases_,
+                         scratch->P.column(joint, 0) + piece.place, stride,
+                         size - 1, Padded(piece.length), of_rate);
+  const auto begin = cells_.begin() + output.begin;
+  const auto end = cells_.begin() + output.end;
+  for (auto w = std::lower_bound(begin, end, piece.cell - phases_ + 1);
+       w < end && *w <= piece.cell; ++w) {
+    const long phase = piece.cell - *w;
+    double* row = output.columns[joint] + (w - begin);
+    for (int c = 0; c + 1 < size; ++c) {
+      const long at = c * phases_ + phase;
+      row[c * output.stride] -= of_rate[at] + of_phi[at];
+    }
+    row[(size - 1) * output.stride] += of_phi[(size - 1) * phases_ + phase];
+  }
+}
+
+void WeakRows::Evaluate(long begin, long count, double* const* out, long stride,
+                        RowScratch* scratch) const {
+  if (count == 0) return;
+  const Output output = {begin, begin + count, out, stride,
+                         RowSizes(functions_, 1)};
+  const int n = static_cast<int>(output.sizes.size());
+  for (int i = 0; i < n; ++i) {
+    for (int c = 0; c < output.sizes[i]; ++c) {
+      std::fill_n(out[i] + c * stride, count, 0.0);
+    }
+  }
+  scratch->P.Resize(output.sizes, kBatch);
+  scratch->D.Resize(output.sizes, kBatch);
+  const long end = cells_[begin + count - 1] + phases_;
+  const long together = std::max(1L, kBatch / hop_);
+  long row = begin;
+  for (long cell = cells_[begin]; cell < end;) {
+    while (cells_[row] + phases_ <= cell) ++row;
+    cell = std::max(cell, cells_[row]);  // there may be a gap
+    const long next = std::min(cell + together, end);
+    const int last = std::min(FirstSample(next), trajectory_.size());
+    for (int first = FirstSample(cell); first < last; first += kBatch) {
+      const int samples = std::min(kBatch, last - first);
+      functions_.Momentum(first, samples, scratch->P.data(), scratch->D.data(),
+                          scratch->D.stride());
+      for (int i = 0; i < n; ++i) {
+        std::copy_n(trajectory_.tau.col(i).data() + first, samples,
+                    scratch->D.column(i, output.sizes[i] - 1));
+      }
+      AddSamples(first, samples, output, scratch);
+    }
+    cell = next;
   }
 }
 

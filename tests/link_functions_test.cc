@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "model/inverse_dynamics.h"
+#include "model/link_regressor.h"
 #include "problems/weak_rows.h"
 #include "tests/sample_motion.h"
 #include "tests/sample_robots.h"
@@ -41,13 +42,33 @@ Trajectory Record(const Robot& robot, std::mt19937_64* random) {
   return MakeTrajectory(log);
 }
 
-std::vector<IdentificationRow> WeakRows(const Trajectory& trajectory,
-                                        LinkFunctions* functions) {
+std::vector<IdentificationRow> RowsOf(const Trajectory& trajectory,
+                                      LinkFunctions* functions) {
   std::vector<IdentificationRow> rows;
   functions->Enter(trajectory);
-  ForEachWeakRow(trajectory, RowOptions(), functions,
-                 [&](const IdentificationRow& row) { rows.push_back(row); });
+  const WeakRows weak(trajectory, RowOptions(), *functions);
+  ForEachRow(weak, *functions,
+             [&](const IdentificationRow& row) { rows.push_back(row); });
   return rows;
+}
+
+// P and D of one sample.
+std::pair<MatrixXd, MatrixXd> DenseMomentum(const LinkFunctions& functions,
+                                            int sample) {
+  JointColumns P, D;
+  P.Resize(RowSizes(functions, 0), 1);
+  D.Resize(RowSizes(functions, 0), 1);
+  functions.Momentum(sample, 1, P.data(), D.data(), P.stride());
+  const auto& columns = functions.row_columns();
+  MatrixXd dense_P = MatrixXd::Zero(columns.size(), functions.size());
+  MatrixXd dense_D = dense_P;
+  for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
+    for (int c = 0; c < static_cast<int>(columns[i].size()); ++c) {
+      dense_P(i, columns[i][c]) = *P.column(i, c);
+      dense_D(i, columns[i][c]) = *D.column(i, c);
+    }
+  }
+  return {dense_P, dense_D};
 }
 
 TEST(LinkFunctions, ColumnsOfLinksAndTerms) {
@@ -63,8 +84,8 @@ TEST(LinkFunctions, ColumnsOfLinksAndTerms) {
   functions.Enter(trajectory);
   LinkRegressor regressor(robot);
   for (const int k : {0, 100, 1000}) {
-    MatrixXd P, D, P_links, D_links;
-    functions.Momentum(k, &P, &D);
+    MatrixXd P_links, D_links;
+    const auto [P, D] = DenseMomentum(functions, k);
     const VectorXd q = trajectory.q.row(k), qd = trajectory.qd.row(k);
     regressor.Momentum(q, qd, &P_links, &D_links);
     EXPECT_LT((P.leftCols(60) - P_links).norm(), 1e-12);
@@ -104,7 +125,7 @@ TEST(LinkFunctions, WeakRowsGiveTorqueAndItsChange) {
     Trajectory trajectory = Record(robot, &random);
     const VectorXd V = StackInertials(robot);
     const double size = ColumnRms(trajectory.tau).maxCoeff();
-    const auto rows = WeakRows(trajectory, &functions);
+    const auto rows = RowsOf(trajectory, &functions);
     ASSERT_GT(rows.size(), 8);
     for (const auto& row : rows) {
       EXPECT_LT((row.U.leftCols(links) * V - row.Y).norm(), 1e-5 * size);
@@ -121,7 +142,7 @@ TEST(LinkFunctions, WeakRowsGiveTorqueAndItsChange) {
                             (2 * e);
       }
       // Only mean torques are wanted of this.
-      const auto changes = WeakRows(change, &no_geometry);
+      const auto changes = RowsOf(change, &no_geometry);
       ASSERT_EQ(changes.size(), rows.size());
       for (size_t k = 0; k < rows.size(); ++k) {
         EXPECT_LT((rows[k].U.col(links + p) - changes[k].Y).norm(), 1e-5 * size)
@@ -138,7 +159,7 @@ TEST(LinkFunctions, ColumnsOfFramesBesideTheArm) {
   const Robot robot = MakeRobot("3R elbow", &random);
   const ArmGeometry geometry(robot);
   LinkFunctions functions(robot, {}, geometry, All(geometry));
-  const auto rows = WeakRows(Record(robot, &random), &functions);
+  const auto rows = RowsOf(Record(robot, &random), &functions);
   for (int p = 0; p < geometry.size(); ++p) {
     const std::string name = geometry.Names()[p];
     double largest = 0;

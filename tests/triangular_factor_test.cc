@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/sample_robots.h"
 
 namespace armcal {
@@ -74,6 +76,77 @@ TEST(TriangularFactor, ReadsBetweenRowsAndMerges) {
   ExpectFactorOf(first, Ay);
   empty.Merge(first);
   ExpectFactorOf(empty, Ay);
+}
+
+// Rows are numbered: in whatever pieces they come, and whether a triangle is
+// read in between, the factor is the same bits.
+TEST(TriangularFactor, IsTheSameForAnyPieces) {
+  std::mt19937_64 random(5);
+  const int columns = 11, rows = 5000;
+  const MatrixXd Ay = RandomRows(rows, columns + 1, &random);
+  for (const long leaf_rows : {32L, 300L, TriangularFactor::kLeafRows}) {
+    TriangularFactor singly(columns, leaf_rows);
+    AddRows(Ay, &singly);
+    for (const int piece : {1, 7, 1000, 4999, rows}) {
+      TriangularFactor factor(columns, leaf_rows);
+      for (int begin = 0; begin < rows; begin += piece) {
+        factor.AddRows(Ay.data() + begin, rows, std::min(piece, rows - begin));
+        if (begin % 3 == 0) factor.Triangle();
+      }
+      EXPECT_EQ(factor.rows(), rows);
+      EXPECT_EQ(factor.Triangle(), singly.Triangle()) << leaf_rows;
+    }
+  }
+}
+
+// As by several threads: each leaf elsewhere, put back in order.
+TEST(TriangularFactor, LeavesMayBeReducedElsewhere) {
+  std::mt19937_64 random(6);
+  const int columns = 5;
+  const long leaf_rows = 300, rows = 1000;
+  const MatrixXd Ay = RandomRows(rows, columns + 1, &random);
+  TriangularFactor whole(columns, leaf_rows), factor(columns, leaf_rows);
+  AddRows(Ay, &whole);
+  AddRows(Ay.topRows(100), &factor);
+  LeafFactor leaf(columns);
+  factor.TakeLeaf(&leaf);
+  EXPECT_EQ(leaf.rows(), 100);
+  for (long row = 100; row < rows;) {
+    const long end = std::min(rows, row + leaf_rows - leaf.rows());
+    while (row < end) {
+      const long count = std::min(leaf.room(), end - row);
+      for (int c = 0; c <= columns; ++c) {
+        for (long r = 0; r < count; ++r) {
+          leaf.Next()[c * LeafFactor::kStride + r] = Ay(row + r, c);
+        }
+      }
+      leaf.Commit(count);
+      row += count;
+    }
+    factor.PutLeaf(&leaf);
+  }
+  EXPECT_EQ(factor.rows(), rows);
+  EXPECT_EQ(factor.Triangle(), whole.Triangle());
+}
+
+TEST(TriangularFactor, OfAKnownTriangleGoesOn) {
+  std::mt19937_64 random(9);
+  const MatrixXd Ay = RandomRows(500, 6, &random);
+  TriangularFactor first(5);
+  AddRows(Ay.topRows(300), &first);
+  TriangularFactor factor(first.Triangle(), first.rows());
+  EXPECT_EQ(factor.columns(), 5);
+  AddRows(Ay.bottomRows(200), &factor);
+  ExpectFactorOf(factor, Ay);
+}
+
+TEST(TriangularFactor, WeightsColumnsOfRows) {
+  std::mt19937_64 random(8);
+  const MatrixXd Ay = RandomRows(700, 6, &random);
+  const VectorXd weights = UniformVector(&random, 700, 0, 3);
+  TriangularFactor factor(5);
+  factor.AddRows(Ay.data(), 700, 700, weights.data());
+  ExpectFactorOf(factor, weights.asDiagonal() * Ay);
 }
 
 // The last column solves the least-squares problem; its corner is the norm of

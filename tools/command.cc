@@ -25,6 +25,7 @@ const std::vector<Command>& Commands() {
     for (Command& command : commands) {
       command.groups.push_back(
           {"output", {"out", "json", "quiet", "flagfile"}});
+      command.groups.push_back({"computation", {"threads"}, false});
     }
     return commands;
   }();

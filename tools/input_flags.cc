@@ -41,6 +41,9 @@ DEFINE_string(loss, "auto",
               "what large residuals count: auto (huber for torques, tukey for "
               "poses), huber, cauchy, tukey, squared (all alike, and no gross "
               "error is taken out of the torque)");
+DEFINE_int32(threads, 0,
+             "`N` that share the work; default: one per core. Results are the "
+             "same for any number");
 DEFINE_string(out, "", "`DIR` for the result files; default: write none");
 
 namespace armcal {
@@ -269,6 +272,12 @@ std::optional<double> BandwidthFromFlags() {
 }
 
 std::optional<RobustLoss> LossFromFlags() { return kLosses.Parse(FLAGS_loss); }
+
+int ThreadsFromFlags() {
+  if (FLAGS_threads >= 0) return FLAGS_threads;
+  throw UsageError("--threads: found '" + std::to_string(FLAGS_threads) +
+                   "', expected a number of threads, or 0 for all cores");
+}
 
 std::string OutFromFlags() { return FLAGS_out; }
 std::string BaseFromFlags() { return FLAGS_base; }

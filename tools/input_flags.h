@@ -33,6 +33,7 @@ void CheckLogsApart();
 std::optional<double> BandwidthFromFlags();  // --bandwidth
 std::string OutFromFlags();                  // --out
 std::string BaseFromFlags();                 // --base
+int ThreadsFromFlags();                      // --threads; 0: all cores
 // --loss; nothing: what suits the measurement.
 std::optional<RobustLoss> LossFromFlags();
 

@@ -9,11 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "calib/thread_limit.h"
 #include "model/input_error.h"
 #include "tools/command.h"
 #include "tools/completion.h"
 #include "tools/console.h"
 #include "tools/flag_parser.h"
+#include "tools/input_flags.h"
 #include "tools/interruption.h"
 #include "tools/manual.h"
 #include "tools/nearest_name.h"
@@ -58,6 +60,7 @@ int Help(const Words& words) {
 }
 
 int RunAndTell(const Command& command) {
+  const ThreadLimit limit(ThreadsFromFlags());
   ProgressBar bar("reading the input");
   CommandOutcome outcome = command.run({std::nullopt, bar.Callback()});
   OutputFolder::WriteTogether(&outcome.folders);

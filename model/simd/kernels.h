@@ -34,6 +34,18 @@ struct Kernels {
   void (*inverse_dynamics)(const ChainConstants& chain, const double* inertia,
                            const ChainMotion& motion, long count,
                            double* const* tau);
+
+  // products[c * a_columns + a]: of every column of A with every one of B, over
+  // `rows`, a multiple of 8. Columns lie a stride apart.
+  void (*inner_products)(const double* A, long a_stride, int a_columns,
+                         const double* B, long b_stride, int b_columns,
+                         long rows, double* products);
+
+  // Makes the upper triangle R the triangular factor of itself and the rows X
+  // below it (columns a stride apart), which are lost. `rows` is a multiple of
+  // 8. triangular: X is an upper triangle too, followed by rows of zeros.
+  void (*householder)(double* R, long r_stride, int columns, double* X,
+                      long stride, long rows, bool triangular);
 };
 
 // Of the instruction sets that this processor has, the least first.

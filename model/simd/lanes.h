@@ -56,6 +56,14 @@ ARMCAL_INLINE bool All(const Integers& holds) {
   return all;
 #endif
 }
+// Kept in a register, where the compiler would load it anew for every product.
+ARMCAL_INLINE Lanes LoadOnce(const double* from) {
+  Lanes x = Load(from);
+#ifdef __x86_64__
+  __asm__("" : "+v"(x));
+#endif
+  return x;
+}
 ARMCAL_INLINE Lanes Broadcast(double x) { return x - Lanes{}; }
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "calib/thread_limit.h"
 #include "calib/torque_trace.h"
 #include "model/log_reader.h"
 #include "model/trajectory.h"
@@ -72,6 +73,7 @@ CommandOutcome RunWithFlags(const std::string& name, const FlagTexts& flags,
                             const CommandInput& input, bool write) {
   const Command& command = CommandNamed(name);
   const FlagSession session(command, flags);
+  const ThreadLimit limit(ThreadsFromFlags());
   CommandOutcome outcome = command.run(input);
   if (write) OutputFolder::WriteTogether(&outcome.folders);
   return outcome;
