@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/sample_residuals.h"
 #include "model/spikes.h"
-#include "problems/identification_rows.h"
 
 namespace armcal {
 namespace {
@@ -41,19 +39,14 @@ void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
 
 }  // namespace
 
-OutlierLists FindTorqueOutliers(const ModelParameters& parameters,
-                                const VectorXd& x, const Progress& progress,
-                                LogSet* logs) {
-  OutlierLists lists(logs->size());
-  std::vector<MotionRegressor> regressors(logs->size(),
-                                          MotionRegressor(parameters));
-  logs->ForEachAtFullRate(
-      "outliers", progress, [&](int log, const Trajectory& t) {
-        const MatrixXd residuals = SampleResiduals(t, x, &regressors[log]);
-        for (int i = 0; i < t.num_joints(); ++i) {
-          Judge(t, residuals, i, &lists[log]);
-        }
-      });
+OutlierLists FindTorqueOutliers(SamplePass* pass) {
+  OutlierLists lists(pass->logs().size());
+  pass->Run("outliers",
+            [&](int log, const Trajectory& t, const MatrixXd& residuals) {
+              for (int i = 0; i < t.num_joints(); ++i) {
+                Judge(t, residuals, i, &lists[log]);
+              }
+            });
   for (std::vector<TorqueOutlier>& list : lists) {
     std::sort(list.begin(), list.end(),
               [](const TorqueOutlier& a, const TorqueOutlier& b) {

@@ -171,6 +171,7 @@ LogReader::LogReader(const std::string& path, const LogReaderOptions& options) {
 }
 LogReader::~LogReader() = default;
 LogReader::LogReader(LogReader&&) noexcept = default;
+LogReader& LogReader::operator=(LogReader&&) noexcept = default;
 
 bool LogReader::has_velocity() const {
   return impl_->columns.HasAll(Signal::kVelocity);

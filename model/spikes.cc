@@ -1,9 +1,10 @@
 #include "model/spikes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
+
+#include "model/quantile.h"
 
 namespace armcal {
 namespace {
@@ -13,21 +14,33 @@ constexpr double kThreshold = 8;  // standard deviations
 constexpr double kNormal90 = 1.645;
 constexpr double kNormal80 = 1.2816;
 
-// The median of the five samples around k, fewer at the ends.
-double LocalMedian(const Eigen::VectorXd& x, Eigen::Index k) {
-  const Eigen::Index reach = std::min<Eigen::Index>({2, k, x.size() - 1 - k});
-  std::array<double, 5> window;
-  const auto end =
-      std::copy_n(x.data() + k - reach, 2 * reach + 1, window.begin());
-  std::nth_element(window.begin(), window.begin() + reach, end);
-  return window[reach];
+// The median of three and of five.
+double Median(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+double Median(double a, double b, double c, double d, double e) {
+  // Neither the least nor the greatest of a, b, c, d is it.
+  const double low = std::max(std::min(a, b), std::min(c, d));
+  const double high = std::min(std::max(a, b), std::max(c, d));
+  return Median(low, high, e);
 }
 
-double Percentile(const Eigen::VectorXd& x, int percent) {
-  std::vector<double> sorted(x.data(), x.data() + x.size());
-  const auto at = sorted.begin() + percent * x.size() / 100;
-  std::nth_element(sorted.begin(), at, sorted.end());
-  return *at;
+// The medians of the five samples around each, fewer at the ends.
+void LocalMedians(const Eigen::VectorXd& x, Eigen::VectorXd* medians) {
+  const Eigen::Index n = x.size();
+  Eigen::VectorXd& m = *medians;
+  for (Eigen::Index k = 2; k + 2 < n; ++k) {
+    m[k] = Median(x[k - 2], x[k - 1], x[k], x[k + 1], x[k + 2]);
+  }
+  m[0] = x[0];
+  m[n - 1] = x[n - 1];
+  m[1] = Median(x[0], x[1], x[2]);
+  m[n - 2] = Median(x[n - 3], x[n - 2], x[n - 1]);
+}
+
+double Percentile(const Eigen::VectorXd& sizes, int percent) {
+  return NonnegativeAtRank(sizes.data(), sizes.size(),
+                           percent * sizes.size() / 100);
 }
 
 // The median of sample k, unless marked, and the nearest `reach` unmarked ones
@@ -49,6 +62,25 @@ double UnmarkedMedian(const Eigen::VectorXd& x, Eigen::Index k, int reach,
   return *middle;
 }
 
+// Medians of up to 2 reach + 1 samples around each, fewer at the ends.
+Eigen::VectorXd SlidingMedians(const Eigen::VectorXd& x, int reach) {
+  const Eigen::Index n = x.size();
+  Eigen::VectorXd medians(n);
+  std::vector<double> sorted;  // what the window holds
+  const auto place = [&sorted](double value) {
+    return std::lower_bound(sorted.begin(), sorted.end(), value);
+  };
+  for (Eigen::Index k = -reach; k < n; ++k) {
+    if (k + reach < n) sorted.insert(place(x[k + reach]), x[k + reach]);
+    if (k - reach > 0) {
+      const auto gone = place(x[k - reach - 1]);
+      if (gone != sorted.end()) sorted.erase(gone);
+    }
+    if (k >= 0) medians[k] = sorted[sorted.size() / 2];
+  }
+  return medians;
+}
+
 }  // namespace
 
 Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> RemoveSpikes(
@@ -64,10 +96,8 @@ Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> RemoveSpikes(
     // Again on what is left: spikes close together hide each other.
     for (int pass = 0; pass < 3; ++pass) {
       const Eigen::VectorXd signal = x->col(c);
-      for (Eigen::Index k = 0; k < n; ++k) {
-        median[k] = LocalMedian(signal, k);
-        size[k] = std::abs(signal[k] - median[k]);
-      }
+      LocalMedians(signal, &median);
+      size = (signal - median).cwiseAbs();
       if (pass == 0) limit = kThreshold * Percentile(size, 90) / kNormal90;
       bool found = false;
       for (Eigen::Index k = 0; limit > 0 && k < n; ++k) {
@@ -87,12 +117,19 @@ Outlying FindOutlying(const Eigen::VectorXd& x, int reach, double least) {
   result.marked.setConstant(n, false);
   result.level = x;
   if (n < 20) return result;
+  const Eigen::VectorXd medians = SlidingMedians(x, reach);
   std::vector<double> window;
   Eigen::VectorXd size(n);
   // Marked samples pull on the level and the deviation of those around them.
   for (int pass = 0; pass < 4; ++pass) {
-    for (Eigen::Index k = 0; k < n; ++k) {
-      result.level[k] = UnmarkedMedian(x, k, reach, result.marked, &window);
+    result.level = medians;
+    for (Eigen::Index k = 0, next = 0; k < n; ++k) {
+      if (!result.marked[k]) continue;
+      next = std::max(next, k - reach);
+      for (; next <= std::min(n - 1, k + reach); ++next) {
+        result.level[next] =
+            UnmarkedMedian(x, next, reach, result.marked, &window);
+      }
     }
     size = (x - result.level).cwiseAbs();
     result.deviation = Percentile(size, 80) / kNormal80;
