@@ -6,21 +6,6 @@
 #include "model/time_base.h"
 
 namespace armcal {
-namespace {
-
-std::size_t BytesOf(const Trajectory& t) {
-  Eigen::Index numbers = t.samples.t.size() + t.samples.place.size() +
-                         t.samples.tau.size() + t.standstill.size();
-  for (const Eigen::MatrixXd* x :
-       {&t.q, &t.qd, &t.qdd, &t.tau, &t.tau_recorded, &t.temperature}) {
-    numbers += x->size();
-  }
-  return (static_cast<std::size_t>(numbers) + t.samples.row.size()) *
-         sizeof(double);
-}
-
-}  // namespace
-
 LogSet::LogSet(const std::vector<std::string>& paths,
                const LogReaderOptions& log_options, const TimeRange& crop,
                std::size_t memory_bytes)

@@ -4,7 +4,24 @@
 
 namespace armcal {
 
-using Eigen::MatrixXd;
+namespace {
+
+// What visits see of a trajectory.
+Trajectory SeenOf(const Trajectory& t) {
+  Trajectory seen;
+  seen.t0 = t.t0;
+  seen.dt = t.dt;
+  seen.q = t.q;
+  seen.standstill = t.standstill;
+  seen.samples = t.samples;
+  seen.segment = t.segment;
+  seen.first_index = t.first_index;
+  seen.core_begin = t.core_begin;
+  seen.core_end = t.core_end;
+  return seen;
+}
+
+}  // namespace
 
 SamplePass::SamplePass(const ModelParameters& parameters,
                        const Eigen::VectorXd& x, const Progress& progress,
@@ -13,27 +30,27 @@ SamplePass::SamplePass(const ModelParameters& parameters,
       x_(x),
       progress_(progress),
       logs_(logs),
-      residuals_(logs->memory()) {}
+      stretches_(logs->memory()) {}
 
 void SamplePass::Run(const std::string& stage, const Visit& visit) {
-  if (residuals_.whole()) {
-    std::size_t next = 0;
-    logs_->ForEachAtFullRate(stage, progress_,
-                             [&](int log, const Trajectory& t) {
-                               visit(log, t, residuals_.items()[next++]);
-                             });
+  if (stretches_.whole()) {
+    for (const Stretch& s : stretches_.items()) {
+      visit(s.log, s.trajectory, s.residuals);
+    }
+    if (progress_) progress_(stage, 1);
     return;
   }
-  residuals_.Begin();
+  stretches_.Begin();
   std::vector<MotionRegressor> regressors(logs_->size(),
                                           MotionRegressor(parameters_));
   logs_->ForEachAtFullRate(stage, progress_, [&](int log, const Trajectory& t) {
-    MatrixXd residuals = SampleResiduals(t, x_, &regressors[log]);
-    const std::size_t bytes =
-        static_cast<std::size_t>(residuals.size()) * sizeof(double);
-    visit(log, t, *residuals_.Add(&residuals, bytes));
+    Stretch stretch{log, SeenOf(t), SampleResiduals(t, x_, &regressors[log])};
+    const Stretch* const kept =
+        stretches_.Add(&stretch, sizeof(Stretch) + BytesOf(stretch.trajectory) +
+                                     stretch.residuals.size() * sizeof(double));
+    visit(log, kept->trajectory, kept->residuals);
   });
-  residuals_.End();
+  stretches_.End();
 }
 
 }  // namespace armcal

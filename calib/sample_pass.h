@@ -10,11 +10,12 @@
 namespace armcal {
 
 // Passes over the torque samples of logs that look at their residuals at some
-// parameters. Residuals are kept from pass to pass as far as the logs' memory
-// goes, so the logs must stay as they are prepared.
+// parameters. All is kept from pass to pass as far as the logs' memory goes, so
+// the logs must stay as they are prepared.
 class SamplePass {
  public:
-  // `residuals` of each of t.samples (sample_residuals.h), samples in rows.
+  // `residuals` of each of t.samples (sample_residuals.h), samples in rows. Of
+  // the trajectory, samples, positions, standstill and core; nothing else.
   using Visit = std::function<void(int log, const Trajectory& t,
                                    const Eigen::MatrixXd& residuals)>;
 
@@ -32,7 +33,12 @@ class SamplePass {
   Eigen::VectorXd x_;
   Progress progress_;
   LogSet* logs_;
-  KeptItems<Eigen::MatrixXd> residuals_;  // of one trajectory after the other
+  struct Stretch {
+    int log;
+    Trajectory trajectory;
+    Eigen::MatrixXd residuals;
+  };
+  KeptItems<Stretch> stretches_;
 };
 
 }  // namespace armcal

@@ -16,7 +16,7 @@ bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 // Eight digits at once (Lemire, "Number parsing at a gigabyte per second"); of
 // a machine that has the lowest byte first.
-bool EightDigits(const char* p, std::uint64_t* number) {
+inline bool EightDigits(const char* p, std::uint64_t* number) {
   std::uint64_t x;
   std::memcpy(&x, p, sizeof(x));
   const std::uint64_t zeros = 0x3030303030303030, high = 0xf0f0f0f0f0f0f0f0;
@@ -33,7 +33,7 @@ bool EightDigits(const char* p, std::uint64_t* number) {
   return true;
 }
 
-const char* Digits(const char* p, const char* last, std::uint64_t* number) {
+[[gnu::always_inline]] inline const char* Digits(const char* p, const char* last, std::uint64_t* number) {
   if (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) {
     while (last - p >= 8 && EightDigits(p, number)) p += 8;
   }

@@ -46,10 +46,12 @@ template <int pairs>
 void FilterRows(const std::array<Section, 2>& sections, Pair* x, long rows,
                 int step) {
   Pair rest[pairs];
-  for (const Section& s : sections) {
+  for (size_t which = 0; which < sections.size(); ++which) {
+    const Section s = sections[which];
+    const Pair b = {s.b, s.b}, a1 = {s.a1, s.a1}, a2 = {s.a2, s.a2};
     Pair x1[pairs], x2[pairs], y1[pairs], y2[pairs];
     for (int p = 0; p < pairs; ++p) {
-      if (&s == &sections[0]) rest[p] = x[p];
+      if (which == 0) rest[p] = x[p];
       x1[p] = x2[p] = y1[p] = y2[p] = Pair{};
     }
     Pair* row = x;
@@ -57,8 +59,7 @@ void FilterRows(const std::array<Section, 2>& sections, Pair* x, long rows,
 #pragma GCC unroll 4
       for (int p = 0; p < pairs; ++p) {
         const Pair x0 = row[p] - rest[p];
-        const Pair y0 =
-            s.b * (x0 + 2 * x1[p] + x2[p]) - s.a1 * y1[p] - s.a2 * y2[p];
+        const Pair y0 = b * (x0 + 2 * x1[p] + x2[p]) - a1 * y1[p] - a2 * y2[p];
         x2[p] = x1[p], x1[p] = x0, y2[p] = y1[p], y1[p] = y0;
         row[p] = y0 + rest[p];
       }

@@ -10,7 +10,7 @@ std::size_t MemoryBudget::DefaultBytes() {
   constexpr std::size_t kMost = std::size_t{1} << 30;
   const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
   if (pages <= 0 || size <= 0) return kMost;
-  return std::min(kMost, static_cast<std::size_t>(pages) * size / 4);
+  return std::min(kMost, static_cast<std::size_t>(pages) * size / 8);
 }
 
 }  // namespace armcal

@@ -28,6 +28,17 @@ Eigen::MatrixXd Thin(const Eigen::MatrixXd& x, long factor) {
 
 }  // namespace
 
+std::size_t BytesOf(const Trajectory& t) {
+  Eigen::Index numbers = t.samples.t.size() + t.samples.place.size() +
+                         t.samples.tau.size() + t.standstill.size();
+  for (const Eigen::MatrixXd* x :
+       {&t.q, &t.qd, &t.qdd, &t.tau, &t.tau_recorded, &t.temperature}) {
+    numbers += x->size();
+  }
+  return (static_cast<std::size_t>(numbers) + t.samples.row.size()) *
+         sizeof(double);
+}
+
 double DefaultBandwidth(const std::vector<TimeBase>& time_bases) {
   double wish = 8, limit = 20;
   for (const TimeBase& base : time_bases) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,6 +43,9 @@ struct Trajectory {
   int num_joints() const { return static_cast<int>(q.cols()); }
   double time(int row) const { return t0 + row * dt; }
 };
+
+// What its numbers take.
+std::size_t BytesOf(const Trajectory& trajectory);
 
 struct TrajectoryOptions {
   // Cutoff of the zero-phase low pass on positions, Hz. 0: data are taken as
