@@ -1,7 +1,10 @@
 #include "calib/log_set.h"
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/time_base.h"
 
@@ -81,16 +84,26 @@ void LogSet::WorkThrough(const std::string& stage, const Progress& progress,
 
 void LogSet::Make(TrajectoryOptions options, const OutlierLists& outliers,
                   const std::function<void(Stretch*)>& add) {
-  Stretch stretch;
-  for (stretch.log = 0; stretch.log < size(); ++stretch.log) {
-    const int log = stretch.log;
+  for (int log = 0; log < size(); ++log) {
     if (!outliers.empty()) options.outliers = &outliers[log];
     KeptLog* const rows = Rows(log, options.bandwidth_hz == 0);
     rows->Rewind();
     TrajectoryReader reader(rows, time_bases_[log], options);
-    while (reader.Next(&stretch.trajectory)) {
-      stretch.progress = (log + reader.progress()) / size();
+    Stretch stretch, next;
+    bool more = true;
+    const auto make_next = [&] {
+      more = reader.Next(&next.trajectory);
+      next.log = log;
+      next.progress = (log + reader.progress()) / size();
+    };
+    make_next();
+    while (more) {
+      std::swap(stretch, next);
+      // While one is looked at another thread makes the next.
+      tbb::task_group ahead;
+      ahead.run(make_next);
       add(&stretch);
+      ahead.wait();
     }
   }
 }
