@@ -20,7 +20,7 @@ struct SampleNoise {
 const char* NoiseSourceName(SampleNoise::Source source);
 
 // Per joint, listed outliers left out. Repeats are looked for
-// in and across logs, in the first 400000 samples (a share for each log). One
+// in and across logs, in the first 60000 samples (a share for each log). One
 // pass at full rate. Estimates do not weigh by it: the scatter of equations,
 // which holds model errors and noise of the positions too, is what weighs them.
 std::vector<SampleNoise> EstimateSampleNoise(SamplePass* pass);
