@@ -67,7 +67,7 @@ TEST(KeptLog, IsReadAgainWhereItDoesNotFit) {
 
 TEST(KeptLog, APassThatIsLeftCountsForNothing) {
   KeptLog log(WriteRows(kRows), OneJoint(),
-              std::make_shared<MemoryBudget>(kEnough));
+              std::make_shared<MemoryBudget>(2 * kEnough));
   ASSERT_NE(log.Next(), nullptr);
   log.Rewind();
   ExpectAllRows(&log, kRows);

@@ -75,6 +75,8 @@ TEST(LogSet, WhatIsKeptIsWhatWouldBeMadeAgain) {
       for (LogSet* logs : {&kept, &made}) logs->Prepare(bandwidth, .3);
       ExpectSame(&kept, &made);
       EXPECT_EQ(kept.spikes() > 0, bandwidth > 0);
+      for (LogSet* logs : {&kept, &made}) logs->TakeOut({{}, {}});
+      ExpectSame(&kept, &made);  // spikes are no longer replaced
       for (LogSet* logs : {&kept, &made}) {
         logs->TakeOut({{{900, 4.4, 0, 1, -7, 9}}, {}});
       }
