@@ -33,7 +33,9 @@ inline bool EightDigits(const char* p, std::uint64_t* number) {
   return true;
 }
 
-[[gnu::always_inline]] inline const char* Digits(const char* p, const char* last, std::uint64_t* number) {
+[[gnu::always_inline]] inline const char* Digits(const char* p,
+                                                 const char* last,
+                                                 std::uint64_t* number) {
   if (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) {
     while (last - p >= 8 && EightDigits(p, number)) p += 8;
   }
