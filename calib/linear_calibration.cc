@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "calib/calibration_checks.h"
 #include "calib/calibration_model.h"
 #include "calib/log_factors.h"
 #include "calib/robust_solution.h"
+#include "calib/sample_pass.h"
 #include "calib/torque_outliers.h"
 #include "calib/transition_search.h"
 #include "calib/used_equations.h"
@@ -212,10 +214,12 @@ LinearCalibration CalibrateOnce(const Robot& robot,
 }
 
 // Calibrates, takes out the torque samples that the calibration shows to be
-// wrong, and again until these and the parameters stay the same.
+// wrong, and again until these and the parameters stay the same. *samples has
+// looked at the result's residuals last, or is empty.
 LinearCalibration CalibrateWithoutOutliers(
     const Robot& robot, const LinearCalibrationOptions& options,
-    const RowOptions& rows, LogSet* training) {
+    const RowOptions& rows, LogSet* training,
+    std::optional<SamplePass>* samples) {
   constexpr int kMostRounds = 4;
   constexpr double kSettled = 0.1;  // standard deviations
   LinearCalibration result =
@@ -229,11 +233,12 @@ LinearCalibration CalibrateWithoutOutliers(
     const OutlierLists last = training->spikes() > 0 || round > 0
                                   ? training->outliers()
                                   : OutlierLists(training->size());
-    training->TakeOut(FindTorqueOutliers(result.parameters, result.x,
-                                         options.progress, training));
+    samples->emplace(result.parameters, result.x, options.progress, training);
+    training->TakeOut(FindTorqueOutliers(&**samples));
     const int passes = ++result.passes;
     const bool same = SameSamples(training->outliers(), last);
     if (same && (round == 0 || moved < kSettled)) break;
+    samples->reset();
     const VectorXd from = result.x;
     result = CalibrateOnce(
         robot, options, rows,
@@ -255,8 +260,9 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   CheckBandwidth(options.bandwidth_hz, *training);
   training->Prepare(rows.bandwidth_hz, RowReach(rows),
                     options.loss != RobustLoss::kSquared);
+  std::optional<SamplePass> samples;
   LinearCalibration result =
-      CalibrateWithoutOutliers(robot, options, rows, training);
+      CalibrateWithoutOutliers(robot, options, rows, training, &samples);
   ++result.passes;  // the audit
   if (!result.solved) return result;
 
@@ -269,8 +275,10 @@ LinearCalibration CalibrateLinear(const Robot& robot,
                                   logs);
   };
   result.training = evaluate("residuals", training);
-  result.sample_noise = EstimateSampleNoise(result.parameters, result.x,
-                                            options.progress, training);
+  if (!samples) {
+    samples.emplace(result.parameters, result.x, options.progress, training);
+  }
+  result.sample_noise = EstimateSampleNoise(&*samples);
   result.passes += 2;
   if (validation != nullptr) {
     validation->Prepare(rows.bandwidth_hz, RowReach(rows));

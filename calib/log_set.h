@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "model/log_reader.h"
+#include "model/kept_items.h"
+#include "model/kept_log.h"
 #include "model/trajectory.h"
 
 namespace armcal {
@@ -15,15 +18,18 @@ using Progress = std::function<void(const std::string& stage, double fraction)>;
 // Gross errors in torque samples, a list per log in the order of rows.
 using OutlierLists = std::vector<std::vector<TorqueOutlier>>;
 
-// Several logs that are worked through together, pass after pass, without ever
-// being in memory as a whole.
+// Several logs that are worked through together, pass after pass. What a pass
+// has read and made of them is kept for the next as far as the memory allowed
+// for goes; beyond it passes read and make it again, in memory that does not
+// grow with the logs, with the same results.
 class LogSet {
  public:
   using Visit = std::function<void(int log, const Trajectory&)>;
 
   // Opens the logs and audits their time bases. Throws InputError.
   LogSet(const std::vector<std::string>& paths,
-         const LogReaderOptions& log_options, const TimeRange& crop);
+         const LogReaderOptions& log_options, const TimeRange& crop,
+         std::size_t memory_bytes = MemoryBudget::DefaultBytes());
 
   int size() const { return static_cast<int>(paths_.size()); }
   const std::string& path(int log) const { return paths_[log]; }
@@ -37,7 +43,7 @@ class LogSet {
                double longest_gap_s = 0);
   double bandwidth_hz() const { return options_.bandwidth_hz; }
   // From now on these torque samples are replaced, and none but these.
-  void TakeOut(OutlierLists outliers) { outliers_ = std::move(outliers); }
+  void TakeOut(OutlierLists outliers);
   const OutlierLists& outliers() const { return outliers_; }
 
   // From now on only these stretches of each log count, s since its first row,
@@ -53,14 +59,28 @@ class LogSet {
                          const Visit& visit);
   // Spikes of all joints that the last ForEach replaced.
   long spikes() const { return spikes_; }
+  // What passes may keep what they made in.
+  const std::shared_ptr<MemoryBudget>& memory() const { return memory_; }
 
  private:
+  struct Stretch {
+    int log;
+    Trajectory trajectory;
+    double progress;  // once it has been seen, 0 to 1
+  };
   void WorkThrough(const std::string& stage, const Progress& progress,
                    TrajectoryOptions options, const OutlierLists& outliers,
-                   const Visit& visit);
+                   KeptItems<Stretch>* kept, const Visit& visit);
+  void Make(TrajectoryOptions options, const OutlierLists& outliers,
+            const std::function<void(Stretch*)>& add);
+  // The log, with recorded rates if they are wanted.
+  KeptLog* Rows(int log, bool rates);
   void VisitKept(const Visit& visit, int log, Trajectory* trajectory) const;
 
+  std::shared_ptr<MemoryBudget> memory_;
   std::vector<std::string> paths_;
+  std::vector<KeptLog> logs_;
+  KeptItems<Stretch> prepared_;
   LogReaderOptions log_options_;
   TrajectoryOptions options_;
   std::vector<TimeBase> time_bases_;

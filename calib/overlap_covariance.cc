@@ -23,20 +23,60 @@ OverlapCovariance::OverlapCovariance(int num_joints, int num_parameters,
 void OverlapCovariance::Break() { recent_.clear(); }
 
 void OverlapCovariance::Add(const FittedRow& row) {
-  recent_.push_front(row);
+  recent_.emplace_front(row);
   if (static_cast<int>(recent_.size()) > distances_) recent_.pop_back();
+  const Recent& now = recent_.front();
   for (int i = 0; i < row.r.size(); ++i) {
     if (!row.used[i]) continue;
     rows_[i] += 1;
     for (int d = 0; d < static_cast<int>(recent_.size()); ++d) {
-      const FittedRow& other = recent_[d];
-      Squares& squares = squares_[i * distances_ + d];
-      const MatrixXd square = row.U.row(i).transpose() * other.U.row(i);
-      squares.mean += .5 * (row.slope[i] + other.slope[i]) * square;
-      if (d >= lags_) continue;
-      products_(i, d) += row.r[i] * other.r[i];
-      squares.all += square;
-      squares.both += row.slope[i] * other.slope[i] * square;
+      const Recent& other = recent_[d];
+      const double mean = .5 * (now.slope[i] + other.slope[i]);
+      const double both = now.slope[i] * other.slope[i];
+      const bool overlaps = d < lags_;
+      if (overlaps) products_(i, d) += now.r[i] * other.r[i];
+      AddSquare(now.equations[i], other.equations[i], mean, both, overlaps,
+                &squares_[i * distances_ + d]);
+    }
+  }
+}
+
+OverlapCovariance::Recent::Recent(const FittedRow& row)
+    : r(row.r), slope(row.slope) {
+  for (Eigen::Index i = 0; i < row.U.rows(); ++i) {
+    VectorXd u = row.U.row(i);
+    Eigen::Index begin = 0, end = u.size();
+    while (begin < end && u[begin] == 0) ++begin;
+    while (begin < end && u[end - 1] == 0) --end;
+    equations.push_back({begin, u.segment(begin, end - begin)});
+  }
+}
+
+// Adds u' v, times what it is to be; all three in one go.
+void OverlapCovariance::AddSquare(const Equation& u, const Equation& v,
+                                  double mean, double both, bool overlaps,
+                                  Squares* squares) {
+  const Eigen::Index size = u.u.size();
+  const double* const from = u.u.data();
+  for (Eigen::Index c = 0; c < v.u.size(); ++c) {
+    const auto column = [&](MatrixXd& square) {
+      return square.col(v.begin + c).data() + u.begin;
+    };
+    const double factor = v.u[c];
+    double* const to_mean = column(squares->mean);
+    if (!overlaps) {
+      for (Eigen::Index k = 0; k < size; ++k) {
+        to_mean[k] += mean * (from[k] * factor);
+      }
+      continue;
+    }
+    double* const to_all = column(squares->all);
+    double* const to_both = column(squares->both);
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const double square = from[k] * factor;
+      to_mean[k] += mean * square;
+      to_all[k] += square;
+      to_both[k] += both * square;
     }
   }
 }

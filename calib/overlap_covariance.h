@@ -46,6 +46,18 @@ class OverlapCovariance {
   struct Squares {
     Eigen::MatrixXd all, mean, both;
   };
+  // One joint's row of U from its first to its last number that is not 0.
+  struct Equation {
+    Eigen::Index begin;
+    Eigen::VectorXd u;
+  };
+  struct Recent {
+    explicit Recent(const FittedRow& row);
+    Eigen::VectorXd r, slope;
+    std::vector<Equation> equations;  // per joint
+  };
+  static void AddSquare(const Equation& u, const Equation& v, double mean,
+                        double both, bool overlaps, Squares* squares);
   const Squares& Square(int i, int d) const {
     return squares_[i * distances_ + d];
   }
@@ -57,7 +69,7 @@ class OverlapCovariance {
   Eigen::VectorXd rows_;
   Eigen::MatrixXd products_;      // joint x lag: sums of r(t) r(t - lag)
   std::vector<Squares> squares_;  // joint, distance
-  std::deque<FittedRow> recent_;
+  std::deque<Recent> recent_;
 };
 
 // Standard deviations of `covariance` raised to those of variances `least`.

@@ -23,7 +23,9 @@ struct RowResidual {
 // Which equations count: [log][joint].
 using EquationMask = std::vector<std::vector<bool>>;
 
-// Passes over the logs that look at every row's residual.
+// Passes over the logs that look at every row's residual. Rows are kept from
+// pass to pass as far as the logs' memory goes, so the logs must stay as they
+// are prepared.
 class ResidualPass {
  public:
   ResidualPass(const ModelParameters& parameters, const RowOptions& rows,
@@ -44,12 +46,21 @@ class ResidualPass {
            const std::function<void(const RowResidual&)>& visit);
 
  private:
+  struct KeptRow {
+    int log;
+    bool follows;
+    IdentificationRow row;
+  };
+  void ForEachRow(const std::string& stage,
+                  const std::function<void(const KeptRow&)>& visit);
+
   const ModelParameters& parameters_;
   RowOptions rows_;
   EquationMask used_;
   Progress progress_;
   LogSet* logs_;
   int passes_ = 0;
+  KeptItems<KeptRow> kept_;
 };
 
 }  // namespace armcal

@@ -7,7 +7,6 @@
 
 #include "calib/repeated_motion.h"
 #include "calib/robust_rows.h"
-#include "calib/sample_residuals.h"
 
 namespace armcal {
 namespace {
@@ -193,16 +192,12 @@ const char* NoiseSourceName(SampleNoise::Source source) {
   return "";
 }
 
-std::vector<SampleNoise> EstimateSampleNoise(const ModelParameters& parameters,
-                                             const VectorXd& x,
-                                             const Progress& progress,
-                                             LogSet* logs) {
-  Collector collector(parameters.num_joints(), *logs);
-  std::vector<MotionRegressor> regressors(logs->size(),
-                                          MotionRegressor(parameters));
-  logs->ForEachAtFullRate("noise", progress, [&](int log, const Trajectory& t) {
-    collector.Add(log, t, SampleResiduals(t, x, &regressors[log]));
-  });
+std::vector<SampleNoise> EstimateSampleNoise(SamplePass* pass) {
+  Collector collector(pass->num_joints(), pass->logs());
+  pass->Run("noise",
+            [&](int log, const Trajectory& t, const MatrixXd& residuals) {
+              collector.Add(log, t, residuals);
+            });
   return collector.Noise();
 }
 

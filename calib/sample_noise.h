@@ -1,10 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
-#include "calib/log_set.h"
-#include "model/model_parameters.h"
+#include "calib/sample_pass.h"
 
 namespace armcal {
 
@@ -21,13 +19,10 @@ struct SampleNoise {
 
 const char* NoiseSourceName(SampleNoise::Source source);
 
-// Per joint, at parameters x, listed outliers left out. Repeats are looked for
-// in and across logs, in the first 400000 samples (a share for each log). One
+// Per joint, listed outliers left out. Repeats are looked for
+// in and across logs, in the first 60000 samples (a share for each log). One
 // pass at full rate. Estimates do not weigh by it: the scatter of equations,
 // which holds model errors and noise of the positions too, is what weighs them.
-std::vector<SampleNoise> EstimateSampleNoise(const ModelParameters& parameters,
-                                             const Eigen::VectorXd& x,
-                                             const Progress& progress,
-                                             LogSet* logs);
+std::vector<SampleNoise> EstimateSampleNoise(SamplePass* pass);
 
 }  // namespace armcal

@@ -1,11 +1,11 @@
 #include "calib/torque_outliers.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "calib/sample_residuals.h"
 #include "model/spikes.h"
-#include "problems/identification_rows.h"
 
 namespace armcal {
 namespace {
@@ -41,19 +41,17 @@ void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
 
 }  // namespace
 
-OutlierLists FindTorqueOutliers(const ModelParameters& parameters,
-                                const VectorXd& x, const Progress& progress,
-                                LogSet* logs) {
-  OutlierLists lists(logs->size());
-  std::vector<MotionRegressor> regressors(logs->size(),
-                                          MotionRegressor(parameters));
-  logs->ForEachAtFullRate(
-      "outliers", progress, [&](int log, const Trajectory& t) {
-        const MatrixXd residuals = SampleResiduals(t, x, &regressors[log]);
-        for (int i = 0; i < t.num_joints(); ++i) {
-          Judge(t, residuals, i, &lists[log]);
-        }
-      });
+OutlierLists FindTorqueOutliers(SamplePass* pass) {
+  OutlierLists lists(pass->logs().size());
+  pass->Run("outliers", [&](int log, const Trajectory& t,
+                            const MatrixXd& residuals) {
+    const int n = t.num_joints();
+    std::vector<std::vector<TorqueOutlier>> found(n);
+    tbb::parallel_for(0, n, [&](int i) { Judge(t, residuals, i, &found[i]); });
+    for (const std::vector<TorqueOutlier>& of_joint : found) {
+      lists[log].insert(lists[log].end(), of_joint.begin(), of_joint.end());
+    }
+  });
   for (std::vector<TorqueOutlier>& list : lists) {
     std::sort(list.begin(), list.end(),
               [](const TorqueOutlier& a, const TorqueOutlier& b) {

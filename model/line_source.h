@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -17,6 +18,10 @@ class LineSource {
 
   // The next line; false at the end. *line lives until the next call.
   virtual bool NextLine(std::string_view* line) = 0;
+  // Up to `most` lines that follow each other and live until the next call;
+  // none at the end. By default one.
+  virtual void NextLines(std::size_t most,
+                         std::vector<std::string_view>* lines);
   // The 1-based number of the last line read, as an editor counts; 0 before.
   virtual long row() const = 0;
   // Whether the file ended inside the last line read.

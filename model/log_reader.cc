@@ -1,6 +1,8 @@
 #include "model/log_reader.h"
 
 #include <glog/logging.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <string_view>
 
@@ -59,50 +61,99 @@ struct LogReader::Impl {
     return line;
   }
 
-  // The next row that is not blank; blank ones may only end the file.
-  bool NextRow(std::string_view* line) {
-    if (!source->NextLine(line)) return false;
-    if (!IsBlank(*line)) return true;
-    const long blank = source->row();
-    while (source->NextLine(line)) {
-      if (IsBlank(*line)) continue;
-      throw InputError(path, "row " + std::to_string(blank), "",
-                       "the row is empty, and more rows follow");
+  // A row on its way into `values` and `times`.
+  struct Row {
+    std::string_view line, time_field;
+    DecimalTime time;
+    bool whole = false, has_time = false;
+  };
+
+  // Gets at most `most` rows that follow each other; none at the end. Blank
+  // ones may only end the file.
+  void NextRows(size_t most) {
+    rows.clear();
+    if (next_line == lines.size()) {
+      source->NextLines(most, &lines);
+      next_line = 0;
     }
-    return false;
+    for (; next_line < lines.size() && rows.size() < most; ++next_line) {
+      if (IsBlank(lines[next_line])) break;
+      rows.emplace_back().line = lines[next_line];
+    }
+    if (rows.empty() && !lines.empty()) RefuseMoreRows();
+  }
+
+  // Number of the row `k` lines into `lines`.
+  long RowNumber(size_t k) const {
+    return source->row() - static_cast<long>(lines.size() - k) + 1;
+  }
+
+  // After the blank row that is next.
+  void RefuseMoreRows() {
+    const long blank = RowNumber(next_line);
+    while (!lines.empty()) {
+      for (; next_line < lines.size(); ++next_line) {
+        if (IsBlank(lines[next_line])) continue;
+        throw InputError(path, "row " + std::to_string(blank), "",
+                         "the row is empty, and more rows follow");
+      }
+      source->NextLines(1, &lines);
+      next_line = 0;
+    }
   }
 
   // Seconds since the first row of the log.
-  double ReadTime(std::string_view field) {
+  double Seconds(const Row& parsed, long number) {
     const auto place = [&] {
-      return "row " + std::to_string(source->row()) + ", column " +
+      return "row " + std::to_string(number) + ", column " +
              columns.name(time_column);
     };
-    DecimalTime time;
-    if (!ParseDecimalTime(TrimNumber(field), time_decimals, &time)) {
+    const std::string_view field = parsed.time_field;
+    if (!parsed.has_time) {
       throw InputError(path, place(), OneLine(Trim(field)),
                        ExpectedNumber(field));
     }
-    if (!started) first = last = time;
-    if (started && Difference(time, last) < 0) {
+    if (!started) first = last = parsed.time;
+    if (started && Difference(parsed.time, last) < 0) {
       throw InputError(path, place(), OneLine(field),
                        "time runs backwards, the row before has " +
                            OneLine(Trim(last_field)));
     }
     started = true;
-    last = time;
-    last_field.assign(field);
-    return Difference(time, first);
+    last = parsed.time;
+    last_field = field;
+    return Difference(parsed.time, first);
   }
 
-  void AddRow(std::string_view line) {
-    const size_t size = values.size();
-    values.resize(size + row.width());
-    std::string_view field;
-    if (!row.Parse(line, values.data() + size, &field)) {
-      row.Refuse(line, source->row(), source->cut());
+  // Numbers of `rows` to the end of `values`, by several threads; what is wrong
+  // with the first bad one is said afterwards.
+  void ParseRows() {
+    const size_t width = row.width(), size = values.size();
+    values.resize(size + rows.size() * width);
+    const auto parse = [&](const tbb::blocked_range<size_t>& range) {
+      for (size_t k = range.begin(); k < range.end(); ++k) {
+        Row& r = rows[k];
+        r.whole =
+            row.Parse(r.line, values.data() + size + k * width, &r.time_field);
+        r.has_time = r.whole && ParseDecimalTime(TrimNumber(r.time_field),
+                                                 time_decimals, &r.time);
+      }
+    };
+    constexpr size_t kTogether = 256;
+    const tbb::blocked_range<size_t> all(0, rows.size(), kTogether);
+    if (all.is_divisible()) {
+      tbb::parallel_for(all, parse);
+    } else {
+      parse(all);
     }
-    times.push_back(ReadTime(field));
+    const size_t first_line = next_line - rows.size();
+    for (size_t k = 0; k < rows.size(); ++k) {
+      const long number = RowNumber(first_line + k);
+      if (!rows[k].whole) row.Refuse(rows[k].line, number, source->cut());
+      times.push_back(Seconds(rows[k], number));
+    }
+    last_time.assign(last_field);  // lines live until more are read
+    last_field = last_time;
   }
 
   bool Read(int max_rows, Log* log) {
@@ -110,10 +161,11 @@ struct LogReader::Impl {
     *log = Log();
     values.clear();
     times.clear();
-    std::string_view line;
-    while (static_cast<int>(times.size()) < max_rows && NextRow(&line)) {
-      if (times.empty()) log->first_row = source->row();
-      AddRow(line);
+    while (static_cast<int>(times.size()) < max_rows) {
+      NextRows(max_rows - times.size());
+      if (rows.empty()) break;
+      if (times.empty()) log->first_row = RowNumber(next_line - rows.size());
+      ParseRows();
     }
     if (!started) {
       throw InputError(path, "", "", "the log has a header and no rows");
@@ -141,6 +193,8 @@ struct LogReader::Impl {
   void Rewind() {
     source->Rewind();
     Header();
+    lines.clear();
+    next_line = 0;
     started = false;
   }
 
@@ -158,11 +212,15 @@ struct LogReader::Impl {
   int temperature = kUnused;
   std::string torque_source;
 
+  std::vector<std::string_view> lines;  // that the source has given
+  size_t next_line = 0;
+  std::vector<Row> rows;
   std::vector<double> times;   // of the rows of one Read()
   std::vector<double> values;  // row by row
   bool started = false;        // a row was read
   DecimalTime first, last;
-  std::string last_field;
+  std::string_view last_field;  // the last row's time
+  std::string last_time;
 };
 
 LogReader::LogReader(const std::string& path, const LogReaderOptions& options) {
@@ -171,6 +229,7 @@ LogReader::LogReader(const std::string& path, const LogReaderOptions& options) {
 }
 LogReader::~LogReader() = default;
 LogReader::LogReader(LogReader&&) noexcept = default;
+LogReader& LogReader::operator=(LogReader&&) noexcept = default;
 
 bool LogReader::has_velocity() const {
   return impl_->columns.HasAll(Signal::kVelocity);

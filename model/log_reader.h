@@ -59,6 +59,7 @@ class LogReader {
   LogReader(const std::string& path, const LogReaderOptions& options);
   ~LogReader();
   LogReader(LogReader&&) noexcept;
+  LogReader& operator=(LogReader&&) noexcept;
 
   bool has_velocity() const;  // a velocity column for every joint
   bool has_acceleration() const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "model/decimal_number.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
 
@@ -76,7 +77,7 @@ const char* LogRow::EndOfField(const char* p, const char* end) const {
 // Returns the end of the field at p; null where it is not a finite number.
 const char* LogRow::ParseField(const char* p, const char* end,
                                double* value) const {
-  const auto [stop, error] = std::from_chars(p, end, *value);
+  const auto [stop, error] = ParseDecimalNumber(p, end, value);
   const bool whole = stop == end || *stop == separator_;
   if (whole && error == std::errc() && std::isfinite(*value)) return stop;
   end = EndOfField(p, end);

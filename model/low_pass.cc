@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace armcal {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr int kSideBySide = 6;  // columns filtered at once
 constexpr double kPi = 3.14159265358979323846;
 
 // y_k = b (x_k + 2 x_{k-1} + x_{k-2}) - a1 y_{k-1} - a2 y_{k-2}
@@ -35,42 +37,83 @@ std::array<Section, 2> Butterworth4(double sample_rate, double cutoff_hz) {
   return sections;
 }
 
-// In place, from rest at the first value (the filter's gain at 0 Hz is 1).
-void FilterForwards(const std::array<Section, 2>& sections, VectorXd* x) {
-  const double rest = (*x)[0];
-  for (const Section& s : sections) {
-    double x1 = 0, x2 = 0, y1 = 0, y2 = 0;
-    for (double& value : *x) {
-      const double x0 = value - rest;
-      const double y0 = s.b * (x0 + 2 * x1 + x2) - s.a1 * y1 - s.a2 * y2;
-      x2 = x1, x1 = x0, y2 = y1, y1 = y0;
-      value = y0 + rest;
+// Two columns side by side in one register.
+typedef double Pair __attribute__((vector_size(16)));
+
+// A signal per lane, `pairs` pairs of them in each row. In place, from rest at
+// the first row (the filter's gain at 0 Hz is 1); step -1: backwards.
+template <int pairs>
+void FilterRows(const std::array<Section, 2>& sections, Pair* x, long rows,
+                int step) {
+  Pair rest[pairs];
+  for (size_t which = 0; which < sections.size(); ++which) {
+    const Section s = sections[which];
+    const Pair b = {s.b, s.b}, a1 = {s.a1, s.a1}, a2 = {s.a2, s.a2};
+    Pair x1[pairs], x2[pairs], y1[pairs], y2[pairs];
+    for (int p = 0; p < pairs; ++p) {
+      if (which == 0) rest[p] = x[p];
+      x1[p] = x2[p] = y1[p] = y2[p] = Pair{};
+    }
+    Pair* row = x;
+    for (long k = 0; k < rows; ++k, row += step * pairs) {
+#pragma GCC unroll 4
+      for (int p = 0; p < pairs; ++p) {
+        const Pair x0 = row[p] - rest[p];
+        const Pair y0 = b * (x0 + 2 * x1[p] + x2[p]) - a1 * y1[p] - a2 * y2[p];
+        x2[p] = x1[p], x1[p] = x0, y2[p] = y1[p], y1[p] = y0;
+        row[p] = y0 + rest[p];
+      }
     }
   }
 }
 
-// Values beyond the end of x (its last element), nearest first.
-VectorXd Reflected(const VectorXd& x, int count) {
-  const Eigen::Index last = x.size() - 1;
-  return VectorXd::NullaryExpr(count, [&](Eigen::Index k) {
-    return 2 * x[last] - x[std::max<Eigen::Index>(0, last - 1 - k)];
-  });
+// Forwards, then backwards.
+template <int pairs>
+void FilterBothWays(const std::array<Section, 2>& sections,
+                    std::vector<Pair>* x) {
+  const long rows = static_cast<long>(x->size()) / pairs;
+  FilterRows<pairs>(sections, x->data(), rows, 1);
+  FilterRows<pairs>(sections, x->data() + (rows - 1) * pairs, rows, -1);
 }
 
-// Those of the cubic through the last `span` elements in the least-squares
-// sense.
-VectorXd Extrapolated(const VectorXd& x, int count, int span) {
-  const auto powers = [span](int samples, double first) {
-    const VectorXd s = VectorXd::LinSpaced(samples, first / span,
-                                           (first + samples - 1) / span);
+// Values of a signal beyond its end, nearest first.
+class Continuation {
+ public:
+  // `count` values; `cubic`: of the cubic through the last `span` elements in
+  // the least-squares sense, else reflected.
+  Continuation(bool cubic, int count, int span)
+      : cubic_(cubic), count_(count), span_(span) {
+    if (!cubic) return;
+    inside_.compute(Powers(span, -span));
+    beyond_ = Powers(count, 0);
+  }
+
+  // Beyond the last element of x.
+  VectorXd operator()(const VectorXd& x) const {
+    if (cubic_) {
+      const Eigen::Vector4d c = inside_.solve(x.tail(span_));
+      return beyond_ * c;
+    }
+    const Eigen::Index last = x.size() - 1;
+    return VectorXd::NullaryExpr(count_, [&](Eigen::Index k) {
+      return 2 * x[last] - x[std::max<Eigen::Index>(0, last - 1 - k)];
+    });
+  }
+
+ private:
+  MatrixXd Powers(int samples, double first) const {
+    const VectorXd s = VectorXd::LinSpaced(samples, first / span_,
+                                           (first + samples - 1) / span_);
     MatrixXd A(samples, 4);
     A << VectorXd::Ones(samples), s, s.cwiseAbs2(), s.array().cube().matrix();
     return A;
-  };
-  const Eigen::Vector4d c =
-      powers(span, -span).colPivHouseholderQr().solve(x.tail(span));
-  return powers(count, 0) * c;
-}
+  }
+
+  bool cubic_;
+  int count_, span_;
+  Eigen::ColPivHouseholderQR<MatrixXd> inside_;
+  MatrixXd beyond_;
+};
 
 }  // namespace
 
@@ -85,19 +128,35 @@ MatrixXd ZeroPhaseLowPass(const MatrixXd& x, double sample_rate,
       static_cast<int>(std::ceil(sample_rate * LowPassMemory(cutoff_hz)));
   const int span = std::min(
       n, std::max(6, static_cast<int>(std::lround(sample_rate / cutoff_hz))));
-  const bool extrapolate = ends == Ends::kExtrapolate && span >= 6;
-  const auto beyond = [&](const VectorXd& end) -> VectorXd {
-    return extrapolate ? Extrapolated(end, pad, span) : Reflected(end, pad);
-  };
+  const Continuation beyond(ends == Ends::kExtrapolate && span >= 6, pad, span);
   MatrixXd result(n, x.cols());
-  VectorXd padded(n + 2 * pad);
-  for (int c = 0; c < x.cols(); ++c) {
-    padded << beyond(x.col(c).reverse()).reverse(), x.col(c), beyond(x.col(c));
-    FilterForwards(sections, &padded);
-    padded.reverseInPlace();
-    FilterForwards(sections, &padded);
-    padded.reverseInPlace();
-    result.col(c) = padded.segment(pad, n);
+  for (int first = 0; first < x.cols(); first += kSideBySide) {
+    const int columns =
+        std::min(kSideBySide, static_cast<int>(x.cols()) - first);
+    const int pairs = (columns + 1) / 2;
+    std::vector<Pair> padded(static_cast<size_t>(n + 2 * pad) * pairs);
+    double* const rows = reinterpret_cast<double*>(padded.data());
+    for (int c = 0; c < columns; ++c) {
+      double* to = rows + c;
+      const auto put = [&](double value) {
+        *to = value;
+        to += 2 * pairs;
+      };
+      const VectorXd before = beyond(x.col(first + c).reverse());
+      const VectorXd after = beyond(x.col(first + c));
+      for (int k = pad - 1; k >= 0; --k) put(before[k]);
+      for (const double value : x.col(first + c)) put(value);
+      for (const double value : after) put(value);
+    }
+    if (pairs == 1) FilterBothWays<1>(sections, &padded);
+    if (pairs == 2) FilterBothWays<2>(sections, &padded);
+    if (pairs == 3) FilterBothWays<3>(sections, &padded);
+    const double* const inner = rows + 2L * pairs * pad;
+    for (int c = 0; c < columns; ++c) {
+      for (long k = 0; k < n; ++k) {
+        result(k, first + c) = inner[2 * pairs * k + c];
+      }
+    }
   }
   return result;
 }
@@ -111,18 +170,18 @@ MatrixXd Differentiate(const MatrixXd& x, double dt) {
   const int n = static_cast<int>(x.rows());
   MatrixXd d = MatrixXd::Zero(n, x.cols());
   if (n < 3) return d;
-  for (int k = 0; k < n; ++k) {
-    if (k >= 2 && k + 2 < n) {
-      d.row(k) =
-          (8 * (x.row(k + 1) - x.row(k - 1)) - (x.row(k + 2) - x.row(k - 2))) /
-          (12 * dt);
-    } else if (k >= 1 && k + 1 < n) {
-      d.row(k) = (x.row(k + 1) - x.row(k - 1)) / (2 * dt);
-    } else {
-      const int s = k == 0 ? 1 : -1;
-      d.row(k) =
-          s * (-3 * x.row(k) + 4 * x.row(k + s) - x.row(k + 2 * s)) / (2 * dt);
+  for (int c = 0; c < x.cols(); ++c) {
+    const double* const from = x.col(c).data();
+    double* const to = d.col(c).data();
+    to[0] = (-3 * from[0] + 4 * from[1] - from[2]) / (2 * dt);
+    to[1] = (from[2] - from[0]) / (2 * dt);
+    for (int k = 2; k + 2 < n; ++k) {
+      to[k] = (8 * (from[k + 1] - from[k - 1]) - (from[k + 2] - from[k - 2])) /
+              (12 * dt);
     }
+    to[n - 2] = (from[n - 1] - from[n - 3]) / (2 * dt);
+    to[n - 1] =
+        -1 * (-3 * from[n - 1] + 4 * from[n - 2] - from[n - 3]) / (2 * dt);
   }
   return d;
 }

@@ -26,35 +26,34 @@ double LagrangeWeights(const double* x, int count, double t, double* w) {
 
 void Resampler::Clear() {
   times_.clear();
-  values_.clear();
+  for (std::vector<double>& column : columns_) column.clear();
   dropped_ = 0;
 }
 
-void Resampler::Append(const Log& block, int row) {
+void Resampler::Append(const Log& block, int row, int count) {
   if (times_.empty()) segment_begin_ = block.t[row];
+  const double* const t = block.t.data() + row;
+  times_.insert(times_.end(), t, t + count);
   const std::array<const Eigen::MatrixXd*, kSignals> signals = {
       &block.q, &block.tau, &block.qd, &block.qdd, &block.temperature};
-  Eigen::Index width = 0;
+  size_t at = 0;
   for (int s = 0; s < kSignals; ++s) {
     widths_[s] = static_cast<int>(signals[s]->cols());
-    width += widths_[s];
+    if (columns_.size() < at + widths_[s]) columns_.resize(at + widths_[s]);
+    for (int c = 0; c < widths_[s]; ++c, ++at) {
+      const double* const x = signals[s]->col(c).data() + row;
+      columns_[at].insert(columns_[at].end(), x, x + count);
+    }
   }
-  Eigen::RowVectorXd value(width);
-  Eigen::Index at = 0;
-  for (int s = 0; s < kSignals; ++s) {
-    if (widths_[s] > 0) value.segment(at, widths_[s]) = signals[s]->row(row);
-    at += widths_[s];
-  }
-  times_.push_back(block.t[row]);
-  values_.push_back(std::move(value));
 }
 
 long Resampler::NumGridPoints() const {
-  if (times_.empty()) return 0;
-  if (uniform_) return dropped_ + static_cast<long>(times_.size());
-  return static_cast<long>(
-             std::floor((times_.back() - segment_begin_) / dt_ + 1e-9)) +
-         1;
+  return times_.empty() ? 0 : NumGridPointsWith(times_.back(), 0);
+}
+
+long Resampler::NumGridPointsWith(double t, long count) const {
+  if (uniform_) return dropped_ + static_cast<long>(times_.size()) + count;
+  return static_cast<long>(std::floor((t - segment_begin_) / dt_ + 1e-9)) + 1;
 }
 
 void Resampler::DropBefore(long index) {
@@ -68,50 +67,59 @@ void Resampler::DropBefore(long index) {
   const long count =
       std::clamp(needed - keep, 0L, static_cast<long>(times_.size()));
   times_.erase(times_.begin(), times_.begin() + count);
-  values_.erase(values_.begin(), values_.begin() + count);
+  for (std::vector<double>& column : columns_) {
+    column.erase(column.begin(), column.begin() + count);
+  }
   dropped_ += count;
 }
 
-Eigen::RowVectorXd Resampler::Value(long index, size_t* hint) const {
-  if (uniform_) return values_[static_cast<size_t>(index - dropped_)];
+Resampler::Neighbours Resampler::Find(long index, size_t* hint) const {
   const double t = segment_begin_ + static_cast<double>(index) * dt_;
   size_t right = *hint;  // first sample after t
   while (right < times_.size() && times_[right] <= t) ++right;
   *hint = right;
   const size_t size = times_.size();
-  size_t first = std::min(right < 2 ? 0 : right - 2, size < 4 ? 0 : size - 4);
-  int count = static_cast<int>(std::min<size_t>(4, size));
-  double w[4];
+  Neighbours n;
+  n.first = std::min(right < 2 ? 0 : right - 2, size < 4 ? 0 : size - 4);
+  n.count = static_cast<int>(std::min<size_t>(4, size));
   // Stamps nearly alike (a burst of late messages) would turn noise into
   // spikes; a straight line does not. Even steps reach 1.7, jittering ones 5.
-  if (LagrangeWeights(&times_[first], count, t, w) > 10 && size >= 2) {
-    first = std::clamp<size_t>(right, 1, size - 1) - 1;
-    count = 2;
-    LagrangeWeights(&times_[first], count, t, w);
+  if (LagrangeWeights(&times_[n.first], n.count, t, n.weight) > 10 &&
+      size >= 2) {
+    n.first = std::clamp<size_t>(right, 1, size - 1) - 1;
+    n.count = 2;
+    LagrangeWeights(&times_[n.first], n.count, t, n.weight);
   }
-  Eigen::RowVectorXd value = w[0] * values_[first];
-  for (int k = 1; k < count; ++k) value += w[k] * values_[first + k];
-  return value;
+  return n;
 }
 
 void Resampler::Sample(long begin, long end, Log* out) const {
   CHECK_LE(end, NumGridPoints());
   const Eigen::Index rows = end - begin;
-  const std::array<Eigen::MatrixXd*, kSignals> signals = {
-      &out->q, &out->tau, &out->qd, &out->qdd, &out->temperature};
-  for (int s = 0; s < kSignals; ++s) {
-    signals[s]->resize(widths_[s] > 0 ? rows : 0, widths_[s]);
-  }
   out->t.resize(rows);
+  std::vector<Neighbours> neighbours;
   size_t hint = 0;
   for (Eigen::Index r = 0; r < rows; ++r) {
-    const long index = begin + r;
-    out->t[r] = segment_begin_ + static_cast<double>(index) * dt_;
-    const Eigen::RowVectorXd value = Value(index, &hint);
-    Eigen::Index at = 0;
-    for (int s = 0; s < kSignals; ++s) {
-      if (widths_[s] > 0) signals[s]->row(r) = value.segment(at, widths_[s]);
-      at += widths_[s];
+    out->t[r] = segment_begin_ + static_cast<double>(begin + r) * dt_;
+    if (!uniform_) neighbours.push_back(Find(begin + r, &hint));
+  }
+  const auto value = [](const double* x, const Neighbours& n) {
+    double sum = n.weight[0] * x[n.first];
+    for (int k = 1; k < n.count; ++k) sum += n.weight[k] * x[n.first + k];
+    return sum;
+  };
+  const std::array<Eigen::MatrixXd*, kSignals> signals = {
+      &out->q, &out->tau, &out->qd, &out->qdd, &out->temperature};
+  size_t at = 0;
+  for (int s = 0; s < kSignals; ++s) {
+    signals[s]->resize(widths_[s] > 0 ? rows : 0, widths_[s]);
+    for (int c = 0; c < widths_[s]; ++c, ++at) {
+      const double* const from = columns_[at].data();
+      double* const to = signals[s]->col(c).data();
+      if (uniform_) std::copy_n(from + (begin - dropped_), rows, to);
+      for (size_t r = 0; r < neighbours.size(); ++r) {
+        to[r] = value(from, neighbours[r]);
+      }
     }
   }
 }

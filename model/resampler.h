@@ -18,9 +18,11 @@ class Resampler {
   bool empty() const { return times_.empty(); }
   double first_time() const { return segment_begin_; }
   double last_time() const { return times_.back(); }
-  void Append(const Log& block, int row);
+  void Append(const Log& block, int row, int count = 1);
   // Number of grid points up to the last sample.
   long NumGridPoints() const;
+  // With `count` samples more, the last of them at time t; not while empty.
+  long NumGridPointsWith(double t, long count) const;
   // Forgets samples that no grid point from `index` on needs.
   void DropBefore(long index);
   // Grid points [begin, end): positions etc. into the matrices of *out (t as
@@ -31,14 +33,20 @@ class Resampler {
  private:
   // q, tau, qd, qdd, temperature.
   static constexpr int kSignals = 5;
-  Eigen::RowVectorXd Value(long index, size_t* hint) const;
+  // The samples between which a grid point lies, and their weights.
+  struct Neighbours {
+    size_t first;
+    int count;
+    double weight[4];
+  };
+  Neighbours Find(long index, size_t* hint) const;
 
   double dt_;
   bool uniform_;
   double segment_begin_ = 0;
   long dropped_ = 0;  // samples of the segment already forgotten
   std::vector<double> times_;
-  std::vector<Eigen::RowVectorXd> values_;  // signals side by side
+  std::vector<std::vector<double>> columns_;  // signals side by side
   std::array<int, kSignals> widths_{};
 };
 

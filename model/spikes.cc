@@ -1,9 +1,12 @@
 #include "model/spikes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <vector>
+
+#include "model/quantile.h"
 
 namespace armcal {
 namespace {
@@ -13,21 +16,33 @@ constexpr double kThreshold = 8;  // standard deviations
 constexpr double kNormal90 = 1.645;
 constexpr double kNormal80 = 1.2816;
 
-// The median of the five samples around k, fewer at the ends.
-double LocalMedian(const Eigen::VectorXd& x, Eigen::Index k) {
-  const Eigen::Index reach = std::min<Eigen::Index>({2, k, x.size() - 1 - k});
-  std::array<double, 5> window;
-  const auto end =
-      std::copy_n(x.data() + k - reach, 2 * reach + 1, window.begin());
-  std::nth_element(window.begin(), window.begin() + reach, end);
-  return window[reach];
+// The median of three and of five.
+double Median(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+double Median(double a, double b, double c, double d, double e) {
+  // Neither the least nor the greatest of a, b, c, d is it.
+  const double low = std::max(std::min(a, b), std::min(c, d));
+  const double high = std::min(std::max(a, b), std::max(c, d));
+  return Median(low, high, e);
 }
 
-double Percentile(const Eigen::VectorXd& x, int percent) {
-  std::vector<double> sorted(x.data(), x.data() + x.size());
-  const auto at = sorted.begin() + percent * x.size() / 100;
-  std::nth_element(sorted.begin(), at, sorted.end());
-  return *at;
+// The medians of the five samples around each, fewer at the ends.
+void LocalMedians(const Eigen::VectorXd& x, Eigen::VectorXd* medians) {
+  const Eigen::Index n = x.size();
+  Eigen::VectorXd& m = *medians;
+  for (Eigen::Index k = 2; k + 2 < n; ++k) {
+    m[k] = Median(x[k - 2], x[k - 1], x[k], x[k + 1], x[k + 2]);
+  }
+  m[0] = x[0];
+  m[n - 1] = x[n - 1];
+  m[1] = Median(x[0], x[1], x[2]);
+  m[n - 2] = Median(x[n - 3], x[n - 2], x[n - 1]);
+}
+
+double Percentile(const Eigen::VectorXd& sizes, int percent) {
+  return NonnegativeAtRank(sizes.data(), sizes.size(),
+                           percent * sizes.size() / 100);
 }
 
 // The median of sample k, unless marked, and the nearest `reach` unmarked ones
@@ -49,6 +64,69 @@ double UnmarkedMedian(const Eigen::VectorXd& x, Eigen::Index k, int reach,
   return *middle;
 }
 
+// Two numbers side by side in one register.
+typedef double Pair __attribute__((vector_size(16)));
+
+Pair Load(const double* from) {
+  Pair x;
+  std::memcpy(&x, from, sizeof(x));
+  return x;
+}
+void Store(const Pair& x, double* to) { std::memcpy(to, &x, sizeof(x)); }
+
+// Numbers in ascending order, one of which is replaced at a time. There are so
+// few that going through all of them without a branch is fastest.
+class SortedWindow {
+ public:
+  explicit SortedWindow(const std::vector<double>& numbers)
+      : size_(numbers.size()),
+        sorted_(size_ + 3, std::numeric_limits<double>::infinity()),
+        rest_(size_ + 3, -std::numeric_limits<double>::infinity()) {
+    std::copy(numbers.begin(), numbers.end(), sorted_.begin());
+    std::sort(sorted_.begin(), sorted_.begin() + size_);
+  }
+
+  void Replace(double gone, double value) {
+    double* const x = sorted_.data();       // ends in infinities
+    double* const rest = rest_.data() + 1;  // begins with -infinity
+    const Pair out = {gone, gone}, in = {value, value};
+    for (size_t k = 0; k < size_; k += 2) {
+      const Pair here = Load(x + k);
+      Store(here < out ? here : Load(x + k + 1), rest + k);
+    }
+    // The middle one of the new number and the two that it may come between.
+    for (size_t k = 0; k < size_; k += 2) {
+      const Pair before = Load(rest + k - 1), here = Load(rest + k);
+      const Pair least = here < in ? here : in;
+      Store(before > least ? before : least, x + k);
+    }
+    x[size_] = std::numeric_limits<double>::infinity();
+  }
+  double Median() const { return sorted_[size_ / 2]; }
+
+ private:
+  size_t size_;
+  std::vector<double> sorted_, rest_;  // rest: without what is replaced
+};
+
+// Medians of up to 2 reach + 1 samples around each, fewer at the ends.
+Eigen::VectorXd SlidingMedians(const Eigen::VectorXd& x, int reach) {
+  const Eigen::Index n = x.size();
+  Eigen::VectorXd medians(n);
+  SortedWindow window({});
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (k <= reach || k + reach >= n) {
+      const Eigen::Index begin = std::max<Eigen::Index>(0, k - reach);
+      const Eigen::Index end = std::min(n, k + reach + 1);
+      window = SortedWindow({x.data() + begin, x.data() + end});
+    } else {
+      window.Replace(x[k - reach - 1], x[k + reach]);
+    }
+    medians[k] = window.Median();
+  }
+  return medians;
+}
+
 }  // namespace
 
 Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> RemoveSpikes(
@@ -64,10 +142,8 @@ Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> RemoveSpikes(
     // Again on what is left: spikes close together hide each other.
     for (int pass = 0; pass < 3; ++pass) {
       const Eigen::VectorXd signal = x->col(c);
-      for (Eigen::Index k = 0; k < n; ++k) {
-        median[k] = LocalMedian(signal, k);
-        size[k] = std::abs(signal[k] - median[k]);
-      }
+      LocalMedians(signal, &median);
+      size = (signal - median).cwiseAbs();
       if (pass == 0) limit = kThreshold * Percentile(size, 90) / kNormal90;
       bool found = false;
       for (Eigen::Index k = 0; limit > 0 && k < n; ++k) {
@@ -87,12 +163,19 @@ Outlying FindOutlying(const Eigen::VectorXd& x, int reach, double least) {
   result.marked.setConstant(n, false);
   result.level = x;
   if (n < 20) return result;
+  const Eigen::VectorXd medians = SlidingMedians(x, reach);
   std::vector<double> window;
   Eigen::VectorXd size(n);
   // Marked samples pull on the level and the deviation of those around them.
   for (int pass = 0; pass < 4; ++pass) {
-    for (Eigen::Index k = 0; k < n; ++k) {
-      result.level[k] = UnmarkedMedian(x, k, reach, result.marked, &window);
+    result.level = medians;
+    for (Eigen::Index k = 0, next = 0; k < n; ++k) {
+      if (!result.marked[k]) continue;
+      next = std::max(next, k - reach);
+      for (; next <= std::min(n - 1, k + reach); ++next) {
+        result.level[next] =
+            UnmarkedMedian(x, next, reach, result.marked, &window);
+      }
     }
     size = (x - result.level).cwiseAbs();
     result.deviation = Percentile(size, 80) / kNormal80;

@@ -15,11 +15,13 @@ Eigen::MatrixXd MeanVelocity(const Eigen::MatrixXd& q, double dt) {
   const Eigen::Index half = std::max<Eigen::Index>(
       1, static_cast<Eigen::Index>(std::lround(kStandstillMeanTime / 2 / dt)));
   Eigen::MatrixXd v(n, q.cols());
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::Index a = std::max<Eigen::Index>(0, k - half);
-    const Eigen::Index b = std::min(n - 1, k + half);
-    v.row(k) = (q.row(b) - q.row(a)) /
-               (dt * static_cast<double>(std::max<Eigen::Index>(1, b - a)));
+  for (Eigen::Index j = 0; j < q.cols(); ++j) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Eigen::Index a = std::max<Eigen::Index>(0, k - half);
+      const Eigen::Index b = std::min(n - 1, k + half);
+      v(k, j) = (q(b, j) - q(a, j)) /
+                (dt * static_cast<double>(std::max<Eigen::Index>(1, b - a)));
+    }
   }
   return v;
 }
@@ -31,11 +33,11 @@ Eigen::Array<bool, Eigen::Dynamic, 1> FindStandstill(
       std::max(1, static_cast<int>(std::ceil(kStandstillTime / dt - 1e-9)));
   Eigen::Array<bool, Eigen::Dynamic, 1> standstill =
       Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, false);
+  const Eigen::Array<bool, Eigen::Dynamic, 1> moves =
+      (velocity.array().abs() >= kStandstillSpeed).rowwise().any();
   int begin = 0;
   for (int k = 0; k <= n; ++k) {
-    const bool still =
-        k < n && velocity.row(k).cwiseAbs().maxCoeff() < kStandstillSpeed;
-    if (still) continue;
+    if (k < n && !moves[k]) continue;
     const int first = begin == 0 ? 0 : std::max(0, begin - reach);
     const int last = std::min(n, k + reach);
     if (k > begin && last - first >= least) {

@@ -182,6 +182,14 @@ struct TextSource::Impl {
     return !at_end;
   }
 
+  // Whether the next line is whole in the block.
+  bool HasLine() {
+    const void* const feed =
+        std::memchr(block.data() + scanned, '\n', end - scanned);
+    scanned = feed ? static_cast<const char*>(feed) - block.data() : end;
+    return feed != nullptr;
+  }
+
   bool NextLine(std::string_view* line) {
     const void* feed = nullptr;
     do {
@@ -223,6 +231,16 @@ TextSource::TextSource(TextSource&&) noexcept = default;
 
 bool TextSource::NextLine(std::string_view* line) {
   return impl_->NextLine(line);
+}
+
+void TextSource::NextLines(std::size_t most,
+                           std::vector<std::string_view>* lines) {
+  lines->clear();
+  std::string_view line;
+  while (lines->size() < most && (lines->empty() || impl_->HasLine()) &&
+         impl_->NextLine(&line)) {
+    lines->push_back(line);
+  }
 }
 
 long TextSource::row() const { return impl_->row; }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "model/line_source.h"
 
@@ -27,6 +28,9 @@ class TextSource : public LineSource {
   // The next line without its LF or CRLF, and without a byte order mark if it
   // is the first; false at the end. *line lives until the next call.
   bool NextLine(std::string_view* line) override;
+  // The lines that are whole in the block at hand; reads on for the first only.
+  void NextLines(std::size_t most,
+                 std::vector<std::string_view>* lines) override;
   // The 1-based number of the last line read, as an editor counts; 0 before.
   long row() const override;
   // Whether the last line read ended with the file instead of a line break.

@@ -10,8 +10,6 @@
 namespace armcal {
 namespace {
 
-constexpr int kBlockRows = 4096;
-
 // Steps in bins of 0.1 %, so that a median needs no memory of the log's size.
 class StepHistogram {
  public:
@@ -54,12 +52,12 @@ class StepHistogram {
 // keeps encoder noise out.
 class MotionSpectrum {
  public:
-  void Add(double t, const Eigen::RowVectorXd& q) {
+  void Add(double t, const Eigen::MatrixXd& positions, int row) {
+    if (count_ > 0 && t - last_t_ < 0.02) return;
+    const Eigen::RowVectorXd q = positions.row(row);
     if (count_ == 0) {
       first_ = last_ = q;
       sum_ = square_ = rate_ = Eigen::ArrayXd::Zero(q.size());
-    } else if (t - last_t_ < 0.02) {
-      return;
     } else {
       rate_ += (q - last_).transpose().array().square() / (t - last_t_);
       time_ += t - last_t_;
@@ -147,7 +145,7 @@ struct Audit {
   double last = 0;
 
   // False where the time is that of the row before.
-  bool Add(double t, const Eigen::RowVectorXd& q) {
+  bool Add(double t, const Eigen::MatrixXd& positions, int row) {
     if (base.samples > 0) {
       const double step = t - last;
       if (step == 0) {
@@ -161,7 +159,7 @@ struct Audit {
       base.range.begin = t;
     }
     base.range.end = last = t;
-    motion.Add(t, q);
+    motion.Add(t, positions, row);
     ++base.samples;
     return true;
   }
@@ -169,22 +167,21 @@ struct Audit {
 
 }  // namespace
 
-TimeBase AuditTimeBase(const std::string& path, const TimeRange& crop,
-                       LogReader* reader) {
+TimeBase AuditTimeBase(const TimeRange& crop, KeptLog* log) {
   Audit audit;
   TickCounter ticks;
-  Log block;
-  while (reader->Read(kBlockRows, &block)) {
-    std::vector<double> stamps;
-    for (int k = 0; k < block.size(); ++k) {
-      const double t = block.t[k];
-      if (crop.Contains(t) && audit.Add(t, block.q.row(k))) stamps.push_back(t);
+  std::vector<double> stamps;
+  while (const Log* block = log->Next()) {
+    stamps.clear();
+    for (int k = 0; k < block->size(); ++k) {
+      const double t = block->t[k];
+      if (crop.Contains(t) && audit.Add(t, block->q, k)) stamps.push_back(t);
     }
     ticks.Add(stamps, audit.steps.Median());
   }
   TimeBase& base = audit.base;
   if (base.samples < 3) {
-    throw InputError(path, "", std::to_string(base.samples) + " samples",
+    throw InputError(log->path(), "", std::to_string(base.samples) + " samples",
                      "expected at least 3 samples with different times in the "
                      "log (--crop keeps a part of it)");
   }
@@ -197,19 +194,17 @@ TimeBase AuditTimeBase(const std::string& path, const TimeRange& crop,
   }
   if (!base.uniform) base.stamp_errors = ticks.Errors();
   base.motion_hz = audit.motion.Frequency();
-  reader->Rewind();
+  log->Rewind();
   if (base.max_step <= 3 * base.median_step) return base;
   double last = base.range.begin;
-  while (reader->Read(kBlockRows, &block)) {
-    for (int k = 0; k < block.size(); ++k) {
-      if (!crop.Contains(block.t[k])) continue;
-      if (block.t[k] - last > 3 * base.median_step) {
-        base.gaps.push_back({last, block.t[k]});
-      }
-      last = block.t[k];
+  while (const Log* block = log->Next()) {
+    for (const double t : block->t) {
+      if (!crop.Contains(t)) continue;
+      if (t - last > 3 * base.median_step) base.gaps.push_back({last, t});
+      last = t;
     }
   }
-  reader->Rewind();
+  log->Rewind();
   return base;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/log_reader.h"
+#include "model/kept_log.h"
 
 namespace armcal {
 
@@ -48,7 +48,6 @@ struct TimeBase {
 
 // One pass over the log, which it leaves rewound. Throws InputError where
 // fewer than 3 samples with different times are in `crop`.
-TimeBase AuditTimeBase(const std::string& path, const TimeRange& crop,
-                       LogReader* reader);
+TimeBase AuditTimeBase(const TimeRange& crop, KeptLog* log);
 
 }  // namespace armcal

@@ -5,44 +5,57 @@
 namespace armcal {
 
 void TorqueSampleWindow::Clear() {
-  samples_.clear();
+  rows_.clear();
+  times_.clear();
+  places_.clear();
+  for (std::vector<double>& column : tau_) column.clear();
   appended_ = 0;
 }
 
-void TorqueSampleWindow::Append(const Log& block, int row) {
-  const double t = block.t[row];
-  if (appended_ == 0) begin_ = t;
-  const double place =
-      uniform_ ? static_cast<double>(appended_) : (t - begin_) / dt_;
-  samples_.push_back({block.first_row + row, t, place, block.tau.row(row)});
-  ++appended_;
+void TorqueSampleWindow::Append(const Log& block, int row, int count) {
+  if (appended_ == 0) begin_ = block.t[row];
+  for (int k = row; k < row + count; ++k, ++appended_) {
+    const double t = block.t[k];
+    rows_.push_back(block.first_row + k);
+    times_.push_back(t);
+    places_.push_back(uniform_ ? static_cast<double>(appended_)
+                               : (t - begin_) / dt_);
+  }
+  tau_.resize(block.tau.cols());
+  for (size_t c = 0; c < tau_.size(); ++c) {
+    const double* const x = block.tau.col(c).data() + row;
+    tau_[c].insert(tau_[c].end(), x, x + count);
+  }
+}
+
+long TorqueSampleWindow::At(long index) const {
+  return std::lower_bound(places_.begin(), places_.end(),
+                          static_cast<double>(index)) -
+         places_.begin();
 }
 
 void TorqueSampleWindow::DropBefore(long index) {
-  while (!samples_.empty() &&
-         samples_.front().place < static_cast<double>(index)) {
-    samples_.pop_front();
+  const long count = At(index);
+  rows_.erase(rows_.begin(), rows_.begin() + count);
+  times_.erase(times_.begin(), times_.begin() + count);
+  places_.erase(places_.begin(), places_.begin() + count);
+  for (std::vector<double>& column : tau_) {
+    column.erase(column.begin(), column.begin() + count);
   }
 }
 
 TorqueSamples TorqueSampleWindow::Between(long begin, long end) const {
-  const auto at = [this](long index) {
-    return std::lower_bound(
-        samples_.begin(), samples_.end(), static_cast<double>(index),
-        [](const Sample& s, double place) { return s.place < place; });
-  };
-  const auto first = at(begin), last = at(end);
+  const long first = At(begin), last = At(end);
   const Eigen::Index n = last - first;
   TorqueSamples result;
-  result.t.resize(n);
-  result.place.resize(n);
-  result.tau.resize(n, n > 0 ? first->tau.size() : 0);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Sample& s = *(first + k);
-    result.row.push_back(s.row);
-    result.t[k] = s.t;
-    result.place[k] = s.place - static_cast<double>(begin);
-    result.tau.row(k) = s.tau;
+  result.row.assign(rows_.begin() + first, rows_.begin() + last);
+  result.t = Eigen::Map<const Eigen::VectorXd>(times_.data() + first, n);
+  result.place =
+      Eigen::Map<const Eigen::VectorXd>(places_.data() + first, n).array() -
+      static_cast<double>(begin);
+  result.tau.resize(n, n > 0 ? static_cast<Eigen::Index>(tau_.size()) : 0);
+  for (Eigen::Index c = 0; c < result.tau.cols(); ++c) {
+    std::copy_n(tau_[c].data() + first, n, result.tau.col(c).data());
   }
   return result;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <deque>
 #include <vector>
 
 #include "model/log.h"
@@ -34,24 +33,24 @@ class TorqueSampleWindow {
   TorqueSampleWindow(double dt, bool uniform) : dt_(dt), uniform_(uniform) {}
 
   void Clear();
-  void Append(const Log& block, int row);
+  void Append(const Log& block, int row, int count = 1);
   // Forgets those before grid point `index` of the segment.
   void DropBefore(long index);
   // Those within grid points [begin, end).
   TorqueSamples Between(long begin, long end) const;
 
  private:
-  struct Sample {
-    long row;
-    double t;
-    double place;  // on the segment's grid
-    Eigen::RowVectorXd tau;
-  };
+  // The first sample at or after grid point `index`.
+  long At(long index) const;
+
   double dt_;
   bool uniform_;
   double begin_ = 0;
   long appended_ = 0;
-  std::deque<Sample> samples_;
+  std::vector<long> rows_;
+  std::vector<double> times_;
+  std::vector<double> places_;  // on the segment's grid
+  std::vector<std::vector<double>> tau_;
 };
 
 // Puts the replacements in place of what was recorded. `outliers` are one

@@ -14,18 +14,30 @@
 namespace armcal {
 namespace {
 
-constexpr int kBlockRows = 1024;
 constexpr double kCoreTime = 16;  // s
 constexpr long kMaxCore = 20000;  // samples
 
 // Every factor-th sample.
 Eigen::MatrixXd Thin(const Eigen::MatrixXd& x, long factor) {
   Eigen::MatrixXd y((x.rows() + factor - 1) / factor, x.cols());
-  for (Eigen::Index k = 0; k < y.rows(); ++k) y.row(k) = x.row(k * factor);
+  for (Eigen::Index c = 0; c < x.cols(); ++c) {
+    for (Eigen::Index k = 0; k < y.rows(); ++k) y(k, c) = x(k * factor, c);
+  }
   return y;
 }
 
 }  // namespace
+
+std::size_t BytesOf(const Trajectory& t) {
+  Eigen::Index numbers = t.samples.t.size() + t.samples.place.size() +
+                         t.samples.tau.size() + t.standstill.size();
+  for (const Eigen::MatrixXd* x :
+       {&t.q, &t.qd, &t.qdd, &t.tau, &t.tau_recorded, &t.temperature}) {
+    numbers += x->size();
+  }
+  return (static_cast<std::size_t>(numbers) + t.samples.row.size()) *
+         sizeof(double);
+}
 
 double DefaultBandwidth(const std::vector<TimeBase>& time_bases) {
   double wish = 8, limit = 20;
@@ -37,11 +49,12 @@ double DefaultBandwidth(const std::vector<TimeBase>& time_bases) {
 }
 
 struct TrajectoryReader::Impl {
-  Impl(const std::string& path_in, const LogReaderOptions& log_options,
-       const TimeBase& time_base, const TrajectoryOptions& options_in)
-      : path(path_in),
+  Impl(KeptLog* log_in, const TimeBase& time_base,
+       const TrajectoryOptions& options_in)
+      : log(log_in),
         options(options_in),
-        reader(path_in, log_options),
+        outliers(options_in.outliers != nullptr &&
+                 !options_in.outliers->empty()),
         base(time_base),
         bandwidth(options_in.bandwidth_hz),
         resampler(base.dt, base.uniform),
@@ -67,10 +80,13 @@ struct TrajectoryReader::Impl {
   // Reads samples of the current segment until grid point `index` is within
   // the four-sample neighbourhood of what has been read, or the segment ends.
   void FillTo(long index);
+  // How many rows of the block, the next one first, follow each other without
+  // need to look at what has been read.
+  int RunLength(long index) const;
   void Restart() {
-    reader.Rewind();
+    log->Rewind();
     Clear();
-    block = Log();
+    block = nullptr;
     block_row = 0;
     segment = -1;
     next_core = 0;
@@ -79,11 +95,14 @@ struct TrajectoryReader::Impl {
   }
   bool NextBlock() {
     block_row = 0;
-    log_ended = !reader.Read(kBlockRows, &block);
-    if (options.outliers != nullptr && !log_ended) {
-      as_recorded.t = block.t;
-      as_recorded.tau = block.tau;
-      ReplaceOutliers(*options.outliers, &block);
+    block = log->Next();
+    log_ended = block == nullptr;
+    if (outliers && !log_ended) {
+      as_recorded.t = block->t;
+      as_recorded.tau = block->tau;
+      replaced = *block;
+      ReplaceOutliers(*options.outliers, &replaced);
+      block = &replaced;
     }
     return !log_ended;
   }
@@ -92,14 +111,14 @@ struct TrajectoryReader::Impl {
     recorded.Clear();
     samples.Clear();
   }
-  void Append(int row) {
-    resampler.Append(block, row);
-    if (options.outliers != nullptr) recorded.Append(as_recorded, row);
-    if (options.every_sample) samples.Append(block, row);
+  void Append(int row, int count) {
+    resampler.Append(*block, row, count);
+    if (outliers) recorded.Append(as_recorded, row, count);
+    if (options.every_sample) samples.Append(*block, row, count);
   }
   void DropBefore(long index) {
     resampler.DropBefore(index);
-    if (options.outliers != nullptr) recorded.DropBefore(index);
+    if (outliers) recorded.DropBefore(index);
     samples.DropBefore(index);
   }
   void SetTorque(long begin, long end, long core_begin, long core_end,
@@ -108,9 +127,9 @@ struct TrajectoryReader::Impl {
   long Whole(long samples) const { return (samples + thin - 1) / thin * thin; }
   Trajectory Make(long core_begin, long core_end, long available);
 
-  std::string path;
+  KeptLog* log;
   TrajectoryOptions options;
-  LogReader reader;
+  bool outliers;  // there are some
   TimeBase base;
   double bandwidth;
   Resampler resampler;
@@ -120,8 +139,9 @@ struct TrajectoryReader::Impl {
   long margin, core;
   double largest_step;
 
-  Log block;
-  Log as_recorded;  // its torque before outliers were replaced
+  const Log* block = nullptr;
+  Log replaced;     // the block, its outliers replaced
+  Log as_recorded;  // its torque before
   int block_row = 0;
   int segment = -1;
   long next_core = 0;
@@ -132,11 +152,11 @@ struct TrajectoryReader::Impl {
 void TrajectoryReader::Impl::FillTo(long index) {
   while (!segment_ended) {
     if (!resampler.empty() && resampler.NumGridPoints() > index + 4) return;
-    if (block_row >= block.size() && !NextBlock()) {
+    if ((block == nullptr || block_row >= block->size()) && !NextBlock()) {
       segment_ended = true;
       return;
     }
-    const double t = block.t[block_row];
+    const double t = block->t[block_row];
     if (!options.crop.Contains(t)) {
       ++block_row;
       continue;
@@ -151,8 +171,23 @@ void TrajectoryReader::Impl::FillTo(long index) {
         return;
       }
     }
-    Append(block_row++);
+    const int count = RunLength(index);
+    Append(block_row, count);
+    block_row += count;
   }
+}
+
+int TrajectoryReader::Impl::RunLength(long index) const {
+  int count = 1;
+  if (resampler.empty()) return count;
+  for (int row = block_row + 1; row < block->size(); ++row, ++count) {
+    const double last = block->t[row - 1], t = block->t[row];
+    if (resampler.NumGridPointsWith(last, count) > index + 4) break;
+    if (!options.crop.Contains(t) || t == last || t - last > largest_step) {
+      break;
+    }
+  }
+  return count;
 }
 
 // Torque of grid points [begin, end), as the fit takes it and as recorded.
@@ -162,11 +197,12 @@ void TrajectoryReader::Impl::SetTorque(long begin, long end, long core_begin,
   t->tau = std::move(tau);
   t->tau_recorded = t->tau;
   if (options.every_sample) t->samples = samples.Between(begin, end);
-  if (options.outliers != nullptr) {
+  if (outliers) {
     Log grid;
     recorded.Sample(begin, end, &grid);
     t->tau_recorded = std::move(grid.tau);
-  } else if (options.remove_spikes && bandwidth > 0 && t->tau.size() > 0) {
+  } else if (options.outliers == nullptr && options.remove_spikes &&
+             bandwidth > 0 && t->tau.size() > 0) {
     t->spikes = RemoveSpikes(&t->tau)
                     .middleRows(core_begin - begin, core_end - core_begin)
                     .cast<long>()
@@ -222,24 +258,12 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
   return t;
 }
 
-TrajectoryReader::TrajectoryReader(const std::string& path,
-                                   const LogReaderOptions& log_options,
-                                   const TimeBase& time_base,
-                                   const TrajectoryOptions& options) {
-  LogReaderOptions with_rates = log_options;
-  with_rates.want_velocity = with_rates.want_acceleration =
-      options.bandwidth_hz == 0;
-  impl_ = std::make_unique<Impl>(path, with_rates, time_base, options);
-}
+TrajectoryReader::TrajectoryReader(KeptLog* log, const TimeBase& time_base,
+                                   const TrajectoryOptions& options)
+    : impl_(std::make_unique<Impl>(log, time_base, options)) {}
 TrajectoryReader::~TrajectoryReader() = default;
 TrajectoryReader::TrajectoryReader(TrajectoryReader&&) noexcept = default;
 
-const std::string& TrajectoryReader::path() const { return impl_->path; }
-const TimeBase& TrajectoryReader::time_base() const { return impl_->base; }
-double TrajectoryReader::bandwidth_hz() const { return impl_->bandwidth; }
-const std::string& TrajectoryReader::torque_source() const {
-  return impl_->reader.torque_source();
-}
 void TrajectoryReader::Rewind() { impl_->Restart(); }
 
 bool TrajectoryReader::Next(Trajectory* trajectory) {

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "model/log_reader.h"
+#include "model/kept_log.h"
 #include "model/time_base.h"
 #include "model/torque_samples.h"
 
@@ -43,6 +44,9 @@ struct Trajectory {
   double time(int row) const { return t0 + row * dt; }
 };
 
+// What its numbers take.
+std::size_t BytesOf(const Trajectory& trajectory);
+
 struct TrajectoryOptions {
   // Cutoff of the zero-phase low pass on positions, Hz. 0: data are taken as
   // they are, recorded velocities and accelerations where the log has them.
@@ -73,16 +77,13 @@ double DefaultBandwidth(const std::vector<TimeBase>& time_bases);
 // shorter ones are interpolated.
 class TrajectoryReader {
  public:
-  // `time_base` is the log's, of AuditTimeBase. Throws InputError.
-  TrajectoryReader(const std::string& path, const LogReaderOptions& log_options,
-                   const TimeBase& time_base, const TrajectoryOptions& options);
+  // `log` must outlive it, be at its first row and hold recorded velocities and
+  // accelerations where options take them; `time_base` is the log's, of
+  // AuditTimeBase.
+  TrajectoryReader(KeptLog* log, const TimeBase& time_base,
+                   const TrajectoryOptions& options);
   ~TrajectoryReader();
   TrajectoryReader(TrajectoryReader&&) noexcept;
-
-  const std::string& path() const;
-  const TimeBase& time_base() const;
-  double bandwidth_hz() const;
-  const std::string& torque_source() const;
 
   // The next stretch; false at the end.
   bool Next(Trajectory* trajectory);

@@ -55,9 +55,11 @@ inline std::vector<Trajectory> Cut(const std::string& path,
                                    const TrajectoryOptions& options) {
   LogReaderOptions log_options;
   log_options.joint_names = {"joint1"};
-  LogReader audit(path, log_options);
-  const TimeBase base = AuditTimeBase(path, options.crop, &audit);
-  TrajectoryReader reader(path, log_options, base, options);
+  log_options.want_velocity = log_options.want_acceleration =
+      options.bandwidth_hz == 0;
+  KeptLog log(path, log_options);
+  const TimeBase base = AuditTimeBase(options.crop, &log);
+  TrajectoryReader reader(&log, base, options);
   std::vector<Trajectory> result;
   Trajectory t;
   while (reader.Next(&t)) result.push_back(t);

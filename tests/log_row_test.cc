@@ -1,5 +1,6 @@
 #include "model/log_row.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "model/input_error.h"
@@ -106,6 +107,33 @@ TEST(LogRow, WalksToTheUsedFieldsOnly) {
   EXPECT_FALSE(row.Parse("a,2,,,7", values, &time));
   EXPECT_FALSE(row.Parse("a,,,,7,1,", values, &time));
   EXPECT_FALSE(row.Parse("", values, &time));
+}
+
+// Threads may meet the later ones first.
+TEST(LogRow, TheFirstOfManyBadRowsIsNamed) {
+  std::string text = "t,q1,q2\n";
+  for (int k = 0; k < 20000; ++k) {
+    const bool bad = k == 1700 || k == 2100 || k > 9000;
+    text +=
+        std::to_string(k) + (bad ? ",x" + std::to_string(k) : ",1") + ",2\n";
+  }
+  text[text.size() - 5] = '\0';
+  LogReaderOptions options;
+  options.joint_names = {"shoulder", "elbow"};
+  options.need_torque = false;
+  for (const std::string& bytes : {text, Gzip(text)}) {
+    const std::string path = WriteFile(bytes);
+    LogReader reader(path, options);
+    try {
+      Log log;
+      while (reader.Read(100000, &log)) {
+      }
+      ADD_FAILURE() << "nothing is refused";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("row 1702, column q1"));
+      EXPECT_THAT(error.what(), testing::HasSubstr("x1700"));
+    }
+  }
 }
 
 }  // namespace

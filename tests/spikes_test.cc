@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace armcal {
 namespace {
@@ -94,6 +96,31 @@ TEST(FindOutlying, DeviationAndLeastSize) {
   x.setConstant(7);
   EXPECT_EQ(FindOutlying(x, 15, 0).marked.count(), 0);
   EXPECT_EQ(FindOutlying(Eigen::VectorXd::Random(5), 15, 0).marked.count(), 0);
+}
+
+// By the definition: sort what is not marked of each neighbourhood.
+TEST(FindOutlying, LevelsAreMediansOfTheUnmarked) {
+  std::mt19937_64 random(6);
+  std::normal_distribution<double> normal(0, 0.1);
+  Eigen::VectorXd x(700);
+  for (double& v : x) v = normal(random) + (random() % 15 == 0 ? 3 : 0);
+  x.segment(300, 9).array() += 3;
+  const int reach = 15;
+  const Outlying found = FindOutlying(x, reach, 0);
+  ASSERT_GT(found.marked.count(), 30);
+  for (int k = 0; k < x.size(); ++k) {
+    std::vector<double> window;
+    if (!found.marked[k]) window.push_back(x[k]);
+    for (const int step : {-1, 1}) {
+      int count = 0;
+      for (int j = k + step; j >= 0 && j < x.size() && count < reach;
+           j += step) {
+        if (!found.marked[j]) window.push_back(x[j]), ++count;
+      }
+    }
+    std::sort(window.begin(), window.end());
+    EXPECT_EQ(found.level[k], window[window.size() / 2]) << k;
+  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A calibration needs no more memory for a long log than for a short one.
+// A calibration that keeps nothing between passes needs no more memory for a
+// long log than for a short one.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -46,7 +47,7 @@ void Calibrate(const std::string& path) {
   const Robot robot = SampleRobot("Panda 7R");
   LogReaderOptions log_options;
   log_options.joint_names = robot.JointNames();
-  LogSet training({path}, log_options, {});
+  LogSet training({path}, log_options, {}, 0);
   LinearCalibrationOptions options;
   options.bandwidth_hz = 8;
   EXPECT_TRUE(CalibrateLinear(robot, options, &training, nullptr).solved);

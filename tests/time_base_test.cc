@@ -37,11 +37,9 @@ TimeBase Audit(const std::vector<std::string>& times,
     }
   }
   const std::string path = WriteFile(text + "\n");
-  LogReader reader(path, options);
-  const TimeBase base = AuditTimeBase(path, crop, &reader);
-  Log block;  // the audit leaves the reader rewound
-  EXPECT_TRUE(reader.Read(1, &block));
-  EXPECT_EQ(block.first_row, 2);
+  KeptLog log(path, options);
+  const TimeBase base = AuditTimeBase(crop, &log);
+  EXPECT_EQ(log.Next()->first_row, 2);  // the audit leaves it rewound
   return base;
 }
 
@@ -216,8 +214,8 @@ TEST(AuditTimeBase, RealLog) {
   for (int j = 1; j <= 7; ++j) {
     options.joint_names.push_back("panda_joint" + std::to_string(j));
   }
-  LogReader reader(path, options);
-  const TimeBase base = AuditTimeBase(path, kAll, &reader);
+  KeptLog log(path, options);
+  const TimeBase base = AuditTimeBase(kAll, &log);
   EXPECT_GT(base.samples, 1000);
   EXPECT_NEAR(base.dt * static_cast<double>(base.samples - 1),
               base.range.end - base.range.begin, .2 * base.range.end);

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace armcal {
+
+// How many bytes may hold what could be computed again. What does not fit is
+// computed again, with the same results.
+class MemoryBudget {
+ public:
+  explicit MemoryBudget(std::size_t bytes) : left_(bytes) {}
+
+  // An eighth of the machine's memory, 1 GB at most: there may be several sets
+  // of logs.
+  static std::size_t DefaultBytes();
+
+  // False, and nothing taken, where fewer are left.
+  bool Take(std::size_t bytes) {
+    if (bytes > left_) return false;
+    left_ -= bytes;
+    return true;
+  }
+  void Give(std::size_t bytes) { left_ += bytes; }
+
+ private:
+  std::size_t left_;
+};
+
+// What one holder has taken of a budget, and gives back in the end.
+class MemoryShare {
+ public:
+  // Null: of nothing.
+  explicit MemoryShare(std::shared_ptr<MemoryBudget> budget)
+      : budget_(std::move(budget)) {}
+  MemoryShare(MemoryShare&& other) noexcept { *this = std::move(other); }
+  MemoryShare& operator=(MemoryShare&& other) noexcept {
+    std::swap(budget_, other.budget_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+  ~MemoryShare() { GiveBack(); }
+
+  bool Take(std::size_t bytes) {
+    if (budget_ == nullptr || !budget_->Take(bytes)) return false;
+    bytes_ += bytes;
+    return true;
+  }
+  void GiveBack() {
+    if (budget_ != nullptr) budget_->Give(std::exchange(bytes_, 0));
+  }
+
+ private:
+  std::shared_ptr<MemoryBudget> budget_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace armcal
