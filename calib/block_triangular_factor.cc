@@ -21,6 +21,16 @@ BlockTriangularFactor::BlockTriangularFactor(const ModelParameters& parameters)
   }
 }
 
+BlockTriangularFactor::BlockTriangularFactor(
+    const ModelParameters& parameters, std::vector<TriangularFactor> factors)
+    : BlockTriangularFactor(parameters) {
+  CHECK_EQ(factors.size(), factors_.size());
+  for (size_t i = 0; i < factors.size(); ++i) {
+    CHECK_EQ(factors[i].columns(), factors_[i].columns());
+  }
+  factors_ = std::move(factors);
+}
+
 void BlockTriangularFactor::Add(int i, const Eigen::RowVectorXd& u, double y,
                                 double weight) {
   CHECK_EQ(u.size(), num_parameters_);

@@ -17,6 +17,9 @@ namespace armcal {
 class BlockTriangularFactor {
  public:
   explicit BlockTriangularFactor(const ModelParameters& parameters);
+  // With each joint's factor known.
+  BlockTriangularFactor(const ModelParameters& parameters,
+                        std::vector<TriangularFactor> factors);
 
   // Adds joint i's equation u x = y times `weight`; u holds all parameters.
   void Add(int i, const Eigen::RowVectorXd& u, double y, double weight = 1);

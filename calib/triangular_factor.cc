@@ -12,6 +12,12 @@ TriangularFactor::TriangularFactor(int columns)
     : columns_(columns),
       buffer_(MatrixXd::Zero(columns + 1 + kChunkRows, columns + 1)) {}
 
+TriangularFactor::TriangularFactor(const MatrixXd& triangle, long rows)
+    : TriangularFactor(static_cast<int>(triangle.cols()) - 1) {
+  buffer_.topRows(columns_ + 1) = triangle;
+  rows_ = rows;
+}
+
 MatrixXd::RowXpr TriangularFactor::Next() {
   if (filled_ == kChunkRows) Compress();
   return buffer_.row(columns_ + 1 + filled_++);

@@ -9,6 +9,8 @@ namespace armcal {
 class TriangularFactor {
  public:
   explicit TriangularFactor(int columns);
+  // Of `rows` equations whose triangle is known.
+  TriangularFactor(const Eigen::MatrixXd& triangle, long rows);
 
   int columns() const { return columns_; }
   long rows() const { return rows_; }
