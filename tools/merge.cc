@@ -9,6 +9,7 @@
 #include "calib/factor_calibration.h"
 #include "calib/factor_file.h"
 #include "calib/factor_report.h"
+#include "calib/fleet_report.h"
 #include "calib/verdict.h"
 #include "model/input_error.h"
 #include "tools/input_flags.h"
@@ -68,6 +69,27 @@ Reduction ReadFactors(const Robot& robot, const Progress& progress) {
   return all;
 }
 
+// fleet.json and its text, where logs say what units they are of.
+void AddFleet(const Robot& robot, const Reduction& reduction,
+              const LinearCalibration& pooled, const Progress& progress,
+              CommandOutcome* outcome) {
+  const auto units = static_cast<int>(UnitNames(reduction).size());
+  if (units < 2 || !pooled.solved) return;
+  if (units < kLeastUnits) {
+    outcome->output.text += "no fleet: " + std::to_string(units) +
+                            " units do not tell how units "
+                            "spread; " +
+                            std::to_string(kLeastUnits) + " do\n";
+    return;
+  }
+  const FleetOptions options;
+  const FleetCalibration fleet =
+      CalibrateFleet(robot, reduction, pooled, options, progress);
+  outcome->output.text += FleetText(robot, pooled, fleet, options);
+  outcome->folders[0].Add("fleet.json",
+                          ToJson(robot, pooled, fleet, options).dump(2) + "\n");
+}
+
 CommandOutcome RunMerge(const CommandInput& input) {
   const Robot robot = RobotFromFlags(input);
   const Reduction reduction = ReadFactors(robot, input.progress);
@@ -81,6 +103,7 @@ CommandOutcome RunMerge(const CommandInput& input) {
   out.Add("calibration.json", outcome.output.json);
   out.Add("covariance.csv", CovarianceCsv(result));
   out.Add("merged.factor", FactorFileBytes(reduction));
+  AddFleet(robot, reduction, result, input.progress, &outcome);
   outcome.output.verdict = robot.name + ": ";
   outcome.output.positive = Shortcomings(robot, result).empty();
   outcome.output.notes = robot.notes;
