@@ -18,9 +18,9 @@ links:
      viscous: 1, coulomb: 2, armature: .2}
 """
 #: What is planted, by the number of the unit; and what of all grows by day.
-OUTLIERS = {3: ("coulomb[2]", 1.5), 7: ("viscous[1]", -1.0),
-            11: ("coulomb[1]", 2.0)}
-DRIFT = ("viscous[2]", 1e-3)  # N m s/rad a day
+OUTLIERS = {3: ("coulomb[2]", 2.0), 7: ("viscous[1]", 2.0),
+            11: ("coulomb[1]", 3.0)}
+DRIFT = ("viscous[2]", 3e-3)  # N m s/rad a day
 #: Reduces all units alike.
 MODEL = {"bandwidth": 10, "coulomb_width": "0.02rad/s", "window": 0.3}
 WIDTH = .02  # rad/s
