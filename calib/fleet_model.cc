@@ -36,7 +36,7 @@ class Fleet {
   // Tests all units; those beyond `most` sigmas.
   std::vector<FleetOutlier> Judge(int unit, double most, bool was_left_out,
                                   int at_most) const;
-  double Limit(double level, double tests, int used) const;
+  double Limit(double level, double tests, int used, bool among) const;
   void Report(double level, FleetFit* fit) const;
   int size() const { return static_cast<int>(units_.size()); }
   int parameters() const { return static_cast<int>(scale_.size()); }
@@ -235,9 +235,14 @@ std::vector<FleetOutlier> Fleet::Judge(int u, double most, bool was_left_out,
   return found;
 }
 
-double Fleet::Limit(double level, double tests, int used) const {
-  const boost::math::students_t t(std::max(1, used - (drift_ ? 2 : 1)));
-  return boost::math::quantile(boost::math::complement(t, level / tests / 2));
+// Of Student's t when `used` units tell the spread.
+double Fleet::Limit(double level, double tests, int used, bool among) const {
+  const double freedom = std::max(1, used - (drift_ ? 2 : 1) - (among ? 1 : 0));
+  const boost::math::students_t student(freedom);
+  const double t = boost::math::quantile(
+      boost::math::complement(student, level / tests / 2));
+  // A unit among them has widened the spread that it is measured by.
+  return among ? t * std::sqrt((freedom + 1) / (freedom + t * t)) : t;
 }
 
 // Of T for a unit whose named deviations are believed.
@@ -255,7 +260,7 @@ void Fleet::Report(double level, FleetFit* fit) const {
   const int m = parameters();
   const auto kept = static_cast<int>(
       std::count(fit->left_out.begin(), fit->left_out.end(), false));
-  const double beyond = Limit(level, m, kept);
+  const double beyond = Limit(level, m, kept, false);
   fit->reference_time = reference_;
   fit->has_drift = drift_;
   fit->mean = scale_.cwiseProduct(solved_.beta.head(m));
@@ -296,38 +301,51 @@ void Fleet::Report(double level, FleetFit* fit) const {
   }
 }
 
+// Which units to leave out next; `back`: those that were and came back, for
+// which the milder limit is the one for all.
+std::vector<bool> OutOfTheOrdinary(const Fleet& fleet,
+                                   const std::vector<bool>& left_out,
+                                   std::vector<bool>* back) {
+  constexpr double kOrdinary = .01;  // share of good units that is left out
+  const int m = fleet.parameters();
+  const auto used =
+      static_cast<int>(std::count(left_out.begin(), left_out.end(), false));
+  std::vector<bool> next;
+  for (size_t u = 0; u < left_out.size(); ++u) {
+    const bool among = !left_out[u] && !(*back)[u];
+    const double limit = fleet.Limit(kOrdinary, m, used, among);
+    next.push_back(
+        !fleet.Judge(static_cast<int>(u), limit, left_out[u], 1).empty());
+    (*back)[u] = (*back)[u] || (left_out[u] && !next[u]);
+  }
+  return next;
+}
+
 }  // namespace
 
 FleetFit FitFleet(const std::vector<UnitEvidence>& evidence, int units,
                   const FleetOptions& options) {
   constexpr int kMostRounds = 10;
-  constexpr double kOrdinary = .01;  // share of good units that is left out
-  constexpr int kMostNamed = 5;      // deviations of a unit
+  constexpr int kMostNamed = 5;  // deviations of a unit
   Fleet fleet(evidence, units, options.drift);
   FleetFit fit;
   fit.left_out.assign(units, false);
-  const int m = fleet.parameters();
+  std::vector<bool> back = fit.left_out;
   while (!fit.settled && fit.rounds++ < kMostRounds) {
     fleet.Fit(fit.left_out);
-    const auto used = static_cast<int>(
-        std::count(fit.left_out.begin(), fit.left_out.end(), false));
-    const double limit = fleet.Limit(kOrdinary, m, used);
-    std::vector<bool> left_out;
-    for (int u = 0; u < units; ++u) {
-      left_out.push_back(!fleet.Judge(u, limit, fit.left_out[u], 1).empty());
-    }
-    const auto most = static_cast<long>(units / 3);
-    fit.settled = left_out == fit.left_out;
-    if (std::count(left_out.begin(), left_out.end(), true) > most) break;
-    fit.left_out = left_out;
+    const std::vector<bool> next = OutOfTheOrdinary(fleet, fit.left_out, &back);
+    fit.settled = next == fit.left_out;
+    if (3 * std::count(next.begin(), next.end(), true) > units) break;
+    if (fit.rounds < kMostRounds) fit.left_out = next;
   }
   const auto used = static_cast<int>(
       std::count(fit.left_out.begin(), fit.left_out.end(), false));
-  const double limit =
-      fleet.Limit(options.false_alarms, static_cast<double>(m) * units, used);
+  const double tests = static_cast<double>(fleet.parameters()) * units;
+  const double limit = fleet.Limit(options.false_alarms, tests, used, false);
   for (int u = 0; u < units; ++u) {
+    if (!fit.left_out[u]) continue;
     for (const FleetOutlier& outlier :
-         fleet.Judge(u, limit, fit.left_out[u], kMostNamed)) {
+         fleet.Judge(u, limit, true, kMostNamed)) {
       fit.outliers.push_back(outlier);
     }
   }

@@ -85,7 +85,7 @@ struct LinearCalibration {
   long equations = 0;
   std::vector<long> outliers;  // per joint: equations Huber weighs below 1/2
   std::vector<UnpoweredJoint> unpowered;
-  Eigen::VectorXd travel;  // per joint, rad or m
+  Eigen::VectorXd travel;            // per joint, rad or m
   Eigen::ArrayXd mean_square_speed;  // per joint, (rad/s)^2 or (m/s)^2
   std::optional<TorqueResidual> training;
   std::optional<TorqueResidual> validation;

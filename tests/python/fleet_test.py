@@ -1,6 +1,7 @@
 """Fleets: what is planted is found, whoever reduces the logs."""
 
 import hashlib
+import logging
 import os
 import pathlib
 import subprocess
@@ -107,8 +108,8 @@ class Fleet(unittest.TestCase):
                 os.kill(pid, 9)
 
         with distributed.LocalCluster(
-                n_workers=2, threads_per_worker=1,
-                dashboard_address=None) as cluster, distributed.Client(
+                n_workers=2, threads_per_worker=1, dashboard_address=None,
+                silence_logs=logging.CRITICAL) as cluster, distributed.Client(
                     cluster) as client:
             files, refused = reduce_logs(
                 client, self.robot, recordings, str(self.folder / "killed"),

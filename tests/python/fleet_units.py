@@ -44,8 +44,10 @@ def parameters_of(robot, unit, day, random):
     links = links * (1 + .02 * random.standard_normal((2, 1)))
     friction = {"viscous": robot.viscous * (1 + .1 * random.standard_normal(2)),
                 "coulomb": robot.coulomb * (1 + .1 * random.standard_normal(2))}
-    for name, change in [(DRIFT[0], DRIFT[1] * day)] + [
-            OUTLIERS[unit]] * (unit in OUTLIERS):
+    planted = [(DRIFT[0], DRIFT[1] * day)]
+    if unit in OUTLIERS:
+        planted.append(OUTLIERS[unit])
+    for name, change in planted:
         term, joint = name[:-3], int(name[-2]) - 1
         friction[term][joint] += change
     return robot.replace(inertial_parameters=links, **friction)
