@@ -3,16 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace armcal {
+#include "calib/mixed_model.h"
 
-// What a log tells of the parameters x of the unit it was recorded on: the
-// least-squares problem x' information x - 2 right' x, in units of its errors.
-struct UnitEvidence {
-  int unit = 0;     // 0 .. units - 1
-  double time = 0;  // s
-  Eigen::MatrixXd information;
-  Eigen::VectorXd right;
-};
+namespace armcal {
 
 // A parameter of a unit that lies further from the fleet's than the spread of
 // the units and the data's noise make it.
@@ -30,8 +23,7 @@ struct FleetOptions {
   bool drift = true;  // fitted, where times differ
 };
 
-// Mixed model x_u(t) = mean + drift (t - reference) + d_u, d_u ~ N(0, T) with
-// a diagonal T: what units of one type share and how they differ.
+// What units of one type share and how they differ, by the mixed model.
 struct FleetFit {
   double reference_time = 0;  // s, the logs' mean
   bool has_drift = false;
@@ -50,14 +42,12 @@ struct FleetFit {
   std::vector<bool> left_out;  // of mean, drift and spread: out of the ordinary
 };
 
-// Restricted maximum likelihood: generalised least squares for mean and drift,
-// for T the fixed point T_k = sum d_k^2 / sum (1 - Var(d_k | data) / T_k)
-// (Harville 1977), both without units that are out of the ordinary, so that
-// these do not widen what they are judged by. A unit is tested parameter by
-// parameter, by the score of a deviation of this parameter alone, with
-// Student's t of the units' number; the level is shared by all tests
-// (Bonferroni). Its deviations are then named one after the other, each given
-// the ones before.
+// The mixed model's mean, drift and T without units that are out of the
+// ordinary, so that these do not widen what they are judged by. A unit is
+// tested parameter by parameter, by the score of a deviation of this parameter
+// alone, with Student's t for the number of units; the level is shared by all
+// tests (Bonferroni). Its deviations are then named one after the other, each
+// given the ones before.
 FleetFit FitFleet(const std::vector<UnitEvidence>& evidence, int units,
                   const FleetOptions& options);
 

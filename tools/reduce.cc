@@ -13,8 +13,8 @@
 #include "calib/sha256.h"
 #include "model/calendar_time.h"
 #include "model/input_error.h"
+#include "tools/calibrate_flags.h"
 #include "tools/input_flags.h"
-#include "tools/linear_flags.h"
 #include "tools/report/report_page.h"
 
 DECLARE_string(log);

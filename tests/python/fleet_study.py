@@ -90,6 +90,20 @@ def show_units(fleet, truth):
               f"{np.mean(squares):.2f}")
 
 
+def show_times(folder, rounds):
+    """Logs of two minutes, beside which starting and merging are little."""
+    fleet_units.write_units(folder, 24, long_s=120, short_s=120)
+    robot = armcal.read_robot(folder / "arm.yaml")
+    recordings = read_table(str(folder / "units.csv"))
+    taken = {1: [], 2: []}
+    for _ in range(rounds):
+        for workers in (1, 2):
+            taken[workers].append(run(folder, robot, recordings, workers)[2])
+    medians = {w: statistics.median(t) for w, t in taken.items()}
+    print(f"1 worker {medians[1]:.1f} s, 2 workers {medians[2]:.1f} s: "
+          f"{medians[2] / medians[1]:.2f}")
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     count = int(sys.argv[2]) if len(sys.argv) > 2 else 200
@@ -97,16 +111,10 @@ def main():
     truth = fleet_units.write_units(folder, count)
     robot = armcal.read_robot(folder / "arm.yaml")
     recordings = read_table(str(folder / "units.csv"))
-    taken, hashes = {1: [], 2: []}, set()
-    for _ in range(rounds):
-        for workers in (1, 2):
-            result, bits, took = run(folder, robot, recordings, workers)
-            taken[workers].append(took)
-            hashes.add(bits)
-    medians = {w: statistics.median(t) for w, t in taken.items()}
-    print(f"1 worker {medians[1]:.1f} s, 2 workers {medians[2]:.1f} s: "
-          f"{medians[2] / medians[1]:.2f}")
-    hashes.add(run(folder, robot, recordings, 4)[1])
+    hashes = set()
+    for workers in (1, 2, 4):
+        result, bits, _ = run(folder, robot, recordings, workers)
+        hashes.add(bits)
     hashes.add(run(folder, robot, recordings, 2, kill_at=count // 2)[1])
     print("results that differ in bits:", len(hashes) - 1)
     show_planted(result.fleet)
@@ -116,6 +124,8 @@ def main():
     x = single.model_parameters.values
     error = np.linalg.norm(result.model_parameters.values - x)
     print(f"merged from a single pass: {error / np.linalg.norm(x):.1e}")
+    if rounds > 0:
+        show_times(folder / "timed", rounds)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-#include "tools/linear_flags.h"
+#include "tools/calibrate_flags.h"
 
 #include <gflags/gflags.h>
 
