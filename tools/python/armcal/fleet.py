@@ -51,6 +51,8 @@ def reduce_one(place: Tuple[str, str, str], recording: Recording, like: bytes,
     import tempfile
     given = {**options, "unit": recording.unit or None,
              "date": recording.date or None}
+    if "threads" in _armcal.options("reduce"):
+        given.setdefault("threads", 1)  # workers are as many as cores
     try:
         with tempfile.TemporaryDirectory(prefix="armcal-") as folder:
             if like:
