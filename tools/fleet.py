@@ -49,7 +49,7 @@ def connect(given):
         return Client(given.scheduler)
     # A process for each: commands of armcal take turns within one.
     return Client(LocalCluster(n_workers=given.workers, threads_per_worker=1,
-                               processes=True, dashboard_address=None))
+                               processes=True, dashboard_address="127.0.0.1:0"))
 
 
 def show(count, total):

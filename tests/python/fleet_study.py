@@ -36,7 +36,7 @@ def run(folder, robot, recordings, workers, kill_at=None):
     out = folder / "out"
     shutil.rmtree(out, ignore_errors=True)
     with distributed.LocalCluster(
-            n_workers=workers, threads_per_worker=1, dashboard_address=None,
+            n_workers=workers, threads_per_worker=1, dashboard_address="127.0.0.1:0",
             silence_logs=logging.CRITICAL) as cluster, distributed.Client(
                 cluster) as client:
         pids = list(client.run(os.getpid).values())

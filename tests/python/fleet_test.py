@@ -108,7 +108,7 @@ class Fleet(unittest.TestCase):
                 os.kill(pid, 9)
 
         with distributed.LocalCluster(
-                n_workers=2, threads_per_worker=1, dashboard_address=None,
+                n_workers=2, threads_per_worker=1, dashboard_address="127.0.0.1:0",
                 silence_logs=logging.CRITICAL) as cluster, distributed.Client(
                     cluster) as client:
             files, refused = reduce_logs(
