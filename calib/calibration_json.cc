@@ -48,8 +48,7 @@ json TransitionJson(const CoulombTransition& t, JointType type) {
           {"unit", std::string(PositionUnit(type)) + (velocity ? "/s" : "")}};
 }
 
-json JointsJson(const Robot& robot, const LogSet& training,
-                const LinearCalibration& result) {
+json JointsJson(const Robot& robot, const LinearCalibration& result) {
   json joints = json::array();
   const Eigen::VectorXd density = ErrorDensity(result);
   for (int i = 0; i < robot.num_joints(); ++i) {
@@ -71,7 +70,6 @@ json JointsJson(const Robot& robot, const LogSet& training,
       entry["encoder_noise_stddev"] = JsonNumber(result.encoder_noise[i]);
     }
     if (!result.outliers.empty()) entry["outliers"] = result.outliers[i];
-    entry["spikes"] = CountOutliers(training, i);
     if (!result.transitions.empty()) {
       entry["coulomb_transition"] =
           TransitionJson(result.transitions[i], joint.type);
@@ -196,32 +194,39 @@ void AddResiduals(const LogSet* validation, const LinearCalibration& result,
 
 }  // namespace
 
+json ToJson(const Robot& robot, const LinearCalibration& result) {
+  return {{"format", "armcal calibration 1"},
+          {"robot", robot.name},
+          {"estimate", "linear"},
+          {"solver", SolverName(result.solver)},
+          {"trajectory",
+           result.encoder_noise.size() > 0 ? "corrected" : "measured"},
+          {"bandwidth_hz", result.rows.bandwidth_hz},
+          {"joints", JointsJson(robot, result)},
+          {"model_parameters", ModelParametersJson(result)},
+          {"parameters", ParametersJson(robot, result)},
+          {"merged", result.parameters.merged()},
+          {"verdict", VerdictJson(Shortcomings(robot, result))},
+          {"rank", RankJson(robot, result)},
+          {"geometry", GeometryJson(result)},
+          {"covariance", CovarianceJson(result)},
+          {"termination",
+           {{"converged", result.solved},
+            {"reason", result.reason},
+            {"iterations", result.passes}}}};
+}
+
 json ToJson(const Robot& robot, const LogSet& training,
             const LogSet* validation, const LinearCalibration& result) {
-  json out = {{"format", "armcal calibration 1"},
-              {"robot", robot.name},
-              {"estimate", "linear"},
-              {"solver", SolverName(result.solver)},
-              {"trajectory",
-               result.encoder_noise.size() > 0 ? "corrected" : "measured"},
-              {"bandwidth_hz", result.rows.bandwidth_hz},
-              {"logs", LogsJson(training)},
-              {"torque", training.torque_source()},
-              {"joints", JointsJson(robot, training, result)},
-              {"model_parameters", ModelParametersJson(result)},
-              {"parameters", ParametersJson(robot, result)},
-              {"merged", result.parameters.merged()},
-              {"unpowered", UnpoweredJson(robot, training, result)},
-              {"outliers", OutlierJson(robot, training, kListedOutliers)},
-              {"outlier_count", CountOutliers(training)},
-              {"verdict", VerdictJson(Shortcomings(robot, result))},
-              {"rank", RankJson(robot, result)},
-              {"geometry", GeometryJson(result)},
-              {"covariance", CovarianceJson(result)},
-              {"termination",
-               {{"converged", result.solved},
-                {"reason", result.reason},
-                {"iterations", result.passes}}}};
+  json out = ToJson(robot, result);
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    out["joints"][i]["spikes"] = CountOutliers(training, i);
+  }
+  out["logs"] = LogsJson(training);
+  out["torque"] = training.torque_source();
+  out["unpowered"] = UnpoweredJson(robot, training, result);
+  out["outliers"] = OutlierJson(robot, training, kListedOutliers);
+  out["outlier_count"] = CountOutliers(training);
   AddResiduals(validation, result, &out);
   return out;
 }

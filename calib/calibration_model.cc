@@ -31,4 +31,15 @@ ModelParameters MakeParameters(const Robot& robot,
   return ModelParameters(robot, model);
 }
 
+std::optional<Transitions> GivenTransitions(
+    const Robot& robot, const LinearCalibrationOptions& options) {
+  if (options.transition) {
+    return Transitions(robot.links.size(), {*options.transition});
+  }
+  if (options.joint_transitions.empty()) return {};
+  Transitions transitions;
+  for (const auto& t : options.joint_transitions) transitions.push_back({t});
+  return transitions;
+}
+
 }  // namespace armcal

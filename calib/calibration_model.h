@@ -22,5 +22,8 @@ RowOptions MakeRowOptions(const LinearCalibrationOptions& options,
 ModelParameters MakeParameters(const Robot& robot,
                                const LinearCalibrationOptions& options,
                                const Transitions& transitions);
+// Of the options; nothing where they are to be fitted.
+std::optional<Transitions> GivenTransitions(
+    const Robot& robot, const LinearCalibrationOptions& options);
 
 }  // namespace armcal

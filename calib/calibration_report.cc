@@ -211,19 +211,23 @@ std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
   return text;
 }
 
-std::string FullReport(const Robot& robot, const LogSet& training,
-                       const LinearCalibration& result) {
-  std::string text = DataText(training, result);
-  text += UnpoweredText(robot, training, result) + OutlierText(robot, training);
-  text += ResidualTable(robot, result) + NoiseTable(robot, result) +
-          RankText(robot, result);
+std::string EstimateText(const Robot& robot, const LinearCalibration& result) {
+  std::string text = RankText(robot, result);
   if (result.solved) {
     text += LengthTable(result) + TransitionTable(robot, result) +
             ParameterTable(result);
   }
   text += "\n";
   if (result.solved) text += VerdictText(Shortcomings(robot, result));
-  return text + BriefReport(robot, result) + "\n";
+  return text;
+}
+
+std::string FullReport(const Robot& robot, const LogSet& training,
+                       const LinearCalibration& result) {
+  return DataText(training, result) + UnpoweredText(robot, training, result) +
+         OutlierText(robot, training) + ResidualTable(robot, result) +
+         NoiseTable(robot, result) + EstimateText(robot, result) +
+         BriefReport(robot, result) + "\n";
 }
 
 }  // namespace armcal

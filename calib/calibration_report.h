@@ -17,10 +17,17 @@ std::string BriefReport(const Robot& robot, const LinearCalibration& result);
 std::string FullReport(const Robot& robot, const LogSet& training,
                        const LinearCalibration& result);
 
+// The part of it that the logs themselves are not needed for: ranks, lengths,
+// Coulomb friction's transitions, parameters, shortcomings.
+std::string EstimateText(const Robot& robot, const LinearCalibration& result);
+
 // calibration.json (DESIGN.md, Files). Infinite and undefined numbers are null.
 nlohmann::json ToJson(const Robot& robot, const LogSet& training,
                       const LogSet* validation,
                       const LinearCalibration& result);
+
+// The keys of it that tell nothing of the logs.
+nlohmann::json ToJson(const Robot& robot, const LinearCalibration& result);
 
 // covariance.csv: a header of the model parameters' names, then the matrix, its
 // entries empty where a parameter is not identifiable; the header alone where

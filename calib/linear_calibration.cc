@@ -7,6 +7,7 @@
 
 #include "calib/calibration_checks.h"
 #include "calib/calibration_model.h"
+#include "calib/factor_solution.h"
 #include "calib/log_factors.h"
 #include "calib/robust_solution.h"
 #include "calib/sample_pass.h"
@@ -21,73 +22,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-ReferenceScale MakeReference(const Robot& robot,
-                             const ModelParameters& parameters,
-                             const RowOptions& rows, const LogSet& training,
-                             const LogFactors& factors) {
-  double speed = std::sqrt(factors.mean_square_speed().maxCoeff());
-  if (speed < 1e-3) speed = 1;
-  double motion_hz = 0.1;
-  for (const TimeBase& base : training.time_bases()) {
-    motion_hz = std::max(motion_hz, base.motion_hz);
-  }
-  double unit = 1;
-  if (rows.identification == Identification::kIntegral) {
-    unit = rows.intervals.empty() ? rows.interval_s : 0;
-    for (const TimeRange& r : rows.intervals) {
-      unit = std::max(unit, r.end - r.begin);
-    }
-  }
-  return MakeReferenceScale(
-      parameters, speed, motion_hz, unit,
-      RightSideRms(factors.Merged(parameters, FindNonzero(factors))),
-      parameters.Values(robot));
-}
-
-// Weighted by re-estimated noise. The noise of a homogeneous equation must not
-// follow the parameters down to zero: it is taken where the other joints put
-// them, and kept.
-LinearSolution SolveByNoise(const BlockTriangularFactor& factor,
-                            const ReferenceScale& reference,
-                            const std::vector<bool>& frozen, VectorXd* noise) {
-  *noise = RightSideRms(factor);
-  for (size_t i = 0; i < frozen.size(); ++i) {
-    if (frozen[i]) (*noise)[i] = 0;
-  }
-  const LinearSolution powered =
-      SolveReweighted(factor, reference, frozen, noise);
-  const VectorXd estimate = EstimateNoise(factor, powered.x);
-  for (size_t i = 0; i < frozen.size(); ++i) {
-    if (frozen[i]) (*noise)[i] = estimate[i];
-  }
-  return SolveReweighted(factor, reference, frozen, noise);
-}
-
-// The solution from the factor alone, with ranks.
-LinearSolution Solve(const BlockTriangularFactor& factor,
-                     const ReferenceScale& reference,
-                     const std::vector<bool>& frozen, LinearSolver solver,
-                     LinearCalibration* result) {
-  LinearSolution solution;
-  if (solver == LinearSolver::kWeighted) {
-    solution = SolveByNoise(factor, reference, frozen, &result->noise);
-  } else {
-    solution = SolveBatch(factor, reference);
-    result->noise = EstimateNoise(factor, solution.x);
-  }
-  result->identifiability = AnalyzeIdentifiability(factor, result->parameters,
-                                                   result->noise, reference);
-  if (solver == LinearSolver::kRecursive) {
-    solution = SolveRecursive(factor, result->identifiability);
-    if (solution.solved) result->noise = EstimateNoise(factor, solution.x);
-  }
-  result->solved = solution.solved && solution.x.allFinite();
-  result->reason = !solution.solved  ? solution.refusal
-                   : !result->solved ? "the numbers of the logs overflow"
-                                     : "solved";
-  return solution;
-}
-
 void SetCovariance(const CovarianceEstimate& estimate,
                    LinearCalibration* result) {
   const int m = result->parameters.size();
@@ -101,27 +35,13 @@ void SetCovariance(const CovarianceEstimate& estimate,
   }
 }
 
-// How much larger standard deviations are than those of independent rows.
-double MedianInflation(const MatrixXd& covariance,
-                       const MatrixXd& independent) {
-  std::vector<double> ratios;
-  for (Eigen::Index k = 0; k < covariance.rows(); ++k) {
-    if (!(independent(k, k) > 0)) continue;
-    ratios.push_back(std::sqrt(covariance(k, k) / independent(k, k)));
-  }
-  if (ratios.empty()) return 1;
-  std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2,
-                   ratios.end());
-  return std::max(1.0, ratios[ratios.size() / 2]);
-}
-
 // From the factor to the parameters and their covariance.
 void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
               const RowOptions& rows, const BlockTriangularFactor& factor,
               const ReferenceScale& reference, const std::vector<bool>& frozen,
               ResidualPass* pass, LinearCalibration* result) {
   LinearSolution solution =
-      Solve(factor, reference, frozen, options.solver, result);
+      SolveFactor(factor, reference, frozen, options.solver, result);
   result->x = solution.x;
   result->identifiable = solution.identifiable;
   if (!result->solved) return;
@@ -183,21 +103,27 @@ LinearCalibration CalibrateOnce(const Robot& robot,
                                 LogSet* training) {
   LinearCalibration result(MakeParameters(robot, options, transitions));
   for (const auto& t : transitions) result.transitions.push_back(t.front());
-  result.fitted_transitions = !transitions.empty() && !options.transition;
+  result.fitted_transitions =
+      !transitions.empty() && !GivenTransitions(robot, options);
   result.rows = rows;
   result.solver = options.solver;
   result.joint_terms = options.joint_terms;
 
   const LogFactors factors(result.parameters, rows, options.progress, training);
   result.travel = factors.travel();
+  result.mean_square_speed = factors.mean_square_speed();
   for (int log = 0; log < factors.size(); ++log) {
     result.equations += factors.log(log).rows(0);
   }
   CheckIntervals(rows, *training, result.equations);
   result.reason = WhyNothingToSolve(factors, result.parameters);
   if (!result.reason.empty()) return result;
+  double motion_hz = 0;
+  for (const TimeBase& base : training->time_bases()) {
+    motion_hz = std::max(motion_hz, base.motion_hz);
+  }
   const ReferenceScale reference =
-      MakeReference(robot, result.parameters, rows, *training, factors);
+      MakeReference(robot, result.parameters, rows, motion_hz, factors);
   UsedEquations equations = AllEquations(factors, robot.num_joints());
   if (options.solver == LinearSolver::kWeighted) {
     equations = FindUsedEquations(factors, result.parameters, robot, reference);

@@ -24,9 +24,10 @@ struct LinearCalibrationOptions {
   std::vector<JointTerm> joint_terms = {JointTerm::kViscous,
                                         JointTerm::kCoulomb, JointTerm::kOffset,
                                         JointTerm::kArmature};
-  // Given: the same transition of Coulomb friction for all joints; else each
-  // joint's is fitted.
+  // Given: the same transition of Coulomb friction for all joints, or each
+  // joint's own; else each joint's is fitted.
   std::optional<CoulombTransition> transition;
+  std::vector<CoulombTransition> joint_transitions;
   Identification identification = Identification::kWeak;
   // Length of the weak form's test functions, s. Not given: 1.5 periods of the
   // bandwidth, at least 0.3 s (shorter ones are biased by encoder noise).
@@ -84,7 +85,8 @@ struct LinearCalibration {
   long equations = 0;
   std::vector<long> outliers;  // per joint: equations Huber weighs below 1/2
   std::vector<UnpoweredJoint> unpowered;
-  Eigen::VectorXd travel;  // per joint, rad or m
+  Eigen::VectorXd travel;            // per joint, rad or m
+  Eigen::ArrayXd mean_square_speed;  // per joint, (rad/s)^2 or (m/s)^2
   std::optional<TorqueResidual> training;
   std::optional<TorqueResidual> validation;
 };

@@ -16,6 +16,13 @@ class LogFactors {
   // One pass over the logs.
   LogFactors(const ModelParameters& parameters, const RowOptions& options,
              const Progress& progress, LogSet* logs);
+  // As they were once found.
+  LogFactors(std::vector<BlockTriangularFactor> factors,
+             const Eigen::ArrayXd& mean_square_speed,
+             const Eigen::VectorXd& travel)
+      : factors_(std::move(factors)),
+        mean_square_speed_(mean_square_speed),
+        travel_(travel) {}
 
   const BlockTriangularFactor& log(int k) const { return factors_[k]; }
   int size() const { return static_cast<int>(factors_.size()); }

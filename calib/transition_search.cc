@@ -63,7 +63,7 @@ Transitions FindTransitions(const Robot& robot,
                  JointTerm::kCoulomb) == 0) {
     return {};
   }
-  if (options.transition) return {n, {*options.transition}};
+  if (const auto given = GivenTransitions(robot, options)) return *given;
   const auto candidates = CandidateTransitions();
   const Screening coarse(robot, options, rows, {n, candidates}, training);
   std::vector<CoulombTransition> about;
@@ -79,7 +79,7 @@ Transitions FollowTransitions(const Robot& robot,
                               const std::vector<CoulombTransition>& found,
                               LogSet* training) {
   if (found.empty()) return {};
-  if (options.transition) return {found.size(), {*options.transition}};
+  if (const auto given = GivenTransitions(robot, options)) return *given;
   return Refine(robot, options, rows, found, TorqueScale::kCommon, training);
 }
 

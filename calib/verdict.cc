@@ -72,7 +72,7 @@ Sentences Shortcomings(const Robot& robot, const LinearCalibration& result) {
     AddUnmoved(robot, result.travel, "what only its motion shows is unknown",
                &sentences);
   }
-  AddUnexplained(robot, result, &sentences);
+  if (result.training) AddUnexplained(robot, result, &sentences);
   return sentences;
 }
 

@@ -4,6 +4,8 @@
 #include "tools/diagnose.h"
 #include "tools/excite.h"
 #include "tools/inspect.h"
+#include "tools/merge.h"
+#include "tools/reduce.h"
 #include "tools/simulate.h"
 #include "tools/verify.h"
 
@@ -21,7 +23,8 @@ const std::vector<Command>& Commands() {
   static const std::vector<Command> kCommands = [] {
     std::vector<Command> commands = {CalibrateCommand(), VerifyCommand(),
                                      DiagnoseCommand(),  SimulateCommand(),
-                                     ExciteCommand(),    InspectCommand()};
+                                     ExciteCommand(),    InspectCommand(),
+                                     ReduceCommand(),    MergeCommand()};
     for (Command& command : commands) {
       command.groups.push_back(
           {"output", {"out", "json", "quiet", "flagfile"}});

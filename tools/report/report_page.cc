@@ -8,38 +8,16 @@
 #include <fstream>
 #include <string_view>
 
+#include "calib/sha256.h"
 #include "model/input_error.h"
 #include "tools/report/assets.h"
 
 namespace armcal {
 namespace {
 
-using Digest = std::array<unsigned char, 32>;
-
-// SHA-256, piece by piece.
-class Hash {
- public:
-  Hash() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
-    EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
-  }
-  void Add(std::string_view text) {
-    EVP_DigestUpdate(context_.get(), text.data(), text.size());
-  }
-  Digest Value() {
-    Digest digest{};
-    EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr);
-    return digest;
-  }
-
- private:
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-};
-
 // The source expression of a content security policy.
 std::string PolicySource(std::string_view script) {
-  Hash hash;
-  hash.Add(script);
-  const Digest digest = hash.Value();
+  const Sha256::Digest digest = Sha256Of(script);
   std::array<unsigned char, 48> text{};
   EVP_EncodeBlock(text.data(), digest.data(), digest.size());
   return std::string("'sha256-") + reinterpret_cast<char*>(text.data()) + "'";
@@ -94,16 +72,13 @@ SourceFile HashFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path, "", "", "cannot be read");
   SourceFile source{path, "", 0};
-  Hash hash;
+  Sha256 hash;
   std::array<char, 1 << 16> block{};
   while (file.read(block.data(), block.size()), file.gcount() > 0) {
     hash.Add({block.data(), static_cast<size_t>(file.gcount())});
     source.bytes += file.gcount();
   }
-  for (const unsigned char byte : hash.Value()) {
-    source.sha256 += "0123456789abcdef"[byte >> 4];
-    source.sha256 += "0123456789abcdef"[byte & 15];
-  }
+  source.sha256 = HexText(hash.Value());
   return source;
 }
 

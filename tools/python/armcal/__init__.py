@@ -13,16 +13,17 @@ from armcal import plot
 from armcal._armcal import (INERTIAL_NAMES, INERTIAL_UNITS, InputError,
                             PredictedLog, Robot, UsageError, __version__,
                             options, read_robot)
-from armcal.commands import (calibrate, diagnose, excite, inspect, simulate,
-                             verify)
+from armcal.commands import (calibrate, diagnose, excite, inspect, merge,
+                             reduce, simulate, verify)
 from armcal.log import Log, read_log
 from armcal.results import (Calibration, Diagnosis, Estimates, Excitation,
-                            Inspection, Result, Simulation, Verification)
+                            Inspection, Merger, Reduction, Result, Simulation,
+                            Verification)
 
 __all__ = [
     "Calibration", "Diagnosis", "Estimates", "Excitation", "INERTIAL_NAMES",
-    "INERTIAL_UNITS", "InputError", "Inspection", "Log", "PredictedLog",
-    "Result", "Robot", "Simulation", "UsageError", "Verification",
-    "__version__", "calibrate", "diagnose", "excite", "inspect", "options",
-    "plot", "read_log", "read_robot", "simulate", "verify",
+    "INERTIAL_UNITS", "InputError", "Inspection", "Log", "Merger",
+    "PredictedLog", "Reduction", "Result", "Robot", "Simulation", "UsageError", "Verification",
+    "__version__", "calibrate", "diagnose", "excite", "inspect", "merge",
+    "options", "plot", "read_log", "read_robot", "reduce", "simulate", "verify",
 ]

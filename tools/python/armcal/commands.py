@@ -12,7 +12,8 @@ from armcal import _armcal
 from armcal.log import Log, read_log
 from armcal.option_text import option_text
 from armcal.results import (Calibration, Diagnosis, Excitation, Inspection,
-                            Result, Simulation, Verification)
+                            Merger, Reduction, Result, Simulation,
+                            Verification)
 
 RobotLike = Union[_armcal.Robot, str, "os.PathLike[str]"]
 LogLike = Union[Log, str, "os.PathLike[str]"]
@@ -63,6 +64,8 @@ class _Staging:
             value.savez(path)
             return path
         value.write(folder)
+        if isinstance(value, Reduction):
+            return folder
         return os.path.join(folder, value.json_name)
 
     def named(self, text: str) -> str:
@@ -93,7 +96,7 @@ def _run(command: str, robot: _armcal.Robot, options: Dict[str, Any],
     for name in _ROBOT_FLAGS:
         if name in options:
             raise _armcal.UsageError(f"{name}: give it to read_robot")
-    for name in ("log", "validate", "reference", "payload_log"):
+    for name in ("log", "validate", "reference", "payload_log", "factors"):
         if options.get(name) is not None:
             options[name] = _paths(name, options[name])
     with _Staging() as staging:
@@ -104,7 +107,8 @@ def _run(command: str, robot: _armcal.Robot, options: Dict[str, Any],
                                   write="out" in flags)
         except (_armcal.InputError, _armcal.UsageError) as error:
             raise type(error)(staging.named(str(error))) from None
-        files = {name: staging.named(content.decode()).encode()
+        files = {name: content if name.endswith(".factor") else
+                 staging.named(content.decode()).encode()
                  for name, content in outcome.files.items()}
         return outcome, staging.named(outcome.text), files
 
@@ -225,6 +229,27 @@ def simulate(robot: RobotLike, *, progress: Progress = None,
         "log.csv", files, arm, True, torque_constants=constants))
 
 
+def reduce(robot: RobotLike, log: Logs, *, progress: Progress = None,
+           **options: Any) -> Reduction:
+    """What a calibration needs of logs, as factor files.
+
+    log  logs, paths or Logs; like, unit and date are of all of them
+    """
+    return Reduction(*_run("reduce", _robot(robot), {**options, "log": log},
+                           progress))
+
+
+def merge(robot: RobotLike, factors: Any, *, progress: Progress = None,
+          **options: Any) -> Merger:
+    """The calibration that factor files give together, and what units of one
+    robot have in common, differ in and drift by.
+
+    factors  factor files, folders of them, or Reductions, one or a list
+    """
+    return Merger(*_run("merge", _robot(robot),
+                        {**options, "factors": factors}, progress))
+
+
 def _add_options(function: Callable[..., Any], command: str) -> None:
     """Adds to a docstring what --help says."""
     own = signature(function).parameters
@@ -236,6 +261,6 @@ def _add_options(function: Callable[..., Any], command: str) -> None:
 
 
 _FUNCTIONS: List[Callable[..., Any]] = [calibrate, diagnose, verify, inspect,
-                                        excite, simulate]
+                                        excite, simulate, reduce, merge]
 for _function in _FUNCTIONS:
     _add_options(_function, _function.__name__)

@@ -282,3 +282,38 @@ class Simulation(Result):
                  files: Mapping[str, bytes], log: Log) -> None:
         super().__init__(outcome, text, files)
         self.log = log
+
+
+class Reduction(Result):
+    """What reduce made: `files` are factor files, by name. to_dict() is what
+    the first of them says of its model and log."""
+
+    def to_dict(self) -> Dict[str, Any]:
+        content = next(iter(self.files.values()))
+        begin = content.index(b"\n") + 1
+        size = int.from_bytes(content[begin:begin + 8], "little")
+        found = json.loads(content[begin + 8:begin + 8 + size])
+        assert isinstance(found, dict)
+        return found
+
+
+class Merger(Result):
+    """What merge found; to_dict() is calibration.json (docs/merge.md)."""
+
+    json_name = "calibration.json"
+
+    @property
+    def model_parameters(self) -> Estimates:
+        """Of all logs as if they were of one robot."""
+        return _estimates(self.to_dict()["model_parameters"],
+                          _matrix(self.files.get("covariance.csv")))
+
+    @property
+    def fleet(self) -> Optional[Dict[str, Any]]:
+        """fleet.json; None without units."""
+        content = self.files.get("fleet.json")
+        if content is None:
+            return None
+        found = json.loads(content)
+        assert isinstance(found, dict)
+        return found

@@ -1,0 +1,105 @@
+#include "calib/log_reduction.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "calib/calibration_checks.h"
+#include "calib/factor_calibration.h"
+#include "calib/factor_solution.h"
+#include "calib/residual_pass.h"
+#include "calib/transition_search.h"
+
+namespace armcal {
+namespace {
+
+// All rows by the weights that they have in the log's own calibration.
+std::vector<TriangularFactor> WeighedFactors(const LinearCalibration& own,
+                                             const Progress& progress,
+                                             LogSet* log) {
+  const int n = own.parameters.num_joints();
+  const RobustLoss loss = own.solved ? own.loss : RobustLoss::kSquared;
+  const Eigen::VectorXd noise =
+      own.solved ? own.noise : Eigen::VectorXd(Eigen::VectorXd::Ones(n));
+  ResidualPass pass(own.parameters, own.rows, {std::vector<bool>(n, true)},
+                    progress, log);
+  std::vector<TriangularFactor> factors;
+  for (int i = 0; i < n; ++i) {
+    factors.emplace_back(
+        static_cast<int>(own.parameters.row_columns(i).size()));
+  }
+  pass.Run("reducing", own.x, noise, [&](const RowResidual& residual) {
+    for (int i = 0; i < n; ++i) {
+      const double weight = EvaluateLoss(loss, residual.r[i]).weight;
+      factors[i].Add(
+          residual.row.U.row(i)(own.parameters.row_columns(i)).eval(),
+          residual.row.Y[i], std::sqrt(weight));
+    }
+  });
+  return factors;
+}
+
+// The log's own standard deviations over those of its factor alone.
+std::optional<double> Inflation(const Robot& robot, const ReductionModel& model,
+                                const LinearCalibration& own,
+                                const ReducedLog& log) {
+  // Too few rows to tell: their errors passed for independent.
+  const bool measured = own.solved && own.score_window > 1;
+  if (!measured) return std::nullopt;
+  const LinearCalibration alone = CalibrateFromFactors(robot, {model, {log}});
+  if (!alone.solved) return std::nullopt;
+  return MedianInflation(own.covariance, alone.independent_covariance);
+}
+
+}  // namespace
+
+ReductionModel ChooseReductionModel(const Robot& robot,
+                                    const std::string& robot_sha256,
+                                    const LinearCalibrationOptions& options,
+                                    LogSet* logs) {
+  ReductionModel model;
+  model.robot = robot.name;
+  model.robot_sha256 = robot_sha256;
+  model.gravity = robot.gravity;
+  model.geometry = options.geometry;
+  model.joint_terms = options.joint_terms;
+  model.loss = options.loss.value_or(RobustLoss::kHuber);
+  model.rows = MakeRowOptions(options, *logs);
+  CheckBandwidth(options.bandwidth_hz, *logs);
+  logs->Prepare(model.rows.bandwidth_hz, RowReach(model.rows),
+                model.loss != RobustLoss::kSquared);
+  const Transitions transitions =
+      FindTransitions(robot, options, model.rows, logs);
+  for (const auto& joint : transitions) {
+    model.transitions.push_back(joint.front());
+  }
+  const ModelParameters parameters =
+      MakeParameters(robot, options, transitions);
+  for (const ModelParameter& p : parameters.parameters()) {
+    model.parameters.push_back(p.name);
+    model.units.push_back(p.unit);
+  }
+  return model;
+}
+
+ReducedLog ReduceLog(const Robot& robot, const ReductionModel& model,
+                     const Progress& progress, LogSet* log) {
+  LinearCalibrationOptions options = model.Options();
+  options.progress = progress;
+  const LinearCalibration own = CalibrateLinear(robot, options, log, nullptr);
+  const TimeBase& base = log->time_bases()[0];
+  ReducedLog reduced;
+  reduced.file = std::filesystem::path(log->path(0)).filename().string();
+  reduced.torque = log->torque_source();
+  reduced.samples = base.samples;
+  reduced.range = base.range;
+  reduced.resampled = !base.uniform;
+  reduced.gaps = static_cast<int>(base.gaps.size());
+  reduced.motion_hz = base.motion_hz;
+  reduced.mean_square_speed = own.mean_square_speed;
+  reduced.travel = own.travel;
+  reduced.factors = WeighedFactors(own, progress, log);
+  reduced.inflation = Inflation(robot, model, own, reduced);
+  return reduced;
+}
+
+}  // namespace armcal

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "calib/linear_calibration.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// --geometry --identification --solver --joint_terms --coulomb_width --window
+// --intervals --interval --quadrature, with --loss and --bandwidth: the
+// equations of a linear calibration and how they are solved. Throws UsageError.
+LinearCalibrationOptions LinearOptionsFromFlags(const Robot& robot);
+
+}  // namespace armcal

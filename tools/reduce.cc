@@ -1,0 +1,138 @@
+#include "tools/reduce.h"
+
+#include <gflags/gflags.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "calib/factor_calibration.h"
+#include "calib/factor_file.h"
+#include "calib/factor_report.h"
+#include "calib/log_reduction.h"
+#include "calib/sha256.h"
+#include "model/calendar_time.h"
+#include "model/input_error.h"
+#include "tools/calibrate_flags.h"
+#include "tools/input_flags.h"
+#include "tools/report/report_page.h"
+
+DECLARE_string(log);
+
+DEFINE_string(like, "",
+              "`FILE` factor file whose model these logs are reduced by, so "
+              "that they can be merged with it");
+DEFINE_string(unit, "", "`NAME` of the robot that the logs are of");
+DEFINE_string(date, "",
+              "`DATE` of the logs, UTC: 2026-11-21 or 2026-11-21T10:30");
+
+namespace armcal {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of a bag's folder: of its files' hashes, by name.
+std::string HashLog(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return HashFile(path).sha256;
+  std::set<std::string> files;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    if (entry.is_regular_file()) files.insert(entry.path().string());
+  }
+  Sha256 hash;
+  for (const std::string& file : files) hash.Add(HashFile(file).sha256);
+  return HexText(hash.Value());
+}
+
+std::optional<double> TimeFromFlags() {
+  if (FLAGS_date.empty()) return std::nullopt;
+  const std::optional<double> time = ParseCalendarTime(FLAGS_date);
+  if (time) return time;
+  throw UsageError("--date: found '" + FLAGS_date +
+                   "', expected a date such as 2026-11-21 or 2026-11-21T10:30");
+}
+
+// Of --like, or chosen for all logs of --log together.
+ReductionModel ModelFromFlags(const Robot& robot, const CommandInput& input) {
+  const std::string sha256 = HashFile(RobotPathFromFlags()).sha256;
+  if (FLAGS_like.empty()) {
+    LinearCalibrationOptions options = LinearOptionsFromFlags(robot);
+    options.progress = input.progress;
+    LogSet logs(LogsFromFlags(), LogOptionsFromFlags(robot), CropFromFlags());
+    return ChooseReductionModel(robot, sha256, options, &logs);
+  }
+  for (const char* flag :
+       {"geometry", "identification", "joint_terms", "coulomb_width", "window",
+        "interval", "quadrature", "loss", "bandwidth"}) {
+    if (!gflags::GetCommandLineFlagInfoOrDie(flag).is_default) {
+      throw UsageError("--" + std::string(flag) +
+                       ": expected no such flag beside --like, whose file "
+                       "says it");
+    }
+  }
+  const ReductionModel model = ReadFactorFile(FLAGS_like).model;
+  if (model.robot_sha256 != sha256) {
+    throw InputError(
+        FLAGS_like, "key model.robot_sha256", model.robot_sha256,
+        "expected " + sha256 + ", that of " + RobotPathFromFlags());
+  }
+  ParametersOf(robot, model, FLAGS_like);
+  return model;
+}
+
+// "log-0123456789ab.factor": logs of one name have files of their own, and the
+// same log has the same one again.
+std::string FactorName(const ReducedLog& log) {
+  return fs::path(log.file).stem().stem().string() + "-" +
+         log.sha256.substr(0, 12) + ".factor";
+}
+
+CommandOutcome RunReduce(const CommandInput& input) {
+  const Robot robot = RobotFromFlags(input);
+  const std::optional<double> time = TimeFromFlags();
+  CheckLogsApart();
+  input.Begin("opening the logs");
+  const ReductionModel model = ModelFromFlags(robot, input);
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  Reduction all{model, {}};
+  for (const std::string& path : LogsFromFlags()) {
+    LogSet log({path}, LogOptionsFromFlags(robot), CropFromFlags());
+    ReducedLog reduced = ReduceLog(robot, model, input.progress, &log);
+    reduced.sha256 = HashLog(path);
+    reduced.unit = FLAGS_unit;
+    reduced.time = time;
+    out.Add(FactorName(reduced), FactorFileBytes({model, {reduced}}));
+    all.logs.push_back(reduced);
+  }
+  outcome.output.json = ToJson(all).dump(2) + "\n";
+  outcome.output.text = ReductionText(robot, all);
+  for (const auto& file : out.files()) {
+    outcome.output.text += "factor     " + file.first + "\n";
+  }
+  outcome.output.notes = robot.notes;
+  return outcome;
+}
+
+}  // namespace
+
+Command ReduceCommand() {
+  return {"reduce",
+          "logs to factor files: what a calibration needs of them, in "
+          "kilobytes, for merge",
+          {{"robot and logs",
+            {"robot", "log", "like", "unit", "date", "bandwidth"}},
+           {"more of the logs", {"crop"}, false},
+           TorqueFlags(),
+           {"equations",
+            {"geometry", "identification", "loss", "joint_terms",
+             "coulomb_width", "window", "interval", "quadrature"},
+            false},
+           ChainFlags()},
+          {"armcal reduce --robot=arm.urdf --log=mon.csv --out=factors",
+           "armcal reduce --robot=arm.urdf --like=factors/mon-8f2.factor "
+           "--log=tue.csv --unit=A7 --date=2026-11-21 --out=factors"},
+          &RunReduce};
+}
+
+}  // namespace armcal
