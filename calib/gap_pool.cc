@@ -13,6 +13,15 @@ CandidatePool::CandidatePool(GapRegression* regression,
                              std::vector<std::string> without)
     : regression_(*regression), without_(std::move(without)) {}
 
+CandidatePool::CandidatePool(GapRegression* regression,
+                             const CandidatePool& other)
+    : regression_(*regression),
+      without_(other.without_),
+      candidates_(other.candidates_),
+      evaluated_(other.evaluated_) {
+  Forget();
+}
+
 void CandidatePool::List() {
   Forget();
   Add(ListCandidates(
@@ -94,7 +103,7 @@ bool CandidatePool::HasMoreThanNoise(int joint) const {
 void CandidatePool::Evaluate(std::vector<GapCandidate>* candidates) {
   ReuseTorques(&evaluated_, candidates);
   EvaluateCandidates(regression_.baseline(), regression_.rows(),
-                     regression_.scale(), regression_.data()->mutable_torques(),
+                     regression_.scale(), regression_.data()->torques(),
                      candidates);
 }
 
