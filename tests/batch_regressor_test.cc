@@ -171,5 +171,33 @@ TEST(BatchRegressor, GivesTheLinksColumns) {
   }
 }
 
+TEST(BatchRegressor, CuttingMakesNoDifference) {
+  std::mt19937_64 random(5);
+  const int n = 6, count = 41;
+  const ModelParameters model =
+      Model(RandomArm(n, &random), GeometryKnowledge::kKnown);
+  const RandomMotion m(&random, count, n, n);
+  for (const simd::Kernels* kernels : simd::AvailableKernels()) {
+    SCOPED_TRACE(kernels->instruction_set);
+    const BatchRegressor regressor(model, *kernels);
+    Rows whole(regressor, count), pieces(regressor, count);
+    regressor.Differential(m.columns(), count, whole.out(), whole.stride);
+    for (int first = 0, size = 1; first < count; first += size, size += 2) {
+      size = std::min(size, count - first);
+      std::vector<double*> out(pieces.out(), pieces.out() + n);
+      for (double*& rows : out) rows += first;
+      regressor.Differential({m.q, m.qd, m.qdd, m.coulomb, first}, size,
+                             out.data(), pieces.stride);
+    }
+    for (int i = 0; i < n; ++i) {
+      for (int c = 0; c < regressor.row_size(i); ++c) {
+        for (int s = 0; s < count; ++s) {
+          ASSERT_EQ(whole(i, s, c), pieces(i, s, c));
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace armcal

@@ -6,6 +6,7 @@
 
 #include "model/batch_inverse_dynamics.h"
 #include "model/batch_regressor.h"
+#include "model/regressor_plan.h"
 #include "tests/benchmark_log.h"
 
 // Regressors and torques over batches of samples, and sample by sample.
@@ -123,7 +124,27 @@ void SineCosine(benchmark::State& state, const simd::Kernels* kernels) {
   SetCounters(state, kSamples, 0);
 }
 
-// One sample at a time, as its callers hold it.
+// One sample at a time into a dense matrix.
+void LinksOfOne(benchmark::State& state, const simd::Kernels* kernels) {
+  const RegressorPlan plan(TheArm().robot, RegressorPlan::Places::kNumbers);
+  const int n = plan.num_joints();
+  std::vector<MotionColumns> motions;
+  for (int s = 0; s < 64; ++s) motions.push_back(TheArm().Motion(60 * s));
+  Eigen::MatrixXd U = Eigen::MatrixXd::Zero(n, 10 * n);
+  std::vector<double*> rows;
+  for (int i = 0; i < n; ++i) rows.push_back(U.data() + i);
+  size_t s = 0;
+  for (auto _ : state) {
+    const MotionColumns& motion = motions[s++ % motions.size()];
+    kernels->differential_of_one(
+        plan.chain(), {motion.q.data(), motion.qd.data(), motion.qdd.data()}, 0,
+        rows.data(), n);
+    benchmark::ClobberMemory();
+  }
+  SetCounters(state, 1, kRegressorFlops);
+}
+
+// As the callers of Regressor hold it.
 void OneSample(benchmark::State& state, bool momentum) {
   Regressor regressor = TheArm().parameters->MakeRegressor();
   const Log& log = TheArm().log;
@@ -162,6 +183,7 @@ void Register(const simd::Kernels* kernels) {
       [=](auto& state) { Differential(state, model(), kChunk, 0); });
   add("ModelMomentum", [=](auto& state) { Momentum(state, model()); });
   add("LinkMomentum", [=](auto& state) { Momentum(state, links()); });
+  add("LinkColumnsOfOne", [=](auto& state) { LinksOfOne(state, kernels); });
   add("Torque", [=](auto& state) {
     Torque(state, BatchInverseDynamics(TheArm().robot, *kernels));
   });
