@@ -196,8 +196,6 @@ void RegressorPlan::Connect(const Vector3d& gravity) {
     link.num_length_columns = static_cast<int>(length_columns_[i].size());
     link.length_columns = length_columns_[i].data();
     link.places = places_[i].data();
-    chain_.most_length_columns =
-        std::max(chain_.most_length_columns, link.num_length_columns);
   }
   chain_.num_links = num_joints();
   chain_.links = links_.data();

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "model/simd/joint_screws.h"
+#include "model/simd/chain_constants.h"
+#include "model/simd/lanes.h"
 
 namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 
@@ -22,6 +23,18 @@ ARMCAL_INLINE void PadColumns(const double* const* columns, int num_columns,
   }
 }
 
+ARMCAL_INLINE void CopyRows(const ChainConstants& chain, const Output& from,
+                            long count, const Output& to, long sample) {
+  for (int i = 0; i < chain.num_links; ++i) {
+    for (int c = 0; c < chain.row_sizes[i]; ++c) {
+      for (long s = 0; s < count; ++s) {
+        to.rows[i][c * to.stride + sample + s] =
+            from.rows[i][c * from.stride + s];
+      }
+    }
+  }
+}
+
 // evaluate(motion, sample, outputs) for every kLanes samples. Those left over
 // are evaluated in lanes too, so that a sample's results do not depend on which
 // batch it is in; nothing is written beyond `count`.
@@ -39,11 +52,10 @@ ARMCAL_INLINE void ForEachBatch(const ChainConstants& chain,
   const int n = chain.num_links;
   auto* padded = ARMCAL_SCRATCH(double, 3 * n * kLanes);
   auto* columns = ARMCAL_SCRATCH(const double*, 3 * n);
-  PadColumns(motion.q, n, sample, left, padded, columns);
-  PadColumns(motion.qd, n, sample, left, padded + n * kLanes, columns + n);
-  if (motion.qdd != nullptr) {
-    PadColumns(motion.qdd, n, sample, left, padded + 2 * n * kLanes,
-               columns + 2 * n);
+  const double* const* const channels[] = {motion.q, motion.qd, motion.qdd};
+  for (int k = 0; k < 3 && channels[k] != nullptr; ++k) {
+    PadColumns(channels[k], n, sample, left, padded + k * n * kLanes,
+               columns + k * n);
   }
   int size = 0;
   for (int i = 0; i < n; ++i) size += chain.row_sizes[i];
@@ -51,24 +63,16 @@ ARMCAL_INLINE void ForEachBatch(const ChainConstants& chain,
   __builtin_memset(values, 0, kOutputs * size * kLanes * sizeof(double));
   auto* rows = ARMCAL_SCRATCH(double*, kOutputs* n);
   Output padded_outputs[kOutputs];
-  double* next = values;
   for (int o = 0; o < kOutputs; ++o) {
-    for (int i = 0; i < n; ++i) {
-      rows[o * n + i] = next;
-      next += chain.row_sizes[i] * kLanes;
-    }
     padded_outputs[o] = {rows + o * n, kLanes};
+    for (int i = 0; i < n; ++i) {
+      rows[o * n + i] = values;
+      values += chain.row_sizes[i] * kLanes;
+    }
   }
   evaluate({columns, columns + n, columns + 2 * n}, 0, padded_outputs);
   for (int o = 0; o < kOutputs; ++o) {
-    for (int i = 0; i < n; ++i) {
-      for (int c = 0; c < chain.row_sizes[i]; ++c) {
-        for (long s = 0; s < left; ++s) {
-          outputs[o].rows[i][c * outputs[o].stride + sample + s] =
-              rows[o * n + i][c * kLanes + s];
-        }
-      }
-    }
+    CopyRows(chain, padded_outputs[o], left, outputs[o], sample);
   }
 }
 

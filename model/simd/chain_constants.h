@@ -83,9 +83,8 @@ struct ChainConstants {
   const LinkConstants* links;
   int num_lengths;
   const LengthConstants* lengths;
-  double gravity[3];        // m/s^2, in the first P
-  int most_length_columns;  // of a link
-  const int* row_sizes;     // columns of each row, also those of joint terms
+  double gravity[3];     // m/s^2, in the first P
+  const int* row_sizes;  // columns of each row, also those of joint terms
 };
 
 // Motion of samples, an array per joint.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/simd/link_acceleration.h"
+#include "model/simd/row_writer.h"
 
 namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 

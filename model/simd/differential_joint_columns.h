@@ -57,6 +57,24 @@ ARMCAL_INLINE void WriteLength(const ChainConstants& chain, int i, int c,
   }
 }
 
+// All length columns of a revolute joint's link, in rows 0 to i.
+template <class T>
+ARMCAL_INLINE void WriteLengths(const ChainConstants& chain, int i,
+                                const Acceleration<T>& at,
+                                const LengthAcceleration<T>* lengths,
+                                const Screw<T>* screws, double* const* out,
+                                long offset, long stride) {
+  const LinkConstants& link = chain.links[i];
+  for (int c = 0; c < link.num_length_columns; ++c) {
+    const LengthColumn& column = link.length_columns[c];
+    const LengthAcceleration<T>& length = lengths[column.length];
+    const Vector3<T> behind = UnitCross(column.moment, length.acceleration);
+    const Vector3<T> force = UnitColumn(column.moment, at.B);
+    WriteLength(chain, i, c, behind + Cross(length.unit, force), behind,
+                Dot(screws[i].angular, behind), screws, out, offset, stride);
+  }
+}
+
 // Where a sliding link's Lo is relative to Fo, and its acceleration.
 template <class T>
 struct Slide {

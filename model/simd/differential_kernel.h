@@ -43,15 +43,7 @@ __attribute__((noinline)) void DifferentialAt(const ChainConstants& chain,
       DifferentialColumns<decltype(moments)::kValue, T>::WriteAll(
           link, i, at, screws, qd, qdd, out, sample, stride);
     });
-    for (int c = 0; c < link.num_length_columns; ++c) {
-      const LengthColumn& column = link.length_columns[c];
-      const LengthAcceleration<T>& length = lengths[column.length];
-      const Vector3<T> behind = UnitCross(column.moment, length.acceleration);
-      WriteLength(chain, i, c,
-                  behind + Cross(length.unit, UnitColumn(column.moment, at.B)),
-                  behind, Dot(screws[i].angular, behind), screws, out, sample,
-                  stride);
-    }
+    WriteLengths(chain, i, at, lengths, screws, out, sample, stride);
   }
 }
 

@@ -18,6 +18,23 @@ typedef long Integers __attribute__((vector_size(kLanes * sizeof(long))));
 #define ARMCAL_INLINE inline __attribute__((always_inline))
 #define ARMCAL_LAMBDA __attribute__((always_inline))
 
+// Of one sample or of all lanes.
+template <class T>
+ARMCAL_INLINE T LoadAs(const double* from) {
+  T x;
+  __builtin_memcpy(&x, from, sizeof x);
+  return x;
+}
+template <class T>
+ARMCAL_INLINE void StoreAs(const T& x, double* to) {
+  __builtin_memcpy(to, &x, sizeof x);
+}
+
+// Scratch on the stack.
+#define ARMCAL_SCRATCH(type, count) \
+  static_cast<type*>(               \
+      __builtin_alloca_with_align((count) * sizeof(type) + sizeof(type), 512))
+
 ARMCAL_INLINE Lanes Load(const double* from) {
   Lanes x;
   __builtin_memcpy(&x, from, sizeof x);

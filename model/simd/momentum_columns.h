@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/simd/joint_screws.h"
+#include "model/simd/row_writer.h"
 
 namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 

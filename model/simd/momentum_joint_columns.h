@@ -66,6 +66,22 @@ ARMCAL_INLINE void WriteLength(const ChainConstants& chain, int i, int c,
   }
 }
 
+// All length columns of a revolute joint's link, in rows 0 to i.
+template <class T>
+ARMCAL_INLINE void WriteLengths(const ChainConstants& chain, int i,
+                                const Velocity<T>& at,
+                                const LengthVelocity<T>* lengths,
+                                const MovingScrew<T>* joints,
+                                const MomentumOutput& out) {
+  const LinkConstants& link = chain.links[i];
+  for (int c = 0; c < link.num_length_columns; ++c) {
+    const LengthColumn& column = link.length_columns[c];
+    WriteLength(chain, i, c, CrossUnit(at.omega, column.moment),
+                UnitCross(column.moment, lengths[column.length].velocity),
+                lengths, joints, out);
+  }
+}
+
 // Where a sliding link's Lo is relative to Fo, and its velocity.
 template <class T>
 struct SlideVelocity {

@@ -51,13 +51,7 @@ __attribute__((noinline)) void MomentumAt(const ChainConstants& chain,
     ForMoments(link.moments, [&](auto moments) ARMCAL_LAMBDA {
       WriteColumns<decltype(moments)::kValue>(link, i, at, joints, qd, out);
     });
-    for (int c = 0; c < link.num_length_columns; ++c) {
-      const LengthColumn& column = link.length_columns[c];
-      const Vector3<T> linear = CrossUnit(at.omega, column.moment);
-      const Vector3<T> couple =
-          UnitCross(column.moment, lengths[column.length].velocity);
-      WriteLength(chain, i, c, linear, couple, lengths, joints, out);
-    }
+    WriteLengths(chain, i, at, lengths, joints, out);
   }
 }
 
