@@ -8,14 +8,20 @@
 #   --growth       growth with samples and joints: minutes, 4 GB of /tmp
 #   --build DIR    where to build, default build-bench
 set -euo pipefail
+from=$PWD
 cd "$(dirname "$0")/.."
 
-json= build=build-bench filter=. peers=false growth=false repetitions=11 time=.02
+json= build=$PWD/build-bench filter=. peers=false growth=false repetitions=11 time=.02
 while [[ $# -gt 0 ]]; do
   case $1 in
     --json|--filter|--build)
       [[ $# -gt 1 ]] || { echo "bench.sh: $1 needs a value" >&2; exit 2; }
-      printf -v "${1#--}" %s "$2"; shift ;;
+      case $1 in
+        --json) json=$(cd "$from" && realpath -m "$2") ;;
+        --build) build=$(cd "$from" && realpath -m "$2") ;;
+        --filter) filter=$2 ;;
+      esac
+      shift ;;
     --quick) repetitions=3 time=.005 ;;
     --peers) peers=true ;;
     --growth) growth=true ;;
@@ -34,7 +40,7 @@ if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 fi
 if $peers; then
-  venv=${PEERS:-$PWD/$build/peers}
+  venv=${PEERS:-$build/peers}
   tests/peers/fetch.sh "$venv"
   options+=(-DPEERS="$venv")
 fi
