@@ -1,7 +1,12 @@
 #include "calib/gap_candidates.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "calib/gap_proposals.h"
 
@@ -255,17 +260,29 @@ void ReuseTorques(std::vector<GapCandidate>* evaluated,
 
 void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
                         const MotionScale& scale,
-                        std::vector<RecordedTorque>* torques,
+                        const std::vector<RecordedTorque>& torques,
                         std::vector<GapCandidate>* candidates) {
+  std::vector<std::pair<GapCandidate*, size_t>> missing;
   for (GapCandidate& candidate : *candidates) {
     if (!candidate.torque.empty()) continue;
+    candidate.torque.resize(candidate.linear.size());
     for (size_t k = 0; k < candidate.linear.size(); ++k) {
-      VectorXd p = candidate.p;
-      p[candidate.linear[k]] = candidate.size[k];
-      candidate.torque.push_back(
-          ThinTorque(candidate, p, baseline, rows, scale, torques));
+      missing.emplace_back(&candidate, k);
     }
   }
+  tbb::enumerable_thread_specific<std::vector<RecordedTorque>> own(torques);
+  tbb::parallel_for(
+      tbb::blocked_range<size_t>(0, missing.size()),
+      [&](const tbb::blocked_range<size_t>& range) {
+        for (size_t i = range.begin(); i < range.end(); ++i) {
+          auto& [candidate, k] = missing[i];
+          VectorXd p = candidate->p;
+          p[candidate->linear[k]] = candidate->size[k];
+          candidate->torque[k] =
+              ThinTorque(*candidate, p, baseline, rows, scale, &own.local());
+        }
+      },
+      tbb::simple_partitioner());
 }
 
 void AddCandidates(const GapRows& rows, std::vector<GapCandidate>* candidates,

@@ -63,10 +63,10 @@ void AddThinned(const GapRows& rows, int segment, const Eigen::MatrixXd& torque,
 void ReuseTorques(std::vector<GapCandidate>* evaluated,
                   std::vector<GapCandidate>* candidates);
 
-// Fills in the torques of those that have none.
+// Fills in the torques of those that have none, several at a time.
 void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
                         const MotionScale& scale,
-                        std::vector<RecordedTorque>* torques,
+                        const std::vector<RecordedTorque>& torques,
                         std::vector<GapCandidate>* candidates);
 
 // Their columns, whitened as the rows are now.

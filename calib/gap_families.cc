@@ -70,7 +70,7 @@ class FamilyFit {
         data_(segments, baseline_, bandwidth_hz) {
     scale_ = ScaleOf(baseline_, data_.rows(), data_.torques());
     candidates_ = Candidates(robot, terms, scale_);
-    EvaluateCandidates(baseline_, data_.rows(), scale_, data_.mutable_torques(),
+    EvaluateCandidates(baseline_, data_.rows(), scale_, data_.torques(),
                        &candidates_);
     noise_ = WhiteNoise(data_.residual());
     // Joints count by what all families leave of them.

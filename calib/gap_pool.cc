@@ -94,7 +94,7 @@ bool CandidatePool::HasMoreThanNoise(int joint) const {
 void CandidatePool::Evaluate(std::vector<GapCandidate>* candidates) {
   ReuseTorques(&evaluated_, candidates);
   EvaluateCandidates(regression_.baseline(), regression_.rows(),
-                     regression_.scale(), regression_.data()->mutable_torques(),
+                     regression_.scale(), regression_.data()->torques(),
                      candidates);
 }
 

@@ -83,7 +83,7 @@ class LawSearch {
         candidates_.push_back(std::move(candidate));
       }
     }
-    EvaluateCandidates(baseline, data_.rows(), scale_, data_.mutable_torques(),
+    EvaluateCandidates(baseline, data_.rows(), scale_, data_.torques(),
                        &candidates_);
   }
 

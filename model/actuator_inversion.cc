@@ -71,7 +71,7 @@ class ActuatorRun {
  private:
   void Settle() {
     track_.At(0, &instant_);
-    const StiffStep::Rate rate = [this](double, const double* x, double* dx) {
+    const auto rate = [this](double, const double* x, double* dx) {
       torque_ = commanded_.col(0);
       Apply(actuators_, instant_, x, dx, &torque_);
     };
@@ -83,7 +83,7 @@ class ActuatorRun {
   // From sample k to the next.
   void Advance(int k) {
     const double begin = track_.t[k], dt = track_.t[k + 1] - begin;
-    const StiffStep::Rate rate = [&](double t, const double* x, double* dx) {
+    const auto rate = [&](double t, const double* x, double* dx) {
       const double share = (t - begin) / dt;
       track_.Between(k, share, &instant_);
       InterpolateColumns(commanded_, k, share, &torque_);
@@ -100,6 +100,27 @@ class ActuatorRun {
   StiffStep step_;
   VectorXd x_, unused_, torque_;
   ArmInstant instant_;
+};
+
+// Maps without states, at sample k.
+class InstantMaps {
+ public:
+  InstantMaps(const std::vector<ActuatorMap>& actuators,
+              const MotionTrack& track)
+      : actuators_(actuators), track_(track) {}
+
+  void Give(const MatrixXd& commanded, int k, MatrixXd* given) {
+    track_.At(k, &instant_);
+    torque_ = commanded.row(k);
+    Apply(actuators_, instant_, nullptr, nullptr, &torque_);
+    given->row(k) = torque_;
+  }
+
+ private:
+  const std::vector<ActuatorMap>& actuators_;
+  const MotionTrack& track_;
+  ArmInstant instant_;
+  VectorXd torque_;
 };
 
 // By how much to change commands for `missing`, by the slope of the maps that
@@ -121,14 +142,8 @@ MatrixXd GivenTorque(const std::vector<ActuatorMap>& actuators,
     return ActuatorRun(actuators, track, commanded).Run();
   }
   MatrixXd given(commanded.rows(), commanded.cols());
-  ArmInstant instant;
-  VectorXd torque;
-  for (int k = 0; k < track.size(); ++k) {
-    track.At(k, &instant);
-    torque = commanded.row(k);
-    Apply(actuators, instant, nullptr, nullptr, &torque);
-    given.row(k) = torque;
-  }
+  InstantMaps maps(actuators, track);
+  for (int k = 0; k < track.size(); ++k) maps.Give(commanded, k, &given);
   return given;
 }
 
@@ -140,14 +155,20 @@ MatrixXd InvertMap(const std::vector<ActuatorMap>& map,
                    const MatrixXd& guess) {
   const double close = 1e-10 * needed.cwiseAbs().maxCoeff();
   MatrixXd commanded = guess;
-  MatrixXd missing = needed - GivenTorque(map, track, commanded);
+  MatrixXd given = GivenTorque(map, track, commanded);
+  MatrixXd missing = needed - given;
   MatrixXd step = missing;
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> open =
       missing.array().abs() > close;
+  InstantMaps maps(map, track);
   for (int i = 0; i < kMostSteps && open.any(); ++i) {
     commanded += open.select(step, 0);
     const MatrixXd before = missing;
-    missing = needed - GivenTorque(map, track, commanded);
+    // Of other samples nothing has changed.
+    for (int k = 0; k < track.size(); ++k) {
+      if (open.row(k).any()) maps.Give(commanded, k, &given);
+    }
+    missing = needed - given;
     open = open && missing.array().abs() > close &&
            missing.array().abs() < kLeastProgress * before.array().abs();
     Secant(before, missing, &step);

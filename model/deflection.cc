@@ -18,6 +18,8 @@ constexpr int kMostSubsteps = 10;  // faster ones no filter lets through
 constexpr int kSettlingSteps = 20;
 constexpr double kSettlingStep = 1;  // s
 
+// `Size`: of the state, or Eigen::Dynamic.
+template <int Size>
 class DeflectionRun {
  public:
   DeflectionRun(const Transmission& law, const VectorXd& load,
@@ -62,7 +64,7 @@ class DeflectionRun {
     const Eigen::Vector2d signal = signals_.col(k);
     const auto& start = law_.initial_deflection;
     x_ << (start ? start(signal[0]) : 0), 0, law_.initial_state;
-    const StiffStep::Rate rate = [&](double, const double* x, double* dx) {
+    const auto rate = [&](double, const double* x, double* dx) {
       Rate(signal, x, dx);
       std::fill(dx + 2, dx + x_.size(), 0);
     };
@@ -94,9 +96,10 @@ class DeflectionRun {
 
   // Substeps begin .. begin + half - 1 of 2 half from sample k on.
   void Advance(int k, int begin, int half) {
-    const StiffStep::Rate rate = [&](double share, const double* x,
-                                     double* dx) {
-      InterpolateColumns(signals_, k, share, &signal_);
+    double at = -1;  // the share that signal_ is of
+    const auto rate = [&](double share, const double* x, double* dx) {
+      if (share != at) InterpolateColumns(signals_, k, share, &signal_);
+      at = share;
       Rate(signal_, x, dx);
       for (Eigen::Index i = 0; i < x_.size(); ++i) dx[i] *= dt_;
     };
@@ -108,7 +111,7 @@ class DeflectionRun {
   const Transmission& law_;
   Eigen::MatrixXd signals_;  // load and inertia, samples in columns
   double dt_;
-  StiffStep step_;
+  StiffStepOf<Size> step_;
   VectorXd x_, unused_, signal_;
 };
 
@@ -117,7 +120,10 @@ class DeflectionRun {
 Deflection FollowDeflection(const Transmission& transmission,
                             const VectorXd& load, const VectorXd& inertia,
                             double dt) {
-  return DeflectionRun(transmission, load, inertia, dt).Run();
+  if (transmission.initial_state.size() > 0) {
+    return DeflectionRun<Eigen::Dynamic>(transmission, load, inertia, dt).Run();
+  }
+  return DeflectionRun<2>(transmission, load, inertia, dt).Run();
 }
 
 }  // namespace armcal

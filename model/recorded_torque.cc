@@ -104,9 +104,10 @@ VectorXd Along(const JointLaw& law, const MotionTrack& track) {
   StiffStep step(static_cast<int>(x.size()));
   ArmInstant instant, between;
   int k = 0;
-  const StiffStep::Rate rate = [&](double share, const double* state,
-                                   double* dx) {
-    track.Between(k, share, &between);
+  double at = -1;  // the share that `between` is of
+  const auto rate = [&](double share, const double* state, double* dx) {
+    if (share != at) track.Between(k, share, &between);
+    at = share;
     law.torque(between, state, dx);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       dx[i] *= track.t[k + 1] - track.t[k];
@@ -116,6 +117,7 @@ VectorXd Along(const JointLaw& law, const MotionTrack& track) {
     track.At(k, &instant);
     torque[k] = law.torque(instant, x.data(), unused.data());
     if (x.size() == 0 || k + 1 == track.size()) continue;
+    at = -1;
     const double share = 1. / kSubsteps;
     for (int i = 0; i < kSubsteps; ++i)
       step.Advance(rate, i * share, share, &x);

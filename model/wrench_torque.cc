@@ -27,7 +27,7 @@ void TakeWrench(const WrenchLaw& law, const MotionTrack& track,
   StiffStep step(law.num_states);
   PointInstant at;
   // The instant is held over a step.
-  const StiffStep::Rate rate = [&](double, const double* state, double* dx) {
+  const auto rate = [&](double, const double* state, double* dx) {
     law.wrench(at, state, dx);
   };
   for (int k = 0; k < track.size(); ++k) {

@@ -7,7 +7,7 @@ packages=(
   g++ cmake ninja-build python3 dpkg-dev file groff-base
   libeigen3-dev libgflags-dev libgoogle-glog-dev libtinyxml2-dev libyaml-cpp-dev
   nlohmann-json3-dev zlib1g-dev libsqlite3-dev libzstd-dev liblz4-dev
-  libmatio-dev libceres-dev libsimbody-dev libboost-dev
+  libmatio-dev libceres-dev libsimbody-dev libtbb-dev libboost-dev
   libssl-dev libjs-dygraphs libgtest-dev libgmock-dev libmujoco-dev
   pybind11-dev python3-dev python3-numpy
 )

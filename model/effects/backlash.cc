@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "model/effects/effect_parts.h"
@@ -10,11 +11,18 @@ namespace {
 constexpr double kRounding = .05;    // of the gap: corners of the dead zone
 constexpr double kDampingRatio = 1;  // of a flank, with the motor held
 
-// The slope of SoftPlus.
-double SoftStep(double x) {
+// SoftPlus and its slope, at once.
+struct Corner {
+  double value, slope;
+};
+
+Corner CornerAt(double x) {
   constexpr double kFar = 25;
-  if (std::abs(x) > kFar) return x > 0 ? 1 : 0;
-  return 1 / (1 + std::exp(-x));
+  if (std::abs(x) > kFar) return {std::max(x, 0.), x > 0 ? 1. : 0.};
+  const double tail = std::exp(-std::abs(x));
+  const double rounded =
+      tail < 1e-8 ? tail * (1 - tail / 2) : std::log1p(tail);  // the same
+  return {std::max(x, 0.) + rounded, (x > 0 ? 1 : tail) / (1 + tail)};
 }
 
 double ContactStiffness(const EffectSite& site, const Eigen::VectorXd& p) {
@@ -26,9 +34,10 @@ Transmission DeadZone(int joint, double gap, double k, double damping) {
   Transmission law;
   law.joint = joint;
   law.torque = [=](double d, double rate, const double*, double*) {
-    const double ahead = (d - gap / 2) / w, behind = (-d - gap / 2) / w;
-    const double pressed = w * (SoftPlus(ahead) - SoftPlus(behind));
-    const double touching = SoftStep(ahead) + SoftStep(behind);
+    const Corner ahead = CornerAt((d - gap / 2) / w);
+    const Corner behind = CornerAt((-d - gap / 2) / w);
+    const double pressed = w * (ahead.value - behind.value);
+    const double touching = ahead.slope + behind.slope;
     return k * pressed + damping * touching * rate;
   };
   law.initial_deflection = [=](double load) {
