@@ -11,33 +11,45 @@ constexpr double kNothing = 1e3;
 
 GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
                  double bandwidth_hz, LogPart part)
-    : segments_(std::move(segments)),
-      rows_(std::make_unique<GapRows>(segments_, bandwidth_hz, part)),
-      torques_(RecordedTorques(baseline, *rows_)) {
-  residual_ = rows_->ThinAll(FineResidual());
-  columns_ = baseline.ThinColumns(*rows_, torques_);
-  usual_doubt_ = MatrixXd::Zero(residual_.rows(), residual_.cols());
+    : signals_(std::make_shared<Signals>()) {
+  signals_->segments = std::move(segments);
+  rows_ = std::make_unique<GapRows>(signals_->segments, bandwidth_hz, part);
+  torques_ = RecordedTorques(baseline, *rows_);
+  signals_->residual = rows_->ThinAll(FineResidual());
+  signals_->columns = columns_ =
+      std::make_shared<const Columns>(baseline.ThinColumns(*rows_, torques_));
+  MatrixXd& usual = signals_->usual_doubt;
+  usual = MatrixXd::Zero(residual().rows(), residual().cols());
   for (int c = 0; c < baseline.size(); ++c) {
     const BaselineColumn& column = baseline.columns()[c];
     if (!column.IsZeroVelocityDoubt()) continue;
-    auto doubt = usual_doubt_.col(column.joint);
-    doubt = doubt.cwiseMax(kDoubt * columns_[column.joint].col(c).cwiseAbs());
+    auto doubt = usual.col(column.joint);
+    doubt = doubt.cwiseMax(kDoubt * columns()[column.joint].col(c).cwiseAbs());
   }
+  Unmask();
+}
+
+GapData::GapData(const GapData& other, LogPart part)
+    : signals_(other.signals_),
+      rows_(std::make_unique<GapRows>(signals_->segments,
+                                      other.rows_->bandwidth_hz(), part)),
+      torques_(other.torques_),
+      columns_(signals_->columns) {
   Unmask();
 }
 
 std::vector<MatrixXd> GapData::FineResidual() const {
   std::vector<MatrixXd> residual;
-  for (size_t s = 0; s < segments_.size(); ++s) {
-    residual.push_back(segments_[s].tau - torques_[s].nominal());
+  for (size_t s = 0; s < torques_.size(); ++s) {
+    residual.push_back(signals_->segments[s].tau - torques_[s].nominal());
   }
   return residual;
 }
 
 MatrixXd GapData::ResidualWith(const VectorXd& x) const {
-  MatrixXd residual = residual_;
+  MatrixXd residual = signals_->residual;
   for (int j = 0; j < rows_->num_joints(); ++j) {
-    residual.col(j) -= columns_[j] * x;
+    residual.col(j) -= columns()[j] * x;
   }
   return residual;
 }
@@ -56,26 +68,28 @@ void GapData::SetNoise(std::vector<Autoregression> noise) {
 }
 
 void GapData::Hold(int column) {
-  for (MatrixXd& columns : columns_) columns.col(column).setZero();
+  Columns held = *columns_;
+  for (MatrixXd& columns : held) columns.col(column).setZero();
+  columns_ = std::make_shared<const Columns>(std::move(held));
 }
 
 void GapData::Mask(int log, const TimeRange& window) {
-  for (size_t i = 0; i < segments_.size(); ++i) {
-    if (segments_[i].log != log) continue;
+  for (size_t i = 0; i < signals_->segments.size(); ++i) {
+    if (signals_->segments[i].log != log) continue;
     const int s = static_cast<int>(i);
     for (int k = rows_->thin_begin(s); k < rows_->thin_begin(s + 1); ++k) {
       if (!window.Contains(rows_->thin_time(s, k))) continue;
-      doubt_.row(k) = kNothing * residual_.colwise().norm();
+      doubt_.row(k) = kNothing * residual().colwise().norm();
     }
   }
 }
 
-void GapData::Unmask() { doubt_ = usual_doubt_; }
+void GapData::Unmask() { doubt_ = signals_->usual_doubt; }
 
 std::vector<MatrixXd> GapData::WhitenedColumns() const {
   std::vector<MatrixXd> white;
   for (int j = 0; j < rows_->num_joints(); ++j) {
-    white.push_back(rows_->Whiten(j, columns_[j]));
+    white.push_back(rows_->Whiten(j, columns()[j]));
   }
   return white;
 }
@@ -83,7 +97,7 @@ std::vector<MatrixXd> GapData::WhitenedColumns() const {
 std::vector<VectorXd> GapData::WhitenedResidual() const {
   std::vector<VectorXd> white;
   for (int j = 0; j < rows_->num_joints(); ++j) {
-    white.push_back(rows_->Whiten(j, residual_.col(j)));
+    white.push_back(rows_->Whiten(j, residual().col(j)));
   }
   return white;
 }

@@ -18,6 +18,8 @@ class GapData {
   // `segments` are kept. `usual_torque`: n entries, N m or N.
   GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
           double bandwidth_hz, LogPart part = LogPart::kAll);
+  // The same logs, other rows of them; shares what does not differ.
+  GapData(const GapData& other, LogPart part);
   GapData(const GapData&) = delete;
   GapData& operator=(const GapData&) = delete;
 
@@ -25,11 +27,11 @@ class GapData {
   std::vector<RecordedTorque>* mutable_torques() { return &torques_; }
   const std::vector<RecordedTorque>& torques() const { return torques_; }
   // Recorded minus nominal torque, thinned samples x n, N m or N.
-  const Eigen::MatrixXd& residual() const { return residual_; }
+  const Eigen::MatrixXd& residual() const { return signals_->residual; }
   // The same on the segments' own grids.
   std::vector<Eigen::MatrixXd> FineResidual() const;
   // Per joint, thinned samples x baseline size.
-  const std::vector<Eigen::MatrixXd>& columns() const { return columns_; }
+  const std::vector<Eigen::MatrixXd>& columns() const { return *columns_; }
   // What the baseline at x leaves.
   Eigen::MatrixXd ResidualWith(const Eigen::VectorXd& x) const;
   // The same beside a torque: per joint thinned samples, empty where it is 0.
@@ -51,12 +53,20 @@ class GapData {
   std::vector<Eigen::VectorXd> WhitenedResidual() const;
 
  private:
-  std::vector<GapSegment> segments_;
+  using Columns = std::vector<Eigen::MatrixXd>;
+  // What does not depend on which samples have rows.
+  struct Signals {
+    std::vector<GapSegment> segments;
+    Eigen::MatrixXd residual;
+    std::shared_ptr<const Columns> columns;  // none of them held
+    Eigen::MatrixXd usual_doubt;
+  };
+
+  std::shared_ptr<Signals> signals_;  // not changed once it is complete
   std::unique_ptr<GapRows> rows_;
   std::vector<RecordedTorque> torques_;
-  Eigen::MatrixXd residual_;
-  std::vector<Eigen::MatrixXd> columns_;
-  Eigen::MatrixXd usual_doubt_, doubt_;
+  std::shared_ptr<const Columns> columns_;
+  Eigen::MatrixXd doubt_;
 };
 
 // rms of the recorded torque, n entries.

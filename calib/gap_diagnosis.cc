@@ -112,8 +112,11 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   has_reference_ = reference != nullptr;
   Tell("choosing effects");
   Fit(segments, before, split);
-  held_out_.emplace(*fit_, split ? segments : Read(validation, LogPart::kAll),
-                    split ? LogPart::kHeldOut : LogPart::kAll, !split);
+  if (split) {
+    held_out_.emplace(*fit_);
+  } else {
+    held_out_.emplace(*fit_, Read(validation, LogPart::kAll));
+  }
   Tell("checking what was held out");
   result_.bandwidth_hz = options_.bandwidth_hz;
   result_.floor = fit_->noise().source;
@@ -152,7 +155,7 @@ void Diagnoser::Fit(const std::vector<GapSegment>& segments,
                split ? LogPart::kFitted : LogPart::kAll, before);
   fit_->Choose();
   if (!split) return;
-  GapFit all(*baseline_, options, segments, LogPart::kAll, before);
+  GapFit all(*fit_, LogPart::kAll);
   all.FindEvents(fit_->events());
   std::vector<GapEvent> events = fit_->events();
   for (const GapEvent& event : all.events()) {

@@ -31,6 +31,11 @@ GapFit::GapFit(const GapBaseline& baseline, const GapFitOptions& options,
                   std::move(reference)),
       pool_(&regression_, options.without) {}
 
+GapFit::GapFit(const GapFit& other, LogPart part)
+    : options_(other.options_),
+      regression_(other.regression_, part),
+      pool_(&regression_, other.pool_) {}
+
 // What the baseline and effects leave of the torque beyond friction.
 FrictionExcess GapFit::ExcessBeside(
     const std::vector<GapCandidate>& effects) const {
@@ -242,7 +247,9 @@ void GapFit::Finish() {
   }
   refined_.effects = pool_.Fitted(selection_.chosen);
   refined_.baseline = refit();
-  if (!refined_.effects.empty()) {
+  if (refined_.effects.size() == 1 && rivals_[0].refined) {
+    refined_ = *rivals_[0].refined;
+  } else if (!refined_.effects.empty()) {
     refined_ = RefineEffects(screen(), baseline(), scale(), refined_.effects,
                              -1, data());
   }

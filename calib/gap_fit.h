@@ -26,6 +26,9 @@ class GapFit {
          std::vector<GapSegment> training, LogPart part,
          std::vector<GapSegment> reference);
 
+  // With nothing chosen, on another part of the same logs.
+  GapFit(const GapFit& other, LogPart part);
+
   // Chooses effects and refines them; events are taken out of the data one by
   // one first, since nothing else can be told while they last.
   void Choose();

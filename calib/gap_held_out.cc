@@ -19,22 +19,23 @@ std::vector<GapCandidate> Without(std::vector<GapCandidate> effects, size_t k) {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> segments,
-                 LogPart part, bool other_logs)
+HeldOut::HeldOut(const GapFit& fit)
     : fit_(fit),
-      other_logs_(other_logs),
-      data_(std::make_unique<GapData>(std::move(segments), fit.baseline(),
-                                      fit.rows().bandwidth_hz(), part)) {
-  data_->SetNoise(fit.noise().joints);
-  if (fit.events().empty()) return;
-  if (other_logs) {
-    MaskEvents();
-  } else {
-    for (const GapEvent& event : fit.events()) {
-      data_->Mask(event.contact.log, event.contact.window);
-    }
+      other_logs_(false),
+      data_(std::make_unique<GapData>(*fit.data(), LogPart::kHeldOut)) {
+  for (const GapEvent& event : fit.events()) {
+    data_->Mask(event.contact.log, event.contact.window);
   }
   data_->SetNoise(fit.noise().joints);
+}
+
+HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs)
+    : fit_(fit),
+      other_logs_(true),
+      data_(std::make_unique<GapData>(std::move(other_logs), fit.baseline(),
+                                      fit.rows().bandwidth_hz())) {
+  data_->SetNoise(fit.noise().joints);
+  if (!fit.events().empty()) MaskEvents();
 }
 
 // An arm that was touched in one log may have been in another: windows that

@@ -14,10 +14,11 @@ namespace armcal {
 // Logs, or parts of logs, that nothing is chosen on.
 class HeldOut {
  public:
-  // `other_logs`: not of the logs that were fitted, so that what happened once
-  // in those did not happen here.
-  HeldOut(const GapFit& fit, std::vector<GapSegment> segments, LogPart part,
-          bool other_logs);
+  // LogPart::kHeldOut of the logs that were fitted.
+  explicit HeldOut(const GapFit& fit);
+  // Other logs: what happened once in those that were fitted did not happen
+  // here.
+  HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs);
 
   const GapRows& rows() const { return data_->rows(); }
   const std::vector<GapSegment>& segments() const {

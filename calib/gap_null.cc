@@ -1,5 +1,7 @@
 #include "calib/gap_null.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -77,20 +79,21 @@ double ScoreByChance(const GapScreen& screen, const GapRows& rows,
       BlockGradients(screen, rows, screen.Solve(ColumnsOf(candidates, chosen)));
   std::mt19937_64 random(seed);
   // Of the whole robot, and of each joint.
-  MatrixXd best(kDraws, rows.num_joints() + 1);
-  for (int draw = 0; draw < kDraws; ++draw) {
+  MatrixXd best = MatrixXd::Constant(kDraws, rows.num_joints() + 1, kLowest);
+  MatrixXd signs(blocks.cols(), kDraws);
+  for (double& sign : signs.reshaped()) sign = random() & 1 ? 1 : -1;
+  tbb::parallel_for(0, kDraws, [&](int draw) {
     VectorXd g = VectorXd::Zero(screen.size());
     for (Eigen::Index b = 0; b < blocks.cols(); ++b) {
-      g += (random() & 1 ? 1. : -1.) * blocks.col(b);
+      g += signs(b, draw) * blocks.col(b);
     }
     const VectorXd scores =
         ScoresBeside(screen, candidates, options, chosen, g);
-    best.row(draw).setConstant(kLowest);
     for (size_t i = 0; i < candidates.size(); ++i) {
       double& own = best(draw, candidates[i].joint + 1);
       own = std::max(own, scores[i]);
     }
-  }
+  });
   VectorXd largest = VectorXd::Constant(kDraws, kLowest);
   for (Eigen::Index place = 0; place < best.cols(); ++place) {
     largest = largest.cwiseMax(Excess(best.col(place)).deviations);

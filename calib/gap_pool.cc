@@ -13,6 +13,15 @@ CandidatePool::CandidatePool(GapRegression* regression,
                              std::vector<std::string> without)
     : regression_(*regression), without_(std::move(without)) {}
 
+CandidatePool::CandidatePool(GapRegression* regression,
+                             const CandidatePool& other)
+    : regression_(*regression),
+      without_(other.without_),
+      candidates_(other.candidates_),
+      evaluated_(other.evaluated_) {
+  Forget();
+}
+
 void CandidatePool::List() {
   Forget();
   Add(ListCandidates(

@@ -190,7 +190,7 @@ GapNoise ReferenceNoise(const GapBaseline& baseline, double bandwidth_hz,
   const MatrixXd moving = Moving(all.rows(), seen);
   VectorXd grows = VectorXd::Ones(seen.cols());
   for (int third = 0; third < kFolds; ++third) {
-    GapData others(segments, baseline, bandwidth_hz);
+    GapData others(all, LogPart::kAll);
     others.SetNoise(noise.joints);
     const std::vector<int> left_out = LeaveOut(segments, third, &others);
     others.SetNoise(noise.joints);

@@ -1,9 +1,13 @@
 #include "calib/gap_refinement.h"
 
 #include <ceres/ceres.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <limits>
 
 #include "calib/gap_coordinates.h"
 
@@ -13,21 +17,33 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+using RowMajorMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 constexpr int kMostIterations = 12;
 
-class ProjectedResidual {
+// What effects leave of the torque, and forward differences of it as Ceres
+// takes them, of several parameters at a time. Whatever was evaluated once is
+// kept: solvers ask again for what they have accepted.
+class ProjectedResidual : public ceres::CostFunction {
  public:
   ProjectedResidual(const GapScreen& screen, const GapBaseline& baseline,
                     const MotionScale& scale, std::vector<GapCandidate> effects,
-                    std::vector<Coordinate> coordinates, GapData* data)
+                    std::vector<Coordinate> coordinates, const GapData& data)
       : screen_(screen),
         baseline_(baseline),
         scale_(scale),
         effects_(std::move(effects)),
         coordinates_(std::move(coordinates)),
-        data_(data) {}
+        data_(data),
+        torques_(data.torques()) {
+    mutable_parameter_block_sizes()->push_back(
+        static_cast<int>(coordinates_.size()));
+    set_num_residuals(static_cast<int>(
+        screen.ResidualBeside(JointRows(screen.num_joints())).size()));
+  }
 
-  std::vector<GapCandidate> At(const double* u) const {
+  std::vector<GapCandidate> At(const VectorXd& u) const {
     std::vector<GapCandidate> effects = effects_;
     for (size_t k = 0; k < coordinates_.size(); ++k) {
       const Coordinate& c = coordinates_[k];
@@ -35,24 +51,70 @@ class ProjectedResidual {
     }
     return effects;
   }
-  JointRows Torque(const double* u) const {
-    return WhitenEach(data_->rows(),
-                      EffectTorque(baseline_, scale_, At(u), data_));
+  VectorXd BaselineAt(const VectorXd& u) const {
+    return screen_.BaselineBeside(Find(u).torque);
   }
-  bool operator()(double const* const* u, double* residuals) const {
-    const VectorXd r = screen_.ResidualBeside(Torque(u[0]));
-    if (!r.allFinite()) return false;
-    Eigen::Map<VectorXd>(residuals, r.size()) = r;
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const auto size = static_cast<Eigen::Index>(coordinates_.size());
+    Point& point = Find(Eigen::Map<const VectorXd>(parameters[0], size));
+    if (!point.residual.allFinite()) return false;
+    Eigen::Map<VectorXd>(residuals, num_residuals()) = point.residual;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    if (point.jacobian.size() == 0) Differentiate(&point);
+    if (!point.jacobian.allFinite()) return false;
+    std::copy(point.jacobian.data(),
+              point.jacobian.data() + point.jacobian.size(), jacobians[0]);
     return true;
   }
 
  private:
+  struct Point {
+    VectorXd u;
+    JointRows torque;  // whitened
+    VectorXd residual;
+    RowMajorMatrix jacobian;  // empty: not asked for yet
+  };
+
+  JointRows Torque(const VectorXd& u) const {
+    return WhitenEach(data_.rows(),
+                      EffectTorque(baseline_, scale_, At(u), data_.rows(),
+                                   &torques_.local()));
+  }
+
+  Point& Find(const VectorXd& u) const {
+    for (Point& point : points_) {
+      if (point.u == u) return point;
+    }
+    const JointRows torque = Torque(u);
+    points_.push_back({u, torque, screen_.ResidualBeside(torque), {}});
+    return points_.back();
+  }
+
+  void Differentiate(Point* point) const {
+    constexpr double kRelativeStep = 1e-4;
+    const double least =
+        std::sqrt(std::numeric_limits<double>::epsilon());  // Ceres'
+    point->jacobian.resize(num_residuals(), point->u.size());
+    tbb::parallel_for(Eigen::Index{0}, point->u.size(), [&](Eigen::Index k) {
+      const double step =
+          std::max(least, kRelativeStep * std::abs(point->u[k]));
+      VectorXd u = point->u;
+      u[k] += step;
+      point->jacobian.col(k) =
+          (screen_.ResidualBeside(Torque(u)) - point->residual) * (1 / step);
+    });
+  }
+
   const GapScreen& screen_;
   const GapBaseline& baseline_;
   const MotionScale& scale_;
   std::vector<GapCandidate> effects_;
   std::vector<Coordinate> coordinates_;
-  GapData* data_;
+  const GapData& data_;
+  mutable tbb::enumerable_thread_specific<std::vector<RecordedTorque>> torques_;
+  mutable std::deque<Point> points_;
 };
 
 void SetBounds(const std::vector<Coordinate>& coordinates, double* u,
@@ -77,8 +139,7 @@ MatrixXd CovarianceAt(const ceres::CostFunction& cost,
                       const VectorXd& u) {
   const int size = static_cast<int>(u.size());
   VectorXd residual(cost.num_residuals());
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J(
-      cost.num_residuals(), size);
+  RowMajorMatrix J(cost.num_residuals(), size);
   const double* block = u.data();
   double* jacobian = J.data();
   MatrixXd covariance = MatrixXd::Zero(size, size);
@@ -132,7 +193,14 @@ MatrixXd Spread(const std::vector<GapCandidate>& effects,
 JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
                        const std::vector<GapCandidate>& effects,
                        GapData* data) {
-  const GapRows& rows = data->rows();
+  return EffectTorque(baseline, scale, effects, data->rows(),
+                      data->mutable_torques());
+}
+
+JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
+                       const std::vector<GapCandidate>& effects,
+                       const GapRows& rows,
+                       std::vector<RecordedTorque>* torques) {
   JointRows thin(rows.num_joints());
   for (size_t i = 0; i < rows.segments().size(); ++i) {
     const int s = static_cast<int>(i), log = rows.segments()[i].log;
@@ -143,7 +211,7 @@ JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
       effect.effect->apply({&baseline.robot(), effect.joint, &scale}, effect.p,
                            &changed);
     }
-    AddThinned(rows, s, (*data->mutable_torques())[i].Change(changed), &thin);
+    AddThinned(rows, s, (*torques)[i].Change(changed), &thin);
   }
   return thin;
 }
@@ -167,17 +235,9 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   const std::vector<Coordinate> coordinates =
       ListCoordinates(baseline, scale, effects, only);
   const int size = static_cast<int>(coordinates.size());
-  const auto residual = new ProjectedResidual(screen, baseline, scale, effects,
-                                              coordinates, data);
-  ceres::NumericDiffOptions steps;
-  steps.relative_step_size = 1e-4;
-  auto* cost = new ceres::DynamicNumericDiffCostFunction<ProjectedResidual,
-                                                         ceres::FORWARD>(
-      residual, ceres::TAKE_OWNERSHIP, steps);
+  auto* cost = new ProjectedResidual(screen, baseline, scale, effects,
+                                     coordinates, *data);
   VectorXd u = VectorXd::Ones(size);
-  cost->AddParameterBlock(size);
-  cost->SetNumResiduals(static_cast<int>(
-      screen.ResidualBeside(residual->Torque(u.data())).size()));
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, u.data());
   SetBounds(coordinates, u.data(), &problem);
@@ -188,10 +248,10 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  refined.effects = residual->At(u.data());
+  refined.effects = cost->At(u);
   refined.covariance =
       Spread(effects, coordinates, CovarianceAt(*cost, coordinates, u));
-  refined.baseline = screen.BaselineBeside(residual->Torque(u.data()));
+  refined.baseline = cost->BaselineAt(u);
   refined.drop =
       screen.ResidualBeside(JointRows(screen.num_joints())).squaredNorm() -
       2 * summary.final_cost;

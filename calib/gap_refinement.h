@@ -34,6 +34,11 @@ RefinedEffects RefineEffects(const GapScreen& screen,
 // than those it was found in.
 JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
                        const std::vector<GapCandidate>& effects, GapData* data);
+// The same by a thread's own `torques`, one per segment.
+JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
+                       const std::vector<GapCandidate>& effects,
+                       const GapRows& rows,
+                       std::vector<RecordedTorque>* torques);
 // Their rows.
 JointRows WhitenEach(const GapRows& rows, const JointRows& thin);
 

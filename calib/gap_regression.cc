@@ -41,11 +41,20 @@ GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
   if (!reference.empty()) {
     noise_ = ReferenceNoise(baseline, bandwidth_hz, reference);
     reference_ =
-        std::make_unique<GapData>(std::move(reference), baseline, bandwidth_hz);
+        std::make_shared<GapData>(std::move(reference), baseline, bandwidth_hz);
     for (const int c : DayColumns(baseline)) reference_->Hold(c);
   }
   EstimateNoise();
   scale_ = ScaleOf(baseline, data_->rows(), data_->torques());
+}
+
+GapRegression::GapRegression(const GapRegression& other, LogPart part)
+    : baseline_(other.baseline_),
+      data_(std::make_unique<GapData>(*other.data_, part)),
+      reference_(other.reference_),
+      noise_(other.noise_),
+      scale_(other.scale_) {
+  EstimateNoise();
 }
 
 void GapRegression::EstimateNoise() {

@@ -25,6 +25,9 @@ class GapRegression {
                 std::vector<GapSegment> training, LogPart part,
                 std::vector<GapSegment> reference);
 
+  // On another part of the same logs.
+  GapRegression(const GapRegression& other, LogPart part);
+
   // Anew, with an empty screen: at first, and where masks have changed.
   void Refit();
   // Whether what had looked like another day than the reference's is none
@@ -54,7 +57,8 @@ class GapRegression {
   bool HoldDays();
 
   const GapBaseline& baseline_;
-  std::unique_ptr<GapData> data_, reference_;
+  std::unique_ptr<GapData> data_;
+  std::shared_ptr<GapData> reference_;  // the same for any part
   GapNoise noise_;
   MotionScale scale_;
   std::optional<GapScreen> screen_;

@@ -1,5 +1,7 @@
 #include "calib/gap_rivals.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -33,26 +35,36 @@ Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
   for (int i = 0; i < scores.size(); ++i) {
     if (candidates[i].log >= 0) scores[i] = kOut;
   }
-  Rivals rivals{{}, selection.chosen[k]};
-  double best_score = kOut;
-  while (static_cast<int>(rivals.scores.size()) < 1 + kMostRivals) {
+  std::vector<int> near;
+  while (static_cast<int>(near.size()) < 1 + kMostRivals) {
     int c;
     if (!(scores.maxCoeff(&c) >= least)) break;
-    const GapCandidate& rival = candidates[c];
+    near.push_back(c);
+    for (int i = 0; i < scores.size(); ++i) {
+      if (SamePlace(candidates[i], candidates[c])) scores[i] = kOut;
+    }
+  }
+  const GapBaseline& baseline = regression.baseline();
+  const MotionScale& scale = regression.scale();
+  std::vector<RefinedEffects> refined(near.size());
+  tbb::parallel_for(size_t{0}, near.size(), [&](size_t r) {
     std::vector<int> chosen = selection.chosen;
-    chosen[k] = c;
-    const GapBaseline& baseline = regression.baseline();
-    const MotionScale& scale = regression.scale();
-    const RefinedEffects refined = RefineEffects(
-        screen, baseline, scale, pool.Fitted(chosen), k, regression.data());
+    chosen[k] = near[r];
+    refined[r] = RefineEffects(screen, baseline, scale, pool.Fitted(chosen), k,
+                               regression.data());
+  });
+  Rivals rivals{{}, selection.chosen[k], {}};
+  double best_score = kOut;
+  for (size_t r = 0; r < near.size(); ++r) {
+    const GapCandidate& rival = candidates[near[r]];
     const size_t varied = ListCoordinates(baseline, scale, {rival}, 0).size();
-    const double score = refined.drop - by_others -
+    const double score = refined[r].drop - by_others -
                          RefinedPrice(screen, rival, static_cast<int>(varied));
     rivals.scores.push_back({rival.effect, rival.joint, score});
-    if (score > best_score) best_score = score, rivals.best = c;
-    for (int i = 0; i < scores.size(); ++i) {
-      if (SamePlace(candidates[i], rival)) scores[i] = kOut;
-    }
+    if (!(score > best_score)) continue;
+    best_score = score;
+    rivals.best = near[r];
+    rivals.refined = refined[r];
   }
   return rivals;
 }

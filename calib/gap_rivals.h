@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "calib/gap_pool.h"
+#include "calib/gap_refinement.h"
 #include "calib/gap_regression.h"
 #include "calib/gap_selection.h"
 
@@ -18,6 +20,9 @@ struct RefinedScore {
 struct Rivals {
   std::vector<RefinedScore> scores;  // the chosen one's, if near, among them
   int best = -1;                     // candidate
+  // With the best in the k-th place, all others as they were; none where
+  // nothing was near.
+  std::optional<RefinedEffects> refined;
 };
 
 // A grid may be kinder to one effect than to another: those near the k-th

@@ -1,5 +1,7 @@
 #include "calib/gap_search.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -42,10 +44,12 @@ std::vector<double> PeakFrequencies(const VectorXd& residual,
   constexpr int kMost = 4000;
   const double step =
       std::max(2 * M_PI / range / kOversampling, (high - low) / kMost);
-  std::vector<double> power;
-  for (double w = low; w <= high; w += step) {
-    power.push_back(Power(residual, place, w));
-  }
+  std::vector<double> frequencies;
+  for (double w = low; w <= high; w += step) frequencies.push_back(w);
+  std::vector<double> power(frequencies.size());
+  tbb::parallel_for(size_t{0}, power.size(), [&](size_t k) {
+    power[k] = Power(residual, place, frequencies[k]);
+  });
   std::vector<Peak> peaks;
   for (size_t k = 0; k < power.size(); ++k) {
     if (k > 0 && power[k] < power[k - 1]) continue;
