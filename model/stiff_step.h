@@ -31,13 +31,15 @@ class StiffStepOf {
   // From x at t to x at t + h.
   template <typename AnyRate>
   void Advance(const AnyRate& rate, double t, double h, Eigen::VectorXd* x) {
-    base_ = *x;
-    stage_ = *x;
+    CHECK_EQ(x->size(), size());
+    Eigen::Map<State> at(x->data(), size());
+    base_ = at;
+    stage_ = at;
     Solve(rate, t + kGamma * h, h);
     // gamma h f of the first stage, which the second weighs by (1 - gamma).
-    base_ = *x + (1 - kGamma) / kGamma * (stage_ - *x);
+    base_ = at + (1 - kGamma) / kGamma * (stage_ - at);
     Solve(rate, t + h, h);
-    *x = stage_;
+    at = stage_;
   }
 
  private:
