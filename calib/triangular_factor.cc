@@ -14,7 +14,7 @@ TriangularFactor::TriangularFactor(int columns, long leaf_rows)
 
 TriangularFactor::TriangularFactor(const MatrixXd& triangle, long rows)
     : TriangularFactor(static_cast<int>(triangle.cols()) - 1) {
-  merged_ = triangle;
+  merged_ = triangle_ = triangle;
   merged_rows_ = rows;
 }
 
