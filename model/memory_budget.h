@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -16,16 +17,19 @@ class MemoryBudget {
   // of logs.
   static std::size_t DefaultBytes();
 
-  // False, and nothing taken, where fewer are left.
+  // False, and nothing taken, where fewer are left. One thread may make the
+  // next stretch of a log while another keeps what it made of the last.
   bool Take(std::size_t bytes) {
-    if (bytes > left_) return false;
-    left_ -= bytes;
-    return true;
+    std::size_t left = left_;
+    while (bytes <= left) {
+      if (left_.compare_exchange_weak(left, left - bytes)) return true;
+    }
+    return false;
   }
   void Give(std::size_t bytes) { left_ += bytes; }
 
  private:
-  std::size_t left_;
+  std::atomic<std::size_t> left_;
 };
 
 // What one holder has taken of a budget, and gives back in the end.
