@@ -182,9 +182,9 @@ TEST_F(FactorFile, RefusesWhatDoesNotBelongTogether) {
   EXPECT_THAT(refusal(changed),
               HasSubstr("FILE: key model.window_s: found '0.7': expected 0.3 "
                         "as in file0; reduce the log with --like=file0"));
-  changed = parts[1];
-  changed.model.robot_sha256 = "another";
-  EXPECT_THAT(refusal(changed), HasSubstr("the robot file of file0"));
+  Reduction foreign = parts[1];
+  foreign.model.robot_sha256 = "another";
+  EXPECT_THAT(refusal(foreign), HasSubstr("the robot file of file0"));
   // Halves of a log are different evidence, overlapping ones are not.
   Reduction half = parts[0];
   half.logs[0].range = {half.logs[0].range.end, 1e3};
