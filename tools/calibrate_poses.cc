@@ -22,8 +22,8 @@ DECLARE_string(log);
 
 DEFINE_string(
     poses, "",
-    "`FILE` CSV of measured poses: q1.. with x1 y1 z1 [x2 ..] (targets), "
-    "x y z qw qx qy qz (tool poses) or length1 (draw wire)");
+    "`FILE` CSV of measured poses: q1.. and x1 y1 z1 [x2 ..] (targets), "
+    "x y z qw qx qy qz (tool) or length1 (draw wire)");
 
 namespace armcal {
 namespace {
