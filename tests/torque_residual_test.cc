@@ -26,7 +26,7 @@ class Residual : public testing::Test {
     MotionRegressor regressor(parameters);
     regressor.Enter(t);
     TorqueResidual residual(2);
-    residual.Add(t, parameters.Values(robot_), bandwidth, &regressor);
+    residual.Add(t, parameters.Values(robot_), bandwidth, regressor);
     return residual;
   }
 
@@ -92,9 +92,9 @@ TEST_F(Residual, TrajectoriesAddUp) {
   MotionRegressor regressor(parameters);
   regressor.Enter(t);
   TorqueResidual residual(2);
-  residual.Add(t, parameters.Values(robot_), 0, &regressor);
+  residual.Add(t, parameters.Values(robot_), 0, regressor);
   t.tau_recorded.array() += .2;
-  residual.Add(t, parameters.Values(robot_), 0, &regressor);
+  residual.Add(t, parameters.Values(robot_), 0, regressor);
   EXPECT_EQ(residual.samples(), 802);
   EXPECT_NEAR(residual.whole().residual_rms[0], std::sqrt((.01 + .09) / 2),
               1e-12);
