@@ -20,10 +20,9 @@
 DECLARE_string(geometry);
 DECLARE_string(log);
 
-DEFINE_string(
-    poses, "",
-    "`FILE` CSV of measured poses: q1.. and x1 y1 z1 [x2 ..] (targets), "
-    "x y z qw qx qy qz (tool) or length1 (draw wire)");
+DEFINE_string(poses, "",
+              "`FILE` CSV of measured poses: q1.. and x1 y1 z1 [x2 ..], "
+              "x y z qw qx qy qz, or length1 (draw wire)");
 
 namespace armcal {
 namespace {

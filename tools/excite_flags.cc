@@ -44,8 +44,7 @@ DEFINE_string(
     tool_box, "",
     "`BOX` x:x,y:y,z:z in the base's frame, m, that the tool's point stays "
     "in; default: anywhere");
-DEFINE_string(floor, "",
-              "`M` height over the base that links stay above; default: none");
+DEFINE_string(floor, "", "`M` height over the base that links stay above");
 DEFINE_string(obstacles, "",
               "`BOXES` that links stay out of: x:x,y:y,z:z[;x:x,y:y,z:z..], m");
 DEFINE_double(link_radius, .06, "of the links, for --floor and --obstacles, m");
