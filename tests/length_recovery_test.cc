@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <map>
+#include <random>
 
 #include "calib/linear_solution.h"
 #include "tests/sample_motion.h"
@@ -145,6 +146,38 @@ TEST(LengthRecovery, HorizontalLengthsAreProductsOnly) {
     const Lengths c(name, GeometryKnowledge::kNonzeroLengths, 0);
     for (const auto& [symbol, l] : c.Recover(c.solution.x)) {
       EXPECT_FALSE(l.identifiable) << name << " " << symbol;
+      EXPECT_EQ(l.value, l.nominal) << name << " " << symbol;
+    }
+  }
+}
+
+// Of the SCARA's lengths, .4 and .3 m, the ratio is seen, since both multiply
+// the same moment. A file with another ratio gets the nearest of that ratio,
+// from wherever errors make the search start.
+TEST(LengthRecovery, RatioOfLengthsNearestToTheFile) {
+  const Lengths c("SCARA RRPR", GeometryKnowledge::kNonzeroLengths, .01);
+  Robot file = c.robot;
+  file.links[0].X_ML.translation() *= 1.1;
+  ModelParameters::Options options;
+  options.geometry = GeometryKnowledge::kNonzeroLengths;
+  const ModelParameters parameters(file, options);
+  const MatrixXd L = Eigen::LLT<MatrixXd>(c.covariance).matrixL();
+  const double nearest = (.44 * .4 + .3 * .3) / .25;
+  std::mt19937_64 random(13);
+  std::normal_distribution<double> normal;
+  for (int draw = 0; draw < 30; ++draw) {
+    VectorXd error(L.cols());
+    for (double& e : error) e = draw > 0 ? normal(random) : 0;
+    const auto lengths =
+        RecoverLengths(parameters, c.parameters.Values(c.robot) + L * error,
+                       c.covariance, c.covariance, c.solution.identifiable);
+    ASSERT_EQ(lengths.size(), 2u);
+    const Eigen::Vector2d value(lengths[0].value, lengths[1].value);
+    const Eigen::Vector2d change = value - Eigen::Vector2d(.44, .3);
+    EXPECT_NEAR(value.dot(change), 0, 1e-9) << draw;
+    EXPECT_NEAR(value[0] / value[1], .4 / .3, draw > 0 ? .01 : 1e-7);
+    if (draw == 0) {
+      EXPECT_NEAR(value[0], .4 * nearest, 1e-7);
     }
   }
 }
