@@ -81,7 +81,6 @@ class LogSet {
   std::vector<std::string> paths_;
   std::vector<KeptLog> logs_;
   KeptItems<Stretch> prepared_;
-  LogReaderOptions log_options_;
   TrajectoryOptions options_;
   std::vector<TimeBase> time_bases_;
   std::string torque_source_;

@@ -1,10 +1,16 @@
 // Linear calibration of logs in memory, beside Eigen's QR of the whole.
 
 #include <benchmark/benchmark.h>
+#include <glog/logging.h>
+#include <malloc.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -134,6 +140,53 @@ void Rows(benchmark::State& state, Identification identification) {
   state.SetItemsProcessed(state.iterations() * log.size());
 }
 
+// What /proc says of this process's memory, MB: now or at its peak.
+double StatusMegabytes(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind(key + ":", 0) == 0) {
+      return std::stod(line.substr(key.size() + 1)) / 1024;
+    }
+  }
+  return std::nan("");
+}
+
+// Peak memory of a calibration beyond the log it is given, MB, in a process of
+// its own; nan where the system does not say.
+double MegabytesBeyond(long samples) {
+  int ends[2];
+  PCHECK(pipe(ends) == 0);
+  const pid_t child = fork();
+  PCHECK(child >= 0);
+  double beyond = std::nan("");
+  if (child == 0) {
+    const Trajectory& log = BenchmarkTrajectory(samples);
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew
+    const double before = StatusMegabytes("VmRSS");
+    const InMemoryCalibration calibration(
+        Parameters(), Options(Identification::kDifferential), log);
+    beyond = StatusMegabytes("VmHWM") - before;
+    PCHECK(write(ends[1], &beyond, sizeof beyond) == sizeof beyond);
+    _exit(0);
+  }
+  close(ends[1]);
+  if (read(ends[0], &beyond, sizeof beyond) != sizeof beyond) {
+    beyond = std::nan("");
+  }
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  return beyond;
+}
+
+void MemoryGrowth(benchmark::State& state) {
+  double growth = 0;
+  for (auto _ : state) {
+    growth = MegabytesBeyond(1000000) - MegabytesBeyond(10000);
+  }
+  state.counters["value"] = growth;
+}
+
 // The kernel alone: chunks of a joint's rows, items are flops.
 void Householder(benchmark::State& state, const simd::Kernels* kernels,
                  int columns) {
@@ -170,8 +223,9 @@ const bool registered = [] {
   }
   for (const int threads : {1, 2}) {
     Register("LinearCalibration/threads:" + std::to_string(threads), Calibrate,
-             differential, 200000L, threads, true);
+             differential, 1000000L, threads, true);
   }
+  benchmark::RegisterBenchmark("Memory/growth_mb", MemoryGrowth)->Iterations(1);
   Register("WeakRows/chunk", Rows, Identification::kWeak);
   Register("DifferentialRows/chunk", Rows, differential);
   Register("LinearCalibration/weak", Calibrate, Identification::kWeak, 200000L,

@@ -57,12 +57,14 @@ def root_sum(values):
 
 
 def armcal_calibration(armcal, urdf, logs, folder):
-    """`armcal calibrate` on data taken as they are, as the others take them."""
+    """The linear estimate of `armcal calibrate` on data taken as they are, as
+    the others take them."""
     out = pathlib.Path(folder) / "armcal"
     _, seconds, peak = run(
         [armcal, "calibrate", f"--robot={urdf}", f"--log={logs[0]}",
-         f"--validate={logs[1]}", "--identification=differential",
-         "--bandwidth=0", "--quiet", f"--out={out}"], folder, repetitions=3)
+         f"--validate={logs[1]}", "--estimate=linear",
+         "--identification=differential", "--bandwidth=0", "--quiet",
+         f"--out={out}"], folder, repetitions=3)
     with open(out / "calibration.json", encoding="utf-8") as file:
         joints = json.load(file)["joints"]
     # validation_residual_percent is relative to each joint's own torque.

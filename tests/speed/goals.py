@@ -5,7 +5,8 @@
 
 BENCHMARKS.json is what Google Benchmark writes with repetitions; a benchmark's
 time is the median over them of the CPU time per item (items_per_second, or the
-counter per_sample). VALUES.json are what the
+counter per_sample), and its number otherwise the median of the counter value.
+VALUES.json are what the
 other scripts of tests/speed and tests/peers write: {"values": {name: number}}.
 Every goal is a ratio of two of these numbers, so the machine's speed drops out;
 floor and stretch say what it should be at most. Python's standard library only.
@@ -128,12 +129,15 @@ def read(paths):
         repetitions = {}
         for run in content.get("benchmarks", []):
             if run["run_type"] == "iteration" and (
-                    "items_per_second" in run or "per_sample" in run):
+                    {"items_per_second", "per_sample", "value"} & run.keys()):
                 # Without how often it was run: "Name/iterations:1/repeats:3".
                 name = re.sub("/(iterations|repeats|min_time):[^/]*|"
                               "/(process|real)_time", "", run["run_name"])
                 repetitions.setdefault(name, []).append(run)
         for name, runs in repetitions.items():
+            if "value" in runs[0]:
+                measured[name] = statistics.median(run["value"] for run in runs)
+                continue
             seconds = [run["per_sample"] if "per_sample" in run else
                        1 / run["items_per_second"] for run in runs]
             measured[name] = statistics.median(seconds)
