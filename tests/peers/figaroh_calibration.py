@@ -8,7 +8,6 @@ seconds of CPU per stage and the held-out residual.
 import json
 import logging
 import sys
-import time
 
 import numpy as np
 import pandas
@@ -20,7 +19,7 @@ from figaroh.tools.regressor import (
     build_regressor_basic, build_regressor_reduced, get_index_eliminate)
 from figaroh.tools.robot import Robot
 
-from log_columns import relative_residual, split
+from log_columns import Stages, relative_residual, split
 
 CONFIG = {"is_joint_torques": True, "has_friction": True, "act_idxv": range(6),
           "has_actuator_inertia": True, "has_joint_offset": True}
@@ -30,18 +29,12 @@ def main():
     logging.disable(logging.WARNING)
     urdf, train, held_out = sys.argv[1:]
     values = {}
-    begin = start = time.process_time()
-
-    def took(stage):
-        nonlocal start
-        values[f"Figaroh/{stage}_s"] = time.process_time() - start
-        start = time.process_time()
-
+    stages = Stages("Figaroh", values)
     robot = Robot(urdf, package_dirs="")
     _, q, qd, qdd, tau = split(pandas.read_csv(train).to_numpy())
-    took("read")
+    stages.took("read")
     W = build_regressor_basic(robot, q, qd, qdd, CONFIG)
-    took("regressor")
+    stages.took("regressor")
     names = get_standard_parameters(robot.model, CONFIG)
     names.update(add_standard_additional_parameters(robot.model, CONFIG))
     eliminated, kept = get_index_eliminate(W, names)
@@ -50,8 +43,7 @@ def main():
     decomposer = QRDecomposer()
     W_base, _, _, phi = decomposer.double_decomposition(stacked, W, kept)
     relative_stdev(W_base, phi, stacked)
-    took("solve")
-    values["Figaroh/total_s"] = time.process_time() - begin
+    stages.took("solve")
     values["Figaroh/base_parameters"] = len(phi)
 
     _, q, qd, qdd, tau = split(pandas.read_csv(held_out).to_numpy())

@@ -1,6 +1,23 @@
-"""A log of write_log.py, and how well a prediction meets it."""
+"""A log of write_log.py, how long its calibration takes, stage by stage, and
+how well a prediction meets it."""
+
+import time
 
 import numpy as np
+
+
+class Stages:
+    """CPU seconds of stages that follow each other, as "<name>/<stage>_s"."""
+
+    def __init__(self, name, values):
+        self.name, self.values = name, values
+        self.begin = self.start = time.process_time()
+
+    def took(self, stage):
+        now = time.process_time()
+        self.values[f"{self.name}/{stage}_s"] = now - self.start
+        self.values[f"{self.name}/total_s"] = now - self.begin
+        self.start = now
 
 
 def split(table):

@@ -7,13 +7,12 @@ and the held-out residual.
 
 import json
 import sys
-import time
 
 import numpy as np
 import pinocchio
 import scipy.linalg
 
-from log_columns import relative_residual, split
+from log_columns import Stages, relative_residual, split
 
 
 def stacked_regressor(model, q, qd, qdd):
@@ -31,18 +30,12 @@ def stacked_regressor(model, q, qd, qdd):
 def main():
     urdf, train, held_out = sys.argv[1:]
     values = {}
-    begin = start = time.process_time()
-
-    def took(stage):
-        nonlocal start
-        values[f"Scipy/{stage}_s"] = time.process_time() - start
-        start = time.process_time()
-
+    stages = Stages("Scipy", values)
     _, q, qd, qdd, tau = split(np.loadtxt(train, delimiter=",", skiprows=1))
-    took("read")
+    stages.took("read")
     model = pinocchio.buildModelFromUrdf(urdf)
     W = stacked_regressor(model, q, qd, qdd)
-    took("regressor")
+    stages.took("regressor")
     W = np.asfortranarray(W)
     Q, R, pivots = scipy.linalg.qr(W, mode="economic", pivoting=True,
                                    overwrite_a=True)
@@ -52,8 +45,7 @@ def main():
         R[:rank, :rank], Q[:, :rank].T @ tau.ravel())
     inverse = scipy.linalg.inv(R[:rank, :rank])
     np.einsum("ij,ij->i", inverse, inverse)  # variances, but for the noise
-    took("solve")
-    values["Scipy/total_s"] = time.process_time() - begin
+    stages.took("solve")
     values["Scipy/base_parameters"] = rank
 
     _, q, qd, qdd, tau = split(np.loadtxt(held_out, delimiter=",", skiprows=1))
