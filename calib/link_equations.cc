@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calib/posterior.h"
-#include "calib/robust_rows.h"
+#include "calib/robust_reduction.h"
 #include "calib/row_reduction.h"
 #include "calib/triangular_factor.h"
 #include "problems/link_functions.h"
@@ -68,7 +68,6 @@ Score MakeScore(const FittedRow& row) {
 // torque_geometry.
 struct LinkPass::Residual {
   const MatrixXd& U;
-  const VectorXd& Y;
   VectorXd r;  // in noise units, 0 where the equation is not used
   int log;
   bool follows;  // right after the row before it
@@ -114,15 +113,18 @@ LinkPass::LinkPass(const ArmUnknowns& unknowns, const LinearCalibration& linear,
                    const Progress& progress, LogSet* logs)
     : unknowns_(unknowns), linear_(linear), progress_(progress), logs_(logs) {}
 
+std::vector<LinkFunctions> LinkPass::Functions(
+    const ArmValues& at, const std::vector<JointTermColumn>& terms) const {
+  return {static_cast<size_t>(logs_->size()),
+          LinkFunctions(unknowns_.WithInertia(at), terms,
+                        unknowns_.Geometry(at), unknowns_.torque_geometry())};
+}
+
 void LinkPass::ForEachResidual(
     const std::string& stage, const ArmValues& at, const VectorXd& noise,
     const std::vector<JointTermColumn>& terms,
     const std::function<void(const Residual&)>& visit) {
-  const Robot robot = unknowns_.WithInertia(at);
-  const ArmGeometry geometry = unknowns_.Geometry(at);
-  std::vector<LinkFunctions> functions(
-      logs_->size(),
-      LinkFunctions(robot, terms, geometry, unknowns_.torque_geometry()));
+  std::vector<LinkFunctions> functions = Functions(at, terms);
   VectorXd x(unknowns_.tilt_begin());
   x << at.links, at.terms;
   int last_log = -1, last_segment = -1;
@@ -138,40 +140,32 @@ void LinkPass::ForEachResidual(
           for (int i = 0; i < r.size(); ++i) {
             if (!linear_.used[log][i]) r[i] = 0;
           }
-          visit({row.U, row.Y, r, log, follows});
+          visit({row.U, r, log, follows});
         });
   });
 }
 
 LinkEquations LinkPass::Reduce(const ArmValues& at, const VectorXd& noise) {
   const std::vector<int> columns = unknowns_.TorqueColumns();
-  const VectorXd about = at.Stacked()(columns).tail(
-      static_cast<Eigen::Index>(unknowns_.torque_geometry().size()));
-  const int n = unknowns_.num_links();
-  TriangularFactor factor(static_cast<int>(columns.size()));
-  std::vector<ResidualStatistics> statistics(n);
-  ForEachResidual(
-      "links", at, noise, unknowns_.terms(), [&](const Residual& residual) {
-        const VectorXd y =
-            residual.Y + residual.U.rightCols(about.size()) * about;
-        for (int i = 0; i < n; ++i) {
-          if (!linear_.used[residual.log][i]) continue;
-          statistics[i].Add(residual.r[i]);
-          factor.Add(
-              residual.U.row(i), y[i],
-              std::sqrt(EvaluateLoss(linear_.loss, residual.r[i]).weight) /
-                  (noise[i] * linear_.inflation));
-        }
-      });
-  const MatrixXd triangle = factor.Triangle();
-  const Eigen::Index p = factor.columns();
+  std::vector<LinkFunctions> functions = Functions(at, unknowns_.terms());
+  RobustReduction reduction(
+      {at.Stacked()(columns),
+       static_cast<int>(unknowns_.torque_geometry().size()), noise,
+       linear_.loss},
+      functions.front(), RowsPerLeaf(linear_.rows));
+  logs_->ForEach("links", progress_, [&](int log, const Trajectory& t) {
+    functions[log].Enter(t);
+    reduction.Add(WeakRows(t, linear_.rows, functions[log]), linear_.used[log]);
+  });
+  const MatrixXd triangle = reduction.Triangle() / linear_.inflation;
+  const Eigen::Index p = triangle.cols() - 1;
   LinkEquations equations;
   equations.R = MatrixXd::Zero(p, unknowns_.size());
   equations.R(Eigen::all, columns) = triangle.topLeftCorner(p, p);
   equations.z = triangle.col(p).head(p);
-  equations.spread.resize(n);
-  for (int i = 0; i < n; ++i) {
-    equations.spread[i] = statistics[i].RobustSpread();
+  equations.spread.resize(unknowns_.num_links());
+  for (int i = 0; i < unknowns_.num_links(); ++i) {
+    equations.spread[i] = reduction.statistics(i).RobustSpread();
   }
   return equations;
 }

@@ -21,10 +21,13 @@ void Copy(const Vector3d& v, double* to) {
 
 // X_PF: of the joint's fixed frame in the link before; X_ML: of the link in the
 // moved frame.
-LinkConstants MakeLink(JointType type, const Isometry3d& X_PF,
-                       const Isometry3d& X_ML) {
+LinkConstants MakeLink(JointType type, Isometry3d X_PF, Isometry3d X_ML) {
   LinkConstants link{};
   link.rotational = IsRotational(type);
+  if (link.rotational) {  // F may be anywhere along the axis: where Mo is Lo
+    X_PF = X_PF * Eigen::Translation3d(0, 0, X_ML.translation().z());
+    X_ML.translation().z() = 0;
+  }
   const Matrix3d R_FP = X_PF.linear().transpose();
   const Matrix3d R_LM = X_ML.linear().transpose();
   // Rz(q)' leaves z, and turns x and y by -q.

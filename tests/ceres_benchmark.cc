@@ -8,16 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <random>
 #include <vector>
 
 #include "model/inverse_dynamics.h"
-#include "tests/six_axis_torque.h"
+#include "tests/six_axis_problem.h"
 
 namespace armcal {
 namespace {
 
-constexpr int kJoints = 6, kInertial = 60, kGeometric = 24;
+constexpr int kJoints = SixAxisProblem::kJoints;
+constexpr int kInertial = SixAxisProblem::kInertial;
+constexpr int kGeometric = SixAxisProblem::kGeometric;
 constexpr int kSamples = 10000;
 
 struct TorqueResidual {
@@ -34,62 +35,9 @@ struct TorqueResidual {
 using AutoDiffBlock =
     ceres::AutoDiffCostFunction<TorqueResidual, kJoints, kInertial, kGeometric>;
 
-// The arm's parameters, a UR10e's size, and a log of it with noise.
-struct Problem {
-  Problem();
-
-  std::vector<double> inertial, geometric;
-  std::vector<SixAxisSample> samples;
-};
-
-Problem::Problem()
-    : inertial(kInertial),
-      geometric{0,   0,         .181,  0, 0,   -M_PI / 2, .176, -M_PI / 2,
-                .61, 0,         -.137, 0, .57, 0,         .02,  -M_PI / 2,
-                0,   -M_PI / 2, .12,   0, 0,   M_PI / 2,  .117, 0},
-      samples(kSamples) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> u(-1, 1);
-  const double masses[] = {7.4, 13, 4, 2, 2, .6};
-  for (int i = 0; i < kJoints; ++i) {
-    const double m = masses[i], I = .02 * m;
-    const double link[] = {m,
-                           .1 * m * u(random),
-                           .1 * m * u(random),
-                           .1 * m,
-                           1.2 * I,
-                           .1 * I,
-                           1.3 * I,
-                           .1 * I,
-                           .1 * I,
-                           1.1 * I};
-    std::copy(link, link + 10, &inertial[10 * i]);
-  }
-  std::normal_distribution<double> noise(0, .5);
-  for (SixAxisSample& sample : samples) {
-    for (int j = 0; j < kJoints; ++j) {
-      sample.q[j] = 3 * u(random);
-      sample.qd[j] = 2 * u(random);
-      sample.qdd[j] = 5 * u(random);
-    }
-    SixAxisTorque<double>().Evaluate(inertial.data(), geometric.data(), sample,
-                                     sample.tau);
-    for (double& tau : sample.tau) tau += noise(random);
-  }
-}
-
 // Largest difference of the torques to InverseDynamics', N m.
-double Error(const Problem& problem) {
-  Robot robot;
-  robot.gravity = {0, 0, -9.81};
-  for (int i = 0; i < kJoints; ++i) {
-    Link link;
-    const double* row = &problem.geometric[4 * i];
-    SetDhPose({row[0], row[2], row[1], row[3]}, DhConvention::kModified, &link);
-    link.inertial = InertialParameters::FromVector(
-        Eigen::Map<const Vector10d>(&problem.inertial[10 * i]));
-    robot.links.push_back(link);
-  }
+double Error(const SixAxisProblem& problem) {
+  const Robot robot = problem.MakeRobot();
   double error = 0;
   for (int k = 0; k < 100; ++k) {
     const SixAxisSample& at = problem.samples[k];
@@ -104,15 +52,15 @@ double Error(const Problem& problem) {
   return error;
 }
 
-const Problem& TheProblem() {
-  static const Problem problem;
+const SixAxisProblem& TheProblem() {
+  static const SixAxisProblem problem(kSamples);
   return problem;
 }
 
 // One evaluation of residuals and Jacobian of a sample.
 void AutoDiff(benchmark::State& state) {
   constexpr int kBlocks = 32;
-  const Problem& problem = TheProblem();
+  const SixAxisProblem& problem = TheProblem();
   std::vector<std::unique_ptr<AutoDiffBlock>> blocks;
   for (int k = 0; k < kBlocks; ++k) {
     blocks.push_back(std::make_unique<AutoDiffBlock>(
@@ -138,7 +86,7 @@ BENCHMARK(AutoDiff)->Name("Ceres/autodiff");
 class StoredBlock
     : public ceres::SizedCostFunction<kJoints, kInertial, kGeometric> {
  public:
-  StoredBlock(const Problem& problem, const SixAxisSample& sample) {
+  StoredBlock(const SixAxisProblem& problem, const SixAxisSample& sample) {
     const double* x[] = {problem.inertial.data(), problem.geometric.data()};
     double* jacobian[] = {of_inertial_, of_geometric_};
     AutoDiffBlock(new TorqueResidual{sample}).Evaluate(x, residual_, jacobian);
@@ -185,8 +133,8 @@ struct BlockPerSample {
       problem.AddResidualBlock(new StoredBlock(x, sample), nullptr,
                                x.inertial.data(), x.geometric.data());
     }
-    AddPrior(&x.inertial, 10);
-    AddPrior(&x.geometric, 200);
+    AddPrior(&x.inertial, SixAxisProblem::kInertialPrior);
+    AddPrior(&x.geometric, SixAxisProblem::kGeometricPrior);
   }
   void AddPrior(std::vector<double>* values, double weight) {
     auto* prior = new ceres::DynamicAutoDiffCostFunction<Prior>(
@@ -196,7 +144,7 @@ struct BlockPerSample {
     problem.AddResidualBlock(prior, nullptr, values->data());
   }
 
-  Problem x;
+  SixAxisProblem x;
   ceres::Problem problem;
 };
 
