@@ -7,7 +7,19 @@ namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
+
+// to += factor * from, the same bits for a sample whichever others are there.
+void AddTimes(double factor, const double* from, long count, double* to) {
+  for (long s = 0; s < count; ++s) to[s] += factor * from[s];
+}
+
+// The first `count` rows of some columns.
+void Scale(double factor, long count, double* first, long stride,
+           long columns) {
+  for (long c = 0; c < columns; ++c) {
+    for (long s = 0; s < count; ++s) first[c * stride + s] *= factor;
+  }
+}
 
 }  // namespace
 
@@ -44,29 +56,29 @@ void RobustReduction::Add(const IdentificationRows& rows,
 
 void RobustReduction::WeighJoint(const ReducedRows& rows, int joint,
                                  bool used) {
-  using Columns = Eigen::Map<MatrixXd, 0, Eigen::OuterStride<>>;
   const std::vector<int>& columns = columns_[joint];
-  const auto size = static_cast<Eigen::Index>(columns.size());
-  Columns A(rows.columns[joint], rows.count, size + 1,
-            Eigen::OuterStride<>(rows.stride));
+  const auto size = static_cast<long>(columns.size());
+  double* const first = rows.columns[joint];
+  double* const y = first + size * rows.stride;
   if (!used) {
-    A.setZero();
+    Scale(0, rows.count, first, rows.stride, size + 1);
     return;
   }
-  auto y = A.col(size);
-  const VectorXd x = at_.x(columns);
-  y.noalias() +=
-      A.middleCols(size - at_.nonlinear, at_.nonlinear) * x.tail(at_.nonlinear);
-  std::vector<double>& residuals = residuals_[rows.slot][joint];
-  const VectorXd r = (y - A.leftCols(size) * x) / at_.noise[joint];
-  residuals.insert(residuals.end(), r.data(), r.data() + r.size());
-  if (at_.loss == RobustLoss::kSquared) return;
-  VectorXd root(rows.count);
-  for (Eigen::Index s = 0; s < rows.count; ++s) {
-    root[s] = std::sqrt(EvaluateLoss(at_.loss, r[s]).weight);
+  for (long c = size - at_.nonlinear; c < size; ++c) {
+    AddTimes(at_.x[columns[c]], first + c * rows.stride, rows.count, y);
   }
-  if ((root.array() == 1).all()) return;
-  for (auto column : A.colwise()) column.array() *= root.array();
+  std::vector<double> r(y, y + rows.count);
+  for (long c = 0; c < size; ++c) {
+    AddTimes(-at_.x[columns[c]], first + c * rows.stride, rows.count, r.data());
+  }
+  std::vector<double>& residuals = residuals_[rows.slot][joint];
+  for (double& x : r) residuals.push_back(x /= at_.noise[joint]);
+  if (at_.loss == RobustLoss::kSquared) return;
+  for (long s = 0; s < rows.count; ++s) {
+    const double weight = EvaluateLoss(at_.loss, r[s]).weight;
+    if (weight != 1)
+      Scale(std::sqrt(weight), 1, first + s, rows.stride, size + 1);
+  }
 }
 
 MatrixXd RobustReduction::Triangle() const {
