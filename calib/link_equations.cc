@@ -7,6 +7,7 @@
 #include "calib/robust_reduction.h"
 #include "calib/row_reduction.h"
 #include "calib/triangular_factor.h"
+#include "model/base_inertials.h"
 #include "problems/link_functions.h"
 #include "problems/weak_rows.h"
 
@@ -113,18 +114,14 @@ LinkPass::LinkPass(const ArmUnknowns& unknowns, const LinearCalibration& linear,
                    const Progress& progress, LogSet* logs)
     : unknowns_(unknowns), linear_(linear), progress_(progress), logs_(logs) {}
 
-std::vector<LinkFunctions> LinkPass::Functions(
-    const ArmValues& at, const std::vector<JointTermColumn>& terms) const {
-  return {static_cast<size_t>(logs_->size()),
-          LinkFunctions(unknowns_.WithInertia(at), terms,
-                        unknowns_.Geometry(at), unknowns_.torque_geometry())};
-}
-
 void LinkPass::ForEachResidual(
     const std::string& stage, const ArmValues& at, const VectorXd& noise,
     const std::vector<JointTermColumn>& terms,
     const std::function<void(const Residual&)>& visit) {
-  std::vector<LinkFunctions> functions = Functions(at, terms);
+  std::vector<LinkFunctions> functions(
+      logs_->size(),
+      LinkFunctions(unknowns_.WithInertia(at), terms, unknowns_.Geometry(at),
+                    unknowns_.torque_geometry()));
   VectorXd x(unknowns_.tilt_begin());
   x << at.links, at.terms;
   int last_log = -1, last_segment = -1;
@@ -145,27 +142,41 @@ void LinkPass::ForEachResidual(
   });
 }
 
+// Inertial parameters that this geometry does not tell apart have the same
+// columns in all rows, and so in what rows are reduced to.
 LinkEquations LinkPass::Reduce(const ArmValues& at, const VectorXd& noise) {
+  const Robot robot = unknowns_.WithInertia(at);
+  const ArmGeometry geometry = unknowns_.Geometry(at);
+  const BaseInertials base(geometry.ApplyTo(robot));
+  std::vector<LinkFunctions> functions(
+      logs_->size(), LinkFunctions(robot, unknowns_.terms(), geometry,
+                                   unknowns_.torque_geometry(), base.columns));
   const std::vector<int> columns = unknowns_.TorqueColumns();
-  std::vector<LinkFunctions> functions = Functions(at, unknowns_.terms());
-  RobustReduction reduction(
-      {at.Stacked()(columns),
-       static_cast<int>(unknowns_.torque_geometry().size()), noise,
-       linear_.loss},
-      functions.front(), RowsPerLeaf(linear_.rows));
+  const auto others =
+      static_cast<Eigen::Index>(columns.size()) - base.combinations.cols();
+  RobustReduction::Point point;
+  point.x.resize(functions[0].size());
+  point.x << base.combinations * at.links, at.Stacked()(columns).tail(others);
+  point.nonlinear = static_cast<int>(unknowns_.torque_geometry().size());
+  point.noise = noise;
+  point.loss = linear_.loss;
+  RobustReduction reduction(point, functions[0], RowsPerLeaf(linear_.rows));
   logs_->ForEach("links", progress_, [&](int log, const Trajectory& t) {
     functions[log].Enter(t);
     reduction.Add(WeakRows(t, linear_.rows, functions[log]), linear_.used[log]);
   });
   const MatrixXd triangle = reduction.Triangle() / linear_.inflation;
   const Eigen::Index p = triangle.cols() - 1;
+  MatrixXd R(p, columns.size());
+  R << triangle.topLeftCorner(p, p - others) * base.combinations,
+      triangle.block(0, p - others, p, others);
   LinkEquations equations;
   equations.R = MatrixXd::Zero(p, unknowns_.size());
-  equations.R(Eigen::all, columns) = triangle.topLeftCorner(p, p);
+  equations.R(Eigen::all, columns) = R;
   equations.z = triangle.col(p).head(p);
   equations.spread.resize(unknowns_.num_links());
   for (int i = 0; i < unknowns_.num_links(); ++i) {
-    equations.spread[i] = reduction.statistics(i).RobustSpread();
+    equations.spread[i] = reduction.spread(i).Value();
   }
   return equations;
 }

@@ -8,7 +8,6 @@
 #include "calib/log_set.h"
 #include "calib/overlap_covariance.h"
 #include "calib/score_covariance.h"
-#include "problems/link_functions.h"
 
 namespace armcal {
 
@@ -60,9 +59,6 @@ class LinkPass {
   Eigen::MatrixXd Gain(const Eigen::MatrixXd& R, const Columns& columns,
                        const Eigen::MatrixXd& others,
                        const Eigen::MatrixXd& prior) const;
-  // One per log.
-  std::vector<LinkFunctions> Functions(
-      const ArmValues& at, const std::vector<JointTermColumn>& terms) const;
   void ForEachResidual(const std::string& stage, const ArmValues& at,
                        const Eigen::VectorXd& noise,
                        const std::vector<JointTermColumn>& terms,

@@ -13,14 +13,6 @@ void AddTimes(double factor, const double* from, long count, double* to) {
   for (long s = 0; s < count; ++s) to[s] += factor * from[s];
 }
 
-// The first `count` rows of some columns.
-void Scale(double factor, long count, double* first, long stride,
-           long columns) {
-  for (long c = 0; c < columns; ++c) {
-    for (long s = 0; s < count; ++s) first[c * stride + s] *= factor;
-  }
-}
-
 }  // namespace
 
 RobustReduction::RobustReduction(const Point& at,
@@ -30,7 +22,7 @@ RobustReduction::RobustReduction(const Point& at,
       columns_(functions.row_columns()),
       reduction_(RowSizes(functions, 0)),
       residuals_(reduction_.num_slots()),
-      statistics_(columns_.size()) {
+      spreads_(columns_.size()) {
   for (const std::vector<int>& columns : columns_) {
     factors_.emplace_back(static_cast<int>(columns.size()), leaf_rows);
   }
@@ -48,7 +40,7 @@ void RobustReduction::Add(const IdentificationRows& rows,
       },
       [&](int slot) {
         for (size_t i = 0; i < columns_.size(); ++i) {
-          for (const double r : residuals_[slot][i]) statistics_[i].Add(r);
+          for (const double r : residuals_[slot][i]) spreads_[i].Add(r);
           residuals_[slot][i].clear();
         }
       });
@@ -61,7 +53,9 @@ void RobustReduction::WeighJoint(const ReducedRows& rows, int joint,
   double* const first = rows.columns[joint];
   double* const y = first + size * rows.stride;
   if (!used) {
-    Scale(0, rows.count, first, rows.stride, size + 1);
+    for (long c = 0; c <= size; ++c) {
+      std::fill_n(first + c * rows.stride, rows.count, 0.0);
+    }
     return;
   }
   for (long c = size - at_.nonlinear; c < size; ++c) {
@@ -75,9 +69,9 @@ void RobustReduction::WeighJoint(const ReducedRows& rows, int joint,
   for (double& x : r) residuals.push_back(x /= at_.noise[joint]);
   if (at_.loss == RobustLoss::kSquared) return;
   for (long s = 0; s < rows.count; ++s) {
-    const double weight = EvaluateLoss(at_.loss, r[s]).weight;
-    if (weight != 1)
-      Scale(std::sqrt(weight), 1, first + s, rows.stride, size + 1);
+    const double root = std::sqrt(EvaluateLoss(at_.loss, r[s]).weight);
+    if (root == 1) continue;
+    for (long c = 0; c <= size; ++c) first[c * rows.stride + s] *= root;
   }
 }
 

@@ -33,9 +33,7 @@ class RobustReduction {
   // right side last and such that x is what solves them.
   Eigen::MatrixXd Triangle() const;
   // Of residuals in units of the noise, and only of used equations.
-  const ResidualStatistics& statistics(int joint) const {
-    return statistics_[joint];
-  }
+  const ResidualSpread& spread(int joint) const { return spreads_[joint]; }
 
  private:
   void WeighJoint(const ReducedRows& rows, int joint, bool used);
@@ -45,7 +43,7 @@ class RobustReduction {
   RowReduction reduction_;
   std::vector<TriangularFactor> factors_;
   std::vector<std::vector<std::vector<double>>> residuals_;  // [slot][joint]
-  std::vector<ResidualStatistics> statistics_;
+  std::vector<ResidualSpread> spreads_;
 };
 
 }  // namespace armcal

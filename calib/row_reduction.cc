@@ -85,7 +85,7 @@ void RowReduction::Run(const IdentificationRows& rows, long leaf_rows,
       const long count = std::min(slot.leaves[0].room(), slot.end - row);
       for (size_t i = 0; i < out.size(); ++i) out[i] = slot.leaves[i].Next();
       rows.Evaluate(row, count, out.data(), LeafFactor::kStride, &slot.scratch);
-      change({k, row, count, out.data(), LeafFactor::kStride});
+      change({k, count, out.data(), LeafFactor::kStride});
       for (LeafFactor& leaf : slot.leaves) leaf.Commit(count);
       row += count;
     }

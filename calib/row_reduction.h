@@ -19,7 +19,7 @@ long RowsPerLeaf(const RowOptions& options);
 // IdentificationRows::Evaluate writes, and may be changed.
 struct ReducedRows {
   int slot;  // that it has to itself until it is finished, of num_slots()
-  long begin, count;
+  long count;
   double* const* columns;
   long stride;
 };

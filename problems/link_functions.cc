@@ -1,8 +1,20 @@
 #include "problems/link_functions.h"
 
+#include <numeric>
+
 namespace armcal {
 
 using Eigen::VectorXd;
+
+namespace {
+
+std::vector<int> AllInertials(int num_links) {
+  std::vector<int> all(10 * num_links);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
 
 VectorXd StackInertials(const Robot& robot) {
   VectorXd V(10 * robot.num_joints());
@@ -16,21 +28,31 @@ LinkFunctions::LinkFunctions(const Robot& robot,
                              const std::vector<JointTermColumn>& terms,
                              const ArmGeometry& geometry,
                              const std::vector<int>& refined)
+    : LinkFunctions(robot, terms, geometry, refined,
+                    AllInertials(robot.num_joints())) {}
+
+LinkFunctions::LinkFunctions(const Robot& robot,
+                             const std::vector<JointTermColumn>& terms,
+                             const ArmGeometry& geometry,
+                             const std::vector<int>& refined,
+                             const std::vector<int>& inertial)
     : terms_(terms),
-      regressor_(geometry.ApplyTo(robot)),
+      regressor_(geometry.ApplyTo(robot), inertial),
       geometry_(robot, geometry, refined),
       coulomb_(terms),
-      columns_(10 * robot.num_joints() +
-               static_cast<int>(terms.size() + refined.size())) {
-  const int n = robot.num_joints();
-  for (int i = 0; i < n; ++i) {
+      columns_(
+          static_cast<int>(inertial.size() + terms.size() + refined.size())) {
+  const auto links = static_cast<int>(inertial.size());
+  for (int i = 0; i < robot.num_joints(); ++i) {
     std::vector<int>& used = row_columns_.emplace_back();
-    for (int c = 10 * i; c < 10 * n; ++c) used.push_back(c);
-    for (size_t t = 0; t < terms.size(); ++t) {
-      if (terms[t].joint == i) used.push_back(10 * n + static_cast<int>(t));
+    for (int c = links - regressor_.row_size(i); c < links; ++c) {
+      used.push_back(c);
     }
-    for (size_t g = 0; g < refined.size(); ++g) {
-      used.push_back(10 * n + static_cast<int>(terms.size() + g));
+    for (size_t t = 0; t < terms.size(); ++t) {
+      if (terms[t].joint == i) used.push_back(links + static_cast<int>(t));
+    }
+    for (int c = columns_ - geometry_.size(); c < columns_; ++c) {
+      used.push_back(c);
     }
   }
 }

@@ -20,6 +20,10 @@ class LinkFunctions : public MotionFunctions {
   // the geometry's parameters have a column.
   LinkFunctions(const Robot& robot, const std::vector<JointTermColumn>& terms,
                 const ArmGeometry& geometry, const std::vector<int>& refined);
+  // Of the inertial parameters only `inertial` (BaseInertials).
+  LinkFunctions(const Robot& robot, const std::vector<JointTermColumn>& terms,
+                const ArmGeometry& geometry, const std::vector<int>& refined,
+                const std::vector<int>& inertial);
 
   int size() const override { return columns_; }
   const std::vector<std::vector<int>>& row_columns() const override {

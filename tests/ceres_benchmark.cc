@@ -8,10 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "model/inverse_dynamics.h"
-#include "tests/six_axis_problem.h"
+#include "tests/compressed_solution.h"
 
 namespace armcal {
 namespace {
@@ -80,6 +81,49 @@ void AutoDiff(benchmark::State& state) {
   state.counters["error"] = Error(problem);
 }
 BENCHMARK(AutoDiff)->Name("Ceres/autodiff");
+
+// Largest difference of our geometric columns to those, over the largest.
+void Accuracy(benchmark::State& state, const simd::Kernels& kernels) {
+  const SixAxisProblem& problem = TheProblem();
+  const CompressedSolution ours(problem);
+  const GeometryJacobian jacobian(ours.WithInertia(ours.x()),
+                                  ours.Geometry(ours.x()), ours.refined(),
+                                  kernels);
+  constexpr int kCompared = 128;
+  std::vector<Eigen::MatrixXd> rows(kJoints,
+                                    Eigen::MatrixXd(kCompared, kGeometric));
+  std::vector<double*> out;
+  for (Eigen::MatrixXd& row : rows) out.push_back(row.data());
+  const Trajectory& t = ours.trajectory();
+  for (auto _ : state) {
+    jacobian.Torque({t.q, t.qd, t.qdd, {}}, kCompared, out.data(), kCompared);
+  }
+  const double* x[] = {problem.inertial.data(), problem.geometric.data()};
+  double error = 0, largest = 0;
+  for (int k = 0; k < kCompared; ++k) {
+    double residual[kJoints], expected[kJoints * kGeometric];
+    double* of[] = {nullptr, expected};
+    AutoDiffBlock(new TorqueResidual{problem.samples[k]})
+        .Evaluate(x, residual, of);
+    for (int e = 0; e < kJoints * kGeometric; ++e) {
+      const double found = rows[e / kGeometric](k, e % kGeometric);
+      error = std::max(error, std::abs(found - expected[e]));
+      largest = std::max(largest, std::abs(expected[e]));
+    }
+  }
+  state.counters["error"] = error / largest;
+  state.SetItemsProcessed(state.iterations() * kCompared);
+}
+const bool registered = [] {
+  for (const simd::Kernels* kernels : simd::AvailableKernels()) {
+    const auto name =
+        std::string("Accuracy/Jacobian/chunk/") + kernels->instruction_set;
+    benchmark::RegisterBenchmark(name.c_str(), [=](auto& state) {
+      Accuracy(state, *kernels);
+    })->Iterations(1);
+  }
+  return true;
+}();
 
 // A sample's residuals and Jacobian as they are at one point: what analytic
 // derivatives would give, at no cost, so that what is timed is Ceres alone.

@@ -4,6 +4,7 @@
 
 #include "calib/posterior.h"
 #include "calib/robust_reduction.h"
+#include "model/base_inertials.h"
 #include "model/batch_inverse_dynamics.h"
 #include "problems/differential_rows.h"
 
@@ -80,18 +81,27 @@ Robot CompressedSolution::WithInertia(const VectorXd& x) const {
   return robot;
 }
 
-MatrixXd CompressedSolution::Triangle() const {
-  LinkFunctions functions(WithInertia(x_), {}, Geometry(x_), refined_);
+MatrixXd CompressedSolution::Equations() const {
+  const Robot robot = WithInertia(x_);
+  const ArmGeometry geometry = Geometry(x_);
+  const BaseInertials base(geometry.ApplyTo(robot));
+  LinkFunctions functions(robot, {}, geometry, refined_, base.columns);
   functions.Enter(trajectory_);
   RowOptions options;
   options.identification = Identification::kDifferential;
+  VectorXd x(functions.size());
+  x << base.combinations * x_.head(kInertial), x_.tail(kGeometric);
   RobustReduction reduction(
-      {x_, kGeometric, VectorXd::Ones(SixAxisProblem::kJoints),
+      {x, kGeometric, VectorXd::Ones(SixAxisProblem::kJoints),
        RobustLoss::kSquared},
       functions, RowsPerLeaf(options));
   reduction.Add(DifferentialRows(trajectory_, options, functions),
                 std::vector<bool>(SixAxisProblem::kJoints, true));
-  return reduction.Triangle();
+  const MatrixXd triangle = reduction.Triangle();
+  MatrixXd equations(triangle.rows(), kSize + 1);
+  equations << triangle.leftCols(base.columns.size()) * base.combinations,
+      triangle.rightCols(kGeometric + 1);
+  return equations;
 }
 
 double CompressedSolution::CostAt(const VectorXd& x) const {
@@ -107,8 +117,8 @@ double CompressedSolution::CostAt(const VectorXd& x) const {
 
 bool CompressedSolution::Iterate() {
   TriangularFactor factor(kSize);
-  const MatrixXd triangle = Triangle();
-  factor.AddRows(triangle.data(), kSize + 1, kSize + 1);
+  const MatrixXd equations = Equations();
+  factor.AddRows(equations.data(), equations.rows(), equations.rows());
   MatrixXd prior = MatrixXd::Zero(kSize, kSize + 1);
   prior.diagonal() = weight_;
   prior.col(kSize) = weight_.cwiseProduct(prior_);
@@ -132,7 +142,7 @@ bool CompressedSolution::Iterate() {
 MatrixXd CompressedSolution::Covariance() const {
   std::vector<int> all(kSize);
   for (int k = 0; k < kSize; ++k) all[k] = k;
-  return Posterior(Triangle().topLeftCorner(kSize, kSize),
+  return Posterior(Equations().leftCols(kSize),
                    weight_.cwiseAbs2().asDiagonal(), all)
       .Gain();
 }

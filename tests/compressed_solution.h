@@ -38,7 +38,8 @@ class CompressedSolution {
   Robot WithInertia(const Eigen::VectorXd& x) const;
 
  private:
-  Eigen::MatrixXd Triangle() const;
+  // As many as tell what all samples do, the right side last.
+  Eigen::MatrixXd Equations() const;
   double CostAt(const Eigen::VectorXd& x) const;
 
   Robot robot_;

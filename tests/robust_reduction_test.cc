@@ -57,7 +57,7 @@ TEST(RobustReduction, IsOfTheWeightedEquations) {
   const std::vector<bool> used = {true, true, false, true, true, true};
   const Eigen::Index size = c.at.x.size(), linear = size - c.at.nonlinear;
   MatrixXd gram = MatrixXd::Zero(size + 1, size + 1);
-  std::vector<ResidualStatistics> statistics(6);
+  std::vector<ResidualSpread> spreads(6);
   int doubted = 0;
   ForEachRow(*c.rows, *c.functions, [&](const IdentificationRow& row) {
     for (int i = 0; i < 6; ++i) {
@@ -74,7 +74,7 @@ TEST(RobustReduction, IsOfTheWeightedEquations) {
                          .dot(c.at.x.tail(c.at.nonlinear));
       equation /= c.at.noise[i];
       gram += weight * equation * equation.transpose();
-      statistics[i].Add(r);
+      spreads[i].Add(r);
     }
   });
   ASSERT_GT(doubted, 10);
@@ -82,9 +82,8 @@ TEST(RobustReduction, IsOfTheWeightedEquations) {
   const MatrixXd R = reduction.Triangle();
   EXPECT_LT((R.transpose() * R - gram).norm(), 1e-12 * gram.norm());
   for (int i = 0; i < 6; ++i) {
-    EXPECT_EQ(reduction.statistics(i).count(), statistics[i].count());
-    EXPECT_NEAR(reduction.statistics(i).RobustSpread(),
-                statistics[i].RobustSpread(), 1e-9);
+    EXPECT_EQ(reduction.spread(i).count(), spreads[i].count());
+    EXPECT_NEAR(reduction.spread(i).Value(), spreads[i].Value(), 1e-9);
   }
 }
 
@@ -100,8 +99,7 @@ TEST(RobustReduction, IsTheSameForAnyNumberOfThreads) {
     const RobustReduction other = reduce(threads);
     EXPECT_EQ(other.Triangle(), one.Triangle());
     for (int i = 0; i < 6; ++i) {
-      EXPECT_EQ(other.statistics(i).Autocorrelation(),
-                one.statistics(i).Autocorrelation());
+      EXPECT_EQ(other.spread(i).Value(), one.spread(i).Value());
     }
   }
 }

@@ -70,17 +70,17 @@ ARMCAL_INLINE Vector3<T> CoriolisCouple(const Matrix3<T>& spread,
   return w * (spread.x.x + spread.y.y + spread.z.z) - spread * w;
 }
 
-// What a joint whose masses are moved differently feels: the power of
+// How a joint responds when its masses move differently: by the power of
 // `momentum` with X'', and of `coriolis` with w.
 template <class T>
-struct JointFeeling {
+struct JointResponse {
   Wrench<T> momentum;
   Vector3<T> coriolis;
 };
 
 template <class T>
-ARMCAL_INLINE JointFeeling<T> Feel(const ForcedMasses<T>& masses,
-                                   const Screw<T>& joint) {
+ARMCAL_INLINE JointResponse<T> ResponseOf(const ForcedMasses<T>& masses,
+                                          const Screw<T>& joint) {
   const Matrix3<T>& K = masses.spread;
   const Vector3<T>& s = joint.angular;
   const Vector3<T> once = Cross(masses.momentum, joint.linear) +

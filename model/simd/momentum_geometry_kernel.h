@@ -28,9 +28,9 @@ ARMCAL_INLINE void AddBody(const MassMoments<T>& body,
                     sums->momentum.force + h.force};
 }
 
-// What a joint whose masses move differently feels: P the power of `momentum`
-// with X', D that of `change`, and that of the turned gravity with the linear
-// part of `momentum`.
+// How a joint responds when its masses move differently: P by the power of
+// `momentum` with X', D that of `change`, and that of the turned gravity with
+// the linear part of `momentum`.
 template <class T>
 struct MovedJoint {
   Screw<T> rate;  // of its screw
@@ -38,14 +38,14 @@ struct MovedJoint {
 };
 
 template <class T>
-ARMCAL_INLINE void Feel(const MovingMasses<T>& masses, const Screw<T>& joint,
-                        MovedJoint<T>* feels) {
-  const Wrench<T> rate = MomentumOf(masses.moments, feels->rate);
+ARMCAL_INLINE void SetResponse(const MovingMasses<T>& masses,
+                               const Screw<T>& joint, MovedJoint<T>* to) {
+  const Wrench<T> rate = MomentumOf(masses.moments, to->rate);
   const Wrench<T>& h = masses.momentum;
-  feels->momentum = MomentumOf(masses.moments, joint);
-  feels->change = {rate.couple + Cross(joint.angular, h.couple) +
-                       Cross(joint.linear, h.force),
-                   rate.force + Cross(joint.angular, h.force)};
+  to->momentum = MomentumOf(masses.moments, joint);
+  to->change = {rate.couple + Cross(joint.angular, h.couple) +
+                    Cross(joint.linear, h.force),
+                rate.force + Cross(joint.angular, h.force)};
 }
 
 template <class T>
@@ -138,8 +138,9 @@ __attribute__((noinline)) void MomentumGeometryAt(
         AddBody(MomentsOf(geometry.bodies[i], link.R, link.origin), link,
                 &masses);
       },
-      [&](int i)
-          ARMCAL_LAMBDA { Feel(masses, of.links[i + 1].joint, &of.joints[i]); },
+      [&](int i) ARMCAL_LAMBDA {
+        SetResponse(masses, of.links[i + 1].joint, &of.joints[i]);
+      },
       [&](const GeometricParameter& parameter)
           ARMCAL_LAMBDA { WriteMomentum(parameter, n, masses, of, out); });
 }

@@ -16,7 +16,7 @@ template <class T>
 struct TorqueGeometryScratch {
   PlacedLink<T>* links;  // from the base on: link i at i + 1
   PlacedAcceleration<T>* accelerations;
-  JointFeeling<T>* joints;
+  JointResponse<T>* joints;
 };
 
 // Column of one parameter in all rows; `to`: its place in them.
@@ -71,7 +71,7 @@ __attribute__((noinline)) void TorqueGeometryAt(
   const TorqueGeometryScratch<T> of = {
       ARMCAL_SCRATCH(PlacedLink<T>, n + 1),
       ARMCAL_SCRATCH(PlacedAcceleration<T>, n + 1),
-      ARMCAL_SCRATCH(JointFeeling<T>, n)};
+      ARMCAL_SCRATCH(JointResponse<T>, n)};
   auto* angles = ARMCAL_SCRATCH(SineAndCosine<T>, n);
   SineCosineOfJoints(chain, motion, sample, angles);
   const Vector3<T> none = {};
@@ -101,8 +101,9 @@ __attribute__((noinline)) void TorqueGeometryAt(
         AddBody(MomentsOf(geometry.bodies[i], link.R, link.origin), link,
                 of.accelerations[i + 1], &masses);
       },
-      [&](int i)
-          ARMCAL_LAMBDA { of.joints[i] = Feel(masses, of.links[i + 1].joint); },
+      [&](int i) ARMCAL_LAMBDA {
+        of.joints[i] = ResponseOf(masses, of.links[i + 1].joint);
+      },
       [&](const GeometricParameter& parameter) ARMCAL_LAMBDA {
         WriteTorque(parameter, n, masses, of, out,
                     parameter.place * stride + sample);
