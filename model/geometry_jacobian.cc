@@ -11,6 +11,7 @@ namespace armcal {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -38,6 +39,14 @@ simd::BodyMoments MakeBody(const InertialParameters& V) {
     for (int col = row; col < 3; ++col) body.second[k++] = S(row, col);
   }
   return body;
+}
+
+// Of the rows of a matrix with columns n apart, or of a vector, each.
+template <class Matrix>
+auto Entries(Matrix& of) {
+  std::vector<decltype(of.data())> rows;
+  for (int i = 0; i < of.rows(); ++i) rows.push_back(of.data() + i);
+  return rows;
 }
 
 }  // namespace
@@ -93,24 +102,27 @@ void GeometryJacobian::Momentum(const MotionColumns& motion, long count,
                               count, P, D, stride);
 }
 
-Eigen::MatrixXd GeometryJacobian::Torque(const VectorXd& q, const VectorXd& qd,
-                                         const VectorXd& qdd) const {
+MatrixXd GeometryJacobian::Torque(const VectorXd& q, const VectorXd& qd,
+                                  const VectorXd& qdd) const {
   const int n = num_joints();
   CHECK(q.size() == n && qd.size() == n && qdd.size() == n);
-  Eigen::MatrixXd J(n, size());
-  std::vector<const double*> motion(3 * n);
-  std::vector<double*> rows(n);
-  for (int i = 0; i < n; ++i) {
-    motion[i] = q.data() + i;
-    motion[n + i] = qd.data() + i;
-    motion[2 * n + i] = qdd.data() + i;
-    rows[i] = J.data() + i;
-  }
+  MatrixXd J(n, size());
   kernels_->torque_geometry_of_one(
       Chain(), Constants(),
-      {motion.data(), motion.data() + n, motion.data() + 2 * n}, 0, rows.data(),
-      n);
+      {Entries(q).data(), Entries(qd).data(), Entries(qdd).data()}, 0,
+      Entries(J).data(), n);
   return J;
+}
+
+void GeometryJacobian::Momentum(const VectorXd& q, const VectorXd& qd,
+                                MatrixXd* P, MatrixXd* D) const {
+  const int n = num_joints();
+  CHECK(q.size() == n && qd.size() == n);
+  P->resize(n, size());
+  D->resize(n, size());
+  kernels_->momentum_geometry_of_one(
+      Chain(), Constants(), {Entries(q).data(), Entries(qd).data(), nullptr}, 0,
+      Entries(*P).data(), Entries(*D).data(), n);
 }
 
 }  // namespace armcal

@@ -36,9 +36,11 @@ class GeometryJacobian {
   // read.
   void Momentum(const MotionColumns& motion, long count, double* const* P,
                 double* const* D, long stride) const;
-  // The torque's of one sample, n x size(), not in lanes.
+  // Of one sample, n x size(), not in lanes.
   Eigen::MatrixXd Torque(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                          const Eigen::VectorXd& qdd) const;
+  void Momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+                Eigen::MatrixXd* P, Eigen::MatrixXd* D) const;
 
  private:
   simd::ChainConstants Chain() const;

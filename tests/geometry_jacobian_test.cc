@@ -100,11 +100,18 @@ TEST(GeometryJacobian, IsThatOfThePosesWrittenOut) {
         jacobian.Torque(motion.columns(), count, of_tau.rows.data(), count + 1);
         jacobian.Momentum(motion.columns(), count, of_P.rows.data(),
                           of_D.rows.data(), count + 1);
-        EXPECT_LT((of_tau.At(s) - tau).norm(), 1e-13 * (1 + tau.norm()));
-        EXPECT_LT((of_P.At(s) - P).norm(), 1e-13 * (1 + P.norm()));
-        EXPECT_LT((of_D.At(s) - D).norm(), 1e-13 * (1 + D.norm()));
-        EXPECT_LT((jacobian.Torque(q, qd, qdd) - tau).norm(),
-                  1e-13 * (1 + tau.norm()));
+        MatrixXd one_P, one_D;
+        jacobian.Momentum(q, qd, &one_P, &one_D);
+        for (const MatrixXd& found :
+             {of_tau.At(s), jacobian.Torque(q, qd, qdd)}) {
+          EXPECT_LT((found - tau).norm(), 1e-13 * (1 + tau.norm()));
+        }
+        for (const MatrixXd& found : {of_P.At(s), one_P}) {
+          EXPECT_LT((found - P).norm(), 1e-13 * (1 + P.norm()));
+        }
+        for (const MatrixXd& found : {of_D.At(s), one_D}) {
+          EXPECT_LT((found - D).norm(), 1e-13 * (1 + D.norm()));
+        }
       }
     }
   }
