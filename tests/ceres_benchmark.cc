@@ -3,7 +3,6 @@
 // geometric parameters.
 
 #include <benchmark/benchmark.h>
-#include <ceres/ceres.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "model/inverse_dynamics.h"
 #include "tests/compressed_solution.h"
+#include "tests/six_axis_blocks.h"
 
 namespace armcal {
 namespace {
@@ -21,20 +21,6 @@ constexpr int kJoints = SixAxisProblem::kJoints;
 constexpr int kInertial = SixAxisProblem::kInertial;
 constexpr int kGeometric = SixAxisProblem::kGeometric;
 constexpr int kSamples = 10000;
-
-struct TorqueResidual {
-  SixAxisSample sample;
-
-  template <class T>
-  bool operator()(const T* inertial, const T* dh, T* residual) const {
-    SixAxisTorque<T> arm;
-    arm.Evaluate(inertial, dh, sample, residual);
-    for (int j = 0; j < kJoints; ++j) residual[j] -= sample.tau[j];
-    return true;
-  }
-};
-using AutoDiffBlock =
-    ceres::AutoDiffCostFunction<TorqueResidual, kJoints, kInertial, kGeometric>;
 
 // Largest difference of the torques to InverseDynamics', N m.
 double Error(const SixAxisProblem& problem) {
@@ -62,10 +48,10 @@ const SixAxisProblem& TheProblem() {
 void AutoDiff(benchmark::State& state) {
   constexpr int kBlocks = 32;
   const SixAxisProblem& problem = TheProblem();
-  std::vector<std::unique_ptr<AutoDiffBlock>> blocks;
+  std::vector<std::unique_ptr<SixAxisBlock>> blocks;
   for (int k = 0; k < kBlocks; ++k) {
-    blocks.push_back(std::make_unique<AutoDiffBlock>(
-        new TorqueResidual{problem.samples[k]}));
+    blocks.push_back(std::make_unique<SixAxisBlock>(
+        new SixAxisResidual{problem.samples[k]}));
   }
   const double* x[] = {problem.inertial.data(), problem.geometric.data()};
   double residual[kJoints], of_inertial[kJoints * kInertial],
@@ -103,7 +89,7 @@ void Accuracy(benchmark::State& state, const simd::Kernels& kernels) {
   for (int k = 0; k < kCompared; ++k) {
     double residual[kJoints], expected[kJoints * kGeometric];
     double* of[] = {nullptr, expected};
-    AutoDiffBlock(new TorqueResidual{problem.samples[k]})
+    SixAxisBlock(new SixAxisResidual{problem.samples[k]})
         .Evaluate(x, residual, of);
     for (int e = 0; e < kJoints * kGeometric; ++e) {
       const double found = rows[e / kGeometric](k, e % kGeometric);
@@ -133,7 +119,7 @@ class StoredBlock
   StoredBlock(const SixAxisProblem& problem, const SixAxisSample& sample) {
     const double* x[] = {problem.inertial.data(), problem.geometric.data()};
     double* jacobian[] = {of_inertial_, of_geometric_};
-    AutoDiffBlock(new TorqueResidual{sample}).Evaluate(x, residual_, jacobian);
+    SixAxisBlock(new SixAxisResidual{sample}).Evaluate(x, residual_, jacobian);
   }
 
   bool Evaluate(double const* const* x, double* residual,
@@ -157,35 +143,13 @@ class StoredBlock
   double of_geometric_[kJoints * kGeometric];
 };
 
-// x minus where it began, with a weight that makes the problem full rank.
-struct Prior {
-  std::vector<double> x0;
-  double weight;
-
-  template <class T>
-  bool operator()(T const* const* x, T* residual) const {
-    for (size_t k = 0; k < x0.size(); ++k) {
-      residual[k] = weight * (x[0][k] - x0[k]);
-    }
-    return true;
-  }
-};
-
 struct BlockPerSample {
   BlockPerSample() : x(TheProblem()) {
     for (const SixAxisSample& sample : x.samples) {
       problem.AddResidualBlock(new StoredBlock(x, sample), nullptr,
                                x.inertial.data(), x.geometric.data());
     }
-    AddPrior(&x.inertial, SixAxisProblem::kInertialPrior);
-    AddPrior(&x.geometric, SixAxisProblem::kGeometricPrior);
-  }
-  void AddPrior(std::vector<double>* values, double weight) {
-    auto* prior = new ceres::DynamicAutoDiffCostFunction<Prior>(
-        new Prior{*values, weight});
-    prior->AddParameterBlock(static_cast<int>(values->size()));
-    prior->SetNumResiduals(static_cast<int>(values->size()));
-    problem.AddResidualBlock(prior, nullptr, values->data());
+    AddSixAxisPriors(x, x.inertial.data(), x.geometric.data(), &problem);
   }
 
   SixAxisProblem x;

@@ -1,6 +1,5 @@
 #include "tests/compressed_solution.h"
 
-#include <ceres/ceres.h>
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -8,6 +7,7 @@
 #include "calib/thread_limit.h"
 #include "model/simd/kernels.h"
 #include "tests/random_motion.h"
+#include "tests/six_axis_blocks.h"
 
 namespace armcal {
 namespace {
@@ -20,52 +20,14 @@ constexpr int kInertial = SixAxisProblem::kInertial;
 constexpr int kGeometric = SixAxisProblem::kGeometric;
 constexpr int kSize = kInertial + kGeometric;
 
-struct TorqueResidual {
-  SixAxisSample sample;
-
-  template <class T>
-  bool operator()(const T* inertial, const T* dh, T* residual) const {
-    SixAxisTorque<T> arm;
-    arm.Evaluate(inertial, dh, sample, residual);
-    for (int j = 0; j < kJoints; ++j) residual[j] -= sample.tau[j];
-    return true;
-  }
-};
-using Block =
-    ceres::AutoDiffCostFunction<TorqueResidual, kJoints, kInertial, kGeometric>;
-
-struct Prior {
-  Prior(const VectorXd& x0, double weight) : x0(x0), weight(weight) {}
-  VectorXd x0;
-  double weight;
-
-  template <class T>
-  bool operator()(T const* const* x, T* residual) const {
-    for (Eigen::Index k = 0; k < x0.size(); ++k) {
-      residual[k] = weight * (x[0][k] - x0[k]);
-    }
-    return true;
-  }
-};
-
-// As one gives it to Ceres at first: a block per sample.
 struct PerSample {
   PerSample(const SixAxisProblem& from, const VectorXd& start)
       : inertial(start.head(kInertial)), geometric(start.tail(kGeometric)) {
     for (const SixAxisSample& sample : from.samples) {
-      problem.AddResidualBlock(new Block(new TorqueResidual{sample}), nullptr,
-                               inertial.data(), geometric.data());
+      problem.AddResidualBlock(new SixAxisBlock(new SixAxisResidual{sample}),
+                               nullptr, inertial.data(), geometric.data());
     }
-    AddPrior(from.inertial, SixAxisProblem::kInertialPrior, &inertial);
-    AddPrior(from.geometric, SixAxisProblem::kGeometricPrior, &geometric);
-  }
-  void AddPrior(const std::vector<double>& x0, double weight, VectorXd* x) {
-    const auto size = static_cast<int>(x0.size());
-    auto* prior = new ceres::DynamicAutoDiffCostFunction<Prior>(
-        new Prior(Eigen::Map<const VectorXd>(x0.data(), size), weight));
-    prior->AddParameterBlock(size);
-    prior->SetNumResiduals(size);
-    problem.AddResidualBlock(prior, nullptr, x->data());
+    AddSixAxisPriors(from, inertial.data(), geometric.data(), &problem);
   }
   double Solve() {
     ceres::Solver::Options options;
@@ -144,7 +106,7 @@ TEST(CompressedSolution, JacobianIsCeres) {
       double residual[kJoints];
       Eigen::Matrix<double, kJoints, kGeometric, Eigen::RowMajor> expected;
       double* jacobians[] = {nullptr, expected.data()};
-      Block(new TorqueResidual{problem.samples[k]})
+      SixAxisBlock(new SixAxisResidual{problem.samples[k]})
           .Evaluate(parameters, residual, jacobians);
       const MatrixXd one =
           jacobian.Torque(t.q.row(k), t.qd.row(k), t.qdd.row(k));
