@@ -61,12 +61,14 @@ void RobustReduction::WeighJoint(const ReducedRows& rows, int joint,
   for (long c = size - at_.nonlinear; c < size; ++c) {
     AddTimes(at_.x[columns[c]], first + c * rows.stride, rows.count, y);
   }
+  if (at_.loss == RobustLoss::kSquared && !at_.with_spread) return;
   std::vector<double> r(y, y + rows.count);
   for (long c = 0; c < size; ++c) {
     AddTimes(-at_.x[columns[c]], first + c * rows.stride, rows.count, r.data());
   }
   std::vector<double>& residuals = residuals_[rows.slot][joint];
-  for (double& x : r) residuals.push_back(x /= at_.noise[joint]);
+  for (double& x : r) x /= at_.noise[joint];
+  if (at_.with_spread) residuals.insert(residuals.end(), r.begin(), r.end());
   if (at_.loss == RobustLoss::kSquared) return;
   for (long s = 0; s < rows.count; ++s) {
     const double root = std::sqrt(EvaluateLoss(at_.loss, r[s]).weight);

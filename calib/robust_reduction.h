@@ -21,6 +21,7 @@ class RobustReduction {
     int nonlinear = 0;
     Eigen::VectorXd noise;  // per joint, of a row
     RobustLoss loss = RobustLoss::kSquared;
+    bool with_spread = true;  // whether it is asked for
   };
   // Rows that functions with these columns will have.
   RobustReduction(const Point& at, const MotionFunctions& functions,

@@ -93,7 +93,7 @@ MatrixXd CompressedSolution::Equations() const {
   x << base.combinations * x_.head(kInertial), x_.tail(kGeometric);
   RobustReduction reduction(
       {x, kGeometric, VectorXd::Ones(SixAxisProblem::kJoints),
-       RobustLoss::kSquared},
+       RobustLoss::kSquared, false},
       functions, RowsPerLeaf(options));
   reduction.Add(DifferentialRows(trajectory_, options, functions),
                 std::vector<bool>(SixAxisProblem::kJoints, true));
