@@ -3,6 +3,7 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "model/regressor_plan.h"
@@ -44,8 +45,8 @@ simd::BodyMoments MakeBody(const InertialParameters& V) {
 // Of the rows of a matrix with columns n apart, or of a vector, each.
 template <class Matrix>
 auto Entries(Matrix& of) {
-  std::vector<decltype(of.data())> rows;
-  for (int i = 0; i < of.rows(); ++i) rows.push_back(of.data() + i);
+  std::vector<decltype(of.data())> rows(of.rows());
+  std::iota(rows.begin(), rows.end(), of.data());
   return rows;
 }
 
