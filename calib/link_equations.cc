@@ -4,9 +4,10 @@
 #include <cmath>
 
 #include "calib/posterior.h"
-#include "calib/robust_rows.h"
+#include "calib/robust_reduction.h"
 #include "calib/row_reduction.h"
 #include "calib/triangular_factor.h"
+#include "model/base_inertials.h"
 #include "problems/link_functions.h"
 #include "problems/weak_rows.h"
 
@@ -68,7 +69,6 @@ Score MakeScore(const FittedRow& row) {
 // torque_geometry.
 struct LinkPass::Residual {
   const MatrixXd& U;
-  const VectorXd& Y;
   VectorXd r;  // in noise units, 0 where the equation is not used
   int log;
   bool follows;  // right after the row before it
@@ -118,11 +118,10 @@ void LinkPass::ForEachResidual(
     const std::string& stage, const ArmValues& at, const VectorXd& noise,
     const std::vector<JointTermColumn>& terms,
     const std::function<void(const Residual&)>& visit) {
-  const Robot robot = unknowns_.WithInertia(at);
-  const ArmGeometry geometry = unknowns_.Geometry(at);
   std::vector<LinkFunctions> functions(
       logs_->size(),
-      LinkFunctions(robot, terms, geometry, unknowns_.torque_geometry()));
+      LinkFunctions(unknowns_.WithInertia(at), terms, unknowns_.Geometry(at),
+                    unknowns_.torque_geometry()));
   VectorXd x(unknowns_.tilt_begin());
   x << at.links, at.terms;
   int last_log = -1, last_segment = -1;
@@ -138,40 +137,46 @@ void LinkPass::ForEachResidual(
           for (int i = 0; i < r.size(); ++i) {
             if (!linear_.used[log][i]) r[i] = 0;
           }
-          visit({row.U, row.Y, r, log, follows});
+          visit({row.U, r, log, follows});
         });
   });
 }
 
+// Inertial parameters that this geometry does not tell apart have the same
+// columns in all rows, and so in what rows are reduced to.
 LinkEquations LinkPass::Reduce(const ArmValues& at, const VectorXd& noise) {
+  const Robot robot = unknowns_.WithInertia(at);
+  const ArmGeometry geometry = unknowns_.Geometry(at);
+  const BaseInertials base(geometry.ApplyTo(robot));
+  std::vector<LinkFunctions> functions(
+      logs_->size(), LinkFunctions(robot, unknowns_.terms(), geometry,
+                                   unknowns_.torque_geometry(), base.columns));
   const std::vector<int> columns = unknowns_.TorqueColumns();
-  const VectorXd about = at.Stacked()(columns).tail(
-      static_cast<Eigen::Index>(unknowns_.torque_geometry().size()));
-  const int n = unknowns_.num_links();
-  TriangularFactor factor(static_cast<int>(columns.size()));
-  std::vector<ResidualStatistics> statistics(n);
-  ForEachResidual(
-      "links", at, noise, unknowns_.terms(), [&](const Residual& residual) {
-        const VectorXd y =
-            residual.Y + residual.U.rightCols(about.size()) * about;
-        for (int i = 0; i < n; ++i) {
-          if (!linear_.used[residual.log][i]) continue;
-          statistics[i].Add(residual.r[i]);
-          factor.Add(
-              residual.U.row(i), y[i],
-              std::sqrt(EvaluateLoss(linear_.loss, residual.r[i]).weight) /
-                  (noise[i] * linear_.inflation));
-        }
-      });
-  const MatrixXd triangle = factor.Triangle();
-  const Eigen::Index p = factor.columns();
+  const auto others =
+      static_cast<Eigen::Index>(columns.size()) - base.combinations.cols();
+  RobustReduction::Point point;
+  point.x.resize(functions[0].size());
+  point.x << base.combinations * at.links, at.Stacked()(columns).tail(others);
+  point.nonlinear = static_cast<int>(unknowns_.torque_geometry().size());
+  point.noise = noise;
+  point.loss = linear_.loss;
+  RobustReduction reduction(point, functions[0], RowsPerLeaf(linear_.rows));
+  logs_->ForEach("links", progress_, [&](int log, const Trajectory& t) {
+    functions[log].Enter(t);
+    reduction.Add(WeakRows(t, linear_.rows, functions[log]), linear_.used[log]);
+  });
+  const MatrixXd triangle = reduction.Triangle() / linear_.inflation;
+  const Eigen::Index p = triangle.cols() - 1;
+  MatrixXd R(p, columns.size());
+  R << triangle.topLeftCorner(p, p - others) * base.combinations,
+      triangle.block(0, p - others, p, others);
   LinkEquations equations;
   equations.R = MatrixXd::Zero(p, unknowns_.size());
-  equations.R(Eigen::all, columns) = triangle.topLeftCorner(p, p);
+  equations.R(Eigen::all, columns) = R;
   equations.z = triangle.col(p).head(p);
-  equations.spread.resize(n);
-  for (int i = 0; i < n; ++i) {
-    equations.spread[i] = statistics[i].RobustSpread();
+  equations.spread.resize(unknowns_.num_links());
+  for (int i = 0; i < unknowns_.num_links(); ++i) {
+    equations.spread[i] = reduction.spread(i).Value();
   }
   return equations;
 }

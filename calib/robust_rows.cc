@@ -19,13 +19,29 @@ double Clipped(double r) {
   return r * EvaluateLoss(RobustLoss::kHuber, r).weight;
 }
 
-ResidualStatistics::ResidualStatistics(int lag)
-    : histogram_(kBins, 0), lag_(lag) {}
+ResidualSpread::ResidualSpread() : histogram_(kBins, 0) {}
 
-void ResidualStatistics::Add(double r) {
+void ResidualSpread::Add(double r) {
   const double bin = std::log(std::max(std::abs(r), kLow) / kLow) / kLogStep;
   ++histogram_[bin < kBins ? static_cast<int>(bin) : kBins - 1];  // also NaN
   ++count_;
+}
+
+double ResidualSpread::Value() const {
+  long seen = 0;
+  for (int b = 0; b < kBins; ++b) {
+    seen += histogram_[b];
+    if (2 * seen >= count_ && count_ > 0) {
+      return 1.4826 * kLow * std::exp((b + 0.5) * kLogStep);
+    }
+  }
+  return 0;
+}
+
+ResidualStatistics::ResidualStatistics(int lag) : lag_(lag) {}
+
+void ResidualStatistics::Add(double r) {
+  spread_.Add(r);
   const double clipped = Clipped(r);
   if (std::abs(clipped) < 0.5 * std::abs(r)) ++outliers_;
   square_ += clipped * clipped;
@@ -36,17 +52,6 @@ void ResidualStatistics::Add(double r) {
 }
 
 void ResidualStatistics::Break() { recent_.clear(); }
-
-double ResidualStatistics::RobustSpread() const {
-  long seen = 0;
-  for (int b = 0; b < kBins; ++b) {
-    seen += histogram_[b];
-    if (2 * seen >= count_ && count_ > 0) {
-      return 1.4826 * kLow * std::exp((b + 0.5) * kLogStep);
-    }
-  }
-  return 0;
-}
 
 double ResidualStatistics::Autocorrelation() const {
   return square_ > 0 ? product_ / square_ : 0;

@@ -10,24 +10,38 @@ namespace armcal {
 // doubt it: so that one outlier does not decide a statistic.
 double Clipped(double r);
 
-// Statistics of residuals in one pass and constant memory: their robust spread
-// and autocorrelation at a lag. Residuals are given in units of a first guess.
+// The robust spread of residuals, given in units of a first guess, in one pass
+// and constant memory; their order does not matter.
+class ResidualSpread {
+ public:
+  ResidualSpread();
+
+  void Add(double r);
+  // 1.4826 times the median of |r|.
+  double Value() const;
+  long count() const { return count_; }
+
+ private:
+  std::vector<long> histogram_;  // of log |r|
+  long count_ = 0;
+};
+
+// Also their autocorrelation at a lag.
 class ResidualStatistics {
  public:
   explicit ResidualStatistics(int lag = 1);
 
   void Add(double r);
   void Break();  // the next residual does not follow the last
-  // 1.4826 times the median of |r|.
-  double RobustSpread() const;
+  double RobustSpread() const { return spread_.Value(); }
   double Autocorrelation() const;
-  long count() const { return count_; }
+  long count() const { return spread_.count(); }
   // How many residuals are beyond 2.7, where Huber's weight is below 1/2.
   long outliers() const { return outliers_; }
 
  private:
-  std::vector<long> histogram_;  // of log |r|
-  long count_ = 0, outliers_ = 0;
+  ResidualSpread spread_;
+  long outliers_ = 0;
   double product_ = 0, square_ = 0;
   size_t lag_;
   std::deque<double> recent_;

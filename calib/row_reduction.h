@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "calib/block_triangular_factor.h"
@@ -14,15 +15,33 @@ namespace armcal {
 // nothing.
 long RowsPerLeaf(const RowOptions& options);
 
+// A stretch of rows while it is reduced. Its columns are those that
+// IdentificationRows::Evaluate writes, and may be changed.
+struct ReducedRows {
+  int slot;  // that it has to itself until it is finished, of num_slots()
+  long count;
+  double* const* columns;
+  long stride;
+};
+
 // Adds rows to triangular factors, on all threads: each evaluates leaves' rows
 // where they are reduced. The factor is the same bits for any number of
 // threads.
 class RowReduction {
  public:
   explicit RowReduction(const ModelParameters& parameters);
+  // `columns`: of each joint's equation, the right side left out.
+  explicit RowReduction(const std::vector<int>& columns);
 
+  int num_slots() const { return work_.num_slots(); }
   // One equation of every joint for each row; weight 1.
   void Add(const IdentificationRows& rows, BlockTriangularFactor* factor);
+  // The same to a factor per joint. change(stretch) sees every stretch in the
+  // thread that has evaluated it, finish(slot) is called in the order of rows.
+  void Add(const IdentificationRows& rows,
+           std::vector<TriangularFactor>* factors,
+           const std::function<void(const ReducedRows&)>& change,
+           const std::function<void(int slot)>& finish);
 
  private:
   struct Slot {
@@ -30,7 +49,11 @@ class RowReduction {
     RowScratch scratch;
     long begin = 0, end = 0;  // rows
   };
-  static void Reduce(const IdentificationRows& rows, Slot* slot);
+  // take(leaves) and put(leaves): of the factors, whose leaves have so many
+  // rows.
+  template <class Take, class Put, class Change>
+  void Run(const IdentificationRows& rows, long leaf_rows, const Take& take,
+           const Put& put, const Change& change);
 
   OrderedWork work_;
   std::vector<Slot> slots_;

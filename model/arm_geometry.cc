@@ -208,6 +208,38 @@ Isometry3d ArmGeometry::ToolPose(const Eigen::VectorXd& q, const double* values,
   return X;
 }
 
+// Of steps [begin, end) from the frame of `link` on; those behind a joint end
+// at the frame of its link.
+void ArmGeometry::AddCarriedTwists(int begin, int end, int link,
+                                   std::vector<CarriedTwist>* twists) const {
+  const bool leads_to_link =
+      begin > base_end_ && steps_[begin - 1].joint == link;
+  Isometry3d X = Isometry3d::Identity();
+  if (begin == 0 || leads_to_link) X = Product(steps_, begin, end).inverse();
+  for (int k = begin; k < end; ++k) {
+    const ElementaryTransform& step = steps_[k];
+    if (step.parameter >= 0) {
+      twists->push_back({link,
+                         leads_to_link,
+                         {X.linear().col(step.axis), X.translation(),
+                          step.kind == Kind::kRotation}});
+    }
+    X = X * step.Transform(step.value);
+  }
+}
+
+std::vector<CarriedTwist> ArmGeometry::CarriedTwists() const {
+  std::vector<CarriedTwist> twists;
+  AddCarriedTwists(0, base_end_, -1, &twists);
+  for (int i = 0; i < static_cast<int>(links_.size()); ++i) {
+    AddCarriedTwists(links_[i].begin, links_[i].joint, i - 1, &twists);
+    AddCarriedTwists(links_[i].joint + 1, links_[i].end, i, &twists);
+  }
+  AddCarriedTwists(links_.back().end, static_cast<int>(steps_.size()),
+                   static_cast<int>(links_.size()) - 1, &twists);
+  return twists;
+}
+
 Robot ArmGeometry::ApplyTo(const Robot& robot) const {
   CHECK_EQ(robot.links.size(), links_.size());
   Robot result = robot;

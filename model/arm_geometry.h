@@ -41,6 +41,15 @@ struct ParameterTwist {
   }
 };
 
+// Where a geometric parameter acts on the moving arm: `twist`, in the frame L
+// of `link` (-1: the base), moves with that link and displaces all further
+// links and their joints; also the link's own body where `with_body`.
+struct CarriedTwist {
+  int link;
+  bool with_body;
+  ParameterTwist twist;
+};
+
 // Which of an arm's own parameters, besides base and tool, a calibration
 // refines: kOffsets, the joints' zeros.
 enum class RefineGeometry { kNothing, kOffsets, kAll };
@@ -71,6 +80,8 @@ class ArmGeometry {
   // all parameters if not null.
   Eigen::Isometry3d ToolPose(const Eigen::VectorXd& q, const double* values,
                              std::vector<ParameterTwist>* twists) const;
+  // Of all parameters, at their values.
+  std::vector<CarriedTwist> CarriedTwists() const;
   // `robot` with this geometry: links, and the tool. The base pose is not part
   // of a robot file; gravity is turned by it instead.
   Robot ApplyTo(const Robot& robot) const;
@@ -84,6 +95,9 @@ class ArmGeometry {
   void AddStandardRow(const Link& link, int index, bool hayati);
   void AddModifiedRow(const Link& link, int index, bool hayati);
   void AddUrdfLink(const Link& link, int index);
+
+  void AddCarriedTwists(int begin, int end, int link,
+                        std::vector<CarriedTwist>* twists) const;
 
   std::vector<ElementaryTransform> steps_;
   std::vector<int> parameters_;  // steps that are parameters

@@ -50,6 +50,12 @@ BatchRegressor::BatchRegressor(const Robot& robot, const simd::Kernels& kernels)
                                             RegressorPlan::Places::kRanks)),
       kernels_(&kernels) {}
 
+BatchRegressor::BatchRegressor(const Robot& robot,
+                               const std::vector<int>& columns,
+                               const simd::Kernels& kernels)
+    : plan_(std::make_shared<RegressorPlan>(robot, columns)),
+      kernels_(&kernels) {}
+
 int BatchRegressor::num_joints() const { return plan_->num_joints(); }
 int BatchRegressor::row_size(int i) const { return plan_->row_size(i); }
 

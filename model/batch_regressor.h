@@ -29,6 +29,10 @@ class BatchRegressor {
   explicit BatchRegressor(const Robot& robot,
                           const simd::Kernels& kernels = simd::BestKernels());
 
+  // Of `columns` of these, ascending, such as BaseInertials has them.
+  BatchRegressor(const Robot& robot, const std::vector<int>& columns,
+                 const simd::Kernels& kernels = simd::BestKernels());
+
   int num_joints() const;
   // The number of columns of joint i's equation.
   int row_size(int i) const;

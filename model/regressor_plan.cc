@@ -21,10 +21,13 @@ void Copy(const Vector3d& v, double* to) {
 
 // X_PF: of the joint's fixed frame in the link before; X_ML: of the link in the
 // moved frame.
-LinkConstants MakeLink(JointType type, const Isometry3d& X_PF,
-                       const Isometry3d& X_ML) {
+LinkConstants MakeLink(JointType type, Isometry3d X_PF, Isometry3d X_ML) {
   LinkConstants link{};
   link.rotational = IsRotational(type);
+  if (link.rotational) {  // F may be anywhere along the axis: where Mo is Lo
+    X_PF = X_PF * Eigen::Translation3d(0, 0, X_ML.translation().z());
+    X_ML.translation().z() = 0;
+  }
   const Matrix3d R_FP = X_PF.linear().transpose();
   const Matrix3d R_LM = X_ML.linear().transpose();
   // Rz(q)' leaves z, and turns x and y by -q.
@@ -99,6 +102,9 @@ int PlaceIn(const std::vector<int>& row, int column) {
   return std::lower_bound(row.begin(), row.end(), column) - row.begin();
 }
 
+// Ten inertial parameters in the order of their bits.
+constexpr int kMomentOrder[] = {4, 5, 6, 7, 8, 9, 0, 1, 2, 3};
+
 }  // namespace
 
 RegressorPlan::RegressorPlan(const ProximalChain& chain,
@@ -168,25 +174,52 @@ void RegressorPlan::AddColumns(const RegressorColumns& columns, Places places) {
 }
 
 RegressorPlan::RegressorPlan(const Robot& robot, Places places) {
-  const int n = robot.num_joints();
-  length_columns_.resize(n);
-  places_.resize(n);
+  AddLinks(robot);
+  const int n = num_joints();
   for (int i = 0; i < n; ++i) {
-    const Link& link = robot.links[i];
-    links_.push_back(MakeLink(link.joint.type, link.X_PF, link.X_ML));
     const int first_row = places == Places::kRanks ? i : 0;
     row_sizes_.push_back(places == Places::kNone ? 1 : 10 * (n - first_row));
     if (places == Places::kNone) continue;
-    links_[i].num_moments = 10;
     links_[i].moments = simd::kMomentsOfLink;
+    links_[i].all_moments = true;
     for (int k = 0; k <= i; ++k) {
-      for (const int c : {4, 5, 6, 7, 8, 9, 0, 1, 2, 3}) {
+      for (const int c : kMomentOrder) {
         const int first = places == Places::kRanks ? k : 0;  // link of the row
         places_[i].push_back(10 * (i - first) + c);
       }
     }
   }
   Connect(robot.gravity);
+}
+
+RegressorPlan::RegressorPlan(const Robot& robot,
+                             const std::vector<int>& columns) {
+  AddLinks(robot);
+  const int n = num_joints();
+  const auto size = static_cast<int>(columns.size());
+  for (int i = 0; i < n; ++i) {
+    row_sizes_.push_back(size - PlaceIn(columns, 10 * i));
+    links_[i].moments = simd::kMomentsOfLink;
+    links_[i].all_moments =
+        PlaceIn(columns, 10 * i + 10) - PlaceIn(columns, 10 * i) == 10;
+    for (int k = 0; k <= i; ++k) {
+      for (const int c : kMomentOrder) {
+        const int place = PlaceIn(columns, 10 * i + c);
+        const bool wanted = place < size && columns[place] == 10 * i + c;
+        places_[i].push_back(wanted ? place - PlaceIn(columns, 10 * k) : -1);
+      }
+    }
+  }
+  Connect(robot.gravity);
+}
+
+void RegressorPlan::AddLinks(const Robot& robot) {
+  for (const Link& link : robot.links) {
+    links_.push_back(MakeLink(link.joint.type, link.X_PF, link.X_ML));
+    links_.back().num_moments = 10;
+  }
+  length_columns_.resize(links_.size());
+  places_.resize(links_.size());
 }
 
 // The constants' pointers, once nothing moves any more.

@@ -22,6 +22,8 @@ class RegressorPlan {
                 const RegressorColumns& columns, Places places);
   // The ten inertial parameters of each link, in the links' frames.
   RegressorPlan(const Robot& robot, Places places);
+  // Of them `columns`, ascending; places are ranks.
+  RegressorPlan(const Robot& robot, const std::vector<int>& columns);
   RegressorPlan(const RegressorPlan&) = delete;
 
   const simd::ChainConstants& chain() const { return chain_; }
@@ -38,6 +40,7 @@ class RegressorPlan {
   const std::vector<Term>& terms() const { return terms_; }
 
  private:
+  void AddLinks(const Robot& robot);
   std::vector<int> AddLink(const RegressorColumns& columns, int i);
   void AddColumns(const RegressorColumns& columns, Places places);
   void Connect(const Eigen::Vector3d& gravity);

@@ -15,8 +15,8 @@ double DifferentialReach(const RowOptions& options) {
 
 DifferentialRows::DifferentialRows(const Trajectory& trajectory,
                                    const RowOptions& options,
-                                   const MotionRegressor& regressor)
-    : trajectory_(trajectory), regressor_(regressor) {
+                                   const MotionFunctions& functions)
+    : trajectory_(trajectory), functions_(functions) {
   const double dt = trajectory.dt;
   const bool filter = options.bandwidth_hz > 0;
   const long apart =
@@ -29,7 +29,7 @@ DifferentialRows::DifferentialRows(const Trajectory& trajectory,
              : 0;
   for (int k = std::max(edge, trajectory.core_begin);
        k < std::min(trajectory.size() - edge, trajectory.core_end); ++k) {
-    if ((trajectory.first_index + k) % apart != 0 || regressor.Useless(k)) {
+    if ((trajectory.first_index + k) % apart != 0 || functions.Useless(k)) {
       continue;
     }
     samples_.push_back(k);
@@ -39,7 +39,7 @@ DifferentialRows::DifferentialRows(const Trajectory& trajectory,
 
 void DifferentialRows::Filter(double bandwidth_hz) {
   std::vector<double*> columns;
-  for (const int size : RowSizes(regressor_, 1)) {
+  for (const int size : RowSizes(functions_, 1)) {
     filtered_.emplace_back(trajectory_.size(), size);
     columns.push_back(filtered_.back().data());
   }
@@ -52,8 +52,8 @@ void DifferentialRows::Filter(double bandwidth_hz) {
 // Of samples that follow each other.
 void DifferentialRows::EvaluateRun(int first, long count, double* const* out,
                                    long stride) const {
-  regressor_.Differential(first, static_cast<int>(count), out, stride);
-  const auto& columns = regressor_.row_columns();
+  functions_.Differential(first, static_cast<int>(count), out, stride);
+  const auto& columns = functions_.row_columns();
   for (size_t i = 0; i < columns.size(); ++i) {
     std::copy_n(trajectory_.tau.col(static_cast<int>(i)).data() + first, count,
                 out[i] + static_cast<long>(columns[i].size()) * stride);
@@ -62,7 +62,7 @@ void DifferentialRows::EvaluateRun(int first, long count, double* const* out,
 
 void DifferentialRows::Evaluate(long begin, long count, double* const* out,
                                 long stride, RowScratch*) const {
-  const size_t n = regressor_.row_columns().size();
+  const size_t n = functions_.row_columns().size();
   for (size_t i = 0; i < filtered_.size(); ++i) {
     for (Eigen::Index c = 0; c < filtered_[i].cols(); ++c) {
       for (long r = 0; r < count; ++r) {

@@ -12,9 +12,9 @@ namespace armcal {
 // without one every sample is a row.
 class DifferentialRows : public IdentificationRows {
  public:
-  // Of the trajectory that `regressor` has entered.
+  // Of the trajectory that `functions` have entered.
   DifferentialRows(const Trajectory& trajectory, const RowOptions& options,
-                   const MotionRegressor& regressor);
+                   const MotionFunctions& functions);
 
   long size() const override { return static_cast<long>(samples_.size()); }
   double time(long row) const override {
@@ -29,7 +29,7 @@ class DifferentialRows : public IdentificationRows {
                    long stride) const;
 
   const Trajectory& trajectory_;
-  const MotionRegressor& regressor_;
+  const MotionFunctions& functions_;
   std::vector<int> samples_;  // of each row
   // Per joint its columns and the torque at every sample; empty: not filtered.
   std::vector<Eigen::MatrixXd> filtered_;

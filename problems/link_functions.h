@@ -5,6 +5,7 @@
 
 #include "model/arm_geometry.h"
 #include "model/batch_regressor.h"
+#include "model/geometry_jacobian.h"
 #include "model/joint_term.h"
 #include "problems/motion_functions.h"
 
@@ -12,13 +13,17 @@ namespace armcal {
 
 // Columns of what a robot file holds: the links' inertial parameters (10 each),
 // joint terms, and the geometry's parameters, in which the torque is taken
-// linearly about `geometry` and the robot's inertia (central differences).
+// linearly about `geometry` and the robot's inertia.
 class LinkFunctions : public MotionFunctions {
  public:
   // The arm is `robot` with `geometry` in place of its own. `refined`: which of
   // the geometry's parameters have a column.
   LinkFunctions(const Robot& robot, const std::vector<JointTermColumn>& terms,
                 const ArmGeometry& geometry, const std::vector<int>& refined);
+  // Of the inertial parameters only `inertial` (BaseInertials).
+  LinkFunctions(const Robot& robot, const std::vector<JointTermColumn>& terms,
+                const ArmGeometry& geometry, const std::vector<int>& refined,
+                const std::vector<int>& inertial);
 
   int size() const override { return columns_; }
   const std::vector<std::vector<int>>& row_columns() const override {
@@ -27,23 +32,21 @@ class LinkFunctions : public MotionFunctions {
   void Enter(const Trajectory& trajectory) override;
   void Momentum(int first, int count, double* const* P, double* const* D,
                 long stride) const override;
+  void Differential(int first, int count, double* const* U,
+                    long stride) const override;
   bool Useless(int sample) const override;
 
  private:
-  // The arm with one geometric parameter a little larger and smaller.
-  struct Perturbed {
-    BatchRegressor plus, minus;
-  };
   MotionColumns Motion(int first) const;
-  void AddTerms(int first, int count, double* const* P, double* const* D,
-                long stride) const;
-  void AddGeometry(int first, int count, double* const* P, double* const* D,
-                   long stride) const;
+  // Calls write(term, joint, place of its column, Coulomb state or null).
+  template <class Write>
+  void ForEachTerm(int first, long stride, const Write& write) const;
+  // Where the geometry's columns are of each row.
+  std::vector<double*> Geometry(double* const* rows, long stride) const;
 
   std::vector<JointTermColumn> terms_;
   BatchRegressor regressor_;
-  std::vector<Perturbed> perturbed_;
-  Eigen::VectorXd inertia_;  // of all links, stacked
+  GeometryJacobian geometry_;
   CoulombStates coulomb_;
   const Trajectory* trajectory_ = nullptr;
   Eigen::MatrixXd states_;

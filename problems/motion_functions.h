@@ -25,6 +25,9 @@ class MotionFunctions {
   // column row_columns()[i][c] of sample first + s is P[i][c * stride + s].
   virtual void Momentum(int first, int count, double* const* P,
                         double* const* D, long stride) const = 0;
+  // U of tau = U x at the same samples, laid out like P.
+  virtual void Differential(int first, int count, double* const* U,
+                            long stride) const = 0;
   // With Coulomb friction in the model, a sample at which the whole arm stands
   // still says nothing: its friction can have any value.
   virtual bool Useless(int sample) const = 0;
@@ -46,9 +49,9 @@ class MotionRegressor : public MotionFunctions {
   void Enter(const Trajectory& trajectory) override;
   void Momentum(int first, int count, double* const* P, double* const* D,
                 long stride) const override;
+  void Differential(int first, int count, double* const* U,
+                    long stride) const override;
   bool Useless(int sample) const override;
-  // U of (2.20), laid out like P.
-  void Differential(int first, int count, double* const* U, long stride) const;
 
  private:
   MotionColumns Columns(int first) const;

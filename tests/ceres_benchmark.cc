@@ -3,93 +3,28 @@
 // geometric parameters.
 
 #include <benchmark/benchmark.h>
-#include <ceres/ceres.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <random>
+#include <string>
 #include <vector>
 
 #include "model/inverse_dynamics.h"
-#include "tests/six_axis_torque.h"
+#include "tests/compressed_solution.h"
+#include "tests/six_axis_blocks.h"
 
 namespace armcal {
 namespace {
 
-constexpr int kJoints = 6, kInertial = 60, kGeometric = 24;
+constexpr int kJoints = SixAxisProblem::kJoints;
+constexpr int kInertial = SixAxisProblem::kInertial;
+constexpr int kGeometric = SixAxisProblem::kGeometric;
 constexpr int kSamples = 10000;
 
-struct TorqueResidual {
-  SixAxisSample sample;
-
-  template <class T>
-  bool operator()(const T* inertial, const T* dh, T* residual) const {
-    SixAxisTorque<T> arm;
-    arm.Evaluate(inertial, dh, sample, residual);
-    for (int j = 0; j < kJoints; ++j) residual[j] -= sample.tau[j];
-    return true;
-  }
-};
-using AutoDiffBlock =
-    ceres::AutoDiffCostFunction<TorqueResidual, kJoints, kInertial, kGeometric>;
-
-// The arm's parameters, a UR10e's size, and a log of it with noise.
-struct Problem {
-  Problem();
-
-  std::vector<double> inertial, geometric;
-  std::vector<SixAxisSample> samples;
-};
-
-Problem::Problem()
-    : inertial(kInertial),
-      geometric{0,   0,         .181,  0, 0,   -M_PI / 2, .176, -M_PI / 2,
-                .61, 0,         -.137, 0, .57, 0,         .02,  -M_PI / 2,
-                0,   -M_PI / 2, .12,   0, 0,   M_PI / 2,  .117, 0},
-      samples(kSamples) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> u(-1, 1);
-  const double masses[] = {7.4, 13, 4, 2, 2, .6};
-  for (int i = 0; i < kJoints; ++i) {
-    const double m = masses[i], I = .02 * m;
-    const double link[] = {m,
-                           .1 * m * u(random),
-                           .1 * m * u(random),
-                           .1 * m,
-                           1.2 * I,
-                           .1 * I,
-                           1.3 * I,
-                           .1 * I,
-                           .1 * I,
-                           1.1 * I};
-    std::copy(link, link + 10, &inertial[10 * i]);
-  }
-  std::normal_distribution<double> noise(0, .5);
-  for (SixAxisSample& sample : samples) {
-    for (int j = 0; j < kJoints; ++j) {
-      sample.q[j] = 3 * u(random);
-      sample.qd[j] = 2 * u(random);
-      sample.qdd[j] = 5 * u(random);
-    }
-    SixAxisTorque<double>().Evaluate(inertial.data(), geometric.data(), sample,
-                                     sample.tau);
-    for (double& tau : sample.tau) tau += noise(random);
-  }
-}
-
 // Largest difference of the torques to InverseDynamics', N m.
-double Error(const Problem& problem) {
-  Robot robot;
-  robot.gravity = {0, 0, -9.81};
-  for (int i = 0; i < kJoints; ++i) {
-    Link link;
-    const double* row = &problem.geometric[4 * i];
-    SetDhPose({row[0], row[2], row[1], row[3]}, DhConvention::kModified, &link);
-    link.inertial = InertialParameters::FromVector(
-        Eigen::Map<const Vector10d>(&problem.inertial[10 * i]));
-    robot.links.push_back(link);
-  }
+double Error(const SixAxisProblem& problem) {
+  const Robot robot = problem.MakeRobot();
   double error = 0;
   for (int k = 0; k < 100; ++k) {
     const SixAxisSample& at = problem.samples[k];
@@ -104,19 +39,19 @@ double Error(const Problem& problem) {
   return error;
 }
 
-const Problem& TheProblem() {
-  static const Problem problem;
+const SixAxisProblem& TheProblem() {
+  static const SixAxisProblem problem(kSamples);
   return problem;
 }
 
 // One evaluation of residuals and Jacobian of a sample.
 void AutoDiff(benchmark::State& state) {
   constexpr int kBlocks = 32;
-  const Problem& problem = TheProblem();
-  std::vector<std::unique_ptr<AutoDiffBlock>> blocks;
+  const SixAxisProblem& problem = TheProblem();
+  std::vector<std::unique_ptr<SixAxisBlock>> blocks;
   for (int k = 0; k < kBlocks; ++k) {
-    blocks.push_back(std::make_unique<AutoDiffBlock>(
-        new TorqueResidual{problem.samples[k]}));
+    blocks.push_back(std::make_unique<SixAxisBlock>(
+        new SixAxisResidual{problem.samples[k]}));
   }
   const double* x[] = {problem.inertial.data(), problem.geometric.data()};
   double residual[kJoints], of_inertial[kJoints * kInertial],
@@ -133,15 +68,58 @@ void AutoDiff(benchmark::State& state) {
 }
 BENCHMARK(AutoDiff)->Name("Ceres/autodiff");
 
+// Largest difference of our geometric columns to those, over the largest.
+void Accuracy(benchmark::State& state, const simd::Kernels& kernels) {
+  const SixAxisProblem& problem = TheProblem();
+  const CompressedSolution ours(problem);
+  const GeometryJacobian jacobian(ours.WithInertia(ours.x()),
+                                  ours.Geometry(ours.x()), ours.refined(),
+                                  kernels);
+  constexpr int kCompared = 128;
+  std::vector<Eigen::MatrixXd> rows(kJoints,
+                                    Eigen::MatrixXd(kCompared, kGeometric));
+  std::vector<double*> out;
+  for (Eigen::MatrixXd& row : rows) out.push_back(row.data());
+  const Trajectory& t = ours.trajectory();
+  for (auto _ : state) {
+    jacobian.Torque({t.q, t.qd, t.qdd, {}}, kCompared, out.data(), kCompared);
+  }
+  const double* x[] = {problem.inertial.data(), problem.geometric.data()};
+  double error = 0, largest = 0;
+  for (int k = 0; k < kCompared; ++k) {
+    double residual[kJoints], expected[kJoints * kGeometric];
+    double* of[] = {nullptr, expected};
+    SixAxisBlock(new SixAxisResidual{problem.samples[k]})
+        .Evaluate(x, residual, of);
+    for (int e = 0; e < kJoints * kGeometric; ++e) {
+      const double found = rows[e / kGeometric](k, e % kGeometric);
+      error = std::max(error, std::abs(found - expected[e]));
+      largest = std::max(largest, std::abs(expected[e]));
+    }
+  }
+  state.counters["error"] = error / largest;
+  state.SetItemsProcessed(state.iterations() * kCompared);
+}
+const bool registered = [] {
+  for (const simd::Kernels* kernels : simd::AvailableKernels()) {
+    const auto name =
+        std::string("Accuracy/Jacobian/chunk/") + kernels->instruction_set;
+    benchmark::RegisterBenchmark(name.c_str(), [=](auto& state) {
+      Accuracy(state, *kernels);
+    })->Iterations(1);
+  }
+  return true;
+}();
+
 // A sample's residuals and Jacobian as they are at one point: what analytic
 // derivatives would give, at no cost, so that what is timed is Ceres alone.
 class StoredBlock
     : public ceres::SizedCostFunction<kJoints, kInertial, kGeometric> {
  public:
-  StoredBlock(const Problem& problem, const SixAxisSample& sample) {
+  StoredBlock(const SixAxisProblem& problem, const SixAxisSample& sample) {
     const double* x[] = {problem.inertial.data(), problem.geometric.data()};
     double* jacobian[] = {of_inertial_, of_geometric_};
-    AutoDiffBlock(new TorqueResidual{sample}).Evaluate(x, residual_, jacobian);
+    SixAxisBlock(new SixAxisResidual{sample}).Evaluate(x, residual_, jacobian);
   }
 
   bool Evaluate(double const* const* x, double* residual,
@@ -165,38 +143,16 @@ class StoredBlock
   double of_geometric_[kJoints * kGeometric];
 };
 
-// x minus where it began, with a weight that makes the problem full rank.
-struct Prior {
-  std::vector<double> x0;
-  double weight;
-
-  template <class T>
-  bool operator()(T const* const* x, T* residual) const {
-    for (size_t k = 0; k < x0.size(); ++k) {
-      residual[k] = weight * (x[0][k] - x0[k]);
-    }
-    return true;
-  }
-};
-
 struct BlockPerSample {
   BlockPerSample() : x(TheProblem()) {
     for (const SixAxisSample& sample : x.samples) {
       problem.AddResidualBlock(new StoredBlock(x, sample), nullptr,
                                x.inertial.data(), x.geometric.data());
     }
-    AddPrior(&x.inertial, 10);
-    AddPrior(&x.geometric, 200);
-  }
-  void AddPrior(std::vector<double>* values, double weight) {
-    auto* prior = new ceres::DynamicAutoDiffCostFunction<Prior>(
-        new Prior{*values, weight});
-    prior->AddParameterBlock(static_cast<int>(values->size()));
-    prior->SetNumResiduals(static_cast<int>(values->size()));
-    problem.AddResidualBlock(prior, nullptr, values->data());
+    AddSixAxisPriors(x, x.inertial.data(), x.geometric.data(), &problem);
   }
 
-  Problem x;
+  SixAxisProblem x;
   ceres::Problem problem;
 };
 

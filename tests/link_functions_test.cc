@@ -99,6 +99,45 @@ TEST(LinkFunctions, ColumnsOfLinksAndTerms) {
   }
 }
 
+// The torque itself, by Newton and Euler and by the terms' own law; columns of
+// the geometry are those of its Jacobian.
+TEST(LinkFunctions, DifferentialColumnsAreOfTheTorque) {
+  std::mt19937_64 random(6);
+  const Robot robot = MakeRobot("PUMA560 6R", &random);
+  Trajectory trajectory = Record(robot, &random);
+  const std::vector<JointTermColumn> terms = {{1, JointTerm::kCoulomb, {}},
+                                              {4, JointTerm::kOffset, {}},
+                                              {1, JointTerm::kArmature, {}}};
+  const ArmGeometry geometry(robot);
+  LinkFunctions functions(robot, terms, geometry, {9, 7});
+  functions.Enter(trajectory);
+  const Eigen::MatrixXd states = CoulombStates(terms).Follow(trajectory);
+  const int k = 300;
+  JointColumns columns;
+  columns.Resize(RowSizes(functions, 0), 1);
+  functions.Differential(k, 1, columns.data(), columns.stride());
+  MatrixXd U = MatrixXd::Zero(6, functions.size());
+  for (int i = 0; i < 6; ++i) {
+    const auto& used = functions.row_columns()[i];
+    for (size_t c = 0; c < used.size(); ++c) {
+      U(i, used[c]) = *columns.column(i, static_cast<int>(c));
+    }
+  }
+  const VectorXd q = trajectory.q.row(k), qd = trajectory.qd.row(k),
+                 qdd = trajectory.qdd.row(k);
+  const VectorXd tau = InverseDynamics(robot, q, qd, qdd);
+  EXPECT_LT((U.leftCols(60) * StackInertials(robot) - tau).norm(),
+            1e-12 * tau.norm());
+  MatrixXd of_terms = MatrixXd::Zero(6, 3);
+  of_terms(1, 0) = states(k, 0);
+  of_terms(4, 1) = 1;
+  of_terms(1, 2) = qdd[1];
+  EXPECT_EQ(U.middleCols(60, 3), of_terms);
+  const MatrixXd J =
+      GeometryJacobian(robot, geometry, {9, 7}).Torque(q, qd, qdd);
+  EXPECT_LT((U.rightCols(2) - J).norm(), 1e-12 * J.norm());
+}
+
 TEST(LinkFunctions, StackInertialsInOrder) {
   std::mt19937_64 random(2);
   const Robot robot = MakeRobot("UR5 6R", &random);

@@ -62,6 +62,7 @@ struct LinkConstants {
   bool regrouped;   // the moments are the paper's
 
   unsigned moments;  // one of the sets above, or none
+  bool all_moments;  // none of their places is -1
   int num_moments;
   int num_length_columns;
   const LengthColumn* length_columns;

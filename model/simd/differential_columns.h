@@ -28,10 +28,10 @@ constexpr int CountBits(unsigned bits) {
 }
 
 // The columns of link i's moments, which do not slide, in rows 0 to i.
-template <unsigned kMoments, class T>
+template <unsigned kMoments, bool kAll, class T>
 struct DifferentialColumns {
   static constexpr int kCouples = CountBits(kMoments & (kMass - 1));
-  using Writer = RowWriter<1, kMoments == kMomentsOfLink>;
+  using Writer = RowWriter<1, kAll>;
 
   // The row of a joint with this screw. A unit of first moment along e needs
   // the force B e and the couple e x a, with a the origin's acceleration.

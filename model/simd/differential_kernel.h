@@ -39,8 +39,9 @@ __attribute__((noinline)) void DifferentialAt(const ChainConstants& chain,
       for (int k = 0; k <= i; ++k) Shift(offset, &screws[k]);
       if (link.regrouped) continue;
     }
-    ForMoments(link.moments, [&](auto moments) ARMCAL_LAMBDA {
-      DifferentialColumns<decltype(moments)::kValue, T>::WriteAll(
+    ForMoments(link, [&](auto moments) ARMCAL_LAMBDA {
+      using Set = decltype(moments);
+      DifferentialColumns<Set::kValue, Set::kAll, T>::WriteAll(
           link, i, at, screws, qd, qdd, out, sample, stride);
     });
     WriteLengths(chain, i, at, lengths, screws, out, sample, stride);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/simd/chain_constants.h"
+#include "model/simd/geometry_constants.h"
 
 namespace armcal::simd {
 
@@ -46,6 +47,26 @@ struct Kernels {
   // 8. triangular: X is an upper triangle too, followed by rows of zeros.
   void (*householder)(double* R, long r_stride, int columns, double* X,
                       long stride, long rows, bool triangular);
+
+  // Derivatives by geometric parameters, as GeometryJacobian has them: of
+  // torques; of P and D; and those of one sample.
+  void (*torque_geometry)(const ChainConstants& chain,
+                          const GeometryConstants& geometry,
+                          const ChainMotion& motion, long count,
+                          double* const* out, long stride);
+  void (*momentum_geometry)(const ChainConstants& chain,
+                            const GeometryConstants& geometry,
+                            const ChainMotion& motion, long count,
+                            double* const* P, double* const* D, long stride);
+  void (*torque_geometry_of_one)(const ChainConstants& chain,
+                                 const GeometryConstants& geometry,
+                                 const ChainMotion& motion, long sample,
+                                 double* const* out, long stride);
+  void (*momentum_geometry_of_one)(const ChainConstants& chain,
+                                   const GeometryConstants& geometry,
+                                   const ChainMotion& motion, long sample,
+                                   double* const* P, double* const* D,
+                                   long stride);
 };
 
 // Of the instruction sets that this processor has, the least first.

@@ -28,18 +28,24 @@ ARMCAL_INLINE void EnterLink(const LinkConstants& link, const Matrix3<T>& E,
   a->alpha = E * a->alpha;
 }
 
+// B of an angular velocity and acceleration.
+template <class T>
+ARMCAL_INLINE Matrix3<T> AccelerationField(const Vector3<T>& w,
+                                           const Vector3<T>& v) {
+  const T xx = w.x * w.x, yy = w.y * w.y, zz = w.z * w.z;
+  const T xy = w.x * w.y, xz = w.x * w.z, yz = w.y * w.z;
+  return {{-(yy + zz), xy - v.z, xz + v.y},
+          {xy + v.z, -(xx + zz), yz - v.x},
+          {xz - v.y, yz + v.x, -(xx + yy)}};
+}
+
 template <class T>
 ARMCAL_INLINE void AddJoint(const LinkConstants& link, const T& qd,
                             const T& qdd, Acceleration<T>* a) {
   a->alpha =
       a->alpha + Cross(a->omega, link.angular) * qd + Times(link.angular, qdd);
   a->omega = a->omega + Times(link.angular, qd);
-  const Vector3<T>&w = a->omega, &v = a->alpha;
-  const T xx = w.x * w.x, yy = w.y * w.y, zz = w.z * w.z;
-  const T xy = w.x * w.y, xz = w.x * w.z, yz = w.y * w.z;
-  a->B = {{-(yy + zz), xy - v.z, xz + v.y},
-          {xy + v.z, -(xx + zz), yz - v.x},
-          {xz - v.y, yz + v.x, -(xx + yy)}};
+  a->B = AccelerationField(a->omega, a->alpha);
 }
 
 // Of Lo relative to Fo, from where it is `offset`.

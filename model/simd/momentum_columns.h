@@ -103,12 +103,11 @@ ARMCAL_INLINE void WriteMoments(const Velocity<T>& at, const T& izz_of_joint,
 }
 
 // The columns of link i's moments, which do not slide, in rows 0 to i.
-template <unsigned kMoments, class T>
+template <unsigned kMoments, bool kAll, class T>
 ARMCAL_INLINE void WriteColumns(const LinkConstants& link, int i,
                                 const Velocity<T>& at,
                                 const MovingScrew<T>* joints, const T& qd,
                                 const MomentumOutput& out) {
-  constexpr bool kAll = kMoments == kMomentsOfLink;
   WriteMoments<kMoments>(at, at.omega.z, joints[i], out.Row<kAll>(link, i, 0));
   for (int k = 0; k < i; ++k) {
     WriteMoments<kMoments>(at, qd, joints[k], out.Row<kAll>(link, k, 0));

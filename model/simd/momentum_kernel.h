@@ -48,8 +48,9 @@ __attribute__((noinline)) void MomentumAt(const ChainConstants& chain,
       }
       if (link.regrouped) continue;
     }
-    ForMoments(link.moments, [&](auto moments) ARMCAL_LAMBDA {
-      WriteColumns<decltype(moments)::kValue>(link, i, at, joints, qd, out);
+    ForMoments(link, [&](auto moments) ARMCAL_LAMBDA {
+      using Set = decltype(moments);
+      WriteColumns<Set::kValue, Set::kAll>(link, i, at, joints, qd, out);
     });
     WriteLengths(chain, i, at, lengths, joints, out);
   }

@@ -5,22 +5,25 @@
 
 namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 
-// A set of moments that the compiler knows.
-template <unsigned kMoments>
+// A set of moments that the compiler knows; kAll: every one is wanted.
+template <unsigned kMoments, bool kAllWanted>
 struct MomentSet {
   static constexpr unsigned kValue = kMoments;
+  static constexpr bool kAll = kAllWanted;
 };
 template <class Function>
-ARMCAL_INLINE void ForMoments(unsigned moments, const Function& function) {
-  if (moments == kMomentsOfLink) {
-    function(MomentSet<kMomentsOfLink>());
-  } else if (moments == kMomentsOfJoint) {
-    function(MomentSet<kMomentsOfJoint>());
+ARMCAL_INLINE void ForMoments(const LinkConstants& link,
+                              const Function& function) {
+  if (link.moments == kMomentsOfLink && link.all_moments) {
+    function(MomentSet<kMomentsOfLink, true>());
+  } else if (link.moments == kMomentsOfLink) {
+    function(MomentSet<kMomentsOfLink, false>());
+  } else if (link.moments == kMomentsOfJoint) {
+    function(MomentSet<kMomentsOfJoint, false>());
   }
 }
 
-// One row's columns of one link, in as many outputs; kAll: every moment is
-// wanted.
+// One row's columns of one link, in as many outputs.
 template <int kOutputs, bool kAll>
 struct RowWriter {
   double* rows[kOutputs];
