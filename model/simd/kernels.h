@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/simd/chain_constants.h"
+#include "model/simd/deflected_link.h"
 
 namespace armcal::simd {
 
@@ -46,6 +47,11 @@ struct Kernels {
   // 8. triangular: X is an upper triangle too, followed by rows of zeros.
   void (*householder)(double* R, long r_stride, int columns, double* X,
                       long stride, long rows, bool triangular);
+
+  // Deflections of links along a log, dt s apart; fastest where those with a
+  // gap, and those with as many substeps, are neighbours.
+  void (*deflections)(const DeflectedLink* const* links, int count,
+                      long samples, double dt);
 };
 
 // Of the instruction sets that this processor has, the least first.
