@@ -11,6 +11,7 @@ namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 // holds does not depend on the others.
 
 constexpr double kGamma = .29289321881345247560;  // of both stages
+constexpr double kRounding = .05;                 // FlankedSpring's
 
 ARMCAL_INLINE Lanes Largest(const Lanes& a, const Lanes& b) {
   return a > b ? a : b;
@@ -85,26 +86,32 @@ ARMCAL_INLINE SignalPiece PieceAt(const double* const* signal, long k,
           (after - at) * (ends ? 1 : .5)};
 }
 
-// rate = rate_base + step (load - T(base + step_d rate, rate)).
+// rate = rate_base + step (load - T(base + step_d rate, rate)), from a guess of
+// the rate. Newton's steps square what is wrong in parts of a corner's width:
+// the last that are this small need no check.
 template <bool kHasGap>
 ARMCAL_INLINE void SolveStage(const SpringLanes& spring, const Integers& active,
                               const Lanes& load, const Lanes& step,
                               const Lanes& step_d, const Lanes& base,
                               const Lanes& rate_base, Lanes* d, Lanes* rate) {
   constexpr int kMostIterations = 20;
-  constexpr double kTolerance = 1e-10;
+  constexpr double kTolerance = 1e-10, kLastStep = 1e-6;
   Lanes v = *rate;
   if (kHasGap) {
+    const Lanes last = kLastStep * kRounding * spring.gap;
+    Integers open = active;
     for (int i = 0; i < kMostIterations; ++i) {
       const Lanes x = base + step_d * v;
       const SpringTorque T = TorqueOf(spring, x, v);
       const Lanes left = v - rate_base - step * (load - T.torque);
       const Lanes scale =
           Largest(Largest(Magnitude(x), Magnitude(v)), Broadcast(1e-12));
-      const Integers open = active & (Magnitude(left) > kTolerance * scale);
-      if (All(open == 0)) break;
+      open &= Magnitude(left) > kTolerance * scale;
       const Lanes slope = 1 + step * (T.by_deflection * step_d + T.by_rate);
-      v = open ? v - left / slope : v;
+      const Lanes change = left / slope;
+      v = open ? v - change : v;
+      open &= step_d * Magnitude(change) > last;
+      if (All(open == 0)) break;
     }
   } else {
     v = (rate_base + step * (load - spring.stiffness * base)) /
@@ -146,21 +153,25 @@ __attribute__((noinline)) void FollowLinks(const DeflectedLink* const* links,
     }
   }
   const Lanes step_d = kGamma * dt * h;
+  Lanes change = {};  // of the rate in the last step
   const auto advance = [&](const SignalPiece& loads,
                            const SignalPiece& inertias,
                            const StageWeights* at) ARMCAL_LAMBDA {
     for (int i = 0; i < most; ++i, at += 2) {
       const Integers active = substeps > static_cast<double>(i);
-      Lanes x = d, v = rate;
+      // Guesses go on as the rate went before.
+      Lanes x = d, v = rate + kGamma * change;
       SolveStage<kHasGap>(spring, active, loads(at[0]),
                           step_d / inertias(at[0]), step_d, d, rate, &x, &v);
       // What the first stage moved, which the second weighs by (1 - gamma).
       constexpr double kFirst = (1 - kGamma) / kGamma;
       const Lanes base = d + kFirst * (x - d);
       const Lanes rate_base = rate + kFirst * (v - rate);
+      v = rate_base + (v - rate);
       SolveStage<kHasGap>(spring, active, loads(at[1]),
                           step_d / inertias(at[1]), step_d, base, rate_base, &x,
                           &v);
+      change = active ? v - rate : change;
       d = active ? x : d;
       rate = active ? v : rate;
     }
