@@ -5,9 +5,9 @@
 How time and memory of `armcal calibrate` grow with samples and with joints, on
 logs of arms of general geometry, and those of a diagnosis' screen with the
 number of candidates. Every case is a process of its own, those of calibrate run
-a few times: its least CPU seconds (the screen's wall clock, on all cores) and
-its peak memory, as the kernel says them; the log of calibrate is read from a
-file and never held. The exponent of a power law is fitted to the upper half of
+a few times: its least CPU seconds (of one screen: on all cores) and its peak
+memory, as the kernel says them; the log of calibrate is read from a file and
+never held. The exponent of a power law is fitted to the upper half of
 every curve, where what does not grow is small, with its 95 % interval
 (Student's t of the residuals). Writes growth.json, growth.txt and growth.svg;
 Python's standard library only.
@@ -96,7 +96,7 @@ def exponent(points, key):
 
 def describe(curves):
     for curve in curves:
-        yield f"{curve['over']:>10}  {'s':>10}  {'peak MB':>8}"
+        yield f"{curve['over']:>10}  {'CPU s':>10}  {'peak MB':>8}"
         for p in curve["points"]:
             yield f"{p['x']:10.0f}  {p['seconds']:10.4g}  {p['peak_mb']:8.1f}"
         for key, what in ("seconds", "time"), ("peak_mb", "memory"):
@@ -153,7 +153,7 @@ def draw(curves):
            f'font-size="12" fill="{INK}">',
            "<title>Growth of time and memory</title>"]
     for row, curve in enumerate(curves):
-        for column, (key, what) in enumerate([("seconds", "time, s"),
+        for column, (key, what) in enumerate([("seconds", "CPU time, s"),
                                               ("peak_mb", "peak memory, MB")]):
             fit = curve[key]
             title = (f"{what}, over {curve['over']}: exponent "
