@@ -1,8 +1,9 @@
 #pragma once
 
 #include "model/simd/deflected_link.h"
-#include "model/simd/exponential.h"
 #include "model/simd/lanes.h"
+#include "model/simd/signal_piece.h"
+#include "model/simd/spring_torque.h"
 
 namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 
@@ -11,80 +12,6 @@ namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 // holds does not depend on the others.
 
 constexpr double kGamma = .29289321881345247560;  // of both stages
-constexpr double kRounding = .05;                 // FlankedSpring's
-
-ARMCAL_INLINE Lanes Largest(const Lanes& a, const Lanes& b) {
-  return a > b ? a : b;
-}
-ARMCAL_INLINE Lanes Magnitude(const Lanes& x) { return x < 0 ? -x : x; }
-
-struct SpringLanes {
-  Lanes gap, stiffness, damping;
-};
-
-// The law's torque and its slopes over deflection and rate.
-struct SpringTorque {
-  Lanes torque, by_deflection, by_rate;
-};
-
-ARMCAL_INLINE SpringTorque TorqueOf(const SpringLanes& spring, const Lanes& d,
-                                    const Lanes& rate) {
-  constexpr double kRounding = .05;                // FlankedSpring's
-  constexpr double kGap = 2.06115362243855783e-9;  // exp(-1 / kRounding)
-  constexpr double kFar = 60;                      // where no corner is left
-  const Lanes w = kRounding * spring.gap;
-  const Lanes side = d < 0 ? Broadcast(-1) : Broadcast(1);
-  // The flank on this side; the other is so far that few terms are enough.
-  const Lanes x = Magnitude(d) / w - .5 / kRounding;
-  const Lanes away = Magnitude(x);
-  const Lanes tail = ExponentialOfMinus(away < kFar ? away : Broadcast(kFar));
-  const Lanes far = x > 0 ? tail * kGap : kGap / tail;
-  const Lanes share = 1 / (1 + tail);
-  const Lanes pressed = Largest(x, Lanes{}) + LogarithmOfOneAnd(tail) -
-                        far * (1 - far * (.5 - far * (1. / 3)));
-  const Lanes touching =
-      (x > 0 ? share : tail * share) + far * (1 - far * (1 - far));
-  const Lanes bend = tail * share * share - far * (1 - 2 * far);
-  const Lanes damping = spring.damping * touching;
-  return {side * spring.stiffness * w * pressed + damping * rate,
-          spring.stiffness * touching + spring.damping * rate * side * bend / w,
-          damping};
-}
-
-// Weights of InterpolateColumns (model/motion_track.h) at a stage.
-struct StageWeights {
-  Lanes at, next, slope_at, slope_next;
-};
-
-ARMCAL_INLINE StageWeights WeightsAt(const Lanes& share) {
-  const Lanes s = share, r = 1 - share;
-  return {r * r * (1 + 2 * s), s * s * (1 + 2 * r), s * r * r, -s * s * r};
-}
-
-// A signal from one sample to the next, and its slopes at both.
-struct SignalPiece {
-  Lanes at, next, slope_at, slope_next;
-  ARMCAL_INLINE Lanes operator()(const StageWeights& w) const {
-    return w.at * at + w.next * next + w.slope_at * slope_at +
-           w.slope_next * slope_next;
-  }
-};
-
-ARMCAL_INLINE Lanes Gather(const double* const* from, long sample) {
-  Lanes x;
-  for (int k = 0; k < kLanes; ++k) x[k] = from[k][sample];
-  return x;
-}
-
-ARMCAL_INLINE SignalPiece PieceAt(const double* const* signal, long k,
-                                  long last) {
-  const bool first = k == 0, ends = k + 1 == last;
-  const Lanes at = Gather(signal, k), next = Gather(signal, k + 1);
-  const Lanes before = first ? at : Gather(signal, k - 1);
-  const Lanes after = ends ? next : Gather(signal, k + 2);
-  return {at, next, (next - before) * (first ? 1 : .5),
-          (after - at) * (ends ? 1 : .5)};
-}
 
 // rate = rate_base + step (load - T(base + step_d rate, rate)), from a guess of
 // the rate. Newton's steps square what is wrong in parts of a corner's width:
@@ -123,40 +50,50 @@ ARMCAL_INLINE void SolveStage(const SpringLanes& spring, const Integers& active,
 
 // As many links as there are lanes, all with a gap or all without.
 template <bool kHasGap>
-__attribute__((noinline)) void FollowLinks(const DeflectedLink* const* links,
-                                           int count, long samples, double dt) {
+struct LinkLanes {
   const double *load[kLanes], *inertia[kLanes];
   SpringLanes spring;
-  Lanes d, rate, substeps;
-  int most = 0;
-  for (int k = 0; k < kLanes; ++k) {
-    const DeflectedLink& link = *links[k < count ? k : 0];
-    spring.gap[k] = link.gap;
-    spring.stiffness[k] = link.stiffness;
-    spring.damping[k] = link.damping;
-    load[k] = link.load;
-    inertia[k] = link.inertia;
-    d[k] = link.start;
-    rate[k] = link.start_rate;
-    substeps[k] = link.substeps;
-    if (link.substeps > most) most = link.substeps;
+  Lanes d, rate;
+  Lanes change;  // of the rate in the last step
+  Lanes substeps, step_d;
+  int most;  // substeps
+
+  ARMCAL_INLINE LinkLanes(const DeflectedLink* const* links, int count,
+                          double dt)
+      : most(0) {
+    for (int k = 0; k < kLanes; ++k) {
+      const DeflectedLink& link = *links[k < count ? k : 0];
+      load[k] = link.load;
+      inertia[k] = link.inertia;
+      spring.gap[k] = link.gap;
+      spring.stiffness[k] = link.stiffness;
+      spring.damping[k] = link.damping;
+      d[k] = link.start;
+      rate[k] = link.start_rate;
+      substeps[k] = link.substeps;
+      if (link.substeps > most) most = link.substeps;
+    }
+    change = Lanes{};
+    step_d = kGamma * dt * .5 / substeps;
   }
-  const Lanes h = .5 / substeps;
-  auto* weights = ARMCAL_SCRATCH(StageWeights, 4 * most);
-  for (int half = 0; half < 2; ++half) {
-    for (int i = 0; i < most; ++i) {
-      const Lanes begin =
-          (static_cast<double>(half) * substeps + static_cast<double>(i)) * h;
-      StageWeights* at = weights + 2 * (half * most + i);
-      at[0] = WeightsAt(begin + kGamma * h);
-      at[1] = WeightsAt(begin + h);
+
+  // Of both stages of all steps of a sample, 4 `most`.
+  ARMCAL_INLINE void SetWeights(StageWeights* weights) const {
+    const Lanes h = .5 / substeps;
+    for (int half = 0; half < 2; ++half) {
+      for (int i = 0; i < most; ++i) {
+        const Lanes begin =
+            (static_cast<double>(half) * substeps + static_cast<double>(i)) * h;
+        *weights++ = WeightsAt(begin + kGamma * h);
+        *weights++ = WeightsAt(begin + h);
+      }
     }
   }
-  const Lanes step_d = kGamma * dt * h;
-  Lanes change = {};  // of the rate in the last step
-  const auto advance = [&](const SignalPiece& loads,
-                           const SignalPiece& inertias,
-                           const StageWeights* at) ARMCAL_LAMBDA {
+
+  // Half a sample.
+  ARMCAL_INLINE void Advance(const SignalPiece& loads,
+                             const SignalPiece& inertias,
+                             const StageWeights* at) {
     for (int i = 0; i < most; ++i, at += 2) {
       const Integers active = substeps > static_cast<double>(i);
       // Guesses go on as the rate went before.
@@ -175,26 +112,35 @@ __attribute__((noinline)) void FollowLinks(const DeflectedLink* const* links,
       d = active ? x : d;
       rate = active ? v : rate;
     }
-  };
-  Lanes before = rate;
+  }
+};
+
+template <bool kHasGap>
+__attribute__((noinline)) void FollowLinks(const DeflectedLink* const* links,
+                                           int count, long samples, double dt) {
+  LinkLanes<kHasGap> lanes(links, count, dt);
+  auto* weights = ARMCAL_SCRATCH(StageWeights, 4 * lanes.most);
+  lanes.SetWeights(weights);
+  Lanes before = lanes.rate;
   for (long k = 0; k < samples; ++k) {
     const bool first = k == 0, last = k + 1 == samples;
     for (int i = 0; i < count; ++i) {
-      links[i]->angle[k] = d[i];
-      links[i]->rate[k] = rate[i];
+      links[i]->angle[k] = lanes.d[i];
+      links[i]->rate[k] = lanes.rate[i];
     }
     SignalPiece loads, inertias;
     if (!last) {
-      loads = PieceAt(load, k, samples - 1);
-      inertias = PieceAt(inertia, k, samples - 1);
-      advance(loads, inertias, weights);
+      loads = PieceAt(lanes.load, k, samples - 1);
+      inertias = PieceAt(lanes.inertia, k, samples - 1);
+      lanes.Advance(loads, inertias, weights);
     }
     const double time = ((first ? 0 : .5) + (last ? 0 : .5)) * dt;
     for (int i = 0; i < count; ++i) {
-      links[i]->acceleration[k] = time > 0 ? (rate[i] - before[i]) / time : 0;
+      links[i]->acceleration[k] =
+          time > 0 ? (lanes.rate[i] - before[i]) / time : 0;
     }
-    before = rate;
-    if (!last) advance(loads, inertias, weights + 2 * most);
+    before = lanes.rate;
+    if (!last) lanes.Advance(loads, inertias, weights + 2 * lanes.most);
   }
 }
 
