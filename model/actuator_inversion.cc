@@ -167,15 +167,16 @@ double InvertAt(const MotorMap& motor, double needed, double guess,
   return commanded;
 }
 
-MatrixXd InvertMotor(const MotorMap& motor, const MatrixXd& needed,
-                     const MatrixXd& guess) {
-  const double close = kClose * needed.cwiseAbs().maxCoeff();
-  MatrixXd commanded = needed;
-  for (Eigen::Index k = 0; k < needed.rows(); ++k) {
-    commanded(k, motor.joint) =
-        InvertAt(motor, needed(k, motor.joint), guess(k, motor.joint), close);
+// From what is needed of the motors to what is asked of them, in place: of the
+// others both are the same.
+void InvertMotor(const MotorMap& motor, const MatrixXd& guess,
+                 MatrixXd* torque) {
+  const double close = kClose * torque->cwiseAbs().maxCoeff();
+  const int j = motor.joint;
+  for (Eigen::Index k = 0; k < torque->rows(); ++k) {
+    const double own = (*torque)(k, j) + motor.FromNeighbour(torque->row(k));
+    (*torque)(k, j) = InvertAt(motor, own, guess(k, j), close);
   }
-  return commanded;
 }
 
 // Of one map without states, sample by sample.
@@ -227,10 +228,13 @@ MatrixXd CommandFor(const std::vector<ActuatorMap>& actuators,
   for (auto map = actuators.rbegin(); map != actuators.rend(); ++map) {
     const MatrixXd& from = guess.size() > 0 ? guess : commanded;
     const auto* motor = map->apply.target<MotorMap>();
-    commanded = map->initial_state.size() > 0
-                    ? InvertLag({*map}, track, commanded)
-                : motor != nullptr ? InvertMotor(*motor, commanded, from)
-                                   : InvertMap({*map}, track, commanded, from);
+    if (map->initial_state.size() > 0) {
+      commanded = InvertLag({*map}, track, commanded);
+    } else if (motor != nullptr) {
+      InvertMotor(*motor, from, &commanded);
+    } else {
+      commanded = InvertMap({*map}, track, commanded, from);
+    }
   }
   return commanded;
 }

@@ -225,7 +225,9 @@ MatrixXd RecordedTorque::ChangeOf(const SimulatedRobot& changed,
       same_robot ? nominal_ : RigidTorque(changed.robot, motion, as_recorded);
   if (as_recorded && changed.transmissions.empty()) {
     AddLaws(changed, track_, &tau);
-    return Recorded(changed, track_, std::move(tau)) - nominal_;
+    tau = Recorded(changed, track_, std::move(tau));
+    tau -= nominal_;
+    return tau;
   }
   MotionTrack track = track_;
   if (!as_recorded) {
@@ -236,7 +238,9 @@ MatrixXd RecordedTorque::ChangeOf(const SimulatedRobot& changed,
     AddTransmissions(changed, motion, deflections, &track, &tau);
   }
   AddLaws(changed, track, &tau);
-  return Recorded(changed, track, std::move(tau)) - nominal_;
+  tau = Recorded(changed, track, std::move(tau));
+  tau -= nominal_;
+  return tau;
 }
 
 // Whether it has joint laws, perhaps in joints that warm up, and nothing else.
