@@ -167,15 +167,13 @@ double InvertAt(const MotorMap& motor, double needed, double guess,
   return commanded;
 }
 
-// From what is needed of the motors to what is asked of them, in place: of the
-// others both are the same.
+// From what is needed of the motors to what is asked of them, in place.
 void InvertMotor(const MotorMap& motor, const MatrixXd& guess,
                  MatrixXd* torque) {
   const double close = kClose * torque->cwiseAbs().maxCoeff();
   const int j = motor.joint;
   for (Eigen::Index k = 0; k < torque->rows(); ++k) {
-    const double own = (*torque)(k, j) + motor.FromNeighbour(torque->row(k));
-    (*torque)(k, j) = InvertAt(motor, own, guess(k, j), close);
+    (*torque)(k, j) = InvertAt(motor, (*torque)(k, j), guess(k, j), close);
   }
 }
 

@@ -78,24 +78,6 @@ TEST(ActuatorInversion, InvertsMotorsAsOtherMaps) {
   }
 }
 
-// A share of the neighbour's command comes off, whatever that motor gives.
-TEST(ActuatorInversion, InvertsMotorsThatANeighbourDisturbs) {
-  MotionTrack track = Rest();
-  track.position = track.velocity = track.load = track.warmth =
-      MatrixXd::Zero(2, kSamples);
-  MatrixXd needed(kSamples, 2);
-  needed << Wave(Torque), Wave(Slope);
-  const MotorMap motor = {1, [](double x) { return x / 1.2; }, 0, .3};
-  const MatrixXd commanded = CommandFor({{{}, motor}}, track, needed, {});
-  EXPECT_EQ(commanded.col(0), needed.col(0));
-  const VectorXd expected = 1.2 * (needed.col(1) + .3 * needed.col(0));
-  EXPECT_LT((commanded.col(1) - expected).cwiseAbs().maxCoeff(), 1e-6);
-  EXPECT_LT((GivenTorque({{{}, motor}}, track, commanded) - needed)
-                .cwiseAbs()
-                .maxCoeff(),
-            1e-6);
-}
-
 // Where a motor is at its limit only the record says what was asked.
 TEST(ActuatorInversion, BelievesTheRecordAtALimit) {
   const auto clip = [](double x) { return std::clamp(x, -5., 5.); };

@@ -1,5 +1,4 @@
 #include "model/effects/effect_parts.h"
-#include "model/motor_map.h"
 
 namespace armcal {
 inline namespace effects {
@@ -27,8 +26,11 @@ Effect TorqueCrosstalk() {
                     SimulatedRobot* robot) {
     const int j = site.joint, k = static_cast<int>(p[1] + .5) - 1;
     const double gain = p[0];
-    const auto all = [](double commanded) { return commanded; };
-    robot->actuators.push_back({{}, MotorMap{j, all, k, gain}});
+    robot->actuators.push_back({{},
+                                [=](const ArmInstant&, const double*, double*,
+                                    Eigen::VectorXd* torque) {
+                                  (*torque)[j] -= gain * (*torque)[k];
+                                }});
   };
   effect.unfit = WhyNoNeighbour;
   effect.experiment = "the neighbour loaded while this joint rests";
