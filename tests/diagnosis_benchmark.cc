@@ -106,12 +106,7 @@ void DiagnosisScreenOf(benchmark::State& state) {
 }
 BENCHMARK(DiagnosisScreenOf)
     ->ArgName("effects")
-    ->Arg(1)
-    ->Arg(4)
-    ->Arg(8)
-    ->Arg(16)
-    ->Arg(24)
-    ->Arg(32)
+    ->DenseRange(8, 32, 2)
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
 
