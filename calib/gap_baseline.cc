@@ -1,12 +1,13 @@
 #include "calib/gap_baseline.h"
 
 #include <glog/logging.h>
+#include <tbb/parallel_for.h>
 
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "model/link_regressor.h"
+#include "model/batch_regressor.h"
 #include "model/low_pass.h"
 
 namespace armcal {
@@ -33,24 +34,25 @@ double WidthUnit(const Joint& joint) {
   return IsRotational(joint.type) ? 1 : .3;
 }
 
-// Torque of joint j per unit of all links' inertial parameters: per joint,
-// samples x 10 n.
+// Torque of joint j per unit of the inertial parameters of links j to n, which
+// are those that it moves: per joint, samples x 10 (n - j).
 std::vector<MatrixXd> InertialTorque(const Robot& robot, const Motion& motion) {
   const int n = robot.num_joints();
-  LinkRegressor regressor(robot);
-  std::vector<MatrixXd> momentum(n, MatrixXd(motion.size(), 10 * n));
-  std::vector<MatrixXd> force = momentum;
-  MatrixXd P, D;
-  for (int k = 0; k < motion.size(); ++k) {
-    regressor.Momentum(motion.q.row(k), motion.qd.row(k), &P, &D);
-    for (int j = 0; j < n; ++j) {
-      momentum[j].row(k) = P.row(j);
-      force[j].row(k) = D.row(j);
-    }
-  }
+  const BatchRegressor regressor(robot);
+  std::vector<MatrixXd> momentum, force;
+  std::vector<double*> P, D;
   for (int j = 0; j < n; ++j) {
-    momentum[j] = Differentiate(momentum[j], motion.dt) - force[j];
+    for (auto* list : {&momentum, &force}) {
+      list->emplace_back(motion.size(), regressor.row_size(j));
+    }
+    P.push_back(momentum[j].data());
+    D.push_back(force[j].data());
   }
+  regressor.Momentum({motion.q, motion.qd, MatrixXd(), MatrixXd()},
+                     motion.size(), P.data(), D.data(), motion.size());
+  tbb::parallel_for(0, n, [&](int j) {
+    momentum[j] = Differentiate(momentum[j], motion.dt) - force[j];
+  });
   return momentum;
 }
 
@@ -152,7 +154,7 @@ VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
   switch (column.kind) {
     case BaselineColumn::Kind::kInertial:
       if (column.joint < j) return {};
-      return inertial.col(10 * column.joint + column.index);
+      return inertial.col(10 * (column.joint - j) + column.index);
     case BaselineColumn::Kind::kTerm:
     case BaselineColumn::Kind::kDay:
       if (!own) return {};
@@ -182,20 +184,28 @@ std::vector<MatrixXd> GapBaseline::ThinColumns(
     const Motion& motion = torques[i].motion();
     const std::vector<MatrixXd> inertial = InertialTorque(robot_, motion);
     const std::vector<MatrixXd> known = known_.Torques(robot_, torques[i]);
-    for (int j = 0; j < n; ++j) {
-      MatrixXd fine = MatrixXd::Zero(motion.size(), size());
-      for (size_t k = 0; k < known.size(); ++k) {
-        fine.col(size() - known.size() + k) = known[k].col(j);
-      }
+    tbb::parallel_for(0, n, [&](int j) {
+      std::vector<int> which;
+      std::vector<VectorXd> columns;
+      const auto add = [&](int c, VectorXd column) {
+        if (column.size() == 0 || column.isZero(0)) return;
+        which.push_back(c);
+        columns.push_back(std::move(column));
+      };
       for (int c = 0; c < size(); ++c) {
-        const VectorXd column =
-            FineColumn(columns_[c], j, inertial[j], torques[i]);
-        if (column.size() > 0) fine.col(c) = columns_[c].spread * column;
+        add(c, columns_[c].spread *
+                   FineColumn(columns_[c], j, inertial[j], torques[i]));
       }
-      thin[j].middleRows(rows.thin_begin(s),
-                         rows.thin_begin(s + 1) - rows.thin_begin(s)) =
-          rows.Thin(s, fine);
-    }
+      for (size_t k = 0; k < known.size(); ++k) {
+        add(static_cast<int>(size() - known.size() + k), known[k].col(j));
+      }
+      MatrixXd fine(motion.size(), columns.size());
+      for (size_t k = 0; k < columns.size(); ++k) fine.col(k) = columns[k];
+      const MatrixXd low = rows.Thin(s, fine);
+      auto here = thin[j].middleRows(rows.thin_begin(s), low.rows());
+      here.setZero();
+      for (size_t k = 0; k < which.size(); ++k) here.col(which[k]) = low.col(k);
+    });
   }
   return thin;
 }

@@ -213,34 +213,67 @@ std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects) {
   return sharper;
 }
 
-void AddThinned(const GapRows& rows, int segment, const MatrixXd& torque,
-                JointRows* thin) {
+void AddThinned(const GapRows& rows, int segment,
+                const std::vector<RecordedTorque::OfJoints>& torques,
+                const std::vector<JointRows*>& thin) {
+  constexpr size_t kColumns = 12;  // filtered at once
+  std::vector<std::pair<const VectorXd*, VectorXd*>> columns;
+  for (size_t i = 0; i < torques.size(); ++i) {
+    for (int j = 0; j < rows.num_joints(); ++j) {
+      if (torques[i][j].size() == 0) continue;
+      VectorXd& all = (*thin[i])[j];
+      if (all.size() == 0) all = VectorXd::Zero(rows.num_thin());
+      columns.emplace_back(&torques[i][j], &all);
+    }
+  }
   const int begin = rows.thin_begin(segment);
-  for (int j = 0; j < rows.num_joints(); ++j) {
-    if ((torque.col(j).array() == 0).all()) continue;
-    VectorXd& all = (*thin)[j];
-    if (all.size() == 0) all = VectorXd::Zero(rows.num_thin());
-    all.segment(begin, rows.thin_begin(segment + 1) - begin) =
-        rows.Thin(segment, torque.col(j));
+  for (size_t first = 0; first < columns.size(); first += kColumns) {
+    const size_t count = std::min(kColumns, columns.size() - first);
+    MatrixXd fine(columns[first].first->size(), count);
+    for (size_t c = 0; c < count; ++c) fine.col(c) = *columns[first + c].first;
+    const MatrixXd low = rows.Thin(segment, fine);
+    for (size_t c = 0; c < count; ++c) {
+      columns[first + c].second->segment(begin, low.rows()) = low.col(c);
+    }
   }
 }
 
 namespace {
 
-JointRows ThinTorque(const GapCandidate& candidate, const VectorXd& p,
-                     const GapBaseline& baseline, const GapRows& rows,
-                     const MotionScale& scale,
-                     std::vector<RecordedTorque>* torques) {
-  JointRows thin(rows.num_joints());
-  SimulatedRobot changed;
-  changed.robot = baseline.robot();
-  candidate.effect->apply({&baseline.robot(), candidate.joint, &scale}, p,
-                          &changed);
-  for (size_t s = 0; s < torques->size(); ++s) {
-    if (!candidate.IsIn(rows.segments()[s].log)) continue;
-    AddThinned(rows, static_cast<int>(s), (*torques)[s].Change(changed), &thin);
+// One of a candidate's torques.
+struct TorqueOf {
+  GapCandidate* candidate;
+  size_t k;
+
+  SimulatedRobot Robot(const GapBaseline& baseline,
+                       const MotionScale& scale) const {
+    VectorXd p = candidate->p;
+    p[candidate->linear[k]] = candidate->size[k];
+    SimulatedRobot changed;
+    changed.robot = baseline.robot();
+    candidate->effect->apply({&baseline.robot(), candidate->joint, &scale}, p,
+                             &changed);
+    return changed;
   }
-  return thin;
+};
+
+void Evaluate(const std::vector<TorqueOf>& torques, const GapBaseline& baseline,
+              const GapRows& rows, const MotionScale& scale,
+              std::vector<RecordedTorque>* recorded) {
+  for (const TorqueOf& one : torques) {
+    one.candidate->torque[one.k].resize(rows.num_joints());
+  }
+  for (size_t s = 0; s < recorded->size(); ++s) {
+    std::vector<SimulatedRobot> changed;
+    std::vector<JointRows*> thin;
+    for (const TorqueOf& one : torques) {
+      if (!one.candidate->IsIn(rows.segments()[s].log)) continue;
+      changed.push_back(one.Robot(baseline, scale));
+      thin.push_back(&one.candidate->torque[one.k]);
+    }
+    AddThinned(rows, static_cast<int>(s), (*recorded)[s].Changes(changed),
+               thin);
+  }
 }
 
 }  // namespace
@@ -262,12 +295,17 @@ void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
                         const MotionScale& scale,
                         const std::vector<RecordedTorque>& torques,
                         std::vector<GapCandidate>* candidates) {
-  std::vector<std::pair<GapCandidate*, size_t>> missing;
+  // Neighbours share what they can, instants of the motion above all.
+  constexpr size_t kTogether = 16;
+  std::vector<std::vector<TorqueOf>> missing;
   for (GapCandidate& candidate : *candidates) {
     if (!candidate.torque.empty()) continue;
     candidate.torque.resize(candidate.linear.size());
     for (size_t k = 0; k < candidate.linear.size(); ++k) {
-      missing.emplace_back(&candidate, k);
+      if (missing.empty() || missing.back().size() == kTogether) {
+        missing.emplace_back();
+      }
+      missing.back().push_back({&candidate, k});
     }
   }
   tbb::enumerable_thread_specific<std::vector<RecordedTorque>> own(torques);
@@ -275,11 +313,7 @@ void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
       tbb::blocked_range<size_t>(0, missing.size()),
       [&](const tbb::blocked_range<size_t>& range) {
         for (size_t i = range.begin(); i < range.end(); ++i) {
-          auto& [candidate, k] = missing[i];
-          VectorXd p = candidate->p;
-          p[candidate->linear[k]] = candidate->size[k];
-          candidate->torque[k] =
-              ThinTorque(*candidate, p, baseline, rows, scale, &own.local());
+          Evaluate(missing[i], baseline, rows, scale, &own.local());
         }
       },
       tbb::simple_partitioner());

@@ -53,10 +53,11 @@ bool HasShape(const GapCandidate& candidate);
 // Of effects, those that have a shape as candidates of that shape and size.
 std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects);
 
-// Low-passes and thins a torque (samples x n) of a segment into the thinned
-// samples of all, per joint; joints that it is zero of stay empty.
-void AddThinned(const GapRows& rows, int segment, const Eigen::MatrixXd& torque,
-                JointRows* thin);
+// Low-passes and thins torques of a segment into the thinned samples of all,
+// per joint; joints that they are nothing of stay empty.
+void AddThinned(const GapRows& rows, int segment,
+                const std::vector<RecordedTorque::OfJoints>& torques,
+                const std::vector<JointRows*>& thin);
 
 // Moves torques to candidates from those that are the same, which are left
 // without.

@@ -18,73 +18,77 @@ bool IsPositive(const GapCandidate& candidate, int k) {
          EffectParameter::Sign::kPositive;
 }
 
-// The candidate's columns beside S, those that are `used`.
-struct OwnEquations {
-  MatrixXd G;
-  VectorXd g;
-};
-
-OwnEquations EquationsOf(const GapScreen& screen, const Conditioned& c,
-                         const GapCandidate& candidate,
-                         std::vector<bool>* used) {
-  const int size = static_cast<int>(candidate.columns.size());
-  OwnEquations own{MatrixXd::Zero(size, size), VectorXd(size)};
-  for (int k = 0; k < size; ++k) {
-    const int a = candidate.columns[k];
-    for (int l = 0; l < size; ++l) {
-      const int b = candidate.columns[l];
-      own.G(k, l) = screen.G()(a, b);
-      if (c.half.size() > 0) own.G(k, l) -= c.half.col(a).dot(c.half.col(b));
-    }
-    own.g[k] = c.g[a];
-    (*used)[k] = own.G(k, k) > kVisible * screen.raw(a);
-    own.G(k, k) += screen.ridge(a);
-  }
-  return own;
-}
-
 // Zero for columns that are not used.
-VectorXd Coefficients(const OwnEquations& own, const std::vector<bool>& used) {
-  MatrixXd G = MatrixXd::Identity(own.G.rows(), own.G.cols());
-  VectorXd g = VectorXd::Zero(own.g.size());
+VectorXd Coefficients(const MatrixXd& G, const VectorXd& g,
+                      const std::vector<bool>& used) {
+  MatrixXd equations = MatrixXd::Identity(G.rows(), G.cols());
+  VectorXd right = VectorXd::Zero(g.size());
   for (int k = 0; k < g.size(); ++k) {
     if (!used[k]) continue;
-    g[k] = own.g[k];
+    right[k] = g[k];
     for (int l = 0; l < g.size(); ++l) {
-      if (used[l]) G(k, l) = own.G(k, l);
+      if (used[l]) equations(k, l) = G(k, l);
     }
   }
-  return G.llt().solve(g);
+  return equations.llt().solve(right);
 }
 
 }  // namespace
 
-Conditioned Condition(const GapScreen& screen, const std::vector<int>& S,
-                      const VectorXd& gradient) {
-  Conditioned c;
-  c.g = gradient;
-  if (S.empty()) return c;
+DropsBeside::DropsBeside(const GapScreen& screen,
+                         const std::vector<GapCandidate>& candidates,
+                         const std::vector<int>& S)
+    : screen_(screen), candidates_(candidates), S_(S) {
   const int size = static_cast<int>(S.size());
-  MatrixXd G(size, size), cross(size, screen.size());
-  VectorXd g(size);
-  for (int k = 0; k < size; ++k) {
-    cross.row(k) = screen.G().row(S[k]);
-    g[k] = gradient[S[k]];
-    for (int l = 0; l < size; ++l) G(k, l) = screen.G()(S[k], S[l]);
-    G(k, k) += screen.ridge(S[k]);
+  if (size > 0) {
+    MatrixXd G(size, size), cross(size, screen.size());
+    for (int k = 0; k < size; ++k) {
+      cross.row(k) = screen.G().row(S[k]);
+      for (int l = 0; l < size; ++l) G(k, l) = screen.G()(S[k], S[l]);
+      G(k, k) += screen.ridge(S[k]);
+    }
+    factor_.compute(G);
+    half_ = factor_.matrixL().solve(cross);
   }
-  const Eigen::LLT<MatrixXd> factor(G);
-  c.half = factor.matrixL().solve(cross);
-  c.g -= c.half.transpose() * factor.matrixL().solve(g);
-  return c;
+  for (const GapCandidate& candidate : candidates) {
+    own_.push_back(OwnOf(candidate));
+  }
 }
 
-double Drop(const GapScreen& screen, const Conditioned& c,
-            const GapCandidate& candidate) {
-  std::vector<bool> used(candidate.columns.size());
-  const OwnEquations own = EquationsOf(screen, c, candidate, &used);
+DropsBeside::Own DropsBeside::OwnOf(const GapCandidate& candidate) const {
+  const int size = static_cast<int>(candidate.columns.size());
+  Own own{MatrixXd(size, size), std::vector<bool>(size)};
+  for (int k = 0; k < size; ++k) {
+    const int a = candidate.columns[k];
+    for (int l = 0; l < size; ++l) {
+      const int b = candidate.columns[l];
+      own.G(k, l) = screen_.G()(a, b);
+      if (half_.size() > 0) own.G(k, l) -= half_.col(a).dot(half_.col(b));
+    }
+    own.used[k] = own.G(k, k) > kVisible * screen_.raw(a);
+    own.G(k, k) += screen_.ridge(a);
+  }
+  return own;
+}
+
+VectorXd DropsBeside::Conditioned(const VectorXd& gradient) const {
+  if (S_.empty()) return gradient;
+  const VectorXd g = gradient(S_);
+  return gradient - half_.transpose() * factor_.matrixL().solve(g);
+}
+
+double DropsBeside::Of(size_t i, const VectorXd& conditioned) const {
+  const GapCandidate& candidate = candidates_[i];
+  const Own& own = own_[i];
+  if (candidate.columns.size() == 1) {
+    const double g = conditioned[candidate.columns[0]];
+    const bool wrong = IsPositive(candidate, 0) && g < 0;
+    return !own.used[0] || wrong ? 0 : g * g / own.G(0, 0);
+  }
+  const VectorXd g = conditioned(candidate.columns);
+  std::vector<bool> used = own.used;
   while (true) {
-    const VectorXd x = Coefficients(own, used);
+    const VectorXd x = Coefficients(own.G, g, used);
     int wrong = -1, right = 0;
     for (int k = 0; k < x.size(); ++k) {
       if (!used[k] || !IsPositive(candidate, k)) continue;
@@ -94,7 +98,7 @@ double Drop(const GapScreen& screen, const Conditioned& c,
         wrong = k;
       }
     }
-    if (wrong < 0) return own.g.dot(x);
+    if (wrong < 0) return g.dot(x);
     if (right == 0) return 0;
     used[wrong] = false;
   }

@@ -26,25 +26,23 @@ constexpr double kLowest = -100;    // of scores that no candidate has
 MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
                         const GapScreen::Fit& fit) {
   const int n = rows.num_joints();
-  std::map<std::pair<int, long>, JointRows> blocks;
+  std::map<std::pair<int, long>, int> blocks;
+  std::vector<std::vector<std::pair<int, long>>> of_row(n);
+  JointRows residual(n);
   for (int j = 0; j < n; ++j) {
-    const std::vector<GapRows::Place> places = rows.PlacesOfRows(j);
-    const VectorXd residual = screen.Residual(j, fit);
-    for (size_t k = 0; k < places.size(); ++k) {
-      JointRows& part =
-          blocks.emplace(BlockOf(places[k]), JointRows(n)).first->second;
-      for (int i = 0; i < n && part[i].size() == 0; ++i) {
-        part[i] = VectorXd::Zero(screen.num_rows(i));
-      }
-      part[j][k] = residual[k];
+    residual[j] = screen.Residual(j, fit);
+    for (const GapRows::Place& place : rows.PlacesOfRows(j)) {
+      of_row[j].push_back(BlockOf(place));
+      blocks[of_row[j].back()] = 0;
     }
   }
-  MatrixXd gradients(screen.size(), blocks.size());
-  int at = 0;
-  for (const auto& [place, part] : blocks) {
-    gradients.col(at++) = screen.Gradient(part);
+  int count = 0;
+  for (auto& [block, number] : blocks) number = count++;
+  std::vector<std::vector<int>> numbers(n);
+  for (int j = 0; j < n; ++j) {
+    for (const auto& block : of_row[j]) numbers[j].push_back(blocks[block]);
   }
-  return gradients;
+  return screen.Gradients(residual, numbers, count);
 }
 
 double Quantile(VectorXd x, double share) {
@@ -82,13 +80,13 @@ double ScoreByChance(const GapScreen& screen, const GapRows& rows,
   MatrixXd best = MatrixXd::Constant(kDraws, rows.num_joints() + 1, kLowest);
   MatrixXd signs(blocks.cols(), kDraws);
   for (double& sign : signs.reshaped()) sign = random() & 1 ? 1 : -1;
+  const ScoresInAddition scores_of(screen, candidates, options, chosen);
   tbb::parallel_for(0, kDraws, [&](int draw) {
     VectorXd g = VectorXd::Zero(screen.size());
     for (Eigen::Index b = 0; b < blocks.cols(); ++b) {
       g += signs(b, draw) * blocks.col(b);
     }
-    const VectorXd scores =
-        ScoresBeside(screen, candidates, options, chosen, g);
+    const VectorXd scores = scores_of(g);
     for (size_t i = 0; i < candidates.size(); ++i) {
       double& own = best(draw, candidates[i].joint + 1);
       own = std::max(own, scores[i]);

@@ -2,7 +2,6 @@
 
 #include <ceres/ceres.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +35,11 @@ class ProjectedResidual : public ceres::CostFunction {
         effects_(std::move(effects)),
         coordinates_(std::move(coordinates)),
         data_(data),
+        costs_as_much_together_(
+            std::any_of(effects_.begin(), effects_.end(),
+                        [](const GapCandidate& effect) {
+                          return !effect.effect->larger_sizes.empty();
+                        })),
         torques_(data.torques()) {
     mutable_parameter_block_sizes()->push_back(
         static_cast<int>(coordinates_.size()));
@@ -74,37 +78,66 @@ class ProjectedResidual : public ceres::CostFunction {
     VectorXd u;
     JointRows torque;  // whitened
     VectorXd residual;
-    RowMajorMatrix jacobian;  // empty: not asked for yet
+    RowMajorMatrix jacobian;        // empty: not asked for yet
+    std::vector<JointRows> beside;  // torques of its neighbours, likewise
   };
 
-  JointRows Torque(const VectorXd& u) const {
-    return WhitenEach(data_.rows(),
-                      EffectTorque(baseline_, scale_, At(u), data_.rows(),
-                                   &torques_.local()));
+  std::vector<JointRows> Torques(const std::vector<VectorXd>& points) const {
+    std::vector<std::vector<GapCandidate>> sets;
+    for (const VectorXd& u : points) sets.push_back(At(u));
+    std::vector<JointRows> torques =
+        EffectTorques(baseline_, scale_, sets, data_.rows(), &torques_.local());
+    for (JointRows& torque : torques) torque = WhitenEach(data_.rows(), torque);
+    return torques;
   }
 
   Point& Find(const VectorXd& u) const {
     for (Point& point : points_) {
       if (point.u == u) return point;
     }
-    const JointRows torque = Torque(u);
-    points_.push_back({u, torque, screen_.ResidualBeside(torque), {}});
+    std::vector<VectorXd> all = {u};
+    if (costs_as_much_together_) {
+      for (const Neighbour& next : NeighboursOf(u)) all.push_back(next.u);
+    }
+    std::vector<JointRows> torques = Torques(all);
+    points_.push_back(
+        {u, torques[0], screen_.ResidualBeside(torques[0]), {}, {}});
+    torques.erase(torques.begin());
+    points_.back().beside = std::move(torques);
     return points_.back();
   }
 
-  void Differentiate(Point* point) const {
+  // Where differences are taken, a coordinate each.
+  struct Neighbour {
+    VectorXd u;
+    double step;
+  };
+  std::vector<Neighbour> NeighboursOf(const VectorXd& u) const {
     constexpr double kRelativeStep = 1e-4;
     const double least =
         std::sqrt(std::numeric_limits<double>::epsilon());  // Ceres'
+    std::vector<Neighbour> neighbours;
+    for (Eigen::Index k = 0; k < u.size(); ++k) {
+      neighbours.push_back(
+          {u, std::max(least, kRelativeStep * std::abs(u[k]))});
+      neighbours.back().u[k] += neighbours.back().step;
+    }
+    return neighbours;
+  }
+
+  void Differentiate(Point* point) const {
+    const std::vector<Neighbour> neighbours = NeighboursOf(point->u);
+    if (point->beside.empty()) {
+      std::vector<VectorXd> all;
+      for (const Neighbour& next : neighbours) all.push_back(next.u);
+      point->beside = Torques(all);
+    }
     point->jacobian.resize(num_residuals(), point->u.size());
-    tbb::parallel_for(Eigen::Index{0}, point->u.size(), [&](Eigen::Index k) {
-      const double step =
-          std::max(least, kRelativeStep * std::abs(point->u[k]));
-      VectorXd u = point->u;
-      u[k] += step;
+    for (Eigen::Index k = 0; k < point->u.size(); ++k) {
       point->jacobian.col(k) =
-          (screen_.ResidualBeside(Torque(u)) - point->residual) * (1 / step);
-    });
+          (screen_.ResidualBeside(point->beside[k]) - point->residual) *
+          (1 / neighbours[k].step);
+    }
   }
 
   const GapScreen& screen_;
@@ -113,6 +146,8 @@ class ProjectedResidual : public ceres::CostFunction {
   std::vector<GapCandidate> effects_;
   std::vector<Coordinate> coordinates_;
   const GapData& data_;
+  // Whether a point takes about as long as with its neighbours, in lanes.
+  bool costs_as_much_together_;
   mutable tbb::enumerable_thread_specific<std::vector<RecordedTorque>> torques_;
   mutable std::deque<Point> points_;
 };
@@ -193,25 +228,29 @@ MatrixXd Spread(const std::vector<GapCandidate>& effects,
 JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
                        const std::vector<GapCandidate>& effects,
                        GapData* data) {
-  return EffectTorque(baseline, scale, effects, data->rows(),
-                      data->mutable_torques());
+  return EffectTorques(baseline, scale, {effects}, data->rows(),
+                       data->mutable_torques())[0];
 }
 
-JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
-                       const std::vector<GapCandidate>& effects,
-                       const GapRows& rows,
-                       std::vector<RecordedTorque>* torques) {
-  JointRows thin(rows.num_joints());
+std::vector<JointRows> EffectTorques(
+    const GapBaseline& baseline, const MotionScale& scale,
+    const std::vector<std::vector<GapCandidate>>& sets, const GapRows& rows,
+    std::vector<RecordedTorque>* torques) {
+  std::vector<JointRows> thin(sets.size(), JointRows(rows.num_joints()));
+  std::vector<JointRows*> to;
+  for (JointRows& one : thin) to.push_back(&one);
   for (size_t i = 0; i < rows.segments().size(); ++i) {
     const int s = static_cast<int>(i), log = rows.segments()[i].log;
-    SimulatedRobot changed;
-    changed.robot = baseline.robot();
-    for (const GapCandidate& effect : effects) {
-      if (!effect.IsIn(log)) continue;
-      effect.effect->apply({&baseline.robot(), effect.joint, &scale}, effect.p,
-                           &changed);
+    std::vector<SimulatedRobot> changed(sets.size());
+    for (size_t k = 0; k < sets.size(); ++k) {
+      changed[k].robot = baseline.robot();
+      for (const GapCandidate& effect : sets[k]) {
+        if (!effect.IsIn(log)) continue;
+        effect.effect->apply({&baseline.robot(), effect.joint, &scale},
+                             effect.p, &changed[k]);
+      }
     }
-    AddThinned(rows, s, (*torques)[i].Change(changed), &thin);
+    AddThinned(rows, s, (*torques)[i].Changes(changed), to);
   }
   return thin;
 }

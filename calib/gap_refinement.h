@@ -34,11 +34,11 @@ RefinedEffects RefineEffects(const GapScreen& screen,
 // than those it was found in.
 JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
                        const std::vector<GapCandidate>& effects, GapData* data);
-// The same by a thread's own `torques`, one per segment.
-JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
-                       const std::vector<GapCandidate>& effects,
-                       const GapRows& rows,
-                       std::vector<RecordedTorque>* torques);
+// The same of several such sets, by a thread's own `torques`, one per segment.
+std::vector<JointRows> EffectTorques(
+    const GapBaseline& baseline, const MotionScale& scale,
+    const std::vector<std::vector<GapCandidate>>& sets, const GapRows& rows,
+    std::vector<RecordedTorque>* torques);
 // Their rows.
 JointRows WhitenEach(const GapRows& rows, const JointRows& thin);
 

@@ -1,15 +1,33 @@
 #include "calib/gap_screen.h"
 
 #include <glog/logging.h>
+#include <tbb/parallel_for.h>
 
 #include <cmath>
 
 #include "model/dense_solvers.h"
+#include "model/simd/kernels.h"
 
 namespace armcal {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+namespace {
+
+// a' b, whole groups of rows in lanes.
+MatrixXd InnerProducts(const MatrixXd& a, const MatrixXd& b) {
+  const Eigen::Index whole = a.rows() / 8 * 8, rest = a.rows() - whole;
+  MatrixXd products(a.cols(), b.cols());
+  if (products.size() == 0) return products;
+  simd::BestKernels().inner_products(
+      a.data(), a.rows(), static_cast<int>(a.cols()), b.data(), b.rows(),
+      static_cast<int>(b.cols()), whole, products.data());
+  products += a.bottomRows(rest).transpose() * b.bottomRows(rest);
+  return products;
+}
+
+}  // namespace
 
 GapScreen::GapScreen(std::vector<MatrixXd> baseline, JointRows target)
     : baseline_(std::move(baseline)), target_(std::move(target)) {
@@ -19,13 +37,14 @@ GapScreen::GapScreen(std::vector<MatrixXd> baseline, JointRows target)
   gradient_ = VectorXd::Zero(size);
   for (size_t j = 0; j < baseline_.size(); ++j) {
     CHECK_EQ(baseline_[j].rows(), target_[j].size());
-    information_ += baseline_[j].transpose() * baseline_[j];
+    information_ += InnerProducts(baseline_[j], baseline_[j]);
     gradient_ += baseline_[j].transpose() * target_[j];
   }
 }
 
 void GapScreen::AddInformation(const MatrixXd& AtA, const VectorXd& Aty) {
   CHECK_EQ(known_.size(), 0);
+  CHECK_LT(factored_, 0);
   information_ += AtA;
   gradient_ += Aty;
   // The root of a matrix that may be singular, which a triangular one of it
@@ -48,44 +67,89 @@ int GapScreen::AddColumn(JointRows column) {
   return size() - 1;
 }
 
+GapScreen::Products GapScreen::ProductsOf(int joint) const {
+  Products products;
+  for (int c = 0; c < size(); ++c) {
+    if (columns_[c][joint].size() == 0) continue;
+    products.all.push_back(c);
+    if (c >= factored_) products.added.push_back(c);
+  }
+  if (products.added.empty()) return products;
+  MatrixXd C(target_[joint].size(), products.all.size());
+  for (size_t k = 0; k < products.all.size(); ++k) {
+    C.col(k) = columns_[products.all[k]][joint];
+  }
+  const MatrixXd added = C.rightCols(products.added.size());
+  products.by_columns = InnerProducts(C, added);
+  products.by_baseline = InnerProducts(baseline_[joint], added);
+  products.by_target = added.transpose() * target_[joint];
+  return products;
+}
+
 void GapScreen::Factor() {
-  const int count = size();
-  factor_.compute(information_);
-  cross_ = MatrixXd::Zero(gradient_.size(), count);
-  G_ = MatrixXd::Zero(count, count);
-  g_ = VectorXd::Zero(count);
-  for (size_t j = 0; j < target_.size(); ++j) {
-    std::vector<int> here;
-    for (int c = 0; c < count; ++c) {
-      if (columns_[c][j].size() > 0) here.push_back(c);
-    }
-    MatrixXd C(target_[j].size(), here.size());
-    for (size_t k = 0; k < here.size(); ++k) C.col(k) = columns_[here[k]][j];
-    const MatrixXd products = C.transpose() * C;
-    const MatrixXd cross = baseline_[j].transpose() * C;
-    const VectorXd with_target = C.transpose() * target_[j];
-    for (size_t k = 0; k < here.size(); ++k) {
-      cross_.col(here[k]) += cross.col(k);
-      g_[here[k]] += with_target[k];
-      for (size_t l = 0; l < here.size(); ++l) {
-        G_(here[k], here[l]) += products(k, l);
+  if (factored_ < 0) {
+    factor_.compute(information_);
+    factored_ = 0;
+  }
+  const int before = factored_, count = size(), more = count - before;
+  std::vector<Products> products(target_.size());
+  tbb::parallel_for(size_t{0}, products.size(), [&](size_t j) {
+    products[j] = ProductsOf(static_cast<int>(j));
+  });
+  cross_.conservativeResize(gradient_.size(), count);
+  cross_.rightCols(more).setZero();
+  // All columns by the new ones.
+  MatrixXd G = MatrixXd::Zero(count, more);
+  VectorXd g = VectorXd::Zero(more);
+  for (const Products& own : products) {
+    for (size_t k = 0; k < own.added.size(); ++k) {
+      const int c = own.added[k];
+      cross_.col(c) += own.by_baseline.col(k);
+      g[c - before] += own.by_target[k];
+      for (size_t l = 0; l < own.all.size(); ++l) {
+        G(own.all[l], c - before) += own.by_columns(l, k);
       }
     }
   }
-  raw_ = G_.diagonal();
-  const MatrixXd half = factor_.matrixL().solve(cross_);
-  const VectorXd known = factor_.matrixL().solve(gradient_);
-  G_ -= half.transpose() * half;
-  g_ -= half.transpose() * known;
+  raw_.conservativeResize(count);
+  raw_.tail(more) = G.bottomRows(more).diagonal();
+  half_.conservativeResize(gradient_.size(), count);
+  half_.rightCols(more) = factor_.matrixL().solve(cross_.rightCols(more));
+  const MatrixXd added = half_.rightCols(more);
+  G -= InnerProducts(half_, added);
+  g -= added.transpose() * factor_.matrixL().solve(gradient_);
+  G_.conservativeResize(count, count);
+  G_.rightCols(more) = G;
+  G_.bottomLeftCorner(more, before) = G.topRows(before).transpose();
+  g_.conservativeResize(count);
+  g_.tail(more) = g;
+  factored_ = count;
 }
 
 VectorXd GapScreen::Gradient(const JointRows& target) const {
-  VectorXd g = VectorXd::Zero(size());
-  VectorXd gradient = VectorXd::Zero(gradient_.size());
+  std::vector<std::vector<int>> one;
+  for (const VectorXd& rows : target) one.emplace_back(rows.size(), 0);
+  return Gradients(target, one, 1);
+}
+
+MatrixXd GapScreen::Gradients(const JointRows& target,
+                              const std::vector<std::vector<int>>& part_of_row,
+                              int parts) const {
+  MatrixXd g = MatrixXd::Zero(size(), parts);
+  MatrixXd gradient = MatrixXd::Zero(gradient_.size(), parts);
   for (size_t j = 0; j < target.size(); ++j) {
-    gradient += baseline_[j].transpose() * target[j];
-    for (int c = 0; c < size(); ++c) {
-      if (columns_[c][j].size() > 0) g[c] += columns_[c][j].dot(target[j]);
+    const std::vector<int>& part = part_of_row[j];
+    const int rows = static_cast<int>(part.size());
+    for (int begin = 0, end = 0; begin < rows; begin = end) {
+      while (end < rows && part[end] == part[begin]) ++end;
+      const int p = part[begin], count = end - begin;
+      const auto here = target[j].segment(begin, count);
+      gradient.col(p) +=
+          baseline_[j].middleRows(begin, count).transpose() * here;
+      for (int c = 0; c < size(); ++c) {
+        if (columns_[c][j].size() == 0) continue;
+        g(c, p) += columns_[c][j].segment(begin, count).dot(here);
+      }
     }
   }
   return g - cross_.transpose() * factor_.solve(gradient);

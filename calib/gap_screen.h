@@ -26,7 +26,8 @@ class GapScreen {
   void AddInformation(const Eigen::MatrixXd& AtA, const Eigen::VectorXd& Aty);
   // Returns the index of the column.
   int AddColumn(JointRows column);
-  // Solves with the columns that there are.
+  // Solves with the columns that there are; what was solved with those before
+  // is kept.
   void Factor();
 
   int size() const { return static_cast<int>(columns_.size()); }
@@ -49,6 +50,11 @@ class GapScreen {
 
   // What g would be with another target (whitened, per joint).
   Eigen::VectorXd Gradient(const JointRows& target) const;
+  // The same of parts of a target, one in each column: part_of_row says (per
+  // joint) which part a row is of, 0 to `parts` - 1.
+  Eigen::MatrixXd Gradients(const JointRows& target,
+                            const std::vector<std::vector<int>>& part_of_row,
+                            int parts) const;
 
   struct Fit {
     std::vector<int> columns;
@@ -74,6 +80,15 @@ class GapScreen {
   Eigen::MatrixXd BaselineCovariance() const;
 
  private:
+  // What a joint's rows add of the columns that are new.
+  struct Products {
+    std::vector<int> all, added;  // columns that the joint has
+    Eigen::MatrixXd by_columns;   // all' added
+    Eigen::MatrixXd by_baseline;  // baseline' added
+    Eigen::VectorXd by_target;    // added' target
+  };
+  Products ProductsOf(int joint) const;
+
   std::vector<Eigen::MatrixXd> baseline_;
   JointRows target_;
   std::vector<JointRows> columns_;
@@ -83,7 +98,9 @@ class GapScreen {
   Eigen::MatrixXd known_root_;
   Eigen::VectorXd known_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
+  int factored_ = -1;      // columns; -1: nothing yet
   Eigen::MatrixXd cross_;  // baseline' columns
+  Eigen::MatrixXd half_;   // the factor's inverse times that
   Eigen::MatrixXd G_;
   Eigen::VectorXd g_, raw_;
 };

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <complex>
 
+#include "model/simd/kernels.h"
+
 namespace armcal {
 namespace {
 
+using Eigen::ArrayXd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -23,12 +26,55 @@ std::vector<Peak> Sorted(std::vector<Peak> peaks) {
   return peaks;
 }
 
-double Power(const VectorXd& residual, const VectorXd& place, double w) {
-  std::complex<double> sum = 0;
-  for (int k = 0; k < place.size(); ++k) {
-    sum += residual[k] * std::polar(1.0, -w * place[k]);
+// A cosine and a sine at each of some angles.
+struct Waves {
+  explicit Waves(const ArrayXd& angle)
+      : cosine(angle.size()), sine(angle.size()) {
+    simd::BestKernels().sine_cosine(angle.data(), angle.size(), sine.data(),
+                                    cosine.data());
   }
-  return std::norm(sum);
+  ArrayXd cosine, sine;
+};
+
+double Power(const VectorXd& residual, const VectorXd& place, double w) {
+  const Waves waves(w * place.array());
+  return std::norm(std::complex<double>((residual.array() * waves.cosine).sum(),
+                                        (residual.array() * waves.sine).sum()));
+}
+
+// Power() at w[0], w[0] + step, w[0] + 2 step ..: waves are turned by a step's
+// angle from one to the next.
+void PowerOfSteps(const ArrayXd& residual, const ArrayXd& place, double w,
+                  const Waves& step, int count, double* power) {
+  const Waves first(w * place);
+  ArrayXd re = residual * first.cosine, im = residual * first.sine;
+  ArrayXd next(re.size());
+  for (int k = 0; k < count; ++k) {
+    power[k] = std::norm(std::complex<double>(re.sum(), im.sum()));
+    next = re * step.cosine - im * step.sine;
+    im = re * step.sine + im * step.cosine;
+    re.swap(next);
+  }
+}
+
+// Power() at all of these, a step apart.
+std::vector<double> Powers(const VectorXd& residual, const VectorXd& place,
+                           const std::vector<double>& w, double step) {
+  constexpr size_t kSteps = 64;  // until turns have summed up rounding errors
+  std::vector<int> there;        // samples that add something
+  for (int k = 0; k < residual.size(); ++k) {
+    if (residual[k] != 0) there.push_back(k);
+  }
+  const ArrayXd r = residual(there), x = place(there);
+  const Waves turn(step * x);
+  std::vector<double> power(w.size());
+  tbb::parallel_for(size_t{0}, (w.size() + kSteps - 1) / kSteps, [&](size_t i) {
+    const size_t begin = i * kSteps;
+    PowerOfSteps(r, x, w[begin], turn,
+                 static_cast<int>(std::min(kSteps, w.size() - begin)),
+                 &power[begin]);
+  });
+  return power;
 }
 
 }  // namespace
@@ -46,10 +92,7 @@ std::vector<double> PeakFrequencies(const VectorXd& residual,
       std::max(2 * M_PI / range / kOversampling, (high - low) / kMost);
   std::vector<double> frequencies;
   for (double w = low; w <= high; w += step) frequencies.push_back(w);
-  std::vector<double> power(frequencies.size());
-  tbb::parallel_for(size_t{0}, power.size(), [&](size_t k) {
-    power[k] = Power(residual, place, frequencies[k]);
-  });
+  const std::vector<double> power = Powers(residual, place, frequencies, step);
   std::vector<Peak> peaks;
   for (size_t k = 0; k < power.size(); ++k) {
     if (k > 0 && power[k] < power[k - 1]) continue;
@@ -81,12 +124,18 @@ std::vector<TimeWindow> StrongWindows(const MatrixXd& residual,
     std::vector<Peak> found;
     for (double c = t[0]; c < t[t.size() - 1]; c += duration / 4) {
       ++*searched;
-      const Eigen::ArrayXd u = (t.array() - c) / (duration / 2);
+      const auto first =
+          std::lower_bound(t.begin(), t.end(), c - duration / 2) - t.begin();
+      const auto size = std::lower_bound(t.begin(), t.end(), c + duration / 2) -
+                        t.begin() - first;
+      const ArrayXd u = (t.segment(first, size).array() - c) / (duration / 2);
       const VectorXd weight = (1 - u.square()).max(0).square().matrix();
       const double norm = weight.squaredNorm();
       if (norm < 1) continue;
       found.push_back(
-          {c, (residual.transpose() * weight).squaredNorm() / norm});
+          {c, (residual.middleRows(first, size).transpose() * weight)
+                      .squaredNorm() /
+                  norm});
     }
     int kept = 0;
     std::vector<double> centres;
@@ -109,8 +158,8 @@ namespace {
 // Hann's window, of mean 1, keeps what is large and slow out.
 VectorXd Windowed(const VectorXd& signal, const VectorXd& t) {
   const double range = t.maxCoeff() - t.minCoeff();
-  return (signal.array() - signal.mean()) *
-         (1 - (2 * M_PI / range * (t.array() - t.minCoeff())).cos());
+  const Waves waves(2 * M_PI / range * (t.array() - t.minCoeff()));
+  return (signal.array() - signal.mean()) * (1 - waves.cosine);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <map>
 #include <numeric>
 
-#include "calib/gap_drop.h"
 #include "calib/gap_form_error.h"
 
 namespace armcal {
@@ -156,26 +155,32 @@ VectorXd ScoresBeside(const GapScreen& screen,
                       const std::vector<GapCandidate>& candidates,
                       const SelectionOptions& options,
                       const std::vector<int>& chosen, int k) {
-  return ScoresBeside(screen, candidates, options, Without(chosen, k),
-                      screen.g());
+  return ScoresInAddition(screen, candidates, options,
+                          Without(chosen, k))(screen.g());
 }
 
-VectorXd ScoresBeside(const GapScreen& screen,
-                      const std::vector<GapCandidate>& candidates,
-                      const SelectionOptions& options,
-                      const std::vector<int>& others, const VectorXd& g) {
-  const Conditioned conditioned =
-      Condition(screen, ColumnsOf(candidates, others), g);
-  VectorXd scores(candidates.size());
-  for (size_t i = 0; i < candidates.size(); ++i) {
+ScoresInAddition::ScoresInAddition(const GapScreen& screen,
+                                   const std::vector<GapCandidate>& candidates,
+                                   const SelectionOptions& options,
+                                   const std::vector<int>& others)
+    : drops_(screen, candidates, ColumnsOf(candidates, others)),
+      inflation_(options.inflation) {
+  for (const GapCandidate& candidate : candidates) {
     const bool taken = std::any_of(
         others.begin(), others.end(),
-        [&](int other) { return SamePlace(candidates[other], candidates[i]); });
-    const bool possible = options.events || candidates[i].log < 0;
-    scores[i] = taken || !possible ? kNever
-                                   : Drop(screen, conditioned, candidates[i]) /
-                                             options.inflation -
-                                         Price(screen, candidates[i]);
+        [&](int other) { return SamePlace(candidates[other], candidate); });
+    const bool possible = options.events || candidate.log < 0;
+    price_.push_back(taken || !possible ? -kNever : Price(screen, candidate));
+  }
+}
+
+VectorXd ScoresInAddition::operator()(const VectorXd& gradient) const {
+  const VectorXd g = drops_.Conditioned(gradient);
+  VectorXd scores(price_.size());
+  for (size_t i = 0; i < price_.size(); ++i) {
+    scores[i] = std::isinf(price_[i])
+                    ? kNever
+                    : drops_.Of(i, g) / inflation_ - price_[i];
   }
   return scores;
 }

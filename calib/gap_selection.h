@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calib/gap_candidates.h"
+#include "calib/gap_drop.h"
 #include "calib/gap_screen.h"
 
 namespace armcal {
@@ -34,12 +35,22 @@ Eigen::VectorXd ScoresBeside(const GapScreen& screen,
                              const std::vector<GapCandidate>& candidates,
                              const SelectionOptions& options,
                              const std::vector<int>& chosen, int k);
-// The same in addition to `others`, were `g` the screen's.
-Eigen::VectorXd ScoresBeside(const GapScreen& screen,
-                             const std::vector<GapCandidate>& candidates,
-                             const SelectionOptions& options,
-                             const std::vector<int>& others,
-                             const Eigen::VectorXd& g);
+// The same in addition to `others`, for one gradient after the other.
+class ScoresInAddition {
+ public:
+  // Keeps `screen` and `candidates`.
+  ScoresInAddition(const GapScreen& screen,
+                   const std::vector<GapCandidate>& candidates,
+                   const SelectionOptions& options,
+                   const std::vector<int>& others);
+  // Were `g` the screen's.
+  Eigen::VectorXd operator()(const Eigen::VectorXd& g) const;
+
+ private:
+  DropsBeside drops_;
+  double inflation_;
+  std::vector<double> price_;  // infinite where it is out of the question
+};
 
 // The best of these scores above 0, one of each effect at each place, at most
 // `count`.

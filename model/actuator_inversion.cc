@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/motor_map.h"
 #include "model/stiff_step.h"
 
 namespace armcal {
@@ -11,6 +12,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostSteps = 8;
+constexpr double kClose = 1e-10;  // of the largest torque
 constexpr int kLagSteps = 12;
 constexpr double kLagTolerance = 1e-5;
 // A step that leaves more than this share of what was missing did not help:
@@ -149,11 +151,37 @@ MatrixXd GivenTorque(const std::vector<ActuatorMap>& actuators,
 
 namespace {
 
+// The command for which one motor gives what is needed: as InvertMap, of one
+// number.
+double InvertAt(const MotorMap& motor, double needed, double guess,
+                double close) {
+  double commanded = guess;
+  double missing = needed - motor.given(commanded), step = missing;
+  for (int i = 0; i < kMostSteps && std::abs(missing) > close; ++i) {
+    commanded += step;
+    const double before = missing;
+    missing = needed - motor.given(commanded);
+    if (!(std::abs(missing) < kLeastProgress * std::abs(before))) break;
+    step = missing * step / (before - missing);
+  }
+  return commanded;
+}
+
+// From what is needed of the motors to what is asked of them, in place.
+void InvertMotor(const MotorMap& motor, const MatrixXd& guess,
+                 MatrixXd* torque) {
+  const double close = kClose * torque->cwiseAbs().maxCoeff();
+  const int j = motor.joint;
+  for (Eigen::Index k = 0; k < torque->rows(); ++k) {
+    (*torque)(k, j) = InvertAt(motor, (*torque)(k, j), guess(k, j), close);
+  }
+}
+
 // Of one map without states, sample by sample.
 MatrixXd InvertMap(const std::vector<ActuatorMap>& map,
                    const MotionTrack& track, const MatrixXd& needed,
                    const MatrixXd& guess) {
-  const double close = 1e-10 * needed.cwiseAbs().maxCoeff();
+  const double close = kClose * needed.cwiseAbs().maxCoeff();
   MatrixXd commanded = guess;
   MatrixXd given = GivenTorque(map, track, commanded);
   MatrixXd missing = needed - given;
@@ -196,10 +224,15 @@ MatrixXd CommandFor(const std::vector<ActuatorMap>& actuators,
                     const MatrixXd& guess) {
   MatrixXd commanded = needed;
   for (auto map = actuators.rbegin(); map != actuators.rend(); ++map) {
-    commanded = map->initial_state.size() > 0
-                    ? InvertLag({*map}, track, commanded)
-                    : InvertMap({*map}, track, commanded,
-                                guess.size() > 0 ? guess : commanded);
+    const MatrixXd& from = guess.size() > 0 ? guess : commanded;
+    const auto* motor = map->apply.target<MotorMap>();
+    if (map->initial_state.size() > 0) {
+      commanded = InvertLag({*map}, track, commanded);
+    } else if (motor != nullptr) {
+      InvertMotor(*motor, from, &commanded);
+    } else {
+      commanded = InvertMap({*map}, track, commanded, from);
+    }
   }
   return commanded;
 }

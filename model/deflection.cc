@@ -1,9 +1,14 @@
 #include "model/deflection.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "model/flanked_spring.h"
 #include "model/motion_track.h"
+#include "model/simd/kernels.h"
 #include "model/stiff_step.h"
 
 namespace armcal {
@@ -22,22 +27,31 @@ constexpr double kSettlingStep = 1;  // s
 template <int Size>
 class DeflectionRun {
  public:
-  DeflectionRun(const Transmission& law, const VectorXd& load,
-                const VectorXd& inertia, double dt)
-      : law_(law),
-        signals_(2, load.size()),
+  DeflectionRun(const DeflectedJoint& joint, double dt)
+      : law_(*joint.transmission),
+        signals_(2, joint.load.size()),
         dt_(dt),
-        step_(2 + static_cast<int>(law.initial_state.size())),
-        x_(2 + law.initial_state.size()),
-        unused_(law.initial_state.size()) {
-    signals_ << load.transpose(), inertia.transpose();
+        step_(2 + static_cast<int>(law_.initial_state.size())),
+        x_(2 + law_.initial_state.size()),
+        unused_(law_.initial_state.size()) {
+    signals_ << joint.load.transpose(), joint.inertia.transpose();
+  }
+
+  // Where it begins, and in how many steps per half a sample it moves.
+  struct Start {
+    double angle, rate;
+    int substeps;
+  };
+  Start Begin() {
+    SettleInMotion();
+    return {x_[0], x_[1], NumSubsteps()};
   }
 
   Deflection Run() {
     const int samples = static_cast<int>(signals_.cols());
     Deflection result = {VectorXd(samples), VectorXd(samples),
                          VectorXd(samples)};
-    Begin();
+    SettleInMotion();
     const int half = NumSubsteps();
     double before = x_[1];
     for (int k = 0; k < samples; ++k) {
@@ -74,7 +88,7 @@ class DeflectionRun {
   }
 
   // As if it had followed the load for long: otherwise it would ring.
-  void Begin() {
+  void SettleInMotion() {
     Settle(std::min<int>(1, signals_.cols() - 1));
     const double next = x_[0];
     Settle(0);
@@ -115,15 +129,52 @@ class DeflectionRun {
   VectorXd x_, unused_, signal_;
 };
 
+Deflection Follow(const DeflectedJoint& joint, double dt) {
+  if (joint.transmission->initial_state.size() > 0) {
+    return DeflectionRun<Eigen::Dynamic>(joint, dt).Run();
+  }
+  return DeflectionRun<2>(joint, dt).Run();
+}
+
+simd::DeflectedLink LinkOf(const DeflectedJoint& joint,
+                           const FlankedSpring& spring, double dt,
+                           Deflection* to) {
+  const auto samples = joint.load.size();
+  *to = {VectorXd(samples), VectorXd(samples), VectorXd(samples)};
+  const auto start = DeflectionRun<2>(joint, dt).Begin();
+  return {spring.gap,        spring.stiffness,       spring.damping,
+          joint.load.data(), joint.inertia.data(),   start.angle,
+          start.rate,        start.substeps,         to->angle.data(),
+          to->rate.data(),   to->acceleration.data()};
+}
+
 }  // namespace
 
-Deflection FollowDeflection(const Transmission& transmission,
-                            const VectorXd& load, const VectorXd& inertia,
-                            double dt) {
-  if (transmission.initial_state.size() > 0) {
-    return DeflectionRun<Eigen::Dynamic>(transmission, load, inertia, dt).Run();
+std::vector<Deflection> FollowDeflections(
+    const std::vector<DeflectedJoint>& joints, double dt) {
+  std::vector<Deflection> all(joints.size());
+  std::vector<simd::DeflectedLink> links;
+  for (size_t i = 0; i < joints.size(); ++i) {
+    CHECK_EQ(joints[i].load.size(), joints[0].load.size());
+    const auto* spring = joints[i].transmission->torque.target<FlankedSpring>();
+    if (spring == nullptr) {
+      all[i] = Follow(joints[i], dt);
+    } else {
+      links.push_back(LinkOf(joints[i], *spring, dt, &all[i]));
+    }
   }
-  return DeflectionRun<2>(transmission, load, inertia, dt).Run();
+  std::vector<const simd::DeflectedLink*> order;
+  for (const simd::DeflectedLink& link : links) order.push_back(&link);
+  // A lane takes as long as the one with most steps.
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto* a, const auto* b) {
+                     return std::make_pair(a->gap > 0, a->substeps) <
+                            std::make_pair(b->gap > 0, b->substeps);
+                   });
+  if (order.empty()) return all;
+  simd::BestKernels().deflections(order.data(), static_cast<int>(order.size()),
+                                  joints[0].load.size(), dt);
+  return all;
 }
 
 }  // namespace armcal

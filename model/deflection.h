@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "model/simulated_robot.h"
 
@@ -19,11 +20,17 @@ struct Deflection {
 // would need `load` (N m or N) to move with it:
 //   inertia d'' + T(d, d') = load,
 // T the transmission's torque and `inertia` that of all the joint carries (the
-// mass matrix' diagonal, kg m^2 or kg); samples dt s apart. What the load's
-// dependence on position and velocity makes of d is neglected: it is as small
-// as gravity's stiffness is beside the transmission's.
-Deflection FollowDeflection(const Transmission& transmission,
-                            const Eigen::VectorXd& load,
-                            const Eigen::VectorXd& inertia, double dt);
+// mass matrix' diagonal, kg m^2 or kg). What the load's dependence on position
+// and velocity makes of d is neglected: it is as small as gravity's stiffness
+// is beside the transmission's.
+struct DeflectedJoint {
+  const Transmission* transmission;
+  Eigen::Ref<const Eigen::VectorXd> load, inertia;  // at samples
+};
+
+// Of each, samples dt s apart, as many of all. Those with a FlankedSpring are
+// followed several at a time; which others there are makes no difference.
+std::vector<Deflection> FollowDeflections(
+    const std::vector<DeflectedJoint>& joints, double dt);
 
 }  // namespace armcal

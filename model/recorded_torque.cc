@@ -2,48 +2,22 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "model/actuator_inversion.h"
-#include "model/deflection.h"
 #include "model/delayed_signal.h"
 #include "model/forward_dynamics.h"
-#include "model/inverse_dynamics.h"
+#include "model/joint_law_torques.h"
 #include "model/joint_warmth.h"
 #include "model/motion_behind_readings.h"
-#include "model/stiff_step.h"
+#include "model/rigid_torque.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Steps per sample of the states of joint laws.
-constexpr int kSubsteps = 2;
-
-bool SameLinks(const Robot& a, const Robot& b) {
-  if (a.gravity != b.gravity) return false;
-  for (int i = 0; i < a.num_joints(); ++i) {
-    const Link &x = a.links[i], &y = b.links[i];
-    const InertialParameters &u = x.inertial, &v = y.inertial;
-    if (x.X_PF.matrix() != y.X_PF.matrix() ||
-        x.X_ML.matrix() != y.X_ML.matrix() || u.mass != v.mass ||
-        u.first_moment != v.first_moment || u.inertia != v.inertia) {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool SameJointTerms(const Robot& a, const Robot& b) {
-  for (int i = 0; i < a.num_joints(); ++i) {
-    const Joint &x = a.links[i].joint, &y = b.links[i].joint;
-    if (x.viscous != y.viscous || x.coulomb != y.coulomb ||
-        x.armature != y.armature || x.offset != y.offset) {
-      return false;
-    }
-  }
-  return true;
-}
 
 bool SameThermal(const std::vector<JointThermal>& a,
                  const std::vector<JointThermal>& b) {
@@ -56,73 +30,12 @@ bool SameThermal(const std::vector<JointThermal>& a,
   return true;
 }
 
-MatrixXd LinkTorque(const Robot& robot, const Motion& motion) {
-  MatrixXd tau(motion.size(), motion.num_joints());
-  for (int k = 0; k < motion.size(); ++k) {
-    tau.row(k) = InverseDynamics(robot, motion.q.row(k), motion.qd.row(k),
-                                 motion.qdd.row(k));
+RecordedTorque::OfJoints WithoutNothing(const MatrixXd& tau) {
+  RecordedTorque::OfJoints joints(tau.cols());
+  for (Eigen::Index j = 0; j < tau.cols(); ++j) {
+    if (!tau.col(j).isZero(0)) joints[j] = tau.col(j);
   }
-  return tau;
-}
-
-// The joints' states of Coulomb friction, samples x n.
-MatrixXd CoulombAlong(const std::vector<CoulombTransition>& transitions,
-                      const Motion& motion) {
-  std::vector<JointTermColumn> columns;
-  for (int j = 0; j < motion.num_joints(); ++j) {
-    columns.push_back({j, JointTerm::kCoulomb, transitions[j]});
-  }
-  Trajectory trajectory;
-  trajectory.dt = motion.dt;
-  trajectory.q = motion.q;
-  trajectory.qd = motion.qd;
-  return CoulombStates(columns).Follow(trajectory);
-}
-
-// Viscous and Coulomb friction and offsets.
-MatrixXd FrictionTorque(const Robot& robot, const Motion& motion,
-                        const MatrixXd& coulomb) {
-  MatrixXd tau(motion.size(), motion.num_joints());
-  for (int j = 0; j < motion.num_joints(); ++j) {
-    const Joint& joint = robot.links[j].joint;
-    tau.col(j) = joint.viscous * motion.qd.col(j) +
-                 joint.coulomb * coulomb.col(j) +
-                 VectorXd::Constant(motion.size(), joint.offset);
-  }
-  return tau;
-}
-
-void AddArmature(const Robot& robot, const Motion& motion, MatrixXd* tau) {
-  for (int j = 0; j < motion.num_joints(); ++j) {
-    tau->col(j) += robot.links[j].joint.armature * motion.qdd.col(j);
-  }
-}
-
-// Torque of the law at every sample.
-VectorXd Along(const JointLaw& law, const MotionTrack& track) {
-  VectorXd torque(track.size()), x = law.initial_state, unused = x;
-  StiffStep step(static_cast<int>(x.size()));
-  ArmInstant instant, between;
-  int k = 0;
-  double at = -1;  // the share that `between` is of
-  const auto rate = [&](double share, const double* state, double* dx) {
-    if (share != at) track.Between(k, share, &between);
-    at = share;
-    law.torque(between, state, dx);
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      dx[i] *= track.t[k + 1] - track.t[k];
-    }
-  };
-  for (; k < track.size(); ++k) {
-    track.At(k, &instant);
-    torque[k] = law.torque(instant, x.data(), unused.data());
-    if (x.size() == 0 || k + 1 == track.size()) continue;
-    at = -1;
-    const double share = 1. / kSubsteps;
-    for (int i = 0; i < kSubsteps; ++i)
-      step.Advance(rate, i * share, share, &x);
-  }
-  return torque;
+  return joints;
 }
 
 }  // namespace
@@ -132,14 +45,15 @@ RecordedTorque::RecordedTorque(const Robot& robot,
                                Motion motion)
     : robot_(robot),
       transitions_(std::move(transitions)),
-      motion_(std::move(motion)) {
+      motion_(std::move(motion)),
+      kept_(std::make_shared<Kept>()) {
   const int n = robot_.num_joints();
   CHECK(motion_.size() > 0 && motion_.dt > 0);
   CHECK_EQ(motion_.num_joints(), n);
   CHECK_EQ(transitions_.size(), static_cast<size_t>(n));
   load_ = LinkTorque(robot_, motion_);
-  const MatrixXd friction =
-      FrictionTorque(robot_, motion_, CoulombAlong(transitions_, motion_));
+  coulomb_ = CoulombAlong(transitions_, motion_);
+  const MatrixXd friction = FrictionTorque(robot_, motion_, coulomb_);
   nominal_ = load_ + friction;
   AddArmature(robot_, motion_, &nominal_);
   friction_power_ = friction.cwiseProduct(motion_.qd);
@@ -175,34 +89,86 @@ MatrixXd RecordedTorque::RigidTorque(const Robot& robot, const Motion& motion,
   MatrixXd tau = as_recorded && SameLinks(robot, robot_)
                      ? load_
                      : LinkTorque(robot, motion);
-  tau += FrictionTorque(robot, motion, CoulombAlong(transitions_, motion));
+  tau += FrictionTorque(
+      robot, motion,
+      as_recorded ? coulomb_ : CoulombAlong(transitions_, motion));
   AddArmature(robot, motion, &tau);
   return tau;
 }
 
 // Diagonals of the mass matrix along the recorded motion, samples x n.
-const MatrixXd& RecordedTorque::Inertia() {
-  if (inertia_.size() > 0) return inertia_;
-  inertia_.resize(motion_.size(), robot_.num_joints());
+const MatrixXd& RecordedTorque::Inertia() const {
+  const std::lock_guard<std::mutex> lock(kept_->mutex);
+  MatrixXd& inertia = kept_->inertia;
+  if (inertia.size() > 0) return inertia;
+  inertia.resize(motion_.size(), robot_.num_joints());
   for (int k = 0; k < motion_.size(); ++k) {
-    inertia_.row(k) = LinkInertias(robot_, motion_.q.row(k));
+    inertia.row(k) = LinkInertias(robot_, motion_.q.row(k));
   }
-  return inertia_;
+  return inertia;
 }
 
+// Of the robot itself along the recorded motion.
+const AttachedPoints& RecordedTorque::PointsOf(
+    const Attachment& attachment) const {
+  const std::lock_guard<std::mutex> lock(kept_->mutex);
+  for (const auto& points : kept_->points) {
+    if (points->attachment.link == attachment.link &&
+        points->attachment.p_LP == attachment.p_LP) {
+      return *points;
+    }
+  }
+  kept_->points.push_back(std::make_shared<const AttachedPoints>(
+      FollowPoints(robot_, track_, attachment)));
+  return *kept_->points.back();
+}
+
+// Of those whose motors and links move as recorded; none of the others.
+std::vector<std::vector<Deflection>> RecordedTorque::DeflectTogether(
+    const std::vector<SimulatedRobot>& changed) const {
+  std::vector<DeflectedJoint> joints;
+  std::vector<size_t> of;
+  for (size_t i = 0; i < changed.size(); ++i) {
+    const SimulatedRobot& one = changed[i];
+    if (one.transmissions.empty() || !one.sensors.empty() || one.clock ||
+        one.clock_unevenness != 0 || !SameLinks(one.robot, robot_)) {
+      continue;
+    }
+    for (const Transmission& law : one.transmissions) {
+      const int j = law.joint;
+      joints.push_back({&law, load_.col(j), Inertia().col(j)});
+      of.push_back(i);
+    }
+  }
+  std::vector<std::vector<Deflection>> deflections(changed.size());
+  std::vector<Deflection> all = FollowDeflections(joints, motion_.dt);
+  for (size_t k = 0; k < all.size(); ++k) {
+    deflections[of[k]].push_back(std::move(all[k]));
+  }
+  return deflections;
+}
+
+// `deflections`: of the transmissions, or none yet.
 void RecordedTorque::AddTransmissions(const SimulatedRobot& changed,
-                                      const Motion& motion, MotionTrack* track,
-                                      MatrixXd* tau) {
+                                      const Motion& motion,
+                                      std::vector<Deflection> deflections,
+                                      MotionTrack* track, MatrixXd* tau) const {
   const bool recorded = &motion == &motion_ && SameLinks(changed.robot, robot_);
   const MatrixXd load = recorded ? load_ : LinkTorque(changed.robot, motion);
+  if (deflections.empty()) {
+    std::vector<DeflectedJoint> joints;
+    for (const Transmission& law : changed.transmissions) {
+      const int j = law.joint;
+      joints.push_back({&law, load.col(j), Inertia().col(j)});
+    }
+    deflections = FollowDeflections(joints, motion.dt);
+  }
   Motion links = motion;
-  for (const Transmission& law : changed.transmissions) {
-    const int j = law.joint;
-    const Deflection d =
-        FollowDeflection(law, load.col(j), Inertia().col(j), motion.dt);
-    links.q.col(j) -= d.angle;
-    links.qd.col(j) -= d.rate;
-    links.qdd.col(j) -= d.acceleration;
+  for (size_t i = 0; i < deflections.size(); ++i) {
+    const int j = changed.transmissions[i].joint;
+    links.q.col(j) -= deflections[i].angle;
+    links.qd.col(j) -= deflections[i].rate;
+    links.qdd.col(j) -= deflections[i].acceleration;
   }
   *tau += LinkTorque(changed.robot, links) - load;
   track->deflection = (motion.q - links.q).transpose();
@@ -210,31 +176,29 @@ void RecordedTorque::AddTransmissions(const SimulatedRobot& changed,
 }
 
 void RecordedTorque::AddLaws(const SimulatedRobot& changed,
-                             const MotionTrack& track, MatrixXd* tau) {
-  for (const JointLaw& law : changed.joint_laws) {
-    tau->col(law.joint) -= Along(law, track);
+                             const MotionTrack& track, MatrixXd* tau) const {
+  std::vector<const JointLaw*> laws;
+  for (const JointLaw& law : changed.joint_laws) laws.push_back(&law);
+  const std::vector<VectorXd> torques = JointLawTorques(laws, track);
+  for (size_t i = 0; i < laws.size(); ++i) {
+    tau->col(laws[i]->joint) -= torques[i];
   }
   for (const WrenchLaw& law : changed.wrenches) {
     const Attachment& at = law.attachment;
     if (&track != &track_ || !SameLinks(changed.robot, robot_)) {
       TakeWrench(law, track, FollowPoints(changed.robot, track, at).at, tau);
-      continue;
+    } else {
+      TakeWrench(law, track, PointsOf(at).at, tau);
     }
-    if (points_.at.empty() || points_.attachment.link != at.link ||
-        points_.attachment.p_LP != at.p_LP) {
-      points_ = FollowPoints(robot_, track_, at);
-    }
-    TakeWrench(law, track, points_.at, tau);
   }
 }
 
 // What the log holds when the motors give what is needed.
 MatrixXd RecordedTorque::Recorded(const SimulatedRobot& changed,
                                   const MotionTrack& track,
-                                  const MatrixXd& needed) const {
-  MatrixXd tau = needed;
+                                  MatrixXd tau) const {
   if (!changed.actuators.empty()) {
-    tau = CommandFor(changed.actuators, track, needed, motion_.torque);
+    tau = CommandFor(changed.actuators, track, tau, motion_.torque);
   }
   if (!changed.sensors.empty()) {
     tau = TorqueReadings(changed.sensors, track, tau);
@@ -245,7 +209,8 @@ MatrixXd RecordedTorque::Recorded(const SimulatedRobot& changed,
   return tau;
 }
 
-MatrixXd RecordedTorque::Change(const SimulatedRobot& changed) {
+MatrixXd RecordedTorque::ChangeOf(const SimulatedRobot& changed,
+                                  const std::vector<Deflection>& deflections) {
   CHECK_EQ(changed.robot.num_joints(), robot_.num_joints());
   CHECK_EQ(changed.num_passive, 0);
   FollowWarmth(changed.thermal);
@@ -260,7 +225,9 @@ MatrixXd RecordedTorque::Change(const SimulatedRobot& changed) {
       same_robot ? nominal_ : RigidTorque(changed.robot, motion, as_recorded);
   if (as_recorded && changed.transmissions.empty()) {
     AddLaws(changed, track_, &tau);
-    return Recorded(changed, track_, tau) - nominal_;
+    tau = Recorded(changed, track_, std::move(tau));
+    tau -= nominal_;
+    return tau;
   }
   MotionTrack track = track_;
   if (!as_recorded) {
@@ -268,10 +235,81 @@ MatrixXd RecordedTorque::Change(const SimulatedRobot& changed) {
     track.t = times;
   }
   if (!changed.transmissions.empty()) {
-    AddTransmissions(changed, motion, &track, &tau);
+    AddTransmissions(changed, motion, deflections, &track, &tau);
   }
   AddLaws(changed, track, &tau);
-  return Recorded(changed, track, tau) - nominal_;
+  tau = Recorded(changed, track, std::move(tau));
+  tau -= nominal_;
+  return tau;
+}
+
+// Whether it has joint laws, perhaps in joints that warm up, and nothing else.
+bool RecordedTorque::IsOfLawsAlone(const SimulatedRobot& changed) const {
+  return changed.num_passive == 0 && changed.transmissions.empty() &&
+         changed.wrenches.empty() && changed.actuators.empty() &&
+         changed.sensors.empty() && changed.torque_delay == 0 &&
+         !changed.clock && changed.clock_unevenness == 0 &&
+         SameLinks(changed.robot, robot_) &&
+         SameJointTerms(changed.robot, robot_);
+}
+
+// Of those (`which`), whose joints warm up alike.
+void RecordedTorque::TakeLaws(const std::vector<SimulatedRobot>& changed,
+                              const std::vector<size_t>& which,
+                              std::vector<OfJoints>* to) {
+  std::vector<const JointLaw*> laws;
+  std::vector<size_t> of;
+  for (const size_t i : which) {
+    for (const JointLaw& law : changed[i].joint_laws) {
+      laws.push_back(&law);
+      of.push_back(i);
+    }
+  }
+  const std::vector<VectorXd> torques = JointLawTorques(laws, track_);
+  for (size_t l = 0; l < laws.size(); ++l) {
+    VectorXd& joint = (*to)[of[l]][laws[l]->joint];
+    if (joint.size() == 0) joint = VectorXd::Zero(motion_.size());
+    joint -= torques[l];
+  }
+  for (const size_t i : which) {
+    for (VectorXd& joint : (*to)[i]) {
+      if (joint.isZero(0)) joint.resize(0);
+    }
+  }
+}
+
+std::vector<RecordedTorque::OfJoints> RecordedTorque::Changes(
+    const std::vector<SimulatedRobot>& changed) {
+  std::vector<OfJoints> changes(changed.size(), OfJoints(robot_.num_joints()));
+  const std::vector<std::vector<Deflection>> deflections =
+      DeflectTogether(changed);
+  std::vector<size_t> of_laws;
+  for (size_t i = 0; i < changed.size(); ++i) {
+    if (IsOfLawsAlone(changed[i])) {
+      of_laws.push_back(i);
+    } else {
+      changes[i] = WithoutNothing(ChangeOf(changed[i], deflections[i]));
+    }
+  }
+  while (!of_laws.empty()) {
+    const auto& thermal = changed[of_laws[0]].thermal;
+    const auto others = std::stable_partition(
+        of_laws.begin(), of_laws.end(),
+        [&](size_t i) { return SameThermal(changed[i].thermal, thermal); });
+    FollowWarmth(thermal);
+    TakeLaws(changed, {of_laws.begin(), others}, &changes);
+    of_laws.erase(of_laws.begin(), others);
+  }
+  return changes;
+}
+
+MatrixXd RecordedTorque::Change(const SimulatedRobot& changed) {
+  const OfJoints joints = std::move(Changes({changed})[0]);
+  MatrixXd tau = MatrixXd::Zero(motion_.size(), motion_.num_joints());
+  for (int j = 0; j < tau.cols(); ++j) {
+    if (joints[j].size() > 0) tau.col(j) = joints[j];
+  }
+  return tau;
 }
 
 }  // namespace armcal

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <mutex>
 #include <vector>
 
+#include "model/deflection.h"
 #include "model/joint_term.h"
 #include "model/motion.h"
 #include "model/motion_track.h"
@@ -30,8 +33,11 @@ class RecordedTorque {
   // What its friction heats the joints with, W, samples x n.
   const Eigen::MatrixXd& friction_power() const { return friction_power_; }
 
-  // What the slots of `changed` add to the nominal torque, samples x n.
-  // `changed` has the robot of the constructor, itself perhaps changed (links,
+  // Per joint, torque at the samples, N m or N; empty where it is nothing.
+  using OfJoints = std::vector<Eigen::VectorXd>;
+  // What the slots of each of `changed` add to the nominal torque; which others
+  // there are makes no difference but to the time it takes.
+  // Each has the robot of the constructor, itself perhaps changed (links,
   // gravity, joint terms, a geometry), and no laws but those to be judged:
   //   joint laws and wrenches   exact, with their states along the motion. They
   //                             see the nominal load, and the temperature that
@@ -46,30 +52,47 @@ class RecordedTorque {
   //   torque_delay              interpolated between samples
   //   actuators                 inverted from the torque needed, with the help
   //                             of the recorded one (actuator_inversion.h).
+  std::vector<OfJoints> Changes(const std::vector<SimulatedRobot>& changed);
+  // The same of one, samples x n.
   Eigen::MatrixXd Change(const SimulatedRobot& changed);
 
  private:
+  // What is worked out when it is first asked for, once for all copies.
+  struct Kept {
+    std::mutex mutex;
+    Eigen::MatrixXd inertia;  // empty: not yet asked for
+    std::vector<std::shared_ptr<const AttachedPoints>> points;
+  };
   void FollowWarmth(const std::vector<JointThermal>& thermal);
-  const Eigen::MatrixXd& Inertia();
+  bool IsOfLawsAlone(const SimulatedRobot& changed) const;
+  void TakeLaws(const std::vector<SimulatedRobot>& changed,
+                const std::vector<size_t>& which, std::vector<OfJoints>* to);
+  std::vector<std::vector<Deflection>> DeflectTogether(
+      const std::vector<SimulatedRobot>& changed) const;
+  Eigen::MatrixXd ChangeOf(const SimulatedRobot& changed,
+                           const std::vector<Deflection>& deflections);
+  const Eigen::MatrixXd& Inertia() const;
+  const AttachedPoints& PointsOf(const Attachment& attachment) const;
   Eigen::MatrixXd RigidTorque(const Robot& robot, const Motion& motion,
                               bool as_recorded) const;
   void AddTransmissions(const SimulatedRobot& changed, const Motion& motion,
-                        MotionTrack* track, Eigen::MatrixXd* tau);
+                        std::vector<Deflection> deflections, MotionTrack* track,
+                        Eigen::MatrixXd* tau) const;
   void AddLaws(const SimulatedRobot& changed, const MotionTrack& track,
-               Eigen::MatrixXd* tau);
+               Eigen::MatrixXd* tau) const;
   Eigen::MatrixXd Recorded(const SimulatedRobot& changed,
                            const MotionTrack& track,
-                           const Eigen::MatrixXd& needed) const;
+                           Eigen::MatrixXd needed) const;
 
   Robot robot_;
   std::vector<CoulombTransition> transitions_;
   Motion motion_;
   Eigen::MatrixXd nominal_, load_;
+  Eigen::MatrixXd coulomb_;         // states of Coulomb friction, samples x n
   Eigen::MatrixXd friction_power_;  // W, samples x n
   MotionTrack track_;
   std::vector<JointThermal> thermal_;  // behind track_.warmth
-  Eigen::MatrixXd inertia_;  // see Inertia(); empty: not yet asked for
-  AttachedPoints points_;    // asked for last, of robot_ along motion_
+  std::shared_ptr<Kept> kept_;
 };
 
 }  // namespace armcal

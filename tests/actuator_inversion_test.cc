@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/motor_map.h"
+
 namespace armcal {
 namespace {
 
@@ -56,6 +58,23 @@ TEST(ActuatorInversion, InvertsMapsWithoutStates) {
     const double a = std::abs(needed[k]);
     const double y = std::copysign(10 * (std::sqrt(1 + .2 * a) - 1), needed[k]);
     EXPECT_NEAR(commanded[k], 1.2 * (y + .3), 1e-6) << k;
+  }
+}
+
+// A motor's map that is known as one, and the same that is not.
+TEST(ActuatorInversion, InvertsMotorsAsOtherMaps) {
+  const auto given = [](double x) {
+    return x + .5 * std::sin(x) + .02 * x * std::abs(x);
+  };
+  const VectorXd needed = Wave(Torque);
+  for (const VectorXd& guess : {VectorXd(), VectorXd(needed * .9)}) {
+    const ActuatorMap motor = {{}, MotorMap{0, given}};
+    const MatrixXd commanded = CommandFor({motor}, Rest(), needed, guess);
+    const MatrixXd other =
+        CommandFor({Stateless(given)}, Rest(), needed, guess);
+    EXPECT_LT((commanded - other).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((commanded.unaryExpr(given) - needed).cwiseAbs().maxCoeff(),
+              1e-8);
   }
 }
 

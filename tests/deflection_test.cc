@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <complex>
+#include <vector>
+
+#include "model/flanked_spring.h"
 
 namespace armcal {
 namespace {
@@ -22,8 +25,8 @@ Transmission SpringAndDamper(double k, double c) {
 }
 
 Deflection Follow(const Transmission& law, const VectorXd& load) {
-  return FollowDeflection(law, load, VectorXd::Constant(kSamples, kInertia),
-                          kStep);
+  const VectorXd inertia = VectorXd::Constant(kSamples, kInertia);
+  return FollowDeflections({{&law, load, inertia}}, kStep)[0];
 }
 
 // Forced vibration of one mass: the textbook's amplitude and phase, long after
@@ -89,6 +92,45 @@ TEST(Deflection, CrossesAGapInFreeFlight) {
   EXPECT_NEAR(d.angle[kSamples - 1], gap / 2 + 4 / k, 1e-8);
   // What the flank gives stops the link, whatever falls between samples.
   EXPECT_NEAR(d.acceleration.sum() * kStep, 0, 1e-9);
+}
+
+// Springs, with gaps and without, of joints that carry different loads: in
+// lanes they go as the law does when nobody knows it, step by step with
+// differences for its slopes; and together as alone, to the bit.
+TEST(Deflection, SpringsInLanesGoAsTheirLaws) {
+  const VectorXd t = VectorXd::LinSpaced(kSamples, 0, (kSamples - 1) * kStep);
+  std::vector<VectorXd> loads, inertias;
+  std::vector<Transmission> springs, laws;
+  for (int i = 0; i < 11; ++i) {
+    loads.push_back(20 * ((3. + i) * t.array()).sin() + i);
+    inertias.push_back(1.5 + .5 * ((2. + i) * t.array()).cos());
+    const double k = 2000 * (1 + i * i);
+    const FlankedSpring spring{i % 3 == 0 ? 0 : .002 * i, k, .3 * std::sqrt(k)};
+    springs.emplace_back();
+    springs.back().torque = spring;
+    springs.back().stiffest = k;
+    springs.back().initial_deflection = [=](double load) { return load / k; };
+    laws.push_back(springs.back());
+    laws.back().torque = [spring](double d, double rate, const double*,
+                                  double*) { return spring(d, rate); };
+  }
+  std::vector<DeflectedJoint> all;
+  for (int i = 0; i < 11; ++i) {
+    all.push_back({&springs[i], loads[i], inertias[i]});
+  }
+  const std::vector<Deflection> together = FollowDeflections(all, kStep);
+  for (int i = 0; i < 11; ++i) {
+    const Deflection alone = FollowDeflections({all[i]}, kStep)[0];
+    EXPECT_EQ(alone.angle, together[i].angle) << i;
+    EXPECT_EQ(alone.acceleration, together[i].acceleration) << i;
+    const Deflection law =
+        FollowDeflections({{&laws[i], loads[i], inertias[i]}}, kStep)[0];
+    EXPECT_LT((alone.angle - law.angle).norm(), 1e-6 * law.angle.norm()) << i;
+    EXPECT_LT((alone.rate - law.rate).norm(), 1e-5 * law.rate.norm()) << i;
+    EXPECT_LT((alone.acceleration - law.acceleration).norm(),
+              1e-5 * law.acceleration.norm())
+        << i;
+  }
 }
 
 }  // namespace

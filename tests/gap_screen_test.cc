@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <utility>
 
 #include "tests/sample_motion.h"
 
@@ -97,6 +99,43 @@ class GapScreenTest : public testing::Test {
   MatrixXd other_A_{0, kBaseline};
   VectorXd other_y_{VectorXd(0)};
 };
+
+TEST_F(GapScreenTest, ColumnsMayComeLater) {
+  GapScreen screen(baseline_, target_);
+  for (const JointRows& column : columns_) {
+    screen.Factor();
+    screen.AddColumn(column);
+  }
+  screen.Factor();
+  double none, chi_squared;
+  Estimate({}, &none);
+  Estimate({0, 1, 2}, &chi_squared);
+  EXPECT_NEAR(screen.Solve({0, 1, 2}).drop, none - chi_squared, kTight * none);
+}
+
+// A column's product with what the baseline leaves of a part of the target.
+TEST_F(GapScreenTest, GradientsAreOfPartsOfATarget) {
+  std::vector<std::vector<int>> part = {std::vector<int>(40, 2),
+                                        std::vector<int>(30, 0)};
+  std::fill(part[0].begin() + 10, part[0].begin() + 25, 0);
+  const MatrixXd g = Screen().Gradients(target_, part, 3);
+  for (int p = 0; p < 3; ++p) {
+    JointRows own = target_;
+    for (int j = 0; j < 2; ++j) {
+      for (int k = 0; k < own[j].size(); ++k) own[j][k] *= part[j][k] == p;
+    }
+    std::swap(target_, own);
+    for (int c = 0; c < 3; ++c) {
+      double none, chi_squared;
+      Estimate({}, &none);
+      const VectorXd x = Estimate({c}, &chi_squared);
+      // chi^2 falls by x times the gradient.
+      EXPECT_NEAR(x[kBaseline] * g(c, p), none - chi_squared, kTight * 1e3)
+          << p << " " << c;
+    }
+    std::swap(target_, own);
+  }
+}
 
 TEST_F(GapScreenTest, IsLeastSquaresWithThePriorsRows) {
   const GapScreen screen = Screen();

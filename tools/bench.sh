@@ -61,6 +61,8 @@ results=("$build/benchmarks.json")
   --benchmark_enable_random_interleaving=true \
   --benchmark_out="${results[0]}" --benchmark_out_format=json \
   --benchmark_display_aggregates_only=true >"$build/benchmarks.txt"
+tests/speed/diagnosis.py "$build/armcal" "$build/diagnosis.json" >&2
+results+=("$build/diagnosis.json")
 if $peers; then
   robot=../shared/data/ur10e_free/robot.urdf
   [[ -f $robot ]] || robot=data/six_axis/robot.urdf
@@ -70,7 +72,8 @@ if $peers; then
 fi
 if $growth; then
   python3 tests/speed/growth.py --armcal "$build/armcal" \
-    --write "$build/tests/write_growth_log" --out "$build/growth" >&2
+    --write "$build/tests/write_growth_log" \
+    --benchmarks "$build/tests/benchmarks" --out "$build/growth" >&2
   results+=("$build/growth/growth.json")
 fi
 python3 tests/speed/goals.py ${json:+--json "$json"} "${results[@]}"

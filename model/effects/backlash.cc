@@ -1,49 +1,29 @@
-#include <algorithm>
 #include <cmath>
 
 #include "model/effects/effect_parts.h"
+#include "model/flanked_spring.h"
 
 namespace armcal {
 inline namespace effects {
 
 namespace {
 
-constexpr double kRounding = .05;    // of the gap: corners of the dead zone
 constexpr double kDampingRatio = 1;  // of a flank, with the motor held
-
-// SoftPlus and its slope, at once.
-struct Corner {
-  double value, slope;
-};
-
-Corner CornerAt(double x) {
-  constexpr double kFar = 25;
-  if (std::abs(x) > kFar) return {std::max(x, 0.), x > 0 ? 1. : 0.};
-  const double tail = std::exp(-std::abs(x));
-  const double rounded =
-      tail < 1e-8 ? tail * (1 - tail / 2) : std::log1p(tail);  // the same
-  return {std::max(x, 0.) + rounded, (x > 0 ? 1 : tail) / (1 + tail)};
-}
 
 double ContactStiffness(const EffectSite& site, const Eigen::VectorXd& p) {
   return TorqueScale(site) / (p[1] * p[0]);
 }
 
-Transmission DeadZone(int joint, double gap, double k, double damping) {
-  const double w = kRounding * gap;
+Transmission DeadZone(int joint, const FlankedSpring& spring) {
   Transmission law;
   law.joint = joint;
-  law.torque = [=](double d, double rate, const double*, double*) {
-    const Corner ahead = CornerAt((d - gap / 2) / w);
-    const Corner behind = CornerAt((-d - gap / 2) / w);
-    const double pressed = w * (ahead.value - behind.value);
-    const double touching = ahead.slope + behind.slope;
-    return k * pressed + damping * touching * rate;
+  law.torque = spring;
+  law.initial_deflection = [spring](double load) {
+    return load == 0
+               ? 0
+               : std::copysign(spring.gap / 2, load) + load / spring.stiffness;
   };
-  law.initial_deflection = [=](double load) {
-    return load == 0 ? 0 : std::copysign(gap / 2, load) + load / k;
-  };
-  law.stiffest = k;
+  law.stiffest = spring.stiffness;
   return law;
 }
 
@@ -76,7 +56,7 @@ Effect Backlash() {
     const double k = ContactStiffness(site, p);
     const double damping =
         2 * kDampingRatio * std::sqrt(k * CarriedInertia(site));
-    robot->transmissions.push_back(DeadZone(site.joint, p[0], k, damping));
+    robot->transmissions.push_back(DeadZone(site.joint, {p[0], k, damping}));
   };
   effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return std::vector<EffectEstimate>{

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/forward_dynamics.h"
+#include "model/motor_map.h"
 
 namespace armcal {
 inline namespace effects {
@@ -125,12 +126,7 @@ void AddTorque(const EffectSite& site, const InstantTorque& torque,
 void AddActuator(const EffectSite& site,
                  const std::function<double(double commanded)>& given,
                  SimulatedRobot* robot) {
-  robot->actuators.push_back(
-      {{},
-       [given, j = site.joint](const ArmInstant&, const double*, double*,
-                               Eigen::VectorXd* torque) {
-         (*torque)[j] = given((*torque)[j]);
-       }});
+  robot->actuators.push_back({{}, MotorMap{site.joint, given}});
 }
 
 double SoftPlus(double x) {

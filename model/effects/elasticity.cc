@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "model/effects/effect_parts.h"
+#include "model/flanked_spring.h"
 
 namespace armcal {
 inline namespace effects {
@@ -36,12 +37,10 @@ Effect Elasticity() {
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     if (p[0] <= 0) return;
-    const double compliance = p[0], damping = Damping(site, p);
+    const double compliance = p[0];
     Transmission law;
     law.joint = site.joint;
-    law.torque = [=](double deflection, double rate, const double*, double*) {
-      return deflection / compliance + damping * rate;
-    };
+    law.torque = FlankedSpring{0, 1 / compliance, Damping(site, p)};
     law.initial_deflection = [=](double load) { return compliance * load; };
     robot->transmissions.push_back(law);
   };

@@ -9,12 +9,15 @@ namespace {
 
 // What a limit with a rounded corner lets through: 0 at 0, with slope 1 far
 // below it, `limit` far beyond.
-double SoftClip(double x, double limit, double knee) {
-  const double w = knee * limit;
-  const double passed =
-      w * (SoftPlus(1 / knee) - SoftPlus((limit - std::abs(x)) / w));
-  return std::copysign(passed, x);
-}
+struct SoftClip {
+  SoftClip(double limit, double knee)
+      : limit(limit), w(knee * limit), most(SoftPlus(1 / knee)) {}
+  double operator()(double x) const {
+    const double passed = w * (most - SoftPlus((limit - std::abs(x)) / w));
+    return std::copysign(passed, x);
+  }
+  double limit, w, most;
+};
 
 }  // namespace
 
@@ -45,12 +48,12 @@ Effect TorqueSaturation() {
       })};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
-    const double share = p[0], limit = p[1], knee = p[2];
+    const double share = p[0];
+    const SoftClip clip(p[1], p[2]);
     AddActuator(
         site,
         [=](double commanded) {
-          return commanded -
-                 share * (commanded - SoftClip(commanded, limit, knee));
+          return commanded - share * (commanded - clip(commanded));
         },
         robot);
   };

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/simd/chain_constants.h"
+#include "model/simd/deflected_link.h"
 #include "model/simd/geometry_constants.h"
 
 namespace armcal::simd {
@@ -67,6 +68,10 @@ struct Kernels {
                                    const ChainMotion& motion, long sample,
                                    double* const* P, double* const* D,
                                    long stride);
+  // Deflections of links along a log, dt s apart; fastest where those with a
+  // gap, and those with as many substeps, are neighbours.
+  void (*deflections)(const DeflectedLink* const* links, int count,
+                      long samples, double dt);
 };
 
 // Of the instruction sets that this processor has, the least first.

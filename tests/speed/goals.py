@@ -8,8 +8,9 @@ time is the median over them of the CPU time per item (items_per_second, or the
 counter per_sample), and its number otherwise the median of the counter value.
 VALUES.json are what the
 other scripts of tests/speed and tests/peers write: {"values": {name: number}}.
-Every goal is a ratio of two of these numbers, so the machine's speed drops out;
-floor and stretch say what it should be at most. Python's standard library only.
+Every goal but those in seconds is a ratio of two of these numbers, so the
+machine's speed drops out; floor and stretch say what it should be at most.
+Python's standard library only.
 """
 
 import argparse
@@ -89,6 +90,11 @@ GOALS = [
      m["Figaroh/total_s"]),
     ("its held-out residual / FIGAROH's",
      1, 1, lambda m: m["Command/held_out"] / m["Figaroh/held_out"]),
+    # Seconds of wall clock, that a user waits.
+    ("diagnosis screen of 60 s, 6 joints, whole catalogue, s",
+     1, 1, lambda m: m["DiagnosisScreen"]),
+    ("whole diagnosis with simulation-calibrated threshold, 2 cores, s",
+     20, 20, lambda m: m["Diagnosis/whole_s"]),
 ]
 
 # (work, ours, theirs): the same on the same robot and states.

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
-"""growth.py [--largest N] --armcal BINARY --write WRITE_GROWTH_LOG --out FOLDER
+"""growth.py [--largest N] --armcal BINARY --write WRITE_GROWTH_LOG
+          --benchmarks BENCHMARKS --out FOLDER
 
 How time and memory of `armcal calibrate` grow with samples and with joints, on
-logs of arms of general geometry. Every case is a process of its own, run a few
-times: its least CPU seconds and its peak memory, as the kernel says them; the
-log is read from a file, and kept as far as the memory budget goes. The exponent
-of a power law is fitted to the upper half of every curve, where what does not
-grow is small, with its 95 % interval (Student's t of the residuals). Writes
-growth.json, growth.txt and growth.svg; Python's standard library only.
+logs of arms of general geometry, and those of a diagnosis' screen with the
+number of candidates. Every case is a process of its own, those of calibrate run
+a few times: its least CPU seconds (of one screen: on all cores) and its peak
+memory, as the kernel says them; the log of calibrate is read from a file, and
+kept as far as the memory budget goes. The exponent of a power law is fitted to
+the upper half of every curve, where what does not grow is small, with its 95 %
+interval (Student's t of the residuals). Writes growth.json, growth.txt and
+growth.svg; Python's standard library only.
 """
 
 import argparse
@@ -25,6 +28,8 @@ CURVES = [
     ("samples", [10 ** (k / 2) for k in range(6, 15)], lambda x: (6, round(x))),
     ("joints", range(1, 13), lambda x: (x, 100_000)),
 ]
+# How many effects of the catalogue the screen has, whose candidates count.
+EFFECTS = range(8, 33, 2)
 # The linear estimate from all samples, on data taken as they are.
 FLAGS = ["--estimate=linear", "--identification=differential", "--bandwidth=0",
          "--quiet"]
@@ -51,6 +56,30 @@ def measure(armcal, write, joints, samples):
             seconds = min(seconds, usage.ru_utime + usage.ru_stime)
             peak = min(peak, usage.ru_maxrss / 1024)
     return {"seconds": seconds, "peak_mb": peak}
+
+
+def measure_screen(benchmarks, effects):
+    """The same of one diagnosis' screen, by its number of candidates."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, "out.json")
+        child = subprocess.Popen(
+            [benchmarks, "--benchmark_out=" + out, "--benchmark_min_time=1",
+             f"--benchmark_filter=^DiagnosisScreenOf/effects:{effects}/"],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        if child.returncode != 0:
+            sys.exit(f"growth.py: exit code {child.returncode}: {benchmarks}")
+        with open(out, encoding="utf-8") as file:
+            run = json.load(file)["benchmarks"][0]
+    return {"x": run["candidates"], "effects": effects,
+            "seconds": run["per_sample"], "peak_mb": usage.ru_maxrss / 1024}
+
+
+def curve_of(over, points):
+    return {"over": over, "points": points,
+            "seconds": exponent(points, "seconds"),
+            "peak_mb": exponent(points, "peak_mb")}
 
 
 def exponent(points, key):
@@ -123,7 +152,7 @@ def draw(curves):
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 '
            f'{2 * step_x} {len(curves) * step_y}" font-family="sans-serif" '
            f'font-size="12" fill="{INK}">',
-           "<title>Growth of a linear calibration</title>"]
+           "<title>Growth of time and memory</title>"]
     for row, curve in enumerate(curves):
         for column, (key, what) in enumerate([("seconds", "CPU time, s"),
                                               ("peak_mb", "peak memory, MB")]):
@@ -138,6 +167,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[1])
     parser.add_argument("--armcal", required=True)
     parser.add_argument("--write", required=True)
+    parser.add_argument("--benchmarks", required=True)
     parser.add_argument("--out", required=True, type=pathlib.Path)
     parser.add_argument("--largest", type=float, default=1e7, help="samples "
                         "(default: 1e7, which writes a log of 4 GB)")
@@ -156,9 +186,9 @@ def main():
                            **measure(arguments.armcal, arguments.write, joints,
                                      samples)})
             print(f"growth.py: {over} {x:.0f}: {points[-1]}", file=sys.stderr)
-        curves.append({"over": over, "points": points,
-                       "seconds": exponent(points, "seconds"),
-                       "peak_mb": exponent(points, "peak_mb")})
+        curves.append(curve_of(over, points))
+    points = [measure_screen(arguments.benchmarks, e) for e in EFFECTS]
+    curves.append(curve_of("candidates", points))
     values = {f"Growth/{c['over']}_{k}_exponent": c[k]["exponent"]
               for c in curves for k in ("seconds", "peak_mb")}
     arguments.out.mkdir(parents=True, exist_ok=True)

@@ -1,0 +1,75 @@
+#include "model/rigid_torque.h"
+
+#include "model/batch_inverse_dynamics.h"
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+bool SameLinks(const Robot& a, const Robot& b) {
+  if (a.gravity != b.gravity) return false;
+  for (int i = 0; i < a.num_joints(); ++i) {
+    const Link &x = a.links[i], &y = b.links[i];
+    const InertialParameters &u = x.inertial, &v = y.inertial;
+    if (x.X_PF.matrix() != y.X_PF.matrix() ||
+        x.X_ML.matrix() != y.X_ML.matrix() || u.mass != v.mass ||
+        u.first_moment != v.first_moment || u.inertia != v.inertia) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool SameJointTerms(const Robot& a, const Robot& b) {
+  for (int i = 0; i < a.num_joints(); ++i) {
+    const Joint &x = a.links[i].joint, &y = b.links[i].joint;
+    if (x.viscous != y.viscous || x.coulomb != y.coulomb ||
+        x.armature != y.armature || x.offset != y.offset) {
+      return false;
+    }
+  }
+  return true;
+}
+
+MatrixXd LinkTorque(const Robot& robot, const Motion& motion) {
+  MatrixXd tau(motion.size(), motion.num_joints());
+  std::vector<double*> to;
+  for (int j = 0; j < tau.cols(); ++j) to.push_back(tau.col(j).data());
+  BatchInverseDynamics(robot).Torque(
+      {motion.q, motion.qd, motion.qdd, MatrixXd()}, motion.size(), to.data());
+  return tau;
+}
+
+MatrixXd CoulombAlong(const std::vector<CoulombTransition>& transitions,
+                      const Motion& motion) {
+  std::vector<JointTermColumn> columns;
+  for (int j = 0; j < motion.num_joints(); ++j) {
+    columns.push_back({j, JointTerm::kCoulomb, transitions[j]});
+  }
+  Trajectory trajectory;
+  trajectory.dt = motion.dt;
+  trajectory.q = motion.q;
+  trajectory.qd = motion.qd;
+  return CoulombStates(columns).Follow(trajectory);
+}
+
+MatrixXd FrictionTorque(const Robot& robot, const Motion& motion,
+                        const MatrixXd& coulomb) {
+  MatrixXd tau(motion.size(), motion.num_joints());
+  for (int j = 0; j < motion.num_joints(); ++j) {
+    const Joint& joint = robot.links[j].joint;
+    tau.col(j) = joint.viscous * motion.qd.col(j) +
+                 joint.coulomb * coulomb.col(j) +
+                 VectorXd::Constant(motion.size(), joint.offset);
+  }
+  return tau;
+}
+
+void AddArmature(const Robot& robot, const Motion& motion, MatrixXd* tau) {
+  for (int j = 0; j < motion.num_joints(); ++j) {
+    tau->col(j) += robot.links[j].joint.armature * motion.qdd.col(j);
+  }
+}
+
+}  // namespace armcal

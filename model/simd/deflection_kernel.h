@@ -1,0 +1,162 @@
+#pragma once
+
+#include "model/simd/deflected_link.h"
+#include "model/simd/lanes.h"
+#include "model/simd/signal_piece.h"
+#include "model/simd/spring_torque.h"
+
+namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
+
+// A link in each lane. The steps are StiffStep's (model/stiff_step.h), but the
+// rate is the only unknown of a stage and Newton's slope is exact. What a lane
+// holds does not depend on the others.
+
+constexpr double kGamma = .29289321881345247560;  // of both stages
+
+// rate = rate_base + step (load - T(base + step_d rate, rate)), from a guess of
+// the rate. Newton's steps square what is wrong in parts of a corner's width:
+// the last that are this small need no check.
+template <bool kHasGap>
+ARMCAL_INLINE void SolveStage(const SpringLanes& spring, const Integers& active,
+                              const Lanes& load, const Lanes& step,
+                              const Lanes& step_d, const Lanes& base,
+                              const Lanes& rate_base, Lanes* d, Lanes* rate) {
+  constexpr int kMostIterations = 20;
+  constexpr double kTolerance = 1e-10, kLastStep = 1e-6;
+  Lanes v = *rate;
+  if (kHasGap) {
+    const Lanes last = kLastStep * kRounding * spring.gap;
+    Integers open = active;
+    for (int i = 0; i < kMostIterations; ++i) {
+      const Lanes x = base + step_d * v;
+      const SpringTorque T = TorqueOf(spring, x, v);
+      const Lanes left = v - rate_base - step * (load - T.torque);
+      const Lanes scale =
+          Largest(Largest(Magnitude(x), Magnitude(v)), Broadcast(1e-12));
+      open &= Magnitude(left) > kTolerance * scale;
+      const Lanes slope = 1 + step * (T.by_deflection * step_d + T.by_rate);
+      const Lanes change = left / slope;
+      v = open ? v - change : v;
+      open &= step_d * Magnitude(change) > last;
+      if (All(open == 0)) break;
+    }
+  } else {
+    v = (rate_base + step * (load - spring.stiffness * base)) /
+        (1 + step * (spring.stiffness * step_d + spring.damping));
+  }
+  *rate = v;
+  *d = base + step_d * v;
+}
+
+// As many links as there are lanes, all with a gap or all without.
+template <bool kHasGap>
+struct LinkLanes {
+  const double *load[kLanes], *inertia[kLanes];
+  SpringLanes spring;
+  Lanes d, rate;
+  Lanes change;  // of the rate in the last step
+  Lanes substeps, step_d;
+  int most;  // substeps
+
+  ARMCAL_INLINE LinkLanes(const DeflectedLink* const* links, int count,
+                          double dt)
+      : most(0) {
+    for (int k = 0; k < kLanes; ++k) {
+      const DeflectedLink& link = *links[k < count ? k : 0];
+      load[k] = link.load;
+      inertia[k] = link.inertia;
+      spring.gap[k] = link.gap;
+      spring.stiffness[k] = link.stiffness;
+      spring.damping[k] = link.damping;
+      d[k] = link.start;
+      rate[k] = link.start_rate;
+      substeps[k] = link.substeps;
+      if (link.substeps > most) most = link.substeps;
+    }
+    change = Lanes{};
+    step_d = kGamma * dt * .5 / substeps;
+  }
+
+  // Of both stages of all steps of a sample, 4 `most`.
+  ARMCAL_INLINE void SetWeights(StageWeights* weights) const {
+    const Lanes h = .5 / substeps;
+    for (int half = 0; half < 2; ++half) {
+      for (int i = 0; i < most; ++i) {
+        const Lanes begin =
+            (static_cast<double>(half) * substeps + static_cast<double>(i)) * h;
+        *weights++ = WeightsAt(begin + kGamma * h);
+        *weights++ = WeightsAt(begin + h);
+      }
+    }
+  }
+
+  // Half a sample.
+  ARMCAL_INLINE void Advance(const SignalPiece& loads,
+                             const SignalPiece& inertias,
+                             const StageWeights* at) {
+    for (int i = 0; i < most; ++i, at += 2) {
+      const Integers active = substeps > static_cast<double>(i);
+      // Guesses go on as the rate went before.
+      Lanes x = d, v = rate + kGamma * change;
+      SolveStage<kHasGap>(spring, active, loads(at[0]),
+                          step_d / inertias(at[0]), step_d, d, rate, &x, &v);
+      // What the first stage moved, which the second weighs by (1 - gamma).
+      constexpr double kFirst = (1 - kGamma) / kGamma;
+      const Lanes base = d + kFirst * (x - d);
+      const Lanes rate_base = rate + kFirst * (v - rate);
+      v = rate_base + (v - rate);
+      SolveStage<kHasGap>(spring, active, loads(at[1]),
+                          step_d / inertias(at[1]), step_d, base, rate_base, &x,
+                          &v);
+      change = active ? v - rate : change;
+      d = active ? x : d;
+      rate = active ? v : rate;
+    }
+  }
+};
+
+template <bool kHasGap>
+__attribute__((noinline)) void FollowLinks(const DeflectedLink* const* links,
+                                           int count, long samples, double dt) {
+  LinkLanes<kHasGap> lanes(links, count, dt);
+  auto* weights = ARMCAL_SCRATCH(StageWeights, 4 * lanes.most);
+  lanes.SetWeights(weights);
+  Lanes before = lanes.rate;
+  for (long k = 0; k < samples; ++k) {
+    const bool first = k == 0, last = k + 1 == samples;
+    for (int i = 0; i < count; ++i) {
+      links[i]->angle[k] = lanes.d[i];
+      links[i]->rate[k] = lanes.rate[i];
+    }
+    SignalPiece loads, inertias;
+    if (!last) {
+      loads = PieceAt(lanes.load, k, samples - 1);
+      inertias = PieceAt(lanes.inertia, k, samples - 1);
+      lanes.Advance(loads, inertias, weights);
+    }
+    const double time = ((first ? 0 : .5) + (last ? 0 : .5)) * dt;
+    for (int i = 0; i < count; ++i) {
+      links[i]->acceleration[k] =
+          time > 0 ? (lanes.rate[i] - before[i]) / time : 0;
+    }
+    before = lanes.rate;
+    if (!last) lanes.Advance(loads, inertias, weights + 2 * lanes.most);
+  }
+}
+
+inline void FollowDeflectedLinks(const DeflectedLink* const* links, int count,
+                                 long samples, double dt) {
+  for (int k = 0; k < count;) {
+    const bool has_gap = links[k]->gap > 0;
+    int size = 1;
+    while (size < kLanes && k + size < count &&
+           (links[k + size]->gap > 0) == has_gap) {
+      ++size;
+    }
+    (has_gap ? FollowLinks<true> : FollowLinks<false>)(links + k, size, samples,
+                                                       dt);
+    k += size;
+  }
+}
+
+}  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET
