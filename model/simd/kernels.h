@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "model/simd/arm_constants.h"
 #include "model/simd/chain_constants.h"
 
 namespace armcal::simd {
@@ -46,6 +47,9 @@ struct Kernels {
   // 8. triangular: X is an upper triangle too, followed by rows of zeros.
   void (*householder)(double* R, long r_stride, int columns, double* X,
                       long stride, long rows, bool triangular);
+
+  // Forward dynamics and its integration: `lanes` at once, and one by one.
+  ArmKernels arms, one_arm;
 };
 
 // Of the instruction sets that this processor has, the least first.
