@@ -12,12 +12,8 @@ ARMCAL_INLINE T Size(const T& x) {
   return x < 0 ? -x : x;
 }
 
-// Makes the lower triangle of a mass matrix (row i at M[n i]) its factors
-// L' D L, L with ones on the diagonal, where the reciprocals of D stand: from
-// the tip, whose inertia is the smallest, to the base. NaN where no inertia
-// resists a joint.
 template <class T>
-ARMCAL_INLINE void FactorInertia(int n, T* M) {
+ARMCAL_INLINE void FactorTriangle(int n, T* M) {
   T least = Size(M[n * n - 1]), largest = least;
   for (int k = n - 1; k >= 0; --k) {
     T* row = M + n * k;
@@ -35,9 +31,8 @@ ARMCAL_INLINE void FactorInertia(int n, T* M) {
   M[0] = least > kNoInertia * largest ? M[0] : none / none;
 }
 
-// x becomes M^-1 x.
 template <class T>
-ARMCAL_INLINE void SolveFactored(int n, const T* M, T* x) {
+ARMCAL_INLINE void SolveTriangles(int n, const T* M, T* x) {
   for (int k = n - 1; k > 0; --k) {
     for (int i = 0; i < k; ++i) x[i] -= M[n * k + i] * x[k];
   }
@@ -45,6 +40,25 @@ ARMCAL_INLINE void SolveFactored(int n, const T* M, T* x) {
     x[k] *= M[n * k + k];
     for (int i = 0; i < k; ++i) x[k] -= M[n * k + i] * x[i];
   }
+}
+
+// Makes the lower triangle of a mass matrix (row i at M[n i]) its factors
+// L' D L, L with ones on the diagonal, where the reciprocals of D stand: from
+// the tip, whose inertia is the smallest, to the base. NaN where no inertia
+// resists a joint. Arms of six and seven joints have it in registers.
+template <class T>
+ARMCAL_INLINE void FactorInertia(int n, T* M) {
+  if (n == 6) return FactorTriangle(6, M);
+  if (n == 7) return FactorTriangle(7, M);
+  FactorTriangle(n, M);
+}
+
+// x becomes M^-1 x.
+template <class T>
+ARMCAL_INLINE void SolveFactored(int n, const T* M, T* x) {
+  if (n == 6) return SolveTriangles(6, M, x);
+  if (n == 7) return SolveTriangles(7, M, x);
+  SolveTriangles(n, M, x);
 }
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

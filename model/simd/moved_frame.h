@@ -67,18 +67,22 @@ struct MovedFrame {
   }
 };
 
+template <class T>
+struct JointAngle {
+  T sine, cosine;
+};
 // Of all angles, which do not wait for one another.
 ARMCAL_INLINE void SetAngles(const ArmConstants& arm, const Lanes* q,
-                             MovedFrame<Lanes>* frames) {
+                             JointAngle<Lanes>* angles) {
   for (int i = 0; i < arm.num_joints; ++i) {
     const Lanes angle = BodyConstants<Lanes>(arm, i)[kAngle];
-    SineCosine(arm.joints[i].rotational ? angle + q[i] : angle, &frames[i].sine,
-               &frames[i].cosine);
+    SineCosine(arm.joints[i].rotational ? angle + q[i] : angle, &angles[i].sine,
+               &angles[i].cosine);
   }
 }
 // Of one arm: its joints are the lanes.
 ARMCAL_INLINE void SetAngles(const ArmConstants& arm, const double* q,
-                             MovedFrame<double>* frames) {
+                             JointAngle<double>* angles) {
   for (int first = 0; first < arm.num_joints; first += kLanes) {
     const int left = arm.num_joints - first;
     const int joints = left < kLanes ? left : kLanes;
@@ -90,26 +94,23 @@ ARMCAL_INLINE void SetAngles(const ArmConstants& arm, const double* q,
     }
     SineCosine(angle, &sine, &cosine);
     for (int k = 0; k < joints; ++k) {
-      frames[first + k].sine = sine[k];
-      frames[first + k].cosine = cosine[k];
+      angles[first + k] = {sine[k], cosine[k]};
     }
   }
 }
 
+// Of body i. Read where it is used: it is mostly constants.
 template <class T>
-ARMCAL_INLINE void SetFrames(const ArmConstants& arm, const T* q,
-                             MovedFrame<T>* frames) {
-  SetAngles(arm, q, frames);
-  for (int i = 0; i < arm.num_joints; ++i) {
-    const BodyConstants<T> body(arm, i);
-    MovedFrame<T>& frame = frames[i];
-    frame.cosine_beta = body[kCosineBeta];
-    frame.sine_beta = body[kSineBeta];
-    frame.p = body.Vector(kPosition);
-    if (arm.joints[i].rotational) continue;
+ARMCAL_INLINE MovedFrame<T> FrameOf(const ArmConstants& arm, int i,
+                                    const JointAngle<T>* angles, const T* q) {
+  const BodyConstants<T> body(arm, i);
+  MovedFrame<T> frame = {angles[i].cosine, angles[i].sine, body[kCosineBeta],
+                         body[kSineBeta], body.Vector(kPosition)};
+  if (!arm.joints[i].rotational) {
     frame.p.y = frame.p.y - frame.sine_beta * q[i];
     frame.p.z = frame.p.z + frame.cosine_beta * q[i];
   }
+  return frame;
 }
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET
