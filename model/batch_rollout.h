@@ -23,11 +23,10 @@ struct RolloutStates {
 // Simulates many windows at once, one in each lane, with the same arm or with
 // one of its own each: multiple shooting, or finite differences of one.
 //
-// A step is the classical Runge-Kutta one of order 4; where joints have viscous
-// or Coulomb friction or springs, it is made linearly implicit in these
-// (model/simd/rollout_kernel.h) and stays stable however light the joint: order
-// 3 then, as in explicit steps while friction is far from stiff. An arm without
-// them moves by the explicit step.
+// A step is the classical Runge-Kutta one, of order 4. Where friction or
+// springs of the joints are fast beside it (a light wrist), it is made linearly
+// implicit in these and stays stable however fast they are: of order 3 then,
+// less in what has no time to move (model/simd/rollout_kernel.h).
 //
 // A window's bits do not depend on the windows beside it. May be used by many
 // threads.

@@ -20,10 +20,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kSamples = 1000, kWindows = 64;
+constexpr double kViscous = .2;  // N m s/rad, as tests/peers has it
 
-const FreeFall& Fall() {
-  static const FreeFall fall;
-  return fall;
+// Without friction; with viscous friction, in implicit steps.
+const FreeFall& Fall(bool damped = false) {
+  static const FreeFall free(0), with_friction(kViscous);
+  return damped ? with_friction : free;
 }
 
 void SetCounters(benchmark::State& state, double samples, double error) {
@@ -69,13 +71,24 @@ void Inertia(benchmark::State& state, const simd::Kernels* kernels) {
   SetCounters(state, kSamples, error);
 }
 
-RolloutArm Arm(bool friction) {
-  RolloutArm arm{Fall().robot, {}, {}};
-  for (Link& link : arm.robot.links) {
-    link.joint.viscous = friction ? 2 : 0;
-    link.joint.coulomb = friction ? 1 : 0;
-  }
+// Of both kinds of falls, and of one with dry friction on top.
+struct Kind {
+  const char* name;
+  bool damped;
+  double coulomb;  // N m
+};
+constexpr Kind kKinds[] = {
+    {"", false, 0}, {"_damped", true, 0}, {"_friction", true, 1}};
+
+RolloutArm Arm(const Kind& kind) {
+  RolloutArm arm{Fall(kind.damped).robot, {}, {}};
+  for (Link& link : arm.robot.links) link.joint.coulomb = kind.coulomb;
   return arm;
+}
+
+// Of q at the end, rad; not looked at with dry friction.
+double ErrorOf(const Kind& kind, const VectorXd& q) {
+  return kind.coulomb > 0 ? 0 : Fall(kind.damped).Error(q);
 }
 
 void HoldNothing(const BatchRollout::Batch& at, double* begin, double* end) {
@@ -86,10 +99,9 @@ void HoldNothing(const BatchRollout::Batch& at, double* begin, double* end) {
   }
 }
 
-// Error: of q at the end of the fall, rad; none with friction.
 void Windows(benchmark::State& state, const simd::Kernels* kernels,
-             bool friction) {
-  const BatchRollout rollout({Arm(friction)}, *kernels);
+             const Kind& kind) {
+  const BatchRollout rollout({Arm(kind)}, *kernels);
   RolloutStates states;
   for (auto _ : state) {
     states.q = Fall().q.transpose().replicate(kWindows, 1);
@@ -99,12 +111,12 @@ void Windows(benchmark::State& state, const simd::Kernels* kernels,
                 &states);
   }
   SetCounters(state, 1. * kWindows * FreeFall::kSteps,
-              friction ? 0 : Fall().Error(states.q.row(0)));
+              ErrorOf(kind, states.q.row(0)));
 }
 
 void OneArm(benchmark::State& state, const simd::Kernels* kernels,
-            bool friction) {
-  ArmStepper arm(Arm(friction), *kernels);
+            const Kind& kind) {
+  ArmStepper arm(Arm(kind), *kernels);
   const VectorXd none = VectorXd::Zero(arm.num_joints());
   for (auto _ : state) {
     arm.SetState(Fall().q, Fall().qd);
@@ -112,7 +124,7 @@ void OneArm(benchmark::State& state, const simd::Kernels* kernels,
       arm.Advance(FreeFall::kStep, none, none);
     }
   }
-  SetCounters(state, FreeFall::kSteps, friction ? 0 : Fall().Error(arm.q()));
+  SetCounters(state, FreeFall::kSteps, ErrorOf(kind, arm.q()));
 }
 
 // The readable one, which allocates.
@@ -134,10 +146,11 @@ const bool registered = [] {
     };
     add("ForwardDynamics/lanes", [=](auto& s) { Acceleration(s, kernels); });
     add("MassMatrix/lanes", [=](auto& s) { Inertia(s, kernels); });
-    add("Rollout/lanes", [=](auto& s) { Windows(s, kernels, false); });
-    add("Rollout/lanes_friction", [=](auto& s) { Windows(s, kernels, true); });
-    add("Rollout/scalar", [=](auto& s) { OneArm(s, kernels, false); });
-    add("Rollout/scalar_friction", [=](auto& s) { OneArm(s, kernels, true); });
+    for (const Kind& kind : kKinds) {
+      const std::string name = kind.name;
+      add("Rollout/lanes" + name, [=](auto& s) { Windows(s, kernels, kind); });
+      add("Rollout/scalar" + name, [=](auto& s) { OneArm(s, kernels, kind); });
+    }
   }
   return true;
 }();

@@ -6,8 +6,9 @@
 namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 
 // The classical Runge-Kutta method, whose stages are made implicit in what
-// friction and springs of the joints add: a W-method (Hairer, Wanner,
-// Solving Ordinary Differential Equations II, IV.7). Stage i of y' = f(y) is
+// friction and springs of the joints add where these are fast: a W-method
+// (Hairer, Wanner, Solving Ordinary Differential Equations II, IV.7). Stage i
+// of y' = f(y) is
 //   k_i = f(y + h sum_j<i a_ij k_j) + h A sum_j<=i c_ij k_j
 // with A = -M^-1 times the joints' slopes at the step's begin, whose factors
 // all stages share. The c_ij meet the order conditions for any A up to order 3
@@ -19,6 +20,10 @@ constexpr double kWeight[kStages] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
 constexpr double kGamma = .25;  // c_ii
 constexpr double kImplicit[kStages][kStages - 1] = {
     {}, {-3. / 20}, {43. / 320, -47. / 64}, {1. / 32, 29. / 96, -1. / 3}};
+// What decays by less than this in a step is left to explicit ones, which are
+// of order 4 and stable up to 2.7: twice that, as the rate is estimated from
+// the joints one by one.
+constexpr double kFast = 1.25;
 // Beyond these a state is of no use any more: rad or m, rad/s or m/s.
 constexpr double kLostPosition = 1e5, kLostVelocity = 1e7;
 
@@ -33,22 +38,34 @@ struct StepScratch {
   T* x;
 };
 
+ARMCAL_INLINE bool AnyOf(bool holds) { return holds; }
+ARMCAL_INLINE bool AnyOf(const Integers& holds) { return !All(holds == 0); }
+
+// Of the mass matrix in s.implicit, whose factors are s.M: false where it has
+// nothing fast. What a lane does is its own: slow ones have no slopes.
 template <class T>
-ARMCAL_INLINE void FactorImplicit(const ArmConstants& arm, double h,
+ARMCAL_INLINE bool FactorImplicit(const ArmConstants& arm, double h,
                                   const StepScratch<T>& s) {
   const int n = arm.num_joints;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j <= i; ++j) s.implicit[n * i + j] = s.M[n * i + j];
-  }
+  T speed = {};
   for (int j = 0; j < n; ++j) {
     const JointSlope<T> slope =
         SlopeOf(arm, j, s.coulomb0[j], s.qd0[j], s.c[j]);
     s.damping[j] = slope.damping;
     s.stiffness[j] = slope.stiffness;
-    s.implicit[n * j + j] += (kGamma * h) * slope.damping +
-                             (kGamma * h * kGamma * h) * slope.stiffness;
+    speed +=
+        (h * slope.damping + (h * h) * slope.stiffness) * Size(s.M[n * j + j]);
+  }
+  if (!AnyOf(speed > kFast)) return false;
+  const T none = {};
+  for (int j = 0; j < n; ++j) {
+    s.damping[j] = speed > kFast ? s.damping[j] : none;
+    s.stiffness[j] = speed > kFast ? s.stiffness[j] : none;
+    s.implicit[n * j + j] += (kGamma * h) * s.damping[j] +
+                             (kGamma * h * kGamma * h) * s.stiffness[j];
   }
   FactorInertia(n, s.implicit);
+  return true;
 }
 
 // From the rates f of stage i, in k and l, to the stage's own.
@@ -68,18 +85,17 @@ ARMCAL_INLINE void MakeImplicit(const ArmConstants& arm, double h, int i,
   SolveFactored(n, s.implicit, s.x);
   for (int j = 0; j < n; ++j) {
     s.k[i][j] -= s.x[j];
-    // Of a joint without springs the position's rate is the velocity.
-    if (arm.joints[j].has_spring ||
-        arm.joints[j].transition == Transition::kDisplacement) {
-      s.l[i][j] += h * (s.c[j] - kGamma * s.x[j]);
-    }
+    // Without a spring the position's rate is the velocity.
+    const T none = {}, more = h * (s.c[j] - kGamma * s.x[j]);
+    s.l[i][j] += s.stiffness[j] > 0 ? more : none;
   }
 }
 
+// Rates of stage i; the first says whether there are implicit ones.
 template <class T>
-ARMCAL_INLINE void Stage(const ArmConstants& arm, double h, int i,
+ARMCAL_INLINE bool Stage(const ArmConstants& arm, double h, int i,
                          const double* tau_begin, const double* tau_end,
-                         long stride, const StepScratch<T>& s) {
+                         long stride, bool implicit, const StepScratch<T>& s) {
   const int n = arm.num_joints;
   T *k = s.k[i], *l = s.l[i];
   for (int j = 0; j < n; ++j) {
@@ -98,10 +114,15 @@ ARMCAL_INLINE void Stage(const ArmConstants& arm, double h, int i,
     k[j] = begin + kNode[i] * (end - begin) - s.x[j] -
            JointTermTorque(arm, j, s.q[j], s.qd[j], s.c[j]);
   }
-  if (i == 0 && arm.has_joint_terms) FactorImplicit(arm, h, s);
+  const bool chooses = i == 0 && arm.has_joint_terms;
+  for (int j = 0; chooses && j < n; ++j) {
+    for (int m = 0; m <= j; ++m) s.implicit[n * j + m] = s.M[n * j + m];
+  }
   FactorInertia(n, s.M);
   SolveFactored(n, s.M, k);
-  if (arm.has_joint_terms) MakeImplicit(arm, h, i, s);
+  if (chooses) implicit = FactorImplicit(arm, h, s);
+  if (implicit) MakeImplicit(arm, h, i, s);
+  return implicit;
 }
 
 ARMCAL_INLINE unsigned BitsOf(double lost) { return lost != 0; }
@@ -134,8 +155,9 @@ unsigned AdvanceAt(const ArmConstants& arm, double h, const double* tau_begin,
   LoadJoints(n, state.q, stride, q0);
   LoadJoints(n, state.qd, stride, qd0);
   LoadJoints(n, state.coulomb, stride, coulomb0);
+  bool implicit = false;
   for (int i = 0; i < kStages; ++i) {
-    Stage(arm, h, i, tau_begin, tau_end, stride, s);
+    implicit = Stage(arm, h, i, tau_begin, tau_end, stride, implicit, s);
   }
   const T one = T{} + 1;
   T lost = {};

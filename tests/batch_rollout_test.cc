@@ -1,0 +1,247 @@
+#include "model/batch_rollout.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/arm_stepper.h"
+#include "model/forward_dynamics.h"
+#include "model/plant/simbody_arm.h"
+#include "model/rigid_arm.h"
+#include "tests/exact_rollout.h"
+#include "tests/random_motion.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Law = CoulombTransition::Law;
+
+class BatchRolloutTest : public testing::TestWithParam<const simd::Kernels*> {
+ protected:
+  // One window under a constant torque.
+  RolloutStates Run(const RolloutArm& arm, const VectorXd& q,
+                    const VectorXd& qd, const VectorXd& tau, double step,
+                    long steps) const {
+    RolloutStates states{q.transpose(), qd.transpose(), {}, {}};
+    BatchRollout({arm}, *GetParam())
+        .Run(
+            0, step, steps,
+            [&](const BatchRollout::Batch& at, double* begin, double* end) {
+              for (int j = 0; j < tau.size(); ++j) {
+                begin[j * at.stride] = end[j * at.stride] = tau[j];
+              }
+            },
+            nullptr, &states);
+    return states;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(InstructionSets, BatchRolloutTest,
+                         testing::ValuesIn(simd::AvailableKernels()),
+                         [](const auto& info) {
+                           return std::string(info.param->instruction_set);
+                         });
+
+VectorXd Number(double x) { return VectorXd::Constant(1, x); }
+
+// A rod that turns about a horizontal axis comes back after
+// 4 K(sin(q0 / 2)) sqrt(I / (m g l)).
+TEST_P(BatchRolloutTest, PendulumHasItsPeriod) {
+  Robot robot;
+  robot.links.resize(1);
+  robot.gravity = {9.81, 0, 0};  // along x, where the rod points at q = 0
+  const double m = 2, l = .3, I = .25, q0 = 2;
+  robot.links[0].inertial.mass = m;
+  robot.links[0].inertial.first_moment = {m * l, 0, 0};
+  robot.links[0].inertial.inertia = Eigen::Vector3d(.1, I, I).asDiagonal();
+  const double period =
+      4 * std::comp_ellint_1(std::sin(q0 / 2)) * std::sqrt(I / (m * 9.81 * l));
+  const RolloutStates end = Run({robot, {}, {}}, Number(q0), Number(0),
+                                Number(0), period / 2000, 2000);
+  EXPECT_NEAR(end.q(0, 0), q0, 1e-9);
+  EXPECT_NEAR(end.qd(0, 0), 0, 1e-8);
+}
+
+// Half the step, a sixteenth of the error; of the energy, too.
+TEST_P(BatchRolloutTest, IsOfOrderFour) {
+  std::mt19937_64 random(1);
+  const RolloutArm arm{ArmWithFrames(4, 2, &random), {}, {}};
+  const VectorXd q = UniformVector(&random, 4, -2, 2);
+  const VectorXd qd = UniformVector(&random, 4, -1, 1);
+  const VectorXd none = VectorXd::Zero(4);
+  RigidArm readable(arm.robot);
+  const VectorXd exact = ExactEnd(arm, q, qd, none, .3, &readable).head(4);
+  const double energy = Energy(arm.robot, q, qd).total();
+  double error[2], drift[2];
+  for (const int k : {0, 1}) {
+    const int steps = 100 << k;
+    const RolloutStates end = Run(arm, q, qd, none, .3 / steps, steps);
+    error[k] = (end.q.row(0).transpose() - exact).norm();
+    drift[k] = std::abs(Energy(arm.robot, end.q.row(0), end.qd.row(0)).total() -
+                        energy);
+  }
+  EXPECT_LT(error[0], 1e-4);
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 4, .3);
+  EXPECT_GT(std::log2(drift[0] / drift[1]), 3.5);
+}
+
+// All that joints add, against adaptive steps of Simbody's links and the laws
+// as joint_term.h writes them: of order 3.
+TEST_P(BatchRolloutTest, JointTermsAreTheirs) {
+  std::mt19937_64 random(2);
+  for (const Law law : {Law::kVelocity, Law::kDisplacement}) {
+    RolloutArm arm{ArmWithFrames(4, 1, &random), {}, {}};
+    for (Link& link : arm.robot.links) {
+      Joint& joint = link.joint;
+      joint.viscous = Uniform(&random, 1, 5);
+      joint.coulomb = Uniform(&random, 1, 5);
+      joint.offset = Uniform(&random, -1, 1);
+      joint.armature = Uniform(&random, .1, 1);
+      arm.transitions.push_back({law, law == Law::kVelocity ? .2 : .02});
+      arm.springs.push_back({Uniform(&random, 5, 20), .3});
+    }
+    const VectorXd q = UniformVector(&random, 4, -2, 2);
+    const VectorXd qd = UniformVector(&random, 4, .5, 1);
+    const VectorXd tau = UniformVector(&random, 4, -5, 5);
+    SimbodyArm simbody(arm.robot);
+    const VectorXd exact = ExactEnd(arm, q, qd, tau, .25, &simbody);
+    double error[2];
+    for (const int k : {0, 1}) {
+      const RolloutStates end = Run(arm, q, qd, tau, 1e-3 / (1 << k), 250 << k);
+      error[k] = (end.q.row(0).transpose() - exact.head(4)).norm() +
+                 (end.qd.row(0).transpose() - exact.segment(4, 4)).norm();
+      if (law == Law::kDisplacement) {
+        EXPECT_LT((end.coulomb.row(0).transpose() - exact.tail(4)).norm(),
+                  1e-4);
+      }
+    }
+    EXPECT_LT(error[0], law == Law::kVelocity ? 2e-6 : 2e-5);
+    if (law == Law::kVelocity) {
+      EXPECT_GT(std::log2(error[0] / error[1]), 2.5);
+    }
+  }
+}
+
+// Light blocks on slides; explicit steps of a millisecond would diverge.
+TEST_P(BatchRolloutTest, StiffJointsStayStable) {
+  Robot robot = HorizontalSlide(1e-4);
+  Joint& joint = robot.links[0].joint;
+  // m v' = F - b v, a thousand times faster than the step.
+  joint.viscous = 100;
+  RolloutStates end =
+      Run({robot, {}, {}}, Number(0), Number(0), Number(7), 1e-3, 100);
+  EXPECT_NEAR(end.qd(0, 0), 7. / 100, 1e-6);
+  EXPECT_NEAR(end.q(0, 0), 7. / 100 * .1, 1e-3 * 7 / 100);
+  // Dry friction stops it, and lets it slide at F = C tanh(v / w).
+  joint.viscous = 0;
+  joint.coulomb = 5;
+  const CoulombTransition tanh{Law::kVelocity, .02};
+  end = Run({robot, {tanh}, {}}, Number(0), Number(.5), Number(3), 1e-3, 200);
+  EXPECT_NEAR(end.qd(0, 0), .02 * std::atanh(3. / 5), 1e-6);
+  // A Prandtl element holds it at F w / C, once that is damped.
+  joint.viscous = .5;
+  const CoulombTransition prandtl{Law::kDisplacement, 1e-4};
+  end =
+      Run({robot, {prandtl}, {}}, Number(.3), Number(0), Number(3), 1e-3, 200);
+  EXPECT_NEAR(end.q(0, 0) - .3, 3 * 1e-4 / 5, 1e-9);
+  EXPECT_NEAR(end.coulomb(0, 0), 3. / 5, 1e-6);
+  // Above what it holds it slides at v = (F - C) / b.
+  end = Run({robot, {prandtl}, {}}, Number(0), Number(0), Number(6), 1e-3, 200);
+  EXPECT_NEAR(end.qd(0, 0), (6. - 5) / .5, 1e-6);
+  EXPECT_EQ(end.coulomb(0, 0), 1);
+  // A spring of 1e4 N/m, damped.
+  joint.coulomb = 0;
+  end = Run({robot, {}, {{1e4, .1}}}, Number(0), Number(0), Number(20), 1e-3,
+            200);
+  EXPECT_NEAR(end.q(0, 0), .1 + 20 / 1e4, 1e-6);
+}
+
+// A controller's law of (t, q, qd) for arms that differ, in any numbers of
+// windows: each goes as it goes alone, to the bit; and as one arm's stepper
+// does, to rounding. A window that starts as no number or runs away is told.
+TEST_P(BatchRolloutTest, WindowsDoNotSeeEachOther) {
+  std::mt19937_64 random(3);
+  constexpr int kWindows = 19, kRunaway = 5, kNoNumber = 11, kSteps = 40;
+  const Robot robot = ArmWithFrames(3, 2, &random);
+  std::vector<RolloutArm> arms;
+  for (int w = 0; w < kWindows; ++w) {
+    arms.push_back({robot, {}, {}});
+    arms[w].robot.links[2].inertial.mass += .1 * w;
+    arms[w].robot.links[1].joint.viscous = 1 + w;
+    arms[w].robot.links[1].joint.coulomb = w % 2;
+  }
+  RolloutStates states{RandomMotion::Random(&random, kWindows, 3, 2),
+                       RandomMotion::Random(&random, kWindows, 3, 1),
+                       {},
+                       {}};
+  states.q(kNoNumber, 2) = std::nan("");
+  const RolloutStates begin = states;
+  const auto law = [](double t, double q, double qd) {
+    return std::sin(9 * t) - 3 * q - .2 * qd;
+  };
+  const auto torque = [&](const BatchRollout::Batch& at, double* from,
+                          double* to) {
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < at.count; ++k) {
+        const long i = j * at.stride + k;
+        from[i] = to[i] = law(at.t, at.q[i], at.qd[i]);
+        if (at.first + k == kRunaway && at.t > .03) {
+          from[i] = std::nan("");
+        }
+      }
+    }
+  };
+  long visits = 0;
+  BatchRollout(arms, *GetParam())
+      .Run(
+          0, 2e-3, kSteps, torque,
+          [&](const BatchRollout::Batch&, long) { ++visits; }, &states);
+  const int lanes = GetParam()->lanes;
+  EXPECT_EQ(visits, kSteps * ((kWindows + lanes - 1) / lanes));
+  EXPECT_EQ(states.lost[kNoNumber], 0);
+  EXPECT_EQ(states.lost[kRunaway], 17);  // from the step at .032 s on
+  for (int w = 0; w < kWindows; ++w) {
+    if (w == kNoNumber || w == kRunaway) continue;
+    EXPECT_EQ(states.lost[w], -1);
+    RolloutStates alone{begin.q.row(w), begin.qd.row(w), {}, {}};
+    BatchRollout({arms[w]}, *GetParam())
+        .Run(
+            0, 2e-3, kSteps,
+            [&](const BatchRollout::Batch& at, double* from, double* to) {
+              for (int j = 0; j < 3; ++j) {
+                const long i = j * at.stride;
+                from[i] = to[i] = law(at.t, at.q[i], at.qd[i]);
+              }
+            },
+            nullptr, &alone);
+    EXPECT_EQ(states.q.row(w), alone.q.row(0)) << w;
+    EXPECT_EQ(states.qd.row(w), alone.qd.row(0)) << w;
+    ArmStepper stepper(arms[w], *GetParam());
+    stepper.SetState(begin.q.row(w), begin.qd.row(w));
+    VectorXd tau(3);
+    for (int k = 0; k < kSteps; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        tau[j] = law(2e-3 * k, stepper.q()[j], stepper.qd()[j]);
+      }
+      EXPECT_TRUE(stepper.Advance(2e-3, tau, tau));
+    }
+    EXPECT_LT((stepper.q().transpose() - states.q.row(w)).norm(), 1e-12);
+  }
+}
+
+TEST_P(BatchRolloutTest, TorqueIsLinearWithinAStep) {
+  const Robot robot = HorizontalSlide(2);
+  ArmStepper block({robot, {}, {}}, *GetParam());
+  block.SetState(Number(0), Number(0));
+  // m x'' = a t: x = a t^3 / 6 m, exact for the method.
+  EXPECT_TRUE(block.Advance(.5, Number(0), Number(3)));
+  EXPECT_NEAR(block.q()[0], 6. * .125 / 12, 1e-15);
+  EXPECT_NEAR(block.qd()[0], 6. * .25 / 4, 1e-15);
+  EXPECT_FALSE(block.Advance(.5, Number(0), Number(std::nan(""))));
+  EXPECT_EQ(block.q()[0], 0);
+}
+
+}  // namespace
+}  // namespace armcal
