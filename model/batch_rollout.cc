@@ -94,8 +94,8 @@ void BatchRollout::Run(double begin, double step, long steps,
     lanes.Load(first, count, states);
     const simd::ArmState state = {lanes.q(), lanes.qd(), lanes.coulomb(),
                                   width};
-    Batch at = {first,     count,      begin,          width,
-                lanes.q(), lanes.qd(), lanes.coulomb()};
+    Batch at = {first, count,     0,          begin,
+                width, lanes.q(), lanes.qd(), lanes.coulomb()};
     for (long k = 1; k <= steps; ++k) {
       torque(at, lanes.begin(), lanes.end());
       const unsigned lost =
@@ -104,8 +104,9 @@ void BatchRollout::Run(double begin, double step, long steps,
         long& when = states->lost[first + lane];
         if ((lost >> lane & 1) != 0 && when < 0) when = k;
       }
+      at.step = k;
       at.t = begin + static_cast<double>(k) * step;
-      if (visit) visit(at, k);
+      if (visit) visit(at);
     }
     lanes.Store(first, count, states);
   }

@@ -40,6 +40,7 @@ class BatchRollout {
   // Windows that go side by side.
   struct Batch {
     int first, count;  // which windows
+    long step;         // how many steps are done
     double t;          // s
     // Joint j of window first + k at [j * stride + k].
     long stride;
@@ -50,8 +51,8 @@ class BatchRollout {
   // gives it twice. Asked once per step and batch.
   using TorqueLaw =
       std::function<void(const Batch& at, double* begin, double* end)>;
-  // Told where each batch is after each step, from 1 on.
-  using Visit = std::function<void(const Batch& at, long step)>;
+  // Told where each batch is after each of its steps.
+  using Visit = std::function<void(const Batch& at)>;
 
   // Advances all windows by `steps` of `step` s; `t` of the first is `begin`.
   void Run(double begin, double step, long steps, const TorqueLaw& torque,

@@ -197,7 +197,7 @@ TEST_P(BatchRolloutTest, WindowsDoNotSeeEachOther) {
   BatchRollout(arms, *GetParam())
       .Run(
           0, 2e-3, kSteps, torque,
-          [&](const BatchRollout::Batch&, long) { ++visits; }, &states);
+          [&](const BatchRollout::Batch&) { ++visits; }, &states);
   const int lanes = GetParam()->lanes;
   EXPECT_EQ(visits, kSteps * ((kWindows + lanes - 1) / lanes));
   EXPECT_EQ(states.lost[kNoNumber], 0);
