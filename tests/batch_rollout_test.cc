@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "model/arm_stepper.h"
@@ -121,6 +122,27 @@ TEST_P(BatchRolloutTest, JointTermsAreTheirs) {
     if (law == Law::kVelocity) {
       EXPECT_GT(std::log2(error[0] / error[1]), 2.5);
     }
+  }
+}
+
+// Of a linear law x' = A x an implicit step is its rational function
+//   (1 - z^2 / 8 - z^3 / 48) / (1 - z / 4)^4,  z = h A,
+// e^z up to order 3, 0 for what is infinitely fast (Hairer, Wanner, IV.7).
+TEST_P(BatchRolloutTest, ImplicitStepsHaveTheirStabilityFunction) {
+  const double m = .5, h = 1e-2, b = 200;
+  Robot robot = HorizontalSlide(m);
+  robot.links[0].joint.viscous = b;
+  for (const double k : {0., 3e3, 1e6}) {
+    Eigen::Matrix2d z, one = Eigen::Matrix2d::Identity();
+    z << 0, h, -h * k / m, -h * b / m;
+    if (k == 0) z(0, 1) = 0;  // the velocity alone
+    const Eigen::Matrix2d root = (one - z / 4).inverse(), square = root * root;
+    const Eigen::Vector2d expected = (one - z * z / 8 - z * z * z / 48) *
+                                     square * square * Eigen::Vector2d(.3, 2);
+    const RolloutStates end =
+        Run({robot, {}, {{k, 0}}}, Number(.3), Number(2), Number(0), h, 1);
+    EXPECT_NEAR(k > 0 ? end.q(0, 0) : .3, expected[0], 1e-12);
+    EXPECT_NEAR(end.qd(0, 0), expected[1], 1e-10);
   }
 }
 

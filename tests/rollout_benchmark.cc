@@ -4,12 +4,14 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <string>
 
 #include "model/arm_stepper.h"
 #include "model/batch_forward_dynamics.h"
 #include "model/batch_rollout.h"
 #include "model/forward_dynamics.h"
+#include "model/inverse_dynamics.h"
 #include "tests/benchmark_log.h"
 #include "tests/free_fall.h"
 
@@ -35,7 +37,19 @@ void SetCounters(benchmark::State& state, double samples, double error) {
   state.counters["error"] = error;
 }
 
-// Error: of qdd, relative to the largest.
+// Largest of what torque(s) misses at the samples of a log, relative to the
+// largest torque.
+template <class Torque>
+double TorqueError(const Log& log, const Torque& torque) {
+  double error = 0;
+  for (int s = 0; s < kSamples; ++s) {
+    const VectorXd missed = torque(s) - log.tau.row(s).transpose();
+    error = std::max(error, missed.lpNorm<Eigen::Infinity>());
+  }
+  return error / log.tau.lpNorm<Eigen::Infinity>();
+}
+
+// Error: of the torque at the acceleration found.
 void Acceleration(benchmark::State& state, const simd::Kernels* kernels) {
   const Robot& robot = Fall().robot;
   const Log log = BenchmarkLog(robot, kSamples);
@@ -45,14 +59,16 @@ void Acceleration(benchmark::State& state, const simd::Kernels* kernels) {
     dynamics.Acceleration(log.q, log.qd, log.tau, &qdd);
     benchmark::ClobberMemory();
   }
-  SetCounters(state, kSamples,
-              (qdd - log.qdd).lpNorm<Eigen::Infinity>() /
-                  log.qdd.lpNorm<Eigen::Infinity>());
+  SetCounters(state, kSamples, TorqueError(log, [&](int s) {
+                return InverseDynamics(robot, log.q.row(s), log.qd.row(s),
+                                       qdd.row(s));
+              }));
 }
 
-// Error: relative to the largest element.
+// Error: of the torque that the mass matrix makes of the acceleration.
 void Inertia(benchmark::State& state, const simd::Kernels* kernels) {
   const Robot& robot = Fall().robot;
+  const int n = robot.num_joints();
   const Log log = BenchmarkLog(robot, kSamples);
   const BatchForwardDynamics dynamics(robot, *kernels);
   MatrixXd M;
@@ -60,15 +76,13 @@ void Inertia(benchmark::State& state, const simd::Kernels* kernels) {
     dynamics.MassMatrix(log.q, &M);
     benchmark::ClobberMemory();
   }
-  double error = 0;
-  for (int s = 0; s < kSamples; ++s) {
-    const MatrixXd expected = MassMatrix(robot, log.q.row(s));
-    const Eigen::Map<const VectorXd> flat(expected.data(), expected.size());
-    error = std::max(error,
-                     (M.row(s).transpose() - flat).lpNorm<Eigen::Infinity>() /
-                         flat.lpNorm<Eigen::Infinity>());
-  }
-  SetCounters(state, kSamples, error);
+  SetCounters(state, kSamples, TorqueError(log, [&](int s) -> VectorXd {
+                const VectorXd row = M.row(s);
+                return Eigen::Map<const MatrixXd>(row.data(), n, n) *
+                           log.qdd.row(s).transpose() +
+                       InverseDynamics(robot, log.q.row(s), log.qd.row(s),
+                                       VectorXd::Zero(n));
+              }));
 }
 
 // Of both kinds of falls, and of one with dry friction on top.
