@@ -17,10 +17,10 @@ using Eigen::VectorXd;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Of each length of windows and each model as many are repeated by referees,
+// Of each length, model and stretch of a log as many are repeated by referees,
 // where that is no matter of more steps than these.
-constexpr int kRefereed = 2;
-constexpr long kRefereeSteps = 3000;
+constexpr int kRefereed = 1;
+constexpr long kRefereeSteps = 1500;
 constexpr double kRefereeTolerance = 1e-8;
 
 class Roller {

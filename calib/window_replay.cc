@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <random>
 
 #include "model/low_pass.h"
@@ -40,7 +41,7 @@ bool HasMemory(const CorrectedRobot& robot) {
 class SegmentReplay {
  public:
   SegmentReplay(const CorrectedRobot& robot, const GapSegment& segment)
-      : robot_(robot), engine_(robot.plant.robot) {
+      : robot_(robot), engine_(std::make_unique<RigidArm>(robot.plant.robot)) {
     MotionTrack track;
     track.SetMotion(segment.motion);
     track.load = track.warmth = MatrixXd::Zero(track.num_joints(), size(track));
@@ -93,7 +94,8 @@ class SegmentReplay {
 
   ArmSimulator Start(int row) const {
     ArmSimulator simulator(robot_.plant, signals_.q.col(row),
-                           {dt_ / steps_, 0, begin_ + row * dt_}, &engine_);
+                           {dt_ / steps_, 0, begin_ + row * dt_},
+                           engine_.get());
     simulator.SetMotors(signals_.q.col(row), signals_.qd.col(row));
     return simulator;
   }
@@ -118,7 +120,7 @@ class SegmentReplay {
   }
 
   const CorrectedRobot& robot_;
-  RigidArm engine_;
+  std::unique_ptr<RigidArm> engine_;
   Signals signals_;
   double begin_, dt_;  // s
   int steps_;          // of the simulator per sample
