@@ -26,7 +26,7 @@ struct RolloutStates {
 // A step is the classical Runge-Kutta one, of order 4. Where friction or
 // springs of the joints are fast beside it (a light wrist), it is made linearly
 // implicit in these and stays stable however fast they are: of order 3 then,
-// less in what has no time to move (model/simd/rollout_kernel.h).
+// less in what has no time to move (model/simd/implicit_stages.h).
 //
 // A window's bits do not depend on the windows beside it. May be used by many
 // threads.
