@@ -45,8 +45,10 @@ ARMCAL_INLINE bool Stage(const ArmConstants& arm, double h, int i,
 ARMCAL_INLINE unsigned BitsOf(double lost) { return lost != 0; }
 ARMCAL_INLINE unsigned BitsOf(const Lanes& lost) {
   if (__builtin_expect(All(lost == 0), true)) return 0;
+  double numbers[kLanes];
+  Store(lost, numbers);
   unsigned bits = 0;
-  for (int k = 0; k < kLanes; ++k) bits |= unsigned{lost[k] != 0} << k;
+  for (int k = 0; k < kLanes; ++k) bits |= unsigned{numbers[k] != 0} << k;
   return bits;
 }
 
