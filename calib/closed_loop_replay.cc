@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "calib/arm_engine.h"
 #include "model/input_error.h"
 #include "model/low_pass.h"
 #include "model/plant/closed_loop.h"
 #include "model/plant/motion_reader.h"
+#include "model/rigid_arm.h"
 
 namespace armcal {
 namespace {
@@ -111,11 +111,11 @@ ClosedLoopReplay ReplayClosedLoop(const SimulatedRobot& plant, double delay,
   ClosedLoopOptions options;
   options.controller = controller;
   options.sensors.log_rate_hz = controller.rate_hz;
-  const ArmEngine engine = MakeArmEngine(plant.robot);
+  RigidArm engine(plant.robot);
   const ReferenceMotion motion =
       InTrueTime(MotionThrough(commanded.path, CommandOf(log)), plant.clock);
   const ClosedLoopRun run =
-      RunClosedLoop(delayed, known, motion, options, engine.dynamics.get());
+      RunClosedLoop(delayed, known, motion, options, &engine);
   ClosedLoopReplay replay;
   replay.finite = run.finite;
   if (!run.finite) return replay;

@@ -37,10 +37,11 @@ struct ClosedLoopReplay {
   Eigen::MatrixXd torque;
 };
 
-// Lets `plant` (arm_engine.h) follow the command of the log under a controller
-// that knows the robot `known`. `delay`: by how much recorded torque is later
-// than the motion, s. A positive one is the recording's, and the motion does
-// not feel it; a negative one that of the drives, as a first-order lag.
+// Lets `plant`, moved by our own dynamics, follow the command of the log under
+// a controller that knows the robot `known`. `delay`: by how much recorded
+// torque is later than the motion, s. A positive one is the recording's, and
+// the motion does not feel it; a negative one that of the drives, as a
+// first-order lag.
 ClosedLoopReplay ReplayClosedLoop(const SimulatedRobot& plant, double delay,
                                   const Robot& known,
                                   const ControllerOptions& controller,

@@ -17,33 +17,36 @@ using Eigen::VectorXd;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+// Of each length, model and stretch of a log as many are repeated by referees,
+// where that is no matter of more steps than these.
+constexpr int kRefereed = 1;
+constexpr long kRefereeSteps = 1500;
+constexpr double kRefereeTolerance = 1e-8;
+
 class Roller {
  public:
-  Roller(const std::vector<TorqueReplay*>& models,
-         const RolloutOptions& options)
-      : models_(models), options_(options), states_(models.size()) {
-    integration_.relative = integration_.absolute = options.tolerance;
-    integration_.max_steps = options.max_steps;
+  Roller(const std::vector<RolloutModel>& models, const RolloutOptions& options)
+      : models_(models), options_(options) {
     for (const double window_s : options.windows_s) {
       rollouts_.push_back({window_s, {}, 0});
     }
   }
 
   void Add(int log, const Trajectory& trajectory) {
-    for (size_t m = 0; m < models_.size(); ++m) {
-      states_[m] = models_[m]->Follow(trajectory);
-    }
+    std::vector<std::vector<int>> begins;  // of windows, per length
     for (Rollouts& rollouts : rollouts_) {
-      const int length = std::max(
-          1, static_cast<int>(std::lround(rollouts.window_s / trajectory.dt)));
-      for (int k = trajectory.core_begin; k < trajectory.core_end; ++k) {
-        if ((trajectory.first_index + k) % length != 0) continue;
-        if (k + length >= trajectory.size()) continue;
-        if (2 * trajectory.standstill.segment(k, length + 1).count() > length) {
-          ++rollouts.standstill;
-          continue;
-        }
-        rollouts.windows.push_back(Simulate(log, trajectory, k, k + length));
+      begins.push_back(Begins(trajectory, &rollouts));
+      for (const int k : begins.back()) {
+        const MatrixXd unknown = MatrixXd::Constant(
+            models_.size(), trajectory.num_joints(), kInfinity);
+        rollouts.windows.push_back({log, trajectory.time(k), unknown, unknown});
+      }
+    }
+    for (size_t m = 0; m < models_.size(); ++m) {
+      const MatrixXd& coulomb = models_[m].replay->Follow(trajectory);
+      for (size_t r = 0; r < rollouts_.size(); ++r) {
+        Simulate(trajectory, begins[r], static_cast<int>(m), coulomb,
+                 &rollouts_[r]);
       }
     }
   }
@@ -51,35 +54,72 @@ class Roller {
   std::vector<Rollouts> TakeRollouts() { return std::move(rollouts_); }
 
  private:
-  RolloutWindow Simulate(int log, const Trajectory& trajectory, int first,
-                         int last) {
-    const int n = trajectory.num_joints();
-    const Eigen::Index size = static_cast<Eigen::Index>(models_.size());
-    RolloutWindow window{log, trajectory.time(first),
-                         MatrixXd::Constant(size, n, kInfinity),
-                         MatrixXd::Constant(size, n, kInfinity)};
-    for (Eigen::Index m = 0; m < size; ++m) {
-      const Integration run = models_[m]->Run(
-          trajectory, first, last, states_[m].row(first), integration_);
-      if (!run.finished) continue;
-      const auto rms = [&](Eigen::Index column, const MatrixXd& recorded) {
-        return ((run.x.middleCols(column, n) -
-                 recorded.middleRows(first + 1, last - first))
-                    .colwise()
-                    .norm() /
-                std::sqrt(last - first))
-            .eval();
-      };
-      window.q.row(m) = rms(0, trajectory.q);
-      window.qd.row(m) = rms(n, trajectory.qd);
-    }
-    return window;
+  static int Length(const Rollouts& rollouts, const Trajectory& trajectory) {
+    return std::max(
+        1, static_cast<int>(std::lround(rollouts.window_s / trajectory.dt)));
   }
 
-  const std::vector<TorqueReplay*>& models_;
+  static std::vector<int> Begins(const Trajectory& trajectory,
+                                 Rollouts* rollouts) {
+    const int length = Length(*rollouts, trajectory);
+    std::vector<int> begins;
+    for (int k = trajectory.core_begin; k < trajectory.core_end; ++k) {
+      if ((trajectory.first_index + k) % length != 0) continue;
+      if (k + length >= trajectory.size()) continue;
+      if (2 * trajectory.standstill.segment(k, length + 1).count() > length) {
+        ++rollouts->standstill;
+        continue;
+      }
+      begins.push_back(k);
+    }
+    return begins;
+  }
+
+  // Model m over the last windows of the rollouts.
+  void Simulate(const Trajectory& trajectory, const std::vector<int>& begins,
+                int m, const MatrixXd& coulomb, Rollouts* rollouts) {
+    const int length = Length(*rollouts, trajectory);
+    const std::vector<ReplayedWindow> replayed = models_[m].replay->Run(
+        trajectory, begins, length, coulomb, options_.tolerance);
+    int refereed = 0;
+    for (size_t w = 0; w < begins.size(); ++w) {
+      if (!replayed[w].finished) continue;
+      const auto rms = [&](const MatrixXd& x, const MatrixXd& recorded) {
+        return ((x - recorded.middleRows(begins[w] + 1, length))
+                    .colwise()
+                    .norm() /
+                std::sqrt(length))
+            .eval();
+      };
+      RolloutWindow& window =
+          rollouts->windows[rollouts->windows.size() - begins.size() + w];
+      window.q.row(m) = rms(replayed[w].q, trajectory.q);
+      window.qd.row(m) = rms(replayed[w].qd, trajectory.qd);
+      if (refereed++ < kRefereed && models_[m].referee != nullptr) {
+        Referee(trajectory, begins[w], coulomb.row(begins[w]), replayed[w].q,
+                models_[m].referee, rollouts);
+      }
+    }
+  }
+
+  static void Referee(const Trajectory& trajectory, int begin,
+                      const VectorXd& coulomb, const MatrixXd& q,
+                      TorqueReplay* referee, Rollouts* rollouts) {
+    IntegrationOptions options;
+    options.relative = options.absolute = kRefereeTolerance;
+    options.max_steps = kRefereeSteps;
+    const Integration run =
+        referee->Run(trajectory, begin, begin + static_cast<int>(q.rows()),
+                     coulomb, options);
+    if (!run.finished) return;
+    ++rollouts->refereed;
+    rollouts->referee_difference =
+        std::max(rollouts->referee_difference,
+                 (run.x.leftCols(q.cols()) - q).cwiseAbs().maxCoeff());
+  }
+
+  const std::vector<RolloutModel>& models_;
   const RolloutOptions& options_;
-  IntegrationOptions integration_;
-  std::vector<MatrixXd> states_;  // of Coulomb friction, per model
   std::vector<Rollouts> rollouts_;
 };
 
@@ -151,7 +191,7 @@ int Rollouts::NumDiverged(int model) const {
       [model](const RolloutWindow& w) { return w.diverged(model); }));
 }
 
-std::vector<Rollouts> RollOut(const std::vector<TorqueReplay*>& models,
+std::vector<Rollouts> RollOut(const std::vector<RolloutModel>& models,
                               const RolloutOptions& options,
                               double bandwidth_hz, LogSet* logs) {
   const double longest =

@@ -6,16 +6,24 @@
 #include <vector>
 
 #include "calib/log_set.h"
+#include "model/batch_torque_replay.h"
 #include "model/torque_replay.h"
 
 namespace armcal {
 
 struct RolloutOptions {
   std::vector<double> windows_s = {0.2, 0.5, 1};
-  // Local error of the integration, rad (m), rad/s (m/s).
-  double tolerance = 1e-6;
-  long max_steps = 50'000;  // per window
+  // To which windows are simulated, rad (m), and 100 times that in rad/s (m/s).
+  double tolerance = 1e-5;
   Progress progress;
+};
+
+// A robot that is simulated.
+struct RolloutModel {
+  BatchTorqueReplay* replay;
+  // The same robot in another engine, which simulates a few of the windows too;
+  // may be null.
+  TorqueReplay* referee = nullptr;
 };
 
 // A stretch of a log that every model was simulated over from the log's own
@@ -39,6 +47,10 @@ struct Rollouts {
   double window_s;
   std::vector<RolloutWindow> windows;  // in the order of time
   int standstill = 0;                  // windows that stand still, left out
+  // How many simulations were done by referees too, and how far from these
+  // their positions were at most, rad or m.
+  int refereed = 0;
+  double referee_difference = 0;
 
   int NumDiverged(int model) const;
 };
@@ -46,7 +58,7 @@ struct Rollouts {
 // Simulates every model over the windows of the logs (multiple shooting). A
 // window that stands still for half of its samples or more is left out. The
 // logs are prepared with the given bandwidth.
-std::vector<Rollouts> RollOut(const std::vector<TorqueReplay*>& models,
+std::vector<Rollouts> RollOut(const std::vector<RolloutModel>& models,
                               const RolloutOptions& options,
                               double bandwidth_hz, LogSet* logs);
 

@@ -1,5 +1,6 @@
 #include "calib/rollout_comparison.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -11,14 +12,20 @@ namespace {
 constexpr double kIntegrated = 1e-5;  // rad, m: of RolloutOptions::tolerance
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// A robot with the engine that simulates it.
+// A robot, and in Simbody what is simulated there too.
 struct Model {
   Model(const Robot& robot, const std::vector<CoulombTransition>& transitions)
-      : engine(MakeArmEngine(robot)),
-        replay(robot, transitions, engine.dynamics.get()) {}
+      : replay(robot, transitions),
+        engine(MakeArmEngine(robot)),
+        referee(robot, transitions, engine.dynamics.get()) {}
 
+  RolloutModel Get() {
+    return {&replay, engine.is_simbody ? &referee : nullptr};
+  }
+
+  BatchTorqueReplay replay;
   ArmEngine engine;
-  TorqueReplay replay;
+  TorqueReplay referee;
 };
 
 RolloutComparison Compare(const Robot& robot, const Rollouts& rollouts,
@@ -63,17 +70,20 @@ RolloutComparisons CompareRollouts(const Robot& file,
   std::vector<CoulombTransition> transitions(file.num_joints());
   if (calibrated != nullptr) transitions = calibrated->transitions;
   Model before(file, transitions);
-  std::vector<TorqueReplay*> models = {&before.replay};
+  std::vector<RolloutModel> models = {before.Get()};
   RolloutComparisons result;
   result.before_in_simbody = before.engine.is_simbody;
   std::unique_ptr<Model> after;
   if (calibrated != nullptr) {
     after = std::make_unique<Model>(calibrated->robot, transitions);
-    models.push_back(&after->replay);
+    models.push_back(after->Get());
     result.after_in_simbody = after->engine.is_simbody;
   }
   for (const Rollouts& rollouts :
        RollOut(models, options, bandwidth_hz, logs)) {
+    result.refereed += rollouts.refereed;
+    result.referee_difference =
+        std::max(result.referee_difference, rollouts.referee_difference);
     for (const char* unit : {"rad", "m"}) {
       if (JointsWithUnit(file, unit).empty()) continue;
       result.windows.push_back(

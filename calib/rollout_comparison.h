@@ -45,9 +45,13 @@ struct RolloutComparison {
 
 struct RolloutComparisons {
   std::vector<RolloutComparison> windows;
-  // Whose dynamics: Simbody's, or ours where it refuses a link.
+  // Whether Simbody has the robots, too; it refuses some links.
   bool before_in_simbody = true;
   bool after_in_simbody = true;
+  // How many of the simulations it repeated, and how far from its positions
+  // ours were at most, rad or m.
+  int refereed = 0;
+  double referee_difference = 0;
 };
 
 // Rolls the robot file's robot and, unless null, the calibrated one out over

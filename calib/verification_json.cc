@@ -98,6 +98,9 @@ json ToJson(const VerificationReport& report) {
     for (const RolloutComparison& c : report.rollouts->windows) {
       out["rollout"].push_back(RolloutJson(c));
     }
+    out["rollout_in_simbody"] = {
+        {"simulations", report.rollouts->refereed},
+        {"max_difference", report.rollouts->referee_difference}};
   }
   if (report.closed_loop) {
     out["closed_loop"] = ClosedLoopJson(*report.closed_loop);

@@ -102,8 +102,12 @@ std::string RolloutTable(const RolloutComparisons& rollouts) {
                    first.standstill, first.window_s);
   }
   if (!rollouts.before_in_simbody || !rollouts.after_in_simbody) {
-    text += std::string("  with our own dynamics, as Simbody refuses ") +
+    text += std::string("  not repeated in Simbody, which refuses ") +
             (rollouts.after_in_simbody ? "the file's robot\n" : "links\n");
+  }
+  if (rollouts.refereed > 0) {
+    text += Format("  %d of them repeated in Simbody: within %.2g rad or m\n",
+                   rollouts.refereed, rollouts.referee_difference);
   }
   return text;
 }

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <random>
 
-#include "calib/arm_engine.h"
 #include "model/low_pass.h"
 #include "model/motion_behind_readings.h"
 #include "model/motion_track.h"
 #include "model/plant/arm_simulator.h"
+#include "model/rigid_arm.h"
 
 namespace armcal {
 namespace {
@@ -40,7 +41,7 @@ bool HasMemory(const CorrectedRobot& robot) {
 class SegmentReplay {
  public:
   SegmentReplay(const CorrectedRobot& robot, const GapSegment& segment)
-      : robot_(robot), engine_(MakeArmEngine(robot.plant.robot)) {
+      : robot_(robot), engine_(std::make_unique<RigidArm>(robot.plant.robot)) {
     MotionTrack track;
     track.SetMotion(segment.motion);
     track.load = track.warmth = MatrixXd::Zero(track.num_joints(), size(track));
@@ -94,7 +95,7 @@ class SegmentReplay {
   ArmSimulator Start(int row) const {
     ArmSimulator simulator(robot_.plant, signals_.q.col(row),
                            {dt_ / steps_, 0, begin_ + row * dt_},
-                           engine_.dynamics.get());
+                           engine_.get());
     simulator.SetMotors(signals_.q.col(row), signals_.qd.col(row));
     return simulator;
   }
@@ -119,7 +120,7 @@ class SegmentReplay {
   }
 
   const CorrectedRobot& robot_;
-  ArmEngine engine_;
+  std::unique_ptr<RigidArm> engine_;
   Signals signals_;
   double begin_, dt_;  // s
   int steps_;          // of the simulator per sample

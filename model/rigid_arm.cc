@@ -1,7 +1,10 @@
 #include "model/rigid_arm.h"
 
-#include "model/forward_dynamics.h"
-#include "model/inverse_dynamics.h"
+#include <glog/logging.h>
+
+#include <utility>
+
+#include "model/arm_plan.h"
 #include "model/kinematics.h"
 
 namespace armcal {
@@ -31,12 +34,21 @@ ArmTerms::Point PointAt(const Robot& robot, const std::vector<Isometry3d>& X_WL,
 
 }  // namespace
 
+RigidArm::RigidArm(Robot robot, const simd::Kernels& kernels)
+    : robot_(std::move(robot)),
+      plan_(std::make_shared<ArmPlan>(RolloutArm{robot_, {}, {}},
+                                      kernels.one_arm.lanes)),
+      kernels_(&kernels.one_arm) {}
+
 void RigidArm::Evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                         const std::vector<Attachment>& attachments,
                         ArmTerms* terms) {
-  terms->mass_matrix = MassMatrix(robot_, q);
-  terms->bias =
-      InverseDynamics(robot_, q, qd, Eigen::VectorXd::Zero(num_joints()));
+  const int n = num_joints();
+  CHECK(q.size() == n && qd.size() == n);
+  terms->mass_matrix.resize(n, n);
+  terms->bias.resize(n);
+  kernels_->terms(plan_->constants(), q.data(), qd.data(), 1,
+                  terms->mass_matrix.data(), terms->bias.data());
   terms->points.clear();
   if (attachments.empty()) return;
   const std::vector<Isometry3d> X_WL = LinkPoses(robot_, q);

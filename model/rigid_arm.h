@@ -1,18 +1,24 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "model/arm_dynamics.h"
 #include "model/robot.h"
+#include "model/simd/kernels.h"
 
 namespace armcal {
 
-// Our own dynamics as an engine for simulations (forward_dynamics.h). It takes
-// links that no body could have, too.
+class ArmPlan;
+
+// Our own dynamics as an engine for simulations: forward_dynamics.h's, prepared
+// once and by the kernels of model/simd. It takes links that no body could
+// have, too.
 class RigidArm : public ArmDynamics {
  public:
-  explicit RigidArm(Robot robot) : robot_(std::move(robot)) {}
+  explicit RigidArm(Robot robot,
+                    const simd::Kernels& kernels = simd::BestKernels());
 
   int num_joints() const override { return robot_.num_joints(); }
   void Evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
@@ -21,6 +27,8 @@ class RigidArm : public ArmDynamics {
 
  private:
   Robot robot_;
+  std::shared_ptr<const ArmPlan> plan_;
+  const simd::ArmKernels* kernels_;
 };
 
 }  // namespace armcal

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/batch_torque_replay.h"
 #include "model/forward_dynamics.h"
 
 namespace armcal {
@@ -16,16 +17,6 @@ constexpr double kLostAngle = 100;  // rad
 constexpr double kLostLength = 10;  // m
 
 using Eigen::VectorXd;
-
-std::vector<JointTermColumn> CoulombColumns(
-    const std::vector<CoulombTransition>& transitions) {
-  std::vector<JointTermColumn> columns;
-  for (size_t j = 0; j < transitions.size(); ++j) {
-    columns.push_back(
-        {static_cast<int>(j), JointTerm::kCoulomb, transitions[j]});
-  }
-  return columns;
-}
 
 }  // namespace
 

@@ -11,7 +11,6 @@
 #include "calib/linear_calibration.h"
 #include "calib/nonlinear_calibration.h"
 #include "calib/rollout.h"
-#include "model/plant/simbody_arm.h"
 #include "model/robot_reader.h"
 #include "tests/rollout_rivals.h"
 
@@ -74,14 +73,12 @@ class Contest {
   void Run() {
     std::vector<Robot> robots = {refined_};
     for (const Rival& rival : rivals_) robots.push_back(rival.robot);
-    std::vector<std::unique_ptr<SimbodyArm>> engines;
-    std::vector<std::unique_ptr<TorqueReplay>> replays;
-    std::vector<TorqueReplay*> models;
+    std::vector<std::unique_ptr<BatchTorqueReplay>> replays;
+    std::vector<RolloutModel> models;
     for (const Robot& robot : robots) {
-      engines.push_back(std::make_unique<SimbodyArm>(robot));
-      replays.push_back(std::make_unique<TorqueReplay>(robot, transitions_,
-                                                       engines.back().get()));
-      models.push_back(replays.back().get());
+      replays.push_back(
+          std::make_unique<BatchTorqueReplay>(robot, transitions_));
+      models.push_back({replays.back().get()});
     }
     RolloutOptions options;
     options.windows_s = {0.5};

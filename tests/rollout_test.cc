@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "model/rigid_arm.h"
+#include "model/plant/simbody_arm.h"
 #include "tests/sample_motion.h"
 #include "tests/sample_robots.h"
 #include "tests/temp_file.h"
@@ -47,15 +47,17 @@ class RolloutLogs : public testing::Test {
 
   std::vector<Rollouts> Run(const std::vector<Robot>& robots,
                             RolloutOptions options = {}) {
-    std::vector<std::unique_ptr<RigidArm>> arms;
-    std::vector<std::unique_ptr<TorqueReplay>> replays;
-    std::vector<TorqueReplay*> models;
+    const std::vector<CoulombTransition> transitions(3);
+    std::vector<std::unique_ptr<BatchTorqueReplay>> replays;
+    std::vector<RolloutModel> models;
     for (const Robot& robot : robots) {
-      arms.push_back(std::make_unique<RigidArm>(robot));
-      replays.push_back(std::make_unique<TorqueReplay>(
-          robot, std::vector<CoulombTransition>(3), arms.back().get()));
-      models.push_back(replays.back().get());
+      replays.push_back(
+          std::make_unique<BatchTorqueReplay>(robot, transitions));
+      models.push_back({replays.back().get()});
     }
+    SimbodyArm simbody(truth_);
+    TorqueReplay referee(truth_, transitions, &simbody);
+    if (robots.size() > 1) models[0].referee = &referee;
     return RollOut(models, options, 0, &*logs_);
   }
 
@@ -80,6 +82,10 @@ TEST_F(RolloutLogs, TheTruthIsNearAndAnErrorShowsAtItsSize) {
   EXPECT_EQ(all[2].standstill, 5);
   EXPECT_LT(MedianError(all[2], 0, joints, 1).value, 1e-4);
   EXPECT_EQ(all[0].NumDiverged(1), 0);
+  // One in each stretch of the log is Simbody's too.
+  EXPECT_GE(all[0].refereed, 1);
+  EXPECT_LT(all[0].referee_difference, 1e-5);
+  EXPECT_GT(all[0].referee_difference, 0);
   // At rest joint 3 alone would get qdd = offset / (M33 + armature); friction
   // and the other joints take their share, in .2 s less than half.
   const double least = truth_.links[2].inertial.inertia(2, 2) + .2;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "model/simd/arm_constants.h"
 #include "model/simd/chain_constants.h"
 #include "model/simd/deflected_link.h"
 #include "model/simd/geometry_constants.h"
@@ -72,6 +73,8 @@ struct Kernels {
   // gap, and those with as many substeps, are neighbours.
   void (*deflections)(const DeflectedLink* const* links, int count,
                       long samples, double dt);
+  // Forward dynamics and its integration: `lanes` at once, and one by one.
+  ArmKernels arms, one_arm;
 };
 
 // Of the instruction sets that this processor has, the least first.

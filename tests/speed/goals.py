@@ -107,6 +107,9 @@ PEERS = [
     ("forward dynamics, Pinocchio", "ForwardDynamics/lanes", "Pinocchio/aba"),
     ("mass matrix, Pinocchio", "MassMatrix/lanes", "Pinocchio/crba"),
     ("RK4 step, MuJoCo", "Rollout/lanes", "Mujoco/mj_step_rk4"),
+    ("RK4 step of one arm, MuJoCo", "Rollout/scalar", "Mujoco/mj_step_rk4"),
+    ("RK4 step with viscous friction, MuJoCo", "Rollout/lanes_damped",
+     "Mujoco/mj_step_rk4_damped"),
     ("torque's Jacobian, 84 parameters, Ceres autodiff", "Jacobian/chunk",
      "Ceres/autodiff"),
     ("CSV of 1e5 rows to parameters, FIGAROH", "Command/calibrate_s",
@@ -180,8 +183,9 @@ def compare(measured, details):
     def error_of(name):
         if name in details:
             return details[name].get("error")
-        of_sets = [details[f"Accuracy/{name}/{s}"]["error"]
-                   for s in INSTRUCTION_SETS if f"Accuracy/{name}/{s}" in details]
+        of_sets = [details[of]["error"] for s in INSTRUCTION_SETS
+                   for of in (f"Accuracy/{name}/{s}", f"{name}/{s}")
+                   if "error" in details.get(of, {})]
         return max(of_sets) if of_sets else measured.get(ERRORS.get(name))
 
     for work, ours, theirs in PEERS:

@@ -128,7 +128,7 @@ string(REPLACE "inertia: [0.2, 0.2, 0.35]" "inertia: [0.1, 0.1, 0.35]" yaml "${y
 file(WRITE ${WORK_DIR}/impossible.yaml "${yaml}")
 run("a link that cannot exist" verify --robot=impossible.yaml ${log} --out=impossible)
 expect_code(1)
-expect_text(out "torque" "not compared" "missed" "with our own dynamics, as Simbody refuses"
+expect_text(out "torque" "not compared" "missed" "not repeated in Simbody, which refuses"
             "not verified: scara: link hand: Simbody cannot simulate it: ")
 expect_json(impossible OFF passed)
 expect_json(impossible "" torque_max_rel)
