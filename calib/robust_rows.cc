@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "problems/robust_loss.h"
 
@@ -13,6 +15,52 @@ constexpr double kLow = 1e-12;
 const double kLogStep = std::log(1.005);
 constexpr int kBins = 11100;
 
+// Where a number's bin is, without its logarithm: numbers that share their
+// exponent and the first bits of their mantissa are within half a bin, so that
+// one or two neighbours are left.
+class BinSearch {
+ public:
+  BinSearch() : edge_(kBins + 1) {
+    for (int b = 0; b <= kBins; ++b) edge_[b] = kLow * std::exp(b * kLogStep);
+    int bin = 0;
+    for (std::uint64_t bits = First(kLow); bits <= First(edge_[kBins]);
+         ++bits) {
+      const double least = FromFirst(bits);
+      while (bin + 1 < kBins && edge_[bin + 1] <= least) ++bin;
+      bin_.push_back(bin);
+    }
+  }
+  int operator()(double size) const {
+    if (size <= kLow) return 0;
+    if (!(size < edge_[kBins])) return kBins - 1;  // also NaN
+    int bin = bin_[First(size) - First(kLow)];
+    while (size >= edge_[bin + 1]) ++bin;
+    return bin;
+  }
+
+ private:
+  static constexpr int kOtherBits = 52 - 9;
+  static std::uint64_t First(double x) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &x, sizeof(bits));
+    return bits >> kOtherBits;
+  }
+  static double FromFirst(std::uint64_t first) {
+    const std::uint64_t bits = first << kOtherBits;
+    double x;
+    std::memcpy(&x, &bits, sizeof(x));
+    return x;
+  }
+
+  std::vector<double> edge_;  // of each bin, and the last one's end
+  std::vector<int> bin_;      // of the least number with these first bits
+};
+
+int BinOf(double size) {
+  static const BinSearch search;
+  return search(size);
+}
+
 }  // namespace
 
 double Clipped(double r) {
@@ -23,8 +71,7 @@ ResidualStatistics::ResidualStatistics(int lag)
     : histogram_(kBins, 0), lag_(lag) {}
 
 void ResidualStatistics::Add(double r) {
-  const double bin = std::log(std::max(std::abs(r), kLow) / kLow) / kLogStep;
-  ++histogram_[bin < kBins ? static_cast<int>(bin) : kBins - 1];  // also NaN
+  ++histogram_[BinOf(std::abs(r))];
   ++count_;
   const double clipped = Clipped(r);
   if (std::abs(clipped) < 0.5 * std::abs(r)) ++outliers_;
