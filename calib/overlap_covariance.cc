@@ -39,7 +39,8 @@ void OverlapCovariance::Add(const FittedRow& row) {
   if (recent_.added == kTogether) SumProducts();
   const int k = num_old() + recent_.added++;
   std::vector<int>& num_before = recent_.num_before;
-  num_before[k] = follows_ && k > 0 ? std::min(num_before[k - 1] + 1, num_old()) : 0;
+  num_before[k] =
+      follows_ && k > 0 ? std::min(num_before[k - 1] + 1, num_old()) : 0;
   follows_ = true;
   recent_.r.row(k) = row.r;
   recent_.slope.row(k) = row.slope;

@@ -64,11 +64,12 @@ int BinOf(double size) {
 }  // namespace
 
 double Clipped(double r) {
-  return r * EvaluateLoss(RobustLoss::kHuber, r).weight;
+  static const double bend = LossScale(RobustLoss::kHuber);
+  return std::clamp(r, -bend, bend);
 }
 
 ResidualStatistics::ResidualStatistics(int lag)
-    : histogram_(kBins, 0), lag_(lag) {}
+    : histogram_(kBins, 0), recent_(std::max(1, lag)) {}
 
 void ResidualStatistics::Add(double r) {
   ++histogram_[BinOf(std::abs(r))];
@@ -76,13 +77,16 @@ void ResidualStatistics::Add(double r) {
   const double clipped = Clipped(r);
   if (std::abs(clipped) < 0.5 * std::abs(r)) ++outliers_;
   square_ += clipped * clipped;
-  recent_.push_back(clipped);
-  if (recent_.size() <= lag_) return;
-  product_ += clipped * recent_.front();
-  recent_.pop_front();
+  if (num_recent_ < recent_.size()) {
+    recent_[num_recent_++] = clipped;
+    return;
+  }
+  product_ += clipped * recent_[oldest_];
+  recent_[oldest_] = clipped;
+  oldest_ = oldest_ + 1 < recent_.size() ? oldest_ + 1 : 0;
 }
 
-void ResidualStatistics::Break() { recent_.clear(); }
+void ResidualStatistics::Break() { num_recent_ = oldest_ = 0; }
 
 double ResidualStatistics::RobustSpread() const {
   long seen = 0;

@@ -7,7 +7,7 @@ namespace armcal {
 long RowsPerLeaf(const RowOptions& options) {
   return options.identification == Identification::kDifferential
              ? TriangularFactor::kLeafRows
-             : 32;
+             : 64;
 }
 
 RowReduction::RowReduction(const ModelParameters& parameters)

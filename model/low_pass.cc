@@ -38,21 +38,18 @@ std::array<FilterSection, 2> Butterworth4(double sample_rate,
   return sections;
 }
 
-// Rows of signals side by side, on borders of cache lines. Where there is no
-// signal they are 0.
+// Rows of signals side by side, on borders of cache lines.
 class SignalRows {
  public:
   explicit SignalRows(long rows)
       : rows_(rows),
         x_(static_cast<double*>(::operator new(
-            kSideBySide* rows * sizeof(double), std::align_val_t(64)))) {}
+            sizeof(double[kSideBySide]) * rows, std::align_val_t(64)))) {}
 
-  // Signal c from a row on.
-  double* at(long row, int c) { return x_.get() + row * kSideBySide + c; }
-  void Clear(int first_signal) {
-    for (int c = first_signal; c < kSideBySide; ++c) {
-      for (long k = 0; k < rows_; ++k) *at(k, c) = 0;
-    }
+  Eigen::Map<
+      Eigen::Matrix<double, Eigen::Dynamic, kSideBySide, Eigen::RowMajor>>
+  matrix() {
+    return {x_.get(), rows_, kSideBySide};
   }
   void Filter(const std::array<FilterSection, 2>& sections) {
     simd::BestKernels().filter_both_ways(sections.data(), x_.get(), rows_,
@@ -130,22 +127,17 @@ MatrixXd ZeroPhaseLowPass(const MatrixXd& x, double sample_rate,
   for (int first = 0; first < x.cols(); first += kSideBySide) {
     const int columns =
         std::min(kSideBySide, static_cast<int>(x.cols()) - first);
+    auto all = rows.matrix();
+    all.middleRows(pad, n).leftCols(columns) = x.middleCols(first, columns);
+    all.rightCols(kSideBySide - columns).setZero();
     for (int c = 0; c < columns; ++c) {
       const auto signal = x.col(first + c);
-      const VectorXd before = beyond(signal.head(reach).reverse());
-      const VectorXd after = beyond(signal.tail(reach));
-      double* to = rows.at(0, c);
-      for (int k = pad - 1; k >= 0; --k, to += kSideBySide) *to = before[k];
-      for (int k = 0; k < n; ++k, to += kSideBySide) *to = signal[k];
-      for (int k = 0; k < pad; ++k, to += kSideBySide) *to = after[k];
+      all.col(c).head(pad) = beyond(signal.head(reach).reverse()).reverse();
+      all.col(c).tail(pad) = beyond(signal.tail(reach));
     }
-    rows.Clear(columns);
     rows.Filter(sections);
-    for (int c = 0; c < columns; ++c) {
-      const double* from = rows.at(pad, c);
-      double* const to = result.col(first + c).data();
-      for (int k = 0; k < n; ++k) to[k] = from[k * kSideBySide];
-    }
+    result.middleCols(first, columns) =
+        all.middleRows(pad, n).leftCols(columns);
   }
   return result;
 }
