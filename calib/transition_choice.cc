@@ -221,8 +221,14 @@ std::vector<CoulombTransition> FinerTransitions(
     const CoulombTransition& coarse) {
   const LogGrid& grid =
       coarse.law == Law::kVelocity ? kVelocities : kDisplacements;
-  const LogGrid finer = {std::max(grid.low, coarse.width / grid.ratio()),
-                         std::min(grid.high, coarse.width * grid.ratio()), 9};
+  LogGrid finer = {coarse.width / grid.ratio(),
+                   std::min(grid.high, coarse.width * grid.ratio()), 9};
+  // What changes sign as sharply as the grid can say may do so at once, as
+  // friction does in simulators.
+  if (finer.low < .99 * grid.low) {
+    const double high = std::max(finer.high, grid.low * grid.ratio());
+    finer = {1e-4 * grid.low, high, 25};
+  }
   std::vector<CoulombTransition> transitions;
   finer.AddTo(coarse.law, &transitions);
   return transitions;
