@@ -52,9 +52,9 @@ void RowReduction::Reduce(const IdentificationRows& rows, Slot* slot) {
   }
 }
 
-void ForEachRowOnThreads(const IdentificationRows& rows,
-                         const MotionFunctions& functions,
-                         const RowSink& sink) {
+void ForEachBatchOnThreads(const IdentificationRows& rows,
+                           const MotionFunctions& functions,
+                           const std::function<void(RowBatch*)>& sink) {
   constexpr long kBatch = 32;
   struct Slot {
     RowBatch batch;
@@ -70,13 +70,21 @@ void ForEachRowOnThreads(const IdentificationRows& rows,
     next += slots[k].batch.count;
     return true;
   };
-  IdentificationRow row;
   work.Run(
       prepare,
       [&](int k) {
         slots[k].batch.Evaluate(rows, functions, &slots[k].scratch);
       },
-      [&](int k) { slots[k].batch.ForEachRow(rows, functions, &row, sink); });
+      [&](int k) { sink(&slots[k].batch); });
+}
+
+void ForEachRowOnThreads(const IdentificationRows& rows,
+                         const MotionFunctions& functions,
+                         const RowSink& sink) {
+  IdentificationRow row;
+  ForEachBatchOnThreads(rows, functions, [&](const RowBatch* batch) {
+    batch->ForEachRow(rows, functions, &row, sink);
+  });
 }
 
 }  // namespace armcal
