@@ -9,7 +9,7 @@
 namespace armcal {
 namespace {
 
-constexpr int kBatch = 128;  // samples evaluated together, within the cache
+constexpr int kBatch = 64;  // samples evaluated together, within the cache
 
 long Padded(long rows) { return (rows + 7) / 8 * 8; }
 
