@@ -2,13 +2,13 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "calib/combination.h"
 #include "model/dense_solvers.h"
+#include "model/simd/kernels.h"
 
 namespace armcal {
 namespace {
@@ -106,7 +106,7 @@ WeightedSystem MakeWeightedSystem(const BlockTriangularFactor& factor,
   }
   system.scale = system.scale.cwiseSqrt();
   for (double& s : system.scale) s = s > 0 ? s : 1;
-  MatrixXd stacked = MatrixXd::Zero(std::max<Eigen::Index>(height, m), m + 1);
+  MatrixXd stacked = MatrixXd::Zero((height + 7) / 8 * 8, m + 1);
   Eigen::Index at = 0;
   for (int i = 0; i < factor.num_joints(); ++i) {
     const std::vector<int>& columns = factor.columns(i);
@@ -120,10 +120,22 @@ WeightedSystem MakeWeightedSystem(const BlockTriangularFactor& factor,
     }
     at += k;
   }
-  const Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> qr(stacked);
-  system.R = stacked.topLeftCorner(m, m).triangularView<Eigen::Upper>();
-  system.z = stacked.col(m).head(m);
+  MatrixXd R = MatrixXd::Zero(m + 1, m + 1);
+  simd::BestKernels().householder(R.data(), m + 1, m + 1, stacked.data(),
+                                  stacked.rows(), stacked.rows(), false);
+  system.R = R.topLeftCorner(m, m);
+  system.z = R.col(m).head(m);
   return system;
+}
+
+std::optional<MatrixXd> WeightedSystem::Inverse() const {
+  const MatrixXd scaled = R * scale.cwiseInverse().asDiagonal();
+  const MatrixXd inverse = scaled.triangularView<Eigen::Upper>().solve(
+      MatrixXd::Identity(R.rows(), R.cols()));
+  // Bounds of the least and the greatest singular value.
+  const double least = 1 / inverse.norm();
+  if (!(least > 1 && least > kExcited * scaled.norm())) return {};
+  return inverse;
 }
 
 WeightedSystem::Directions WeightedSystem::Decompose() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,9 @@ struct WeightedSystem {
     Eigen::VectorXd Uz;  // U' z
   };
   Directions Decompose() const;
+  // The inverse of R in scaled parameters, where every direction counts beyond
+  // doubt; else nothing. Much cheaper than directions.
+  std::optional<Eigen::MatrixXd> Inverse() const;
 };
 
 // `noise`: standard deviation of each joint's equations; 0 leaves the joint

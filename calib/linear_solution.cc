@@ -39,19 +39,22 @@ LinearSolution SolveWeighted(const BlockTriangularFactor& factor,
                              const ReferenceScale& reference) {
   const int m = factor.num_parameters();
   const WeightedSystem system = MakeWeightedSystem(factor, noise, reference);
-  const WeightedSystem::Directions d = system.Decompose();
   LinearSolution solution;
   solution.solved = true;
   solution.weighted = true;
-  VectorXd y = VectorXd::Zero(m), share = VectorXd::Zero(m);
-  MatrixXd inverse = MatrixXd::Zero(m, m);
-  for (int k = 0; k < m; ++k) {
-    if (k < d.rank) {
-      y += d.Uz[k] / d.s[k] * d.V.col(k);
-      inverse += d.V.col(k) * d.V.col(k).transpose() / (d.s[k] * d.s[k]);
-    } else {
-      share += d.V.col(k).cwiseAbs2();
-    }
+  VectorXd y, share = VectorXd::Zero(m);
+  MatrixXd inverse;
+  if (const auto R_inverse = system.Inverse()) {
+    y = *R_inverse * system.z;
+    inverse = *R_inverse * R_inverse->transpose();
+  } else {
+    const WeightedSystem::Directions d = system.Decompose();
+    const auto seen = d.V.leftCols(d.rank);
+    const VectorXd s = d.s.head(d.rank);
+    y = seen * d.Uz.head(d.rank).cwiseQuotient(s);
+    const MatrixXd scaled = seen * s.cwiseInverse().asDiagonal();
+    inverse = scaled * scaled.transpose();
+    share = d.V.rightCols(m - d.rank).rowwise().squaredNorm();
   }
   const auto unscale = system.scale.cwiseInverse();
   solution.x = unscale.cwiseProduct(y);

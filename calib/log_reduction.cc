@@ -22,17 +22,16 @@ std::vector<TriangularFactor> WeighedFactors(const LinearCalibration& own,
       own.solved ? own.noise : Eigen::VectorXd(Eigen::VectorXd::Ones(n));
   ResidualPass pass(own.parameters, own.rows, {std::vector<bool>(n, true)},
                     progress, log);
-  std::vector<TriangularFactor> factors;
-  for (int i = 0; i < n; ++i) {
-    factors.emplace_back(
-        static_cast<int>(own.parameters.row_columns(i).size()));
-  }
-  pass.Run("reducing", own.x, noise, [&](const RowResidual& residual) {
+  std::vector<TriangularFactor> factors = EmptyFactors(own.parameters);
+  pass.RunBatches("reducing", own.x, noise, [&](const BatchResidual& batch) {
+    Eigen::VectorXd weights(batch.rows.count);
+    const JointColumns& columns = batch.rows.columns;
     for (int i = 0; i < n; ++i) {
-      const double weight = EvaluateLoss(loss, residual.r[i]).weight;
-      factors[i].Add(
-          residual.row.U.row(i)(own.parameters.row_columns(i)).eval(),
-          residual.row.Y[i], std::sqrt(weight));
+      for (long k = 0; k < batch.rows.count; ++k) {
+        weights[k] = std::sqrt(EvaluateLoss(loss, batch.r(k, i)).weight);
+      }
+      factors[i].AddRows(columns.column(i, 0), columns.stride(),
+                         batch.rows.count, weights.data());
     }
   });
   return factors;

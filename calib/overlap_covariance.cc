@@ -3,10 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/simd/kernels.h"
+
 namespace armcal {
 
+using Eigen::ArrayXd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kTogether = 64;  // rows whose products are summed in one go
+
+}  // namespace
 
 double InformingSlope(const LossAt& loss) { return std::max(loss.slope, .01); }
 
@@ -18,65 +27,89 @@ OverlapCovariance::OverlapCovariance(int num_joints, int num_parameters,
       products_(MatrixXd::Zero(num_joints, lags_)) {
   const MatrixXd zero = MatrixXd::Zero(num_parameters, num_parameters);
   squares_.assign(num_joints * distances_, {zero, zero, zero});
+  const int room = num_old() + kTogether;
+  recent_.U.assign(num_joints, MatrixXd::Zero(room, num_parameters));
+  recent_.r = recent_.slope = recent_.used = MatrixXd::Zero(room, num_joints);
+  recent_.num_before.assign(room, 0);
 }
 
-void OverlapCovariance::Break() { recent_.clear(); }
+void OverlapCovariance::Break() { follows_ = false; }
 
 void OverlapCovariance::Add(const FittedRow& row) {
-  recent_.emplace_front(row);
-  if (static_cast<int>(recent_.size()) > distances_) recent_.pop_back();
-  const Recent& now = recent_.front();
+  if (recent_.added == kTogether) SumProducts();
+  const int k = num_old() + recent_.added++;
+  std::vector<int>& num_before = recent_.num_before;
+  num_before[k] =
+      follows_ && k > 0 ? std::min(num_before[k - 1] + 1, num_old()) : 0;
+  follows_ = true;
+  recent_.r.row(k) = row.r;
+  recent_.slope.row(k) = row.slope;
   for (int i = 0; i < row.r.size(); ++i) {
+    recent_.U[i].row(k) = row.U.row(i);
+    recent_.used(k, i) = row.used[i] ? 1 : 0;
     if (!row.used[i]) continue;
     rows_[i] += 1;
-    for (int d = 0; d < static_cast<int>(recent_.size()); ++d) {
-      const Recent& other = recent_[d];
-      const double mean = .5 * (now.slope[i] + other.slope[i]);
-      const double both = now.slope[i] * other.slope[i];
-      const bool overlaps = d < lags_;
-      if (overlaps) products_(i, d) += now.r[i] * other.r[i];
-      AddSquare(now.equations[i], other.equations[i], mean, both, overlaps,
-                &squares_[i * distances_ + d]);
+    for (int d = 0; d <= std::min(num_before[k], lags_ - 1); ++d) {
+      products_(i, d) += recent_.r(k, i) * recent_.r(k - d, i);
     }
   }
 }
 
-OverlapCovariance::Recent::Recent(const FittedRow& row)
-    : r(row.r), slope(row.slope) {
-  for (Eigen::Index i = 0; i < row.U.rows(); ++i) {
-    VectorXd u = row.U.row(i);
-    Eigen::Index begin = 0, end = u.size();
-    while (begin < end && u[begin] == 0) ++begin;
-    while (begin < end && u[end - 1] == 0) --end;
-    equations.push_back({begin, u.segment(begin, end - begin)});
+void OverlapCovariance::SumProducts() {
+  const int added = recent_.added, old = num_old();
+  if (added == 0) return;
+  for (size_t i = 0; i < recent_.U.size(); ++i) {
+    AddSquares(static_cast<int>(i));
   }
+  const auto move = [&](MatrixXd* rows) {
+    rows->topRows(old) = rows->middleRows(added, old).eval();
+  };
+  for (MatrixXd& U : recent_.U) move(&U);
+  for (MatrixXd* x : {&recent_.r, &recent_.slope, &recent_.used}) move(x);
+  std::vector<int>& num_before = recent_.num_before;
+  std::copy_n(num_before.begin() + added, old, num_before.begin());
+  recent_.added = 0;
 }
 
-// Adds u' v, times what it is to be; all three in one go.
-void OverlapCovariance::AddSquare(const Equation& u, const Equation& v,
-                                  double mean, double both, bool overlaps,
-                                  Squares* squares) {
-  const Eigen::Index size = u.u.size();
-  const double* const from = u.u.data();
-  for (Eigen::Index c = 0; c < v.u.size(); ++c) {
-    const auto column = [&](MatrixXd& square) {
-      return square.col(v.begin + c).data() + u.begin;
-    };
-    const double factor = v.u[c];
-    double* const to_mean = column(squares->mean);
-    if (!overlaps) {
-      for (Eigen::Index k = 0; k < size; ++k) {
-        to_mean[k] += mean * (from[k] * factor);
+// Of one joint: the new rows, times what each product is to be, with the rows
+// a distance before them.
+void OverlapCovariance::AddSquares(int joint) {
+  const int added = recent_.added, old = num_old();
+  const auto U = recent_.U[joint].topRows(old + added);
+  std::vector<int> columns;  // others are 0
+  for (int c = 0; c < U.cols(); ++c) {
+    if ((U.col(c).array() != 0).any()) columns.push_back(c);
+  }
+  const int size = static_cast<int>(columns.size());
+  MatrixXd before = MatrixXd::Zero(old + kTogether, size);
+  before.topRows(old + added) = U(Eigen::all, columns);
+  MatrixXd now = MatrixXd::Zero(kTogether, 3 * size);
+  MatrixXd products(3 * size, size);
+  const auto slope = recent_.slope.col(joint).segment(old, added).array();
+  for (int d = 0; d < distances_; ++d) {
+    ArrayXd any = recent_.used.col(joint).segment(old, added);
+    for (int k = 0; k < added; ++k) {
+      if (recent_.num_before[old + k] < d) any[k] = 0;
+    }
+    const auto other = recent_.slope.col(joint).segment(old - d, added).array();
+    const ArrayXd weights[] = {any * (.5 * (slope + other)), any,
+                               any * slope * other};
+    const int parts = d < lags_ ? 3 : 1;
+    for (int c = 0; c < parts * size; ++c) {
+      now.col(c).head(added) =
+          weights[c / size] * before.col(c % size).segment(old, added).array();
+    }
+    simd::BestKernels().inner_products(
+        now.data(), kTogether, parts * size, before.data() + old - d,
+        old + kTogether, size, (added + 7) / 8 * 8, products.data());
+    Squares& squares = squares_[joint * distances_ + d];
+    MatrixXd* const to[] = {&squares.mean, &squares.all, &squares.both};
+    for (int c = 0; c < size; ++c) {
+      const double* from = products.data() + c * parts * size;
+      for (int part = 0; part < parts; ++part) {
+        double* const column = to[part]->col(columns[c]).data();
+        for (int a = 0; a < size; ++a) column[columns[a]] += *from++;
       }
-      continue;
-    }
-    double* const to_all = column(squares->all);
-    double* const to_both = column(squares->both);
-    for (Eigen::Index k = 0; k < size; ++k) {
-      const double square = from[k] * factor;
-      to_mean[k] += mean * square;
-      to_all[k] += square;
-      to_both[k] += both * square;
     }
   }
 }
@@ -105,8 +138,8 @@ MatrixXd OverlapCovariance::Taken(const MatrixXd& gain, const VectorXd& scale,
   return taken;
 }
 
-MatrixXd OverlapCovariance::Value(const MatrixXd& gain,
-                                  const VectorXd& scale) const {
+MatrixXd OverlapCovariance::Value(const MatrixXd& gain, const VectorXd& scale) {
+  SumProducts();
   const auto count = rows_.cwiseMax(1).cwiseInverse().asDiagonal();
   MatrixXd c = count * products_, covariance;
   for (int iteration = 0; iteration < 10; ++iteration) {

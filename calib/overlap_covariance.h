@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <deque>
 #include <vector>
 
 #include "problems/robust_loss.h"
@@ -38,7 +37,7 @@ class OverlapCovariance {
   void Break();  // the next row does not follow the last
   // `scale` turns a joint's row times its residual into a score.
   Eigen::MatrixXd Value(const Eigen::MatrixXd& gain,
-                        const Eigen::VectorXd& scale) const;
+                        const Eigen::VectorXd& scale);
 
  private:
   // Sums of u(t)' u(t - d) of a joint: as they are, times the mean slope of
@@ -46,18 +45,17 @@ class OverlapCovariance {
   struct Squares {
     Eigen::MatrixXd all, mean, both;
   };
-  // One joint's row of U from its first to its last number that is not 0.
-  struct Equation {
-    Eigen::Index begin;
-    Eigen::VectorXd u;
-  };
+  // A row for each of the last distances_ - 1 rows and then for the new ones,
+  // whose products are still to be summed: many at a time.
   struct Recent {
-    explicit Recent(const FittedRow& row);
-    Eigen::VectorXd r, slope;
-    std::vector<Equation> equations;  // per joint
+    std::vector<Eigen::MatrixXd> U;  // per joint
+    Eigen::MatrixXd r, slope, used;  // column per joint; 1: used, 0: not
+    std::vector<int> num_before;     // rows that each follows, no more
+    int added = 0;                   // new ones
   };
-  static void AddSquare(const Equation& u, const Equation& v, double mean,
-                        double both, bool overlaps, Squares* squares);
+  void SumProducts();
+  void AddSquares(int joint);
+  int num_old() const { return distances_ - 1; }
   const Squares& Square(int i, int d) const {
     return squares_[i * distances_ + d];
   }
@@ -69,7 +67,8 @@ class OverlapCovariance {
   Eigen::VectorXd rows_;
   Eigen::MatrixXd products_;      // joint x lag: sums of r(t) r(t - lag)
   std::vector<Squares> squares_;  // joint, distance
-  std::deque<Recent> recent_;
+  Recent recent_;
+  bool follows_ = false;
 };
 
 // Standard deviations of `covariance` raised to those of variances `least`.

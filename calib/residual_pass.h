@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "calib/log_set.h"
+#include "calib/triangular_factor.h"
 #include "model/model_parameters.h"
 #include "problems/identification_rows.h"
 
 namespace armcal {
 
-// One row of every joint with its residuals at some parameters.
+// One row of every joint with its residuals at some parameters; without its
+// time.
 struct RowResidual {
   const IdentificationRow& row;
   int log;
@@ -20,8 +22,20 @@ struct RowResidual {
   Eigen::VectorXd r;
 };
 
+// Some rows that follow each other, with their residuals.
+struct BatchResidual {
+  const RowBatch& rows;
+  int log;
+  bool follows;  // the first of them
+  // Rows x joints, in units of noise; 0 where the equation is left out.
+  Eigen::MatrixXd r;
+};
+
 // Which equations count: [log][joint].
 using EquationMask = std::vector<std::vector<bool>>;
+
+// A factor for each joint's equations, without any.
+std::vector<TriangularFactor> EmptyFactors(const ModelParameters& parameters);
 
 // Passes over the logs that look at every row's residual. Rows are kept from
 // pass to pass as far as the logs' memory goes, so the logs must stay as they
@@ -44,15 +58,21 @@ class ResidualPass {
   void Run(const std::string& stage, const Eigen::VectorXd& x,
            const Eigen::VectorXd& noise,
            const std::function<void(const RowResidual&)>& visit);
+  // The same, many rows at a time.
+  void RunBatches(const std::string& stage, const Eigen::VectorXd& x,
+                  const Eigen::VectorXd& noise,
+                  const std::function<void(const BatchResidual&)>& visit);
 
  private:
-  struct KeptRow {
+  struct KeptBatch {
     int log;
     bool follows;
-    IdentificationRow row;
+    RowBatch rows;
   };
-  void ForEachRow(const std::string& stage,
-                  const std::function<void(const KeptRow&)>& visit);
+  void ForEachBatch(const std::string& stage,
+                    const std::function<void(const KeptBatch&)>& visit);
+  Eigen::MatrixXd Residuals(const KeptBatch& kept, const Eigen::VectorXd& x,
+                            const Eigen::VectorXd& noise) const;
 
   const ModelParameters& parameters_;
   RowOptions rows_;
@@ -60,7 +80,7 @@ class ResidualPass {
   Progress progress_;
   LogSet* logs_;
   int passes_ = 0;
-  KeptItems<KeptRow> kept_;
+  KeptItems<KeptBatch> kept_;
 };
 
 }  // namespace armcal

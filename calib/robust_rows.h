@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <vector>
 
 namespace armcal {
@@ -43,8 +42,9 @@ class ResidualStatistics {
   ResidualSpread spread_;
   long outliers_ = 0;
   double product_ = 0, square_ = 0;
-  size_t lag_;
-  std::deque<double> recent_;
+  // As many residuals as the lag, the oldest of which is replaced by the next.
+  std::vector<double> recent_;
+  size_t num_recent_ = 0, oldest_ = 0;
 };
 
 }  // namespace armcal

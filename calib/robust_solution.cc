@@ -6,29 +6,36 @@
 #include "calib/robust_rows.h"
 
 namespace armcal {
-
 namespace {
 
-void Iterate(RobustLoss loss, const Eigen::VectorXd& least,
+using Eigen::VectorXd;
+
+void Iterate(RobustLoss loss, const VectorXd& least,
              const std::vector<bool>& frozen, const ReferenceScale& reference,
              ResidualPass* pass, RobustSolution* result) {
   constexpr int kMostPasses = 20;
   constexpr double kSettled = 0.1;  // standard deviations
   const int n = static_cast<int>(least.size());
   for (int k = 0; k < kMostPasses; ++k) {
-    BlockTriangularFactor factor(pass->parameters());
+    std::vector<TriangularFactor> factors = EmptyFactors(pass->parameters());
     std::vector<ResidualStatistics> statistics(n);
-    pass->Run("robust weights", result->solution.x, result->noise,
-              [&](const RowResidual& residual) {
-                const IdentificationRow& row = residual.row;
-                for (int i = 0; i < n; ++i) {
-                  if (!pass->uses(residual.log, i)) continue;
-                  const double r = residual.r[i];
-                  statistics[i].Add(r);
-                  const double weight = EvaluateLoss(loss, r).weight;
-                  factor.Add(i, row.U.row(i), row.Y[i], std::sqrt(weight));
-                }
-              });
+    pass->RunBatches("robust weights", result->solution.x, result->noise,
+                     [&](const BatchResidual& batch) {
+                       VectorXd weights(batch.rows.count);
+                       for (int i = 0; i < n; ++i) {
+                         if (!pass->uses(batch.log, i)) continue;
+                         for (long k = 0; k < batch.rows.count; ++k) {
+                           const double r = batch.r(k, i);
+                           statistics[i].Add(r);
+                           weights[k] = std::sqrt(EvaluateLoss(loss, r).weight);
+                         }
+                         const JointColumns& columns = batch.rows.columns;
+                         factors[i].AddRows(columns.column(i, 0),
+                                            columns.stride(), batch.rows.count,
+                                            weights.data());
+                       }
+                     });
+    const BlockTriangularFactor factor(pass->parameters(), factors);
     result->outliers.clear();
     for (int i = 0; i < n; ++i) {
       result->outliers.push_back(statistics[i].outliers());
@@ -36,7 +43,7 @@ void Iterate(RobustLoss loss, const Eigen::VectorXd& least,
       if (frozen[i]) continue;
       result->noise[i] = std::max(least[i], result->noise[i] * spread);
     }
-    const Eigen::VectorXd last = result->solution.x;
+    const VectorXd last = result->solution.x;
     result->solution = SolveWeighted(factor, result->noise, reference);
     // The gain of weighted least squares is the covariance of independent rows.
     const double moved =
@@ -51,14 +58,13 @@ void Iterate(RobustLoss loss, const Eigen::VectorXd& least,
 
 }  // namespace
 
-RobustSolution SolveRobust(const Eigen::VectorXd& x,
-                           const Eigen::VectorXd& noise,
+RobustSolution SolveRobust(const VectorXd& x, const VectorXd& noise,
                            const std::vector<bool>& frozen, RobustLoss loss,
                            const ReferenceScale& reference,
                            ResidualPass* pass) {
   // Where a joint's equations can be solved exactly, their spread falls pass
   // after pass, until nothing else counts beside them.
-  const Eigen::VectorXd least = 1e-3 * noise;
+  const VectorXd least = 1e-3 * noise;
   RobustSolution result;
   result.solution.x = x;
   result.noise = noise;

@@ -28,23 +28,29 @@ struct RowStudy {
 RowStudy StudyRows(const LinearSolution& solution, const VectorXd& noise,
                    RobustLoss loss, int rows_per_window, ResidualPass* pass) {
   const int n = static_cast<int>(noise.size());
-  RowStudy study{0, BlockTriangularFactor(pass->parameters()), {}};
+  std::vector<TriangularFactor> sloping = EmptyFactors(pass->parameters());
   VectorXd slopes = VectorXd::Zero(n), informing = slopes;
   std::vector<ResidualStatistics> statistics(
       n, ResidualStatistics(rows_per_window));
-  pass->Run("autocorrelation", solution.x, noise,
-            [&](const RowResidual& residual) {
-              for (int i = 0; i < n; ++i) {
-                if (!pass->uses(residual.log, i)) continue;
-                if (!residual.follows) statistics[i].Break();
-                statistics[i].Add(residual.r[i]);
-                const LossAt at = EvaluateLoss(loss, residual.r[i]);
-                slopes[i] += at.slope;
-                informing[i] += InformingSlope(at);
-                study.sloping.Add(i, residual.row.U.row(i), residual.row.Y[i],
-                                  std::sqrt(InformingSlope(at)));
-              }
-            });
+  pass->RunBatches(
+      "autocorrelation", solution.x, noise, [&](const BatchResidual& batch) {
+        VectorXd weights(batch.rows.count);
+        for (int i = 0; i < n; ++i) {
+          if (!pass->uses(batch.log, i)) continue;
+          if (!batch.follows) statistics[i].Break();
+          for (long k = 0; k < batch.rows.count; ++k) {
+            statistics[i].Add(batch.r(k, i));
+            const LossAt at = EvaluateLoss(loss, batch.r(k, i));
+            slopes[i] += at.slope;
+            informing[i] += InformingSlope(at);
+            weights[k] = std::sqrt(InformingSlope(at));
+          }
+          const JointColumns& columns = batch.rows.columns;
+          sloping[i].AddRows(columns.column(i, 0), columns.stride(),
+                             batch.rows.count, weights.data());
+        }
+      });
+  RowStudy study{0, BlockTriangularFactor(pass->parameters(), sloping), {}};
   for (const ResidualStatistics& s : statistics) {
     study.autocorrelation =
         std::max(study.autocorrelation, s.Autocorrelation());

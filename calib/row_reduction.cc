@@ -7,7 +7,7 @@ namespace armcal {
 long RowsPerLeaf(const RowOptions& options) {
   return options.identification == Identification::kDifferential
              ? TriangularFactor::kLeafRows
-             : 32;
+             : 64;
 }
 
 namespace {
@@ -93,9 +93,9 @@ void RowReduction::Run(const IdentificationRows& rows, long leaf_rows,
   work_.Run(prepare, reduce, put);
 }
 
-void ForEachRowOnThreads(const IdentificationRows& rows,
-                         const MotionFunctions& functions,
-                         const RowSink& sink) {
+void ForEachBatchOnThreads(const IdentificationRows& rows,
+                           const MotionFunctions& functions,
+                           const std::function<void(RowBatch*)>& sink) {
   constexpr long kBatch = 32;
   struct Slot {
     RowBatch batch;
@@ -111,13 +111,21 @@ void ForEachRowOnThreads(const IdentificationRows& rows,
     next += slots[k].batch.count;
     return true;
   };
-  IdentificationRow row;
   work.Run(
       prepare,
       [&](int k) {
         slots[k].batch.Evaluate(rows, functions, &slots[k].scratch);
       },
-      [&](int k) { slots[k].batch.ForEachRow(rows, functions, &row, sink); });
+      [&](int k) { sink(&slots[k].batch); });
+}
+
+void ForEachRowOnThreads(const IdentificationRows& rows,
+                         const MotionFunctions& functions,
+                         const RowSink& sink) {
+  IdentificationRow row;
+  ForEachBatchOnThreads(rows, functions, [&](const RowBatch* batch) {
+    batch->ForEachRow(rows, functions, &row, sink);
+  });
 }
 
 }  // namespace armcal

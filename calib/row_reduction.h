@@ -59,8 +59,12 @@ class RowReduction {
   std::vector<Slot> slots_;
 };
 
-// Calls `sink` for every row, in order but not in this thread, while others
-// evaluate the next.
+// Calls `sink` for the rows, some at a time and in order but not in this
+// thread, while others evaluate the next. It may move the batch away.
+void ForEachBatchOnThreads(const IdentificationRows& rows,
+                           const MotionFunctions& functions,
+                           const std::function<void(RowBatch*)>& sink);
+// The same for every row.
 void ForEachRowOnThreads(const IdentificationRows& rows,
                          const MotionFunctions& functions, const RowSink& sink);
 

@@ -3,29 +3,51 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/simd/kernels.h"
+
 namespace armcal {
 
-ScoreCovariance::ScoreCovariance(int size, int window,
-                                 const Eigen::MatrixXd& gain)
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Index Whole(Index rows) { return (rows + 7) / 8 * 8; }
+
+// A' x, both with rows to fill registers.
+void Multiply(const MatrixXd& A, const VectorXd& x, VectorXd* products) {
+  simd::BestKernels().inner_products(A.data(), A.rows(),
+                                     static_cast<int>(A.cols()), x.data(),
+                                     x.size(), 1, A.rows(), products->data());
+}
+
+}  // namespace
+
+ScoreCovariance::ScoreCovariance(int size, int window, const MatrixXd& gain)
     : window_(std::max(1, window)),
-      gain_(gain),
-      sum_(Eigen::VectorXd::Zero(size)),
-      squares_(Eigen::MatrixXd::Zero(size, size)) {}
+      sum_(VectorXd::Zero(size)),
+      squares_(MatrixXd::Zero(size, size)) {
+  if (gain.size() == 0) return;
+  gain_ = MatrixXd::Zero(Whole(size), size);
+  gain_.topRows(size) = gain.transpose();
+}
 
 // M gain s of the window.
-Eigen::VectorXd ScoreCovariance::TakenByFit(const Eigen::VectorXd& sum) const {
-  const Eigen::VectorXd x = gain_ * sum;
-  Eigen::VectorXd taken = Eigen::VectorXd::Zero(sum.size());
-  for (const Score& score : recent_) {
-    taken.noalias() += score.C.transpose() * (score.U * x);
-  }
+VectorXd ScoreCovariance::TakenByFit(const VectorXd& sum) const {
+  VectorXd s = VectorXd::Zero(gain_.rows()), x = s;
+  s.head(sum.size()) = sum;
+  Multiply(gain_, s, &x);
+  VectorXd fitted = VectorXd::Zero(C_.rows()), taken(sum.size());
+  Multiply(U_, x, &fitted);
+  Multiply(C_, fitted, &taken);
   return taken;
 }
 
 void ScoreCovariance::AccumulateWindow() {
-  Eigen::VectorXd sum = sum_;
+  VectorXd sum = sum_;
   if (gain_.size() > 0) {
-    Eigen::VectorXd power = sum_;
+    VectorXd power = sum_;
     for (const double coefficient : {1.0 / 2, 3.0 / 8, 5.0 / 16}) {
       power = TakenByFit(power);
       sum += coefficient * power;
@@ -34,12 +56,32 @@ void ScoreCovariance::AccumulateWindow() {
   squares_.selfadjointView<Eigen::Lower>().rankUpdate(sum);
 }
 
-void ScoreCovariance::Add(const Score& score) {
-  if (static_cast<int>(recent_.size()) == window_) {
-    sum_ -= recent_.front().value;
-    recent_.pop_front();
+// Puts the score's equations behind those of the others.
+void ScoreCovariance::Put(const Score& score) {
+  const Index n = score.C.rows(), size = sum_.size();
+  if (C_.size() == 0) {
+    C_ = MatrixXd::Zero(Whole(window_ * n), size);
+    U_ = MatrixXd::Zero(gain_.rows(), window_ * n);
   }
-  recent_.push_back(score);
+  const int place = (oldest_ + static_cast<int>(recent_.size())) % window_;
+  C_.middleRows(place * n, n) = score.C;
+  U_.middleCols(place * n, n).topRows(size) = score.U.transpose();
+}
+
+void ScoreCovariance::DropOldest() {
+  sum_ -= recent_.front();
+  recent_.pop_front();
+  if (gain_.size() > 0) {
+    const Index n = U_.cols() / window_;
+    C_.middleRows(oldest_ * n, n).setZero();
+  }
+  oldest_ = oldest_ + 1 < window_ ? oldest_ + 1 : 0;
+}
+
+void ScoreCovariance::Add(const Score& score) {
+  if (static_cast<int>(recent_.size()) == window_) DropOldest();
+  if (gain_.size() > 0) Put(score);
+  recent_.push_back(score.value);
   sum_ += score.value;
   AccumulateWindow();
 }
@@ -48,18 +90,16 @@ void ScoreCovariance::Break() {
   // A series shorter than the window lies in so many windows as a whole.
   const int room = window_ - static_cast<int>(recent_.size());
   for (int k = 0; k < room && !recent_.empty(); ++k) AccumulateWindow();
-  while (recent_.size() > 1) {
-    sum_ -= recent_.front().value;
-    recent_.pop_front();
-    AccumulateWindow();
+  while (!recent_.empty()) {
+    DropOldest();
+    if (!recent_.empty()) AccumulateWindow();
   }
-  recent_.clear();
   sum_.setZero();
 }
 
-Eigen::MatrixXd ScoreCovariance::Value() {
+MatrixXd ScoreCovariance::Value() {
   Break();
-  Eigen::MatrixXd full = squares_.selfadjointView<Eigen::Lower>();
+  MatrixXd full = squares_.selfadjointView<Eigen::Lower>();
   return full / window_;
 }
 

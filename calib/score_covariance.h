@@ -34,13 +34,21 @@ class ScoreCovariance {
 
  private:
   void AccumulateWindow();
+  void Put(const Score& score);
+  void DropOldest();
   Eigen::VectorXd TakenByFit(const Eigen::VectorXd& sum) const;
 
   int window_;
-  Eigen::MatrixXd gain_;
-  std::deque<Score> recent_;
-  Eigen::VectorXd sum_;  // of recent_
+  std::deque<Eigen::VectorXd> recent_;  // values
+  Eigen::VectorXd sum_;                 // of recent_
   Eigen::MatrixXd squares_;
+  // Where a gain is given, C and U of recent_, for products of many rows at a
+  // time: rows are rounded up to whole registers, and 0 where there is nothing.
+  // The oldest of window_ places is the next to be taken.
+  Eigen::MatrixXd gain_;  // a row of the gain in each column
+  Eigen::MatrixXd U_;     // an equation in each column
+  Eigen::MatrixXd C_;     // an equation in each row
+  int oldest_ = 0;        // place
 };
 
 // Andrews' (1991) plug-in width of the Bartlett window for a series of `count`

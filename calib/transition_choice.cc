@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/simd/kernels.h"
+
 namespace armcal {
 namespace {
 
@@ -42,13 +44,15 @@ class Chooser {
           const ModelParameters& parameters, const VectorXd& noise)
       : factor_(factor), stack_(StackFactors(factor)), noise_(noise) {
     candidates_.resize(factor.num_joints());
+    std::vector<int> always;
     for (int c = 0; c < parameters.size(); ++c) {
       const ModelParameter& p = parameters.parameters()[c];
       const bool coulomb = p.is_joint_term && p.term == JointTerm::kCoulomb;
-      (coulomb ? candidates_[p.block] : always_).push_back(c);
+      (coulomb ? candidates_[p.block] : always).push_back(c);
     }
     choice_.assign(factor.num_joints(), 0);
     gain_.resize(factor.num_joints());
+    OrderColumns(always);
     Weigh();
   }
 
@@ -74,52 +78,97 @@ class Chooser {
   }
 
  private:
-  void Weigh() {
-    weighted_ = stack_.A;
+  MatrixXd Weighted(const std::vector<int>& columns) const {
+    MatrixXd A = stack_.A(Eigen::all, columns);
     for (int i = 0; i < factor_.num_joints(); ++i) {
-      weighted_.middleRows(stack_.begin[i],
-                           stack_.begin[i + 1] - stack_.begin[i]) *=
+      A.middleRows(stack_.begin[i], stack_.begin[i + 1] - stack_.begin[i]) *=
           noise_[i] > 0 ? 1 / noise_[i] : 0;
     }
+    return A;
   }
-  // The chosen columns, without joint `skip`'s Coulomb friction.
-  MatrixXd Chosen(int skip) const {
-    std::vector<int> columns = always_;
-    for (int j = 0; j < factor_.num_joints(); ++j) {
-      if (j != skip && !candidates_[j].empty()) {
-        columns.push_back(candidates_[j][choice_[j]]);
+  // Those that are always there and independent, all candidates, torque.
+  void OrderColumns(const std::vector<int>& always) {
+    if (!always.empty()) {
+      const Eigen::ColPivHouseholderQR<MatrixXd> qr(Weighted(always));
+      for (Eigen::Index k = 0; k < qr.rank(); ++k) {
+        order_.push_back(always[qr.colsPermutation().indices()[k]]);
       }
     }
-    MatrixXd B(weighted_.rows(), columns.size());
-    for (size_t k = 0; k < columns.size(); ++k) {
-      B.col(k) = weighted_.col(columns[k]);
+    always_ = static_cast<int>(order_.size());
+    for (std::vector<int>& of_joint : candidates_) {
+      for (int& c : of_joint) {
+        order_.push_back(c);
+        c = static_cast<int>(order_.size()) - 1;
+      }
     }
-    return B;
+    order_.push_back(factor_.num_parameters());
+  }
+  void Weigh() {
+    weighted_ = Weighted(order_);
+    const Eigen::Index columns = weighted_.cols();
+    MatrixXd rows = MatrixXd::Zero((weighted_.rows() + 7) / 8 * 8, columns);
+    rows.topRows(weighted_.rows()) = weighted_;
+    R_ = MatrixXd::Zero(columns, columns);
+    simd::BestKernels().householder(R_.data(), columns,
+                                    static_cast<int>(columns), rows.data(),
+                                    rows.rows(), rows.rows(), false);
+  }
+  // What the columns that are always there leave of these.
+  MatrixXd Left(const std::vector<int>& columns) const {
+    return R_(Eigen::seqN(always_, R_.rows() - always_), columns);
+  }
+  bool IsLeft(int column) const {
+    return R_.col(column).tail(R_.rows() - always_).norm() >=
+           1e-8 * R_.col(column).norm();
+  }
+  // The chosen candidates, but joint `skip`'s.
+  std::vector<int> Chosen(int skip) const {
+    std::vector<int> columns;
+    for (int j = 0; j < factor_.num_joints(); ++j) {
+      if (j == skip || candidates_[j].empty()) continue;
+      const int chosen = candidates_[j][choice_[j]];
+      if (IsLeft(chosen)) columns.push_back(chosen);
+    }
+    return columns;
   }
   void ChooseFor(int joint) {
     if (candidates_[joint].size() < 2 || noise_[joint] <= 0) return;
+    std::vector<int> columns = candidates_[joint];
+    columns.push_back(static_cast<int>(order_.size()) - 1);
     // Rows of Q'[candidates, y] below the rank are what the rest leaves over.
-    const Eigen::ColPivHouseholderQR<MatrixXd> qr(Chosen(joint));
-    const VectorXd y =
-        (qr.householderQ().transpose() * weighted_.rightCols<1>())
-            .bottomRows(weighted_.rows() - qr.rank());
+    MatrixXd left = Left(columns);
+    const std::vector<int> others = Chosen(joint);
+    if (!others.empty()) {
+      const Eigen::ColPivHouseholderQR<MatrixXd> qr(Left(others));
+      left.applyOnTheLeft(qr.householderQ().transpose());
+      left.topRows(qr.rank()).setZero();
+    }
+    const auto y = left.rightCols<1>();
     double best = -1;
     gain_[joint].assign(candidates_[joint].size(), 0);
     for (size_t k = 0; k < candidates_[joint].size(); ++k) {
-      const VectorXd column = weighted_.col(candidates_[joint][k]);
-      const VectorXd c = (qr.householderQ().transpose() * column)
-                             .bottomRows(weighted_.rows() - qr.rank());
-      if (c.norm() < 1e-8 * column.norm()) continue;
-      gain_[joint][k] = std::pow(c.dot(y) / c.norm(), 2);
+      const auto c = left.col(static_cast<Eigen::Index>(k));
+      if (c.norm() < 1e-8 * R_.col(columns[k]).norm()) continue;
+      gain_[joint][k] = std::pow(c.dot(y.col(0)) / c.norm(), 2);
       if (gain_[joint][k] <= best) continue;
       best = gain_[joint][k];
       choice_[joint] = static_cast<int>(k);
     }
   }
   void ReestimateNoise() {
-    const MatrixXd B = Chosen(-1);
-    const VectorXd x = B.colPivHouseholderQr().solve(weighted_.rightCols<1>());
-    const VectorXd r = B * x - weighted_.rightCols<1>();
+    const std::vector<int> chosen = Chosen(-1);
+    const Eigen::Index last = R_.cols() - 1;
+    VectorXd r = weighted_.col(last), top = R_.col(last).head(always_);
+    if (!chosen.empty()) {
+      const VectorXd x = Left(chosen).colPivHouseholderQr().solve(
+          R_.col(last).tail(R_.rows() - always_));
+      r -= weighted_(Eigen::all, chosen) * x;
+      top -= R_(Eigen::seqN(0, always_), chosen) * x;
+    }
+    R_.topLeftCorner(always_, always_)
+        .triangularView<Eigen::Upper>()
+        .solveInPlace(top);
+    r -= weighted_.leftCols(always_) * top;
     for (int i = 0; i < factor_.num_joints(); ++i) {
       const Eigen::Index rows = stack_.begin[i + 1] - stack_.begin[i];
       const double count = static_cast<double>(std::max(1L, factor_.rows(i)));
@@ -133,9 +182,12 @@ class Chooser {
   const BlockTriangularFactor& factor_;
   Stack stack_;
   VectorXd noise_;
-  MatrixXd weighted_;
-  std::vector<int> always_;
+  // Columns of the stack in the order in which they are factored: first
+  // always_ of them; candidates_ has the places of each joint's.
+  std::vector<int> order_;
+  int always_ = 0;
   std::vector<std::vector<int>> candidates_;
+  MatrixXd weighted_, R_;  // the columns, and their triangular factor
   std::vector<int> choice_;
   std::vector<std::vector<double>> gain_;  // of every candidate, per joint
 };
@@ -169,8 +221,14 @@ std::vector<CoulombTransition> FinerTransitions(
     const CoulombTransition& coarse) {
   const LogGrid& grid =
       coarse.law == Law::kVelocity ? kVelocities : kDisplacements;
-  const LogGrid finer = {std::max(grid.low, coarse.width / grid.ratio()),
-                         std::min(grid.high, coarse.width * grid.ratio()), 9};
+  LogGrid finer = {coarse.width / grid.ratio(),
+                   std::min(grid.high, coarse.width * grid.ratio()), 9};
+  // What changes sign as sharply as the grid can say may do so at once, as
+  // friction does in simulators.
+  if (finer.low < .99 * grid.low) {
+    const double high = std::max(finer.high, grid.low * grid.ratio());
+    finer = {1e-4 * grid.low, high, 25};
+  }
   std::vector<CoulombTransition> transitions;
   finer.AddTo(coarse.law, &transitions);
   return transitions;

@@ -24,7 +24,7 @@ std::vector<int> ChooseTransitions(const BlockTriangularFactor& factor,
                                    const Eigen::VectorXd& noise);
 
 // A finer grid about one of CandidateTransitions(): 9 widths of its law up to
-// its neighbours on either side, within the limits of the coarse grid.
+// its neighbours on either side; from the least of them 25, down to 1e-4 of it.
 std::vector<CoulombTransition> FinerTransitions(
     const CoulombTransition& coarse);
 

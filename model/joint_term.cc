@@ -3,7 +3,46 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/simd/kernels.h"
+
 namespace armcal {
+
+namespace {
+
+constexpr int kTogether = 8;
+using Widths = Eigen::Array<double, kTogether, 1>;
+
+// How many columns from `c` on are followed in one go: those of a joint's
+// displacement law.
+int NumTogether(const std::vector<JointTermColumn>& columns, int c) {
+  const JointTermColumn& first = columns[c];
+  const CoulombTransition::Law law = first.transition.law;
+  if (law == CoulombTransition::Law::kVelocity) return 1;
+  int count = 1;
+  for (; count < kTogether && c + count < static_cast<int>(columns.size());
+       ++count) {
+    const JointTermColumn& next = columns[c + count];
+    if (next.joint != first.joint || next.transition.law != law) break;
+  }
+  return count;
+}
+
+// Of laws side by side, none of which waits for another: the rows from `begin`
+// on, each from the one before.
+void FollowDisplacement(const Eigen::Ref<const Eigen::VectorXd>& q,
+                        const Widths& widths, int begin,
+                        Eigen::Ref<Eigen::MatrixXd> states) {
+  const Eigen::Index count = states.cols();
+  Widths c = Widths::Zero();
+  c.head(count) = states.row(begin - 1);
+  for (Eigen::Index k = begin; k < states.rows(); ++k) {
+    const Widths step = Widths::Constant(q[k] - q[k - 1]) / widths;
+    c = (c + step).max(-1).min(1);
+    for (Eigen::Index m = 0; m < count; ++m) states(k, m) = c[m];
+  }
+}
+
+}  // namespace
 
 const char* JointTermName(JointTerm term) {
   switch (term) {
@@ -104,22 +143,27 @@ const Eigen::MatrixXd& CoulombStates::Follow(const Trajectory& trajectory) {
   Eigen::MatrixXd states(trajectory.size(), size());
   const int known = NumKnown(trajectory);
   const Eigen::Index shift = trajectory.first_index - first_index_;
-  for (int c = 0; c < size() && trajectory.size() > 0; ++c) {
-    const int j = columns_[c].joint;
+  for (int c = 0; c < size() && trajectory.size() > 0;) {
+    const int count = NumTogether(columns_, c), j = columns_[c].joint;
     const CoulombTransition& transition = columns_[c].transition;
+    auto of_these = states.middleCols(c, count);
     if (transition.law == CoulombTransition::Law::kVelocity) {
-      states.col(c) = (trajectory.qd.col(j).array() / transition.width).tanh();
-      continue;
+      simd::BestKernels().hyperbolic_tangent(
+          trajectory.qd.col(j).data(), transition.width, trajectory.size(),
+          of_these.data());
+    } else {
+      of_these.row(0).setZero();
+      if (known > 0) {
+        of_these.topRows(known) = states_.block(shift, c, known, count);
+      }
+      Widths widths = Widths::Ones();
+      for (int k = 0; k < count; ++k) {
+        widths[k] = columns_[c + k].transition.width;
+      }
+      FollowDisplacement(trajectory.q.col(j), widths, std::max(1, known),
+                         of_these);
     }
-    states(0, c) = 0;
-    if (known > 0) {
-      states.col(c).head(known) = states_.col(c).segment(shift, known);
-    }
-    for (int k = std::max(1, known); k < trajectory.size(); ++k) {
-      const double moved = trajectory.q(k, j) - trajectory.q(k - 1, j);
-      states(k, c) =
-          std::clamp(states(k - 1, c) + moved / transition.width, -1.0, 1.0);
-    }
+    c += count;
   }
   states_ = std::move(states);
   segment_ = trajectory.segment;

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <memory>
+#include <new>
+
+#include "model/simd/kernels.h"
 
 namespace armcal {
 namespace {
@@ -14,19 +17,17 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kSideBySide = 6;  // columns filtered at once
+constexpr int kSideBySide = 8;  // signals in a row of numbers, a cache line
 constexpr double kPi = 3.14159265358979323846;
 
-// y_k = b (x_k + 2 x_{k-1} + x_{k-2}) - a1 y_{k-1} - a2 y_{k-2}
-struct Section {
-  double b, a1, a2;
-};
+using simd::FilterSection;
 
 // Order 4 as two second-order sections, by the bilinear transform with the
 // cutoff prewarped.
-std::array<Section, 2> Butterworth4(double sample_rate, double cutoff_hz) {
+std::array<FilterSection, 2> Butterworth4(double sample_rate,
+                                          double cutoff_hz) {
   const double w = std::tan(kPi * cutoff_hz / sample_rate);
-  std::array<Section, 2> sections;
+  std::array<FilterSection, 2> sections;
   for (int k = 0; k < 2; ++k) {
     // Pole pair at angle (2 k + 1) pi / 8 from the imaginary axis.
     const double damping = 2 * std::sin((2 * k + 1) * kPi / 8);
@@ -37,44 +38,33 @@ std::array<Section, 2> Butterworth4(double sample_rate, double cutoff_hz) {
   return sections;
 }
 
-// Two columns side by side in one register.
-typedef double Pair __attribute__((vector_size(16)));
+// Rows of signals side by side, on borders of cache lines.
+class SignalRows {
+ public:
+  explicit SignalRows(long rows)
+      : rows_(rows),
+        x_(static_cast<double*>(::operator new(
+            sizeof(double[kSideBySide]) * rows, std::align_val_t(64)))) {}
 
-// A signal per lane, `pairs` pairs of them in each row. In place, from rest at
-// the first row (the filter's gain at 0 Hz is 1); step -1: backwards.
-template <int pairs>
-void FilterRows(const std::array<Section, 2>& sections, Pair* x, long rows,
-                int step) {
-  Pair rest[pairs];
-  for (size_t which = 0; which < sections.size(); ++which) {
-    const Section s = sections[which];
-    const Pair b = {s.b, s.b}, a1 = {s.a1, s.a1}, a2 = {s.a2, s.a2};
-    Pair x1[pairs], x2[pairs], y1[pairs], y2[pairs];
-    for (int p = 0; p < pairs; ++p) {
-      if (which == 0) rest[p] = x[p];
-      x1[p] = x2[p] = y1[p] = y2[p] = Pair{};
-    }
-    Pair* row = x;
-    for (long k = 0; k < rows; ++k, row += step * pairs) {
-#pragma GCC unroll 4
-      for (int p = 0; p < pairs; ++p) {
-        const Pair x0 = row[p] - rest[p];
-        const Pair y0 = b * (x0 + 2 * x1[p] + x2[p]) - a1 * y1[p] - a2 * y2[p];
-        x2[p] = x1[p], x1[p] = x0, y2[p] = y1[p], y1[p] = y0;
-        row[p] = y0 + rest[p];
-      }
-    }
+  Eigen::Map<
+      Eigen::Matrix<double, Eigen::Dynamic, kSideBySide, Eigen::RowMajor>>
+  matrix() {
+    return {x_.get(), rows_, kSideBySide};
   }
-}
+  void Filter(const std::array<FilterSection, 2>& sections) {
+    simd::BestKernels().filter_both_ways(sections.data(), x_.get(), rows_,
+                                         kSideBySide);
+  }
 
-// Forwards, then backwards.
-template <int pairs>
-void FilterBothWays(const std::array<Section, 2>& sections,
-                    std::vector<Pair>* x) {
-  const long rows = static_cast<long>(x->size()) / pairs;
-  FilterRows<pairs>(sections, x->data(), rows, 1);
-  FilterRows<pairs>(sections, x->data() + (rows - 1) * pairs, rows, -1);
-}
+ private:
+  struct Free {
+    void operator()(double* x) const {
+      ::operator delete(x, std::align_val_t(64));
+    }
+  };
+  long rows_;
+  std::unique_ptr<double[], Free> x_;
+};
 
 // Values of a signal beyond its end, nearest first.
 class Continuation {
@@ -88,6 +78,8 @@ class Continuation {
     beyond_ = Powers(count, 0);
   }
 
+  // How many elements before the end it depends on.
+  int reach() const { return cubic_ ? span_ : count_ + 1; }
   // Beyond the last element of x.
   VectorXd operator()(const VectorXd& x) const {
     if (cubic_) {
@@ -129,34 +121,23 @@ MatrixXd ZeroPhaseLowPass(const MatrixXd& x, double sample_rate,
   const int span = std::min(
       n, std::max(6, static_cast<int>(std::lround(sample_rate / cutoff_hz))));
   const Continuation beyond(ends == Ends::kExtrapolate && span >= 6, pad, span);
+  const int reach = std::min(n, beyond.reach());
   MatrixXd result(n, x.cols());
+  SignalRows rows(n + 2L * pad);
   for (int first = 0; first < x.cols(); first += kSideBySide) {
     const int columns =
         std::min(kSideBySide, static_cast<int>(x.cols()) - first);
-    const int pairs = (columns + 1) / 2;
-    std::vector<Pair> padded(static_cast<size_t>(n + 2 * pad) * pairs);
-    double* const rows = reinterpret_cast<double*>(padded.data());
+    auto all = rows.matrix();
+    all.middleRows(pad, n).leftCols(columns) = x.middleCols(first, columns);
+    all.rightCols(kSideBySide - columns).setZero();
     for (int c = 0; c < columns; ++c) {
-      double* to = rows + c;
-      const auto put = [&](double value) {
-        *to = value;
-        to += 2 * pairs;
-      };
-      const VectorXd before = beyond(x.col(first + c).reverse());
-      const VectorXd after = beyond(x.col(first + c));
-      for (int k = pad - 1; k >= 0; --k) put(before[k]);
-      for (const double value : x.col(first + c)) put(value);
-      for (const double value : after) put(value);
+      const auto signal = x.col(first + c);
+      all.col(c).head(pad) = beyond(signal.head(reach).reverse()).reverse();
+      all.col(c).tail(pad) = beyond(signal.tail(reach));
     }
-    if (pairs == 1) FilterBothWays<1>(sections, &padded);
-    if (pairs == 2) FilterBothWays<2>(sections, &padded);
-    if (pairs == 3) FilterBothWays<3>(sections, &padded);
-    const double* const inner = rows + 2L * pairs * pad;
-    for (int c = 0; c < columns; ++c) {
-      for (long k = 0; k < n; ++k) {
-        result(k, first + c) = inner[2 * pairs * k + c];
-      }
-    }
+    rows.Filter(sections);
+    result.middleCols(first, columns) =
+        all.middleRows(pad, n).leftCols(columns);
   }
   return result;
 }

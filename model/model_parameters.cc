@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <random>
 
 #include "model/column_basis.h"
@@ -70,14 +71,10 @@ class RandomStates {
   std::mt19937_64 generator_{20261120};
 };
 
-// States of the Coulomb columns while all joints slide.
-VectorXd Sliding(const std::vector<JointTermColumn>& terms,
-                 const VectorXd& qd) {
-  std::vector<double> c;
-  for (const JointTermColumn& t : terms) {
-    if (t.term == JointTerm::kCoulomb) c.push_back(qd[t.joint] > 0 ? 1 : -1);
-  }
-  return Eigen::Map<const VectorXd>(c.data(), c.size());
+// Friction, which no other column can replace.
+bool Dissipates(const JointTermColumn& column) {
+  return column.term == JointTerm::kViscous ||
+         column.term == JointTerm::kCoulomb;
 }
 
 }  // namespace
@@ -170,25 +167,29 @@ int ModelParameters::BlockOfFull(int c) const {
   return c < m ? moments_[c].block : terms_[c - m].joint;
 }
 
-// U at random states, one below the other, all columns before regrouping.
+// U at random states, one below the other, all columns before regrouping; those
+// of friction are 0.
 MatrixXd ModelParameters::SampleRegressor() const {
-  RegressorColumns all;
-  all.moments = moments_;
-  all.terms = terms_;
-  for (int c = 0; c < NumFull(); ++c) {
-    (c < static_cast<int>(moments_.size()) ? all.moment_index : all.term_index)
-        .push_back(c);
+  RegressorColumns columns;
+  columns.moments = moments_;
+  std::vector<int> places(moments_.size());
+  std::iota(places.begin(), places.end(), 0);
+  columns.moment_index = places;
+  for (size_t t = 0; t < terms_.size(); ++t) {
+    if (Dissipates(terms_[t])) continue;
+    columns.terms.push_back(terms_[t]);
+    columns.term_index.push_back(static_cast<int>(places.size()));
+    places.push_back(static_cast<int>(moments_.size() + t));
   }
-  Regressor regressor(chain_, unknown_, all);
+  Regressor regressor(chain_, unknown_, columns);
   RandomStates random;
   const int n = num_joints();
-  const int samples = std::max(60, 3 * NumFull() / n + 30);
-  MatrixXd U(samples * n, NumFull()), U_sample;
+  const int samples = std::max(60, 3 * columns.size() / n + 30);
+  MatrixXd U = MatrixXd::Zero(samples * n, NumFull()), U_sample;
   for (int s = 0; s < samples; ++s) {
     const VectorXd q = random.Next(n), qd = random.Next(n);
-    regressor.Differential(q, qd, random.Next(n), Sliding(terms_, qd),
-                           &U_sample);
-    U.middleRows(s * n, n) = U_sample;
+    regressor.Differential(q, qd, random.Next(n), VectorXd(), &U_sample);
+    U(Eigen::seqN(s * n, n), places) = U_sample;
   }
   return U;
 }
@@ -224,9 +225,7 @@ void ModelParameters::KeepTerms(const MatrixXd& U) {
     for (size_t t = 0; t < terms_.size(); ++t) {
       if (terms_[t].term != term) continue;
       const int c = m + static_cast<int>(t);
-      const bool dissipates =
-          term == JointTerm::kViscous || term == JointTerm::kCoulomb;
-      if (dissipates || basis.Add(U.col(c), U.col(c).norm())) {
+      if (Dissipates(terms_[t]) || basis.Add(U.col(c), U.col(c).norm())) {
         kept_.push_back(c);
       }
     }
@@ -240,6 +239,7 @@ void ModelParameters::ChooseBasis() {
   std::stable_sort(kept_.begin(), kept_.end(), [this](int a, int b) {
     return BlockOfFull(a) < BlockOfFull(b);
   });
+  const int num_moments = static_cast<int>(moments_.size());
   regrouping_ = MatrixXd::Zero(kept_.size(), NumFull());
   for (int c = 0; c < NumFull(); ++c) {
     const auto self = std::find(kept_.begin(), kept_.end(), c);
@@ -247,10 +247,13 @@ void ModelParameters::ChooseBasis() {
       regrouping_(self - kept_.begin(), c) = 1;
       continue;
     }
-    const bool moment = c < static_cast<int>(moments_.size());
+    const bool moment = c < num_moments;
     std::vector<int> candidates;
     for (const int k : kept_) {
-      if (!moment || BlockOfFull(k) == BlockOfFull(c)) candidates.push_back(k);
+      const bool may =
+          moment ? BlockOfFull(k) == BlockOfFull(c)
+                 : k < num_moments || !Dissipates(terms_[k - num_moments]);
+      if (may) candidates.push_back(k);
     }
     const VectorXd x = ExpressInColumns(U, c, candidates);
     for (size_t k = 0; k < candidates.size(); ++k) {

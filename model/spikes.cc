@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <vector>
 
 #include "model/quantile.h"
+#include "model/simd/kernels.h"
 
 namespace armcal {
 namespace {
@@ -64,65 +63,24 @@ double UnmarkedMedian(const Eigen::VectorXd& x, Eigen::Index k, int reach,
   return *middle;
 }
 
-// Two numbers side by side in one register.
-typedef double Pair __attribute__((vector_size(16)));
-
-Pair Load(const double* from) {
-  Pair x;
-  std::memcpy(&x, from, sizeof(x));
-  return x;
-}
-void Store(const Pair& x, double* to) { std::memcpy(to, &x, sizeof(x)); }
-
-// Numbers in ascending order, one of which is replaced at a time. There are so
-// few that going through all of them without a branch is fastest.
-class SortedWindow {
- public:
-  explicit SortedWindow(const std::vector<double>& numbers)
-      : size_(numbers.size()),
-        sorted_(size_ + 3, std::numeric_limits<double>::infinity()),
-        rest_(size_ + 3, -std::numeric_limits<double>::infinity()) {
-    std::copy(numbers.begin(), numbers.end(), sorted_.begin());
-    std::sort(sorted_.begin(), sorted_.begin() + size_);
-  }
-
-  void Replace(double gone, double value) {
-    double* const x = sorted_.data();       // ends in infinities
-    double* const rest = rest_.data() + 1;  // begins with -infinity
-    const Pair out = {gone, gone}, in = {value, value};
-    for (size_t k = 0; k < size_; k += 2) {
-      const Pair here = Load(x + k);
-      Store(here < out ? here : Load(x + k + 1), rest + k);
-    }
-    // The middle one of the new number and the two that it may come between.
-    for (size_t k = 0; k < size_; k += 2) {
-      const Pair before = Load(rest + k - 1), here = Load(rest + k);
-      const Pair least = here < in ? here : in;
-      Store(before > least ? before : least, x + k);
-    }
-    x[size_] = std::numeric_limits<double>::infinity();
-  }
-  double Median() const { return sorted_[size_ / 2]; }
-
- private:
-  size_t size_;
-  std::vector<double> sorted_, rest_;  // rest: without what is replaced
-};
-
 // Medians of up to 2 reach + 1 samples around each, fewer at the ends.
 Eigen::VectorXd SlidingMedians(const Eigen::VectorXd& x, int reach) {
+  constexpr int kMostReach = 15;
   const Eigen::Index n = x.size();
   Eigen::VectorXd medians(n);
-  SortedWindow window({});
+  const bool together = reach <= kMostReach && n > 2 * reach;
+  if (together) {
+    simd::BestKernels().sliding_medians(x.data(), n, reach, medians.data());
+  }
+  std::vector<double> window;
   for (Eigen::Index k = 0; k < n; ++k) {
-    if (k <= reach || k + reach >= n) {
-      const Eigen::Index begin = std::max<Eigen::Index>(0, k - reach);
-      const Eigen::Index end = std::min(n, k + reach + 1);
-      window = SortedWindow({x.data() + begin, x.data() + end});
-    } else {
-      window.Replace(x[k - reach - 1], x[k + reach]);
-    }
-    medians[k] = window.Median();
+    if (together && k >= reach && k < n - reach) continue;
+    const Eigen::Index begin = std::max<Eigen::Index>(0, k - reach);
+    const Eigen::Index end = std::min(n, k + reach + 1);
+    window.assign(x.data() + begin, x.data() + end);
+    const auto middle = window.begin() + window.size() / 2;
+    std::nth_element(window.begin(), middle, window.end());
+    medians[k] = *middle;
   }
   return medians;
 }

@@ -239,8 +239,11 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
                                      : Differentiate(t.qd, t.dt);
   t.temperature = std::move(grid.temperature);
   if (thin > 1) {
+    const bool as_recorded = t.tau == t.tau_recorded;
     for (Eigen::MatrixXd* x : {&t.tau, &t.tau_recorded}) {
-      *x = Thin(ZeroPhaseLowPass(*x, 1 / t.dt, 4 * bandwidth), thin);
+      *x = x == &t.tau_recorded && as_recorded
+               ? t.tau
+               : Thin(ZeroPhaseLowPass(*x, 1 / t.dt, 4 * bandwidth), thin);
     }
     for (Eigen::MatrixXd* x :
          {&t.q, &t.qd, &t.qdd, &t.temperature, &velocity}) {

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "model/simd/kernels.h"
 
 namespace armcal {
 namespace {
 
-constexpr int kBatch = 128;  // samples evaluated together, within the cache
+constexpr int kBatch = 64;  // samples evaluated together, within the cache
 
 long Padded(long rows) { return (rows + 7) / 8 * 8; }
 
@@ -36,7 +37,7 @@ void WeakRows::SetTestFunction() {
   for (int k = 0; k < steps_; ++k) {
     const double s = 2.0 * k / steps_ - 1;
     const double u = 1 - s * s;
-    const long at = k / hop_ * weight_stride_ + k % hop_;
+    const long at = (phases_ - 1 - k / hop_) * weight_stride_ + k % hop_;
     phi_[at] = u * u * u * u;
     rate_[at] = -8 * s * u * u * u * 2 / (steps_ * trajectory_.dt);
     sum += phi_[at];
@@ -99,29 +100,34 @@ void WeakRows::AddSamples(int first, int count, const Output& output,
 
 void WeakRows::AddPiece(const Piece& piece, int joint, const Output& output,
                         RowScratch* scratch) const {
-  const simd::Kernels& kernels = simd::BestKernels();
-  const long stride = scratch->D.stride();
   const int size = output.sizes[joint];
-  scratch->products.resize(2 * size * phases_);
-  double* of_phi = scratch->products.data();
-  double* of_rate = of_phi + size * phases_;
-  kernels.inner_products(phi_.data() + piece.within, weight_stride_, phases_,
-                         scratch->D.column(joint, 0) + piece.place, stride,
-                         size, Padded(piece.length), of_phi);
-  kernels.inner_products(rate_.data() + piece.within, weight_stride_, phases_,
-                         scratch->P.column(joint, 0) + piece.place, stride,
-                         size - 1, Padded(piece.length), of_rate);
+  scratch->products.resize(size * phases_);
+  double* const products = scratch->products.data();
+  const JointColumns &P = scratch->P, &D = scratch->D;
+  const simd::ColumnPair pairs[] = {
+      {phi_.data() + piece.within, weight_stride_,
+       D.column(joint, 0) + piece.place, D.stride()},
+      {rate_.data() + piece.within, weight_stride_,
+       P.column(joint, 0) + piece.place, P.stride()}};
+  simd::BestKernels().inner_products_of_two(pairs, phases_, size,
+                                            Padded(piece.length), products);
   const auto begin = cells_.begin() + output.begin;
   const auto end = cells_.begin() + output.end;
-  for (auto w = std::lower_bound(begin, end, piece.cell - phases_ + 1);
-       w < end && *w <= piece.cell; ++w) {
-    const long phase = piece.cell - *w;
-    double* row = output.columns[joint] + (w - begin);
-    for (int c = 0; c + 1 < size; ++c) {
-      const long at = c * phases_ + phase;
-      row[c * output.stride] -= of_rate[at] + of_phi[at];
+  const auto first = std::lower_bound(begin, end, piece.cell - phases_ + 1);
+  const auto last = std::upper_bound(first, end, piece.cell);
+  double* row = output.columns[joint] + (first - begin);
+  if (last - first == phases_) {  // no gap between them
+    for (int c = 0; c < size; ++c, row += output.stride) {
+      const double* of_column = products + c * phases_;
+      for (int k = 0; k < phases_; ++k) row[k] -= of_column[k];
     }
-    row[(size - 1) * output.stride] += of_phi[(size - 1) * phases_ + phase];
+    return;
+  }
+  for (auto w = first; w < last; ++w, ++row) {
+    const long at = *w - (piece.cell - phases_ + 1);
+    for (int c = 0; c < size; ++c) {
+      row[c * output.stride] -= products[c * phases_ + at];
+    }
   }
 }
 
@@ -151,8 +157,11 @@ void WeakRows::Evaluate(long begin, long count, double* const* out, long stride,
       functions_.Momentum(first, samples, scratch->P.data(), scratch->D.data(),
                           scratch->D.stride());
       for (int i = 0; i < n; ++i) {
-        std::copy_n(trajectory_.tau.col(i).data() + first, samples,
-                    scratch->D.column(i, output.sizes[i] - 1));
+        const double* const tau = trajectory_.tau.col(i).data() + first;
+        const int last_column = output.sizes[i] - 1;
+        std::transform(tau, tau + samples, scratch->D.column(i, last_column),
+                       std::negate<>());
+        std::fill_n(scratch->P.column(i, last_column), samples, 0.0);
       }
       AddSamples(first, samples, output, scratch);
     }

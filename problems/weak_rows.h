@@ -46,7 +46,7 @@ class WeakRows : public IdentificationRows {
   int phases_;
   std::vector<long> cells_;  // of each row
   // phi and its rate times dt (quadrature weights) at a cell's samples, a
-  // column per phase, zeros below.
+  // column per phase, the last phase first, zeros below.
   long weight_stride_;
   std::vector<double> phi_, rate_;
 };

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "model/uniform_draw.h"
 #include "tests/sample_motion.h"
 
 namespace armcal {
@@ -119,6 +120,31 @@ TEST(OverlapCovariance, OfALossThatGivesUpWhatTellsMost) {
   for (MatrixXd& U : equations.U) U.middleRows(50, 15) *= 5;
   for (int k = 50; k < 65; ++k) equations.slope.row(k).setConstant(.1);
   equations.ExpectTheEstimates(.06);
+}
+
+// Pairs of rows are the same pairs backwards, wherever sums were added up
+// between.
+TEST(OverlapCovariance, IsTheSameBackwards) {
+  Equations equations;
+  std::mt19937_64 random(6);
+  for (double& s : equations.slope.reshaped())
+    s = .5 + .5 * UniformDraw(&random);
+  const MatrixXd e = MovingAverage(&random, kRows, kJoints);
+  const VectorXd x = VectorXd::Zero(kSize);
+  OverlapCovariance forwards(kJoints, kSize, kLags);
+  OverlapCovariance backwards = forwards;
+  for (int k = 0; k < kRows; ++k) {
+    if (k == 40 || k == 43) forwards.Break();
+    forwards.Add(equations.RowOf(e, x, k));
+    const int last = kRows - 1 - k;
+    if (last == 39 || last == 42) backwards.Break();
+    backwards.Add(equations.RowOf(e, x, last));
+  }
+  const MatrixXd gain = equations.Gain();
+  const VectorXd scale = VectorXd::Ones(kJoints);
+  const MatrixXd expected = forwards.Value(gain, scale);
+  EXPECT_LT((backwards.Value(gain, scale) - expected).norm(),
+            1e-10 * expected.norm());
 }
 
 TEST(RaiseTo, ScalesRowsAndColumnsAndNeverDown) {

@@ -114,5 +114,18 @@ TEST(TransitionChoice, Candidates) {
   EXPECT_DOUBLE_EQ(grid[32].width, 2e-2);
 }
 
+// Friction that changes sign at once, as simulators have it, is not made
+// softer than the grid's first candidate.
+TEST(TransitionChoice, TheFirstCandidateMayBeSharper) {
+  const auto grid = CandidateTransitions();
+  const auto finer = FinerTransitions(grid[0]);
+  EXPECT_DOUBLE_EQ(finer.front().width, 1e-7);
+  EXPECT_DOUBLE_EQ(finer.back().width, grid[1].width);
+  EXPECT_EQ(FinerTransitions(finer.front()).size(), finer.size());
+  EXPECT_DOUBLE_EQ(FinerTransitions(finer.front()).back().width, grid[1].width);
+  EXPECT_DOUBLE_EQ(FinerTransitions(grid[1]).front().width, grid[0].width);
+  EXPECT_DOUBLE_EQ(FinerTransitions(grid[17]).back().width, grid[17].width);
+}
+
 }  // namespace
 }  // namespace armcal

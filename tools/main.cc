@@ -15,6 +15,7 @@
 #include "tools/completion.h"
 #include "tools/console.h"
 #include "tools/flag_parser.h"
+#include "tools/heap.h"
 #include "tools/input_flags.h"
 #include "tools/interruption.h"
 #include "tools/manual.h"
@@ -119,6 +120,7 @@ int Main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   armcal::PrepareProcess();
+  armcal::PrepareHeap();
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);
   google::InstallFailureFunction(&armcal::FailInternally);

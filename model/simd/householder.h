@@ -17,7 +17,7 @@ struct Panel {
 
 // Column J of a panel of N: takes the reflections before it off (w times their
 // columns), then gives its products with all columns, of which those behind it
-// are as they came.
+// are as they came; there is room for kPanel.
 template <int N, int J>
 ARMCAL_INLINE void ReflectAndMultiply(double* X, long stride, long rows,
                                       const double* w, double* products) {
@@ -38,7 +38,7 @@ ARMCAL_INLINE void ReflectAndMultiply(double* X, long stride, long rows,
 #pragma GCC unroll 8
     for (int c = J + 1; c < N; ++c) sum[c] += x * Load(X + c * stride + r);
   }
-  for (int c = 0; c < N; ++c) products[c] = Sum(sum[c]);
+  StoreSums(sum, products);
 }
 
 // Reflections J.. N - 1 of a panel; R: from its diagonal block on. z[c][b]:
@@ -46,7 +46,7 @@ ARMCAL_INLINE void ReflectAndMultiply(double* X, long stride, long rows,
 template <int N, int J>
 ARMCAL_INLINE void FactorPanel(double* R, long r_stride, double* X, long stride,
                                long rows, double (*z)[kPanel], Panel* panel) {
-  double products[N], w[J + 1];
+  double products[kPanel], w[J + 1];
   for (int b = 0; b < J; ++b) {
     double t = 0;
     for (int a = 0; a <= b; ++a) t += panel->T[a][b] * z[J][a];
@@ -85,7 +85,10 @@ template <int C>
 ARMCAL_INLINE void Reflect(const Panel& panel, const double* X, long stride,
                            long rows, double* R, long r_stride, double* B) {
   double w[C][kPanel];
-  ProductsOfAll<C>(X, stride, kPanel, B, stride, rows, kPanel, &w[0][0]);
+  for (int a = 0; a < kPanel; a += kBlock) {
+    const ColumnPair pair[] = {{X + a * stride, stride, B, stride}};
+    BlockProducts<kBlock, C>(pair, rows, kPanel, &w[0][a]);
+  }
   constexpr int kParts = kPanel / kLanes;
   for (int c = 0; c < C; ++c) {
     double* r = R + c * r_stride;

@@ -1,86 +1,93 @@
 #pragma once
 
+#include "model/simd/column_pair.h"
+#include "model/simd/horizontal_sums.h"
 #include "model/simd/lanes.h"
 
 namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 
-// Sums that fit the registers beside what they are summed from: vectors of A
+// Sums that fit the registers beside what they are summed from: columns of A
 // times three columns of B.
 constexpr int kBlock = kLanes == 8 ? 8 : 4;
 constexpr int kColumns = 3;
 
-ARMCAL_INLINE double Sum(const Lanes& x) {
-#if ARMCAL_LANES == 8
-  const auto half = __builtin_shufflevector(x, x, 0, 1, 2, 3) +
-                    __builtin_shufflevector(x, x, 4, 5, 6, 7);
-#else
-  const auto half = x;
-#endif
-#if ARMCAL_LANES >= 4
-  const auto quarter = __builtin_shufflevector(half, half, 0, 1) +
-                       __builtin_shufflevector(half, half, 2, 3);
-#else
-  const auto quarter = half;
-#endif
-  return quarter[0] + quarter[1];
-}
-
-// products[c * step + a] = a' b of N columns of A and C of B. `rows` is a
-// multiple of the lanes; columns lie a stride apart.
-template <int N, int C>
-ARMCAL_INLINE void BlockProducts(const double* A, long a_stride,
-                                 const double* B, long b_stride, long rows,
+// products[c * step + a] = a' b of N columns of A and C of B, added up over the
+// pairs. `rows` is a multiple of the lanes.
+template <int N, int C, int kPairs>
+ARMCAL_INLINE void BlockProducts(const ColumnPair (&pairs)[kPairs], long rows,
                                  long step, double* products) {
-  Lanes sum[C][N];
-  for (int c = 0; c < C; ++c) {
-    for (int a = 0; a < N; ++a) sum[c][a] = Lanes{};
-  }
+  Lanes sum[C * N];
+  for (int k = 0; k < C * N; ++k) sum[k] = Lanes{};
   for (long r = 0; r < rows; r += kLanes) {
-    Lanes b[C];
-    for (int c = 0; c < C; ++c) b[c] = Load(B + c * b_stride + r);
+#pragma GCC unroll 2
+    for (int p = 0; p < kPairs; ++p) {
+      const ColumnPair& pair = pairs[p];
+      Lanes b[C];
+      for (int c = 0; c < C; ++c) b[c] = Load(pair.B + c * pair.b_stride + r);
 #pragma GCC unroll 8
-    for (int a = 0; a < N; ++a) {
-      const Lanes x = LoadOnce(A + a * a_stride + r);
-      for (int c = 0; c < C; ++c) sum[c][a] += x * b[c];
+      for (int a = 0; a < N; ++a) {
+        const Lanes x = LoadOnce(pair.A + a * pair.a_stride + r);
+        for (int c = 0; c < C; ++c) sum[c * N + a] += x * b[c];
+      }
     }
   }
+  double sums[kRoomOfSums<C * N>];
+  StoreSums(sum, sums);
   for (int c = 0; c < C; ++c) {
-    for (int a = 0; a < N; ++a) products[c * step + a] = Sum(sum[c][a]);
+    for (int a = 0; a < N; ++a) products[c * step + a] = sums[c * N + a];
   }
 }
 
-// The same for any number of columns of A.
-template <int C>
-ARMCAL_INLINE void ProductsOfAll(const double* A, long a_stride, int count,
-                                 const double* B, long b_stride, long rows,
-                                 long step, double* products) {
-  int a = 0;
-  for (; a + kBlock <= count; a += kBlock) {
-    BlockProducts<kBlock, C>(A + a * a_stride, a_stride, B, b_stride, rows,
-                             step, products + a);
+// The same for `count` columns of A, kBlock of them at a time.
+template <int C, int N, int kPairs>
+ARMCAL_INLINE void ProductsOfAll(ColumnPair (&pairs)[kPairs], int count,
+                                 long rows, long step, double* products) {
+  for (; count >= N; count -= N) {
+    BlockProducts<N, C>(pairs, rows, step, products);
+    for (ColumnPair& pair : pairs) pair.A += N * pair.a_stride;
+    products += N;
   }
-  for (; kBlock > 4 && a + 4 <= count; a += 4) {
-    BlockProducts<4, C>(A + a * a_stride, a_stride, B, b_stride, rows, step,
-                        products + a);
+  if constexpr (N > 1) {
+    if (count > 0) {
+      ProductsOfAll<C, N - 1>(pairs, count, rows, step, products);
+    }
   }
-  for (; a < count; ++a) {
-    BlockProducts<1, C>(A + a * a_stride, a_stride, B, b_stride, rows, step,
-                        products + a);
+}
+
+template <int C, int kPairs>
+ARMCAL_INLINE void ProductsWith(const ColumnPair* pairs, int begin, int count,
+                                long rows, double* products) {
+  ColumnPair these[kPairs];
+  for (int p = 0; p < kPairs; ++p) {
+    these[p] = pairs[p];
+    these[p].B += begin * these[p].b_stride;
+  }
+  ProductsOfAll<C, kBlock>(these, count, rows, count, products + begin * count);
+}
+
+template <int kPairs>
+inline void ProductsOfPairs(const ColumnPair* pairs, int a_columns,
+                            int b_columns, long rows, double* products) {
+  int c = 0;
+  for (; c + kColumns <= b_columns; c += kColumns) {
+    ProductsWith<kColumns, kPairs>(pairs, c, a_columns, rows, products);
+  }
+  for (; c < b_columns; ++c) {
+    ProductsWith<1, kPairs>(pairs, c, a_columns, rows, products);
   }
 }
 
 inline void InnerProducts(const double* A, long a_stride, int a_columns,
                           const double* B, long b_stride, int b_columns,
                           long rows, double* products) {
-  int c = 0;
-  for (; c + kColumns <= b_columns; c += kColumns) {
-    ProductsOfAll<kColumns>(A, a_stride, a_columns, B + c * b_stride, b_stride,
-                            rows, a_columns, products + c * a_columns);
-  }
-  for (; c < b_columns; ++c) {
-    ProductsOfAll<1>(A, a_stride, a_columns, B + c * b_stride, b_stride, rows,
-                     a_columns, products + c * a_columns);
-  }
+  const ColumnPair pair = {A, a_stride, B, b_stride};
+  ProductsOfPairs<1>(&pair, a_columns, b_columns, rows, products);
+}
+
+// See Kernels::inner_products_of_two.
+inline void InnerProductsOfTwo(const ColumnPair* pairs, int a_columns,
+                               int b_columns, long rows, double* products) {
+  ProductsOfPairs<2>(pairs, a_columns, b_columns, rows, products);
 }
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

@@ -17,12 +17,7 @@ ARMCAL_INLINE void HyperbolicTangents(int n, Lanes* x) {
   for (int j = 0; j < n; ++j) x[j] = HyperbolicTangent(x[j]);
 }
 ARMCAL_INLINE void HyperbolicTangents(int n, double* x) {
-  for (int first = 0; first < n; first += kLanes) {
-    Lanes some = {};
-    for (int k = 0; k < kLanes && first + k < n; ++k) some[k] = x[first + k];
-    some = HyperbolicTangent(some);
-    for (int k = 0; k < kLanes && first + k < n; ++k) x[first + k] = some[k];
-  }
+  HyperbolicTangentOfAll(x, 1, n, x);
 }
 
 // The state c of each joint's Coulomb friction at (q, qd), where displacement

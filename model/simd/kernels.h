@@ -5,7 +5,9 @@
 
 #include "model/simd/arm_constants.h"
 #include "model/simd/chain_constants.h"
+#include "model/simd/column_pair.h"
 #include "model/simd/deflected_link.h"
+#include "model/simd/filter_section.h"
 #include "model/simd/geometry_constants.h"
 
 namespace armcal::simd {
@@ -75,6 +77,24 @@ struct Kernels {
                       long samples, double dt);
   // Forward dynamics and its integration: `lanes` at once, and one by one.
   ArmKernels arms, one_arm;
+  // y = tanh(x / width) of `count` numbers.
+  void (*hyperbolic_tangent)(const double* x, double width, long count,
+                             double* y);
+
+  // Filters in place by two sections, forwards and then backwards, each from
+  // rest at its first row. Rows hold `width` signals side by side, a multiple
+  // of 8; what one signal is does not matter to the others.
+  void (*filter_both_ways)(const FilterSection* sections, double* x, long rows,
+                           int width);
+
+  // As inner_products, added up over two pairs with as many columns.
+  void (*inner_products_of_two)(const ColumnPair* pairs, int a_columns,
+                                int b_columns, long rows, double* products);
+
+  // medians[k] of the 2 reach + 1 numbers about x[k], for all k that have as
+  // many; `reach` is 15 at most.
+  void (*sliding_medians)(const double* x, long count, int reach,
+                          double* medians);
 };
 
 // Of the instruction sets that this processor has, the least first.

@@ -57,21 +57,24 @@ def root_sum(values):
 
 
 def armcal_calibration(armcal, urdf, logs, folder):
-    """The linear estimate of `armcal calibrate` on data taken as they are, as
-    the others take them."""
-    out = pathlib.Path(folder) / "armcal"
-    _, seconds, peak = run(
-        [armcal, "calibrate", f"--robot={urdf}", f"--log={logs[0]}",
-         f"--validate={logs[1]}", "--estimate=linear",
-         "--identification=differential", "--bandwidth=0", "--quiet",
-         f"--out={out}"], folder, repetitions=3)
-    with open(out / "calibration.json", encoding="utf-8") as file:
-        joints = json.load(file)["joints"]
+    """`armcal calibrate` on data taken as they are, as the others take them, to
+    base parameters and their standard deviations; and as it is by default, on
+    smoothed motion and weak-form rows."""
+    command = [armcal, "calibrate", f"--robot={urdf}", f"--log={logs[0]}",
+               "--estimate=linear", "--threads=1"]
+    as_they_are = ["--identification=differential", "--bandwidth=0"]
+    _, seconds, peak = run(command + as_they_are + ["--quiet"], folder,
+                           repetitions=3)
+    _, default_seconds, _ = run(command + ["--quiet"], folder, repetitions=5)
+    output, _, _ = run(
+        command + as_they_are + [f"--validate={logs[1]}", "--json"], folder)
+    joints = json.loads(output)["joints"]
     # validation_residual_percent is relative to each joint's own torque.
     residual = [j["validation_residual_rms"] for j in joints]
     torque = [100 * j["validation_residual_rms"] /
               j["validation_residual_percent"] for j in joints]
     return {"Command/calibrate_s": seconds, "Command/peak_mb": peak,
+            "Command/default_s": default_seconds,
             "Command/held_out": root_sum(residual) / root_sum(torque)}
 
 

@@ -114,6 +114,8 @@ PEERS = [
      "Ceres/autodiff"),
     ("CSV of 1e5 rows to parameters, FIGAROH", "Command/calibrate_s",
      "Figaroh/total_s"),
+    ("the same by smoothed motion and weak rows, FIGAROH", "Command/default_s",
+     "Figaroh/total_s"),
     ("CSV of 1e5 rows to parameters, NumPy and SciPy", "Command/calibrate_s",
      "Scipy/total_s"),
     ("one Jacobian of a log of 1e4 steps, MuJoCo sysid", "Nonlinear/iteration_s",
