@@ -59,7 +59,9 @@ ArraySource::ArraySource(const std::string& path, std::vector<LogArray> arrays)
   rows_ = RowsOf(arrays, [](const std::string& n) { return IsTimeName(n); });
   if (rows_ == 0) rows_ = RowsOf(arrays, IsPosition);
   for (const LogArray& array : arrays) {
-    if (!array.why_none.empty()) NoteUnused(array, array.why_none);
+    if (!array.name.empty() && !array.why_none.empty()) {
+      NoteUnused(array, array.why_none);
+    }
   }
   if (rows_ == 0) {
     std::vector<std::string> names;

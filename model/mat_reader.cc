@@ -126,7 +126,9 @@ void CheckSize(const std::string& path, const matvar_t* v,
   for (int k = 0; k < v->rank; ++k) {
     if (v->dims[k] != 0 && bytes > *left / v->dims[k]) {
       throw InputError(path, "variable " + std::string(v->name ? v->name : ""),
-                       "", "is larger than the file can hold");
+                       "",
+                       "is of more than 64 MiB and 200 times the file's size: "
+                       "expected a log, which does not pack that much");
     }
     bytes *= v->dims[k];
   }

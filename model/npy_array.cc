@@ -99,7 +99,10 @@ void ReadHeader(const std::string& file, std::string_view header,
     return;
   }
   if (!ReadType(descr, array)) {
-    array->why_none = "of type " + OneLine(descr);
+    array->why_none =
+        descr == "'|O'"
+            ? "of Python objects, which are never unpickled"
+            : "of type " + OneLine(descr) + ", not f4, f8 or an integer";
     return;
   }
   array->rows = shape[0];

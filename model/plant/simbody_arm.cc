@@ -3,7 +3,6 @@
 #include <Simbody.h>
 
 #include <cmath>
-
 #include <string>
 
 #include "model/input_error.h"

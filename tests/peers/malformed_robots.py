@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
 """What urdfdom and MuJoCo do with the malformed robots of tests/malformed.
 
-  malformed_robots.py PEERS [--check_urdf=NAME=BINARY ...]
+  malformed_robots.py PEERS [--urdfdom=/usr]
 
 PEERS is what fetch.sh makes. Each URDF and MJCF of the table whose fault lies in
-the file is given to check_urdf of PyPI's urdfdom (there through `pin`), to others
-that are named, as Debian's of liburdfdom-tools, and to MuJoCo, in a process each.
-Prints a table for docs/malformed.md: accepts, refuses, crashes (ends by a
-signal), hangs (over LONGEST seconds of CPU time or HANGS on the clock).
+the file is given to urdfdom and MuJoCo, in a process each: Debian's urdfdom
+(liburdfdom-dev below --urdfdom; parseURDFFile), PyPI's (it comes with `pin`, but
+without all headers: its check_urdf, which also prints the tree) and PyPI's
+MuJoCo. Prints a table for docs/malformed.md: accepts, refuses, crashes (ends by
+a signal), hangs (over LONGEST seconds of CPU time or HANGS on the clock).
 """
 
 import argparse
 import os
 import pathlib
+import re
 import resource
 import subprocess
 import sys
@@ -25,6 +27,9 @@ from inputs import Row, nothing, write  # noqa: E402
 
 LONGEST, HANGS = 10, 60  # s
 MOST_ADDRESSES = 8 << 30
+URDFDOM = """#include <urdf_parser/urdf_parser.h>
+int main(int, char** argv) { return urdf::parseURDFFile(argv[1]) ? 0 : 1; }
+"""
 MUJOCO = "import sys, mujoco\nmujoco.MjModel.from_xml_path(sys.argv[1])"
 
 
@@ -45,16 +50,27 @@ def outcome(command, path, folder, environment):
     return "accepts" if code == 0 else "crashes" if code < 0 else "refuses"
 
 
-def readers(peers, others):
+def debian_urdfdom(root, folder):
+    """Heading, command and environment of a program that calls its parser."""
+    libraries, = root.glob("lib/*/liburdfdom_model.so")
+    settings = (libraries.parent / "pkgconfig/urdfdom.pc").read_text()
+    version = re.search(r"^Version: *(\S+)", settings, re.M)[1]
+    program = folder / "parse"
+    subprocess.run(["g++", "-std=c++17", "-xc++", "-", "-o", program, f"-I{root}/include",
+                    f"-L{libraries.parent}", f"-Wl,-rpath-link,{libraries.parent}",
+                    "-lurdfdom_model"], input=URDFDOM.encode(), check=True)
+    return (f"urdfdom {version}", False, [str(program)],
+            os.environ | {"LD_LIBRARY_PATH": str(libraries.parent)})
+
+
+def readers(peers, root, folder):
     """(heading, of MJCF as well, command, environment) of each peer."""
+    yield debian_urdfdom(root, folder)
     packages, = peers.glob("lib/python3*/site-packages")
     prefix = packages / "cmeel.prefix"
-    version, = (path.name.split("-")[1] for path in packages.glob("cmeel_urdfdom-*.dist-info"))
-    version = version.removesuffix(".dist")
-    yield (f"urdfdom {version}", False, [str(prefix / "bin/check_urdf")],
+    version, = (path.name.split("-")[1].removesuffix(".dist") for path in packages.glob("cmeel_urdfdom-*.dist-info"))
+    yield (f"check_urdf {version}", False, [str(prefix / "bin/check_urdf")],
            os.environ | {"LD_LIBRARY_PATH": str(prefix / "lib")})
-    for name, binary in others:
-        yield name, False, [binary], os.environ
     python = str(peers / "bin/python")
     version = subprocess.run([python, "-c", "import mujoco; print(mujoco.__version__)"],
                              capture_output=True, text=True, check=True).stdout.strip()
@@ -82,12 +98,7 @@ def compare(group, robot, peers, counts):
         print(f"| {group.name}: {row.name} | {' | '.join(found)} |", flush=True)
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("peers", type=pathlib.Path)
-    parser.add_argument("--check_urdf", action="append", default=[])
-    arguments = parser.parse_args()
-    peers = list(readers(arguments.peers, [x.split("=", 1) for x in arguments.check_urdf]))
+def compare_all(peers):
     print("| input | " + " | ".join(heading for heading, *_ in peers) + " |")
     print("|---|" + "---|" * len(peers))
     counts = {}
@@ -97,6 +108,15 @@ def main():
     for (heading, group), count in counts.items():
         print(f"{heading}, {group}: " + ", ".join(
             f"{word} {number}" for word, number in sorted(count.items())), file=sys.stderr)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("peers", type=pathlib.Path)
+    parser.add_argument("--urdfdom", type=pathlib.Path, default=pathlib.Path("/usr"))
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        compare_all(list(readers(arguments.peers, arguments.urdfdom, pathlib.Path(folder))))
 
 
 if __name__ == "__main__":
