@@ -64,14 +64,14 @@ def good_files(group, arguments):
 class Outcome:
     """What armcal did with a folder."""
 
-    def __init__(self, armcal, command, folder):
+    def __init__(self, armcal, command, folder, longest):
         before = self.snapshot(folder)
         streams = [folder.parent / f"{folder.name}.{s}" for s in ("out", "err")]
         with open(streams[0], "wb") as out, open(streams[1], "wb") as err:
             process = subprocess.Popen(
-                [armcal] + shlex.split(command) + ["--threads=2"], cwd=folder, stdout=out, stderr=err,
-                stdin=subprocess.DEVNULL, env=os.environ | {"TMPDIR": str(folder)})
-            resource.prlimit(process.pid, resource.RLIMIT_CPU, (LONGEST, LONGEST))
+                [armcal] + shlex.split(command) + ["--threads=2"], cwd=folder, stdout=out,
+                stderr=err, stdin=subprocess.DEVNULL, env=os.environ | {"TMPDIR": str(folder)})
+            resource.prlimit(process.pid, resource.RLIMIT_CPU, (longest, longest))
             timer = threading.Timer(HANGS, process.kill)
             timer.start()
             _, status, usage = os.wait4(process.pid, 0)
@@ -107,7 +107,7 @@ def run_row(arguments, group, files, row):
     for name, content in files.items():
         write(folder / name, content)
     row.change(folder)
-    outcome = Outcome(arguments.armcal, row.command or group.command, folder)
+    outcome = Outcome(arguments.armcal, row.command or group.command, folder, arguments.longest)
     shutil.rmtree(folder)
     return outcome
 
@@ -123,6 +123,7 @@ def main():
     arguments.work.mkdir(parents=True)
     # A sanitizer takes addresses and memory of its own.
     sanitized = b"__asan_init" in arguments.armcal.read_bytes()
+    arguments.longest = LONGEST * 10 if sanitized else LONGEST
     if not sanitized:
         resource.setrlimit(resource.RLIMIT_AS, (MOST_ADDRESSES, MOST_ADDRESSES))
     faults = rows = 0

@@ -42,7 +42,8 @@ def outcome(command, path, folder, environment):
     try:
         code = subprocess.run(
             command + [path], cwd=folder, env=environment, timeout=HANGS, preexec_fn=limit,
-            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL).returncode
     except subprocess.TimeoutExpired:
         return "hangs"
     if code in (-24, -9):  # SIGXCPU, SIGKILL
@@ -68,7 +69,8 @@ def readers(peers, root, folder):
     yield debian_urdfdom(root, folder)
     packages, = peers.glob("lib/python3*/site-packages")
     prefix = packages / "cmeel.prefix"
-    version, = (path.name.split("-")[1].removesuffix(".dist") for path in packages.glob("cmeel_urdfdom-*.dist-info"))
+    about, = packages.glob("cmeel_urdfdom-*.dist-info")
+    version = about.stem.split("-")[1]
     yield (f"check_urdf {version}", False, [str(prefix / "bin/check_urdf")],
            os.environ | {"LD_LIBRARY_PATH": str(prefix / "lib")})
     python = str(peers / "bin/python")
