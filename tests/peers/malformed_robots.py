@@ -8,7 +8,8 @@ the file is given to urdfdom and MuJoCo, in a process each: Debian's urdfdom
 (liburdfdom-dev below --urdfdom; parseURDFFile), PyPI's (it comes with `pin`, but
 without all headers: its check_urdf, which also prints the tree) and PyPI's
 MuJoCo. Prints a table for docs/malformed.md: accepts, refuses, crashes (ends by
-a signal), hangs (over LONGEST seconds of CPU time or HANGS on the clock).
+a signal), hangs (over LONGEST seconds of CPU time or HANGS on the clock). What
+all refuse is left out, and counted on stderr as well.
 """
 
 import argparse
@@ -97,7 +98,8 @@ def compare(group, robot, peers, counts):
             if row.name != "good file":
                 count = counts.setdefault((heading, group.name), {})
                 count[found[-1]] = count.get(found[-1], 0) + 1
-        print(f"| {group.name}: {row.name} | {' | '.join(found)} |", flush=True)
+        if set(found) - {"", "refuses"}:
+            print(f"| {group.name}: {row.name} | {' | '.join(found)} |", flush=True)
 
 
 def compare_all(peers):
