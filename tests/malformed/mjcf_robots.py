@@ -183,4 +183,9 @@ GROUPS = [Group("MJCF", COMMAND, {"robot.xml": MJCF, "log.csv": LOG}, [
         "shoulder, elbow"),
     Row("tip that is no body", nothing,
         "robot.xml: --tip: found 'finger': expected one of the links world, arm, hand", COMMAND + " --tip=finger"),
-])]
+]),
+
+    # No mesh is opened: this one has no end.
+    Group("MJCF with meshes", COMMAND, {"log.csv": LOG, "robot.xml": MJCF.replace(
+        "<worldbody>", '<asset> <mesh name="skin" file="/dev/zero"/> </asset>\n<worldbody>'
+    ).replace("<geom ", '<geom type="mesh" mesh="skin"/> <geom ')}, [])]

@@ -335,4 +335,11 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
     Row("more joints than the log", added('<link name="h2"/>' + joint("wrist", "hand", "h2")),
         "log.csv: row 1: missing q3 or wrist/position; the robot has 3 joints, the log "
         "holds q1..q2", COMMAND),
-])]
+]),
+
+    # No mesh is opened: these have no end, or are none of armcal's business.
+    Group("URDF with meshes", COMMAND, {"log.csv": LOG, "robot.urdf": URDF.replace(
+        '<link name="base"/>', '<link name="base">' + "".join(
+            f'<visual> <geometry> <mesh filename="{file}"/> </geometry> </visual>'
+            for file in ("/dev/zero", "file:///dev/zero", "../../../etc/passwd",
+                         "package://none/base.stl")) + "</link>")}, [])]

@@ -108,7 +108,8 @@ def compare_all(peers):
     counts = {}
     for module, robot in ((urdf_robots, "robot.urdf"), (mjcf_robots, "robot.xml")):
         for group in module.GROUPS:
-            compare(group, robot, peers, counts)
+            if group.rows:
+                compare(group, robot, peers, counts)
     for (heading, group), count in counts.items():
         print(f"{heading}, {group}: " + ", ".join(
             f"{word} {number}" for word, number in sorted(count.items())), file=sys.stderr)
