@@ -1,9 +1,8 @@
 #include "calib/factor_file.h"
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "calib/json_value.h"
 #include "calib/reduction_json.h"
@@ -40,10 +39,12 @@ class Reader {
   Reader(const std::string& path, std::string_view body)
       : path_(path), body_(body) {}
 
+  void Expect(std::uint64_t size) const {
+    if (size <= body_.size()) return;
+    throw InputError(path_, "", "", "ends too early for what it announces");
+  }
   std::string_view Take(std::uint64_t size) {
-    if (size > body_.size()) {
-      throw InputError(path_, "", "", "ends too early for what it announces");
-    }
+    Expect(size);
     const std::string_view taken = body_.substr(0, size);
     body_.remove_prefix(size);
     return taken;
@@ -53,9 +54,12 @@ class Reader {
     const std::uint64_t bits = Whole();
     double number;
     std::memcpy(&number, &bits, sizeof(number));
-    return number;
+    if (std::isfinite(number)) return number;
+    throw InputError(path_, "", NumberText(number),
+                     "expected a finite number in the factors");
   }
   Eigen::MatrixXd Triangle(int size) {
+    Expect(std::uint64_t{4} * size * (size + 1));
     Eigen::MatrixXd R = Eigen::MatrixXd::Zero(size, size);
     for (int c = 0; c < size; ++c) {
       for (int r = 0; r <= c; ++r) R(r, c) = Number();
@@ -125,23 +129,22 @@ Reduction ParseFactorFile(const std::string& path, std::string_view bytes) {
   }
   Reader reader(path, rest.substr(0, rest.size() - kDigest));
   const std::string_view text = reader.Take(reader.Whole());
-  const json header = json::parse(text, nullptr, false);
+  const json header = ParseJson(path, text);
   const JsonValue root(path, "", header);
   Reduction reduction{ReadReductionModel(root.At("model")), {}};
   for (const JsonValue& log : root.At("logs").Entries()) {
     reduction.logs.push_back(ReadReducedLog(
         log, [&reader](int columns) { return reader.Triangle(columns); }));
   }
+  if (reduction.logs.empty()) {
+    root.At("logs").Refuse("expected at least one log");
+  }
   return reduction;
 }
 
 Reduction ReadFactorFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  if (!file || !(bytes << file.rdbuf())) {
-    throw InputError(path, "", "", "cannot be read");
-  }
-  return ParseFactorFile(path, bytes.str());
+  constexpr long kMostBytes = 1L << 30;  // a log takes some kilobytes
+  return ParseFactorFile(path, ReadSmallFile(path, kMostBytes, kFormat));
 }
 
 }  // namespace armcal

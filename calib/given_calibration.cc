@@ -25,7 +25,7 @@ struct SeenCovariance {
 };
 
 MatrixXd ReadMatrix(const std::string& path, int size) {
-  constexpr long kMaxBytes = 100'000'000;
+  constexpr long kMaxBytes = 16L << 20;
   std::istringstream lines(ReadTextFile(path, kMaxBytes));
   std::string line, cell;
   std::getline(lines, line);  // names
@@ -58,7 +58,13 @@ SeenCovariance ReadCovariance(const std::string& path, int size) {
     if (whole(k, k) > 0) seen.parameters.push_back(k);
   }
   seen.value = whole(seen.parameters, seen.parameters);
-  return seen;
+  const VectorXd scale = seen.value.diagonal().cwiseSqrt();
+  const MatrixXd difference = seen.value - seen.value.transpose();
+  if ((difference.array().abs() <= 1e-9 * (scale * scale.transpose()).array())
+          .all()) {
+    return seen;
+  }
+  throw InputError(path, "", "", "expected a symmetric matrix below the names");
 }
 
 // Of the model's parameters, the one of each name of the calibration.

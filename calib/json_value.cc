@@ -10,7 +10,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr long kMostBytes = 100'000'000;
+constexpr long kMostBytes = 16L << 20;
+constexpr int kMostDepth = 100;
 
 }  // namespace
 
@@ -57,6 +58,15 @@ double JsonValue::Number() const {
   return value_.get<double>();
 }
 
+long JsonValue::Count() const {
+  constexpr double kMost = 9007199254740992;  // whole numbers are exact to 2^53
+  const double number = Number();
+  if (number < 0 || number > kMost || number != std::floor(number)) {
+    Refuse("expected a whole number of at least 0");
+  }
+  return static_cast<long>(number);
+}
+
 bool JsonValue::Bool() const {
   if (!value_.is_boolean()) Refuse("expected true or false");
   return value_.get<bool>();
@@ -66,14 +76,28 @@ void JsonValue::Expect(const std::string& text, const std::string& why) const {
   if (Text() != text) Refuse("expected '" + text + "'" + why);
 }
 
-json ReadJson(const std::string& path) {
-  const std::string text = ReadTextFile(path, kMostBytes);
+json ParseJson(const std::string& path, std::string_view text) {
+  // What recursion goes through later, as in dump().
+  const auto check = [&path](int depth, json::parse_event_t, json&) {
+    if (depth <= kMostDepth) return true;
+    throw InputError(path, "", "",
+                     "expected JSON, as armcal writes it: lists and objects "
+                     "are nested too deeply");
+  };
   try {
-    return json::parse(text);
+    return json::parse(text, check);
   } catch (const json::parse_error& error) {
     throw InputError(path, "byte " + std::to_string(error.byte), "",
                      "expected JSON, as armcal writes it");
+  } catch (const json::out_of_range&) {
+    throw InputError(path, "", "",
+                     "expected JSON, as armcal writes it: a number is too "
+                     "large");
   }
+}
+
+json ReadJson(const std::string& path) {
+  return ParseJson(path, ReadTextFile(path, kMostBytes));
 }
 
 }  // namespace armcal

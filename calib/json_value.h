@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace armcal {
@@ -23,6 +24,7 @@ class JsonValue {
   std::vector<JsonValue> Entries() const;      // of a list
   std::string Text() const;
   double Number() const;  // finite
+  long Count() const;     // a whole number, not negative
   bool Bool() const;
   // Refuses any text but this one; `why` goes after it in the message.
   void Expect(const std::string& text, const std::string& why) const;
@@ -33,7 +35,9 @@ class JsonValue {
   const nlohmann::json& value_;
 };
 
-// Throws InputError where the file cannot be read or is no JSON.
+// Throw InputError where the file cannot be read or `text`, which stands in it,
+// is no JSON.
 nlohmann::json ReadJson(const std::string& path);
+nlohmann::json ParseJson(const std::string& path, std::string_view text);
 
 }  // namespace armcal

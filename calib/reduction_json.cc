@@ -1,5 +1,7 @@
 #include "calib/reduction_json.h"
 
+#include <limits>
+
 namespace armcal {
 namespace {
 
@@ -65,6 +67,27 @@ std::vector<double> ReadNumbers(const JsonValue& list) {
     numbers.push_back(entry.Number());
   }
   return numbers;
+}
+
+std::vector<long> ReadCounts(const JsonValue& list) {
+  std::vector<long> counts;
+  for (const JsonValue& entry : list.Entries()) {
+    counts.push_back(entry.Count());
+  }
+  return counts;
+}
+
+int ReadInt(const JsonValue& value) {
+  constexpr long kMost = std::numeric_limits<int>::max();
+  const long count = value.Count();
+  if (count > kMost) value.Refuse("expected at most " + std::to_string(kMost));
+  return static_cast<int>(count);
+}
+
+double ReadPositive(const JsonValue& value) {
+  const double number = value.Number();
+  if (!(number > 0)) value.Refuse("expected a number above 0");
+  return number;
 }
 
 Eigen::VectorXd ReadVector(const JsonValue& list, size_t size) {
@@ -156,9 +179,10 @@ ReductionModel ReadReductionModel(const JsonValue& entry) {
   }
   RowOptions& rows = model.rows;
   rows.identification = Read(kIdentifications, entry.At("identification"));
-  rows.window_s = entry.At("window_s").Number();
-  rows.hops = static_cast<int>(entry.At("hops").Number());
-  rows.interval_s = entry.At("interval_s").Number();
+  rows.window_s = ReadPositive(entry.At("window_s"));
+  rows.hops = ReadInt(entry.At("hops"));
+  if (rows.hops < 1) entry.At("hops").Refuse("expected at least 1");
+  rows.interval_s = ReadPositive(entry.At("interval_s"));
   rows.quadrature = Read(kQuadratures, entry.At("quadrature"));
   rows.bandwidth_hz = entry.At("bandwidth_hz").Number();
   model.loss = Read(kLosses, entry.At("loss"));
@@ -172,23 +196,23 @@ ReducedLog ReadReducedLog(const JsonValue& entry, const ReadTriangle& read) {
   log.torque = entry.At("torque").Text();
   log.unit = entry.At("unit").Text();
   log.time = ReadOptional(entry, "time");
-  log.samples = static_cast<long>(entry.At("samples").Number());
+  log.samples = entry.At("samples").Count();
   log.range = {entry.At("begin_s").Number(), entry.At("end_s").Number()};
   log.resampled = entry.At("resampled").Bool();
-  log.gaps = static_cast<int>(entry.At("gaps").Number());
+  log.gaps = ReadInt(entry.At("gaps"));
   log.motion_hz = entry.At("motion_hz").Number();
   log.inflation = ReadOptional(entry, "inflation");
-  const std::vector<double> rows = ReadNumbers(entry.At("rows"));
-  const std::vector<double> columns = ReadNumbers(entry.At("columns"));
+  const std::vector<long> rows = ReadCounts(entry.At("rows"));
+  const std::vector<long> columns = ReadCounts(entry.At("columns"));
   log.mean_square_speed =
       ReadVector(entry.At("mean_square_speed"), rows.size()).array();
   log.travel = ReadVector(entry.At("travel"), rows.size());
   for (size_t i = 0; i < rows.size(); ++i) {
-    if (columns.size() != rows.size() || columns[i] < 0 || columns[i] > 1e4) {
-      entry.At("columns").Refuse("expected as many numbers as rows has");
+    if (columns.size() != rows.size() || columns[i] > 10000) {
+      entry.At("columns").Refuse(
+          "expected as many numbers as rows has, of at most 10000");
     }
-    log.factors.emplace_back(read(static_cast<int>(columns[i]) + 1),
-                             static_cast<long>(rows[i]));
+    log.factors.emplace_back(read(static_cast<int>(columns[i]) + 1), rows[i]);
   }
   return log;
 }

@@ -58,11 +58,17 @@ ArraySource::ArraySource(const std::string& path, std::vector<LogArray> arrays)
   }
   rows_ = RowsOf(arrays, [](const std::string& n) { return IsTimeName(n); });
   if (rows_ == 0) rows_ = RowsOf(arrays, IsPosition);
+  for (const LogArray& array : arrays) {
+    if (!array.name.empty() && !array.why_none.empty()) {
+      NoteUnused(array, array.why_none);
+    }
+  }
   if (rows_ == 0) {
     std::vector<std::string> names;
     for (const LogArray& array : arrays) names.push_back(array.name);
     throw InputError(path, "", OneLine(JoinNames(names)),
-                     "has no array of times: expected t, time or timestamp");
+                     "has no array of times: expected t, time or timestamp" +
+                         (about_.empty() ? "" : "; " + about_));
   }
   for (LogArray& array : arrays) {
     if (IsColumn(array)) Add(std::move(array));
@@ -79,7 +85,17 @@ void ArraySource::Add(LogArray array) {
                      "expected " + std::to_string(rows_) +
                          ", as many as the array of times (t, time or "
                          "timestamp) has");
+  } else {
+    NoteUnused(array, "of " + std::to_string(array.rows) + " rows, not " +
+                          std::to_string(rows_));
   }
+}
+
+void ArraySource::NoteUnused(const LogArray& array, const std::string& why) {
+  constexpr size_t kMostText = 300;
+  if (about_.size() > kMostText) return;
+  about_ += about_.empty() ? "not used: " : ", ";
+  about_ += OneLine(array.name) + " (" + why + ")";
 }
 
 void ArraySource::AddToHeader(const LogArray& array) {

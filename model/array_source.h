@@ -22,13 +22,16 @@ class ArraySource : public LineSource {
   bool NextLine(std::string_view* line) override;
   long row() const override { return row_; }
   bool cut() const override { return false; }
+  // Arrays that no column is made of, and why.
+  std::string About() const override { return about_; }
   void Rewind() override { row_ = 0; }
 
  private:
   void Add(LogArray array);
+  void NoteUnused(const LogArray& array, const std::string& why);
   void AddToHeader(const LogArray& array);
 
-  std::string path_, header_, line_;
+  std::string path_, header_, line_, about_;
   std::vector<std::string> joints_;
   std::vector<LogArray> arrays_;  // that are columns
   long rows_ = 0;

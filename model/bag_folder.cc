@@ -27,6 +27,9 @@ std::vector<std::string> FilesInMetadata(const fs::path& metadata) {
     if (!fs::is_regular_file(file, error)) {
       entry.Refuse("this file is not in the folder");
     }
+    if (std::count(files.begin(), files.end(), file) > 0) {
+      entry.Refuse("this file is named twice");
+    }
     files.push_back(file);
   }
   return files;

@@ -1,8 +1,10 @@
 #include "model/input_text.h"
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -20,26 +22,37 @@ bool IsUtf16(std::string_view text) {
 
 }  // namespace
 
-std::string ReadTextFile(const std::string& path, long max_bytes) {
+std::string ReadSmallFile(const std::string& path, long max_bytes,
+                          std::string_view begin) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     throw InputError(path, "", "", "is a folder: expected a file");
   }
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path, "", "", "cannot be opened");
+  if (!file) {
+    throw InputError(path, "", "",
+                     std::string("cannot be opened: ") + std::strerror(errno));
+  }
   std::string text;
   std::vector<char> block(1 << 16);
   // By blocks, as a pipe does not know its size.
   while (file && text.size() <= static_cast<size_t>(max_bytes)) {
     file.read(block.data(), static_cast<std::streamsize>(block.size()));
     text.append(block.data(), static_cast<size_t>(file.gcount()));
+    if (text.compare(0, begin.size(), begin) != 0) return text;
   }
   if (file.bad()) throw InputError(path, "", "", "cannot be read");
   if (text.size() > static_cast<size_t>(max_bytes)) {
-    throw InputError(
-        path, "", "",
-        "expected at most " + std::to_string(max_bytes >> 20) + " MiB");
+    throw InputError(path, "", "",
+                     "is larger than " + std::to_string(max_bytes >> 20) +
+                         " MiB, the most that such a file may have");
   }
+  return text;
+}
+
+std::string ReadTextFile(const std::string& path, long max_bytes) {
+  std::string text = ReadSmallFile(path, max_bytes);
   if (Trim(text, kBlanks).empty())
     throw InputError(path, "", "", "the file is empty");
   if (IsUtf16(text)) {
@@ -86,7 +99,10 @@ std::string WhyNotNumbers(std::string_view text, int count,
   const std::vector<std::string_view> words = SplitWords(text);
   const bool comma = text.find(',') != std::string_view::npos;
   const std::string expected =
-      "expected " + many + what + (comma ? ", with a decimal point" : "");
+      "expected " + many + what +
+      (!comma       ? ""
+       : count == 1 ? ", with a decimal point"
+                    : ", with blanks between them and decimal points");
   if (static_cast<int>(words.size()) != count) return expected;
   for (int i = 0; i < count; ++i) {
     const std::optional<double> number = ParseNumber(words[i]);

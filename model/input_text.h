@@ -7,6 +7,12 @@
 
 namespace armcal {
 
+// The bytes of a small file. Throws InputError where it cannot be read or is
+// larger than `max_bytes`. Reads no further, and says nothing, where it does
+// not begin with `begin`: a device has no end.
+std::string ReadSmallFile(const std::string& path, long max_bytes,
+                          std::string_view begin = "");
+
 // The whole text of a small file. Throws InputError where it cannot be read, is
 // empty, larger than `max_bytes`, UTF-16 or contains NUL bytes.
 std::string ReadTextFile(const std::string& path, long max_bytes);

@@ -16,6 +16,7 @@ struct LogArray {
   std::string bytes;
   size_t begin = 0;                // of the numbers among the bytes
   std::vector<std::string> texts;  // where it holds texts, UTF-8
+  std::string why_none;            // it holds no numbers: "of type '|O'"
 
   // As many digits as bring the same number back.
   void AppendNumber(long row, long column, std::string* line) const;

@@ -61,6 +61,9 @@ LogColumns::LogColumns(const std::string& file, std::string_view header,
   if (header.find('\r') != header.npos) {
     Refuse("the lines end in CR alone; save the file with LF or CRLF");
   }
+  if (Trim(header, " \"").empty()) {
+    Refuse("the row is empty, expected names of columns, as in t,q1,tau1");
+  }
   if (std::all_of(names_.begin(), names_.end(),
                   [](const auto& name) { return ParseNumber(name); })) {
     Refuse("expected a header that names the columns, as in t,q1,tau1");

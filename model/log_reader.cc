@@ -17,6 +17,16 @@
 namespace armcal {
 namespace {
 
+// The unit in which a time counts from 1970; empty where that may be seconds,
+// which reach 1e11 in the year 5138.
+std::string UnitOfEpoch(const DecimalTime& time) {
+  const double seconds = Difference(time, DecimalTime());
+  return seconds < 1e11   ? ""
+         : seconds < 1e14 ? "ms"
+         : seconds < 1e17 ? "us"
+                          : "ns";
+}
+
 bool IsBlank(std::string_view line) {
   return line.empty() ||
          (line[0] == ' ' && line.find_first_not_of(' ') == line.npos);
@@ -113,7 +123,16 @@ struct LogReader::Impl {
       throw InputError(path, place(), OneLine(Trim(field)),
                        ExpectedNumber(field));
     }
-    if (!started) first = last = parsed.time;
+    if (!started) {
+      first = last = parsed.time;
+      const std::string unit = UnitOfEpoch(parsed.time);
+      if (!unit.empty()) {
+        throw InputError(path, place(), OneLine(Trim(field)),
+                         "expected seconds; if these are " + unit +
+                             ", call the column '" + columns.name(time_column) +
+                             " [" + unit + "]'");
+      }
+    }
     if (started && Difference(parsed.time, last) < 0) {
       throw InputError(path, place(), OneLine(field),
                        "time runs backwards, the row before has " +

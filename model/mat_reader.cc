@@ -11,6 +11,7 @@
 #include "model/input_error.h"
 #include "model/log_signal.h"
 #include "model/mat_elements.h"
+#include "model/unpack.h"
 #include "model/utf8.h"
 
 namespace armcal {
@@ -21,11 +22,6 @@ struct Close {
   void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
 };
 using Variable = std::unique_ptr<matvar_t, Close>;
-
-// More than any log that fits in memory.
-constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
-// Deflate makes at most 1032 bytes of one.
-constexpr std::uint64_t kMostInflation = 1100;
 
 char KindOf(matio_types type) {
   switch (type) {
@@ -78,6 +74,7 @@ std::string TextOf(const matvar_t* v, size_t row) {
 LogArray ArrayOf(const std::string& name, const matvar_t* v) {
   LogArray array;
   array.name = name;
+  array.why_none = "not of real numbers in rows and columns";
   if (!IsMatrix(v) || v->data == nullptr) return array;
   if (v->class_type == MAT_C_CELL) {
     const auto* const cells = static_cast<matvar_t* const*>(v->data);
@@ -92,6 +89,7 @@ LogArray ArrayOf(const std::string& name, const matvar_t* v) {
   } else if (!v->isComplex && !v->isLogical && v->data_size > 0 &&
              CountOf(v) == v->nbytes / v->data_size) {
     array.kind = KindOf(v->data_type);
+    array.why_none.clear();
     array.item = v->data_size;
     array.by_column = true;
     array.rows = static_cast<long>(v->dims[0]);
@@ -119,20 +117,29 @@ bool HasTime(const std::vector<LogArray>& arrays) {
                      [](const LogArray& a) { return IsTimeName(a.name); });
 }
 
-// Refuses what would take far more memory than the file.
-void CheckSize(const std::string& path, std::uint64_t file_bytes,
-               const matvar_t* v) {
+// Refuses what would take far more memory than the file; takes from `left` what
+// the variable does.
+void CheckSize(const std::string& path, const matvar_t* v,
+               std::uint64_t* left) {
   if (v->rank < 1) return;
-  std::uint64_t bytes = std::max(1, v->data_size);
+  std::uint64_t bytes = 8;  // a number; matio does not know yet of what size
   for (int k = 0; k < v->rank; ++k) {
-    if (v->dims[k] != 0 &&
-        bytes >
-            std::min(kMostBytes, file_bytes * kMostInflation) / v->dims[k]) {
+    if (v->dims[k] != 0 && bytes > *left / v->dims[k]) {
       throw InputError(path, "variable " + std::string(v->name ? v->name : ""),
-                       "", "is larger than the file can hold");
+                       "",
+                       "is of more than 64 MiB and 200 times the file's size: "
+                       "expected a log, which does not pack that much");
     }
     bytes *= v->dims[k];
   }
+  *left -= bytes;
+}
+
+LogArray Unreadable(const std::string& name) {
+  LogArray array;
+  array.name = name;
+  array.why_none = "damaged, or of a class that is not read";
+  return array;
 }
 
 }  // namespace
@@ -170,13 +177,16 @@ std::vector<LogArray> ReadMat(const std::string& path) {
     throw InputError(path, "", "", "is a damaged MAT-file, or cut off");
   }
   std::error_code error;
-  const std::uint64_t size = std::filesystem::file_size(path, error);
+  std::uint64_t left = MostUnpacked(std::filesystem::file_size(path, error));
   std::vector<LogArray> variables, fields;
   std::string structure;
   while (const Variable v{Mat_VarReadNextInfo(file.get())}) {
-    CheckSize(path, size, v.get());
-    if (Mat_VarReadDataAll(file.get(), v.get()) != 0) continue;
+    CheckSize(path, v.get(), &left);
     const std::string name = v->name ? v->name : "";
+    if (Mat_VarReadDataAll(file.get(), v.get()) != 0) {
+      variables.push_back(Unreadable(name));
+      continue;
+    }
     variables.push_back(ArrayOf(name, v.get()));
     std::vector<LogArray> inside = FieldsOf(v.get());
     if (!HasTime(inside)) continue;
@@ -186,6 +196,11 @@ std::vector<LogArray> ReadMat(const std::string& path) {
     }
     structure = name;
     fields = std::move(inside);
+  }
+  if (variables.empty()) {
+    throw InputError(path, "", "",
+                     "is a MAT-file in which no variable can be read: it is "
+                     "empty, damaged or cut off");
   }
   return HasTime(variables) || fields.empty() ? variables : fields;
 }

@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "model/input_error.h"
@@ -16,8 +17,8 @@ constexpr int kFooter = 0x02, kSchema = 0x03, kChannel = 0x04, kMessage = 0x05,
               kChunk = 0x06, kDataEnd = 0x0f;
 constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
 constexpr size_t kRecordHeader = 9;  // the opcode, the length
-// Recorders make chunks of 1 to 4 MB.
-constexpr std::uint64_t kMostChunk = std::uint64_t{1} << 30;
+// Of a record: recorders make chunks of 1 to 4 MB.
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 
 class TooShort {};
 
@@ -119,6 +120,7 @@ bool McapBag::NextInFile(int* opcode, std::string_view* content) {
       file_.seekg(static_cast<std::streamoff>(at_));
       continue;
     }
+    if (bytes > kMostBytes) Refuse("has a record of more than 1 GB");
     record_.resize(bytes);
     if (!file_.read(record_.data(), static_cast<std::streamsize>(bytes))) {
       Refuse("cannot be read");
@@ -136,7 +138,11 @@ void McapBag::OpenChunk(std::string_view content) {
   const auto checksum = static_cast<std::uint32_t>(fields.Number(4));
   const std::string method = fields.Text();
   const std::string_view packed = fields.Bytes();
-  if (size > kMostChunk) Refuse("has a chunk of more than 1 GB");
+  if (size > std::min(kMostBytes, MostUnpacked(packed.size()))) {
+    Refuse("is damaged: a chunk says that its " +
+           std::to_string(packed.size()) + " bytes unpack to " +
+           std::to_string(size));
+  }
   bool whole;
   if (method.empty()) {
     chunk_ = packed;
@@ -146,14 +152,15 @@ void McapBag::OpenChunk(std::string_view content) {
   } else if (method == "lz4") {
     whole = UnpackLz4(packed, size, &chunk_);
   } else {
-    Refuse("packs its chunks by " + Quoted(OneLine(method)) +
-           ", expected zstd, lz4 or none");
+    throw InputError(path_, "byte " + std::to_string(at_), OneLine(method),
+                     "expected chunks packed by zstd, lz4 or not at all; `mcap "
+                     "compress` packs them anew");
   }
-  if (!whole ||
-      (checksum != 0 &&
-       checksum != crc32_z(0, reinterpret_cast<const Bytef*>(chunk_.data()),
-                           chunk_.size()))) {
-    Refuse("is damaged");
+  if (!whole) Refuse("is damaged: a chunk cannot be unpacked");
+  if (checksum != 0 &&
+      checksum != crc32_z(0, reinterpret_cast<const Bytef*>(chunk_.data()),
+                          chunk_.size())) {
+    Refuse("is damaged: a chunk's checksum is wrong");
   }
   chunk_at_ = 0;
 }
@@ -164,6 +171,9 @@ void McapBag::AddChannel(std::string_view content) {
   const int schema = static_cast<int>(fields.Number(2));
   const std::string name = fields.Text(), encoding = fields.Text();
   if (channels_.count(id) > 0) return;  // a chunk repeats what it needs
+  if (schema != 0 && schemas_.count(schema) == 0) {
+    Refuse("is damaged: topic " + OneLine(name) + " is of no schema");
+  }
   topics_.push_back({name, schemas_[schema], encoding});
   channels_[id] = {&topics_.back(), wanted_(topics_.back())};
 }

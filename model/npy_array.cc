@@ -3,7 +3,8 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <regex>
+#include <string_view>
+#include <vector>
 
 #include "model/input_error.h"
 #include "model/input_text.h"
@@ -48,28 +49,62 @@ std::vector<long> ReadShape(const std::string& file, const LogArray& array,
   return shape;
 }
 
-// "{'descr': '<f8', 'fortran_order': False, 'shape': (100, 6), }"
-void ReadHeader(const std::string& file, const std::string& header,
-                LogArray* array) {
-  static const std::regex format(
-      R"(^\{'descr': *(.*), *'fortran_order': *(True|False), *'shape': *\(([0-9, ]*)\), *\}\s*$)");
-  static const std::regex simple(R"(^'([<|=])([fiuU])([0-9]{1,6})'$)");
-  std::smatch match, type;
-  if (!std::regex_match(header, match, format)) {
-    Refuse(file, *array, "has a header that is not NumPy's");
+// What stands in the header after 'key': up to the next key or the end.
+// Expressions are not evaluated, and regular expressions take a stack as deep
+// as their text is long.
+std::string_view ValueOf(std::string_view header, std::string_view key,
+                         std::string_view next) {
+  const size_t at = header.find(key);
+  const size_t begin = at + key.size();
+  const size_t end = at == header.npos ? at : header.find(next, begin);
+  if (end == header.npos) return {};
+  return Trim(header.substr(begin, end - begin), " ,");
+}
+
+// The kind and the bytes of an item of "'<f8'"; false for other types.
+bool ReadType(std::string_view descr, LogArray* array) {
+  if (descr.size() < 5 || descr.size() > 10 || descr.front() != '\'' ||
+      descr.back() != '\'' || descr.find_first_of("<|=") != 1) {
+    return false;
   }
-  array->by_column = match[2] == "True";
-  const std::vector<long> shape = ReadShape(file, *array, match[3]);
-  const std::string descr = match[1];
-  if (shape.empty() || shape.size() > 2 ||
-      !std::regex_match(descr, type, simple)) {
-    return;  // not of use to anyone here
+  const char kind = descr[2];
+  const char* const end = descr.data() + descr.size() - 1;
+  int item = 0;
+  const auto [stop, error] = std::from_chars(descr.data() + 3, end, item);
+  if (error != std::errc() || stop != end ||
+      std::string_view("fiuU").find(kind) == std::string_view::npos ||
+      !IsWidth(kind, item)) {
+    return false;
   }
-  const char kind = type[2].str()[0];
-  const int item = std::stoi(type[3]);
-  if (!IsWidth(kind, item)) return;
   array->kind = kind;
   array->item = kind == 'U' ? 4 * item : item;
+  return true;
+}
+
+// "{'descr': '<f8', 'fortran_order': False, 'shape': (100, 6), }"
+void ReadHeader(const std::string& file, std::string_view header,
+                LogArray* array) {
+  const std::string_view descr = ValueOf(header, "'descr':", "'fortran_order'"),
+                         order = ValueOf(header, "'fortran_order':", "'shape'"),
+                         sizes = ValueOf(header, "'shape':", ")");
+  if (descr.empty() || (order != "True" && order != "False") ||
+      sizes.substr(0, 1) != "(" ||
+      sizes.find_first_not_of("0123456789, ", 1) != sizes.npos) {
+    Refuse(file, *array, "has a header that is not NumPy's");
+  }
+  array->by_column = order == "True";
+  const std::vector<long> shape = ReadShape(file, *array, std::string(sizes));
+  if (shape.empty() || shape.size() > 2) {
+    array->why_none = "of " + std::to_string(shape.size()) + " dimensions";
+    return;
+  }
+  if (!ReadType(descr, array)) {
+    array->why_none =
+        descr == "'|O'"
+            ? "of Python objects, which are never unpickled"
+            : "of type " + OneLine(descr) + ", not f4, f8 or an integer";
+    return;
+  }
   array->rows = shape[0];
   array->columns = shape.size() < 2 ? 1 : shape[1];
   const size_t there = (array->bytes.size() - array->begin) / array->item;
@@ -109,13 +144,15 @@ LogArray ReadNpy(const std::string& file, const std::string& name,
     Refuse(file, array, "has a damaged header");
   }
   array.begin = header + length;
-  ReadHeader(file, array.bytes.substr(header, length), &array);
+  ReadHeader(file, std::string_view(array.bytes).substr(header, length),
+             &array);
   if (array.kind != 'U') return array;
   for (long k = 0; k < array.rows && array.columns == 1; ++k) {
     array.texts.push_back(
         TextAt(data + array.begin + k * array.item, array.item));
   }
   array.kind = 0;
+  array.why_none = "of texts";
   return array;
 }
 

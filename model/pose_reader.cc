@@ -14,6 +14,7 @@ namespace armcal {
 namespace {
 
 constexpr double kQuaternionNorm = 0.02;  // rounding to two digits is taken
+constexpr std::size_t kMostPoses = 100'000;
 
 // The column called `name` but for its unit; index -1 where there is none.
 // Parts of a quaternion have no unit.
@@ -143,6 +144,11 @@ PoseMeasurements ReadPoses(const std::string& path,
   PoseMeasurements result;
   while (source->NextLine(&line)) {
     if (Trim(line).empty()) continue;
+    if (result.row.size() == kMostPoses) {
+      throw InputError(path, "row " + std::to_string(source->row()), "",
+                       "expected at most " + std::to_string(kMostPoses) +
+                           " poses, which all are kept in memory");
+    }
     values.resize(values.size() + row.width());
     double* const last = values.data() + values.size() - row.width();
     if (!row.Parse(line, last, &no_time)) {

@@ -135,9 +135,11 @@ std::string_view SqliteBag::Bytes(const Statement& row, int column) const {
 }
 
 void SqliteBag::Refuse() {
-  throw InputError(path_, "", "",
-                   "SQLite says: " + OneLine(base_ ? sqlite3_errmsg(base_.get())
-                                                   : "out of memory"));
+  throw InputError(
+      path_, "", "",
+      "SQLite says: " +
+          OneLine(base_ ? sqlite3_errmsg(base_.get()) : "out of memory") +
+          "; expected a whole bag of ROS 2");
 }
 
 }  // namespace armcal

@@ -174,8 +174,8 @@ struct TextSource::Impl {
     if (nul) {
       const char* stop = static_cast<const char*>(nul);
       Refuse(row + 1 + std::count<const char*>(block.data(), stop, '\n'),
-             "a NUL byte: the file is binary, or was being written when the "
-             "power went");
+             "a NUL byte: the file is binary or UTF-16, or was being written "
+             "when the power went");
     }
     end += size;
     at_end = size == 0;

@@ -3,7 +3,14 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
+#include <algorithm>
+
 namespace armcal {
+
+std::uint64_t MostUnpacked(std::uint64_t packed) {
+  constexpr std::uint64_t kAlways = 64 << 20, kMost = std::uint64_t{8} << 30;
+  return kAlways + std::min(packed, kMost / 200) * 200;
+}
 
 bool UnpackZstd(std::string_view packed, std::uint64_t size,
                 std::string* bytes) {

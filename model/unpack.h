@@ -6,6 +6,10 @@
 
 namespace armcal {
 
+// The most bytes that `packed` ones may unpack to. Logs pack 2 to 50 times;
+// what packs more than 200 times has been made to fill the memory.
+std::uint64_t MostUnpacked(std::uint64_t packed);
+
 // Unpacks whole frames of zstd or LZ4 to exactly `size` bytes in *bytes; false
 // where they are damaged or of another size.
 bool UnpackZstd(std::string_view packed, std::uint64_t size,

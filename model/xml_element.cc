@@ -13,26 +13,33 @@ namespace armcal {
 namespace {
 
 constexpr long kMaxBytes = 32L << 20;
+// The parser compares each of an element's attributes with all others.
+constexpr int kMostAttributes = 1000;
 
 std::string LinePlace(int line, const std::string& what) {
   return "line " + std::to_string(line) + (what.empty() ? "" : ", ") + what;
 }
 
+// Where the comment, CDATA or instruction that begins at `at` ends; `at` itself
+// where something else begins.
+size_t EndOfOpaque(std::string_view text, size_t at) {
+  constexpr std::string_view kKinds[][2] = {
+      {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
+  for (const auto& [begin, end] : kKinds) {
+    if (text.substr(at, begin.size()) != begin) continue;
+    return std::min(text.find(end, at + begin.size()), text.size());
+  }
+  return at;
+}
+
 // The first declaration (<!DOCTYPE, <!ENTITY) outside comments and CDATA.
 size_t FindDeclaration(std::string_view text) {
-  size_t at = 0;
-  while ((at = text.find("<!", at)) != std::string_view::npos) {
-    const std::string_view rest = text.substr(at);
-    if (rest.substr(0, 4) == "<!--") {
-      at = text.find("-->", at + 4);
-    } else if (rest.substr(0, 9) == "<![CDATA[") {
-      at = text.find("]]>", at);
-    } else {
-      return at;
-    }
-    if (at == std::string_view::npos) break;  // tinyxml2 will complain
+  for (size_t at = text.find('<'); at != text.npos; at = text.find('<', at)) {
+    const size_t end = EndOfOpaque(text, at);
+    if (end == at && text.substr(at, 2) == "<!") return at;
+    at = std::max(end, at + 1);
   }
-  return std::string_view::npos;
+  return text.npos;
 }
 
 void RefuseDeclarations(const std::string& path, const std::string& text) {
@@ -43,6 +50,37 @@ void RefuseDeclarations(const std::string& path, const std::string& text) {
   throw InputError(path, LinePlace(static_cast<int>(line), ""),
                    OneLine(text.substr(at, std::min(end, text.size()) - at)),
                    "expected no DOCTYPE or entity declarations");
+}
+
+// How many attributes the tag at `at` has; moves `at` behind it.
+int CountAttributes(std::string_view text, size_t* at) {
+  int count = 0;
+  char quote = 0;
+  for (; *at < text.size(); ++*at) {
+    const char c = text[*at];
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '>') {
+      break;
+    } else if (c == '=') {
+      ++count;
+    }
+  }
+  return count;
+}
+
+void RefuseManyAttributes(const std::string& path, std::string_view text) {
+  for (size_t at = text.find('<'); at != text.npos; at = text.find('<', at)) {
+    const size_t begin = at;
+    at = EndOfOpaque(text, at);
+    if (at != begin || CountAttributes(text, &at) <= kMostAttributes) continue;
+    const auto line = 1 + std::count(text.begin(), text.begin() + begin, '\n');
+    throw InputError(path, LinePlace(static_cast<int>(line), ""), "",
+                     "expected an element of at most " +
+                         std::to_string(kMostAttributes) + " attributes");
+  }
 }
 
 std::string WhyNotParsed(const tinyxml2::XMLDocument& document) {
@@ -57,7 +95,10 @@ std::string WhyNotParsed(const tinyxml2::XMLDocument& document) {
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
       return "an attribute is malformed or given twice";
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
-      return "expected XML";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "expected XML: elements, and no text around them";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment has no end (-->)";
     default:
       // "XML_ERROR_PARSING_ATTRIBUTE" -> "parsing attribute"
       std::string name = document.ErrorName();
@@ -128,7 +169,7 @@ std::optional<XmlElement> XmlElement::Child(const char* tag) const {
 XmlElement XmlElement::RequiredChild(const char* tag) const {
   const std::optional<XmlElement> child = Child(tag);
   if (!child) {
-    Refuse("", "", std::string("expected a <") + tag + "> element");
+    Refuse("", "", std::string("expected an element <") + tag + ">");
   }
   return *child;
 }
@@ -217,6 +258,7 @@ XmlFile::XmlFile(const std::string& path)
     : path_(path), document_(std::make_unique<tinyxml2::XMLDocument>()) {
   const std::string text = ReadTextFile(path, kMaxBytes);
   RefuseDeclarations(path, text);
+  RefuseManyAttributes(path, text);
   if (document_->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw InputError(path, LinePlace(document_->ErrorLineNum(), ""), "",
                      WhyNotParsed(*document_));

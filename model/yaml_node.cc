@@ -1,5 +1,6 @@
 #include "model/yaml_node.h"
 
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
@@ -13,7 +14,7 @@
 namespace armcal {
 namespace {
 
-constexpr long kMaxBytes = 4L << 20;
+constexpr long kMaxBytes = 1L << 20;
 
 int Line(const YAML::Mark& mark) { return mark.is_null() ? 0 : mark.line + 1; }
 
@@ -54,6 +55,17 @@ bool HasOneDocument(const std::string& text) {
          !parser.HandleNextDocument(ignore);
 }
 
+// The values of a short list, "[0, 1]".
+std::string ListText(const YAML::Node& list) {
+  constexpr size_t kMost = 10;
+  std::string text;
+  for (size_t k = 0; k < std::min(list.size(), kMost); ++k) {
+    if (!list[k].IsScalar()) return "";
+    text += (k > 0 ? ", " : "") + list[k].Scalar();
+  }
+  return list.size() > kMost ? "" : "[" + text + "]";
+}
+
 }  // namespace
 
 YamlNode YamlNode::ReadFile(const std::string& path) {
@@ -65,6 +77,9 @@ YamlNode YamlNode::ReadFile(const std::string& path) {
     }
     const YAML::Node root = YAML::Load(text);
     return YamlNode(path, "", Line(root.Mark()), root);
+  } catch (const YAML::DeepRecursion& error) {
+    throw InputError(path, Place(Line(error.mark), ""), "",
+                     "lists and maps are nested too deeply");
   } catch (const YAML::Exception& error) {
     throw InputError(path, Place(Line(error.mark), ""), "",
                      "not well-formed YAML (" + OneLine(error.msg) + ")");
@@ -177,7 +192,10 @@ Eigen::Vector3d YamlNode::Vector3(const std::string& unit) const {
 void YamlNode::Refuse(const std::string& expected) const {
   std::string found;
   if (node_.IsScalar()) found = node_.Scalar();
-  if (node_.IsSequence()) found = "a list of " + std::to_string(node_.size());
+  if (node_.IsSequence()) {
+    found = ListText(node_);
+    if (found.empty()) found = "a list of " + std::to_string(node_.size());
+  }
   throw InputError(file_, Place(line_, key_), OneLine(found), expected);
 }
 

@@ -9,12 +9,11 @@
 
 #include "model/input_error.h"
 #include "model/input_text.h"
+#include "model/unpack.h"
 
 namespace armcal {
 namespace {
 
-// Of a file in an archive: more than any log that fits in memory.
-constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 constexpr std::uint32_t kIn64 = std::numeric_limits<std::uint32_t>::max();
 
 // A little-endian number of `count` bytes.
@@ -125,11 +124,23 @@ void ZipArchive::ReadDirectory(std::uint64_t begin, std::uint64_t size,
     entries_.push_back(entry);
     at += 46 + name + extra + comment;
   }
+  CheckSizes();
+}
+
+void ZipArchive::CheckSizes() const {
+  std::uint64_t left = MostUnpacked(size_);
+  for (const ZipEntry& entry : entries_) {
+    if (entry.size > left) {
+      Refuse(
+          "unpacks to more than 64 MiB and 200 times its size: expected a "
+          "log, which does not pack that much");
+    }
+    left -= entry.size;
+  }
 }
 
 std::string ZipArchive::Read(const ZipEntry& entry) const {
   const std::string name = OneLine(entry.name);
-  if (entry.size > kMostBytes) Refuse("has more than 8 GB in " + name);
   // The local header's own names and sizes may be of other lengths.
   const std::string local = Bytes(entry.header, 30);
   const std::uint64_t begin =
@@ -143,8 +154,6 @@ std::string ZipArchive::Read(const ZipEntry& entry) const {
   if (entry.method == 0) {
     text = std::move(packed);
   } else {
-    // Deflate makes at most 1032 bytes of one.
-    if (entry.size / 1100 > entry.compressed) Refuse("is damaged in " + name);
     text.resize(entry.size);
     if (!Inflate(packed, &text)) Refuse("is damaged in " + name);
   }

@@ -18,7 +18,7 @@ struct ZipEntry {
 // Reads whole files out of a zip archive: stored or deflated, also zip64, as
 // NumPy writes them. Sizes are those of the central directory, and checksums
 // are checked. Throws InputError for damage, encryption, other methods and
-// entries of more than 8 GB.
+// for archives that unpack to far more than logs do.
 class ZipArchive {
  public:
   explicit ZipArchive(const std::string& path);
@@ -30,6 +30,7 @@ class ZipArchive {
   std::string Bytes(std::uint64_t begin, std::uint64_t size) const;
   void ReadDirectory(std::uint64_t begin, std::uint64_t size,
                      std::uint64_t count);
+  void CheckSizes() const;
   [[noreturn]] void Refuse(const std::string& why) const;
 
   std::string path_;

@@ -28,7 +28,8 @@ TEST(RobotReader, GoesByTheEnding) {
             "arm.csv: found '.csv': expected a robot file that ends in .urdf, "
             ".xml or .mjcf (URDF or MJCF) or .yaml or .yml (DH table or "
             "poses)");
-  EXPECT_EQ(Refusal("no/arm.URDF"), "no/arm.URDF: cannot be opened");
+  EXPECT_EQ(Refusal("no/arm.URDF"),
+            "no/arm.URDF: cannot be opened: No such file or directory");
 }
 
 // The root element tells URDF from MJCF, whatever the file is called.

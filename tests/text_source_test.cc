@@ -153,8 +153,8 @@ TEST(TextSource, RefusesWhatIsNoText) {
                               "a\0b\0"s)),
             "FILE: the text is UTF-16; save it as UTF-8");
   const std::string nul =
-      ": a NUL byte: the file is binary, or was being written when the power "
-      "went";
+      ": a NUL byte: the file is binary or UTF-16, or was being written when "
+      "the power went";
   EXPECT_EQ(Refusal(WriteFile("a\nb\nc\0\0"s)), "FILE: row 3" + nul);
   EXPECT_EQ(Refusal(WriteFile(Gzip("a\nb\n\0"s))), "FILE: row 3" + nul);
 }

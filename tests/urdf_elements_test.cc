@@ -86,9 +86,9 @@ INSTANTIATE_TEST_SUITE_P(
              "line 19, <link name>: found 'a b': expected a name without "
              "control characters"},
         Case{"<parent link=\"base\"/>", "",
-             "line 11, joint 'shoulder': expected a <parent> element"},
+             "line 11, joint 'shoulder': expected an element <parent>"},
         Case{"<child link=\"upper\"/>", "",
-             "line 11, joint 'shoulder': expected a <child> element"},
+             "line 11, joint 'shoulder': expected an element <child>"},
         Case{"<parent link=\"base\"/>",
              "<parent link=\"base\"/> <parent link=\"base\"/>",
              "line 12, <parent> of joint 'shoulder': expected only one "

@@ -44,9 +44,8 @@ TEST(XmlFileTest, WholeFiles) {
   EXPECT_EQ(Refusal(kArm), "");
   EXPECT_EQ(Refusal(""), "the file is empty");
   EXPECT_EQ(Refusal(" \n"), "the file is empty");
-  EXPECT_EQ(
-      Refusal("t,q1,tau1\n"),
-      "line 1: not well-formed XML (parsing text); is the file truncated?");
+  EXPECT_EQ(Refusal("t,q1,tau1\n"),
+            "line 1: expected XML: elements, and no text around them");
   EXPECT_EQ(Refusal("\xFF\xFE<\0r\0"), "is UTF-16: expected UTF-8 text");
   EXPECT_EQ(Refusal(std::string("<robot\0/>", 9)),
             "contains NUL bytes: expected UTF-8 text");
@@ -57,7 +56,7 @@ TEST(XmlFileTest, WholeFiles) {
   EXPECT_EQ(Refusal("<robot><link name='a'/></robot>"),
             "expected a joint that moves a link of base link 'a'");
   EXPECT_EQ(Refusal(std::string((32 << 20) + 1, ' ')),
-            "expected at most 32 MiB");
+            "is larger than 32 MiB, the most that such a file may have");
   std::string deep = "<robot>";
   for (int i = 0; i < 200000; ++i) deep += "<a>";
   EXPECT_EQ(Refusal(deep), "line 1: elements are nested too deeply");
@@ -72,7 +71,8 @@ TEST(XmlFileTest, FilesThatCannotBeRead) {
     }
     return "";
   };
-  EXPECT_EQ(refusal("no/such.urdf"), "no/such.urdf: cannot be opened");
+  EXPECT_EQ(refusal("no/such.urdf"),
+            "no/such.urdf: cannot be opened: No such file or directory");
   EXPECT_EQ(refusal("/tmp"), "/tmp: is a folder: expected a file");
 }
 

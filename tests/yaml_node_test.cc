@@ -29,8 +29,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"a: 0.4", "a: inf",
              "line 8, links[1].a: found 'inf': expected a finite number in m"},
         Case{"a: 0.4", "a: [1, 2]",
-             "line 8, links[1].a: found 'a list of 2': expected a number in "
-             "m"},
+             "line 8, links[1].a: found '[1, 2]': expected a number in m"},
         Case{"a: 0.4", "a:", "line 8, links[1].a: expected a number in m"},
         Case{"alpha: 0", "a: 0.5",
              "line 9, links[1]: found 'a': the key is given twice"},
@@ -48,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"    joint: revolute\n", "",
              "line 5, links[1]: expected a key 'joint'"},
         Case{"[0, 0, 9.8]", "[0, 9.8]",
-             "line 2, gravity: found 'a list of 2': expected a list of three "
+             "line 2, gravity: found '[0, 9.8]': expected a list of three "
              "numbers in m/s^2"},
         Case{"[0, 0, 9.8]", "[0, 0, g]",
              "line 2, gravity[3]: found 'g': expected a number in m/s^2"},
@@ -77,8 +76,8 @@ TEST(YamlNodeTest, WholeFiles) {
       "line 2, links[1]: found 'a list of 1': expected a map with the "
       "keys name, joint, joint_name, a, d, alpha, theta, unknown, mass, com, "
       "inertia, limits, viscous, coulomb, armature, offset, zero, inertial");
-  EXPECT_THAT(Refusal("links: " + std::string(100000, '[')),
-              testing::StartsWith("line 1: not well-formed YAML ("));
+  EXPECT_EQ(Refusal("links: " + std::string(100000, '[')),
+            "line 1: lists and maps are nested too deeply");
 }
 
 }  // namespace

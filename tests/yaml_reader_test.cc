@@ -123,13 +123,14 @@ INSTANTIATE_TEST_SUITE_P(
              "line 10, links[1].mass: found '-5': expected a number in kg that "
              "is not negative"},
         Case{"    mass: 5\n", "",
-             "line 10, links[1].com: found 'a list of 3': expected the link's "
+             "line 10, links[1].com: found '[-0.2, 0, 0]': expected the link's "
              "mass as well"},
         Case{"[0.1, 0.2, 0.3]", "[0.1, 0.2]",
-             "line 12, links[1].inertia: found 'a list of 2': expected a list "
+             "line 12, links[1].inertia: found '[0.1, 0.2]': expected a list "
              "of Ixx, Ixy, Iyy, Ixz, Iyz, Izz or Ixx, Iyy, Izz"},
         Case{"[0.1, 0.2, 0.3]", "[0.1, -0.2, 0.3]",
-             "line 12, links[1].inertia: found 'a list of 3': expected Ixx, "
+             "line 12, links[1].inertia: found '[0.1, -0.2, 0.3]': expected "
+             "Ixx, "
              "Iyy and Izz that are not negative"},
         Case{"lower: -1", "lower: 2",
              "line 13, links[1].limits.lower: found '2': expected less than "
@@ -147,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
              "line 18, links[1].zero[1]: found 'mass': expected one of hx, hy, "
              "hz, Ixx, Ixy, Iyy, Ixz, Iyz, Izz"},
         Case{"[hz, Ixy]", "[hx]",
-             "line 18, links[1].zero: found 'a list of 1': expected hx to be "
+             "line 18, links[1].zero: found '[hx]': expected hx to be "
              "zero, but mass, com and inertia make it -1 kg m"},
         Case{"{joint: continuous,", "{joint: continuous, joint_name: shoulder,",
              "line 19, links[2]: the joint name 'shoulder' is used before"},
@@ -162,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(YamlReader, RefusesTooFewOrTooManyLinks) {
   EXPECT_EQ(Refusal("convention: standard\nlinks: []\n"),
-            "line 2, links: found 'a list of 0': expected at least one link");
+            "line 2, links: found '[]': expected at least one link");
   std::string many = "convention: standard\nlinks:\n";
   for (int i = 0; i < 64; ++i) many += "  - {joint: revolute}\n";
   EXPECT_EQ(Refusal(many), "");

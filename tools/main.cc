@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -131,6 +132,9 @@ int main(int argc, char** argv) {
     return armcal::kExitUsage;
   } catch (const armcal::InputError& error) {
     armcal::PrintError(error.what());
+    return armcal::kExitBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    armcal::PrintError(error.path1().string() + ": " + error.code().message());
     return armcal::kExitBadInput;
   } catch (const std::exception& error) {
     armcal::PrintError(std::string("internal error: ") + error.what() +

@@ -2,6 +2,7 @@
 
 #include <Simbody.h>
 
+#include <cmath>
 #include <string>
 
 #include "model/input_error.h"
@@ -54,6 +55,17 @@ std::string FirstLine(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
+// Simbody subtracts the mass's own share from the moments about the origin.
+void RequireFinite(const Robot& robot, const Link& link) {
+  const InertialParameters& inertial = link.inertial;
+  if (inertial.mass == 0 ||
+      std::isfinite(inertial.first_moment.squaredNorm() / inertial.mass)) {
+    return;
+  }
+  throw InputError(robot.name, "link " + link.name, "",
+                   "its mass and first moment are too large to calculate with");
+}
+
 }  // namespace
 
 struct SimbodyArm::Impl {
@@ -78,6 +90,7 @@ struct SimbodyArm::Impl {
 
   SimTK::MobilizedBody Add(const Robot& robot, const Link& link,
                            SimTK::MobilizedBody& parent) try {
+    RequireFinite(robot, link);
     const SimTK::Body::Rigid body(ToMassProperties(link.inertial));
     SimTK::Transform X_PF = ToTransform(link.X_PF);
     SimTK::Transform X_LM = ToTransform(link.X_ML.inverse());

@@ -95,6 +95,11 @@ run("no value" calibrate --log)
 expect_refusal(2 "--log needs a value")
 run("two logs in two flags" calibrate ${robot} ${log} ${log})
 expect_refusal(2 "--log is given twice; several values go into one flag, with commas")
+run("a log twice" calibrate ${robot} ${log},${DATA_DIR}/scara/A.csv.gz)
+expect_refusal(2 "--log names" "A.csv.gz twice")
+run("held out of itself" calibrate ${robot} ${log}
+    --validate=${DATA_DIR}/scara/A.csv.gz)
+expect_refusal(2 "--validate names" "A.csv.gz, which --log calibrates on")
 run("an empty file name" calibrate ${robot} ${log},)
 expect_refusal(2 "--log: found '" "expected file names")
 

@@ -59,7 +59,8 @@ std::string WhyOutOfRange(const EffectParameter& parameter, double value) {
   std::ostringstream text;
   text << parameter.name << " = " << value << ": expected "
        << (parameter.draw == Draw::kLogEitherSign ? "of either sign " : "")
-       << parameter.least << " to " << parameter.most << " " << parameter.unit;
+       << parameter.least << " to " << parameter.most
+       << (parameter.unit == "1" ? "" : " " + parameter.unit);
   return text.str();
 }
 
