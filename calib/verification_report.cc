@@ -8,6 +8,10 @@
 namespace armcal {
 namespace {
 
+// Between our simulation of a window and Simbody's, rad or m: ten times what
+// ours is made to (RolloutOptions::tolerance).
+constexpr double kSameRollout = 1e-4;
+
 template <typename... Args>
 std::string Format(const char* format, Args... args) {
   char text[256];
@@ -161,6 +165,10 @@ std::string Heading(const VerificationReport& report) {
 std::vector<VerificationCheck> VerificationReport::Checks() const {
   std::vector<VerificationCheck> checks = verification.Checks();
   if (!rollouts) return checks;
+  if (rollouts->refereed > 0) {
+    checks.push_back(
+        {"rollout_max_abs", rollouts->referee_difference, kSameRollout});
+  }
   for (const RolloutComparison& c : rollouts->windows) {
     if (!c.is_judged()) continue;
     checks.push_back(

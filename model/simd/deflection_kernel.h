@@ -11,7 +11,7 @@ namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 // rate is the only unknown of a stage and Newton's slope is exact. What a lane
 // holds does not depend on the others.
 
-constexpr double kGamma = .29289321881345247560;  // of both stages
+constexpr double kSdirkGamma = .29289321881345247560;  // of both stages
 
 // rate = rate_base + step (load - T(base + step_d rate, rate)), from a guess of
 // the rate. Newton's steps square what is wrong in parts of a corner's width:
@@ -74,7 +74,7 @@ struct LinkLanes {
       if (link.substeps > most) most = link.substeps;
     }
     change = Lanes{};
-    step_d = kGamma * dt * .5 / substeps;
+    step_d = kSdirkGamma * dt * .5 / substeps;
   }
 
   // Of both stages of all steps of a sample, 4 `most`.
@@ -84,7 +84,7 @@ struct LinkLanes {
       for (int i = 0; i < most; ++i) {
         const Lanes begin =
             (static_cast<double>(half) * substeps + static_cast<double>(i)) * h;
-        *weights++ = WeightsAt(begin + kGamma * h);
+        *weights++ = WeightsAt(begin + kSdirkGamma * h);
         *weights++ = WeightsAt(begin + h);
       }
     }
@@ -97,11 +97,11 @@ struct LinkLanes {
     for (int i = 0; i < most; ++i, at += 2) {
       const Integers active = substeps > static_cast<double>(i);
       // Guesses go on as the rate went before.
-      Lanes x = d, v = rate + kGamma * change;
+      Lanes x = d, v = rate + kSdirkGamma * change;
       SolveStage<kHasGap>(spring, active, loads(at[0]),
                           step_d / inertias(at[0]), step_d, d, rate, &x, &v);
       // What the first stage moved, which the second weighs by (1 - gamma).
-      constexpr double kFirst = (1 - kGamma) / kGamma;
+      constexpr double kFirst = (1 - kSdirkGamma) / kSdirkGamma;
       const Lanes base = d + kFirst * (x - d);
       const Lanes rate_base = rate + kFirst * (v - rate);
       v = rate_base + (v - rate);
