@@ -1,5 +1,6 @@
 #include "problems/dense_solver.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace armcal {
