@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <random>
+#include <system_error>
 
 namespace armcal {
 namespace {
@@ -66,21 +67,21 @@ std::string StagedFiles::Path(const std::string& name) const {
   return fs::path(stage_) / "new" / name;
 }
 
-// False where the file system has no links, or not of this file.
+// Hard links, or copies of what is another user's.
 bool StagedFiles::KeepOld() const {
   const fs::path stage = stage_;
   std::error_code error;
   fs::create_directory(stage / "old", error);
   for (const std::string& name : names_) {
-    const fs::path place = fs::path(folder_) / name,
-                   kept = stage / "old" / name;
+    const fs::path place = fs::path(folder_) / name;
+    const fs::path kept = stage / "old" / name;
     const fs::file_status status = fs::symlink_status(place, error);
     if (fs::is_symlink(status)) {  // somebody's own, relative to its place
-      fs::create_symlink(
-          fs::absolute(fs::path(folder_)) / fs::read_symlink(place, error),
-          kept, error);
+      fs::create_symlink(fs::absolute(folder_) / fs::read_symlink(place, error),
+                         kept, error);
     } else if (fs::exists(status)) {
       fs::create_hard_link(place, kept, error);
+      if (error) fs::copy_file(place, kept, error);
     } else {
       error.clear();
     }
@@ -92,6 +93,13 @@ bool StagedFiles::KeepOld() const {
 }
 
 void StagedFiles::Link() {
+  for (const std::string& name : names_) {
+    const fs::path place = fs::path(folder_) / name;
+    if (fs::is_directory(fs::symlink_status(place))) {
+      throw fs::filesystem_error(
+          "", place, std::make_error_code(std::errc::is_a_directory));
+    }
+  }
   linked_ = names_.size() > 1 && KeepOld();
   if (!linked_) return;
   const fs::path link = fs::path(stage_) / "link";

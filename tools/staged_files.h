@@ -35,6 +35,7 @@ class StagedFiles {
   static void Recover(const std::string& folder);
 
  private:
+  // False where the file system has no links.
   bool KeepOld() const;
 
   std::string folder_, stage_;
