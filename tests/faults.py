@@ -181,9 +181,9 @@ def log_cut_while_read():
         shutil.copy('long/log.csv', log)
         size = os.path.getsize(log)
         process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-        while not reads(process, log, 1 + size * k // 5):
+        while not reads(process, log, size * (k + 1) // 6):
             pass
-        os.truncate(log, size * (k + 1) // 6)
+        os.truncate(log, size * (k + 1) // 8)
         error = process.communicate()[1]
         expect(process.returncode in counts, 'a refusal', error)
         counts[process.returncode] += 1
