@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 Posterior::Posterior(const MatrixXd& A, const MatrixXd& prior,
                      const std::vector<int>& kept) {
-  constexpr double kFlat = 1e-8;
+  constexpr double kFlat = 1e-20;  // a wider one would lose digits of the SVD
   MatrixXd P = prior(kept, kept);
   const Eigen::Index p = P.rows();
   MatrixXd relative = MatrixXd::Zero(std::max(A.rows(), p), p);

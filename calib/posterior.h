@@ -13,7 +13,7 @@ class Posterior {
  public:
   // A: rows x parameters, A'A is the information of the data; prior: that of
   // the prior. Parameters not `kept` are known, their rows and columns of
-  // results 0. Where there is no prior, one of 10^4 times a parameter's
+  // results 0. Where there is no prior, one of 10^10 times a parameter's
   // deviation alone stands for it.
   Posterior(const Eigen::MatrixXd& A, const Eigen::MatrixXd& prior,
             const std::vector<int>& kept);

@@ -3,9 +3,12 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "model/decimal_point.h"
+
 namespace armcal {
 
 std::string Format(const char* format, ...) {
+  const DecimalPoint point;
   va_list arguments, again;
   va_start(arguments, format);
   va_copy(again, arguments);

@@ -1,5 +1,6 @@
 #include "model/text_source.h"
 
+#include <sys/stat.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -97,7 +98,16 @@ struct TextSource::Impl {
       throw InputError(path, "", "",
                        std::string("cannot be opened: ") + strerror(errno));
     }
+    bytes = Bytes();
     Start();
+  }
+
+  // Of a file; -1 of a pipe, which has no size.
+  long Bytes() const {
+    struct stat now;
+    const bool known =
+        fstat(fileno(file.get()), &now) == 0 && S_ISREG(now.st_mode);
+    return known ? now.st_size : -1;
   }
 
   // Reads the first bytes and tells from them what the file is.
@@ -119,6 +129,13 @@ struct TextSource::Impl {
     if (std::ferror(file.get())) {
       throw InputError(path, "", "",
                        std::string("cannot be read: ") + strerror(errno));
+    }
+    if (read < size && Bytes() != bytes) {  // at the end
+      throw InputError(
+          path, "", "",
+          "has changed while it was read: " + std::to_string(bytes) +
+              " bytes at first, " + std::to_string(Bytes()) +
+              " now; read it when its recording has ended");
     }
     return read;
   }
@@ -212,6 +229,7 @@ struct TextSource::Impl {
 
   std::string path;
   File file;
+  long bytes = -1;
   std::vector<unsigned char> raw = std::vector<unsigned char>(1 << 16);
   size_t raw_begin = 0, raw_size = 0;  // what of `raw` is yet to be used
   bool is_gzip = false;

@@ -15,7 +15,8 @@ namespace armcal {
 //
 // Throws InputError for what cannot be read as text: a missing file, a
 // directory, a gzip stream that is truncated, damaged or followed by other
-// bytes, NUL bytes, UTF-16, a line longer than a block.
+// bytes, NUL bytes, UTF-16, a line longer than a block, a file whose size is
+// another at the end than it was at first.
 class TextSource : public LineSource {
  public:
   static constexpr int kBlockBytes = 1 << 20;

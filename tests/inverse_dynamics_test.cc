@@ -121,25 +121,6 @@ TEST(InverseDynamics, GyroscopicMoment) {
   EXPECT_NEAR(tau[2], 0, 1e-12);
 }
 
-// The gravity load of the PUMA 560 at Corke's qn (Corke and Armstrong-Helouvry
-// 1994; the Robotics Toolbox prints 0 31.6399 6.0351 0 0.0283 0).
-TEST(InverseDynamics, PumaGravityLoad) {
-  Robot robot = SampleRobot("PUMA560 6R");
-  const double mass[] = {0, 17.4, 4.8, .82, .34, .09};
-  const Vector3d com[] = {
-      {0, 0, 0}, {-.3638, .006, .2275}, {-.0203, -.0141, .07}, {0, .019, 0},
-      {0, 0, 0}, {0, 0, .032}};
-  for (int i = 0; i < 6; ++i) {
-    robot.links[i].inertial =
-        InertialParameters::FromCenterOfMass(mass[i], com[i], Matrix3d::Zero());
-  }
-  const VectorXd zero = VectorXd::Zero(6);
-  const VectorXd tau =
-      InverseDynamics(robot, V({0, kPi / 4, kPi, 0, kPi / 4, 0}), zero, zero);
-  const VectorXd printed = V({0, 31.6399, 6.0351, 0, .0283, 0});
-  EXPECT_LT((tau - printed).cwiseAbs().maxCoeff(), 5e-5) << tau.transpose();
-}
-
 // Kinetic and potential energy from poses alone; velocities of the links by
 // central differences of order 4.
 double Energy(const Robot& robot, const VectorXd& q, const VectorXd& qd) {

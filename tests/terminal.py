@@ -120,12 +120,15 @@ def left(folder):
     return sorted(os.listdir(folder))
 
 
-def start_and_wait_for_temporaries(folder):
+def start_and_wait_for_folder(folder):
+    """A run that has opened the folder, whose lock it waits for."""
     run = subprocess.Popen([ARMCAL, 'verify', ROBOT, f'--out={folder}'],
                            stdout=subprocess.PIPE)
+    files = f'/proc/{run.pid}/fd'
     deadline = time.time() + 60
-    while not any('.tmp' in name for name in left(folder)):
-        expect(time.time() < deadline, 'no temporary files')
+    while not any(os.path.realpath(f'{files}/{file}') == os.path.abspath(folder)
+                  for file in os.listdir(files)):
+        expect(time.time() < deadline, 'the folder was not opened')
         time.sleep(.01)
     return run
 
@@ -136,14 +139,13 @@ def writing():
     folder = os.open('shared', os.O_RDONLY)
     fcntl.flock(folder, fcntl.LOCK_EX)
     for end in (signal.SIGINT, signal.SIGTERM):
-        run = start_and_wait_for_temporaries('shared')
+        run = start_and_wait_for_folder('shared')
         run.send_signal(end)
         expect(run.wait() == -end, f'the end by signal {end} expected')
-        expect(left('shared') == [], f'left behind: {left("shared")}')
-    runs = [start_and_wait_for_temporaries('shared') for _ in range(2)]
+    runs = [start_and_wait_for_folder('shared') for _ in range(2)]
     time.sleep(.2)
-    expect(all('.tmp' in name for name in left('shared')),
-           f'renamed in spite of the lock: {left("shared")}')
+    expect(left('shared') == [],
+           f'written in spite of the lock: {left("shared")}')
     fcntl.flock(folder, fcntl.LOCK_UN)
     for run in runs:
         run.communicate()

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <random>
 
 #include "model/input_error.h"
@@ -157,6 +158,25 @@ TEST(TextSource, RefusesWhatIsNoText) {
       "the power went";
   EXPECT_EQ(Refusal(WriteFile("a\nb\nc\0\0"s)), "FILE: row 3" + nul);
   EXPECT_EQ(Refusal(WriteFile(Gzip("a\nb\n\0"s))), "FILE: row 3" + nul);
+}
+
+TEST(TextSource, RefusesAFileThatChanges) {
+  const std::string text(1 << 20, '\n');
+  for (const long bytes : {1L << 19, (1L << 20) + 1}) {
+    const std::string path = WriteFile(text);
+    EXPECT_EQ(MessageOf<InputError>(path,
+                                    [&] {
+                                      TextSource source(path, 1000);
+                                      std::string_view line;
+                                      source.NextLine(&line);
+                                      std::filesystem::resize_file(path, bytes);
+                                      while (source.NextLine(&line)) {
+                                      }
+                                    }),
+              "FILE: has changed while it was read: 1048576 bytes at first, " +
+                  std::to_string(bytes) +
+                  " now; read it when its recording has ended");
+  }
 }
 
 TEST(TextSource, RefusesALineLongerThanABlock) {

@@ -37,6 +37,7 @@ void PrepareProcess() {
     // The lowest that is free, hence this one.
     if (open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY) < 0) return;
   }
+  std::signal(SIGXFSZ, SIG_IGN);
   for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
     if (std::signal(signal, &Handle) == SIG_IGN) std::signal(signal, SIG_IGN);
   }

@@ -6,7 +6,8 @@ namespace armcal {
 // end armcal by that signal (exit code 130, 143, 129 in a shell). Those that
 // are ignored, as under nohup, stay so. Stdin, stdout and stderr that were
 // closed are opened such that their use fails, so that no result file takes
-// their place.
+// their place. A file that grows beyond what is allowed (ulimit -f) is an error
+// of its writing instead of the end.
 void PrepareProcess();
 
 // While one of these lives, results are being written: a signal ends armcal

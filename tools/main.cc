@@ -2,12 +2,16 @@
 
 #include <gflags/gflags.h>
 #include <glog/logging.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "calib/thread_limit.h"
@@ -116,6 +120,57 @@ int Main(int argc, char** argv) {
   std::_Exit(kExitInternal);
 }
 
+// Memory, or a thread, which needs some.
+bool IsOutOfMemory(const std::exception& error) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         (system != nullptr &&
+          system->code() == std::errc::resource_unavailable_try_again) ||
+         std::strstr(error.what(), "pthread_create") != nullptr;  // oneTBB's
+}
+
+std::string MemoryLimitText() {
+  rlimit limit;
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
+    return "memory: there is no more of it";
+  }
+  return "memory: the " + std::to_string(limit.rlim_cur >> 20) +
+         " MB that are allowed (ulimit -v) do not suffice";
+}
+
+// Says what the exception that is being handled means; the exit code.
+int TellError() {
+  try {
+    throw;
+  } catch (const UsageError& error) {
+    PrintError(error.what());
+    return kExitUsage;
+  } catch (const InputError& error) {
+    PrintError(error.what());
+    return kExitBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    PrintError(error.path1().string() + ": " + error.code().message());
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    if (IsOutOfMemory(error)) {
+      PrintError(MemoryLimitText() +
+                 "; fewer --threads or a shorter --crop need less");
+      return kExitBadInput;
+    }
+    PrintError(std::string("internal error: ") + error.what() +
+               "\nThis is a bug in armcal; please report it.");
+  } catch (...) {
+    FailInternally();
+  }
+  return kExitInternal;
+}
+
+// An exception that nothing catches, of a thread for example.
+[[noreturn]] void Terminate() {
+  if (std::current_exception() == nullptr) FailInternally();
+  std::_Exit(TellError());
+}
+
 }  // namespace
 }  // namespace armcal
 
@@ -125,20 +180,10 @@ int main(int argc, char** argv) {
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);
   google::InstallFailureFunction(&armcal::FailInternally);
+  std::set_terminate(&armcal::Terminate);
   try {
     return armcal::Main(argc, argv);
-  } catch (const armcal::UsageError& error) {
-    armcal::PrintError(error.what());
-    return armcal::kExitUsage;
-  } catch (const armcal::InputError& error) {
-    armcal::PrintError(error.what());
-    return armcal::kExitBadInput;
-  } catch (const std::filesystem::filesystem_error& error) {
-    armcal::PrintError(error.path1().string() + ": " + error.code().message());
-    return armcal::kExitBadInput;
-  } catch (const std::exception& error) {
-    armcal::PrintError(std::string("internal error: ") + error.what() +
-                       "\nThis is a bug in armcal; please report it.");
-    return armcal::kExitInternal;
+  } catch (const std::exception&) {
+    return armcal::TellError();
   }
 }

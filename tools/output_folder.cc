@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,13 +12,13 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <memory>
-#include <random>
-#include <set>
+#include <map>
+#include <optional>
 #include <thread>
 
 #include "model/input_error.h"
 #include "tools/interruption.h"
+#include "tools/staged_files.h"
 
 namespace armcal {
 namespace {
@@ -37,8 +38,9 @@ void CheckSignals() {
   throw InputError(path.string(), flag, "", "cannot be written: " + why);
 }
 
-void WriteFile(const fs::path& path, const std::string& flag,
-               const std::string& content) {
+// `place`: the path to tell.
+void WriteFile(const fs::path& path, const fs::path& place,
+               const std::string& flag, const std::string& content) {
   constexpr size_t kPiece = 1 << 20;
   errno = 0;
   std::ofstream file(path, std::ios::binary);
@@ -48,35 +50,37 @@ void WriteFile(const fs::path& path, const std::string& flag,
     file.write(content.data() + begin, static_cast<std::streamsize>(size));
   }
   file.close();
-  if (!file) Refuse(path, flag, std::strerror(errno));
+  if (!file) Refuse(place, flag, std::strerror(errno));
 }
 
-// Those of `path` that are not there yet, outer first.
-std::vector<std::string> MissingFolders(fs::path path) {
-  std::vector<std::string> missing;
+// Creates what of `path` is not there yet and adds it to `made`, outer first.
+void Make(const fs::path& path, std::vector<fs::path>* made) {
+  std::vector<fs::path> missing;
   std::error_code error;
-  for (; !path.empty() && !fs::exists(path, error); path = path.parent_path()) {
-    missing.insert(missing.begin(), path.string());
+  for (fs::path at = path; !at.empty() && !fs::exists(at, error);
+       at = at.parent_path()) {
+    missing.push_back(at);
   }
-  return missing;
+  made->insert(made->end(), missing.rbegin(), missing.rend());
+  fs::create_directories(path);
 }
 
-// Differs between machines that share a folder, too.
-std::string RunSuffix() {
-  std::random_device random;
-  return ".tmp" + std::to_string(getpid()) + "." + std::to_string(random());
-}
-
-}  // namespace
-
-// Given up where the file system has no locks.
-class OutputFolder::Lock {
+// Of a folder, against other runs; given up where the file system has none.
+class Lock {
  public:
-  explicit Lock(const std::string& folder)
-      : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      CheckSignals();
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  explicit Lock(const fs::path& folder) {
+    for (;;) {
+      descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+      Wait();
+      struct stat locked, there;
+      if (!held_ ||
+          (stat(folder.c_str(), &there) == 0 &&
+           fstat(descriptor_, &locked) == 0 && locked.st_ino == there.st_ino)) {
+        return;
+      }
+      // The run that made the folder has failed and taken it away.
+      close(descriptor_);
+      fs::create_directories(folder);
     }
   }
   ~Lock() {
@@ -85,67 +89,91 @@ class OutputFolder::Lock {
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;
 
+  bool held() const { return held_; }
+
  private:
-  int descriptor_;
+  void Wait() {
+    for (;;) {
+      held_ = flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+      if (held_ || errno != EWOULDBLOCK) return;
+      CheckSignals();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+
+  int descriptor_ = -1;
+  bool held_ = false;
+};
+
+}  // namespace
+
+// A folder that is written to, perhaps for several flags.
+class OutputFolder::Place {
+ public:
+  void Add(const OutputFolder& folder) { folders_.push_back(&folder); }
+
+  void Write(const fs::path& path) {
+    lock_.emplace(path);
+    if (lock_->held()) StagedFiles::Recover(path);
+    std::vector<std::string> names;
+    for (const OutputFolder* folder : folders_) {
+      for (const auto& file : folder->files_) names.push_back(file.first);
+    }
+    staged_.emplace(path, names);
+    for (const OutputFolder* folder : folders_) {
+      for (const auto& [name, content] : folder->files_) {
+        WriteFile(staged_->Path(name), path / name, folder->flag_, content);
+      }
+    }
+    staged_->Link();
+  }
+  void Switch() { staged_->Switch(); }
+  void Settle() {
+    if (staged_) staged_->Settle();
+  }
+  const OutputFolder& folder() const { return *folders_[0]; }
+
+ private:
+  std::vector<const OutputFolder*> folders_;
+  std::optional<Lock> lock_;
+  std::optional<StagedFiles> staged_;
 };
 
 OutputFolder::OutputFolder(const std::string& path, const std::string& flag)
-    : path_(path), flag_(flag), suffix_(RunSuffix()) {}
+    : path_(path), flag_(flag) {}
 
 void OutputFolder::Add(const std::string& name, std::string content) {
   files_.emplace_back(name, std::move(content));
 }
 
-std::string OutputFolder::Temporary(const std::string& name) const {
-  return fs::path(path_) / (name + suffix_);
-}
-
-void OutputFolder::WriteTemporaries() {
-  if (path_.empty()) return;
-  std::error_code error;
-  made_ = MissingFolders(path_);
-  fs::create_directories(path_, error);
-  if (error) Refuse(path_, flag_, error.message());
-  for (const auto& [name, content] : files_) {
-    WriteFile(Temporary(name), flag_, content);
-  }
-}
-
-void OutputFolder::RenameThem() const {
-  if (path_.empty()) return;
-  std::error_code error;
-  for (const auto& file : files_) {
-    const fs::path path = fs::path(path_) / file.first;
-    fs::rename(Temporary(file.first), path, error);
-    if (error) Refuse(path, flag_, error.message());
-  }
-}
-
-void OutputFolder::RemoveThem() const {
-  std::error_code error;
-  for (const auto& file : files_) fs::remove(Temporary(file.first), error);
-  for (size_t k = made_.size(); k-- > 0;) {
-    if (rmdir(made_[k].c_str()) != 0) break;  // others write there, too
-  }
-}
-
 void OutputFolder::WriteTogether(std::vector<OutputFolder>* folders) {
   const Uninterrupted whole_or_gone;
+  std::vector<fs::path> made;
+  // Each once and in one order, or runs might wait for each other.
+  std::map<fs::path, Place> places;
+  const OutputFolder* at_work = nullptr;
   try {
-    for (OutputFolder& folder : *folders) folder.WriteTemporaries();
-    // Each once and in one order, or runs might wait for each other.
-    std::set<std::string> paths;
     for (const OutputFolder& folder : *folders) {
-      if (!folder.path_.empty()) paths.insert(fs::canonical(folder.path_));
+      if (folder.path_.empty()) continue;
+      at_work = &folder;
+      Make(folder.path_, &made);
+      places[fs::canonical(folder.path_)].Add(folder);
     }
-    std::vector<std::unique_ptr<Lock>> locks;
-    for (const std::string& path : paths) {
-      locks.push_back(std::make_unique<Lock>(path));
+    for (auto& [path, place] : places) {
+      at_work = &place.folder();
+      place.Write(path);
     }
-    for (const OutputFolder& folder : *folders) folder.RenameThem();
+    for (auto& [path, place] : places) place.Switch();
+    for (auto& [path, place] : places) place.Settle();
   } catch (...) {
-    for (const OutputFolder& folder : *folders) folder.RemoveThem();
-    throw;
+    for (auto& [path, place] : places) place.Settle();
+    // Not those that others write to.
+    for (size_t k = made.size(); k-- > 0;) rmdir(made[k].c_str());
+    try {
+      throw;
+    } catch (const fs::filesystem_error& error) {
+      Refuse(at_work->path_, at_work->flag_, error.code().message());
+    }
   }
 }
 

@@ -6,10 +6,10 @@
 
 namespace armcal {
 
-// Result files of one run, written at the end of it: all to temporary names
-// first, then renamed, so that a run that fails or is interrupted leaves no
-// file behind and an older result intact. Of runs that write to one folder at
-// once, one after the other renames its files.
+// Result files of one run, written at the end of it: a run that fails, is
+// interrupted or killed leaves an older result intact, and the new one takes
+// its place at one moment (StagedFiles). Of runs that write to one folder at
+// once, one does after the other.
 class OutputFolder {
  public:
   // Empty `path`: nothing is written.
@@ -21,21 +21,15 @@ class OutputFolder {
   const std::vector<std::pair<std::string, std::string>>& files() const {
     return files_;
   }
-  // All of several folders' files, or none. Creates the folders if need be.
-  // Throws InputError naming the flag.
+  // All of several folders' files, or none; those of a folder at one moment, of
+  // several one right after the other. Creates the folders if need be. Throws
+  // InputError naming the flag.
   static void WriteTogether(std::vector<OutputFolder>* folders);
 
  private:
-  class Lock;  // of a folder, while files are renamed
-
-  std::string Temporary(const std::string& name) const;
-  void WriteTemporaries();
-  void RenameThem() const;
-  void RemoveThem() const;
+  class Place;
 
   std::string path_, flag_;
-  std::string suffix_;             // of temporary names, this run's own
-  std::vector<std::string> made_;  // folders that were not there, outer first
   std::vector<std::pair<std::string, std::string>> files_;
 };
 

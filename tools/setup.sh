@@ -4,7 +4,7 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build python3 dpkg-dev file groff-base
+  g++ cmake ninja-build python3 dpkg-dev file groff-base locales
   libeigen3-dev libgflags-dev libgoogle-glog-dev libtinyxml2-dev libyaml-cpp-dev
   nlohmann-json3-dev zlib1g-dev libsqlite3-dev libzstd-dev liblz4-dev
   libmatio-dev libceres-dev libsimbody-dev libtbb-dev libboost-dev

@@ -8,6 +8,7 @@
 
 #include "calib/thread_limit.h"
 #include "calib/torque_trace.h"
+#include "model/decimal_point.h"
 #include "model/log_reader.h"
 #include "model/trajectory.h"
 #include "tools/flag_text.h"
@@ -206,18 +207,18 @@ void AddCommands(py::module_* module) {
       .def_readonly("temperature", &Log::temperature);
   module->def("run", &Run, py::arg("command"), py::arg("flags"),
               py::arg("robot") = py::none(), py::arg("progress") = py::none(),
-              py::arg("write") = false,
+              py::arg("write") = false, py::call_guard<DecimalPoint>(),
               "Runs a command of the armcal binary; with write its files go to "
               "the folders that the flags name.");
   module->def("options", &OptionsOf, py::arg("command"),
               "{name: (default, description)} of a command's flags.");
   module->def("trace", &Trace, py::arg("outcome"), py::arg("robot"),
               py::arg("flags"), py::arg("bandwidth_hz"),
-              py::arg("progress") = py::none(),
+              py::arg("progress") = py::none(), py::call_guard<DecimalPoint>(),
               "Measured and predicted torques of logs.");
   module->def("read_log", &ReadLog, py::arg("path"), py::arg("robot"),
               py::arg("flags"), py::arg("torque") = true,
-              py::call_guard<py::gil_scoped_release>(),
+              py::call_guard<DecimalPoint, py::gil_scoped_release>(),
               "The signals of a log that the robot has joints for.");
 }
 

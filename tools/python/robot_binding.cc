@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "model/decimal_point.h"
 #include "model/forward_dynamics.h"
 #include "model/input_text.h"
 #include "model/inverse_dynamics.h"
@@ -315,19 +316,21 @@ void AddRobot(py::module_* module) {
            "This robot with other values, shapes as of the properties.")
       .def(
           "to_urdf", [](const LoadedRobot& f) { return MakeUrdf(f.robot); },
+          py::call_guard<DecimalPoint>(),
           "A URDF of the chain alone, without meshes.")
       .def("update_urdf", &UpdatedUrdf, py::arg("path") = "",
-           py::arg("geometry") = false,
+           py::arg("geometry") = false, py::call_guard<DecimalPoint>(),
            "The URDF file at path (default: the one it is from) with its "
            "numbers changed to this robot's; its origins too with geometry.")
       .def(
           "urdf_losses",
           [](const LoadedRobot& f) { return UrdfLosses(f.robot); },
+          py::call_guard<DecimalPoint>(),
           "What a URDF cannot say of this robot, a sentence each.")
-      .def("__repr__", &Describe);
+      .def("__repr__", &Describe, py::call_guard<DecimalPoint>());
   module->def("read_robot", &ReadLoadedRobot, py::arg("path"),
               py::arg("base") = "", py::arg("tip") = "",
-              py::arg("gravity") = none,
+              py::arg("gravity") = none, py::call_guard<DecimalPoint>(),
               "The robot of a .urdf, or of a .yaml with a DH table; of a URDF "
               "the chain from link base to link tip. gravity: (3,), m/s^2, "
               "instead of the file's.");
