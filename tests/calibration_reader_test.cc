@@ -11,6 +11,7 @@
 #include "model/input_error.h"
 #include "tests/bent_arm.h"
 #include "tests/same_robot.h"
+#include "tests/temp_file.h"
 
 namespace armcal {
 namespace {

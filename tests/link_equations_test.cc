@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/bent_arm.h"
+#include "tests/temp_file.h"
 
 namespace armcal {
 namespace {

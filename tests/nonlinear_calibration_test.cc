@@ -6,6 +6,7 @@
 
 #include "model/robot_reader.h"
 #include "tests/nonlinear_runs.h"
+#include "tests/temp_file.h"
 
 namespace armcal {
 namespace {

@@ -12,6 +12,7 @@
 #include "model/urdf_writer.h"
 #include "problems/identification_rows.h"
 #include "tests/nonlinear_runs.h"
+#include "tests/temp_file.h"
 
 namespace armcal {
 namespace {

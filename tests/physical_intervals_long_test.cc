@@ -9,6 +9,7 @@
 #include <map>
 
 #include "tests/nonlinear_runs.h"
+#include "tests/temp_file.h"
 
 namespace armcal {
 namespace {

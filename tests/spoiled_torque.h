@@ -14,6 +14,7 @@
 #include "calib/torque_outliers.h"
 #include "tests/calibrate_logs.h"
 #include "tests/nonlinear_runs.h"
+#include "tests/temp_file.h"
 
 namespace armcal {
 

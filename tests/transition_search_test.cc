@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/drive_gain_runs.h"
+#include "tests/temp_file.h"
 
 namespace armcal {
 namespace {
