@@ -165,15 +165,15 @@ std::string Heading(const VerificationReport& report) {
 std::vector<VerificationCheck> VerificationReport::Checks() const {
   std::vector<VerificationCheck> checks = verification.Checks();
   if (!rollouts) return checks;
-  if (rollouts->refereed > 0) {
-    checks.push_back(
-        {"rollout_max_abs", rollouts->referee_difference, kSameRollout});
-  }
   for (const RolloutComparison& c : rollouts->windows) {
     if (!c.is_judged()) continue;
     checks.push_back(
         {"rollout_ratio_low_" + NumberText(c.window_s) + "s_" + c.unit,
          c.ratio->low, 1});
+  }
+  if (rollouts->refereed > 0) {
+    checks.push_back(
+        {"rollout_max_abs", rollouts->referee_difference, kSameRollout});
   }
   return checks;
 }

@@ -120,6 +120,8 @@ expect_json(worse OFF passed)
 run("judged" verify ${light} --calibration=calibrated/calibration.json ${minute} --out=judged)
 expect_code(0)
 expect_json(judged rollout_ratio_low_0.5s_rad checks 7 name)
+expect_json(judged rollout_max_abs checks 9 name)
+expect_json(judged ON checks 9 passed)
 expect_json(judged ON rollout 2 judged)
 expect_json(judged OFF rollout 0 judged)
 
