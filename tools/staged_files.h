@@ -6,9 +6,10 @@
 namespace armcal {
 
 // Files on their way into a folder, where all of them take their places at one
-// moment: whenever the run ends, by kill -9 or a power cut of the machine's
-// choosing, who opens them finds all the old or all the new. They are written
-// to a hidden folder beside their places; in these stand links for a moment,
+// moment: whenever the run ends, by kill -9 too, who opens them finds all the
+// old or all the new. (A power cut may lose what the system has not written.)
+// They are written to a hidden folder beside their places; in these stand links
+// for a moment,
 //
 //   calibration.json -> .armcal.RUN/now/calibration.json
 //   .armcal.RUN/now  -> old, then new
