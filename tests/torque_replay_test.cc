@@ -6,6 +6,7 @@
 
 #include "model/plant/simbody_arm.h"
 #include "model/rigid_arm.h"
+#include "tests/exact_rollout.h"
 #include "tests/nonlinear_runs.h"
 #include "tests/sample_motion.h"
 #include "tests/sample_robots.h"
@@ -18,17 +19,7 @@ using Eigen::VectorXd;
 using Law = CoulombTransition::Law;
 
 // A block of 2 kg on a horizontal slide.
-Robot Block() {
-  Robot robot;
-  Link link;
-  link.joint.type = JointType::kPrismatic;
-  link.X_PF.linear() =
-      Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()).matrix();
-  link.inertial = InertialParameters::FromCenterOfMass(
-      2, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
-  robot.links = {link};
-  return robot;
-}
+Robot Block() { return HorizontalSlide(2); }
 
 // Pushed by a constant force from rest at 0.
 Trajectory Pushed(double force, double duration) {

@@ -2,21 +2,15 @@
 
 import hashlib
 import json
+import pathlib
 import struct
 
 from inputs import (LOG, Group, Row, a_folder, both, compressed, cut, edited, linked,
                     nothing, padded, removed, replaced, written)
 
 # Two links that swing, which can be simulated; their log and what comes of it.
-SWINGING = """name: arm
-gravity: [0, -9.81, 0]
-convention: standard
-links:
-  - {joint: revolute, a: .4, mass: 5, com: [-.2, 0, 0], inertia: [.01, .07, .07],
-     viscous: 2, coulomb: 3, armature: .3}
-  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
-     viscous: 1, coulomb: 2, armature: .2}
-"""
+SWINGING = (pathlib.Path(__file__).resolve().parent.parent /
+            "swinging_arm.yaml").read_text().replace("name: swing", "name: arm")
 SIMULATE = "simulate --robot=robot.yaml --duration=5 --log_rate=100 --out=."
 REDUCE = "reduce --robot=robot.yaml --log=log.csv --out=factors"
 CALIBRATE = "calibrate --robot=robot.yaml --log=log.csv --out=made"

@@ -16,16 +16,9 @@ import numpy as np
 
 ARMCAL = os.environ["ARMCAL"]
 SCARA = pathlib.Path(os.environ["DATA_DIR"]) / "scara"
-# The command tests' arm, which has masses to refine.
-ARM = """name: swing
-gravity: [0, -9.81, 0]
-convention: standard
-links:
-  - {joint: revolute, a: .4, mass: 5, com: [-.2, 0, 0], inertia: [.01, .07, .07],
-     viscous: 2, coulomb: 3, armature: .3}
-  - {joint: revolute, a: .3, mass: 3, com: [-.15, 0, 0], inertia: [.01, .03, .03],
-     viscous: 1, coulomb: 2, armature: .2}
-"""
+# Two links that swing, with masses to refine.
+ARM = (pathlib.Path(__file__).resolve().parent.parent /
+       "swinging_arm.yaml").read_text()
 
 
 class InFolder(unittest.TestCase):
