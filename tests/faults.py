@@ -296,6 +296,32 @@ def concurrent():
         expect_alone('several runs')
 
 
+def other_libraries():
+    """A zlib that says another version than armcal was compiled with."""
+    run(OLD)
+    before = results()
+    for version, fits in (('1.1.4', False), ('2.0.0', False), ('1.99', True)):
+        code = f'const char* zlibVersion(void) {{ return "{version}"; }}'
+        made = run(['c++', '-x', 'c', '-shared', '-fPIC', '-o', './other.so',
+                    '-'], input=code)
+        expect(made.returncode == 0, 'a library', made)
+        other = dict(os.environ, LD_PRELOAD=os.path.abspath('other.so'))
+        finished = run(OLD, env=other)
+        text = f"the library zlib: version: found '{version}': armcal was comp"
+        if fits:
+            expect(finished.returncode == 0, 'a newer library', finished)
+        else:
+            expect_refusal(finished, text)
+        expect(results() == before, f'the results with zlib {version}')
+        if MODULES:
+            other['PYTHONPATH'] = MODULES
+            imported = run([sys.executable, '-B', '-c', 'import armcal'],
+                           env=other)
+            expect(fits == (imported.returncode == 0) and
+                   (fits or f'ImportError: {text}' in imported.stderr),
+                   f'a Python program with zlib {version}', imported)
+
+
 def kill_9():
     killed(signal.SIGKILL, KILLS)
 
@@ -307,7 +333,8 @@ def terminated():
 with tempfile.TemporaryDirectory() as empty:
     os.chdir(empty)
     for test in (kill_9, terminated, without_space, read_only,
-                 log_cut_while_read, without_memory, paths, locale, concurrent):
+                 log_cut_while_read, without_memory, paths, locale,
+                 other_libraries, concurrent):
         shutil.rmtree('out', ignore_errors=True)
         begin = time.time()
         test()

@@ -111,6 +111,7 @@ int Main(int argc, char** argv) {
     PrintText(Completion(rest));
     return kExitOk;
   }
+  CheckLibraryVersions();
   return Run(CommandNamed(words[0]), argc - 1, argv + 1);
 }
 

@@ -1,12 +1,33 @@
 #include "tools/version.h"
 
+#include "model/input_error.h"
+#include "model/library_versions.h"
+
 namespace armcal {
 
-// What CMake found; Debian's packages keep a library's version within a
-// release.
 std::string VersionText() {
-  return "armcal " ARMCAL_VERSION "\nCeres " CERES_VERSION
-         ", Eigen " EIGEN_VERSION ", Simbody " SIMBODY_VERSION "\n";
+  // What CMake found is linked in, or has its version in the file's name.
+  std::string text = "armcal " ARMCAL_VERSION "\nCeres " CERES_VERSION
+                     ", Eigen " EIGEN_VERSION ", Simbody " SIMBODY_VERSION;
+  const char* separator = "\n";
+  for (const LibraryVersion& library : LoadedLibraries()) {
+    text += separator + library.name + " " + library.loaded;
+    if (library.loaded != library.built) {
+      text += " (compiled with " + library.built + ")";
+    }
+    separator = ", ";
+  }
+  return text + "\n";
+}
+
+void CheckLibraryVersions() {
+  for (const LibraryVersion& library : LoadedLibraries()) {
+    if (library.fits()) continue;
+    throw InputError("the library " + library.name, "version", library.loaded,
+                     "armcal was compiled with " + library.built +
+                         " and expected that or a newer one of the same major "
+                         "version; install it, or compile armcal again");
+  }
 }
 
 }  // namespace armcal

@@ -7,9 +7,11 @@
 #include "tools/command.h"
 #include "tools/python/command_binding.h"
 #include "tools/python/robot_binding.h"
+#include "tools/version.h"
 
 PYBIND11_MODULE(_armcal, module) {
   namespace py = pybind11;
+  armcal::CheckLibraryVersions();
   FLAGS_logtostderr = true;  // else glog writes to files in /tmp
   module.attr("__version__") = ARMCAL_VERSION;
   py::register_exception<armcal::InputError>(module, "InputError",
