@@ -104,14 +104,6 @@ run("the same flags" calibrate ${robot} ${log} --bandwidth=0 --geometry=lengths
 if(NOT out STREQUAL of_file)
   fail("flags of a file must do what those of a command line do")
 endif()
-# Threads share the work, and nothing else changes.
-foreach(threads 1 3)
-  run("${threads} threads" calibrate --flagfile=run.flags --json
-      --threads=${threads})
-  if(NOT out STREQUAL of_file)
-    fail("the same numbers expected as from all cores")
-  endif()
-endforeach()
 run("less than no threads" calibrate --flagfile=run.flags --threads=-1)
 expect_refusal(2 "--threads: found '-1', expected a number of threads, or 0")
 run("the command line counts" calibrate --joint_terms=viscous
