@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that armcal needs. Does nothing, and needs no
 # rights, where all of them are there.
+#   --full   those of tools/test.sh --full too: clang with its sanitizers,
+#            clang-tidy, llvm-cov
 set -euo pipefail
 
 packages=(
@@ -11,6 +13,12 @@ packages=(
   libssl-dev libjs-dygraphs libgtest-dev libgmock-dev libmujoco-dev
   pybind11-dev python3-dev python3-numpy python3-distributed
 )
+for argument in "$@"; do
+  case $argument in
+    --full) packages+=(clang clang-tidy libclang-rt-14-dev llvm) ;;
+    *) echo "setup.sh: unknown argument $argument; expected --full" >&2; exit 2 ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do
