@@ -1,6 +1,5 @@
 #include "model/mat_reader.h"
 
-#include <hdf5/serial/H5Epublic.h>
 #include <matio.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "model/hdf5_links.h"
 #include "model/input_error.h"
 #include "model/log_signal.h"
 #include "model/mat_elements.h"
@@ -170,7 +170,7 @@ bool IsMatFile(std::string_view first) {
 
 std::vector<LogArray> ReadMat(const std::string& path) {
   CheckMatElements(path);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // else it prints
+  CheckHdf5Links(path);
   const std::unique_ptr<mat_t, Close> file(
       Mat_Open(path.c_str(), MAT_ACC_RDONLY));
   if (!file) {

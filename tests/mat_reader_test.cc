@@ -1,8 +1,10 @@
 #include "model/mat_reader.h"
 
 #include <gtest/gtest.h>
+#include <hdf5/serial/hdf5.h>
 
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "model/input_error.h"
@@ -63,6 +65,55 @@ TEST(MatReader, RefusesFilesThatAreCutOff) {
   const std::string v5 = Bytes("v5.mat");
   EXPECT_EQ(Refusal(v5.substr(0, v5.size() - 1)),
             "FILE: is cut off: expected a whole MAT-file");
+}
+
+// A file of v7.3 whose positions lie elsewhere, as `change` says, by their
+// place, the group that holds them and their extent.
+std::string Moved(const std::function<void(hid_t file, hid_t extent)>& change) {
+  const std::string path = WriteFile(Bytes("v73.mat"), "log.mat");
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t positions = H5Dopen2(file, "q", H5P_DEFAULT);
+  const hid_t extent = H5Dget_space(positions);
+  H5Dclose(positions);
+  H5Ldelete(file, "q", H5P_DEFAULT);
+  change(file, extent);
+  H5Sclose(extent);
+  H5Fclose(file);
+  return MessageOf<InputError>(path, [&] { ReadWholeLog(path, Options()); });
+}
+
+TEST(MatReader, ReadsNoOtherFile) {
+  const std::string refused =
+      "FILE: variable q: lies in another file: expected numbers that are in "
+      "this one";
+  const std::string other = WriteFile(Bytes("v73.mat"), "other.mat");
+  EXPECT_EQ(Moved([&](hid_t file, hid_t) {
+              H5Lcreate_external(other.c_str(), "q", file, "q", H5P_DEFAULT,
+                                 H5P_DEFAULT);
+            }),
+            refused);
+  const auto store = [](hid_t file, hid_t extent, hid_t how) {
+    H5Dclose(H5Dcreate2(file, "q", H5T_NATIVE_DOUBLE, extent, H5P_DEFAULT, how,
+                        H5P_DEFAULT));
+    H5Pclose(how);
+  };
+  EXPECT_EQ(Moved([&](hid_t file, hid_t extent) {
+              const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
+              H5Pset_external(how, other.c_str(), 0, H5F_UNLIMITED);
+              store(file, extent, how);
+            }),
+            refused);
+  EXPECT_EQ(Moved([&](hid_t file, hid_t extent) {
+              const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
+              H5Pset_virtual(how, extent, other.c_str(), "q", extent);
+              store(file, extent, how);
+            }),
+            refused);
+  // Within the file, a name may lead to another.
+  EXPECT_EQ(Moved([&](hid_t file, hid_t) {
+              H5Lcreate_soft("tau", file, "q", H5P_DEFAULT, H5P_DEFAULT);
+            }),
+            "");
 }
 
 TEST(MatReader, NoticesDamageOfWhatIsCompressed) {
