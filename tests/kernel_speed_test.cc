@@ -65,7 +65,7 @@ double TimesTheFlopLimit(const std::string& set, double flops, double limit,
 class KernelSpeed : public testing::TestWithParam<const simd::Kernels*> {
  protected:
   void SetUp() override {
-#if !defined(NDEBUG) || defined(__SANITIZE_ADDRESS__)
+#if !defined(NDEBUG) || defined(SANITIZED)
     GTEST_SKIP() << "only an optimized build without sanitizers has a speed";
 #endif
     if (!IsZen4()) GTEST_SKIP() << "the limits are those of a Zen 4";
