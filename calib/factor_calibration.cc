@@ -52,7 +52,7 @@ VectorXd ScoreSum(const BlockTriangularFactor& factor,
   for (int i = 0; i < factor.num_joints(); ++i) {
     const std::vector<int>& columns = factor.columns(i);
     const auto k = static_cast<Eigen::Index>(columns.size());
-    const MatrixXd R = factor.Triangle(i);
+    const MatrixXd& R = factor.Triangle(i);
     const VectorXd residual = R.col(k) - R.leftCols(k) * solution.x(columns);
     sum(columns) += solution.weight[i] * R.leftCols(k).transpose() * residual;
   }

@@ -105,7 +105,7 @@ std::string FactorFileBytes(const Reduction& reduction) {
   bytes += text;
   for (const ReducedLog& log : reduction.logs) {
     for (const TriangularFactor& factor : log.factors) {
-      const Eigen::MatrixXd R = factor.Triangle();
+      const Eigen::MatrixXd& R = factor.Triangle();
       for (Eigen::Index c = 0; c < R.cols(); ++c) {
         for (Eigen::Index r = 0; r <= c; ++r) AddNumber(R(r, c), &bytes);
       }

@@ -19,7 +19,7 @@ VectorXd Guess(const BlockTriangularFactor& factor, const VectorXd& nominal) {
   const int n = factor.num_joints();
   VectorXd current(n), torque(n);
   for (int i = 0; i < n; ++i) {
-    const MatrixXd R = factor.Triangle(i);
+    const MatrixXd& R = factor.Triangle(i);
     const std::vector<int>& columns = factor.columns(i);
     torque[i] = (R.leftCols(columns.size()) * nominal(columns)).norm();
     current[i] = R.rightCols<1>().norm();

@@ -23,7 +23,7 @@ constexpr double kExcited = 1e-8;  // relative to the direction seen best
 // The factor's triangle of joint i, its columns those of all parameters.
 CurrentEquations Expand(const BlockTriangularFactor& factor, int i,
                         bool loaded) {
-  const MatrixXd R = factor.Triangle(i);
+  const MatrixXd& R = factor.Triangle(i);
   const std::vector<int>& columns = factor.columns(i);
   CurrentEquations e{i, loaded,
                      MatrixXd::Zero(R.rows(), factor.num_parameters()),

@@ -267,7 +267,7 @@ JointRows WhitenEach(const GapRows& rows, const JointRows& thin) {
 RefinedEffects RefineEffects(const GapScreen& screen,
                              const GapBaseline& baseline,
                              const MotionScale& scale,
-                             std::vector<GapCandidate> effects, int only,
+                             const std::vector<GapCandidate>& effects, int only,
                              GapData* data) {
   RefinedEffects refined;
   refined.effects = effects;

@@ -26,7 +26,7 @@ struct RefinedEffects {
 RefinedEffects RefineEffects(const GapScreen& screen,
                              const GapBaseline& baseline,
                              const MotionScale& scale,
-                             std::vector<GapCandidate> effects, int only,
+                             const std::vector<GapCandidate>& effects, int only,
                              GapData* data);
 
 // What effects with these parameters add to the torque: per joint thinned

@@ -50,7 +50,7 @@ void GapScreen::AddInformation(const MatrixXd& AtA, const VectorXd& Aty) {
   // The root of a matrix that may be singular, which a triangular one of it
   // would not survive: A'A = U'U with U = sqrt(values) vectors'.
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(AtA);
-  const VectorXd values = eigen.eigenvalues();
+  const VectorXd& values = eigen.eigenvalues();
   const double least = 1e-14 * values.cwiseAbs().maxCoeff();
   const VectorXd root = values.unaryExpr(
       [least](double x) { return x > least ? std::sqrt(x) : 0; });

@@ -112,7 +112,7 @@ WeightedSystem MakeWeightedSystem(const BlockTriangularFactor& factor,
     const std::vector<int>& columns = factor.columns(i);
     const Eigen::Index k = columns.size() + 1;
     if (noise[i] > 0) {
-      const MatrixXd R = factor.Triangle(i);
+      const MatrixXd& R = factor.Triangle(i);
       for (Eigen::Index c = 0; c < k; ++c) {
         const Eigen::Index to = c + 1 < k ? columns[c] : m;
         stacked.col(to).segment(at, k) = R.col(c) / noise[i];

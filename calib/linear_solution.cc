@@ -100,7 +100,7 @@ LinearSolution SolveRecursive(const BlockTriangularFactor& factor,
   for (int i = factor.num_joints() - 1; i >= 0; --i) {
     const int begin = factor.block_begin(i), size = factor.block_size(i);
     if (size == 0) continue;
-    const MatrixXd R = factor.Triangle(i);
+    const MatrixXd& R = factor.Triangle(i);
     const std::vector<int>& columns = factor.columns(i);
     const auto R_ii =
         R.topLeftCorner(size, size).triangularView<Eigen::Upper>();

@@ -62,7 +62,7 @@ std::vector<std::vector<bool>> FindPowered(const LogFactors& factors,
     const BlockTriangularFactor& factor = factors.log(log);
     powered.emplace_back();
     for (int i = 0; i < factor.num_joints(); ++i) {
-      const Eigen::MatrixXd R = factor.Triangle(i);
+      const Eigen::MatrixXd& R = factor.Triangle(i);
       const std::vector<int>& columns = factor.columns(i);
       double terms = 0;
       for (size_t c = 0; c < columns.size(); ++c) {

@@ -83,7 +83,7 @@ void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
   const VectorXd scale = A.colwise().norm().cwiseMax(1e-300);
   const Eigen::JacobiSVD<MatrixXd> svd(A * scale.cwiseInverse().asDiagonal(),
                                        Eigen::ComputeThinV);
-  const VectorXd s = svd.singularValues();
+  const VectorXd& s = svd.singularValues();
   const double factor =
       fit.VarianceFactor(residuals, static_cast<int>(columns.size()));
   for (int k = 0; k < num_free; ++k) {

@@ -30,6 +30,8 @@ Posterior::Posterior(const MatrixXd& A, const MatrixXd& prior,
   const Eigen::HouseholderQR<MatrixXd> qr(relative);
   const MatrixXd R = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
   const Eigen::BDCSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
+  // solveInPlace writes to what it takes as const.
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
   MatrixXd T = svd.matrixV();
   llt.matrixU().solveInPlace(T);
   T_ = MatrixXd::Zero(A.cols(), p);

@@ -28,7 +28,7 @@ Stack StackFactors(const BlockTriangularFactor& factor) {
   }
   stack.A = MatrixXd::Zero(stack.begin.back(), m + 1);
   for (int i = 0; i < factor.num_joints(); ++i) {
-    const MatrixXd R = factor.Triangle(i);
+    const MatrixXd& R = factor.Triangle(i);
     const Eigen::Index k = R.rows();
     for (Eigen::Index c = 0; c < k; ++c) {
       const Eigen::Index to = c + 1 < k ? factor.columns(i)[c] : m;

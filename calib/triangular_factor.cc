@@ -57,7 +57,7 @@ void TriangularFactor::CloseLeaf() {
 
 void TriangularFactor::Merge(const TriangularFactor& other) {
   CHECK_EQ(other.columns(), columns());
-  const MatrixXd R = other.Triangle();
+  const MatrixXd& R = other.Triangle();
   merged_ = merged_rows_ == 0 ? R : MergeTriangles(merged_, R);
   merged_rows_ += other.rows();
   triangle_.resize(0, 0);

@@ -25,7 +25,7 @@ Link MakeLink(const RobotTree& tree, int j, const RigidGroup& before,
   link.X_ML = Isometry3d(R.transpose()) * joint.X_JL;
   for (size_t i = 0; i < group.links.size(); ++i) {
     const TreeLink& part = tree.links[group.links[i]];
-    if (part.inertial_error) throw *part.inertial_error;
+    if (part.inertial_error) throw InputError(*part.inertial_error);
     if (!part.has_inertial) continue;
     link.inertial += part.inertial.ReexpressIn(group.X_HLs[i]);
     link.has_inertial = true;

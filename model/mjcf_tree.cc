@@ -124,7 +124,7 @@ int MjcfTreeReader::AddMovedLinks(const XmlElement& body,
     TreeLink moved;
     moved.name = link.name + "_" + name;
     moved.line = element.line();
-    if (i + 1 == elements.size()) moved = std::move(link);
+    if (i + 1 == elements.size()) std::swap(moved, link);
     const int child = AddLink(std::move(moved), body);
     AddJoint(std::move(joint), parent, child);
     parent = child;

@@ -79,7 +79,7 @@ std::vector<bool> FreeGeometry(const ArmGeometry& geometry,
   return free;
 }
 
-void AddPoseResiduals(std::shared_ptr<const ArmGeometry> geometry,
+void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
                       const PoseMeasurements& measured,
                       const std::vector<int>& rows, const PoseNoise& noise,
                       RobustLoss loss, PoseUnknowns* unknowns,

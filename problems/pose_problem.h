@@ -46,7 +46,7 @@ std::vector<bool> FreeGeometry(const ArmGeometry& geometry,
 
 // Adds the residuals of poses `rows` to `problem`, whose parameter blocks are
 // those of `unknowns`.
-void AddPoseResiduals(std::shared_ptr<const ArmGeometry> geometry,
+void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
                       const PoseMeasurements& measured,
                       const std::vector<int>& rows, const PoseNoise& noise,
                       RobustLoss loss, PoseUnknowns* unknowns,

@@ -86,7 +86,7 @@ std::string ProgressBar::Line(Clock::time_point now) const {
   std::snprintf(text, sizeof(text), "%-22.50s ", stage.c_str());
   std::string line = text;
   if (fraction_ >= 0 && !done) {
-    const int filled = static_cast<int>(kWidth * fraction_ + 0.5);
+    const int filled = static_cast<int>(std::lround(kWidth * fraction_));
     std::snprintf(text, sizeof(text), "[%s%s] %3.0f %%  ",
                   std::string(filled, '#').c_str(),
                   std::string(kWidth - filled, '.').c_str(), 100 * fraction_);

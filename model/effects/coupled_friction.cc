@@ -31,7 +31,7 @@ std::vector<EffectParameter> CoupledParameters() {
 
 void ApplyCoupled(const EffectSite& site, const Eigen::VectorXd& p,
                   SimulatedRobot* robot) {
-  const int j = site.joint, k = static_cast<int>(p[1] + .5) - 1;
+  const int j = site.joint, k = static_cast<int>(std::lround(p[1])) - 1;
   const double friction = p[0], ratio = p[2], w = p[3];
   const InstantTorque torque = [=](const ArmInstant& at) {
     return -friction * std::tanh((at.velocity[j] + ratio * at.velocity[k]) / w);

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "model/effects/effect_parts.h"
 
 namespace armcal {
@@ -24,7 +26,7 @@ Effect TorqueCrosstalk() {
                        NeighbourParameter()};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
-    const int j = site.joint, k = static_cast<int>(p[1] + .5) - 1;
+    const int j = site.joint, k = static_cast<int>(std::lround(p[1])) - 1;
     const double gain = p[0];
     robot->actuators.push_back({{},
                                 [=](const ArmInstant&, const double*, double*,

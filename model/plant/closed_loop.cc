@@ -99,7 +99,7 @@ class TorqueHistory {
   // As it was the delay before the last instant at which the torque changed;
   // the mean of before and after where the delay is a whole number of periods.
   Eigen::VectorXd Delayed() const {
-    const int whole = static_cast<int>(delay_ + .5);
+    const int whole = static_cast<int>(std::lround(delay_));
     const double share = delay_ + .5 - whole;
     return (1 - share) * past_[whole] + share * past_[whole + 1];
   }

@@ -78,7 +78,8 @@ struct SimbodyArm::Impl {
   SimTK::Vector no_acceleration;
 
   explicit Impl(const Robot& robot) : matter(system), forces(system) {
-    SimTK::Force::UniformGravity(forces, matter, ToVec3(robot.gravity));
+    const SimTK::Force::UniformGravity gravity(forces, matter,
+                                               ToVec3(robot.gravity));
     SimTK::MobilizedBody parent = matter.updGround();
     for (const Link& link : robot.links) parent = Add(robot, link, parent);
     system.realizeTopology();
