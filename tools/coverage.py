@@ -10,6 +10,7 @@ Python's standard library only.
 """
 
 import collections
+import glob
 import json
 import os
 import subprocess
@@ -44,11 +45,9 @@ def main():
     # A program that was killed leaves half a profile.
     subprocess.run(["llvm-profdata", "merge", "--sparse", "--failure-mode=all",
                     f"--input-files={names}", "-o", profile], check=True)
-    # The archives, as they hold what no program needs as well.
-    libraries = [f"{build}/lib{name}.a" for name in
-                 ("model", "effects", "plant", "hidden", "problems", "calib",
-                  "report", "commands")]
-    objects = [libraries[0]] + [f"--object={name}" for name in libraries[1:]]
+    # Objects rather than programs, as they hold what no program needs as well.
+    objects = sorted(glob.glob(f"{build}/CMakeFiles/*.dir/**/*.cc.o", recursive=True))
+    objects = objects[:1] + [f"--object={path}" for path in objects[1:]]
     common = [f"--instr-profile={profile}", *objects]
     text = subprocess.run(["llvm-cov", "export", "--summary-only", *common],
                           check=True, capture_output=True).stdout

@@ -28,6 +28,7 @@ ARMCAL_INLINE void FactorTriangle(int n, T* M) {
     }
   }
   const T none = {};
+  // NaN is meant. NOLINTNEXTLINE(misc-redundant-expression)
   M[0] = least > kNoInertia * largest ? M[0] : none / none;
 }
 
