@@ -115,8 +115,9 @@ int Main(int argc, char** argv) {
   return Run(CommandNamed(words[0]), argc - 1, argv + 1);
 }
 
-// After glog has said which CHECK failed.
-[[noreturn]] void FailInternally() {
+// After glog has said which CHECK failed. [[noreturn]] would not be part of the
+// function's type, which clang and glog expect of it.
+__attribute__((noreturn)) void FailInternally() {
   std::cerr << "This is a bug in armcal; please report it.\n";
   std::_Exit(kExitInternal);
 }
