@@ -55,4 +55,9 @@ MatrixXd SquareRoot(const MatrixXd& A) {
          eigen.eigenvectors().transpose() * s.asDiagonal();
 }
 
+MatrixXd Sandwich(const MatrixXd& G, const MatrixXd& A) {
+  const MatrixXd root = SquareRoot(A) * G.transpose();
+  return root.transpose() * root;
+}
+
 }  // namespace armcal
