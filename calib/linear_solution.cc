@@ -5,27 +5,35 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/posterior.h"
+
 namespace armcal {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+MatrixXd LinearSolution::CovarianceFromScores(const MatrixXd& scores) const {
+  return Sandwich(gain, scores);
+}
+
 MatrixXd LinearSolution::IndependentCovariance(
     const BlockTriangularFactor& factor, const VectorXd& noise) const {
-  // A root of it from the factors' own, whose squares would lose digits.
   const int m = factor.num_parameters();
-  MatrixXd covariance = MatrixXd::Zero(m, m);
+  MatrixXd scores = MatrixXd::Zero(m, m);
   for (int i = 0; i < factor.num_joints(); ++i) {
     const std::vector<int>& columns = factor.columns(i);
     const Eigen::Index k =
         own_block_only ? factor.block_size(i) : columns.size();
-    const std::vector<int> own(columns.begin(), columns.begin() + k);
-    const MatrixXd root = weight[i] * noise[i] *
-                          factor.Triangle(i).leftCols(k) *
-                          gain(Eigen::all, own).transpose();
-    covariance += root.transpose() * root;
+    const MatrixXd R = factor.Triangle(i).leftCols(k);
+    const MatrixXd S = R.transpose() * R;
+    const double scale = std::pow(weight[i] * noise[i], 2);
+    for (Eigen::Index a = 0; a < k; ++a) {
+      for (Eigen::Index b = 0; b < k; ++b) {
+        scores(columns[a], columns[b]) += scale * S(a, b);
+      }
+    }
   }
-  return covariance;
+  return CovarianceFromScores(scores);
 }
 
 LinearSolution SolveWeighted(const BlockTriangularFactor& factor,

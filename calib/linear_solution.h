@@ -34,6 +34,8 @@ struct LinearSolution {
   // deviation noise[i].
   Eigen::MatrixXd IndependentCovariance(const BlockTriangularFactor& factor,
                                         const Eigen::VectorXd& noise) const;
+  // The covariance of x from that of the scores' sum.
+  Eigen::MatrixXd CovarianceFromScores(const Eigen::MatrixXd& scores) const;
 };
 
 // noise[i] = 0 leaves joint i's equations out. Directions that the data cannot

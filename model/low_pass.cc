@@ -114,6 +114,7 @@ MatrixXd ZeroPhaseLowPass(const MatrixXd& x, double sample_rate,
   CHECK_GT(cutoff_hz, 0);
   const int n = static_cast<int>(x.rows());
   const double period = sample_rate / cutoff_hz;  // samples
+  // The filter's memory of what is far shorter would not fit into ours.
   if (n < 2 || cutoff_hz >= 0.499 * sample_rate || 100 * n < period) return x;
   const auto sections = Butterworth4(sample_rate, cutoff_hz);
   // The filter starts from rest so far outside that polynomials pass.

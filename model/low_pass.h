@@ -14,8 +14,7 @@ enum class Ends {
 
 // Zero-phase low pass of each column of x (samples in rows): a Butterworth
 // filter of order 4 run forwards and backwards, so that the gain is 1/2 (-6 dB)
-// at cutoff_hz. A cutoff at or above half the sample rate returns x unchanged,
-// as does one whose period is a hundred times longer than x.
+// at cutoff_hz. A cutoff at or above half the sample rate returns x unchanged.
 Eigen::MatrixXd ZeroPhaseLowPass(const Eigen::MatrixXd& x, double sample_rate,
                                  double cutoff_hz, Ends ends = Ends::kReflect);
 

@@ -77,6 +77,8 @@ def calibrate(rng, robot, files, kinds, span, samples):
         flags += equations(rng, kinds) + priors(rng, kinds)
     geometry = chance(rng, {"known": 12, "lengths": 2, "all_lengths": 1, "offsets": 1.5,
                             "refine": 1.5})
+    if geometry.endswith("lengths") and kinds["joint count"] > 10:
+        geometry = "known"  # unknown lengths of 15 joints take 90 s
     kinds["geometry"] = geometry
     if geometry != "known":
         flags.append(f"--geometry={geometry}")
@@ -98,7 +100,8 @@ def calibrate(rng, robot, files, kinds, span, samples):
         files["more.csv"], more, _ = logs.draw(rng, robot, samples)
         if (more["columns"] == "currents") == (kinds["columns"] == "currents"):
             log = ["--log=log.csv,more.csv"]
-    flags += option(rng, 0.04, "select", "true") and ["--select", "--segment=1"]
+    if kinds.get("identification", "weak") == "weak" or rng.random() < 0.1:
+        flags += option(rng, 0.05, "select", "true") and ["--select", "--segment=1"]
     kinds["trajectory"] = "measured"
     if rng.random() < 0.04:
         kinds["trajectory"] = "corrected"  # of weak rows, weighted, without robot
@@ -115,8 +118,8 @@ def calibrate(rng, robot, files, kinds, span, samples):
 def draw(seed, index, samples):
     """The draw of this number."""
     rng = np.random.default_rng([seed, index])
-    command = chance(rng, {"calibrate": 80, "diagnose": 4, "inspect": 5, "verify": 4,
-                           "reduce": 5, "excite": 0.4, "simulate": 1})
+    command = chance(rng, {"calibrate": 84, "diagnose": 3, "inspect": 4, "verify": 2,
+                           "reduce": 5, "excite": 0.2, "simulate": 1})
     robot = robots.draw(rng, 7 if command in ("excite", "diagnose") else 20)
     long = 3 if command == "diagnose" else 1  # it compares stretches of seconds
     text, of_log, _ = logs.draw(rng, robot, long * samples(rng), 0.8 if long > 1 else 0.4)
@@ -135,7 +138,7 @@ def draw(seed, index, samples):
             rng, robot, files, kinds, span, samples(rng)) + out]
         if rng.random() < 0.08:
             commands.append(["inspect", "--robot=out/robot.urdf"] + out[:1])
-        if rng.random() < 0.05:
+        if rng.random() < 0.03:
             commands.append(["verify"] + given + ["--calibration=out/calibration.json"] + out)
     elif command == "inspect":
         commands = [["inspect"] + given + log * (rng.random() < 0.7) +

@@ -2,13 +2,13 @@
 """Gives armcal random robots and logs, and judges how each run ends.
 
   run.py --armcal=BINARY --work=SCRATCH [--first=0] [--count=10000] [--seed=1]
-         [--jobs=2] [--most=60] [--table] [--sentences] [--keep]
+         [--jobs=2] [--quick] [--table] [--sentences] [--keep]
 
 Every run must end in a verdict (verdicts.py): a result, whose every published
 number is one, or a refusal that says what is wrong. None may crash or take more
 than 60 s. A draw is told by --seed and its number alone: --first=N --count=1
---keep repeats it and leaves its files in SCRATCH. Prints each fault, how the runs
-ended, and with --table what was drawn; exit code 1 if there is any fault.
+--keep repeats it and leaves its files in SCRATCH. --quick leaves out commands that take seconds. Prints each fault, how the
+runs ended, and with --table what was drawn; exit code 1 if there is any fault.
 """
 
 import argparse
@@ -33,6 +33,7 @@ import verdicts
 
 HANGS = 600  # s by the clock, where cores are shared
 MOST_ADDRESSES = 2 << 30
+QUICK = ("calibrate", "inspect", "reduce", "merge")
 
 
 class Outcome:
@@ -69,12 +70,16 @@ def run_draw(arguments, index):
     drawing = time.process_time() - start
     runs, faults = [], []
     for command in draw.commands:
+        if arguments.quick and command[0] not in QUICK:
+            continue
         outcome = Outcome(str(arguments.armcal), command, folder)
         try:
             faults += [f"armcal {' '.join(command)}\n    {fault}"
                        for fault in verdicts.judged(outcome, folder)]
         except Exception:  # such as JSON that is none
             faults.append(f"armcal {' '.join(command)}\n    {traceback.format_exc()}")
+        if index % 25 == 0 and command[0] == "calibrate" and outcome.code < 2:
+            faults += differences(arguments, command, folder)
         runs.append((command[0], verdicts.ENDED.get(outcome.code, f"exit {outcome.code}"),
                      sentence(outcome, folder), outcome.seconds, outcome.bytes))
         if outcome.code >= 2 or outcome.code < 0 or not (folder / "out/robot.urdf").exists():
@@ -85,6 +90,17 @@ def run_draw(arguments, index):
     else:
         shutil.rmtree(folder)
     return draw.kinds, runs, faults, drawing
+
+
+def differences(arguments, command, folder):
+    """What three threads, which work in batches of their own, change."""
+    threaded = [{"--threads=1": "--threads=3", "--out=out": "--out=threaded"}.get(x, x)
+                for x in command]
+    Outcome(str(arguments.armcal), threaded, folder)
+    for name in ("calibration.json", "covariance.csv", "outliers.csv"):
+        one, three = (folder / out / name for out in ("out", "threaded"))
+        if one.exists() and one.read_bytes() != three.read_bytes():
+            yield f"armcal {' '.join(threaded)}\n    {name} depends on the number of threads"
 
 
 def sentence(outcome, folder):
@@ -105,7 +121,7 @@ def main():
     for name, default in (("first", 0), ("count", 10000), ("seed", 1), ("jobs", 2)):
         parser.add_argument(f"--{name}", type=int, default=default)
     parser.add_argument("--log_size", type=float, default=1.3, help="decades above 30 rows")
-    for name in ("table", "sentences", "keep"):
+    for name in ("quick", "table", "sentences", "keep"):
         parser.add_argument(f"--{name}", action="store_true")
     arguments = parser.parse_args()
     kinds = collections.defaultdict(collections.Counter)
