@@ -118,7 +118,7 @@ def calibrate(rng, robot, files, kinds, span, samples):
 def draw(seed, index, samples):
     """The draw of this number."""
     rng = np.random.default_rng([seed, index])
-    command = chance(rng, {"calibrate": 84, "diagnose": 3, "inspect": 4, "verify": 2,
+    command = chance(rng, {"calibrate": 85, "diagnose": 2, "inspect": 4, "verify": 2,
                            "reduce": 5, "excite": 0.2, "simulate": 1})
     robot = robots.draw(rng, 7 if command in ("excite", "diagnose") else 20)
     long = 3 if command == "diagnose" else 1  # it compares stretches of seconds

@@ -120,7 +120,7 @@ def main():
         parser.add_argument(f"--{name}", type=lambda p: pathlib.Path(p).resolve(), required=True)
     for name, default in (("first", 0), ("count", 10000), ("seed", 1), ("jobs", 2)):
         parser.add_argument(f"--{name}", type=int, default=default)
-    parser.add_argument("--log_size", type=float, default=1.3, help="decades above 30 rows")
+    parser.add_argument("--log_size", type=float, default=0.8, help="decades above 30 rows")
     for name in ("quick", "table", "sentences", "keep"):
         parser.add_argument(f"--{name}", action="store_true")
     arguments = parser.parse_args()
