@@ -8,6 +8,7 @@
 
 #include "calib/arm_unknowns.h"
 #include "calib/json_value.h"
+#include "calib/transition_choice.h"
 #include "model/arm_geometry.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
@@ -16,10 +17,6 @@
 
 namespace armcal {
 namespace {
-
-// Of Coulomb friction's transition, rad(/s) or m(/s): below it a simulation
-// takes for ever, and no calibration finds it.
-constexpr double kLeastWidth = 1e-6;
 
 constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
                                 JointTerm::kOffset, JointTerm::kArmature};
@@ -110,9 +107,9 @@ std::vector<CoulombTransition> ReadTransitions(const JsonValue& root,
                                 std::string(velocity ? "/s" : ""),
                             "");
     const double width = entry.At("width").Number();
-    if (!(width >= kLeastWidth)) {
+    if (!(width >= kLeastTransition)) {
       entry.At("width").Refuse("expected a width of at least " +
-                               NumberText(kLeastWidth));
+                               NumberText(kLeastTransition));
     }
     transitions[j] = {velocity ? Law::kVelocity : Law::kDisplacement, width};
   }

@@ -195,9 +195,11 @@ std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
   if (!result.solved) {
     return robot.name + ": not calibrated: " + result.reason;
   }
-  std::string text = Format(
-      "%s: %d model parameters, residual %.2f %% of the torque",
-      robot.name.c_str(), id.total, result.training->moving().stacked_percent);
+  const double left = result.training->moving().stacked_percent;
+  std::string text =
+      robot.name + Format(": %d model parameters, ", id.total) +
+      (std::isfinite(left) ? Format("residual %.2f %% of the torque", left)
+                           : "no torque where the logs move");
   if (result.validation) {
     const double percent = result.validation->moving().stacked_percent;
     text += std::isfinite(percent) ? Format(", %.2f %% held out", percent)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/overlap_covariance.h"
+#include "calib/posterior.h"
 #include "calib/robust_rows.h"
 #include "calib/score_covariance.h"
 
@@ -112,8 +113,7 @@ CovarianceEstimate EstimateGainCovariance(const GainFit& fit, RobustLoss loss,
   const MatrixXd least =
       D.transpose() * overlap.Value(study.gain, VectorXd::Ones(joints)) * D;
   result.covariance = RaiseToLogScatter(
-      RaiseTo(least.diagonal(), reach * scores.Value() * reach.transpose()),
-      reach, sums);
+      RaiseTo(least.diagonal(), Sandwich(reach, scores.Value())), reach, sums);
   result.method =
       "Newey-West over " + std::to_string(result.window) + " rows" +
       (pass->num_logs() >= 3 ? ", at least the scatter between logs" : "");

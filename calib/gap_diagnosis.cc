@@ -42,7 +42,7 @@ class Diagnoser {
     const double hz = options_.bandwidth_hz;
     std::vector<GapSegment> segments =
         ReadSegments(hz, options_.progress, logs);
-    if (must_move) CheckMotion(segments, hz, part, *logs);
+    if (must_move || segments.empty()) CheckMotion(segments, hz, part, *logs);
     KnowUsualTemperature(&segments);
     AdvanceTorque(delay_, &segments);
     return segments;

@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/posterior.h"
+
 namespace armcal {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 MatrixXd LinearSolution::CovarianceFromScores(const MatrixXd& scores) const {
-  return gain * scores * gain.transpose();
+  return Sandwich(gain, scores);
 }
 
 MatrixXd LinearSolution::IndependentCovariance(

@@ -10,6 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Of 7 joints or fewer; the work grows with the joints' fifth power.
 constexpr int kSamples = 250;
 constexpr double kLeastGain = 15;      // nats
 constexpr double kLeastDelay = .0125;  // s; filters and drives have less
@@ -64,7 +65,10 @@ bool IsOneSign(Kind kind) {
 class Reader {
  public:
   Reader(const Robot& robot, const UniformSeries& series)
-      : robot_(robot), series_(series), best_(robot) {}
+      : robot_(robot),
+        series_(series),
+        samples_(kSamples * 7 / std::max(7, robot.num_joints())),
+        best_(robot) {}
 
   ReadingFinding Run() {
     ReadingFinding finding{best_, {}, 0, 0};
@@ -85,7 +89,7 @@ class Reader {
     return {robot, SamplesOf(reading).motion};
   }
   WiringSamples SamplesOf(const LogReading& reading) const {
-    return SamplesAs(reading, robot_, series_, kSamples);
+    return SamplesAs(reading, robot_, series_, samples_);
   }
   double Misfit(const LogReading& reading, double* percent = nullptr) const {
     return FitOf(reading).Misfit(SamplesOf(reading).tau, percent);
@@ -199,6 +203,7 @@ class Reader {
 
   const Robot& robot_;
   const UniformSeries& series_;
+  const int samples_;
   LogReading best_;
   double least_ = 0;
   std::vector<ReadingChange> changes_;

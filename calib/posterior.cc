@@ -11,6 +11,22 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+// The factor of P, whose diagonal is 1. A body that hardly exists (a thin rod)
+// has a prior that is positive definite but for rounding, which is added.
+Eigen::LLT<MatrixXd> Factor(const MatrixXd& P) {
+  const MatrixXd one = MatrixXd::Identity(P.rows(), P.cols());
+  Eigen::LLT<MatrixXd> llt(P);
+  for (double rounding = 1e-15; llt.info() != Eigen::Success && rounding < 1;
+       rounding *= 10) {
+    llt.compute(P + rounding * one);
+  }
+  return llt;
+}
+
+}  // namespace
+
 Posterior::Posterior(const MatrixXd& A, const MatrixXd& prior,
                      const std::vector<int>& kept) {
   constexpr double kFlat = 1e-20;  // a wider one would lose digits of the SVD
@@ -24,7 +40,7 @@ Posterior::Posterior(const MatrixXd& A, const MatrixXd& prior,
   }
   // P = S^-1 L L' S^-1 with S for the units.
   const VectorXd s = P.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<MatrixXd> llt(MatrixXd(s.asDiagonal() * P * s.asDiagonal()));
+  const Eigen::LLT<MatrixXd> llt = Factor(s.asDiagonal() * P * s.asDiagonal());
   relative = relative * s.asDiagonal();
   relative = llt.matrixL().solve(relative.transpose()).transpose().eval();
   const Eigen::HouseholderQR<MatrixXd> qr(relative);
@@ -55,6 +71,11 @@ MatrixXd SquareRoot(const MatrixXd& A) {
       MatrixXd(unscale * A * unscale));
   return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
          eigen.eigenvectors().transpose() * s.asDiagonal();
+}
+
+MatrixXd Sandwich(const MatrixXd& G, const MatrixXd& A) {
+  const MatrixXd root = SquareRoot(A) * G.transpose();
+  return root.transpose() * root;
 }
 
 }  // namespace armcal

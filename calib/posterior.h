@@ -31,4 +31,8 @@ class Posterior {
 // F with F'F = A, A positive semidefinite but for rounding.
 Eigen::MatrixXd SquareRoot(const Eigen::MatrixXd& A);
 
+// G A G', symmetric and positive semidefinite to rounding of its variances
+// even where G A is far larger.
+Eigen::MatrixXd Sandwich(const Eigen::MatrixXd& G, const Eigen::MatrixXd& A);
+
 }  // namespace armcal

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/overlap_covariance.h"
+#include "calib/posterior.h"
 #include "calib/robust_rows.h"
 #include "calib/score_covariance.h"
 
@@ -135,7 +136,7 @@ CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
     sums.col(residual.log) += score.value;
   });
   const MatrixXd gain = wanted * linearised.gain;
-  MatrixXd covariance = gain * scores.Value() * gain.transpose();
+  MatrixXd covariance = Sandwich(gain, scores.Value());
   if (!solution.own_block_only) {
     const VectorXd scale = solution.weight.cwiseProduct(noise);
     const MatrixXd least = overlap.Value(linearised.gain, scale);

@@ -47,7 +47,8 @@ double Median(VectorXd x) {
 
 MatrixXd InverseWithin(const MatrixXd& seen, const MatrixXd& information) {
   const MatrixXd inner = seen.transpose() * information * seen;
-  return seen * inner.llt().solve(seen.transpose());
+  const MatrixXd root = inner.llt().matrixL().solve(seen.transpose());
+  return root.transpose() * root;
 }
 
 TrajectoryCovariance EstimateTrajectoryCovariance(

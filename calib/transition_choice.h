@@ -8,6 +8,10 @@
 
 namespace armcal {
 
+// The least width that a transition may have, rad(/s) or m(/s): a tenth of the
+// sharpest that is looked for.
+constexpr double kLeastTransition = 1e-9;
+
 // The transitions of Coulomb friction that are tried on a joint: 18 velocities
 // from 1e-3 to 0.3 rad/s and 15 displacements from 1e-4 to 2e-2 rad (m/s and m
 // for a prismatic joint).

@@ -26,6 +26,8 @@ constexpr double kConsistent = 1e-8;
 constexpr double kSmallTorque = 1e-3;    // of the largest
 constexpr double kSwingAccuracy = 1e-9;  // local error of integrators
 constexpr int kSwingParts = 10;          // where the energy is looked at
+// Of a swing; arms of a metre take some 20,000 at most.
+constexpr int kSwingSteps = 100'000;
 
 // The largest of relative differences, NaN once one is.
 class LargestRatio {
@@ -138,7 +140,8 @@ double SwingInSimbody(const ArmState& start, double duration,
   VectorXd q = start.q, qd = start.qd;
   Drift drift(arm->KineticEnergy(q, qd) + arm->PotentialEnergy(q));
   for (int part = 0; part < kSwingParts; ++part) {
-    if (!arm->Swing(duration / kSwingParts, kSwingAccuracy, &q, &qd)) {
+    if (!arm->Swing(duration / kSwingParts, kSwingAccuracy,
+                    kSwingSteps / kSwingParts, &q, &qd)) {
       return kNaN;
     }
     drift.Add(arm->KineticEnergy(q, qd), arm->PotentialEnergy(q));
@@ -161,6 +164,7 @@ double Swing(const Robot& robot, const ArmState& start, double duration,
   }
   IntegrationOptions options;
   options.relative = options.absolute = kSwingAccuracy;
+  options.max_steps = kSwingSteps;
   const Integration swing = Integrate(
       [&bare, n](double, const VectorXd& x, VectorXd* rate) {
         *rate << x.tail(n),

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "model/inverse_dynamics.h"
+#include "model/batch_regressor.h"
 #include "problems/inertial_prior.h"
 
 namespace armcal {
@@ -20,27 +20,16 @@ constexpr int kTerms = 4;            // viscous, Coulomb, offset, armature
 constexpr double kLeastShare = .01;  // of the torque: no model is better
 
 // Torque of a unit of every link's inertial parameters and every joint's terms.
-// Inverse dynamics is linear in them.
 std::vector<MatrixXd> Columns(const Robot& robot, const Motion& motion) {
   const int n = robot.num_joints();
   std::vector<MatrixXd> columns(
       n, MatrixXd::Zero(motion.size(), 10 * n + kTerms * n));
-  Robot unit = robot;
-  for (Link& link : unit.links) {
-    link.inertial = {};
-    link.joint.armature = 0;
-  }
+  std::vector<double*> links;  // of which joint i's torque has i and beyond
+  for (int i = 0; i < n; ++i) links.push_back(&columns[i](0, 10 * i));
+  BatchRegressor(robot).Differential(
+      {motion.q, motion.qd, motion.qdd, MatrixXd()}, motion.size(),
+      links.data(), motion.size());
   for (int i = 0; i < n; ++i) {
-    for (int k = 0; k < 10; ++k) {
-      unit.links[i].inertial =
-          InertialParameters::FromVector(Vector10d::Unit(k));
-      for (int s = 0; s < motion.size(); ++s) {
-        const VectorXd tau = InverseDynamics(
-            unit, motion.q.row(s), motion.qd.row(s), motion.qdd.row(s));
-        for (int j = 0; j <= i; ++j) columns[j](s, 10 * i + k) = tau[j];
-      }
-    }
-    unit.links[i].inertial = {};
     MatrixXd own(motion.size(), kTerms);
     own << motion.qd.col(i),
         (motion.qd.col(i).array() / kTransition).tanh().matrix(),
@@ -81,7 +70,9 @@ TorqueFit::TorqueFit(const Robot& robot, const Motion& motion)
     : columns_(Columns(robot, motion)) {
   const int n = robot.num_joints(), size = 10 * n + kTerms * n;
   for (const MatrixXd& columns : columns_) {
-    squares_.emplace_back(columns.transpose() * columns);
+    MatrixXd square = MatrixXd::Zero(size, size);
+    square.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+    squares_.emplace_back(square.selfadjointView<Eigen::Lower>());
   }
   nominal_ = VectorXd::Zero(size);
   prior_ = MatrixXd::Zero(size, size);

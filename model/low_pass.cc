@@ -113,13 +113,15 @@ MatrixXd ZeroPhaseLowPass(const MatrixXd& x, double sample_rate,
                           double cutoff_hz, Ends ends) {
   CHECK_GT(cutoff_hz, 0);
   const int n = static_cast<int>(x.rows());
-  if (n < 2 || cutoff_hz >= 0.499 * sample_rate) return x;
+  const double period = sample_rate / cutoff_hz;  // samples
+  // The filter's memory of what is far shorter would not fit into ours.
+  if (n < 2 || cutoff_hz >= 0.499 * sample_rate || 100 * n < period) return x;
   const auto sections = Butterworth4(sample_rate, cutoff_hz);
   // The filter starts from rest so far outside that polynomials pass.
   const int pad =
       static_cast<int>(std::ceil(sample_rate * LowPassMemory(cutoff_hz)));
-  const int span = std::min(
-      n, std::max(6, static_cast<int>(std::lround(sample_rate / cutoff_hz))));
+  const int span =
+      std::min(n, std::max(6, static_cast<int>(std::lround(period))));
   const Continuation beyond(ends == Ends::kExtrapolate && span >= 6, pad, span);
   const int reach = std::min(n, beyond.reach());
   MatrixXd result(n, x.cols());

@@ -55,7 +55,7 @@ TEST(ArmSimulator, SwingsAsSimbodyIntegratesItself) {
   const VectorXd q0 = UniformVector(&random, 6, -1, 1);
   VectorXd q = q0, qd = VectorXd::Zero(6);
   SimbodyArm arm(robot);
-  ASSERT_TRUE(arm.Swing(.5, 1e-10, &q, &qd));
+  ASSERT_TRUE(arm.Swing(.5, 1e-10, 10000, &q, &qd));
   SimulatedRobot plant;
   plant.robot = robot;
   const VectorXd none = VectorXd::Zero(6);
@@ -68,7 +68,7 @@ TEST(ArmSimulator, SwingsAsSimbodyIntegratesItself) {
   ArmSimulator simulator(plant, q, {1e-3, 0, 0}, &arm);
   simulator.SetMotors(q, qd);
   for (int k = 0; k < 200; ++k) simulator.Step(none);
-  ASSERT_TRUE(arm.Swing(.2, 1e-10, &q, &qd));
+  ASSERT_TRUE(arm.Swing(.2, 1e-10, 10000, &q, &qd));
   EXPECT_LT((simulator.instant().position - q).norm(), 1e-4);
 }
 

@@ -189,8 +189,8 @@ TEST_F(ChangedCalibration, ParametersAndFriction) {
   EXPECT_THAT(RefusalAfter([](json* c) { c->erase("parameters"); }),
               HasSubstr("key parameters: is missing"));
   EXPECT_THAT(RefusalOf("/parameters", 3), HasSubstr("expected a list"));
-  EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/width", 1e-9),
-              HasSubstr("expected a width of at least 1e-06"));
+  EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/width", 1e-10),
+              HasSubstr("expected a width of at least 1e-09"));
   EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/law", "sign"),
               HasSubstr("expected 'velocity' or 'displacement'"));
   EXPECT_THAT(RefusalOf("/joints/0/coulomb_transition/unit", "m/s"),

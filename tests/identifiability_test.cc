@@ -26,6 +26,7 @@ struct Case {
     MotionRegressor regressor(parameters);
     ForEachRow(trajectory, rows, &regressor, [&](const IdentificationRow& row) {
       U.push_back(row.U);
+      Y.push_back(row.Y);
       for (int i = 0; i < parameters.num_joints(); ++i) {
         factor.Add(i, row.U.row(i), row.Y[i]);
       }
@@ -37,11 +38,12 @@ struct Case {
     return options;
   }
   Identifiability Analyze(double relative_noise, double unit = 1) const {
-    const VectorXd rms = RightSideRms(factor);
     return AnalyzeIdentifiability(
-        factor, parameters, relative_noise * rms,
-        MakeReferenceScale(parameters, 1, .5, unit, rms,
-                           VectorXd::Zero(parameters.size())));
+        factor, parameters, relative_noise * RightSideRms(factor), Scale(unit));
+  }
+  ReferenceScale Scale(double unit) const {
+    return MakeReferenceScale(parameters, 1, .5, unit, RightSideRms(factor),
+                              VectorXd::Zero(parameters.size()));
   }
   // The largest entry that direction x makes in the equations of joint i, or of
   // all joints (-1), relative to a typical parameter vector's.
@@ -60,6 +62,7 @@ struct Case {
   ModelParameters parameters;
   BlockTriangularFactor factor;
   std::vector<MatrixXd> U;
+  std::vector<VectorXd> Y;
 };
 
 RowOptions Differential() {
@@ -127,6 +130,67 @@ TEST(Identifiability, DirectionsAreNull) {
     EXPECT_EQ(d.x.head(begin).norm(), 0);
     EXPECT_EQ(d.x.tail(36 - begin - c.parameters.block_size(d.block)).norm(),
               0);
+  }
+}
+
+// In units in which joints' torques and parameters' columns are so much larger.
+Identifiability InUnits(const Case& c, const VectorXd& joints,
+                        const VectorXd& columns) {
+  BlockTriangularFactor factor(c.parameters);
+  for (size_t k = 0; k < c.U.size(); ++k) {
+    for (int i = 0; i < 6; ++i) {
+      factor.Add(i, joints[i] * c.U[k].row(i) * columns.asDiagonal(),
+                 joints[i] * c.Y[k][i]);
+    }
+  }
+  const VectorXd rms = RightSideRms(factor);
+  ReferenceScale scale = c.Scale(1);
+  scale.columns = joints.asDiagonal() * scale.columns * columns.asDiagonal();
+  scale.torque = joints.cwiseProduct(scale.torque);
+  return AnalyzeIdentifiability(factor, c.parameters, 1e-7 * rms, scale);
+}
+
+// Torques of one joint in units a million times as large or small, or any
+// parameters in such units.
+TEST(Identifiability, RanksDoNotDependOnUnits) {
+  const Case c(Puma(), GeometryKnowledge::kKnown, PumaLog({1, 2}),
+               Differential());
+  std::mt19937_64 random(8);
+  for (const double unit : {1e-6, 1e6}) {
+    for (int j = 0; j < 7; ++j) {
+      VectorXd joints = VectorXd::Ones(6), columns = VectorXd::Ones(36);
+      if (j < 6) {
+        joints[j] = unit;
+      } else {
+        for (double& x : columns) x = random() % 2 == 0 ? unit : 1;
+      }
+      const Identifiability found = InUnits(c, joints, columns);
+      EXPECT_EQ(found.block_rank, (std::vector<int>{0, 3, 3, 3, 4, 4})) << j;
+      EXPECT_EQ(found.batch_rank, 21) << "unit " << unit << " of " << j;
+    }
+  }
+}
+
+// Arms of a micrometre and of a thousand kilometres, of a milligram and of a
+// thousand tons, where gravity grows with length: the same but for units.
+TEST(Identifiability, RanksDoNotDependOnTheArmsSize) {
+  for (const double length : {1e-6, 1e6}) {
+    for (const double mass : {1e-6, 1e6}) {
+      Robot robot = Puma();
+      robot.gravity *= length;
+      for (Link& link : robot.links) {
+        link.X_PF.translation() *= length;
+        link.X_ML.translation() *= length;
+        link.inertial.mass *= mass;
+        link.inertial.first_moment *= mass * length;
+        link.inertial.inertia *= mass * length * length;
+      }
+      const Case c(robot, GeometryKnowledge::kKnown, PumaLog({1, 2}),
+                   Differential());
+      const Identifiability found = c.Analyze(1e-7);
+      EXPECT_EQ(found.block_rank, (std::vector<int>{0, 3, 3, 3, 4, 4}));
+      EXPECT_EQ(found.batch_rank, 21) << length << " m, " << mass << " kg";
+    }
   }
 }
 

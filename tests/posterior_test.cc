@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "tests/sample_motion.h"
@@ -60,6 +61,29 @@ TEST(Posterior, ParametersWithoutPriorHaveTheDatas) {
   const Posterior posterior(A, MatrixXd::Zero(3, 3), {0, 1, 2});
   EXPECT_LT((posterior.Gain() - data.inverse()).norm(),
             1e-6 * data.inverse().norm());
+}
+
+// G is a hundred million times larger in directions that A does not have: as
+// written the product is neither symmetric nor free of negative variances.
+TEST(Sandwich, IsACovarianceWhateverCancels) {
+  std::mt19937_64 random(4);
+  const MatrixXd A = RandomInformation(6, 3, &random);
+  const MatrixXd null =
+      Eigen::FullPivLU<MatrixXd>(A).setThreshold(1e-9).kernel();
+  ASSERT_EQ(null.cols(), 3);
+  const MatrixXd G = RandomRows(6, 6, &random) +
+                     1e8 * RandomRows(3, 6, &random) * null.transpose();
+  const auto correlations = [](const MatrixXd& C) {
+    const Eigen::VectorXd s =
+        C.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+    return MatrixXd(s.asDiagonal() * C * s.asDiagonal());
+  };
+  const MatrixXd C = correlations(Sandwich(G, A));
+  EXPECT_LT((C - C.transpose()).norm(), 1e-14);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(C).eigenvalues()[0],
+            -1e-14);
+  const MatrixXd written = correlations(G * A * G.transpose());
+  EXPECT_GT((written - written.transpose()).norm(), 1e-6);
 }
 
 }  // namespace

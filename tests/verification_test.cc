@@ -132,6 +132,34 @@ TEST(Verify, MasslessTipCannotSwing) {
   EXPECT_LT(result.torque_max_rel, 1e-10);
 }
 
+// A pendulum of a hundred nanometres swings 100,000 times in 10 s.
+TEST(Verify, WhatSwingsTooFastIsToldSo) {
+  Robot robot = SampleRobot("2R planar (vertical plane)");
+  for (Link& link : robot.links) {
+    link.inertial = {1, {1e-7, 0, 0}, 2e-14 * Eigen::Matrix3d::Identity()};
+  }
+  const Verification result = Verify(robot, {}, nullptr);
+  EXPECT_FALSE(result.passed());
+  ASSERT_EQ(result.reasons.size(), 2u);
+  EXPECT_THAT(result.reasons[1], HasSubstr("more than 100000 steps up to t ="));
+  EXPECT_LT(result.torque_max_rel, 1e-10);
+}
+
+// Simbody's tolerances are absolute.
+TEST(Verify, HeavyPointsAreRefusedBySimbody) {
+  Robot robot = SampleRobot("2R planar (vertical plane)");
+  for (Link& link : robot.links) {
+    link.inertial = InertialParameters::FromCenterOfMass(
+        921766.7487125346,
+        {-0.28749266897475234, -0.17550498814161186, 0.0721506957223299},
+        Eigen::Matrix3d::Zero());
+  }
+  const Verification result = Verify(robot, {}, nullptr);
+  ASSERT_FALSE(result.reasons.empty());
+  EXPECT_THAT(result.reasons[0],
+              HasSubstr("Simbody cannot simulate it: Error detected by"));
+}
+
 // Random states and the swing start are drawn from the seed alone.
 TEST(Verify, SameSeedSameFigures) {
   std::mt19937_64 random(7);

@@ -78,6 +78,11 @@ std::optional<SegmentSelection> SelectFromFlags(const Task& task,
                                                 LogSet* training) {
   constexpr double kMostRatio = 1.25;  // of standard deviations
   if (!FLAGS_select) return {};
+  if (task.linear.identification != Identification::kWeak) {
+    throw UsageError(
+        "--select: expected --identification=weak with it, whose noise tells "
+        "what segments are worth");
+  }
   if (!(FLAGS_segment >= 1) || !std::isfinite(FLAGS_segment)) {
     throw UsageError("--segment: found '" + NumberText(FLAGS_segment) +
                      "', expected a length of at least 1 s");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/transition_choice.h"
 #include "model/input_text.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
@@ -99,8 +100,13 @@ std::optional<CoulombTransition> TransitionFromFlags() {
                                                 {"m", Law::kDisplacement}}) {
     const size_t at = text.rfind(unit);
     if (at == std::string::npos || at + unit.size() != text.size()) continue;
-    return CoulombTransition{
-        law, PositiveNumber("coulomb_width", text.substr(0, at))};
+    const double width = PositiveNumber("coulomb_width", text.substr(0, at));
+    if (width < kLeastTransition) {
+      throw UsageError("--coulomb_width: found '" + text +
+                       "', expected a width of at least " +
+                       NumberText(kLeastTransition));
+    }
+    return CoulombTransition{law, width};
   }
   throw UsageError("--coulomb_width: found '" + text +
                    "', expected auto, a speed (0.02rad/s) or a displacement "

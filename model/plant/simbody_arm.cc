@@ -77,7 +77,7 @@ struct SimbodyArm::Impl {
   SimTK::Vector residual;
   SimTK::Vector no_acceleration;
 
-  explicit Impl(const Robot& robot) : matter(system), forces(system) {
+  explicit Impl(const Robot& robot) try : matter(system), forces(system) {
     const SimTK::Force::UniformGravity gravity(forces, matter,
                                                ToVec3(robot.gravity));
     SimTK::MobilizedBody parent = matter.updGround();
@@ -87,6 +87,11 @@ struct SimbodyArm::Impl {
     system.realizeModel(state);
     no_acceleration.resize(robot.num_joints());
     no_acceleration = 0;
+  } catch (const SimTK::Exception::Base& error) {
+    // Its tolerances are absolute: a heavy link's rounding is beyond them.
+    throw InputError(
+        robot.name, "link " + robot.links.back().name, "",
+        "Simbody cannot simulate it: " + FirstLine(error.getMessage()));
   }
 
   SimTK::MobilizedBody Add(const Robot& robot, const Link& link,
@@ -214,15 +219,19 @@ double SimbodyArm::PotentialEnergy(const Eigen::VectorXd& q) {
   return impl_->system.calcPotentialEnergy(impl_->state);
 }
 
-bool SimbodyArm::Swing(double duration, double accuracy, Eigen::VectorXd* q,
-                       Eigen::VectorXd* qd) try {
+bool SimbodyArm::Swing(double duration, double accuracy, int max_steps,
+                       Eigen::VectorXd* q, Eigen::VectorXd* qd) try {
   impl_->Set(*q, *qd);
   impl_->state.setTime(0);
   SimTK::RungeKuttaMersonIntegrator integrator(impl_->system);
   integrator.setAccuracy(accuracy);
-  SimTK::TimeStepper stepper(impl_->system, integrator);
-  stepper.initialize(impl_->state);
-  stepper.stepTo(duration);
+  integrator.setInternalStepLimit(max_steps);
+  integrator.initialize(impl_->state);
+  while (integrator.getTime() < duration) {
+    if (integrator.stepTo(duration) == SimTK::Integrator::ReachedStepLimit) {
+      return false;
+    }
+  }
   *q = FromVector(integrator.getState().getQ());
   *qd = FromVector(integrator.getState().getU());
   return q->allFinite() && qd->allFinite();

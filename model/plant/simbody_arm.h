@@ -36,9 +36,10 @@ class SimbodyArm : public ArmDynamics {
 
   // Lets the arm swing without torque or friction for `duration` s from (q, qd)
   // by Simbody's own Runge-Kutta-Merson integrator, whose relative local
-  // error is `accuracy`. False where that fails (a massless tip).
-  bool Swing(double duration, double accuracy, Eigen::VectorXd* q,
-             Eigen::VectorXd* qd);
+  // error is `accuracy`. False where that fails (a massless tip) or takes
+  // more than `max_steps`.
+  bool Swing(double duration, double accuracy, int max_steps,
+             Eigen::VectorXd* q, Eigen::VectorXd* qd);
 
  private:
   struct Impl;
