@@ -5,7 +5,7 @@
 
 #include "calib/calibration_reader.h"
 #include "calib/closed_loop_replay.h"
-#include "model/plant/joint_controller.h"
+#include "model/joint_controller.h"
 #include "model/robot.h"
 
 namespace armcal {

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "model/joint_controller.h"
 #include "model/log.h"
 #include "model/log_reader.h"
-#include "model/plant/joint_controller.h"
 #include "model/robot.h"
 #include "model/simulated_robot.h"
 #include "model/time_base.h"
