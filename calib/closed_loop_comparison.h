@@ -13,10 +13,11 @@ namespace armcal {
 // One joint of a closed loop that follows the logged command.
 struct ClosedLoopJoint {
   std::string name;
-  std::string unit;          // "rad" or "m"
-  double before_rms;         // of simulated minus recorded positions
-  double after_rms;          // NaN without a calibration
-  double before_torque_rms;  // N m or N, of controller minus recorded torque
+  std::string unit;   // "rad" or "m"
+  double before_rms;  // of simulated minus recorded positions
+  double after_rms;   // NaN without a calibration
+  // N m or N, of controller minus recorded torque; NaN where none is recorded.
+  double before_torque_rms;
   double after_torque_rms;
   double torque_rms;  // of the recorded torque
 };
