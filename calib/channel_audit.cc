@@ -67,6 +67,8 @@ class ChannelAudit {
       const VectorXd slope = SlopeOf(log_, j);
       AddStuck(j, slope);
       AddVelocity(j, slope);
+      if (log_.tau.size() == 0) continue;
+      AddStuckTorque(j, slope);
       AddLimit(j);
       AddFewValues(j);
     }
@@ -99,19 +101,28 @@ class ChannelAudit {
   }
 
   // A column that does not change although the others of its joint do.
-  void AddStuck(int j, const VectorXd& slope) {
-    const Eigen::Array<bool, Eigen::Dynamic, 1> moves =
-        slope.array().abs() > kMoving;
+  void AddStuckTorque(int j, const VectorXd& slope) {
     // What is cut off stands at a limit.
     const VectorXd tau = log_.tau.col(j);
     const double low = tau.minCoeff(), high = tau.maxCoeff();
-    Eigen::Array<bool, Eigen::Dynamic, 1> counts = moves;
+    Eigen::Array<bool, Eigen::Dynamic, 1> counts =
+        slope.array().abs() > kMoving;
     if (low < high) {
       counts = counts && tau.array() > low && tau.array() < high;
     }
     const double torque = LongestConstant(log_, tau, counts);
     if (torque > kStuckTime)
       Stuck("torque", j, torque, "while the joint moves");
+  }
+  void AddStuck(int j, const VectorXd& slope) {
+    const Eigen::Array<bool, Eigen::Dynamic, 1> moves =
+        slope.array().abs() > kMoving;
+    if (log_.qref.size() > 0) {
+      const double command = LongestConstant(log_, log_.qref.col(j), moves);
+      if (command > kStuckTime) {
+        Stuck("command", j, command, "while the joint moves");
+      }
+    }
     if (log_.qd.size() == 0) return;
     const double velocity = LongestConstant(
         log_, log_.qd.col(j), moves && log_.qd.col(j).array() != 0);

@@ -24,8 +24,8 @@ StampFigures AuditStamps(const Log& log);
 
 // Findings from single columns: time in another unit, lost samples, a column
 // that stands still while its joint moves, one at a limit, one of few values,
-// recorded velocities that are not the positions'. The log has q and tau, qd or
-// not, and its time in s.
+// recorded velocities that are not the positions'. The log has q, tau, qd and
+// qref or not, and its time in s.
 std::vector<InspectionFinding> AuditChannels(const Robot& robot, const Log& log,
                                              const StampFigures& stamps);
 

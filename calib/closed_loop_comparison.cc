@@ -36,8 +36,12 @@ Deviation RmsOf(const ClosedLoopReplay& replay, int n) {
     return {infinite, infinite};
   }
   const double rows = std::sqrt(replay.position.rows());
-  return {replay.position.colwise().norm() / rows,
-          replay.torque.colwise().norm() / rows};
+  Deviation deviation{replay.position.colwise().norm() / rows,
+                      VectorXd::Constant(n, kNaN)};
+  if (replay.torque.size() > 0) {
+    deviation.torque = replay.torque.colwise().norm() / rows;
+  }
+  return deviation;
 }
 
 }  // namespace
@@ -68,7 +72,9 @@ ClosedLoopComparison CompareClosedLoop(const Robot& file,
     result.joints.push_back(
         {joint.name, PositionUnit(joint.type), of_file.position[j],
          of_calibrated.position[j], of_file.torque[j], of_calibrated.torque[j],
-         std::sqrt(log.tau.col(j).squaredNorm() / log.size())});
+         log.tau.size() == 0
+             ? kNaN
+             : std::sqrt(log.tau.col(j).squaredNorm() / log.size())});
   }
   return result;
 }

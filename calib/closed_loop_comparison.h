@@ -5,7 +5,7 @@
 
 #include "calib/calibration_reader.h"
 #include "calib/closed_loop_replay.h"
-#include "model/plant/joint_controller.h"
+#include "model/joint_controller.h"
 #include "model/robot.h"
 
 namespace armcal {
@@ -13,10 +13,11 @@ namespace armcal {
 // One joint of a closed loop that follows the logged command.
 struct ClosedLoopJoint {
   std::string name;
-  std::string unit;          // "rad" or "m"
-  double before_rms;         // of simulated minus recorded positions
-  double after_rms;          // NaN without a calibration
-  double before_torque_rms;  // N m or N, of controller minus recorded torque
+  std::string unit;   // "rad" or "m"
+  double before_rms;  // of simulated minus recorded positions
+  double after_rms;   // NaN without a calibration
+  // N m or N, of controller minus recorded torque; NaN where none is recorded.
+  double before_torque_rms;
   double after_torque_rms;
   double torque_rms;  // of the recorded torque
 };

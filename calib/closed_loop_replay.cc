@@ -68,7 +68,7 @@ CommandedLog ReadCommandedLog(const std::string& path,
                               const LogReaderOptions& given,
                               const TimeRange& crop) {
   LogReaderOptions options = given;
-  options.want_reference = true;
+  options.commands_do = true;
   const Log all = ReadWholeLog(path, options);
   if (all.qref.size() == 0) {
     throw InputError(path, "header", "",
@@ -88,7 +88,7 @@ CommandedLog ReadCommandedLog(const std::string& path,
   Log& log = commanded.log;
   log.t = all.t(rows).array() - all.t[rows.front()];
   log.q = all.q(rows, Eigen::all);
-  log.tau = all.tau(rows, Eigen::all);
+  if (all.tau.size() > 0) log.tau = all.tau(rows, Eigen::all);
   log.qref = all.qref(rows, Eigen::all);
   log.first_row = all.first_row + rows.front();
   return commanded;
@@ -122,12 +122,14 @@ ClosedLoopReplay ReplayClosedLoop(const SimulatedRobot& plant, double delay,
   const int first = FirstCounted(log);
   const int size = log.size() - first;
   replay.position.resize(size, n);
-  replay.torque.resize(size, n);
+  const bool has_torque = log.tau.size() > 0;
+  if (has_torque) replay.torque.resize(size, n);
   for (int k = 0; k < size; ++k) {
     const int row = first + k;
     const double t = TrueTime(plant.clock, log.t[row]);
     replay.position.row(k) =
         At(run.log.q, controller.rate_hz, t) - log.q.row(row);
+    if (!has_torque) continue;
     replay.torque.row(k) =
         At(run.log.tau, controller.rate_hz, t) - log.tau.row(row);
   }

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "model/joint_controller.h"
 #include "model/log.h"
 #include "model/log_reader.h"
-#include "model/plant/joint_controller.h"
 #include "model/robot.h"
 #include "model/simulated_robot.h"
 #include "model/time_base.h"
@@ -15,7 +15,7 @@ namespace armcal {
 // A log whose command qref can be followed, in memory as a whole.
 struct CommandedLog {
   std::string path;
-  Log log;  // times from 0: positions, torque and qref
+  Log log;  // times from 0: positions, qref, and torque if there is any
 };
 
 // The rows of a log within `crop`. Throws InputError where it has no qref
@@ -34,7 +34,7 @@ struct ClosedLoopReplay {
   // Simulated minus recorded from FirstCounted() on, samples x n, rad or m, N m
   // or N.
   Eigen::MatrixXd position;
-  Eigen::MatrixXd torque;
+  Eigen::MatrixXd torque;  // empty where the log has none
 };
 
 // Lets `plant`, moved by our own dynamics, follow the command of the log under

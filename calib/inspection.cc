@@ -26,7 +26,7 @@ class Inspector {
       : robot_(robot), result_(robot) {
     result_.path = path;
     LogReaderOptions wanted = options;
-    wanted.want_velocity = true;
+    wanted.want_velocity = wanted.commands_do = true;
     LogReader reader(path, wanted);
     reader.Read(kMostRows, &log_);
     Log more;
@@ -56,6 +56,9 @@ class Inspector {
  private:
   void DescribeMotion() {
     result_.travel = log_.q.colwise().maxCoeff() - log_.q.colwise().minCoeff();
+    if (log_.qref.size() == 0) return;
+    result_.tracking_rms =
+        (log_.qref - log_.q).colwise().norm() / std::sqrt(log_.size());
   }
 
   void ReadTorques() {
@@ -70,6 +73,10 @@ class Inspector {
           {"no_motion", "the arm hardly moves",
            Format("%.2g s of motion", series.num_moving() * dt),
            "record a motion (armcal excite)"});
+      return;
+    }
+    if (log_.tau.size() == 0) {
+      result_.coverage.reason = "no torque is logged";
       return;
     }
     const ReadingFinding found = FindReading(robot_, series);
@@ -210,6 +217,8 @@ Log Mended(const Robot& robot, const Log& log,
     }
     mended.q.col(j) = sign * log.q.col(from);
     if (log.qd.size() > 0) mended.qd.col(j) = sign * log.qd.col(from);
+    if (log.qref.size() > 0) mended.qref.col(j) = sign * log.qref.col(from);
+    if (log.tau.size() == 0) continue;
     mended.tau.col(j) = reading.wiring.torque_sign[j] * log.tau.col(from);
   }
   return mended;

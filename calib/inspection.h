@@ -20,9 +20,11 @@ struct LogInspection {
   bool whole = true;    // false: only the first rows were looked at
   double duration = 0;  // s
   StampFigures stamps;
-  std::string torque_source;
-  Eigen::VectorXd travel;       // per joint, rad or m
-  Eigen::VectorXd top_speed;    // rad/s or m/s
+  std::string torque_source;  // empty: none, but commands
+  Eigen::VectorXd travel;     // per joint, rad or m
+  Eigen::VectorXd top_speed;  // rad/s or m/s
+  // Rms of command minus position, rad or m; empty where no command is logged.
+  Eigen::VectorXd tracking_rms;
   double moving_share = 0;      // of the time
   double residual_percent = 0;  // of torques by the best fit of the arm
   std::vector<InspectionFinding> findings;

@@ -70,7 +70,10 @@ std::string LogText(const Robot& robot, const LogInspection& log) {
     text +=
         Format("  the longest step is %.4g ms\n", 1e3 * log.stamps.longest_gap);
   }
-  text += "  torque: " + log.torque_source;
+  text += "  torque: " + (log.torque_source.empty()
+                              ? "none; commands (qref) that --controller lets "
+                                "a simulated robot follow"
+                              : log.torque_source);
   if (log.residual_percent > 0) {
     text += Format("; the best fit of this arm leaves %.3g %%",
                    log.residual_percent);
@@ -78,9 +81,14 @@ std::string LogText(const Robot& robot, const LogInspection& log) {
   text += "\n";
   for (int j = 0; j < log.top_speed.size(); ++j) {
     const Joint& joint = robot.links[j].joint;
-    text += Format("    %-24s travels %7.3g %s, up to %6.3g %s/s\n",
+    text += Format("    %-24s travels %7.3g %s, up to %6.3g %s/s",
                    joint.name.c_str(), log.travel[j], PositionUnit(joint.type),
                    log.top_speed[j], PositionUnit(joint.type));
+    if (log.torque_source.empty()) {
+      text += Format(", %.3g %s rms off its command", log.tracking_rms[j],
+                     PositionUnit(joint.type));
+    }
+    text += "\n";
   }
   text += CoverageText(log.coverage);
   for (const InspectionFinding& finding : log.findings) {
@@ -131,6 +139,8 @@ json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
       joints.push_back({{"name", robot.links[j].joint.name},
                         {"travel", JsonNumber(log.travel[j])},
                         {"top_speed", JsonNumber(log.top_speed[j])}});
+      if (log.tracking_rms.size() == 0) continue;
+      joints.back()["tracking_rms"] = JsonNumber(log.tracking_rms[j]);
     }
     list.push_back({{"file", log.path},
                     {"rows", log.rows},

@@ -44,8 +44,10 @@ UniformSeries::UniformSeries(const Log& log, double dt, double longest_gap,
       ZeroPhaseLowPass(Interpolate(log.t, log.q, times), 1 / dt, bandwidth_hz);
   motion_.qd = Differentiate(motion_.q, dt);
   motion_.qdd = Differentiate(motion_.qd, dt);
-  tau_ = ZeroPhaseLowPass(Interpolate(log.t, log.tau, times), 1 / dt,
-                          bandwidth_hz);
+  if (log.tau.size() > 0) {
+    tau_ = ZeroPhaseLowPass(Interpolate(log.t, log.tau, times), 1 / dt,
+                            bandwidth_hz);
+  }
   const int reach =
       static_cast<int>(std::ceil((1 / bandwidth_hz + kLongestDelay) / dt));
   Eigen::Array<bool, Eigen::Dynamic, 1> out =

@@ -13,7 +13,8 @@ namespace armcal {
 class UniformSeries {
  public:
   // Stretches across gaps of more than `longest_gap` s do not count. Motion and
-  // torque are low-passed at `bandwidth_hz`. The log has q and tau.
+  // torque are low-passed at `bandwidth_hz`. The log has q, tau or not (then
+  // tau() is empty and there is nothing to Pick).
   UniformSeries(const Log& log, double dt, double longest_gap,
                 double bandwidth_hz);
 

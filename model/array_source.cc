@@ -17,6 +17,9 @@ bool IsOneOf(const std::string& name,
 // The signal that an array of this name holds; null for others.
 const SignalNames* FindSignal(const std::string& name) {
   if (name == "torque") return &NamesOf(Signal::kEffort);
+  if (name == "dof_pos") return &NamesOf(Signal::kPosition);
+  if (name == "dof_vel") return &NamesOf(Signal::kVelocity);
+  if (name == "des_dof_pos") return &NamesOf(Signal::kReference);
   for (const Signal signal : kSignals) {
     const SignalNames& names = NamesOf(signal);
     if (name == names.number_prefix || name == names.path_part) return &names;

@@ -12,9 +12,9 @@ namespace armcal {
 // time, columns with their numbers after the name (q1, q2 ...), or, where there
 // is an array of as many texts called `joint_names`, `names` or `name`,
 // joint/name. Signals may have the names of sensor_msgs/JointState (position,
-// velocity, effort). Arrays that are not as long as the time (without one: the
-// positions) are left alone unless they are signals. Held in memory as a whole.
-// Throws InputError.
+// velocity, effort) or of PACE's logs (dof_pos, des_dof_pos). Arrays that are
+// not as long as the time (without one: the positions) are left alone unless
+// they are signals. Held in memory as a whole. Throws InputError.
 class ArraySource : public LineSource {
  public:
   ArraySource(const std::string& path, std::vector<LogArray> arrays);

@@ -51,13 +51,18 @@ struct LogReader::Impl {
     if (options.want_acceleration && columns.HasAll(Signal::kAcceleration)) {
       qdd = row.Use(columns.Find(Signal::kAcceleration));
     }
-    if (options.want_reference && columns.HasAll(Signal::kReference)) {
+    if ((options.want_reference || options.commands_do) &&
+        columns.HasAll(Signal::kReference)) {
       qref = row.Use(columns.Find(Signal::kReference));
     }
     if (options.want_temperature && columns.HasAll(Signal::kTemperature)) {
       temperature = row.Use(columns.Find(Signal::kTemperature));
     }
-    if (!options.need_torque) return;
+    const bool commands_do = options.commands_do && qref != kUnused;
+    if (!options.need_torque ||
+        (commands_do && LacksTorque(columns, options))) {
+      return;
+    }
     const TorqueColumns torque = FindTorqueColumns(path, columns, options);
     torque_source = torque.source;
     tau = row.Use(torque.columns);
@@ -253,6 +258,8 @@ LogReader& LogReader::operator=(LogReader&&) noexcept = default;
 bool LogReader::has_velocity() const {
   return impl_->columns.HasAll(Signal::kVelocity);
 }
+
+bool LogReader::has_torque() const { return impl_->tau != Impl::kUnused; }
 
 bool LogReader::has_acceleration() const {
   return impl_->columns.HasAll(Signal::kAcceleration);

@@ -25,6 +25,9 @@ struct LogReaderOptions {
   std::vector<double> gear_ratios;       // per joint; empty: 1
   std::vector<LogTopic> topics;          // of a bag (line_source.h)
   bool need_torque = true;
+  // Where torque is needed: a log will do that has neither torques nor currents
+  // (nor --torque_constants for these) but the commands of all joints.
+  bool commands_do = false;
   // Columns that are in the log and not wanted are not looked at.
   bool want_velocity = false;
   bool want_acceleration = false;
@@ -63,6 +66,7 @@ class LogReader {
 
   bool has_velocity() const;  // a velocity column for every joint
   bool has_acceleration() const;
+  bool has_torque() const;  // that is read
   // How the torque was made, a phrase for reports: "tau columns" or
   // "currents times 14.87 13.26 N m/A"; empty where it is not needed.
   const std::string& torque_source() const;

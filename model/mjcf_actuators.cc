@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 
@@ -60,6 +61,12 @@ bool IsMotor(const MjcfElement& element) {
   return element.Text("biastype") == "affine";
 }
 
+// A constant torque, whatever the control.
+bool IsConstant(const MjcfElement& element) {
+  return element.own().tag() == "general" && IsMotor(element) &&
+         element.Has("gainprm") && FirstNumber(element, "gainprm", 1) == 0;
+}
+
 // N m or N at the joint, in both directions.
 std::optional<Vector2d> EffortRange(const MjcfElement& element, double gear,
                                     const MjcfSettings& settings) {
@@ -103,6 +110,7 @@ void ReadActuator(const MjcfElement& element, const MjcfSettings& settings,
 void ReadMjcfActuators(const XmlElement& root, const MjcfDefaults& defaults,
                        const MjcfSettings& settings, RobotTree* tree) {
   std::set<TreeJoint*> driven;
+  std::map<TreeJoint*, double> constants;
   for (const XmlElement& section : root.Children("actuator")) {
     for (const XmlElement& element : section.Children(nullptr)) {
       const char* attribute =
@@ -113,6 +121,12 @@ void ReadMjcfActuators(const XmlElement& root, const MjcfDefaults& defaults,
         continue;
       }
       TreeJoint* joint = FindJoint(element, attribute, tree);
+      const MjcfElement actuator = defaults.OfActuator(element);
+      if (IsConstant(actuator)) {
+        constants[joint] -= FirstNumber(actuator, "gear", 1) *
+                            FirstNumber(actuator, "biasprm", 0);
+        continue;
+      }
       if (!driven.insert(joint).second) {
         joint->notes.push_back("joint " + Quoted(joint->joint.name) +
                                " has several actuators: its effort is not "
@@ -121,9 +135,10 @@ void ReadMjcfActuators(const XmlElement& root, const MjcfDefaults& defaults,
         joint->joint.offset = 0;
         continue;
       }
-      ReadActuator(defaults.OfActuator(element), settings, joint);
+      ReadActuator(actuator, settings, joint);
     }
   }
+  for (const auto& [joint, offset] : constants) joint->joint.offset += offset;
 }
 
 void ReadMjcfConstraints(const XmlElement& root, RobotTree* tree) {

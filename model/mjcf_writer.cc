@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "model/exact_text.h"
+#include "model/mjcf_drive.h"
 #include "model/urdf_values.h"
 
 namespace armcal {
@@ -150,9 +151,12 @@ XMLElement* AddBody(const RobotDescription& description, int first, int last,
 }
 
 std::vector<std::string> MoreLosses(const RobotDescription& description) {
+  std::vector<std::string> losses = MjcfDriveLosses(description);
   const Link& last = description.robot.links.back();
-  if (last.inertial.mass > 0) return {};
-  return {"MuJoCo refuses link " + last.name + ", which moves without mass"};
+  if (last.inertial.mass > 0) return losses;
+  losses.push_back("MuJoCo refuses link " + last.name +
+                   ", which moves without mass");
+  return losses;
 }
 
 }  // namespace
@@ -164,8 +168,13 @@ std::string MakeMjcf(const RobotDescription& description) {
   document.InsertEndChild(root);
   root->SetAttribute("model", robot.name.c_str());
   root->InsertNewChildElement("compiler")->SetAttribute("angle", "radian");
-  root->InsertNewChildElement("option")->SetAttribute(
-      "gravity", Text(robot.gravity).c_str());
+  XMLElement* option = root->InsertNewChildElement("option");
+  option->SetAttribute("gravity", Text(robot.gravity).c_str());
+  const auto& controller = description.controller;
+  if (controller) {
+    Set("timestep", 1 / controller->rate_hz, option);
+    option->SetAttribute("integrator", "implicit");
+  }
   XMLElement* parent = root->InsertNewChildElement("worldbody");
   for (int first = 0, last = 0; last < robot.num_joints(); ++last) {
     const bool is_last = last + 1 == robot.num_joints();
@@ -179,7 +188,8 @@ std::string MakeMjcf(const RobotDescription& description) {
     SetPose(robot.X_LT, tool);
   }
   XMLElement* actuators = root->InsertNewChildElement("actuator");
-  for (int j = 0; j < robot.num_joints(); ++j) {
+  if (controller) AddMjcfDrives(description, actuators);
+  for (int j = 0; !controller && j < robot.num_joints(); ++j) {
     AddMotor(robot.links[j].joint, description.DriveOf(j), actuators);
   }
   return XmlText(document);

@@ -45,6 +45,7 @@ std::string ValuesOf(RobotField field, const RobotDescription& description) {
           case RobotField::kVelocityLimit:
             return std::isfinite(joint.velocity) ? joint.velocity : 0;
           case RobotField::kGravity:
+          case RobotField::kController:
             break;
         }
         return 0.;
@@ -63,6 +64,8 @@ std::string NameOf(RobotField field) {
       return "torque given per torque asked";
     case RobotField::kVelocityLimit:
       return "velocity limits";
+    case RobotField::kController:
+      return "controllers";
     case RobotField::kGravity:
       break;
   }
@@ -90,6 +93,11 @@ std::vector<std::string> Losses(const RobotFormat& format,
     if (field == RobotField::kGravity) {
       const std::string loss = GravityLoss(format, description.robot.gravity);
       if (!loss.empty()) losses.push_back(loss);
+      continue;
+    }
+    if (field == RobotField::kController && description.controller) {
+      losses.push_back(std::string(format.title) + " has no field for " +
+                       NameOf(field));
       continue;
     }
     const std::string values = ValuesOf(field, description);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "model/joint_controller.h"
 #include "model/robot.h"
 
 namespace armcal {
@@ -20,6 +22,8 @@ struct JointDrive {
 struct RobotDescription {
   Robot robot;
   std::vector<JointDrive> drives;  // per joint; empty: nothing beside
+  // What moves it where commands are positions; none: torques are given.
+  std::optional<ControllerOptions> controller = std::nullopt;
 
   JointDrive DriveOf(int joint) const {
     return drives.empty() ? JointDrive() : drives[joint];
@@ -33,7 +37,8 @@ enum class RobotField {
   kSpring,
   kGain,
   kVelocityLimit,
-  kGravity
+  kGravity,
+  kController
 };
 
 struct RobotFormat {

@@ -166,9 +166,12 @@ std::string MakeSdf(const RobotDescription& description) {
 }
 
 RobotFormat SdfFormat() {
-  return {"sdf",       "SDF",
-          "robot.sdf", {RobotField::kOffset, RobotField::kGain},
-          &MakeSdf,    &MoreLosses};
+  return {"sdf",
+          "SDF",
+          "robot.sdf",
+          {RobotField::kOffset, RobotField::kGain, RobotField::kController},
+          &MakeSdf,
+          &MoreLosses};
 }
 
 }  // namespace armcal

@@ -71,11 +71,16 @@ TorqueKind ChooseKind(const std::string& file, const LogColumns& columns,
   // Incomplete columns: Find() will say which are missing.
   if (columns.HasAny(Signal::kEffort)) return TorqueKind::kLink;
   if (columns.HasAny(Signal::kCurrent)) return TorqueKind::kCurrent;
+  std::string instead = "; or currents (i1 or " + options.joint_names[0] +
+                        "/current, ..) with --torque_constants";
+  if (columns.HasAll(Signal::kReference)) {
+    instead +=
+        "; or --controller, under which calibrate and verify simulate how the "
+        "log's commands (qref) are followed";
+  }
   throw InputError(file, "row 1", "",
                    "no torque: missing " + columns.Missing(Signal::kEffort) +
-                       "; or currents (i1 or " + options.joint_names[0] +
-                       "/current, ..) with --torque_constants" +
-                       columns.Unrecognised());
+                       instead + columns.Unrecognised());
 }
 
 // Says so where constants are given that currents would need.
@@ -93,6 +98,11 @@ void CheckTorqueFactors(const LogReaderOptions& options) {
   CheckFactors("--torque_constants", options.torque_constants,
                options.joint_names);
   CheckFactors("--gear_ratios", options.gear_ratios, options.joint_names);
+}
+
+bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options) {
+  if (columns.HasAny(Signal::kEffort)) return false;
+  return !columns.HasAny(Signal::kCurrent) || options.torque_constants.empty();
 }
 
 TorqueColumns FindTorqueColumns(const std::string& file,

@@ -21,6 +21,10 @@ TorqueColumns FindTorqueColumns(const std::string& file,
                                 const LogColumns& columns,
                                 const LogReaderOptions& options);
 
+// Whether there is nothing in the log to make a torque of: no torques, and no
+// currents or no constants for them. A part of the joints is no nothing.
+bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options);
+
 // Throws InputError where torque constants or gear ratios are given and are not
 // one non-zero finite number per joint.
 void CheckTorqueFactors(const LogReaderOptions& options);

@@ -111,7 +111,7 @@ RobotFormat UrdfFormat() {
           "URDF",
           "robot.urdf",
           {RobotField::kArmature, RobotField::kOffset, RobotField::kSpring,
-           RobotField::kGain, RobotField::kGravity},
+           RobotField::kGain, RobotField::kGravity, RobotField::kController},
           &WriteUrdf,
           nullptr};
 }

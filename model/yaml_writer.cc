@@ -152,9 +152,12 @@ std::string MakeYaml(const RobotDescription& description) {
 }
 
 RobotFormat YamlFormat() {
-  return {"yaml",       "YAML",
-          "robot.yaml", {RobotField::kSpring, RobotField::kGain},
-          &MakeYaml,    nullptr};
+  return {"yaml",
+          "YAML",
+          "robot.yaml",
+          {RobotField::kSpring, RobotField::kGain, RobotField::kController},
+          &MakeYaml,
+          nullptr};
 }
 
 }  // namespace armcal

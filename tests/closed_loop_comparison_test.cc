@@ -104,6 +104,19 @@ TEST_F(CommandedArm, MayEndBetweenControlPeriods) {
   }
 }
 
+// Without its torques the same positions come.
+TEST_F(CommandedArm, FollowsALogOfPositionsAlone) {
+  CommandedLog log = ReadCommandedLog(path_, options_, {});
+  const ClosedLoopComparison with =
+      CompareClosedLoop(file_, nullptr, controller_, log);
+  log.log.tau.resize(0, 0);
+  const ClosedLoopComparison without =
+      CompareClosedLoop(file_, nullptr, controller_, log);
+  EXPECT_EQ(without.joints[1].before_rms, with.joints[1].before_rms);
+  EXPECT_TRUE(std::isnan(without.joints[1].before_torque_rms));
+  EXPECT_TRUE(std::isnan(without.joints[1].torque_rms));
+}
+
 TEST_F(CommandedArm, TooManyRowsAreRefusedNotCut) {
   std::string text = "t,q1,tau1,qref1\n";
   for (int k = 0; k <= 1 << 20; ++k) text += std::to_string(k) + ",0,0,0\n";

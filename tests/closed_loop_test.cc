@@ -4,9 +4,11 @@
 
 #include <cmath>
 
+#include "model/forward_dynamics.h"
 #include "model/input_error.h"
 #include "model/inverse_dynamics.h"
 #include "model/plant/simbody_arm.h"
+#include "model/rigid_arm.h"
 #include "tests/sample_robots.h"
 
 namespace armcal {
@@ -105,13 +107,61 @@ TEST(ClosedLoop, LimitsHoldAndTheIntegralDoesNotWindUp) {
   const ReferenceMotion reference = FourierMotion(robot, motion);
   ClosedLoopOptions options;
   options.controller = DefaultController(robot, reference.at(0).q, 8);
-  options.controller.torque_limit[1] = 5;
+  options.controller.drives[1].torque_limit = 5;
   SimbodyArm arm(robot);
   const SimulatedRobot plant = Plain(robot);
   const ClosedLoopRun run =
       RunClosedLoop(plant, robot, reference, options, &arm);
   EXPECT_LE(run.log.tau.col(1).cwiseAbs().maxCoeff(), 5);
   EXPECT_GT(run.saturated_share, .2);
+}
+
+// The same motion, two samples later.
+TEST(ClosedLoop, CommandsArriveAsLateAsAsked) {
+  const Robot robot = Puma();
+  MotionOptions motion;
+  motion.duration = 2;
+  const ReferenceMotion reference = FourierMotion(robot, motion);
+  ClosedLoopOptions options;
+  options.controller = DefaultController(robot, reference.at(0).q, 8);
+  RigidArm arm(robot);
+  const SimulatedRobot plant = Plain(robot);
+  const Log on_time = RunClosedLoop(plant, robot, reference, options, &arm).log;
+  options.controller.delay = .008;
+  const Log late = RunClosedLoop(plant, robot, reference, options, &arm).log;
+  EXPECT_EQ(late.qref, on_time.qref);
+  for (int k = 50; k < 500; k += 50) {
+    EXPECT_LT((late.q.row(k) - on_time.q.row(k - 2)).norm(), 1e-9) << k;
+  }
+}
+
+// A motor that is asked for all it has: behind its lag T the acceleration is
+// a (1 - exp(-t / T)), which is integrated twice.
+TEST(ClosedLoop, TorqueFollowsItsLag) {
+  Robot robot = Puma();
+  robot.links.resize(1);
+  robot.gravity.setZero();
+  const double T = .05, inertia = MassMatrix(robot, VectorXd::Zero(1))(0, 0) +
+                                  robot.links[0].joint.armature;
+  ReferenceMotion jump;
+  jump.duration = 1;
+  jump.at = [](double t) {
+    const VectorXd zero = VectorXd::Zero(1);
+    return ReferencePoint{VectorXd::Constant(1, t > 0 ? 1e6 : 0), zero, zero};
+  };
+  ClosedLoopOptions options;
+  options.controller.drives.resize(1);
+  options.controller.drives[0].kp = 1;
+  options.controller.drives[0].torque_limit = 3;
+  options.controller.drives[0].lag = T;
+  options.controller.feedforward = Feedforward::kNone;
+  RigidArm arm(robot);
+  const Log log = RunClosedLoop(Plain(robot), robot, jump, options, &arm).log;
+  for (int k = 1; k < log.size(); k += 20) {
+    const double t = log.t[k] - 1e-3;  // the jump is seen a period late
+    const double way = t * t / 2 - T * t + T * T * (1 - std::exp(-t / T));
+    EXPECT_NEAR(log.q(k, 0), 3 / inertia * way, 1e-6 * (1 + way)) << k;
+  }
 }
 
 TEST(ClosedLoop, TorquesOfTheLogAreAsOldAsAsked) {

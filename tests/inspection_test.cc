@@ -4,6 +4,7 @@
 
 #include "calib/inspection_report.h"
 #include "model/log_reader.h"
+#include "model/log_writer.h"
 #include "tests/inspected_arm.h"
 #include "tests/temp_file.h"
 
@@ -100,6 +101,33 @@ TEST_F(InspectionTest, AJointAtRestIsMissed) {
             static_cast<size_t>(coverage.total - coverage.rank));
   EXPECT_NE(coverage.advice.find("joint3"), std::string::npos)
       << coverage.advice;
+}
+
+// A log of commands and positions: what can be told without a torque.
+TEST_F(InspectionTest, CommandsAloneAreDescribed) {
+  Log commanded = arm_.log;
+  commanded.tau.resize(0, 0);
+  commanded.qd.resize(0, 0);
+  commanded.qref = commanded.q.array() + .01;
+  path_ = WriteFile(LogText(commanded), "commanded.csv");
+  const LogInspection inspection = InspectLog(arm_.robot, path_, options_);
+  EXPECT_TRUE(inspection.findings.empty());
+  EXPECT_TRUE(inspection.torque_source.empty());
+  EXPECT_NEAR(inspection.tracking_rms[1], .01, 1e-9);
+  EXPECT_GT(inspection.top_speed[1], 0);
+  EXPECT_FALSE(inspection.as_it_is);
+  const auto text = FullReport(arm_.robot, {}, {inspection});
+  EXPECT_NE(text.find("torque: none; commands (qref)"), std::string::npos);
+  EXPECT_NE(text.find("0.01 rad rms off its command"), std::string::npos);
+  // Time in ms is mended without a torque, too.
+  commanded.t *= 1000;
+  path_ = WriteFile(LogText(commanded), "commanded.csv");
+  const LogInspection slow = InspectLog(arm_.robot, path_, options_);
+  ASSERT_EQ(slow.findings.size(), 1u);
+  EXPECT_EQ(slow.findings[0].finding, "time_unit");
+  const Log mended = Mended(arm_.robot, commanded, slow);
+  EXPECT_NEAR(mended.t[100], arm_.log.t[100], 1e-9);
+  EXPECT_EQ(mended.qref, commanded.qref);
 }
 
 }  // namespace

@@ -1,12 +1,9 @@
-#include "model/plant/joint_controller.h"
+#include "model/joint_controller.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
-#include "model/input_error.h"
-#include "tests/temp_file.h"
 #include "tests/two_link_arm.h"
 
 namespace armcal {
@@ -15,15 +12,15 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 ControllerOptions PlainGains() {
   ControllerOptions options;
   options.rate_hz = 100;
-  options.kp = Vector2d(10, 20);
-  options.kd = Vector2d(1, 2);
-  options.ki = Vector2d(0, 5);
-  options.torque_limit = Vector2d(kInfinity, kInfinity);
+  options.drives.resize(2);
+  options.drives[0].kp = 10;
+  options.drives[0].kd = 1;
+  options.drives[1].kp = 20;
+  options.drives[1].kd = 2;
+  options.drives[1].ki = 5;
   options.feedforward = Feedforward::kNone;
   return options;
 }
@@ -60,12 +57,14 @@ TEST(JointController, DifferencesPositions) {
 
 TEST(JointController, IntegralStopsAtTheLimit) {
   ControllerOptions options = PlainGains();
-  options.torque_limit = Vector2d(1, 3);
+  options.drives[0].torque_limit = 1;
+  options.drives[1].torque_limit = 3;
   JointController controller(options, TwoLinkArm().ToRobot());
   const VectorXd still = Vector2d::Zero();
   for (int k = 0; k < 1000; ++k) {
     const VectorXd tau = controller.Update(At(1, 1), still, still);
     EXPECT_EQ(tau[1], 3);
+    EXPECT_TRUE(controller.at_limit());
   }
   // The error changes sign: nothing has been wound up.
   const VectorXd tau = controller.Update(At(0, -.1), still, still);
@@ -82,43 +81,8 @@ TEST(JointController, DefaultGainsPlaceTheLoop) {
       DefaultController(robot, Vector2d(.3, .7), 5);
   const double omega = 2 * M_PI * 5;
   const double inertia = arm.m2 * arm.lc2 * arm.lc2 + arm.I2 + .1;
-  EXPECT_NEAR(options.kp[1], omega * omega * inertia, 1e-9);
-  EXPECT_NEAR(options.kd[1], 2 * omega * inertia, 1e-9);
-}
-
-TEST(ReadController, ReadsEveryKey) {
-  const Robot robot = TwoLinkArm().ToRobot();
-  const std::string path = WriteFile(
-      "rate: 500\nkp: [1, 2]\nkd: [3, 4]\nki: [5, 6]\n"
-      "torque_limit: [7, 8]\nvelocity_filter: 9\nfeedforward: gravity\n",
-      "controller.yaml");
-  const ControllerOptions options = ReadController(path, robot, Vector2d(0, 0));
-  EXPECT_EQ(options.rate_hz, 500);
-  EXPECT_EQ(options.kp, Vector2d(1, 2));
-  EXPECT_EQ(options.kd, Vector2d(3, 4));
-  EXPECT_EQ(options.ki, Vector2d(5, 6));
-  EXPECT_EQ(options.torque_limit, Vector2d(7, 8));
-  EXPECT_EQ(options.velocity_filter_hz, 9);
-  EXPECT_EQ(options.feedforward, Feedforward::kGravity);
-}
-
-TEST(ReadController, RefusesWhatIsWrong) {
-  const Robot robot = TwoLinkArm().ToRobot();
-  const auto refusal = [&](const std::string& text) -> std::string {
-    const std::string path = WriteFile(text, "controller.yaml");
-    try {
-      ReadController(path, robot, Vector2d(0, 0));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
-  };
-  using testing::HasSubstr;
-  EXPECT_THAT(refusal("kp: [1]\n"), HasSubstr("expected 2 numbers, one per"));
-  EXPECT_THAT(refusal("kp: [1, -1]\n"), HasSubstr("at least 0"));
-  EXPECT_THAT(refusal("rate: 0\n"), HasSubstr("expected a number above 0"));
-  EXPECT_THAT(refusal("gain: 3\n"), HasSubstr("gain"));
-  EXPECT_THAT(refusal("feedforward: full\n"), HasSubstr("inverse_dynamics"));
+  EXPECT_NEAR(options.drives[1].kp, omega * omega * inertia, 1e-9);
+  EXPECT_NEAR(options.drives[1].kd, 2 * omega * inertia, 1e-9);
 }
 
 }  // namespace

@@ -186,6 +186,27 @@ TEST(LogReader, LooksOnlyAtWhatIsWanted) {
             "FILE: row 2, column qd1: found 'nan': expected a finite number");
 }
 
+// Commands stand in for torques where there are none, not where some miss.
+TEST(LogReader, CommandsDoWhereThereIsNoTorque) {
+  LogReaderOptions options = TwoJoints();
+  options.need_torque = options.commands_do = true;
+  const auto read = [&options](const std::string& text) {
+    return ReadWholeLog(WriteFile(text, "commanded.csv"), options);
+  };
+  Log log = read("t,q1,q2,qref1,qref2\n0,1,2,3,4\n");
+  EXPECT_EQ(log.qref(0, 1), 4);
+  EXPECT_EQ(log.tau.size(), 0);
+  log = read("t,q1,q2,i1,i2,qref1,qref2\n0,1,2,5,6,3,4\n");
+  EXPECT_EQ(log.tau.size(), 0);
+  log = read("t,q1,q2,tau1,tau2,qref1,qref2\n0,1,2,5,6,3,4\n");
+  EXPECT_EQ(log.tau(0, 1), 6);
+  EXPECT_THROW(read("t,q1,q2,tau1,qref1,qref2\n0,1,2,5,3,4\n"), InputError);
+  EXPECT_THROW(read("t,q1,q2,qref1\n0,1,2,3\n"), InputError);
+  options.torque_constants = {2, 3};
+  log = read("t,q1,q2,i1,i2,qref1,qref2\n0,1,2,5,6,3,4\n");
+  EXPECT_EQ(log.tau(0, 1), 18);
+}
+
 TEST(LogReader, RefusesBadFiles) {
   const auto refusal = [](const std::string& bytes) {
     const std::string path = WriteFile(bytes);

@@ -293,5 +293,33 @@ TEST(MujocoMjcf, MotorsMoveItAsWeSay) {
   }
 }
 
+// Position drives push as our law, within their limits.
+TEST(MujocoMjcf, DrivesPushAsOurLawSays) {
+  for (int seed = 1; seed <= 10; ++seed) {
+    RobotDescription description{FullArm(seed), {}};
+    const Robot& robot = description.robot;
+    const int n = robot.num_joints();
+    std::mt19937_64 random(seed);
+    const VectorXd q = UniformVector(&random, n, -1, 1);
+    const VectorXd qd = UniformVector(&random, n, -1, 1);
+    const VectorXd q_ref = UniformVector(&random, n, -1, 1);
+    description.controller =
+        DefaultController(robot, VectorXd::Zero(n), 3, DriveKind::kP);
+    VectorXd torque(n);
+    for (int j = 0; j < n; ++j) {
+      DriveLaw& law = description.controller->drives[j];
+      if (j == 1) law.torque_limit = 1;
+      torque[j] = Drive(law, {q_ref[j], 0, 0, q[j], qd[j]}, 0).torque;
+    }
+    // The same torque by the motors of the same robot.
+    RobotDescription motors{robot, {}};
+    Referee driven(MakeMjcf(description), robot);
+    Referee pushed(MakeMjcf(motors), robot);
+    const VectorXd expected = pushed.Acceleration(q, qd, torque);
+    EXPECT_LE((driven.Acceleration(q, qd, q_ref) - expected).norm(),
+              1e-9 * expected.norm());
+  }
+}
+
 }  // namespace
 }  // namespace armcal

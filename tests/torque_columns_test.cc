@@ -80,6 +80,11 @@ TEST(TorqueColumns, SayWhatIsMissing) {
             "FILE: row 1: no torque: missing tau1 or shoulder/effort, tau2 or "
             "elbow/effort; or currents (i1 or shoulder/current, ..) with "
             "--torque_constants");
+  EXPECT_EQ(Find("t,q1,q2,qref1,qref2", Options(TorqueKind::kAuto)),
+            "FILE: row 1: no torque: missing tau1 or shoulder/effort, tau2 or "
+            "elbow/effort; or currents (i1 or shoulder/current, ..) with "
+            "--torque_constants; or --controller, under which calibrate and "
+            "verify simulate how the log's commands (qref) are followed");
   EXPECT_EQ(Find("t,i1,i2", Options(TorqueKind::kAuto)),
             "FILE: the torque comes from currents, its scale is not observable "
             "from them alone: expected --torque_constants=K1,.. in N m/A, one "

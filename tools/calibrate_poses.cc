@@ -61,7 +61,7 @@ CommandOutcome CalibratePosesFromFlags(const CommandInput& input) {
             KindOfRobotFile(path) == RobotFileKind::kUrdf
                 ? UpdateUrdf(path, result.robot, true, BaseFromFlags())
                 : MakeUrdf(result.robot));
-    report += AddExports(result.robot, formats, &json, &out);
+    report += AddExports({result.robot, {}}, formats, &json, &out);
   }
   const std::string text = json.dump(2) + "\n";
   out.Add("calibration.json", text);

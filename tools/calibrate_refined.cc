@@ -127,7 +127,8 @@ void AddRefinedOutputs(const Robot& robot, const NonlinearCalibration& refined,
   for (const std::string& loss : UrdfLosses(refined.robot)) {
     report += "robot.urdf  " + loss + "\n";
   }
-  report += AddExports(refined.robot, ExportBesideUrdfFromFlags(), json, out);
+  report +=
+      AddExports({refined.robot, {}}, ExportBesideUrdfFromFlags(), json, out);
 }
 
 }  // namespace armcal

@@ -57,12 +57,11 @@ std::string AddFiles(const std::vector<RobotFile>& files, nlohmann::json* json,
   return lines;
 }
 
-std::string AddExports(const Robot& robot,
+std::string AddExports(const RobotDescription& description,
                        const std::vector<const RobotFormat*>& formats,
                        nlohmann::json* json, OutputFolder* out) {
   std::vector<RobotFile> files;
   for (const RobotFormat* format : formats) {
-    const RobotDescription description{robot, {}};
     files.push_back(
         {format, format->write(description), Losses(*format, description)});
   }

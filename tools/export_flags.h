@@ -19,7 +19,7 @@ std::vector<const RobotFormat*> ExportBesideUrdfFromFlags();
 std::string AddFiles(const std::vector<RobotFile>& files, nlohmann::json* json,
                      OutputFolder* out);
 // The same of a robot in these formats.
-std::string AddExports(const Robot& robot,
+std::string AddExports(const RobotDescription& description,
                        const std::vector<const RobotFormat*>& formats,
                        nlohmann::json* json, OutputFolder* out);
 

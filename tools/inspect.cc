@@ -8,7 +8,9 @@
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
+#include "tools/simulation_flags.h"
 
+DECLARE_string(controller);
 DECLARE_string(log);
 
 DEFINE_bool(fix, false,
@@ -21,12 +23,20 @@ namespace {
 void AddMended(const Robot& robot, const LogReaderOptions& options,
                const std::vector<LogInspection>& logs, OutputFolder* out) {
   LogReaderOptions wanted = options;
-  wanted.want_velocity = true;
+  wanted.want_velocity = wanted.commands_do = true;
   for (size_t k = 0; k < logs.size(); ++k) {
     const Log log = ReadWholeLog(logs[k].path, wanted);
     out->Add("fixed_" + std::to_string(k + 1) + ".csv",
              LogText(Mended(robot, log, logs[k])));
   }
+}
+
+// With the drives of --controller; gains that it leaves open are those of the
+// posture of zeros.
+RobotDescription DescriptionFromFlags(const Robot& robot) {
+  if (FLAGS_controller.empty()) return {robot, {}};
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(robot.num_joints());
+  return {robot, {}, ControllerFromFlags(robot, zero)};
 }
 
 CommandOutcome RunInspect(const CommandInput& input) {
@@ -36,6 +46,9 @@ CommandOutcome RunInspect(const CommandInput& input) {
   const auto formats = ExportFromFlags();
   if (!formats.empty() && OutFromFlags().empty()) {
     throw UsageError("--export needs --out=FOLDER to write to");
+  }
+  if (!FLAGS_controller.empty() && formats.empty()) {
+    throw UsageError("--controller is for --export=mjcf, which writes drives");
   }
   const Robot robot = RobotFromFlags(input);
   input.Begin("inspecting");
@@ -57,7 +70,8 @@ CommandOutcome RunInspect(const CommandInput& input) {
   CommandOutcome outcome;
   OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   nlohmann::json json = ToJson(robot, of_robot, logs);
-  const std::string losses = AddExports(robot, formats, &json, &out);
+  const std::string losses =
+      AddExports(DescriptionFromFlags(robot), formats, &json, &out);
   const std::string text = json.dump(2) + "\n";
   out.Add("inspect.json", text);
   if (FLAGS_fix) AddMended(robot, options, logs, &out);
@@ -73,7 +87,7 @@ CommandOutcome RunInspect(const CommandInput& input) {
 Command InspectCommand() {
   return {"inspect",
           "what a robot file or a log holds, and what is wrong with it",
-          {{"robot and logs", {"robot", "log", "fix", "export"}},
+          {{"robot and logs", {"robot", "log", "fix", "export", "controller"}},
            TorqueFlags(),
            ChainFlags()},
           {"armcal inspect --robot=arm.urdf --log=log.csv",

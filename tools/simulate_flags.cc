@@ -2,6 +2,7 @@
 
 #include <gflags/gflags.h>
 
+#include "model/controller_reader.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
 #include "model/plant/motion_reader.h"

@@ -2,14 +2,15 @@
 
 #include <gflags/gflags.h>
 
+#include "model/controller_reader.h"
 #include "tools/command.h"
 #include "tools/input_flags.h"
 
 DEFINE_uint64(seed, 0, "of everything that is drawn at random");
 DEFINE_string(
     controller, "",
-    "`FILE` YAML with the controller's rate, kp, kd, ki, torque_limit, "
-    "velocity_filter, feedforward; default: 8 Hz per joint");
+    "`FILE` YAML with the controller's law (pd, p, cascade), rate, gains, "
+    "limits, delay, lag; default: pd of 8 Hz per joint");
 
 namespace armcal {
 

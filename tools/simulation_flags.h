@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "model/plant/joint_controller.h"
+#include "model/joint_controller.h"
 #include "model/robot.h"
 
 namespace armcal {

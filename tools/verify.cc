@@ -41,12 +41,16 @@ std::vector<std::string> SeenLogs(const CalibratedRobot& calibrated,
   return seen;
 }
 
-// Of the first log; the engine refuses what Verify() tells of.
-std::optional<ClosedLoopComparison> CloseLoop(
-    const Robot& file, const CalibratedRobot* calibrated,
-    const std::vector<std::string>& logs) {
-  const CommandedLog log =
-      ReadCommandedLog(logs[0], LogOptionsFromFlags(file), CropFromFlags());
+// The log that --controller is to follow, if it is given.
+std::optional<CommandedLog> CommandsFromFlags(const Robot& file) {
+  if (FLAGS_controller.empty()) return std::nullopt;
+  return ReadCommandedLog(LogsFromFlags()[0], LogOptionsFromFlags(file),
+                          CropFromFlags());
+}
+
+ClosedLoopComparison CloseLoop(const Robot& file,
+                               const CalibratedRobot* calibrated,
+                               const CommandedLog& log) {
   const ControllerOptions controller =
       ControllerFromFlags(file, log.log.qref.row(0));
   return CompareClosedLoop(file, calibrated, controller, log);
@@ -87,6 +91,19 @@ nlohmann::json VerifyOnLogs(const Robot& file,
                             const VerificationOptions& options,
                             VerificationReport* report) {
   report->logs = LogsFromFlags();
+  const std::optional<CommandedLog> commanded = CommandsFromFlags(file);
+  if (commanded) {
+    report->closed_loop = CloseLoop(file, calibrated, *commanded);
+    if (commanded->log.tau.size() == 0) {
+      // Positions alone: the robot is verified on random states.
+      report->verification = Verify(report->robot, options, nullptr);
+      if (calibrated != nullptr &&
+          calibrated->Saw(commanded->path, CropFromFlags())) {
+        report->seen_logs = report->logs;
+      }
+      return nlohmann::json::array();
+    }
+  }
   LogSet logs(report->logs, LogOptionsFromFlags(file), CropFromFlags());
   if (calibrated != nullptr) report->seen_logs = SeenLogs(*calibrated, logs);
   logs.Prepare(BandwidthFor(calibrated, logs), 0);
@@ -95,9 +112,6 @@ nlohmann::json VerifyOnLogs(const Robot& file,
   rollouts.progress = options.progress;
   report->rollouts = CompareRollouts(file, calibrated, rollouts,
                                      logs.bandwidth_hz(), report->seed, &logs);
-  if (!FLAGS_controller.empty()) {
-    report->closed_loop = CloseLoop(file, calibrated, report->logs);
-  }
   return Traces(file, calibrated, options.progress, &logs);
 }
 

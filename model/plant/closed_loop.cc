@@ -112,27 +112,35 @@ class TorqueHistory {
 // A lag that makes no difference: it would only cost substeps.
 constexpr double kShortestLag = 1e-4;  // s
 
-ActuatorMap Lag(int n, double time_constant) {
+// Puts a first-order lag of each driven joint before what else its motor does.
+void InsertLag(const Eigen::VectorXd& time_constant, SimulatedRobot* robot) {
+  if (time_constant.maxCoeff() < kShortestLag) return;
   ActuatorMap lag;
-  lag.initial_state = Eigen::VectorXd::Zero(n);
-  lag.apply = [n, time_constant](const ArmInstant&, const double* state,
-                                 double* rate, Eigen::VectorXd* torque) {
-    const Eigen::Map<const Eigen::VectorXd> given(state, n);
-    Eigen::Map<Eigen::VectorXd>(rate, n) = (*torque - given) / time_constant;
-    *torque = given;
+  lag.initial_state = Eigen::VectorXd::Zero(time_constant.size());
+  lag.apply = [time_constant](const ArmInstant&, const double* state,
+                              double* rate, Eigen::VectorXd* torque) {
+    for (int j = 0; j < time_constant.size(); ++j) {
+      rate[j] = 0;
+      if (time_constant[j] < kShortestLag) continue;
+      rate[j] = ((*torque)[j] - state[j]) / time_constant[j];
+      (*torque)[j] = state[j];
+    }
   };
-  return lag;
+  robot->actuators.insert(robot->actuators.begin(), lag);
 }
 
-// Torque that is recorded before the motors give it is commanded, and they lag.
-SimulatedRobot WithLag(SimulatedRobot robot) {
-  if (robot.torque_delay >= 0) return robot;
-  if (robot.torque_delay <= -kShortestLag) {
-    robot.actuators.insert(
-        robot.actuators.begin(),
-        Lag(robot.robot.num_joints() - robot.num_passive, -robot.torque_delay));
+// The lags of the drives. And torque that is recorded before the motors give it
+// is commanded, and they lag.
+SimulatedRobot WithLags(SimulatedRobot robot,
+                        const ControllerOptions& controller) {
+  const int n = robot.robot.num_joints() - robot.num_passive;
+  Eigen::VectorXd lag(n);
+  for (int j = 0; j < n; ++j) lag[j] = controller.drives[j].lag;
+  if (robot.torque_delay < 0) {
+    InsertLag(Eigen::VectorXd::Constant(n, -robot.torque_delay), &robot);
+    robot.torque_delay = 0;
   }
-  robot.torque_delay = 0;
+  InsertLag(lag, &robot);
   return robot;
 }
 
@@ -206,12 +214,14 @@ class Loop {
   bool Tick(long tick, bool record) {
     const double t = std::max(0L, tick) * period_;
     const ReferencePoint reference = motion_.at(t);
+    const double delay = options_.controller.delay;
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
     const Eigen::VectorXd position =
         encoders_.Measure(Read(zero, zero).position);
     const Eigen::VectorXd& differenced = velocity_.Update(position);
     const Eigen::VectorXd torque = controller_.Update(
-        reference, position, Read(differenced, zero).velocity);
+        delay > 0 ? motion_.at(std::max(0.0, t - delay)) : reference, position,
+        Read(differenced, zero).velocity);
     history_.Push(torque);
     error_ = reference.q - position;
     if (record) {
@@ -220,9 +230,7 @@ class Loop {
       recorder_.Add(t, reading, reference.q);
     }
     for (int k = 0; k < steps_; ++k) simulator_.Step(torque);
-    return (torque.cwiseAbs().array() >=
-            options_.controller.torque_limit.array())
-        .any();
+    return controller_.at_limit();
   }
 
   const SimulatedRobot& robot_;
@@ -257,7 +265,9 @@ ClosedLoopRun RunClosedLoop(const SimulatedRobot& robot, const Robot& model,
                      "expected Hz that divide the controller's rate of " +
                          NumberText(options.controller.rate_hz));
   }
-  return Loop(WithLag(robot), model, motion, options, dynamics).Run();
+  return Loop(WithLags(robot, options.controller), model, motion, options,
+              dynamics)
+      .Run();
 }
 
 }  // namespace armcal

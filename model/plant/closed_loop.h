@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <functional>
 
+#include "model/joint_controller.h"
 #include "model/log.h"
 #include "model/plant/arm_simulator.h"
-#include "model/plant/joint_controller.h"
 #include "model/plant/reference_motion.h"
 #include "model/plant/sensors.h"
 #include "model/simulated_robot.h"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "model/plant/joint_controller.h"
+#include "model/joint_controller.h"
 #include "model/robot.h"
 
 namespace armcal {

@@ -347,8 +347,9 @@ SIMULATIONS = Group(
     Row("controller empty", written("controller.yaml", ""),
         "controller.yaml: the file is empty"),
     Row("controller a list", written("controller.yaml", "[1, 2]\n"),
-        "controller.yaml: line 1: found '[1, 2]': expected a map with the keys rate, "
-        "bandwidth, kp, kd, ki, torque_limit, velocity_filter, feedforward"),
+        "controller.yaml: line 1: found '[1, 2]': expected a map with the keys law, rate, "
+        "bandwidth, kp, kd, ki, position_gain, velocity_ki, velocity_feedforward, "
+        "velocity_limit, torque_limit, lag, delay, velocity_filter, feedforward"),
     Row("controller of endless zeros", linked("controller.yaml", "/dev/zero"),
         "controller.yaml: is larger than 1 MiB, the most that such a file may have"),
     Row("rate 0", controller("1000", "0"),
@@ -368,8 +369,26 @@ SIMULATIONS = Group(
     Row("kp of words", controller("[3000, 500]", "[high, low]"),
         "controller.yaml: line 2, kp[1]: found 'high': expected a number in N m/rad (N/m)"),
     Row("controller key unknown", controller("kd", "k_d"),
-        "controller.yaml: line 3: found 'k_d': expected one of the keys rate, bandwidth, "
-        "kp, kd, ki, torque_limit, velocity_filter, feedforward"),
+        "controller.yaml: line 3: found 'k_d': expected one of the keys law, rate, "
+        "bandwidth, kp, kd, ki, position_gain, velocity_ki, velocity_feedforward, "
+        "velocity_limit, torque_limit, lag, delay, velocity_filter, feedforward"),
+    Row("law unknown", controller("rate: 1000", "law: pid"),
+        "controller.yaml: line 1, law: found 'pid': expected one of pd, p, cascade"),
+    Row("kp of a cascade", controller("rate: 1000", "law: cascade"),
+        "controller.yaml: line 2, kp: found '[3000, 500]': expected no such key: law cascade "
+        "has no kp"),
+    Row("velocity limit without a velocity loop", controller("rate: 1000", "velocity_limit: [1, 2]"),
+        "controller.yaml: line 1, velocity_limit: found '[1, 2]': expected no such key: law pd "
+        "has no velocity_limit"),
+    Row("delay in milliseconds", controller("rate: 1000", "delay: 4"),
+        "controller.yaml: line 1, delay: found '4': expected at most 1 s; is it in "
+        "milliseconds?"),
+    Row("delay negative", controller("rate: 1000", "delay: -.004"),
+        "controller.yaml: line 1, delay: found '-.004': expected a number in s that is not "
+        "negative"),
+    Row("lag in milliseconds", controller("rate: 1000", "lag: [1, 2]"),
+        "controller.yaml: line 1, lag: found '[1, 2]': expected at most 1 s; is it in "
+        "milliseconds?"),
     Row("feedforward unknown", controller("rate: 1000", "feedforward: perfect"),
         "controller.yaml: line 1, feedforward: found 'perfect': expected one of none, "
         "gravity, inverse_dynamics"),

@@ -58,18 +58,23 @@ json ParametersJson(const Robot& robot) {
   return list;
 }
 
-// As ReadController takes it; limits that the robot file has not are left out.
+// As ReadController takes it; limits that are infinite are left out.
 json ControllerJson(const ControllerOptions& options) {
   const char* const names[] = {"none", "gravity", "inverse_dynamics"};
   json controller = {
+      {"law", DriveKindName(options.kind)},
       {"rate", options.rate_hz},
-      {"kp", Numbers(options.kp)},
-      {"kd", Numbers(options.kd)},
-      {"ki", Numbers(options.ki)},
+      {"delay", options.delay},
       {"velocity_filter", options.velocity_filter_hz},
       {"feedforward", names[static_cast<int>(options.feedforward)]}};
-  if (options.torque_limit.allFinite()) {
-    controller["torque_limit"] = Numbers(options.torque_limit);
+  for (const DriveParameter& parameter : DriveParameters()) {
+    Eigen::VectorXd values(options.drives.size());
+    for (int j = 0; j < values.size(); ++j) {
+      values[j] = options.drives[j].*parameter.value;
+    }
+    if (HasParameter(options.kind, parameter) && values.allFinite()) {
+      controller[parameter.name] = Numbers(values);
+    }
   }
   return controller;
 }

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
+#include <vector>
 
+#include "model/drive_law.h"
 #include "model/robot.h"
 
 namespace armcal {
@@ -21,39 +22,26 @@ struct ReferencePoint {
 };
 
 struct ControllerOptions {
+  DriveKind kind = DriveKind::kPd;
   double rate_hz = 1000;
-  Eigen::VectorXd kp;  // n, N m/rad or N/m
-  Eigen::VectorXd kd;  // N m s/rad or N s/m
-  Eigen::VectorXd ki;  // N m/(rad s) or N/(m s)
+  std::vector<DriveLaw> drives;  // per joint
+  // From a command to the drives that act on it, pure, s.
+  double delay = 0;
   // Of the first-order low pass on differenced positions, Hz.
   double velocity_filter_hz = 100;
-  Eigen::VectorXd torque_limit;  // n, N m or N; infinite: none
   Feedforward feedforward = Feedforward::kInverseDynamics;
 };
 
 constexpr double kUsualBandwidthHz = 8;
-constexpr double kFastestHz = 20000;  // that a controller is simulated at
 
-// Gains that place each joint's closed loop at `bandwidth_hz`, damping ratio 1,
-// for the mass matrix (armature included) at q; torque limits are the robot's.
+// Gains that place each joint's closed loop at `bandwidth_hz` for the mass
+// matrix (armature included) at q: damping ratio 1 of kp and kd; of a cascade a
+// velocity loop four times as fast. Torque limits are the robot's. Only kPd
+// knows the robot's inverse dynamics.
 ControllerOptions DefaultController(const Robot& robot,
                                     const Eigen::VectorXd& q,
-                                    double bandwidth_hz);
-
-// Reads a controller in YAML over `defaults`, each key optional:
-//
-//   rate: 1000                    # Hz, 1 to kFastestHz
-//   bandwidth: 8                  # Hz; gains as DefaultController sets them
-//   kp: [4000, ..]                # per joint, N m/rad or N/m
-//   kd: [200, ..]
-//   ki: [8000, ..]
-//   torque_limit: [150, ..]       # N m or N
-//   velocity_filter: 100          # Hz
-//   feedforward: inverse_dynamics # or none, gravity
-//
-// Throws InputError.
-ControllerOptions ReadController(const std::string& path, const Robot& robot,
-                                 const Eigen::VectorXd& q);
+                                    double bandwidth_hz,
+                                    DriveKind kind = DriveKind::kPd);
 
 // Velocities from positions at the controller's rate: differences through a
 // first-order low pass, 0 at first.
@@ -67,8 +55,8 @@ class DifferencedVelocity {
   Eigen::VectorXd last_position_, velocity_;
 };
 
-// PD with integral and feedforward per joint, at a fixed rate. The integral
-// stops while the torque is at its limit and would push it further.
+// The drives of all joints at a fixed rate, with feedforward. Their delay and
+// lags are those of the path to and from them, and not in here.
 class JointController {
  public:
   // `model` is what the controller knows of the robot.
@@ -79,12 +67,15 @@ class JointController {
                          const Eigen::VectorXd& position,
                          const Eigen::VectorXd& velocity);
 
+  bool at_limit() const { return at_limit_; }  // some torque of the last one
+
  private:
   Eigen::VectorXd FeedforwardTorque(const ReferencePoint& reference) const;
 
   ControllerOptions options_;
   Robot model_;
   Eigen::VectorXd integral_;  // N m or N
+  bool at_limit_ = false;
 };
 
 }  // namespace armcal
