@@ -25,7 +25,11 @@ constexpr long kRounds = 20000;
 ARMCAL_MULTIPLY_ADDS(Baseline, 2)
 #ifdef __x86_64__
 ARMCAL_MULTIPLY_ADDS(Avx2, 4, target("avx2,fma"))
+#ifdef __clang__  // knows the width as an option only
+ARMCAL_MULTIPLY_ADDS(Avx512, 8, target("avx512f"))
+#else
 ARMCAL_MULTIPLY_ADDS(Avx512, 8, target("avx512f,prefer-vector-width=512"))
+#endif
 #endif
 
 constexpr double Flops(int lanes) { return 2. * kRounds * kChains * lanes; }
