@@ -45,12 +45,12 @@ Posterior::Posterior(const MatrixXd& A, const MatrixXd& prior,
   relative = llt.matrixL().solve(relative.transpose()).transpose().eval();
   const Eigen::HouseholderQR<MatrixXd> qr(relative);
   const MatrixXd R = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
-  const Eigen::BDCSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
-  MatrixXd T = svd.matrixV();
+  const SingularValues svd = DecomposeSingular(R);
+  MatrixXd T = svd.V;
   llt.matrixU().solveInPlace(T);
   T_ = MatrixXd::Zero(A.cols(), p);
   T_(kept, Eigen::all) = s.asDiagonal() * T;
-  shrink_ = (1 + svd.singularValues().array().square()).inverse();
+  shrink_ = (1 + svd.s.array().square()).inverse();
 }
 
 MatrixXd Posterior::Gain() const {
