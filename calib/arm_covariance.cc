@@ -7,7 +7,7 @@
 #include "calib/overlap_covariance.h"
 #include "calib/posterior.h"
 #include "calib/row_covariance.h"
-#include "model/dense_solvers.h"
+#include "calib/singular_values.h"
 
 namespace armcal {
 namespace {

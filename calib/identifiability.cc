@@ -7,6 +7,7 @@
 #include <random>
 
 #include "calib/combination.h"
+#include "calib/singular_values.h"
 #include "model/dense_solvers.h"
 #include "model/simd/kernels.h"
 

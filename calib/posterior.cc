@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "calib/singular_values.h"
 #include "model/dense_solvers.h"
 
 namespace armcal {
