@@ -7,7 +7,7 @@
 #include "calib/overlap_covariance.h"
 #include "calib/posterior.h"
 #include "calib/row_covariance.h"
-#include "model/dense_solvers.h"
+#include "calib/singular_values.h"
 
 namespace armcal {
 namespace {
@@ -21,6 +21,8 @@ ArmTrust Weaker(double inertia, const ArmTrust& trust, double geometry) {
 }
 
 constexpr double kNoPrior = 1e100;  // a variance
+// Of a variance by errors that follow each other.
+constexpr double kMostInflation = 1e8;
 
 // Directions in which the data tell less than a prior of these deviations.
 std::vector<std::string> UnseenCombinations(const ArmUnknowns& unknowns,
@@ -37,15 +39,12 @@ std::vector<std::string> UnseenCombinations(const ArmUnknowns& unknowns,
                                   : 1e3 / std::max(data.col(k).norm(), 1e-150);
   }
   const MatrixXd relative = data(Eigen::all, free) * size.asDiagonal();
-  const Eigen::BDCSVD<MatrixXd> svd(relative, Eigen::ComputeFullV);
+  const SingularValues svd = DecomposeSingular(relative);
   Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > 1) {
-    ++rank;
-  }
+  while (rank < svd.s.size() && svd.s[rank] > 1) ++rank;
   std::vector<std::string> texts;
-  for (const Combination& c :
-       NameCombinations(svd.matrixV().rightCols(size.size() - rank),
-                        size.cwiseInverse(), names)) {
+  for (const Combination& c : NameCombinations(
+           svd.V.rightCols(size.size() - rank), size.cwiseInverse(), names)) {
     texts.push_back(c.text);
   }
   return texts;
@@ -75,14 +74,20 @@ ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
       posterior.Gain(), torques.log_sums);
   const ArmTrust weak = Weaker(1, trust, 1);
   const MatrixXd nothing = MatrixXd::Zero(0, data.cols());
-  result.unseen = UnseenCombinations(
-      unknowns, data,
-      Posterior(nothing, fit.PriorInformation(weak), free).Gain().diagonal());
+  const VectorXd prior =
+      Posterior(nothing, fit.PriorInformation(weak), free).Gain().diagonal();
+  result.unseen = UnseenCombinations(unknowns, data, prior);
   const VectorXd trusted = trusting(weak).Gain().diagonal();
   const VectorXd untrusted =
       trusting(Weaker(100, trust, 100)).Gain().diagonal();
+  const VectorXd independent = posterior.Gain().diagonal();
   for (int k = 0; k < unknowns.size(); ++k) {
-    result.identifiable.push_back(unknowns.is_free(k) &&
+    // Errors that follow each other widen an interval, but not beyond what is
+    // known without data: there nothing but rounding is left of the equations.
+    const double variance = result.covariance(k, k);
+    const bool known =
+        variance < std::min(prior[k], kMostInflation * independent[k]);
+    result.identifiable.push_back(known && unknowns.is_free(k) &&
                                   untrusted[k] < 2 * trusted[k]);
   }
   return result;

@@ -107,17 +107,19 @@ std::string Interval(const double* ci95) {
 }
 
 std::string HowFar(const GapFigures& gap) {
-  return Format(
-             "\nheld-out gap, mean square over the noise's: nominal %.3g, "
-             "refitted %.3g, with the effects %.3g, noise 1\n",
-             gap.nominal, gap.refit, gap.after) +
-         (std::isfinite(gap.removed_percent)
-              ? Format(
-                    "  removed %.0f %% of what refitting leaves (%s), %.0f %% "
-                    "of the file's gap\n",
-                    gap.removed_percent, Interval(gap.ci95).c_str(),
-                    gap.removed_from_nominal_percent)
-              : "");
+  std::string text = Format(
+      "\nheld-out gap, mean square over the noise's: nominal %.3g, "
+      "refitted %.3g, with the effects %.3g, noise 1\n",
+      gap.nominal, gap.refit, gap.after);
+  if (!std::isfinite(gap.removed_percent)) return text;
+  text += Format("  removed %.0f %% of what refitting leaves (%s)",
+                 gap.removed_percent, Interval(gap.ci95).c_str());
+  // The file alone may leave no more than noise.
+  if (std::isfinite(gap.removed_from_nominal_percent)) {
+    text +=
+        Format(", %.0f %% of the file's gap", gap.removed_from_nominal_percent);
+  }
+  return text + "\n";
 }
 
 // Joints of one effect with one reason in one line.

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "calib/combination.h"
+#include "calib/singular_values.h"
 #include "model/dense_solvers.h"
 #include "model/simd/kernels.h"
 
@@ -140,12 +141,11 @@ std::optional<MatrixXd> WeightedSystem::Inverse() const {
 
 WeightedSystem::Directions WeightedSystem::Decompose() const {
   const MatrixXd scaled = R * scale.cwiseInverse().asDiagonal();
-  const Eigen::BDCSVD<MatrixXd> svd(scaled,
-                                    Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const SingularValues svd = DecomposeSingular(scaled);
   Directions d;
-  d.V = svd.matrixV();
-  d.s = svd.singularValues();
-  d.Uz = svd.matrixU().transpose() * z;
+  d.V = svd.V;
+  d.s = svd.s;
+  d.Uz = svd.U.transpose() * z;
   d.rank = Rank(d.s);
   return d;
 }

@@ -156,8 +156,13 @@ MatrixXd OverlapCovariance::Value(const MatrixXd& gain, const VectorXd& scale) {
     c = count * (products_ + Taken(gain, scale, c, covariance));
     // Where parameters take most of a joint's rows nothing can be given back.
     for (int i = 0; i < scale.size(); ++i) {
-      const double most = 4 * products_(i, 0) / std::max(1., rows_[i]);
-      if (c(i, 0) > most) c.row(i) *= most / c(i, 0);
+      const double left = products_(i, 0) / std::max(1., rows_[i]);
+      if (c(i, 0) > 4 * left) c.row(i) *= 4 * left / c(i, 0);
+      // What is given back adds to the variance, and none at a lag is larger:
+      // else the iteration may run away.
+      const double variance = std::max(left, c(i, 0));
+      c.row(i) = c.row(i).cwiseMax(-variance).cwiseMin(variance);
+      c(i, 0) = variance;
     }
   }
   return covariance;

@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "calib/singular_values.h"
 #include "model/dense_solvers.h"
 
 namespace armcal {
@@ -45,14 +46,14 @@ Posterior::Posterior(const MatrixXd& A, const MatrixXd& prior,
   relative = llt.matrixL().solve(relative.transpose()).transpose().eval();
   const Eigen::HouseholderQR<MatrixXd> qr(relative);
   const MatrixXd R = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
-  const Eigen::BDCSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
+  const SingularValues svd = DecomposeSingular(R);
   // solveInPlace writes to what it takes as const.
   // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
-  MatrixXd T = svd.matrixV();
+  MatrixXd T = svd.V;
   llt.matrixU().solveInPlace(T);
   T_ = MatrixXd::Zero(A.cols(), p);
   T_(kept, Eigen::all) = s.asDiagonal() * T;
-  shrink_ = (1 + svd.singularValues().array().square()).inverse();
+  shrink_ = (1 + svd.s.array().square()).inverse();
 }
 
 MatrixXd Posterior::Gain() const {
