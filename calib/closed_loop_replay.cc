@@ -88,10 +88,14 @@ CommandedLog ReadCommandedLog(const std::string& path,
   Log& log = commanded.log;
   log.t = all.t(rows).array() - all.t[rows.front()];
   log.q = all.q(rows, Eigen::all);
-  log.tau = all.tau(rows, Eigen::all);
+  if (all.tau.size() > 0) log.tau = all.tau(rows, Eigen::all);
   log.qref = all.qref(rows, Eigen::all);
   log.first_row = all.first_row + rows.front();
   return commanded;
+}
+
+ReferenceMotion CommandedMotion(const CommandedLog& commanded) {
+  return MotionThrough(commanded.path, CommandOf(commanded.log));
 }
 
 int FirstCounted(const Log& log) {
@@ -113,7 +117,7 @@ ClosedLoopReplay ReplayClosedLoop(const SimulatedRobot& plant, double delay,
   options.sensors.log_rate_hz = controller.rate_hz;
   RigidArm engine(plant.robot);
   const ReferenceMotion motion =
-      InTrueTime(MotionThrough(commanded.path, CommandOf(log)), plant.clock);
+      InTrueTime(CommandedMotion(commanded), plant.clock);
   const ClosedLoopRun run =
       RunClosedLoop(delayed, known, motion, options, &engine);
   ClosedLoopReplay replay;
