@@ -84,7 +84,7 @@ CommandedLog ReadCommandedLog(const std::string& path,
     throw InputError(path, "", "",
                      "expected more than a second of time to simulate");
   }
-  CommandedLog commanded{path, {}};
+  CommandedLog commanded{path, {}, all.t[rows.front()]};
   Log& log = commanded.log;
   log.t = all.t(rows).array() - all.t[rows.front()];
   log.q = all.q(rows, Eigen::all);

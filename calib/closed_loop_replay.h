@@ -17,6 +17,7 @@ namespace armcal {
 struct CommandedLog {
   std::string path;
   Log log;  // times from 0: positions, qref and, where it has it, torque
+  double begin = 0;  // of them, s since the log's first row
 };
 
 // The rows of a log within `crop`. Throws InputError where it has no qref
