@@ -1,5 +1,6 @@
 #include "calib/commanded_reference.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "model/motion_columns.h"
@@ -8,6 +9,17 @@ namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
+
+// Before a log's first row and after its last the command goes on at their
+// speed: logs need not begin at rest.
+ReferencePoint PointAt(const ReferenceMotion& motion, double t) {
+  const double nearest = std::clamp(t, 0., motion.duration);
+  ReferencePoint point = motion.at(nearest);
+  if (nearest == t) return point;
+  point.q += (t - nearest) * point.qd;
+  point.qdd.setZero();
+  return point;
+}
 
 }  // namespace
 
@@ -32,7 +44,7 @@ ReferenceSeries CommandedReference::At(double begin, double period, long count,
     qdd[k].resize(count, n);
     for (long i = 0; i < count; ++i) {
       const double t = begin + static_cast<double>(i) * period - delay;
-      const ReferencePoint point = motion_.at(t + (k - 1) * kAhead);
+      const ReferencePoint point = PointAt(motion_, t + (k - 1) * kAhead);
       q[k].row(i) = point.q;
       qd[k].row(i) = point.qd;
       qdd[k].row(i) = point.qdd;
