@@ -14,7 +14,8 @@ class LoopFit {
  public:
   LoopFit(const LoopUnknowns& unknowns, const LoopTrust& trust);
 
-  // From *x on, which becomes the solution. False where numbers overflow.
+  // *x becomes the solution, which is the only one; what is held stays. False
+  // where numbers overflow.
   bool Solve(const Eigen::MatrixXd& R, const Eigen::VectorXd& z,
              Eigen::VectorXd* x) const;
   // Twice the negative logarithm of the prior, but for a constant.
@@ -26,6 +27,7 @@ class LoopFit {
  private:
   const LoopUnknowns& unknowns_;
   double inertia_;
+  Eigen::VectorXd files_;  // values, links inside what bodies can be
 };
 
 }  // namespace armcal

@@ -21,7 +21,8 @@ using Wanted = PositionLoop::Wanted;
 // (m and m/s), and the integral from 0, in torques of an error of that many
 // rad: next to nothing, but finite.
 constexpr double kStartPosition = .01, kStartVelocity = 1, kStartIntegral = 1;
-constexpr double kCatchUp = 1;  // s
+constexpr double kCatchUp = 1;     // s
+constexpr double kScoreBlock = 1;  // s, longer than errors of friction last
 
 // Deviations of the encoders' noise; of a log without any, something beside
 // its motion.
@@ -31,6 +32,21 @@ VectorXd NoiseOf(const Log& log) {
       (kLeast * (log.q.colwise().maxCoeff() - log.q.colwise().minCoeff()))
           .transpose()
           .cwiseMax(1e-9));
+}
+
+// Adds a window's scores, weights' residuals, second by second.
+void AddScores(const VectorXd& t, const MatrixXd& weights,
+               const VectorXd& residual, MatrixXd* sums) {
+  const long n = residual.size() / t.size();
+  for (long first = 0; first < t.size();) {
+    long last = first;
+    while (last < t.size() && t[last] < t[first] + kScoreBlock) ++last;
+    const long rows = n * (last - first);
+    sums->conservativeResize(sums->rows() + 1, weights.cols());
+    sums->bottomRows(1) = residual.segment(n * first, rows).transpose() *
+                          weights.middleRows(n * first, rows);
+    first = last;
+  }
 }
 
 }  // namespace
@@ -189,6 +205,8 @@ LoopScores LoopWindows::Scores(const LoopValues& values,
         LoopNoiseCovariance(controller_, values, periods, noise_, weights);
     all.covariance += sum.topLeftCorner(p, p);
     all.expected_squares += sum(p, p);
+    AddScores(logs_[w.log].log.t.segment(w.first, w.rows), weights.leftCols(p),
+              run.residual, &all.sums);
     all.residual_squares += scale.cwiseProduct(run.residual).squaredNorm();
   }
   return all;

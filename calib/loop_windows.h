@@ -30,6 +30,8 @@ struct LoopEquations {
 // What encoder noise makes of the scores of such equations.
 struct LoopScores {
   Eigen::MatrixXd covariance;  // of all values
+  // The scores themselves, summed over a second each: a row per second.
+  Eigen::MatrixXd sums;
   double residual_squares = 0;
   double expected_squares = 0;  // by noise alone
 };

@@ -7,6 +7,7 @@
 
 #include "calib/loop_fit.h"
 #include "calib/loop_windows.h"
+#include "calib/overlap_covariance.h"
 #include "calib/posterior.h"
 #include "calib/unseen_combinations.h"
 
@@ -31,6 +32,8 @@ LoopValues FilesValues(const Robot& robot, const ControllerOptions& controller,
   values.kp = controller.kp;
   values.kd = controller.kd;
   values.ki = controller.ki;
+  // The same all through an estimate, whose cost would jump with them.
+  values.substeps = EnoughSubsteps(values, controller.rate_hz);
   return values;
 }
 
@@ -136,6 +139,14 @@ void Calibrator::Report(const LoopEquations& equations) {
   const MatrixXd covariance =
       excess * posterior.Sandwich(SquareRoot(scores.covariance)) +
       posterior.Sandwich(SquareRoot(fit_->PriorInformation(inertia, 1)));
+  // Where a second's scores scatter by more than noise explains, the model is
+  // wrong, and they tell how sure the estimate is.
+  constexpr double kBeyondChance = 2;  // of a variance from 20 seconds
+  const VectorXd scatter = posterior.Sandwich(scores.sums).diagonal();
+  const VectorXd known = covariance.diagonal();
+  const MatrixXd raised = RaiseTo(
+      (scatter.array() > kBeyondChance * known.array()).select(scatter, known),
+      covariance);
   // Identifiable: what files that are trusted to 100 % do not double.
   const VectorXd trusted = trusting(1, 1).Gain().diagonal();
   const VectorXd untrusted = trusting(100, 100).Gain().diagonal();
@@ -151,11 +162,11 @@ void Calibrator::Report(const LoopEquations& equations) {
     out.identifiable = !out.held && untrusted[k] < 2 * trusted[k];
     out.at_bound = !out.held && unknowns_->is_positive(k) &&
                    x_[k] < unknowns_->least(k) + 1e-6 * unknowns_->prior(k);
-    out.stddev = out.identifiable ? std::sqrt(covariance(k, k))
+    out.stddev = out.identifiable ? std::sqrt(raised(k, k))
                                   : std::numeric_limits<double>::infinity();
     arm.parameters.push_back(out);
   }
-  arm.covariance = covariance;
+  arm.covariance = raised;
   std::vector<std::string> names;
   for (const int k : free) names.push_back(unknowns_->name(k));
   const MatrixXd nothing = MatrixXd::Zero(0, unknowns_->size());

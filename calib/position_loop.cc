@@ -13,6 +13,8 @@ using Eigen::VectorXd;
 
 constexpr long kPeriodsPerBlock = 32;  // linearised at once
 constexpr int kMostSubsteps = 32;
+// Times StageStepper::SafeStep(): where explicit steps are still stable.
+constexpr double kStable = 3;
 
 // What the controller did in one period, for its derivatives.
 struct Action {
@@ -43,8 +45,9 @@ class Simulation {
         actions_(kPeriodsPerBlock) {
     stepper_.SetState(start.q, start.qd);
     substeps_ = std::clamp(
-        static_cast<int>(std::ceil(period_ / stepper_.SafeStep(start.q))), 1,
-        kMostSubsteps);
+        static_cast<int>(
+            std::ceil(period_ / (kStable * stepper_.SafeStep(start.q)))),
+        values.substeps, kMostSubsteps);
     if (!tangents_) return;
     motion_.Resize(kPeriodsPerBlock * substeps_, n_);
     const int size = columns_.size();
@@ -236,6 +239,15 @@ class Simulation {
 };
 
 }  // namespace
+
+int EnoughSubsteps(const LoopValues& values, double rate_hz) {
+  constexpr double kMoreFriction = 2;
+  const StageStepper stepper(values.arm);
+  const VectorXd q = VectorXd::Zero(stepper.num_joints());
+  return std::clamp(static_cast<int>(std::ceil(
+                        kMoreFriction / (rate_hz * stepper.SafeStep(q)))),
+                    1, kMostSubsteps);
+}
 
 RowWeights::RowWeights(double share, double period) {
   const double s = share, r = 1 - s;

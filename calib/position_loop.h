@@ -15,7 +15,13 @@ struct LoopValues {
   RolloutArm arm;              // Coulomb friction by velocity laws
   Eigen::VectorXd kp, kd, ki;  // as ControllerOptions has them
   double delay = 0;            // s, of the command
+  // Simulated steps of a control period; more where friction would not leave
+  // them stable.
+  int substeps = 1;
 };
+
+// Enough of them for friction some times the values'.
+int EnoughSubsteps(const LoopValues& values, double rate_hz);
 
 // Where a window of a log begins.
 struct LoopStart {
