@@ -51,6 +51,7 @@ LoopValues ValuesOf(const Robot& robot, const ControllerOptions& controller) {
   values.kd = controller.kd;
   values.ki = controller.ki;
   values.delay = .003;
+  values.substeps = 8;
   return values;
 }
 
