@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/combination.h"
 #include "calib/overlap_covariance.h"
 #include "calib/posterior.h"
 #include "calib/row_covariance.h"
-#include "calib/singular_values.h"
+#include "calib/unseen_combinations.h"
 
 namespace armcal {
 namespace {
@@ -20,35 +19,8 @@ ArmTrust Weaker(double inertia, const ArmTrust& trust, double geometry) {
           geometry * trust.joint_terms};
 }
 
-constexpr double kNoPrior = 1e100;  // a variance
 // Of a variance by errors that follow each other.
 constexpr double kMostInflation = 1e8;
-
-// Directions in which the data tell less than a prior of these deviations.
-std::vector<std::string> UnseenCombinations(const ArmUnknowns& unknowns,
-                                            const MatrixXd& data,
-                                            const VectorXd& prior) {
-  const std::vector<int> free = unknowns.FreeIndices();
-  std::vector<std::string> names;
-  VectorXd size(free.size());
-  for (size_t f = 0; f < free.size(); ++f) {
-    const int k = free[f];
-    names.push_back(unknowns.name(k));
-    // Without a prior: a thousand times what it would be alone.
-    size[f] = prior[k] < kNoPrior ? std::sqrt(prior[k])
-                                  : 1e3 / std::max(data.col(k).norm(), 1e-150);
-  }
-  const MatrixXd relative = data(Eigen::all, free) * size.asDiagonal();
-  const SingularValues svd = DecomposeSingular(relative);
-  Eigen::Index rank = 0;
-  while (rank < svd.s.size() && svd.s[rank] > 1) ++rank;
-  std::vector<std::string> texts;
-  for (const Combination& c : NameCombinations(
-           svd.V.rightCols(size.size() - rank), size.cwiseInverse(), names)) {
-    texts.push_back(c.text);
-  }
-  return texts;
-}
 
 }  // namespace
 
@@ -74,9 +46,11 @@ ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
       posterior.Gain(), torques.log_sums);
   const ArmTrust weak = Weaker(1, trust, 1);
   const MatrixXd nothing = MatrixXd::Zero(0, data.cols());
-  const VectorXd prior =
-      Posterior(nothing, fit.PriorInformation(weak), free).Gain().diagonal();
-  result.unseen = UnseenCombinations(unknowns, data, prior);
+  std::vector<std::string> names;
+  for (const int k : free) names.push_back(unknowns.name(k));
+  result.unseen = UnseenCombinations(
+      free, names, data,
+      Posterior(nothing, fit.PriorInformation(weak), free).Gain().diagonal());
   const VectorXd trusted = trusting(weak).Gain().diagonal();
   const VectorXd untrusted =
       trusting(Weaker(100, trust, 100)).Gain().diagonal();

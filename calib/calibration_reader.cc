@@ -136,12 +136,15 @@ Robot WithLengthsOf(const JsonValue& root, const Robot& nominal) {
   return lengths.empty() ? nominal : WithLengths(nominal, lengths);
 }
 
-// Parameters of where the instrument and its targets are.
-bool BelongsToPoses(const std::string& name) {
-  for (const char* owner : {"instrument.", "target", "wire."}) {
+// Parameters that are no robot's: of where the instrument and its targets are,
+// and of the controller. (Coulomb's width stands in coulomb_transition.)
+bool IsNotTheRobots(const std::string& name) {
+  for (const char* owner : {"instrument.", "target", "wire.", "drive."}) {
     if (name.rfind(owner, 0) == 0) return true;
   }
-  return false;
+  const std::string term = name.substr(name.rfind('.') + 1);
+  return term == "kp" || term == "kd" || term == "ki" ||
+         term == "coulomb_width";
 }
 
 bool IsNeverNegative(const std::string& name) {
@@ -154,7 +157,7 @@ void SetFrom(const JsonValue& entry, Slots* slots) {
   const JsonValue name = entry.At("name");
   const auto slot = slots->find(name.Text());
   if (slot == slots->end()) {
-    if (BelongsToPoses(name.Text())) return;
+    if (IsNotTheRobots(name.Text())) return;
     name.Refuse("expected a parameter of the robot of --robot");
   }
   if (slot->second.was_set) name.Refuse("expected every parameter only once");

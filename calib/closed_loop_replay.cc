@@ -84,7 +84,7 @@ CommandedLog ReadCommandedLog(const std::string& path,
     throw InputError(path, "", "",
                      "expected more than a second of time to simulate");
   }
-  CommandedLog commanded{path, {}};
+  CommandedLog commanded{path, {}, all.t[rows.front()]};
   Log& log = commanded.log;
   log.t = all.t(rows).array() - all.t[rows.front()];
   log.q = all.q(rows, Eigen::all);
@@ -92,6 +92,10 @@ CommandedLog ReadCommandedLog(const std::string& path,
   log.qref = all.qref(rows, Eigen::all);
   log.first_row = all.first_row + rows.front();
   return commanded;
+}
+
+ReferenceMotion CommandedMotion(const CommandedLog& commanded) {
+  return MotionThrough(commanded.path, CommandOf(commanded.log));
 }
 
 int FirstCounted(const Log& log) {
@@ -113,7 +117,7 @@ ClosedLoopReplay ReplayClosedLoop(const SimulatedRobot& plant, double delay,
   options.sensors.log_rate_hz = controller.rate_hz;
   RigidArm engine(plant.robot);
   const ReferenceMotion motion =
-      InTrueTime(MotionThrough(commanded.path, CommandOf(log)), plant.clock);
+      InTrueTime(CommandedMotion(commanded), plant.clock);
   const ClosedLoopRun run =
       RunClosedLoop(delayed, known, motion, options, &engine);
   ClosedLoopReplay replay;

@@ -6,6 +6,7 @@
 #include "model/joint_controller.h"
 #include "model/log.h"
 #include "model/log_reader.h"
+#include "model/plant/reference_motion.h"
 #include "model/robot.h"
 #include "model/simulated_robot.h"
 #include "model/time_base.h"
@@ -15,7 +16,8 @@ namespace armcal {
 // A log whose command qref can be followed, in memory as a whole.
 struct CommandedLog {
   std::string path;
-  Log log;  // times from 0: positions, qref, and torque if there is any
+  Log log;  // times from 0: positions, qref and, where it has it, torque
+  double begin = 0;  // of them, s since the log's first row
 };
 
 // The rows of a log within `crop`. Throws InputError where it has no qref
@@ -23,6 +25,9 @@ struct CommandedLog {
 CommandedLog ReadCommandedLog(const std::string& path,
                               const LogReaderOptions& options,
                               const TimeRange& crop);
+
+// The command as a motion: before and after the rows as at their ends.
+ReferenceMotion CommandedMotion(const CommandedLog& commanded);
 
 // The row from which on replays count: a log that does not begin at rest is
 // caught up with in its first second.

@@ -82,6 +82,22 @@ std::vector<Correlation> StrongCorrelations(
   return strong;
 }
 
+void AddParameters(const NonlinearCalibration& result, json* calibration) {
+  json& c = *calibration;
+  c["parameters"] = json::array();
+  json names = json::array(), units = json::array();
+  for (const PhysicalParameter& p : result.parameters) {
+    c["parameters"].push_back(ParameterJson(p));
+    names.push_back(p.name);
+    units.push_back(p.unit);
+  }
+  c["parameters_covariance"] = {{"names", names},
+                                {"units", units},
+                                {"file", "parameters_covariance.csv"},
+                                {"correlations", CorrelationsJson(result)},
+                                {"unidentifiable", result.unseen}};
+}
+
 void AddRefined(const NonlinearCalibration& result, json* calibration) {
   json& c = *calibration;
   if (!result.solved) {
@@ -106,18 +122,7 @@ void AddRefined(const NonlinearCalibration& result, json* calibration) {
     c["validation_stacked_residual_percent"] =
         JsonNumber(result.validation->moving().stacked_percent);
   }
-  c["parameters"] = json::array();
-  json names = json::array(), units = json::array();
-  for (const PhysicalParameter& p : result.parameters) {
-    c["parameters"].push_back(ParameterJson(p));
-    names.push_back(p.name);
-    units.push_back(p.unit);
-  }
-  c["parameters_covariance"] = {{"names", names},
-                                {"units", units},
-                                {"file", "parameters_covariance.csv"},
-                                {"correlations", CorrelationsJson(result)},
-                                {"unidentifiable", result.unseen}};
+  AddParameters(result, calibration);
   AddGeometry(result, calibration);
   c["refined"] = {{"converged", result.converged()},
                   {"reason", result.reason},

@@ -21,6 +21,10 @@ std::vector<Correlation> StrongCorrelations(const NonlinearCalibration& result);
 std::string NonlinearReport(const Robot& nominal,
                             const NonlinearCalibration& result);
 
+// Sets `parameters` and `parameters_covariance` of a calibration.
+void AddParameters(const NonlinearCalibration& result,
+                   nlohmann::json* calibration);
+
 // Makes `calibration` (of ToJson) describe the refined estimate: its joints and
 // parameters, the linear estimate's under "linear".
 void AddRefined(const NonlinearCalibration& result,

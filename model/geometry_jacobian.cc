@@ -42,6 +42,14 @@ simd::BodyMoments MakeBody(const InertialParameters& V) {
   return body;
 }
 
+std::vector<CarriedTwist> Chosen(const ArmGeometry& geometry,
+                                 const std::vector<int>& parameters) {
+  const std::vector<CarriedTwist> all = geometry.CarriedTwists();
+  std::vector<CarriedTwist> chosen;
+  for (const int k : parameters) chosen.push_back(all.at(k));
+  return chosen;
+}
+
 // Of the rows of a matrix with columns n apart, or of a vector, each.
 template <class Matrix>
 auto Entries(Matrix& of) {
@@ -56,13 +64,18 @@ GeometryJacobian::GeometryJacobian(const Robot& robot,
                                    const ArmGeometry& geometry,
                                    const std::vector<int>& parameters,
                                    const simd::Kernels& kernels)
-    : plan_(std::make_shared<RegressorPlan>(geometry.ApplyTo(robot),
-                                            RegressorPlan::Places::kNone)),
-      row_sizes_(robot.links.size(), static_cast<int>(parameters.size())),
+    : GeometryJacobian(geometry.ApplyTo(robot), Chosen(geometry, parameters),
+                       kernels) {}
+
+GeometryJacobian::GeometryJacobian(const Robot& robot,
+                                   const std::vector<CarriedTwist>& twists,
+                                   const simd::Kernels& kernels)
+    : plan_(
+          std::make_shared<RegressorPlan>(robot, RegressorPlan::Places::kNone)),
+      row_sizes_(robot.links.size(), static_cast<int>(twists.size())),
       kernels_(&kernels) {
-  const std::vector<CarriedTwist> twists = geometry.CarriedTwists();
-  for (const int k : parameters) {
-    parameters_.push_back(MakeParameter(twists.at(k), size()));
+  for (const CarriedTwist& twist : twists) {
+    parameters_.push_back(MakeParameter(twist, size()));
   }
   std::stable_sort(parameters_.begin(), parameters_.end(),
                    [](const auto& a, const auto& b) {
@@ -72,6 +85,19 @@ GeometryJacobian::GeometryJacobian(const Robot& robot,
   for (const Link& link : robot.links) {
     bodies_.push_back(MakeBody(link.inertial));
   }
+}
+
+std::vector<CarriedTwist> JointTwists(const Robot& robot) {
+  std::vector<CarriedTwist> twists;
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    const Link& link = robot.links[j];
+    const Eigen::Isometry3d X_LM = link.X_ML.inverse();
+    twists.push_back({j,
+                      true,
+                      {X_LM.linear().col(2), X_LM.translation(),
+                       IsRotational(link.joint.type)}});
+  }
+  return twists;
 }
 
 int GeometryJacobian::num_joints() const { return plan_->num_joints(); }

@@ -24,6 +24,9 @@ class GeometryJacobian {
   GeometryJacobian(const Robot& robot, const ArmGeometry& geometry,
                    const std::vector<int>& parameters,
                    const simd::Kernels& kernels = simd::BestKernels());
+  // Of twists that displace parts of `robot` as it is, a column each.
+  GeometryJacobian(const Robot& robot, const std::vector<CarriedTwist>& twists,
+                   const simd::Kernels& kernels = simd::BestKernels());
 
   int num_joints() const;
   // Columns of every joint's equation.
@@ -52,5 +55,8 @@ class GeometryJacobian {
   std::vector<int> row_sizes_;
   const simd::Kernels* kernels_;
 };
+
+// The joints' motions as such twists: their columns are derivatives by q.
+std::vector<CarriedTwist> JointTwists(const Robot& robot);
 
 }  // namespace armcal

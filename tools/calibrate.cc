@@ -12,6 +12,7 @@
 #include "calib/segment_selection.h"
 #include "calib/verdict.h"
 #include "model/input_text.h"
+#include "tools/calibrate_commanded.h"
 #include "tools/calibrate_flags.h"
 #include "tools/calibrate_payload.h"
 #include "tools/calibrate_poses.h"
@@ -96,6 +97,7 @@ std::optional<SegmentSelection> SelectFromFlags(const Task& task,
 
 CommandOutcome RunCalibrate(const CommandInput& input) {
   if (PosesAloneFromFlags()) return CalibratePosesFromFlags(input);
+  if (CommandedFromFlags()) return CalibrateCommandedFromFlags(input);
   Task task = TaskFromFlags(input);
   const Robot& robot = task.robot;
   input.Begin("opening the logs");
@@ -164,6 +166,9 @@ Command CalibrateCommand() {
         false},
        TorqueFlags(),
        {"payload", {"payload_mass", "payload_log"}, false},
+       {"commands instead of torques",
+        {"controller", "gains_trust", "delay_trust"},
+        false},
        {"equations and solver",
         {"identification", "solver", "loss", "trajectory", "joint_terms",
          "coulomb_width", "window", "interval", "intervals", "quadrature"},
@@ -174,6 +179,8 @@ Command CalibrateCommand() {
       {"armcal calibrate --robot=arm.urdf --log=mon.csv --validate=tue.csv "
        "--out=made",
        "armcal calibrate --robot=arm.yaml --log=log.csv.gz --geometry=lengths",
+       "armcal calibrate --robot=arm.urdf --log=commands.csv "
+       "--controller=drives.yaml",
        "armcal calibrate --robot=arm.urdf --log=log.csv --json | jq .rank"},
       &RunCalibrate};
 }

@@ -113,12 +113,9 @@ std::optional<Refinement> RefinementFromFlags(
   return refinement;
 }
 
-void AddRefinedOutputs(const Robot& robot, const NonlinearCalibration& refined,
-                       nlohmann::json* json, CommandOutcome* outcome) {
+void AddRobotOutputs(const NonlinearCalibration& refined, nlohmann::json* json,
+                     CommandOutcome* outcome) {
   std::string& report = outcome->output.text;
-  AddRefined(refined, json);
-  report += NonlinearReport(robot, refined);
-  if (!refined.solved) return;
   outcome->robot = refined.robot;
   OutputFolder* const out = &outcome->folders[0];
   AddRobotFiles(RobotPathFromFlags(), refined.robot, refined.refined_geometry,
@@ -129,6 +126,13 @@ void AddRefinedOutputs(const Robot& robot, const NonlinearCalibration& refined,
   }
   report +=
       AddExports({refined.robot, {}}, ExportBesideUrdfFromFlags(), json, out);
+}
+
+void AddRefinedOutputs(const Robot& robot, const NonlinearCalibration& refined,
+                       nlohmann::json* json, CommandOutcome* outcome) {
+  AddRefined(refined, json);
+  outcome->output.text += NonlinearReport(robot, refined);
+  if (refined.solved) AddRobotOutputs(refined, json, outcome);
 }
 
 }  // namespace armcal

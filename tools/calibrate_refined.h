@@ -31,6 +31,11 @@ std::optional<Refinement> RefinementFromFlags(
 // Whether --geometry asks for the arm's parameters to be refined, and which.
 std::optional<RefineGeometry> RefineGeometryFromFlags();
 
+// Adds the robot's files and the covariance of its parameters, and says what
+// the files lose.
+void AddRobotOutputs(const NonlinearCalibration& refined, nlohmann::json* json,
+                     CommandOutcome* outcome);
+
 // Adds what a refined calibration says, its figures, robot and files; these to
 // the first folder.
 void AddRefinedOutputs(const Robot& robot, const NonlinearCalibration& refined,

@@ -32,8 +32,9 @@ ARMCAL_INLINE void FactorTriangle(int n, T* M) {
   M[0] = least > kNoInertia * largest ? M[0] : none / none;
 }
 
-template <class T>
-ARMCAL_INLINE void SolveTriangles(int n, const T* M, T* x) {
+// The factors are x's lanes' own, or one number for all.
+template <class Factor, class T>
+ARMCAL_INLINE void SolveTriangles(int n, const Factor* M, T* x) {
   for (int k = n - 1; k > 0; --k) {
     for (int i = 0; i < k; ++i) x[i] -= M[n * k + i] * x[k];
   }
@@ -55,8 +56,8 @@ ARMCAL_INLINE void FactorInertia(int n, T* M) {
 }
 
 // x becomes M^-1 x.
-template <class T>
-ARMCAL_INLINE void SolveFactored(int n, const T* M, T* x) {
+template <class Factor, class T>
+ARMCAL_INLINE void SolveFactored(int n, const Factor* M, T* x) {
   if (n == 6) return SolveTriangles(6, M, x);
   if (n == 7) return SolveTriangles(7, M, x);
   SolveTriangles(n, M, x);

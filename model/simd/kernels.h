@@ -9,6 +9,7 @@
 #include "model/simd/deflected_link.h"
 #include "model/simd/filter_section.h"
 #include "model/simd/geometry_constants.h"
+#include "model/simd/tangent_step.h"
 
 namespace armcal::simd {
 
@@ -95,6 +96,9 @@ struct Kernels {
   // many; `reach` is 15 at most.
   void (*sliding_medians)(const double* x, long count, int reach,
                           double* medians);
+
+  // Derivatives of (q, qd), 2 n rows, from a step's begin to its end.
+  void (*advance_tangents)(const TangentStep& step, double* state);
 };
 
 // Of the instruction sets that this processor has, the least first.

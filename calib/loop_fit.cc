@@ -1,0 +1,99 @@
+#include "calib/loop_fit.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "calib/link_start.h"
+#include "problems/inertial_coordinates.h"
+#include "problems/inertial_prior.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+}  // namespace
+
+LoopFit::LoopFit(const LoopUnknowns& unknowns, const LoopTrust& trust)
+    : unknowns_(unknowns), inertia_(trust.inertia), files_(unknowns.nominal()) {
+  constexpr double kInside = .01;  // m, kg
+  for (int k = 0; k < unknowns.links_size() && unknowns.is_free(0); k += 10) {
+    const Vector10d c =
+        LogCholeskyFromInertial(files_.segment<10>(k), kInside, kInside);
+    InertialFromLogCholesky(c.data(), files_.data() + k);
+  }
+}
+
+bool LoopFit::Solve(const MatrixXd& R, const VectorXd& z, VectorXd* x) const {
+  constexpr double kClear = 1e-6;  // of its prior, a start of what is positive
+  const int links = unknowns_.links_size();
+  const int others = unknowns_.size() - links;
+  // Links that are held may be such as no body has.
+  const int first = unknowns_.is_free(0) ? 0 : links;
+  const long size = unknowns_.size() - first;
+  MatrixXd A = MatrixXd::Zero(R.rows() + others, size);
+  VectorXd b = VectorXd::Zero(A.rows());
+  A.topRows(R.rows()) = R.rightCols(size);
+  b.head(R.rows()) = z - R.leftCols(first) * x->head(first);
+  VectorXd start = files_.tail(size);
+  std::vector<TermRange> ranges;
+  for (int k = 0; k < others; ++k) {
+    const int unknown = links + k;
+    ranges.push_back(!unknowns_.is_free(unknown)      ? TermRange::kHeld
+                     : unknowns_.is_positive(unknown) ? TermRange::kPositive
+                                                      : TermRange::kFree);
+    double& value = start[size - others + k];
+    value = (*x)[unknown];
+    if (ranges.back() == TermRange::kHeld) continue;
+    const double prior = unknowns_.prior(unknown);
+    A(R.rows() + k, size - others + k) = 1 / prior;
+    b[R.rows() + k] = files_[unknown] / prior;
+    if (ranges.back() == TermRange::kPositive) {
+      value = std::max(value, kClear * prior);
+    }
+  }
+  const auto solved =
+      StartLinks(A, b, inertia_ > 0 ? inertia_ : 1, ranges, start);
+  if (!solved) return false;
+  x->tail(size) = *solved;
+  for (int k = links; k < unknowns_.size(); ++k) {
+    if (unknowns_.is_free(k) && unknowns_.is_positive(k)) {
+      (*x)[k] = std::max((*x)[k], unknowns_.least(k));
+    }
+  }
+  return true;
+}
+
+double LoopFit::PriorCost(const VectorXd& x) const {
+  double cost = 0;
+  for (int k = 0; k < unknowns_.links_size() && unknowns_.is_free(0); k += 10) {
+    const InertialPrior prior(files_.segment<10>(k), inertia_);
+    const Vector10d c = LogCholeskyFromInertial(x.segment<10>(k), 0, 0);
+    const double* const block = c.data();
+    VectorXd residual(prior.num_residuals());
+    prior.Evaluate(&block, residual.data(), nullptr);
+    cost += residual.squaredNorm();
+  }
+  for (int k = unknowns_.links_size(); k < unknowns_.size(); ++k) {
+    if (!unknowns_.is_free(k)) continue;
+    const double error = (x[k] - files_[k]) / unknowns_.prior(k);
+    cost += error * error;
+  }
+  return cost;
+}
+
+MatrixXd LoopFit::PriorInformation(double inertia, double times) const {
+  MatrixXd information = MatrixXd::Zero(unknowns_.size(), unknowns_.size());
+  for (int k = 0; k < unknowns_.links_size() && unknowns_.is_free(0); k += 10) {
+    const auto W = InertialPrior(files_.segment<10>(k), inertia).W();
+    information.block<10, 10>(k, k) = W.transpose() * W;
+  }
+  for (int k = unknowns_.links_size(); k < unknowns_.size(); ++k) {
+    const double prior = times * unknowns_.prior(k);
+    if (prior > 0) information(k, k) = 1 / (prior * prior);
+  }
+  return information;
+}
+
+}  // namespace armcal

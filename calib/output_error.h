@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/closed_loop_replay.h"
+#include "calib/log_set.h"
+#include "calib/loop_unknowns.h"
+#include "calib/nonlinear_calibration.h"
+#include "model/joint_controller.h"
+#include "model/joint_term.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+struct OutputErrorOptions {
+  LoopTrust trust;
+  std::vector<JointTerm> joint_terms = {JointTerm::kViscous,
+                                        JointTerm::kCoulomb, JointTerm::kOffset,
+                                        JointTerm::kArmature};
+  double coulomb_width = .02;  // rad/s or m/s, to start with
+  // Logs are simulated in windows, each from a state of its own: a loop forgets
+  // within a fraction of a second where it began.
+  double window_s = 10;
+  Progress progress;
+};
+
+// Root mean squares of simulated minus measured positions, rad or m, without
+// the first second of windows, per joint.
+struct PositionFigures {
+  Eigen::VectorXd noise;    // of the encoders, standard deviation
+  Eigen::VectorXd nominal;  // of the robot file
+  Eigen::VectorXd calibrated;
+  Eigen::VectorXd validation;  // of held-out logs; empty: there are none
+};
+
+struct OutputErrorCalibration {
+  // Its figures of torques are not set.
+  NonlinearCalibration arm;
+  LoopValues values;
+  PositionFigures positions;
+  // Of residuals over what encoder noise alone makes of them: 1 where the model
+  // is right. Deviations are this many times wider.
+  double model_error = 1;
+};
+
+// Estimates an arm and its controller from commanded and measured positions
+// alone: simulated in closed loop, the arm shall be where it was measured
+// (output error). Gauss-Newton with exact derivatives of the simulation. The
+// controller knows the robot file.
+OutputErrorCalibration CalibrateOutputError(
+    const Robot& robot, const ControllerOptions& controller,
+    const OutputErrorOptions& options,
+    const std::vector<CommandedLog>& training,
+    const std::vector<CommandedLog>& validation);
+
+}  // namespace armcal

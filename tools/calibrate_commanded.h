@@ -1,0 +1,14 @@
+#pragma once
+
+#include "tools/command.h"
+
+namespace armcal {
+
+// Whether there is a controller (--controller) whose commands and measured
+// positions are what to calibrate on.
+bool CommandedFromFlags();
+
+// Calibrates the arm and its controller without torques: output error.
+CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input);
+
+}  // namespace armcal
