@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "model/hdf5_links.h"
+#include "model/hdf5_datasets.h"
 #include "model/input_error.h"
 #include "model/log_signal.h"
 #include "model/mat_elements.h"
@@ -170,7 +170,7 @@ bool IsMatFile(std::string_view first) {
 
 std::vector<LogArray> ReadMat(const std::string& path) {
   CheckMatElements(path);
-  CheckHdf5Links(path);
+  CheckHdf5Datasets(path);
   const std::unique_ptr<mat_t, Close> file(
       Mat_Open(path.c_str(), MAT_ACC_RDONLY));
   if (!file) {

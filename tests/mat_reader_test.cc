@@ -67,8 +67,8 @@ TEST(MatReader, RefusesFilesThatAreCutOff) {
             "FILE: is cut off: expected a whole MAT-file");
 }
 
-// A file of v7.3 whose positions lie elsewhere, as `change` says, by their
-// place, the group that holds them and their extent.
+// A file of v7.3 whose positions are as `change` stores them, by their place,
+// the group that holds them and their extent.
 std::string Moved(const std::function<void(hid_t file, hid_t extent)>& change) {
   const std::string path = WriteFile(Bytes("v73.mat"), "log.mat");
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
@@ -80,6 +80,34 @@ std::string Moved(const std::function<void(hid_t file, hid_t extent)>& change) {
   H5Sclose(extent);
   H5Fclose(file);
   return MessageOf<InputError>(path, [&] { ReadWholeLog(path, Options()); });
+}
+
+// HDF5 took 21 GB for one like it, which fuzzing found.
+TEST(MatReader, RefusesMorePiecesThanThereAreBytes) {
+  const auto refusal = [](hsize_t rows) {
+    return Moved([=](hid_t file, hid_t) {
+      const hsize_t size[] = {2, rows}, piece[] = {1, 1};
+      const hid_t extent = H5Screate_simple(2, size, nullptr);
+      const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
+      H5Pset_chunk(how, 2, piece);
+      const hid_t positions = H5Dcreate2(file, "q", H5T_NATIVE_DOUBLE, extent,
+                                         H5P_DEFAULT, how, H5P_DEFAULT);
+      const hsize_t one[] = {1, 1}, first[] = {0, 0};
+      const double value = 1;
+      const hid_t memory = H5Screate_simple(2, one, nullptr);
+      H5Sselect_hyperslab(extent, H5S_SELECT_SET, first, nullptr, one, nullptr);
+      H5Dwrite(positions, H5T_NATIVE_DOUBLE, memory, extent, H5P_DEFAULT,
+               &value);
+      H5Sclose(memory);
+      H5Dclose(positions);
+      H5Pclose(how);
+      H5Sclose(extent);
+    });
+  };
+  const std::string refused =
+      "FILE: variable q: is damaged: expected no more pieces than it has bytes";
+  EXPECT_NE(refusal(4), refused);  // 8 bytes are stored
+  EXPECT_EQ(refusal(5), refused);
 }
 
 TEST(MatReader, ReadsNoOtherFile) {
