@@ -62,8 +62,8 @@ for target in "${targets[@]}"; do
   corpus=$build/corpus/$target crashes=$build/found/$target log=$build/$target.log
   mkdir -p "$corpus" "$crashes"
   earlier=tests/fuzz/corpus/$target
-  ASAN_OPTIONS=detect_leaks=1 "$build/tests/fuzz/${target}_fuzz" \
-    -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2560 -max_len=65536 \
+  ASAN_OPTIONS=detect_leaks=1 FUZZ_CPU_SECONDS=$seconds \
+    "$build/tests/fuzz/${target}_fuzz" -timeout=20 -rss_limit_mb=2560 -max_len=65536 \
     -print_final_stats=1 -artifact_prefix="$crashes/" "$corpus" \
     "$build/seeds/$target" $([[ -d $earlier ]] && echo "$earlier") \
     >"$log" 2>&1 || true

@@ -28,18 +28,27 @@ def armcal_files(armcal, folder):
     run("simulate", arm, "--duration=10", "--log_rate=50", "--out=log")
     log = "log/log.csv"
     run("calibrate", arm, f"--log={log}", "--out=all", "--export=mjcf,sdf,yaml")
-    run("reduce", arm, f"--log={log}", "--out=log.factor")
+    run("calibrate", arm, f"--log={log}", "--out=model",
+        "--identification=differential")
+    given = folder / "given"
+    given.write_bytes((folder / "model/calibration.json").read_bytes() + b"\0" +
+                      (folder / "model/covariance.csv").read_bytes())
+    short = folder / "short.csv"
+    lines = (folder / log).read_text().splitlines(keepends=True)
+    short.write_text("".join(lines[:40]))
+    run("reduce", arm, f"--log={log}", "--out=factors")
     made = {"json": ["all/calibration.json"],
             "urdf": ["all/robot.urdf"], "mjcf": ["all/robot.xml"],
-            "yaml": ["all/robot.yaml"], "csv": [log], "factor": ["log.factor"]}
-    return {target: [folder / name for name in names]
+            "yaml": ["all/robot.yaml"], "csv": ["short.csv"], "given": ["given"], "factor": ["factors/*.factor"]}
+    return {target: [file for name in names for file in folder.glob(name)]
             for target, names in made.items()}
 
 
 def main():
     armcal, data, out = (pathlib.Path(a).resolve() for a in sys.argv[1:])
     with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
+        folder = pathlib.Path(folder) / "made"
+        folder.mkdir()
         seeds = armcal_files(armcal, folder)
         with tarfile.open(data / "log_formats/written.tar.xz") as archive:
             archive.extractall(folder / "written")
@@ -65,12 +74,13 @@ def main():
                 "yaml": [data / "scara/robot.yaml", data / "six_axis/real.yaml",
                          HERE / "arm.yaml"],
                 "poses": [poses, data / "scara/poses.csv"],
+                "metadata": (folder / "written").glob("*/metadata.yaml"),
                 "controller": [controller]}.items():
             seeds.setdefault(target, []).extend(files)
         for target, files in seeds.items():
             (out / target).mkdir(parents=True, exist_ok=True)
             for file in files:
-                to = out / target / file.name
+                to = out / target / (file.parent.name + "_" + file.name)
                 shutil.copyfile(file, to)
                 if target == "factor":  # which the target puts there itself
                     to.write_bytes(to.read_bytes()[:-CHECKSUM])
