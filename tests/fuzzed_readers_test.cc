@@ -6,7 +6,6 @@
 #include <fstream>
 #include <sstream>
 
-
 namespace armcal {
 namespace {
 
@@ -38,8 +37,7 @@ TEST_P(FuzzedReaders, StandTheKeptInputs) {
   EXPECT_GT(refused, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FuzzedReaders,
-                         testing::ValuesIn(FuzzedReaders()),
+INSTANTIATE_TEST_SUITE_P(All, FuzzedReaders, testing::ValuesIn(FuzzedReaders()),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -46,8 +46,7 @@ if ! { cmake -S . -B "$build" "${options[@]}" &&
   tail -50 "$build/build.log" >&2
   exit 1
 fi
-# Simbody and Ceres, which are not ours, leave memory behind at the end.
-export ASAN_OPTIONS=detect_leaks=0
+export LSAN_OPTIONS=suppressions=$PWD/tests/fuzz/leaks.txt:print_suppressions=0
 python3 tests/fuzz/make_seeds.py "$build/armcal" data "$build/seeds"
 if [[ ${#targets[@]} -eq 0 ]]; then
   for target in "$build"/tests/fuzz/*_fuzz; do
@@ -62,7 +61,7 @@ for target in "${targets[@]}"; do
   corpus=$build/corpus/$target crashes=$build/found/$target log=$build/$target.log
   mkdir -p "$corpus" "$crashes"
   earlier=tests/fuzz/corpus/$target
-  ASAN_OPTIONS=detect_leaks=1 FUZZ_CPU_SECONDS=$seconds \
+  FUZZ_CPU_SECONDS=$seconds \
     "$build/tests/fuzz/${target}_fuzz" -timeout=20 -rss_limit_mb=2560 -max_len=65536 \
     -print_final_stats=1 -artifact_prefix="$crashes/" "$corpus" \
     "$build/seeds/$target" $([[ -d $earlier ]] && echo "$earlier") \

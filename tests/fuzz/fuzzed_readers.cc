@@ -65,6 +65,7 @@ void ReadGiven(const std::string& path) {
   ModelParameters::Options options;
   options.joint_terms = {JointTerm::kArmature, JointTerm::kViscous,
                          JointTerm::kCoulomb, JointTerm::kOffset};
+  options.transitions.assign(FuzzedRobot().num_joints(), {CoulombTransition()});
   static const ModelParameters model(FuzzedRobot(), options);
   ReadGivenCalibration(file.parent_path() / "calibration.json", FuzzedRobot(),
                        model);
