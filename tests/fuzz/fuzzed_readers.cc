@@ -1,0 +1,121 @@
+#include "tests/fuzz/fuzzed_readers.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "calib/calibration_reader.h"
+#include "calib/factor_file.h"
+#include "calib/given_calibration.h"
+#include "calib/sha256.h"
+#include "model/bag_folder.h"
+#include "model/input_error.h"
+#include "model/log_reader.h"
+#include "model/plant/joint_controller.h"
+#include "model/pose_reader.h"
+#include "model/robot_reader.h"
+
+namespace armcal {
+namespace {
+
+// The robot that logs, calibrations and controllers are read for.
+const Robot& FuzzedRobot() {
+  static const Robot robot = ReadRobot(FUZZ_DIR "/arm.yaml", {});
+  return robot;
+}
+
+std::string BytesOf(const std::string& path) {
+  std::ostringstream file;
+  file << std::ifstream(path, std::ios::binary).rdbuf();
+  return file.str();
+}
+
+void ReadLog(const std::string& path) {
+  LogReaderOptions options;
+  options.joint_names = FuzzedRobot().JointNames();
+  options.want_velocity = options.want_acceleration = true;
+  options.want_reference = options.want_temperature = true;
+  ReadWholeLog(path, options);
+}
+
+void ReadAnyRobot(const std::string& path) { ReadRobot(path, {}); }
+
+void ReadAnyPoses(const std::string& path) {
+  ReadPoses(path, FuzzedRobot().JointNames());
+}
+
+void ReadAnyCalibration(const std::string& path) {
+  ReadCalibration(path, FuzzedRobot());
+}
+
+// The first file that it names is not there, so only the names are read.
+void ReadBagFolder(const std::string& path) {
+  BagFiles(std::filesystem::path(path).parent_path());
+}
+
+// A calibration.json, a zero and its covariance.csv.
+void ReadGiven(const std::string& path) {
+  const std::string bytes = BytesOf(path);
+  const std::string::size_type zero = bytes.find('\0');
+  const std::filesystem::path file(path);
+  std::ofstream(file.parent_path() / "calibration.json", std::ios::binary)
+      << bytes.substr(0, zero);
+  std::ofstream(file.parent_path() / "covariance.csv", std::ios::binary)
+      << (zero == std::string::npos ? "" : bytes.substr(zero + 1));
+  ModelParameters::Options options;
+  options.joint_terms = {JointTerm::kArmature, JointTerm::kViscous,
+                         JointTerm::kCoulomb, JointTerm::kOffset};
+  options.transitions.assign(FuzzedRobot().num_joints(), {CoulombTransition()});
+  static const ModelParameters model(FuzzedRobot(), options);
+  ReadGivenCalibration(file.parent_path() / "calibration.json", FuzzedRobot(),
+                       model);
+}
+
+void ReadAnyController(const std::string& path) {
+  ReadController(path, FuzzedRobot(), Eigen::Vector2d::Zero());
+}
+
+// Behind the checksum, which random bytes never pass.
+void ReadFactor(const std::string& path) {
+  std::string bytes = BytesOf(path);
+  const Sha256::Digest digest = Sha256Of(bytes);
+  bytes.append(reinterpret_cast<const char*>(digest.data()), digest.size());
+  ParseFactorFile(path, bytes);
+}
+
+}  // namespace
+
+const std::vector<FuzzedReader>& FuzzedReaders() {
+  static const std::vector<FuzzedReader> readers = {
+      {"csv", "input.csv", ReadLog},
+      {"gz", "input.csv.gz", ReadLog},
+      {"db3", "input.db3", ReadLog},
+      {"mcap", "input.mcap", ReadLog},
+      {"npz", "input.npz", ReadLog},
+      {"mat", "input.mat", ReadLog},
+      {"urdf", "input.urdf", ReadAnyRobot},
+      {"mjcf", "input.mjcf", ReadAnyRobot},
+      {"yaml", "input.yaml", ReadAnyRobot},
+      {"poses", "input.csv", ReadAnyPoses},
+      {"json", "input.json", ReadAnyCalibration},
+      {"given", "input", ReadGiven},
+      {"metadata", "metadata.yaml", ReadBagFolder},
+      {"controller", "input.yaml", ReadAnyController},
+      {"factor", "input.factor", ReadFactor},
+  };
+  return readers;
+}
+
+bool ReadsAs(const FuzzedReader& reader, const std::string& folder,
+             const char* bytes, std::size_t size) {
+  const std::string path = folder + "/" + reader.file;
+  std::ofstream(path, std::ios::binary).write(bytes, size);
+  try {
+    reader.read(path);
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace armcal
