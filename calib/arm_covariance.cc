@@ -48,9 +48,9 @@ ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
   const MatrixXd nothing = MatrixXd::Zero(0, data.cols());
   std::vector<std::string> names;
   for (const int k : free) names.push_back(unknowns.name(k));
-  result.unseen = UnseenCombinations(
-      free, names, data,
-      Posterior(nothing, fit.PriorInformation(weak), free).Gain().diagonal());
+  const VectorXd prior =
+      Posterior(nothing, fit.PriorInformation(weak), free).Gain().diagonal();
+  result.unseen = UnseenCombinations(free, names, data, prior);
   const VectorXd trusted = trusting(weak).Gain().diagonal();
   const VectorXd untrusted =
       trusting(Weaker(100, trust, 100)).Gain().diagonal();
