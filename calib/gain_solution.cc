@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/singular_values.h"
 #include "model/dense_solvers.h"
 #include "problems/dense_solver.h"
 
@@ -148,10 +149,10 @@ GainSensitivity::GainSensitivity(const GainSensitivity& other,
 void GainSensitivity::Decompose() {
   inverse_norms_ = J_.colwise().norm();
   for (double& x : inverse_norms_) x = x > 0 ? 1 / x : 1;
-  const Eigen::BDCSVD<MatrixXd> svd(J_ * inverse_norms_.asDiagonal(),
-                                    Eigen::ComputeThinV);
-  V_ = svd.matrixV();
-  s_ = svd.singularValues();
+  const SingularValues svd =
+      DecomposeSingular(J_ * inverse_norms_.asDiagonal());
+  s_ = svd.s;
+  V_ = svd.V.leftCols(s_.size());
   rank_ = static_cast<int>((s_.array() > kExcited * s_[0]).count());
 }
 

@@ -10,9 +10,9 @@ struct SingularValues {
   Eigen::MatrixXd V;  // all of it
 };
 
-// A = U diag(s) V'. Where Eigen's divide and conquer ends in NaN, as it does
-// now and then of columns whose sizes differ by all of a double's digits, by
-// Jacobi's rotations.
+// A = U diag(s) V', to 1e-12 of A. Of columns whose sizes differ by all of a
+// double's digits Eigen's divide and conquer now and then makes NaN, vectors of
+// length 0 or another matrix; then it is done by Jacobi's rotations.
 SingularValues DecomposeSingular(const Eigen::MatrixXd& A);
 
 }  // namespace armcal
