@@ -20,7 +20,9 @@ options=(-G Ninja -DBUILD_TESTING=ON)
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 else
-  options+=(-DPRECOMPILE=ON)
+  # The second: GCC collects no garbage, which takes a tenth of its time.
+  options+=(-DPRECOMPILE=ON
+            -DCMAKE_CXX_FLAGS=--param=ggc-min-heapsize=1000000)
 fi
 # Configures, builds and tests in folder $1 with the CMake options that follow.
 run_tests() {
