@@ -17,11 +17,11 @@ std::string BytesOf(const fs::path& path) {
   return bytes.str();
 }
 
-class FuzzedReaders : public testing::TestWithParam<FuzzedReader> {};
+class FuzzedReadersTest : public testing::TestWithParam<FuzzedReader> {};
 
 // Of what tools/fuzz.sh has found: files that between them reach code which no
 // other one of them does, and all that ever broke a reader.
-TEST_P(FuzzedReaders, StandTheKeptInputs) {
+TEST_P(FuzzedReadersTest, StandTheKeptInputs) {
   const FuzzedReader& reader = GetParam();
   const std::string folder = testing::TempDir() + "fuzzed_" + reader.name;
   fs::create_directories(folder);
@@ -37,7 +37,8 @@ TEST_P(FuzzedReaders, StandTheKeptInputs) {
   EXPECT_GT(refused, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FuzzedReaders, testing::ValuesIn(FuzzedReaders()),
+INSTANTIATE_TEST_SUITE_P(All, FuzzedReadersTest,
+                         testing::ValuesIn(FuzzedReaders()),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace

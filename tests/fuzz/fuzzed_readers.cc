@@ -9,9 +9,9 @@
 #include "calib/given_calibration.h"
 #include "calib/sha256.h"
 #include "model/bag_folder.h"
+#include "model/controller_reader.h"
 #include "model/input_error.h"
 #include "model/log_reader.h"
-#include "model/plant/joint_controller.h"
 #include "model/pose_reader.h"
 #include "model/robot_reader.h"
 
