@@ -3,6 +3,7 @@
 #include <hdf5/serial/hdf5.h>
 
 #include <array>
+#include <limits>
 
 #include "model/input_error.h"
 
@@ -25,14 +26,15 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-// Chunks of a dataset, or 0 where it has none.
+// Chunks of a dataset; 0 where it has none, infinite where they are not of its
+// shape.
 double NumChunks(hid_t dataset, hid_t stored) {
+  if (H5Pget_layout(stored) != H5D_CHUNKED) return 0;
   const Handle space(H5Dget_space(dataset), &H5Sclose);
   std::array<hsize_t, H5S_MAX_RANK> size{}, chunk{};
   const int rank = H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
-  if (H5Pget_layout(stored) != H5D_CHUNKED || rank < 1 ||
-      H5Pget_chunk(stored, H5S_MAX_RANK, chunk.data()) != rank) {
-    return 0;
+  if (H5Pget_chunk(stored, H5S_MAX_RANK, chunk.data()) != rank) {
+    return std::numeric_limits<double>::infinity();
   }
   double count = 1;
   for (int k = 0; k < rank; ++k) {
@@ -84,10 +86,16 @@ void CheckHdf5Datasets(const std::string& path) {
   H5PLset_loading_state(0);  // a file does not choose a plugin to be run
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
                     &H5Fclose);
+  if (file.id() < 0) return;
   Found found;
-  if (file.id() >= 0 &&
-      H5Lvisit(file.id(), H5_INDEX_NAME, H5_ITER_NATIVE, &Visit, &found) > 0) {
+  const herr_t end =
+      H5Lvisit(file.id(), H5_INDEX_NAME, H5_ITER_NATIVE, &Visit, &found);
+  if (end > 0) {
     throw InputError(path, "variable " + found.name, "", found.fault);
+  }
+  // What comes after the damage would not have been looked at.
+  if (end < 0) {
+    throw InputError(path, "", "", "is a damaged MAT-file, or cut off");
   }
 }
 

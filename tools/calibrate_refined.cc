@@ -17,10 +17,11 @@
 DECLARE_string(geometry);
 DECLARE_string(poses);
 
-DEFINE_string(estimate, "auto",
-              "refined (a physically consistent robot for simulators, beside "
-              "the model parameters), linear (model parameters only), auto "
-              "(refined where the robot file has masses to start from)");
+DEFINE_string(
+    estimate, "auto",
+    "refined (model parameters and a physically consistent robot for "
+    "simulators), linear (model parameters only), auto (refined where "
+    "the file has masses)");
 DEFINE_double(trust, 0.5,
               "relative standard deviation of the file's inertial "
               "parameters, tying what logs do not show");

@@ -48,9 +48,14 @@ void ReadAnyCalibration(const std::string& path) {
   ReadCalibration(path, FuzzedRobot());
 }
 
-// The first file that it names is not there, so only the names are read.
+// Beside files that the seeds name, of which only the first bytes are read.
 void ReadBagFolder(const std::string& path) {
-  BagFiles(std::filesystem::path(path).parent_path());
+  const std::filesystem::path folder =
+      std::filesystem::path(path).parent_path();
+  for (const char* name : {"packed.mcap", "split_0.mcap", "split_1.mcap"}) {
+    std::ofstream(folder / name, std::ios::binary) << "\x89MCAP0\r\n";
+  }
+  BagFiles(folder);
 }
 
 // A calibration.json, a zero and its covariance.csv.

@@ -28,11 +28,9 @@ def armcal_files(armcal, folder):
     run("simulate", arm, "--duration=10", "--log_rate=50", "--out=log")
     log = "log/log.csv"
     run("calibrate", arm, f"--log={log}", "--out=all", "--export=mjcf,sdf,yaml")
-    run("calibrate", arm, f"--log={log}", "--out=model",
-        "--identification=differential")
     given = folder / "given"
-    given.write_bytes((folder / "model/calibration.json").read_bytes() + b"\0" +
-                      (folder / "model/covariance.csv").read_bytes())
+    given.write_bytes((folder / "all/calibration.json").read_bytes() + b"\0" +
+                      (folder / "all/covariance.csv").read_bytes())
     short = folder / "short.csv"
     lines = (folder / log).read_text().splitlines(keepends=True)
     short.write_text("".join(lines[:40]))

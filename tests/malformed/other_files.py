@@ -231,7 +231,7 @@ CALIBRATIONS = Group(
         "expected 'velocity' or 'displacement'"),
     Row("transition of width 0", calibration("joints", 0, "coulomb_transition", "width", 0),
         "made/calibration.json: key joints[0].coulomb_transition.width: found '0': expected "
-        "a width of at least 1e-06"),
+        "a width of at least 1e-09"),
     Row("transition missing", calibration("joints", 0, "coulomb_transition", None),
         "made/calibration.json: key joints[0].coulomb_transition: is missing; expected a "
         "file that armcal wrote"),

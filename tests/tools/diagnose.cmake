@@ -112,7 +112,7 @@ run("a part of a moment" diagnose ${robot} --log=before/log.csv --crop=5:8
     --bandwidth=2 --out=out)
 expect_refusal(3 "before/log.csv: no motion is left of it")
 run("a part of a moment, with a reference" diagnose ${robot} --log=after/log.csv
-    --crop=5:5.1 --bandwidth=8 --reference=before/log.csv --out=out)
+    --crop=5:5.2 --bandwidth=8 --reference=before/log.csv --out=out)
 expect_refusal(3 "after/log.csv: no motion is left of it")
 run("a flag of another command" diagnose ${robot} --log=before/log.csv
     --payload_mass=1 --out=out)
