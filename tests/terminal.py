@@ -125,9 +125,15 @@ def start_and_wait_for_folder(folder):
     run = subprocess.Popen([ARMCAL, 'verify', ROBOT, f'--out={folder}'],
                            stdout=subprocess.PIPE)
     files = f'/proc/{run.pid}/fd'
+
+    def is_folder(file):
+        try:
+            return os.path.samefile(f'{files}/{file}', folder)
+        except FileNotFoundError:  # closed since it was listed
+            return False
+
     deadline = time.time() + 60
-    while not any(os.path.realpath(f'{files}/{file}') == os.path.abspath(folder)
-                  for file in os.listdir(files)):
+    while not any(is_folder(file) for file in os.listdir(files)):
         expect(time.time() < deadline, 'the folder was not opened')
         time.sleep(.01)
     return run

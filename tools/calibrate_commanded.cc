@@ -26,7 +26,7 @@ DEFINE_double(gains_trust, 0,
               "which are then estimated; 0: exact");
 DEFINE_double(delay_trust, 0.02,
               "`S` with --controller: standard deviation of the command's "
-              "delay, which is then estimated; 0: none");
+              "delay, which is then estimated; 0: exact");
 
 namespace armcal {
 namespace {
