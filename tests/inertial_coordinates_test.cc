@@ -53,6 +53,25 @@ TEST(InertialCoordinates, RoundTrip) {
   }
 }
 
+// A rod's Cholesky factor is far below what its moments' rounding leaves.
+TEST(InertialCoordinates, OfThinRods) {
+  std::mt19937_64 random(8);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double length = std::pow(10, -4 + trial % 9);
+    const Vector3d end =
+        length * Vector3d(UniformVector(&random, 3, -1, 1)).normalized();
+    const Vector10d V =
+        InertialParameters::FromCenterOfMass(
+            2, UniformVector(&random, 3, -1, 1),
+            2 * (end.squaredNorm() * Eigen::Matrix3d::Identity() -
+                 end * end.transpose()))
+            .ToVector();
+    const Vector10d c = LogCholeskyFromInertial(V, 0);
+    ASSERT_TRUE(c.allFinite()) << c.transpose();
+    EXPECT_LT((FromCoordinates(c) - V).norm(), 1e-12 * V.norm());
+  }
+}
+
 // P = e^2a U U' as the header's matrix says.
 TEST(InertialCoordinates, AreTheCholeskyFactor) {
   std::mt19937_64 random(2);
