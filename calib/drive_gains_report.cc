@@ -1,21 +1,14 @@
 #include "calib/drive_gains_report.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "calib/json_figures.h"
+#include "model/format.h"
 
 namespace armcal {
 namespace {
 
 using nlohmann::json;
-
-template <typename... Args>
-std::string Format(const char* format, Args... args) {
-  char text[128];
-  std::snprintf(text, sizeof(text), format, args...);
-  return text;
-}
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
 

@@ -1,17 +1,10 @@
 #include "calib/gap_report.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "model/format.h"
 namespace armcal {
 namespace {
-
-template <typename... Args>
-std::string Format(const char* format, Args... args) {
-  char text[400];
-  std::snprintf(text, sizeof(text), format, args...);
-  return text;
-}
 
 // "payload", "stribeck on elbow".
 std::string Named(const Effect& effect, int joint,

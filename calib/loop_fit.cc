@@ -8,12 +8,9 @@
 #include "problems/inertial_prior.h"
 
 namespace armcal {
-namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-}  // namespace
 
 LoopFit::LoopFit(const LoopUnknowns& unknowns, const LoopTrust& trust)
     : unknowns_(unknowns), inertia_(trust.inertia), files_(unknowns.nominal()) {

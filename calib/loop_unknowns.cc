@@ -1,7 +1,10 @@
 #include "calib/loop_unknowns.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 
+#include "model/drive_law.h"
 #include "problems/link_functions.h"
 
 namespace armcal {
@@ -13,12 +16,13 @@ constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
                                 JointTerm::kOffset, JointTerm::kArmature};
 constexpr double kAny = -1;
 
-// "N m/rad": a torque per position, velocity or the integral of position.
+// Of a drive's gain, as its files name it.
 std::string GainUnit(JointType type, const std::string& gain) {
-  const std::string effort = EffortUnit(type), position = PositionUnit(type);
-  if (gain == "kp") return effort + "/" + position;
-  return gain == "kd" ? effort + " s/" + position
-                      : effort + "/(" + position + " s)";
+  for (const DriveParameter& parameter : DriveParameters()) {
+    if (parameter.name != gain) continue;
+    return IsRotational(type) ? parameter.unit : parameter.linear_unit;
+  }
+  LOG(FATAL) << "no gain " << gain;
 }
 
 }  // namespace

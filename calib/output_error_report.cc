@@ -1,23 +1,16 @@
 #include "calib/output_error_report.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "calib/json_figures.h"
 #include "calib/nonlinear_report.h"
 #include "calib/verdict.h"
+#include "model/format.h"
 
 namespace armcal {
 namespace {
 
 using nlohmann::json;
-
-template <typename... Args>
-std::string Format(const char* format, Args... args) {
-  char text[200];
-  std::snprintf(text, sizeof(text), format, args...);
-  return text;
-}
 
 // "  shoulder.viscous    0.25 -> 0.5086 +- 0.0048 N m s/rad".
 std::string Line(const PhysicalParameter& p) {

@@ -1,8 +1,8 @@
 #include "calib/verification_report.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "model/format.h"
 #include "model/input_text.h"
 
 namespace armcal {
@@ -11,13 +11,6 @@ namespace {
 // Between our simulation of a window and Simbody's, rad or m: ten times what
 // ours is made to (RolloutOptions::tolerance).
 constexpr double kSameRollout = 1e-4;
-
-template <typename... Args>
-std::string Format(const char* format, Args... args) {
-  char text[256];
-  std::snprintf(text, sizeof(text), format, args...);
-  return text;
-}
 
 // What a check is called on a terminal.
 std::string CheckTitle(const std::string& name) {

@@ -22,9 +22,10 @@ import shlex
 import shutil
 import subprocess
 import sys
-import threading
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from inputs import Row, nothing, write
+from limited_process import LimitedProcess
 
 TABLE = ["csv_logs", "arrays", "bags", "urdf_robots", "mjcf_robots", "yaml_robots",
          "other_files"]
@@ -61,25 +62,15 @@ def good_files(group, arguments):
     return files
 
 
-class Outcome:
+class Outcome(LimitedProcess):
     """What armcal did with a folder."""
 
     def __init__(self, armcal, command, folder, longest):
         before = self.snapshot(folder)
         streams = [folder.parent / f"{folder.name}.{s}" for s in ("out", "err")]
-        with open(streams[0], "wb") as out, open(streams[1], "wb") as err:
-            process = subprocess.Popen(
-                [armcal] + shlex.split(command) + ["--threads=2"], cwd=folder, stdout=out,
-                stderr=err, stdin=subprocess.DEVNULL, env=os.environ | {"TMPDIR": str(folder)})
-            resource.prlimit(process.pid, resource.RLIMIT_CPU, (longest, longest))
-            timer = threading.Timer(HANGS, process.kill)
-            timer.start()
-            _, status, usage = os.wait4(process.pid, 0)
-            timer.cancel()
-        process.returncode = self.code = os.waitstatus_to_exitcode(status)
-        self.out, self.err = (s.read_text(errors="replace") for s in streams)
-        self.bytes = usage.ru_maxrss << 10
-        self.seconds = usage.ru_utime + usage.ru_stime
+        super().__init__([armcal] + shlex.split(command) + ["--threads=2"], folder, streams,
+                         {resource.RLIMIT_CPU: longest}, HANGS,
+                         os.environ | {"TMPDIR": str(folder)})
         self.written = sorted(set(self.snapshot(folder)) ^ set(before))
 
     @staticmethod

@@ -19,42 +19,30 @@ import pathlib
 import re
 import resource
 import shutil
-import subprocess
 import sys
-import threading
 import time
 import traceback
 
 # Matrices of a few rows are not shared out.
 os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 import commands
 import verdicts
+from limited_process import LimitedProcess
 
 HANGS = 600  # s by the clock, where cores are shared
 MOST_ADDRESSES = 2 << 30
 QUICK = ("calibrate", "inspect", "reduce", "merge")
 
 
-class Outcome:
+class Outcome(LimitedProcess):
     """How armcal ended in a folder."""
 
     def __init__(self, armcal, arguments, folder):
-        streams = [folder / name for name in ("stdout", "stderr")]
-        with open(streams[0], "wb") as out, open(streams[1], "wb") as err:
-            process = subprocess.Popen([armcal] + arguments, cwd=folder, stdout=out, stderr=err,
-                                       stdin=subprocess.DEVNULL)
-            resource.prlimit(process.pid, resource.RLIMIT_CPU,
-                             (verdicts.LONGEST, verdicts.LONGEST))
-            resource.prlimit(process.pid, resource.RLIMIT_AS, (MOST_ADDRESSES, MOST_ADDRESSES))
-            timer = threading.Timer(HANGS, process.kill)
-            timer.start()
-            _, status, usage = os.wait4(process.pid, 0)
-            timer.cancel()
-        process.returncode = self.code = os.waitstatus_to_exitcode(status)
-        self.out, self.err = (s.read_text(errors="replace") for s in streams)
-        self.bytes = usage.ru_maxrss << 10
-        self.seconds = usage.ru_utime + usage.ru_stime
+        limits = {resource.RLIMIT_CPU: verdicts.LONGEST, resource.RLIMIT_AS: MOST_ADDRESSES}
+        super().__init__([armcal] + arguments, folder,
+                         [folder / name for name in ("stdout", "stderr")], limits, HANGS)
 
 
 def run_draw(arguments, index):

@@ -1,0 +1,28 @@
+"""A process under limits, and what it took."""
+
+import os
+import resource
+import subprocess
+import threading
+
+
+class LimitedProcess:
+    """Ran to its end: exit code (minus the signal that ended it), `out` and `err`, the most
+    memory in bytes, and its CPU time in seconds."""
+
+    def __init__(self, command, folder, streams, limits, hangs, environment=None):
+        """`streams`: files for stdout and stderr. `limits`: {resource: most}. Killed after
+        `hangs` seconds by the clock."""
+        with open(streams[0], "wb") as out, open(streams[1], "wb") as err:
+            process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=err,
+                                       stdin=subprocess.DEVNULL, env=environment)
+            for kind, most in limits.items():
+                resource.prlimit(process.pid, kind, (most, most))
+            timer = threading.Timer(hangs, process.kill)
+            timer.start()
+            _, status, usage = os.wait4(process.pid, 0)
+            timer.cancel()
+        process.returncode = self.code = os.waitstatus_to_exitcode(status)
+        self.out, self.err = (s.read_text(errors="replace") for s in streams)
+        self.bytes = usage.ru_maxrss << 10
+        self.seconds = usage.ru_utime + usage.ru_stime
