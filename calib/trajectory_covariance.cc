@@ -45,13 +45,16 @@ double Median(VectorXd x) {
 
 }  // namespace
 
-MatrixXd InverseWithin(const MatrixXd& seen, const MatrixXd& information) {
-  const MatrixXd inner = seen.transpose() * information * seen;
-  const MatrixXd root = inner.llt().matrixL().solve(seen.transpose());
+std::optional<MatrixXd> InverseWithin(const MatrixXd& seen,
+                                      const MatrixXd& information) {
+  const Eigen::LLT<MatrixXd> inner(seen.transpose() * information * seen);
+  if (inner.info() != Eigen::Success) return std::nullopt;
+  const MatrixXd root = inner.matrixL().solve(seen.transpose());
+  if (!root.allFinite()) return std::nullopt;
   return root.transpose() * root;
 }
 
-TrajectoryCovariance EstimateTrajectoryCovariance(
+std::optional<TrajectoryCovariance> EstimateTrajectoryCovariance(
     const TrajectoryEstimate& estimate, const MatrixXd& seen,
     double least_window_s, TrajectoryPass* pass) {
   const int n = estimate.parameters.num_joints();
@@ -69,9 +72,11 @@ TrajectoryCovariance EstimateTrajectoryCovariance(
         }
       });
   const Eigen::Index m = estimate.x.size();
-  const MatrixXd white = InverseWithin(seen, equations.information);
+  const std::optional<MatrixXd> white =
+      InverseWithin(seen, equations.information);
+  if (!white) return std::nullopt;
   TrajectoryCovariance result;
-  result.independent = white.topLeftCorner(m, m);
+  result.independent = white->topLeftCorner(m, m);
   result.estimate = {result.independent, "independent samples"};
   if (whiteness.IsWhite()) return result;
   double rho = 0;
@@ -79,7 +84,7 @@ TrajectoryCovariance EstimateTrajectoryCovariance(
   const int window =
       BartlettWindow(rho, statistics[0].count(),
                      static_cast<int>(least_window_s / pass->step_s()) + 1);
-  const VectorXd factor = LongRunFactor(estimate, white, window, pass).head(m);
+  const VectorXd factor = LongRunFactor(estimate, *white, window, pass).head(m);
   result.estimate = {
       factor.asDiagonal() * result.independent * factor.asDiagonal(),
       "Newey-West over " + std::to_string(window) + " samples"};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "calib/row_covariance.h"
 #include "calib/trajectory_pass.h"
@@ -8,9 +9,10 @@
 namespace armcal {
 
 // The inverse of an information matrix within the directions (columns) of
-// `seen`; the others have none.
-Eigen::MatrixXd InverseWithin(const Eigen::MatrixXd& seen,
-                              const Eigen::MatrixXd& information);
+// `seen`; the others have none. Nothing where rounding leaves it no inverse, as
+// with torques far more exact than the positions let them be predicted.
+std::optional<Eigen::MatrixXd> InverseWithin(
+    const Eigen::MatrixXd& seen, const Eigen::MatrixXd& information);
 
 struct TrajectoryCovariance {
   CovarianceEstimate estimate;  // of x, with widths uncertain
@@ -22,7 +24,8 @@ struct TrajectoryCovariance {
 // white (ResidualWhiteness) it is that of independent samples; where they are
 // not, deviations are at least those by the scores' long-run covariance
 // (Newey-West, Andrews' window, at least `least_window_s`). One or two passes.
-TrajectoryCovariance EstimateTrajectoryCovariance(
+// Nothing where InverseWithin() has none.
+std::optional<TrajectoryCovariance> EstimateTrajectoryCovariance(
     const TrajectoryEstimate& estimate, const Eigen::MatrixXd& seen,
     double least_window_s, TrajectoryPass* pass);
 

@@ -1,6 +1,7 @@
 #include "calib/trajectory_refinement.h"
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "calib/calibration_model.h"
@@ -13,6 +14,9 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+constexpr char kLostToRounding[] =
+    "the torques are so exact beside the positions that rounding decides";
 
 // Directions that the start has seen, each as large as its standard deviation
 // there (columns): in them the problem is well scaled.
@@ -69,10 +73,10 @@ class Refinement {
   // Improves the estimate until it stays; false, with the reason, where that
   // cannot be done.
   bool Run();
-  void Report();
+  bool Report();  // likewise
 
  private:
-  double Step(const TrajectoryEquations& equations);
+  std::optional<double> Step(const TrajectoryEquations& equations);
   void SetWidths();
 
   const Robot& robot_;
@@ -86,15 +90,17 @@ class Refinement {
   VectorXd outliers_;
 };
 
-// The largest move, in standard deviations.
-double Refinement::Step(const TrajectoryEquations& equations) {
-  const MatrixXd inverse = InverseWithin(seen_, equations.information);
-  const VectorXd change = inverse * equations.gradient;
+// The largest move, in standard deviations; nothing where there is no step.
+std::optional<double> Refinement::Step(const TrajectoryEquations& equations) {
+  const std::optional<MatrixXd> inverse =
+      InverseWithin(seen_, equations.information);
+  if (!inverse) return std::nullopt;
+  const VectorXd change = *inverse * equations.gradient;
   const Eigen::Index widths = estimate_.log_width.size();
   estimate_.x += change.head(estimate_.x.size());
   estimate_.log_width += change.tail(widths).cwiseMax(-.3).cwiseMin(.3);
   if (widths > 0) SetWidths();
-  const VectorXd stddev = inverse.diagonal().cwiseSqrt().cwiseMax(1e-300);
+  const VectorXd stddev = inverse->diagonal().cwiseSqrt().cwiseMax(1e-300);
   return change.cwiseAbs().cwiseQuotient(stddev).maxCoeff();
 }
 
@@ -122,31 +128,41 @@ bool Refinement::Run() {
       result_->reason = "the splines of the motions are not determined";
       return false;
     }
-    const double moved = Step(equations);
+    const std::optional<double> moved = Step(equations);
+    if (!moved) {
+      result_->reason = kLostToRounding;
+      return false;
+    }
     const double changed = UpdateTrajectoryNoise(equations, huber, &estimate_);
     if (!estimate_.x.allFinite() || !std::isfinite(changed)) {
       result_->reason = "the numbers of the logs overflow";
       return false;
     }
     outliers_ = equations.torque.outliers;
-    result_->converged = moved < kSettledMove && changed < kSettledNoise;
+    result_->converged = *moved < kSettledMove && changed < kSettledNoise;
   }
   result_->reason =
       result_->converged ? "the estimate settled" : "most passes done";
   return true;
 }
 
-void Refinement::Report() {
-  const TrajectoryCovariance covariance = EstimateTrajectoryCovariance(
+bool Refinement::Report() {
+  const auto covariance = EstimateTrajectoryCovariance(
       estimate_, seen_, 1.5 * start_.rows.window_s, &pass_);
+  if (!covariance) {
+    result_->converged = false;
+    result_->reason = kLostToRounding;
+    return false;
+  }
   LinearCalibration& c = result_->calibration;
   c.parameters = estimate_.parameters;
   c.transitions = transitions_;
   c.x = estimate_.x;
-  c.covariance = covariance.estimate.covariance;
-  c.covariance_method = covariance.estimate.method + ", trajectories corrected";
-  c.independent_covariance = covariance.independent;
-  c.inflation = covariance.inflation;
+  c.covariance = covariance->estimate.covariance;
+  c.covariance_method =
+      covariance->estimate.method + ", trajectories corrected";
+  c.independent_covariance = covariance->independent;
+  c.inflation = covariance->inflation;
   for (int k = 0; k < c.parameters.size(); ++k) {
     if (c.identifiable[k]) c.stddev[k] = std::sqrt(c.covariance(k, k));
   }
@@ -157,6 +173,7 @@ void Refinement::Report() {
   c.passes += pass_.passes();
   c.lengths = RecoverLengths(c.parameters, c.x, c.independent_covariance,
                              c.covariance, c.identifiable);
+  return true;
 }
 
 }  // namespace
@@ -174,8 +191,7 @@ TrajectoryRefinement RefineTrajectories(const Robot& robot,
   // Positions as they are: what a filter leaves of their noise is not white.
   training->Prepare(0, 0);
   Refinement refinement(robot, options, training, &result);
-  result.refined = refinement.Run();
-  if (result.refined) refinement.Report();
+  result.refined = refinement.Run() && refinement.Report();
   training->Prepare(start.rows.bandwidth_hz, RowReach(start.rows));
   if (!result.refined) return result;
   LinearCalibration& c = result.calibration;

@@ -205,8 +205,8 @@ TEST(ArmSimulator, RefusesWhatItCannotIntegrate) {
          return -1e6 * at.velocity[0];
        }});
   EXPECT_THAT([&] { Simulate(robot, One(0), One(0), .1); },
-              testing::ThrowsMessage<InputError>(
-                  testing::HasSubstr("too stiff to simulate")));
+              testing::ThrowsMessage<InputError>(testing::HasSubstr(
+                  "joint axle: its laws are too stiff to simulate")));
   robot = Flywheel(.5);
   robot.transmissions.push_back(Transmission());
   EXPECT_THAT([&] { Simulate(robot, One(0), One(0), .1); },

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calib/trajectory_covariance.h"
 #include "tests/calibrate_logs.h"
 #include "tests/sample_robots.h"
 
@@ -12,6 +13,20 @@ namespace {
 
 using Eigen::VectorXd;
 using Law = CoulombTransition::Law;
+
+// As rounding leaves it where torques are 1e6 times more exact than positions
+// let them be predicted: the covariance was NaN.
+TEST(InverseWithin, IsNothingWhereInformationIsLostToRounding) {
+  const Eigen::Matrix2d seen = 2 * Eigen::Matrix2d::Identity();
+  Eigen::Matrix2d information = Eigen::Vector2d(4, .5).asDiagonal();
+  ASSERT_TRUE(InverseWithin(seen, information));
+  EXPECT_TRUE(InverseWithin(seen, information)
+                  ->isApprox(information.inverse().eval(), 1e-14));
+  information(1, 1) = -1e-3;
+  EXPECT_FALSE(InverseWithin(seen, information));
+  information(1, 1) = std::nan("");
+  EXPECT_FALSE(InverseWithin(seen, information));
+}
 
 // A SCARA with all joint terms, its encoders as noisy as its torques.
 class NoisyScara : public testing::Test {

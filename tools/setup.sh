@@ -15,7 +15,7 @@ packages=(
 )
 for argument in "$@"; do
   case $argument in
-    --full) packages+=(clang clang-tidy libclang-rt-14-dev llvm) ;;
+    --full) packages+=(clang clang-tidy libclang-rt-14-dev lld llvm) ;;
     *) echo "setup.sh: unknown argument $argument; expected --full" >&2; exit 2 ;;
   esac
 done

@@ -42,6 +42,8 @@ run_instrumented() {
   options=(--preset instrumented) selection=()
   if command -v ccache >/dev/null; then
     options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  else
+    options+=(-DPRECOMPILE=ON)
   fi
   rm -rf "$folder/profiles"
   # Ceres' and Simbody's static data are not freed at the end.

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "model/input_error.h"
 #include "model/plant/interpolated_terms.h"
@@ -227,9 +228,17 @@ void ArmSimulator::Step(const Eigen::VectorXd& commanded) {
   ReadInstant(x_, begin_time_ + step_index_ * step_);
 }
 
-// Of the fastest mode at the start, 1/s: dampers and springs between motors,
-// links and ground, linearised at rest.
-double ArmSimulator::Stiffness() {
+int ArmSimulator::JointOf(Eigen::Index state) const {
+  const int k = static_cast<int>(state);
+  if (k < layout_.motors) return k % n_;
+  const size_t motor = (k - layout_.motors) / 2;
+  return motor < robot_.transmissions.size() ? robot_.transmissions[motor].joint
+                                             : -1;
+}
+
+// At the start: of dampers and springs between motors, links and ground,
+// linearised at rest.
+ArmSimulator::Mode ArmSimulator::FastestMode() {
   begin_ = middle_ = end_;
   const double dx = 1e-7;
   Derivative(x_, begin_time_, 0);
@@ -242,34 +251,42 @@ double ArmSimulator::Stiffness() {
     A.col(k) = (rate_ - rate) / dx;
   }
   ReadInstant(x_, begin_time_);
-  return Eigen::EigenSolver<Eigen::MatrixXd>(A, false)
-      .eigenvalues()
-      .cwiseAbs()
-      .maxCoeff();
+  const Eigen::EigenSolver<Eigen::MatrixXd> modes(A);
+  if (modes.info() != Eigen::Success) return {HUGE_VAL, -1};
+  Eigen::Index fastest, state;
+  const double fastest_rate = modes.eigenvalues().cwiseAbs().maxCoeff(&fastest);
+  modes.eigenvectors().col(fastest).cwiseAbs().maxCoeff(&state);
+  return {fastest_rate, JointOf(state)};
 }
 
-// Of the fastest of the modes that laws declare but the start does not show,
-// 1/s: motor and link on the stiffest spring between them.
-double ArmSimulator::DeclaredStiffness() {
+// Of those that laws declare but the start does not show: motor and link on the
+// stiffest spring between them.
+ArmSimulator::Mode ArmSimulator::FastestDeclaredMode() {
   Eigen::MatrixXd inertia = end_.mass_matrix;
   inertia.diagonal() += rigid_armature_;
   const Eigen::MatrixXd mobility = inertia.inverse();
-  double fastest = 0;
+  Mode fastest{0, -1};
   for (const Transmission& law : robot_.transmissions) {
     const int j = law.joint;
-    fastest =
-        std::max(fastest, law.stiffest * (1 / armature_[j] + mobility(j, j)));
+    const double rate =
+        std::sqrt(law.stiffest * (1 / armature_[j] + mobility(j, j)));
+    if (rate > fastest.rate) fastest = {rate, j};
   }
-  return std::sqrt(fastest);
+  return fastest;
 }
 
 int ArmSimulator::NeededSubsteps() {
+  const Mode shown = FastestMode(), declared = FastestDeclaredMode();
+  const Mode fastest = declared.rate > shown.rate ? declared : shown;
   // Fourth-order Runge-Kutta is stable to 2.78 along the real axis. The arm's
   // inertia elsewhere may be smaller than at the start.
-  const double wanted =
-      std::ceil(step_ * std::max(Stiffness(), DeclaredStiffness()) / 1.2);
+  const double wanted = std::ceil(step_ * fastest.rate / 1.2);
   if (!(wanted <= kMostSubsteps)) {
-    throw InputError(robot_.robot.name, "", "",
+    const std::string joint =
+        fastest.joint < 0
+            ? ""
+            : "joint " + robot_.robot.links[fastest.joint].joint.name;
+    throw InputError(robot_.robot.name, joint, "",
                      "its laws are too stiff to simulate: expected time "
                      "constants above 0.02 steps; give joints more armature "
                      "or friction a wider transition through zero velocity");

@@ -46,10 +46,16 @@ class ArmSimulator {
   bool finite() const { return x_.allFinite(); }
 
  private:
+  struct Mode {
+    double rate;  // 1/s
+    int joint;    // that moves most in it; -1: none does
+  };
+
   void SetArmature();
   int NeededSubsteps();
-  double Stiffness();
-  double DeclaredStiffness();
+  Mode FastestMode();
+  Mode FastestDeclaredMode();
+  int JointOf(Eigen::Index state) const;
   void ReadInstant(const Eigen::VectorXd& x, double t);
   void Derivative(const Eigen::VectorXd& x, double t, double share);
   void AddActuators(const Eigen::VectorXd& x);

@@ -68,7 +68,8 @@ def covariance(text):
     names, rows = rows[0], rows[1:]
     if not rows:
         return
-    cells = [[float(x) if x else None for x in row] for row in rows]
+    # A line of one empty cell reads as no cell.
+    cells = [[float(x) if x else None for x in row or [""]] for row in rows]
     known = [k for k, row in enumerate(cells) if row[k] is not None]
     C = np.array([[cells[i][j] for j in known] for i in known], dtype=float)
     if len(rows) != len(names) or not np.all(np.isfinite(C)):
@@ -135,6 +136,8 @@ def judged(outcome, folder):
 
 def published(path):
     """What is wrong with a file that a run wrote."""
+    if path.suffix == ".factor":  # binary; merge reads it, and judges its numbers
+        return
     text = path.read_text(errors="replace")
     if path.suffix == ".html":
         # What others wrote, such as dygraphs, may speak of NaN.
