@@ -81,6 +81,7 @@ void OverlapCovariance::AddSquares(int joint) {
     if ((U.col(c).array() != 0).any()) columns.push_back(c);
   }
   const int size = static_cast<int>(columns.size());
+  if (size == 0) return;
   MatrixXd before = MatrixXd::Zero(old + kTogether, size);
   before.topRows(old + added) = U(Eigen::all, columns);
   MatrixXd now = MatrixXd::Zero(kTogether, 3 * size);

@@ -63,10 +63,13 @@ class Comparison {
   std::optional<double> Find(double least_lag) const {
     const Index shortest = static_cast<Index>(kShortest / kStep);
     const double offset = later_.t[0] - earlier_.t[0];
-    const Index first =
-        std::max(static_cast<Index>(std::ceil((least_lag - offset) / kStep)),
-                 shortest - a_.rows());
-    for (Index lag = first; lag <= b_.rows() - shortest; ++lag) {
+    const Index last = b_.rows() - shortest;
+    // The least lag may be infinite.
+    const double first =
+        std::max(std::min(std::ceil((least_lag - offset) / kStep),
+                          static_cast<double>(last + 1)),
+                 static_cast<double>(shortest - a_.rows()));
+    for (Index lag = static_cast<Index>(first); lag <= last; ++lag) {
       if (!MayRepeat(lag)) continue;
       const auto fine = Refine(offset + static_cast<double>(lag) * kStep);
       if (fine && *fine >= least_lag) return fine;

@@ -68,9 +68,10 @@ bool InertialManifold::PlusJacobian(const double* x, double* jacobian) const {
 
 bool InertialManifold::Minus(const double* y, const double* x,
                              double* y_minus_x) const {
-  const auto C = LogCholeskyFactor(x).triangularView<Eigen::Upper>();
+  const Eigen::Matrix4d C = LogCholeskyFactor(x);
   const Eigen::Matrix4d K =
-      std::exp(y[0] - x[0]) * C.solve(LogCholeskyFactor(y));
+      std::exp(y[0] - x[0]) *
+      C.triangularView<Eigen::Upper>().solve(LogCholeskyFactor(y));
   const Eigen::Matrix4d D = K * K.transpose() - Eigen::Matrix4d::Identity();
   for (int k = 0; k < 10; ++k) {
     y_minus_x[k] = D(kEntries[k][0], kEntries[k][1]);

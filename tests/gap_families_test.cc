@@ -18,9 +18,11 @@ TEST_F(GapFamiliesTest, AFrictionlessFileLacksFrictionOnAllJoints) {
        {std::make_tuple("viscous_friction", ".viscous", .8),
         std::make_tuple("coulomb_friction", ".coulomb", 1.5)}) {
     SCOPED_TRACE(effect);
-    const auto found = std::find_if(
-        diagnosis.effects.begin(), diagnosis.effects.end(),
-        [&](const FoundEffect& f) { return f.effect->name == effect; });
+    const auto found =
+        std::find_if(diagnosis.effects.begin(), diagnosis.effects.end(),
+                     [wanted = effect](const FoundEffect& f) {
+                       return f.effect->name == wanted;
+                     });
     ASSERT_NE(found, diagnosis.effects.end());
     EXPECT_EQ(found->joint, -1);
     ASSERT_EQ(found->estimates.size(), 2u);

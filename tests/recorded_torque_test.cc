@@ -74,7 +74,7 @@ TEST(RecordedTorque, NominalIsTheTextbooks) {
 
 TEST(RecordedTorque, SpringTakesItsTorque) {
   TwoLinks two;
-  two.Apply("spring", 1, VectorXd::Constant(1, 3));
+  two.Apply("spring", 1, Vector2d(3, 0));
   MatrixXd expected = MatrixXd::Zero(kSamples, 2);
   expected.col(1) = 3 * two.motion.q.col(1);
   EXPECT_LT(Worst(two.Change(), expected), 1e-12);
