@@ -1,9 +1,12 @@
 #include "model/hdf5_datasets.h"
 
 #include <hdf5/serial/hdf5.h>
+#include <zlib.h>
 
 #include <array>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "model/input_error.h"
 
@@ -26,27 +29,134 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-// Chunks of a dataset; 0 where it has none, infinite where they are not of its
-// shape.
-double NumChunks(hid_t dataset, hid_t stored) {
-  if (H5Pget_layout(stored) != H5D_CHUNKED) return 0;
-  const Handle space(H5Dget_space(dataset), &H5Sclose);
+// The numbers of a dataset, and of each of its chunks, by dimension.
+struct Shape {
+  explicit Shape(hid_t dataset, hid_t stored) {
+    const Handle space(H5Dget_space(dataset), &H5Sclose);
+    const Handle type(H5Dget_type(dataset), &H5Tclose);
+    rank = H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
+    bytes_of_one = static_cast<double>(H5Tget_size(type.id()));
+    is_chunked = H5Pget_layout(stored) == H5D_CHUNKED;
+    if (is_chunked) {
+      fits = H5Pget_chunk(stored, H5S_MAX_RANK, chunk.data()) == rank;
+    }
+  }
+
+  static double Product(const std::array<hsize_t, H5S_MAX_RANK>& x, int count) {
+    double product = 1;
+    for (int k = 0; k < count; ++k) product *= static_cast<double>(x[k]);
+    return product;
+  }
+  double Bytes() const { return bytes_of_one * Product(size, rank); }
+  double ChunkBytes() const { return bytes_of_one * Product(chunk, rank); }
+  // Infinite where they are not of the dataset's shape.
+  double NumChunks() const {
+    if (!is_chunked) return 0;
+    return fits ? Product(size, rank) / Product(chunk, rank)
+                : std::numeric_limits<double>::infinity();
+  }
+
+  int rank = 0;
+  double bytes_of_one = 0;
+  bool is_chunked = false, fits = true;
   std::array<hsize_t, H5S_MAX_RANK> size{}, chunk{};
-  const int rank = H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
-  if (H5Pget_chunk(stored, H5S_MAX_RANK, chunk.data()) != rank) {
-    return std::numeric_limits<double>::infinity();
+};
+
+// How long the inflated bytes are, but for those beyond `most`; nothing where
+// they cannot be inflated.
+std::optional<size_t> InflatedSize(std::vector<unsigned char>* bytes,
+                                   size_t length, size_t most) {
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) return std::nullopt;
+  stream.next_in = bytes->data();
+  stream.avail_in = static_cast<uInt>(length);
+  std::array<unsigned char, 1 << 14> scratch;
+  int code = Z_OK;
+  while (code == Z_OK && stream.total_out <= most) {
+    stream.next_out = scratch.data();
+    stream.avail_out = scratch.size();
+    code = inflate(&stream, Z_NO_FLUSH);
   }
-  double count = 1;
-  for (int k = 0; k < rank; ++k) {
-    count *= static_cast<double>(size[k]) / static_cast<double>(chunk[k]);
+  const size_t size = stream.total_out;
+  inflateEnd(&stream);
+  if (code != Z_STREAM_END && code != Z_OK) return std::nullopt;
+  return size;
+}
+
+// Whether a chunk, once read, is as long as its numbers: HDF5 1.10 copies them
+// without having looked.
+bool ChunkIsWhole(hid_t dataset, hid_t stored, const hsize_t* offset,
+                  double needed, hsize_t file_size) {
+  constexpr size_t kChecksum = 4;
+  unsigned skipped = 0;
+  haddr_t address = 0;
+  hsize_t size = 0;
+  if (H5Dget_chunk_info_by_coord(dataset, offset, &skipped, &address, &size) <
+      0) {
+    return false;
   }
-  return count;
+  if (size == 0) return true;  // never written
+  if (size > file_size) return false;
+  std::vector<unsigned char> bytes(size);
+  if (H5Dread_chunk(dataset, H5P_DEFAULT, offset, &skipped, bytes.data()) < 0) {
+    return false;
+  }
+  size_t length = size;
+  for (int k = H5Pget_nfilters(stored) - 1; k >= 0; --k) {
+    if ((skipped >> k & 1) != 0) continue;
+    unsigned flags = 0;
+    size_t values = 0;
+    switch (H5Pget_filter2(stored, k, &flags, &values, nullptr, 0, nullptr,
+                           nullptr)) {
+      case H5Z_FILTER_SHUFFLE:
+        break;
+      case H5Z_FILTER_FLETCHER32:
+        if (length < kChecksum) return false;
+        length -= kChecksum;
+        break;
+      case H5Z_FILTER_DEFLATE: {
+        const auto inflated = InflatedSize(
+            &bytes, length, static_cast<size_t>(needed) + kChecksum);
+        if (!inflated) return false;
+        length = *inflated;
+        break;
+      }
+      default:  // nobody's MAT-file
+        return false;
+    }
+  }
+  return static_cast<double>(length) >= needed;
+}
+
+bool ChunksAreWhole(hid_t dataset, hid_t stored, const Shape& shape) {
+  std::array<hsize_t, H5S_MAX_RANK> offset{};
+  if (shape.Bytes() == 0) return true;
+  const Handle file(H5Iget_file_id(dataset), &H5Fclose);
+  hsize_t file_size = 0;
+  if (H5Fget_filesize(file.id(), &file_size) < 0) return false;
+  for (int k = 0; k < shape.rank;) {
+    if (k == 0 && !ChunkIsWhole(dataset, stored, offset.data(),
+                                shape.ChunkBytes(), file_size)) {
+      return false;
+    }
+    // The next one, as an odometer counts.
+    offset[k] += shape.chunk[k];
+    if (offset[k] < shape.size[k]) {
+      k = 0;
+    } else {
+      offset[k++] = 0;
+    }
+  }
+  return true;
 }
 
 constexpr char kElsewhere[] =
     "lies in another file: expected numbers that are in this one";
 constexpr char kPieces[] =
     "is damaged: expected no more pieces than it has bytes";
+
+constexpr char kShort[] =
+    "is damaged: expected as many bytes as its size takes";
 
 // What speaks against reading a dataset; null where nothing does.
 const char* FaultOf(hid_t group, const char* name) {
@@ -57,9 +167,15 @@ const char* FaultOf(hid_t group, const char* name) {
       H5Pget_layout(stored.id()) == H5D_VIRTUAL) {
     return kElsewhere;
   }
-  // HDF5 1.10 lists all that a read touches, some 150 bytes for each.
+  const Shape shape(object.id(), stored.id());
   const auto bytes = static_cast<double>(H5Dget_storage_size(object.id()));
-  return NumChunks(object.id(), stored.id()) > bytes ? kPieces : nullptr;
+  // HDF5 1.10 lists all that a read touches, some 150 bytes for each.
+  if (shape.NumChunks() > bytes) return kPieces;
+  const bool whole =
+      shape.is_chunked ? ChunksAreWhole(object.id(), stored.id(), shape)
+      : H5Pget_layout(stored.id()) == H5D_COMPACT ? bytes >= shape.Bytes()
+                                                  : true;
+  return whole ? nullptr : kShort;
 }
 
 struct Found {

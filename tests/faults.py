@@ -130,7 +130,10 @@ def without_space():
     def small_files():
         resource.setrlimit(resource.RLIMIT_FSIZE, (100000, 100000))
 
-    expect_refusal(run(NEW, preexec_fn=small_files), 'report.html: --out: '
+    # A build that counts its lines has a file of its own to write.
+    uncounted = dict(os.environ, LLVM_PROFILE_FILE=os.devnull)
+    expect_refusal(run(NEW, preexec_fn=small_files, env=uncounted),
+                   'report.html: --out: '
                    'cannot be written: File too large')
     expect(results() == before, 'the old results where files may not be large')
     expect_alone('no space')
@@ -215,6 +218,9 @@ def reads(process, path, least):
 
 def without_memory():
     """Each limit gives the results or one sentence."""
+    if 'ASAN_OPTIONS' in os.environ:
+        print('skipped: the sanitizer needs terabytes of addresses')
+        return
     run(OLD)
     before, counts = results(), {}
     for megabytes in range(64, 112, 4):
@@ -223,9 +229,6 @@ def without_memory():
 
         finished = run(OLD, preexec_fn=limited)
         code = finished.returncode
-        if 'Sanitizer' in finished.stderr:
-            print('skipped: sanitizers need more memory than there is')
-            return
         if code == 3:
             expect_refusal(finished, 'memory: the ', 'MB that are allowed '
                            '(ulimit -v) do not suffice')

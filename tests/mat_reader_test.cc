@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <hdf5/serial/hdf5.h>
+#include <zlib.h>
 
 #include <fstream>
 #include <functional>
@@ -108,6 +109,42 @@ TEST(MatReader, RefusesMorePiecesThanThereAreBytes) {
       "FILE: variable q: is damaged: expected no more pieces than it has bytes";
   EXPECT_NE(refusal(4), refused);  // 8 bytes are stored
   EXPECT_EQ(refusal(5), refused);
+}
+
+// HDF5 copied what lay behind them, which fuzzing found: numbers in a header, a
+// piece that its filter has not inflated, one that inflates to less.
+TEST(MatReader, RefusesPiecesThatAreTooShort) {
+  const auto refusal = [](unsigned skipped, const std::string& stored) {
+    return Moved([=](hid_t file, hid_t) {
+      const hsize_t size[] = {2, 100}, first[] = {0, 0};
+      const hid_t extent = H5Screate_simple(2, size, nullptr);
+      const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
+      H5Pset_chunk(how, 2, size);
+      H5Pset_deflate(how, 6);
+      const hid_t positions = H5Dcreate2(file, "q", H5T_NATIVE_DOUBLE, extent,
+                                         H5P_DEFAULT, how, H5P_DEFAULT);
+      H5Dwrite_chunk(positions, H5P_DEFAULT, skipped, first, stored.size(),
+                     stored.data());
+      H5Dclose(positions);
+      H5Pclose(how);
+      H5Sclose(extent);
+    });
+  };
+  const auto deflated = [](size_t bytes) {
+    std::string text(1000, 0);
+    const std::string zeros(bytes, 0);
+    uLongf size = text.size();
+    compress(reinterpret_cast<Bytef*>(text.data()), &size,
+             reinterpret_cast<const Bytef*>(zeros.data()), zeros.size());
+    return text.substr(0, size);
+  };
+  const std::string refused =
+      "FILE: variable q: is damaged: expected as many bytes as its size takes";
+  EXPECT_EQ(refusal(1, std::string(1592, 0)), refused);
+  EXPECT_NE(refusal(1, std::string(1600, 0)), refused);
+  EXPECT_EQ(refusal(0, deflated(1592)), refused);
+  EXPECT_NE(refusal(0, deflated(1600)), refused);
+  EXPECT_EQ(refusal(0, "not deflated"), refused);
 }
 
 TEST(MatReader, ReadsNoOtherFile) {

@@ -31,6 +31,8 @@ FlagWords WordsOf(const std::string& flag) {
       known.words.push_back(word);
     }
   }
+  // In which order several sources add theirs is the linker's.
+  std::sort(known.words.begin(), known.words.end());
   return known;
 }
 

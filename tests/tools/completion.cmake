@@ -25,8 +25,8 @@ complete("armcal calibrate --fi" "")
 complete("armcal inspect --fi" "--fix")
 complete("armcal calibrate --robot=x --rob" "")
 complete("armcal calibrate --geometry=l" "--geometry=lengths")
-complete("armcal calibrate --geometry=" "--geometry=known --geometry=lengths \
---geometry=all_lengths --geometry=offsets --geometry=refine")
+complete("armcal calibrate --geometry=" "--geometry=all_lengths --geometry=known \
+--geometry=lengths --geometry=offsets --geometry=refine")
 complete("armcal calibrate --joint_terms=viscous,co" "--joint_terms=viscous,coulomb")
 complete("armcal diagnose --without=payl" "--without=payload")
 complete("armcal calibrate --log=lo" "--log=logs/")

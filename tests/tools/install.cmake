@@ -27,6 +27,8 @@ if(EXISTS ${prefix}/include/armcal/model/plant/hidden)
 endif()
 
 get_filename_component(root ${DATA_DIR} DIRECTORY)
+set(ENV{CXX} "${CXX}")  # sanitizers' libraries need theirs
+set(ENV{CXXFLAGS} "${CXXFLAGS}")
 do("the example finds armcal" ${CMAKE_COMMAND} -S ${root}/examples/cpp
    -B example -DCMAKE_PREFIX_PATH=${prefix})
 do("the example is built" ${CMAKE_COMMAND} --build example)
