@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "model/confined_process.h"
 #include "model/hdf5_datasets.h"
 #include "model/input_error.h"
 #include "model/log_signal.h"
 #include "model/mat_elements.h"
+#include "model/packed_arrays.h"
 #include "model/unpack.h"
 #include "model/utf8.h"
 
@@ -168,8 +170,10 @@ bool IsMatFile(std::string_view first) {
   return false;
 }
 
-std::vector<LogArray> ReadMat(const std::string& path) {
-  CheckMatElements(path);
+namespace {
+
+// By the libraries, as they are.
+std::vector<LogArray> ReadVariables(const std::string& path) {
   CheckHdf5Datasets(path);
   const std::unique_ptr<mat_t, Close> file(
       Mat_Open(path.c_str(), MAT_ACC_RDONLY));
@@ -203,6 +207,25 @@ std::vector<LogArray> ReadMat(const std::string& path) {
                      "empty, damaged or cut off");
   }
   return HasTime(variables) || fields.empty() ? variables : fields;
+}
+
+}  // namespace
+
+std::vector<LogArray> ReadMat(const std::string& path) {
+  CheckMatElements(path);
+  // HDF5's and matio's own faults are many, and most are not mended in Debian.
+  const auto confined =
+      MakeConfined([&] { return PackArrays(ReadVariables(path)); });
+  if (confined && !confined->refusal.empty()) {
+    const std::string head = path + ": ";
+    throw InputError(path, "", "", confined->refusal.substr(head.size()));
+  }
+  std::vector<LogArray> arrays;
+  if (confined) arrays = UnpackArrays(confined->made);
+  if (arrays.empty()) {
+    throw InputError(path, "", "", "is a damaged MAT-file, or cut off");
+  }
+  return arrays;
 }
 
 }  // namespace armcal
