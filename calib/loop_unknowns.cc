@@ -16,18 +16,17 @@ constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
                                 JointTerm::kOffset, JointTerm::kArmature};
 constexpr double kAny = -1;
 
-// Of a drive's gain, as its files name it.
-std::string GainUnit(JointType type, const std::string& gain) {
+const DriveParameter& ParameterOf(double DriveLaw::*gain) {
   for (const DriveParameter& parameter : DriveParameters()) {
-    if (parameter.name != gain) continue;
-    return IsRotational(type) ? parameter.unit : parameter.linear_unit;
+    if (parameter.value == gain) return parameter;
   }
-  LOG(FATAL) << "no gain " << gain;
+  LOG(FATAL) << "no such gain";
 }
 
 }  // namespace
 
-LoopUnknowns::LoopUnknowns(const LoopValues& nominal, const LoopTrust& trust,
+LoopUnknowns::LoopUnknowns(const LoopValues& nominal, DriveKind kind,
+                           const LoopTrust& trust,
                            const std::vector<JointTerm>& joint_terms,
                            const VectorXd& torque_rms)
     : n_(nominal.arm.robot.num_joints()), files_(nominal) {
@@ -58,17 +57,23 @@ LoopUnknowns::LoopUnknowns(const LoopValues& nominal, const LoopTrust& trust,
         std::string(PositionUnit(joint.type)) + "/s",
         has_coulomb ? trust.width * width : 0, .1 * width);
   }
-  for (const auto& [gain, value] :
-       {std::make_pair("kp", &nominal.kp), std::make_pair("kd", &nominal.kd),
-        std::make_pair("ki", &nominal.ki)}) {
-    for (int j = 0; j < n_; ++j) {
-      const Joint& joint = robot.links[j].joint;
-      Add(joint.name + "." + gain, GainUnit(joint.type, gain),
-          trust.gains * (*value)[j], 0);
-    }
-  }
+  AddGains(kind, trust.gains);
   Add("drive.delay", "s", trust.delay, kAny);
   nominal_ = Stack(nominal);
+}
+
+// Gains that the drives do not have have no name.
+void LoopUnknowns::AddGains(DriveKind kind, double trust) {
+  for (double DriveLaw::*gain : EstimatedGains()) {
+    const DriveParameter& parameter = ParameterOf(gain);
+    for (int j = 0; j < n_; ++j) {
+      const Joint& joint = files_.arm.robot.links[j].joint;
+      const bool has = HasParameter(kind, parameter);
+      Add(has ? joint.name + "." + parameter.name : "",
+          IsRotational(joint.type) ? parameter.unit : parameter.linear_unit,
+          trust * files_.drives[j].*gain, 0);
+    }
+  }
 }
 
 void LoopUnknowns::Add(const std::string& name, const std::string& unit,
@@ -89,23 +94,26 @@ std::vector<int> LoopUnknowns::FreeIndices() const {
 }
 
 VectorXd LoopUnknowns::Stack(const LoopValues& values) const {
-  const LoopColumns columns(n_);
-  VectorXd x(columns.num_values());
+  const LoopOrder order(n_);
+  VectorXd x(order.size());
   x.head(10 * n_) = StackInertials(values.arm.robot);
   for (int j = 0; j < n_; ++j) {
     for (int t = 0; t < 4; ++t) {
-      x[10 * n_ + 4 * j + t] =
+      x[order.terms() + 4 * j + t] =
           TermOf(kTerms[t], values.arm.robot.links[j].joint);
     }
-    x[14 * n_ + j] = values.arm.transitions[j].width;
+    x[order.widths() + j] = values.arm.transitions[j].width;
   }
-  x.segment(columns.kp(), 3 * n_) << values.kp, values.kd, values.ki;
-  x[columns.delay()] = values.delay;
+  int k = order.gains();
+  for (double DriveLaw::*gain : EstimatedGains()) {
+    for (const DriveLaw& drive : values.drives) x[k++] = drive.*gain;
+  }
+  x[order.delay()] = values.delay;
   return x;
 }
 
 LoopValues LoopUnknowns::At(const VectorXd& x) const {
-  const LoopColumns columns(n_);
+  const LoopOrder order(n_);
   LoopValues values = files_;
   for (int j = 0; j < n_; ++j) {
     Link& link = values.arm.robot.links[j];
@@ -114,14 +122,15 @@ LoopValues LoopUnknowns::At(const VectorXd& x) const {
       link.has_inertial = true;
     }
     for (int t = 0; t < 4; ++t) {
-      *TermOf(kTerms[t], &link.joint) = x[10 * n_ + 4 * j + t];
+      *TermOf(kTerms[t], &link.joint) = x[order.terms() + 4 * j + t];
     }
-    values.arm.transitions[j].width = x[14 * n_ + j];
+    values.arm.transitions[j].width = x[order.widths() + j];
   }
-  values.kp = x.segment(columns.kp(), n_);
-  values.kd = x.segment(columns.kd(), n_);
-  values.ki = x.segment(columns.ki(), n_);
-  values.delay = x[columns.delay()];
+  int k = order.gains();
+  for (double DriveLaw::*gain : EstimatedGains()) {
+    for (DriveLaw& drive : values.drives) drive.*gain = x[k++];
+  }
+  values.delay = x[order.delay()];
   return values;
 }
 

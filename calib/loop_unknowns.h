@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/position_loop.h"
+#include "calib/loop_values.h"
 #include "model/joint_term.h"
 #include "model/robot.h"
 
@@ -23,12 +23,13 @@ struct LoopTrust {
   double width = 1;  // relative, of the speed in which friction changes sign
 };
 
-// What is unknown of an arm in a position loop, in the order of LoopColumns:
-// names, units, what the files say and how far they are trusted.
+// What is unknown of an arm in a position loop, in LoopOrder: names, units,
+// what the files say and how far they are trusted.
 class LoopUnknowns {
  public:
   // `nominal`: of the files. `torque_rms`: per joint, N m or N.
-  LoopUnknowns(const LoopValues& nominal, const LoopTrust& trust,
+  LoopUnknowns(const LoopValues& nominal, DriveKind kind,
+               const LoopTrust& trust,
                const std::vector<JointTerm>& joint_terms,
                const Eigen::VectorXd& torque_rms);
 
@@ -41,6 +42,9 @@ class LoopUnknowns {
   // Links have InertialPrior.
   double prior(int k) const { return prior_[k]; }
   bool is_free(int k) const { return free_[k]; }
+  const std::vector<bool>& free() const { return free_; }
+  // Whether there is such a thing: drives of one kind have not all gains.
+  bool exists(int k) const { return !names_[k].empty(); }
   bool is_positive(int k) const { return least_[k] >= 0; }
   double least(int k) const { return least_[k]; }  // -1: any value
   const Eigen::VectorXd& nominal() const { return nominal_; }
@@ -52,6 +56,8 @@ class LoopUnknowns {
  private:
   void Add(const std::string& name, const std::string& unit, double prior,
            double least);
+
+  void AddGains(DriveKind kind, double trust);
 
   int n_;
   LoopValues files_;

@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Wanted = PositionLoop::Wanted;
 
 // How far a window's start may be from what the log shows of it, rad and rad/s
 // (m and m/s), and the integral from 0, in torques of an error of that many
@@ -59,8 +58,6 @@ LoopWindows::LoopWindows(const Robot& known,
   for (size_t l = 0; l < logs.size(); ++l) {
     references_.push_back(std::make_unique<CommandedReference>(
         known, controller.feedforward, logs[l]));
-    loops_.push_back(std::make_unique<PositionLoop>(
-        controller_, *references_.back(), logs[l].log));
     noise_ += NoiseOf(logs[l].log).cwiseAbs2();
     AddWindows(static_cast<int>(l), window_s);
   }
@@ -79,17 +76,41 @@ void LoopWindows::AddWindows(int log, double window_s) {
     const double end = duration * static_cast<double>(k + 1) / count;
     long last = first;
     while (last < size && (k + 1 == count || t[last] < end)) ++last;
-    Window window{log, first, last - first, loops_[log]->StartAt(first), {}};
-    window.start.resize(3 * n_);
-    window.start << window.nominal.q, window.nominal.qd,
-        window.nominal.integral;
-    windows_.push_back(window);
+    const LoopStretch stretch(logs_[log].log, *references_[log], first,
+                              last - first, 1 / controller_.rate_hz);
+    const LoopStart nominal = stretch.Start();
+    VectorXd start(3 * n_);
+    start << nominal.q, nominal.qd, nominal.integral;
+    windows_.push_back({stretch, nominal, start});
     first = last;
   }
 }
 
-LoopStart LoopWindows::StartOf(const VectorXd& start) const {
-  return {start.head(n_), start.segment(n_, n_), start.tail(n_)};
+LoopRun LoopWindows::Simulate(const LoopValues& values) const {
+  std::vector<const LoopStretch*> stretches;
+  std::vector<LoopStart> starts;
+  for (const Window& w : windows_) {
+    stretches.push_back(&w.stretch);
+    starts.push_back(
+        {w.start.head(n_), w.start.segment(n_, n_), w.start.tail(n_)});
+  }
+  LoopRun run;
+  run.tracks = SimulateLoop(controller_, values, stretches, starts);
+  VectorXd squares = VectorXd::Zero(n_);
+  long periods = 0;
+  for (size_t k = 0; k < windows_.size(); ++k) {
+    const LoopTrack& track = run.tracks[k];
+    run.finite = run.finite && track.finite;
+    run.residuals.push_back(track.Residual(*stretches[k]));
+    run.cost += RowScale(stretches[k]->num_rows())
+                    .cwiseProduct(run.residuals[k])
+                    .squaredNorm() +
+                StartCost(windows_[k]);
+    squares += track.torque_squares;
+    periods += stretches[k]->num_periods();
+  }
+  run.torque_rms = (squares / static_cast<double>(periods)).cwiseSqrt();
+  return run;
 }
 
 VectorXd LoopWindows::StartPrior() const {
@@ -99,69 +120,76 @@ VectorXd LoopWindows::StartPrior() const {
   for (int j = 0; j < n_; ++j) {
     // Without an integral part it is an offset of the joint for ever.
     const DriveLaw& drive = controller_.drives[j];
-    prior[2 * n_ + j] =
-        drive.ki > 0 ? kStartIntegral * std::max(drive.kp, 1e-9) : 1e-9;
+    const double stiffness = drive.kp + drive.kd * drive.position_gain;
+    prior[2 * n_ + j] = drive.ki > 0 || drive.velocity_ki > 0
+                            ? kStartIntegral * std::max(stiffness, 1e-9)
+                            : 1e-9;
   }
   return prior;
+}
+
+double LoopWindows::StartCost(const Window& w) const {
+  VectorXd nominal(3 * n_);
+  nominal << w.nominal.q, w.nominal.qd, w.nominal.integral;
+  return (nominal - w.start).cwiseQuotient(StartPrior()).squaredNorm();
 }
 
 VectorXd LoopWindows::RowScale(long rows) const {
   return noise_.cwiseInverse().replicate(rows, 1);
 }
 
+// The triangle of start, columns and residual.
+LoopEquations::Window LoopWindows::Reduce(const Window& w,
+                                          const LoopTangent& tangent,
+                                          const VectorXd& residual) const {
+  const long s = 3 * n_, p = tangent.by_columns.cols() - s;
+  const VectorXd scale = RowScale(w.stretch.num_rows());
+  MatrixXd rows(residual.size(), s + p + 1);
+  rows.leftCols(s) = scale.asDiagonal() * tangent.by_columns.rightCols(s);
+  rows.middleCols(s, p) = scale.asDiagonal() * tangent.by_columns.leftCols(p);
+  rows.rightCols(1) = scale.cwiseProduct(residual);
+  MatrixXd ties = MatrixXd::Zero(s, s + p + 1);
+  const VectorXd prior = StartPrior().cwiseInverse();
+  VectorXd nominal(s);
+  nominal << w.nominal.q, w.nominal.qd, w.nominal.integral;
+  ties.leftCols(s) = prior.asDiagonal();
+  ties.rightCols(1) = prior.cwiseProduct(nominal - w.start);
+  TriangularFactor factor(static_cast<int>(s + p));
+  factor.AddRows(rows.data(), rows.rows(), rows.rows());
+  factor.AddRows(ties.data(), ties.rows(), ties.rows());
+  return {w.start, factor.Triangle()};
+}
+
 LoopEquations LoopWindows::Linearise(const LoopValues& values,
-                                     const Progress& progress) const {
-  const LoopColumns columns(n_);
-  const int p = columns.num_values(), s = 3 * n_;
+                                     const LoopColumns& columns,
+                                     const LoopRun& run) const {
+  const int p = columns.num_values();
   LoopEquations all;
-  all.torque_rms = VectorXd::Zero(n_);
   MatrixXd triangle;
-  long periods = 0;
-  double done = 0;
-  for (const Window& w : windows_) {
-    if (progress) progress("simulating", done / windows_.size());
-    done += 1;
-    const LoopRun run = loops_[w.log]->Run(values, StartOf(w.start), w.first,
-                                           w.rows, Wanted::kTangents);
-    all.finite = run.finite;
-    if (!run.finite) return all;
-    const VectorXd scale = RowScale(w.rows);
-    MatrixXd rows(n_ * w.rows, s + p + 1);
-    rows.leftCols(s) = scale.asDiagonal() * run.by_values.rightCols(s);
-    rows.middleCols(s, p) = scale.asDiagonal() * run.by_values.leftCols(p);
-    rows.rightCols(1) = scale.cwiseProduct(run.residual);
-    MatrixXd ties = MatrixXd::Zero(s, s + p + 1);
-    const VectorXd prior = StartPrior().cwiseInverse();
-    VectorXd nominal(s);
-    nominal << w.nominal.q, w.nominal.qd, w.nominal.integral;
-    ties.leftCols(s) = prior.asDiagonal();
-    ties.rightCols(1) = prior.cwiseProduct(nominal - w.start);
-    TriangularFactor factor(s + p);
-    factor.AddRows(rows.data(), rows.rows(), rows.rows());
-    factor.AddRows(ties.data(), ties.rows(), ties.rows());
-    all.windows.push_back({w.start, factor.Triangle()});
-    all.cost +=
-        rows.rightCols(1).squaredNorm() + ties.rightCols(1).squaredNorm();
-    all.torque_rms += run.torque_squares;
-    periods += run.period_of_row.back() + 1;
+  for (size_t k = 0; k < windows_.size(); ++k) {
+    const Window& w = windows_[k];
+    const LoopTangent tangent = LineariseLoop(controller_, values, columns,
+                                              w.stretch, run.tracks[k], false);
+    all.windows.push_back(Reduce(w, tangent, run.residuals[k]));
     const MatrixXd values_only =
-        factor.Triangle().bottomRightCorner(p + 1, p + 1);
+        all.windows.back().triangle.bottomRightCorner(p + 1, p + 1);
     triangle = triangle.size() == 0 ? values_only
                                     : MergeTriangles(triangle, values_only);
   }
-  all.torque_rms = (all.torque_rms / static_cast<double>(periods)).cwiseSqrt();
-  all.R = triangle.topLeftCorner(p, p);
+  all.spread = columns.spread();
+  all.R = triangle.topLeftCorner(p, p) * all.spread;
   all.z = triangle.topRightCorner(p, 1);
   return all;
 }
 
 void LoopWindows::Move(const LoopEquations& equations, const VectorXd& dx,
                        double share) {
-  const long s = 3 * n_, p = dx.size();
+  const VectorXd by_column = equations.spread * dx;
+  const long s = 3 * n_, p = by_column.size();
   for (size_t k = 0; k < windows_.size(); ++k) {
     const auto& [start, triangle] = equations.windows[k];
     const VectorXd rest =
-        triangle.col(s + p).head(s) - triangle.block(0, s, s, p) * dx;
+        triangle.col(s + p).head(s) - triangle.block(0, s, s, p) * by_column;
     windows_[k].start =
         start +
         share *
@@ -173,58 +201,59 @@ void LoopWindows::Move(const LoopEquations& equations, const VectorXd& dx,
 // Residuals of a whole log follow each other; its windows' do not, but for the
 // moment that a loop takes to forget.
 LoopScores LoopWindows::Scores(const LoopValues& values,
+                               const LoopColumns& columns, const LoopRun& run,
                                const LoopEquations& equations) const {
-  const LoopColumns columns(n_);
   const int p = columns.num_values(), s = 3 * n_;
   LoopScores all;
-  all.covariance = MatrixXd::Zero(p, p);
+  MatrixXd covariance = MatrixXd::Zero(p, p), sums;
   std::mt19937 random(1);
   for (size_t l = 0; l < windows_.size(); ++l) {
-    const Window& w = windows_[l];
+    const LoopStretch& stretch = windows_[l].stretch;
     const MatrixXd& triangle = equations.windows[l].triangle;
-    const LoopStart start = StartOf(w.start);
-    const PositionLoop& loop = *loops_[w.log];
-    const LoopRun run =
-        loop.Run(values, start, w.first, w.rows, Wanted::kTangents);
-    const LoopRun periods =
-        loop.Run(values, start, w.first, w.rows, Wanted::kPeriods);
-    const VectorXd scale = RowScale(w.rows);
+    const LoopTangent tangent = LineariseLoop(controller_, values, columns,
+                                              stretch, run.tracks[l], true);
+    const VectorXd& residual = run.residuals[l];
+    const VectorXd scale = RowScale(stretch.num_rows());
     // Scores' weights, free of the start; and signs that squares are the
     // trace's estimate of.
-    MatrixXd weights(n_ * w.rows, p + 1);
+    MatrixXd weights(residual.size(), p + 1);
     const MatrixXd start_of_values =
         triangle.topLeftCorner(s, s).triangularView<Eigen::Upper>().solve(
             triangle.block(0, s, s, p));
-    weights.leftCols(p) = run.by_values.leftCols(p) -
-                          run.by_values.rightCols(s) * start_of_values;
+    weights.leftCols(p) = tangent.by_columns.leftCols(p) -
+                          tangent.by_columns.rightCols(s) * start_of_values;
     weights.leftCols(p) = scale.cwiseAbs2().asDiagonal() * weights.leftCols(p);
     for (long k = 0; k < weights.rows(); ++k) {
       weights(k, p) = (random() & 1) != 0 ? scale[k] : -scale[k];
     }
     const MatrixXd sum =
-        LoopNoiseCovariance(controller_, values, periods, noise_, weights);
-    all.covariance += sum.topLeftCorner(p, p);
+        LoopNoiseCovariance(controller_, values, stretch, run.tracks[l],
+                            tangent.periods, noise_, weights);
+    covariance += sum.topLeftCorner(p, p);
     all.expected_squares += sum(p, p);
-    AddScores(logs_[w.log].log.t.segment(w.first, w.rows), weights.leftCols(p),
-              run.residual, &all.sums);
-    all.residual_squares += scale.cwiseProduct(run.residual).squaredNorm();
+    AddScores(stretch.log().t.segment(stretch.first_row(), stretch.num_rows()),
+              weights.leftCols(p), residual, &sums);
+    all.residual_squares += scale.cwiseProduct(residual).squaredNorm();
   }
+  const MatrixXd& spread = columns.spread();
+  all.covariance = spread.transpose() * covariance * spread;
+  all.sums = sums * spread;
   return all;
 }
 
-VectorXd LoopWindows::ResidualRms(const LoopValues& values) const {
+VectorXd LoopWindows::ResidualRms(const LoopRun& run) const {
+  if (!run.finite) {
+    return VectorXd::Constant(n_, std::numeric_limits<double>::infinity());
+  }
   VectorXd squares = VectorXd::Zero(n_);
   long count = 0;
-  for (const Window& w : windows_) {
-    const VectorXd& t = logs_[w.log].log.t;
-    const LoopRun run = loops_[w.log]->Run(values, StartOf(w.start), w.first,
-                                           w.rows, Wanted::kResidual);
-    if (!run.finite) {
-      return VectorXd::Constant(n_, std::numeric_limits<double>::infinity());
-    }
-    for (long k = 0; k < w.rows; ++k) {
-      if (t[w.first + k] < t[w.first] + kCatchUp) continue;
-      squares += run.residual.segment(n_ * k, n_).cwiseAbs2();
+  for (size_t l = 0; l < windows_.size(); ++l) {
+    const LoopStretch& stretch = windows_[l].stretch;
+    const VectorXd& t = stretch.log().t;
+    const long first = stretch.first_row();
+    for (long k = 0; k < stretch.num_rows(); ++k) {
+      if (t[first + k] < t[first] + kCatchUp) continue;
+      squares += run.residuals[l].segment(n_ * k, n_).cwiseAbs2();
       ++count;
     }
   }

@@ -6,20 +6,30 @@
 
 #include "calib/closed_loop_replay.h"
 #include "calib/log_set.h"
-#include "calib/position_loop.h"
+#include "calib/loop_columns.h"
+#include "calib/loop_simulation.h"
+#include "calib/loop_tangent.h"
 
 namespace armcal {
+
+// All windows simulated with some values.
+struct LoopRun {
+  bool finite = true;  // else nothing follows
+  double cost = 0;     // the residuals' squares, and the starts' priors'
+  std::vector<LoopTrack> tracks;
+  std::vector<Eigen::VectorXd> residuals;  // of each track
+  Eigen::VectorXd torque_rms;              // per joint
+};
 
 // What all windows of logs say of a loop's values about some of them, the
 // windows' starts eliminated; whitened by the encoders' noise.
 struct LoopEquations {
-  bool finite = true;  // else nothing follows
-  Eigen::MatrixXd R;   // R dx = z, triangular
+  Eigen::MatrixXd R;  // R dx = z, a column for each of LoopOrder
   Eigen::VectorXd z;
-  double cost = 0;  // the residuals' squares, and the starts' priors'
-  Eigen::VectorXd torque_rms;  // per joint
+  // How values make up the columns' (LoopColumns::spread()).
+  Eigen::MatrixXd spread;
   // Of each window: where it starts (q, qd, integral), and the triangle of
-  // start, values and residual.
+  // start, columns and residual.
   struct Window {
     Eigen::VectorXd start;
     Eigen::MatrixXd triangle;
@@ -37,44 +47,44 @@ struct LoopScores {
 };
 
 // Logs of commands and positions cut into windows that are simulated each from
-// a state of its own.
+// a state of its own, side by side.
 class LoopWindows {
  public:
   // Logs and controller are kept by reference.
   LoopWindows(const Robot& known, const ControllerOptions& controller,
               double window_s, const std::vector<CommandedLog>& logs);
 
-  // At `values`; the starts are those of Move.
-  LoopEquations Linearise(const LoopValues& values,
-                          const Progress& progress) const;
-  // Takes the starts to where `equations` put them for a step `dx` of the
+  // From where Move has put the starts.
+  LoopRun Simulate(const LoopValues& values) const;
+  LoopEquations Linearise(const LoopValues& values, const LoopColumns& columns,
+                          const LoopRun& run) const;
+  // Takes the starts to where `equations` put them for a step `dx` of all
   // values, times `share`.
   void Move(const LoopEquations& equations, const Eigen::VectorXd& dx,
             double share);
-  // Of equations at `values`.
-  LoopScores Scores(const LoopValues& values,
-                    const LoopEquations& equations) const;
+  LoopScores Scores(const LoopValues& values, const LoopColumns& columns,
+                    const LoopRun& run, const LoopEquations& equations) const;
   // rms of residuals per joint, rad or m, without each window's first second.
-  Eigen::VectorXd ResidualRms(const LoopValues& values) const;
+  Eigen::VectorXd ResidualRms(const LoopRun& run) const;
   // Of the encoders, per joint, rad or m: all logs'.
   const Eigen::VectorXd& noise() const { return noise_; }
 
  private:
   struct Window {
-    int log;
-    long first, rows;
+    LoopStretch stretch;
     LoopStart nominal;
     Eigen::VectorXd start;  // q, qd, integral
   };
-  LoopStart StartOf(const Eigen::VectorXd& start) const;
   void AddWindows(int log, double window_s);
+  LoopEquations::Window Reduce(const Window& window, const LoopTangent& tangent,
+                               const Eigen::VectorXd& residual) const;
+  double StartCost(const Window& window) const;
   Eigen::VectorXd StartPrior() const;
   Eigen::VectorXd RowScale(long rows) const;
 
   const ControllerOptions& controller_;
   const std::vector<CommandedLog>& logs_;
   std::vector<std::unique_ptr<const CommandedReference>> references_;
-  std::vector<std::unique_ptr<const PositionLoop>> loops_;
   std::vector<Window> windows_;
   Eigen::VectorXd noise_;
   int n_;

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 constexpr int kMostIterations = 50;
 constexpr int kMostHalvings = 8;
 // A step of this many deviations (white noise's), rms over parameters, is none.
-constexpr double kSettled = 1e-5;
+constexpr double kSettled = .02;
 
 LoopValues FilesValues(const Robot& robot, const ControllerOptions& controller,
                        const OutputErrorOptions& options) {
@@ -29,15 +29,7 @@ LoopValues FilesValues(const Robot& robot, const ControllerOptions& controller,
   LoopValues values;
   values.arm.robot = robot;
   values.arm.transitions.assign(robot.links.size(), transition);
-  const auto n = static_cast<Eigen::Index>(controller.drives.size());
-  values.kp.resize(n);
-  values.kd.resize(n);
-  values.ki.resize(n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    values.kp[j] = controller.drives[j].kp;
-    values.kd[j] = controller.drives[j].kd;
-    values.ki[j] = controller.drives[j].ki;
-  }
+  values.drives = controller.drives;
   values.delay = controller.delay;
   // The same all through an estimate, whose cost would jump with them.
   values.substeps = EnoughSubsteps(values, controller.rate_hz);
@@ -50,6 +42,7 @@ class Calibrator {
              const OutputErrorOptions& options,
              const std::vector<CommandedLog>& training)
       : options_(options),
+        kind_(controller.kind),
         files_(FilesValues(robot, controller, options)),
         windows_(robot, controller, options.window_s, training) {}
 
@@ -57,89 +50,102 @@ class Calibrator {
     result_.values = files_;
     result_.arm.robot = files_.arm.robot;
     result_.positions.noise = windows_.noise();
-    result_.positions.nominal = windows_.ResidualRms(files_);
-    LoopEquations equations = windows_.Linearise(files_, options_.progress);
-    if (!equations.finite) {
+    run_ = windows_.Simulate(files_);
+    result_.positions.nominal = windows_.ResidualRms(run_);
+    if (!run_.finite) {
       result_.arm.reason =
           "the loop of the robot file's arm and this controller is not stable";
       return result_;
     }
-    unknowns_.emplace(files_, options_.trust, options_.joint_terms,
-                      equations.torque_rms);
+    unknowns_.emplace(files_, kind_, options_.trust, options_.joint_terms,
+                      run_.torque_rms);
+    columns_.emplace(files_.arm.robot, unknowns_->free());
     fit_.emplace(*unknowns_, options_.trust);
     x_ = unknowns_->nominal();
-    Iterate(&equations);
+    Iterate();
     if (!result_.arm.solved) return result_;
     result_.values = unknowns_->At(x_);
     result_.arm.robot = result_.values.arm.robot;
-    result_.positions.calibrated = windows_.ResidualRms(result_.values);
-    Report(equations);
+    result_.positions.calibrated = windows_.ResidualRms(run_);
+    Report();
     return result_;
   }
 
  private:
-  void Iterate(LoopEquations* equations);
+  void Iterate();
   // Towards x, as far as the cost falls; false where it does not.
-  bool Step(const VectorXd& x, LoopEquations* equations);
-  void Report(const LoopEquations& equations);
+  bool Step(const VectorXd& x);
+  void Report();
+  void Tell(const std::string& stage, double fraction) const {
+    if (options_.progress) options_.progress(stage, fraction);
+  }
 
   const OutputErrorOptions& options_;
+  DriveKind kind_;
   LoopValues files_;
   LoopWindows windows_;
   std::optional<LoopUnknowns> unknowns_;
+  std::optional<LoopColumns> columns_;
   std::optional<LoopFit> fit_;
   VectorXd x_;
+  LoopRun run_;              // at x_
+  LoopEquations equations_;  // likewise
   OutputErrorCalibration result_;
 };
 
-bool Calibrator::Step(const VectorXd& x, LoopEquations* equations) {
+bool Calibrator::Step(const VectorXd& x) {
   const VectorXd begin = x_, dx = x - x_;
-  const double cost = equations->cost + fit_->PriorCost(x_);
+  const double cost = run_.cost + fit_->PriorCost(x_);
   double share = 1;
   for (int k = 0; k < kMostHalvings; ++k, share /= 2) {
     // Bodies between two that can exist can exist.
     x_ = begin + share * dx;
-    windows_.Move(*equations, dx, share);
-    LoopEquations next =
-        windows_.Linearise(unknowns_->At(x_), options_.progress);
+    windows_.Move(equations_, dx, share);
+    LoopRun next = windows_.Simulate(unknowns_->At(x_));
     if (!next.finite || !(next.cost + fit_->PriorCost(x_) < cost)) continue;
-    *equations = std::move(next);
+    run_ = std::move(next);
     return true;
   }
   x_ = begin;
-  windows_.Move(*equations, 0 * dx, 0);
+  windows_.Move(equations_, 0 * dx, 0);
   return false;
 }
 
-void Calibrator::Iterate(LoopEquations* equations) {
+void Calibrator::Iterate() {
   const double size = std::sqrt(static_cast<double>(unknowns_->size()));
   result_.arm.reason = "NO_CONVERGENCE";
   for (int k = 0; k < kMostIterations; ++k) {
+    Tell("simulating", -1);
+    equations_ = windows_.Linearise(unknowns_->At(x_), *columns_, run_);
     VectorXd x = x_;
-    if (!fit_->Solve(equations->R, equations->z + equations->R * x_, &x)) {
+    if (!fit_->Solve(equations_.R, equations_.z + equations_.R * x_, &x)) {
       result_.arm.reason = "the numbers of the logs overflow";
       return;
     }
     result_.arm.solved = true;
     result_.arm.iterations = k + 1;
-    const double moved = (equations->R * (x - x_)).norm() / size;
-    const bool lower = Step(x, equations);
-    // At the bottom rounding decides whether the cost still falls.
-    if (moved < kSettled || (!lower && moved < 1e3 * kSettled)) {
+    const double moved = (equations_.R * (x - x_)).norm() / size;
+    if (moved < kSettled) {
       result_.arm.reason = "CONVERGENCE";
       return;
     }
-    if (!lower) return;
+    if (Step(x)) continue;
+    // At the bottom rounding decides whether the cost still falls.
+    if (moved < 10 * kSettled) result_.arm.reason = "CONVERGENCE";
+    return;
   }
 }
 
-void Calibrator::Report(const LoopEquations& equations) {
+void Calibrator::Report() {
+  Tell("covariance", -1);
   const std::vector<int> free = unknowns_->FreeIndices();
-  const LoopScores scores = windows_.Scores(result_.values, equations);
+  const LoopScores scores =
+      windows_.Scores(result_.values, *columns_, run_, equations_);
   const double excess = scores.residual_squares / scores.expected_squares;
   result_.model_error = std::sqrt(excess);
   const auto trusting = [&](double inertia, double times) {
-    return Posterior(equations.R, fit_->PriorInformation(inertia, times), free);
+    return Posterior(equations_.R, fit_->PriorInformation(inertia, times),
+                     free);
   };
   const double inertia = options_.trust.inertia;
   const Posterior posterior = trusting(inertia, 1);
@@ -158,7 +164,10 @@ void Calibrator::Report(const LoopEquations& equations) {
   const VectorXd trusted = trusting(1, 1).Gain().diagonal();
   const VectorXd untrusted = trusting(100, 100).Gain().diagonal();
   NonlinearCalibration& arm = result_.arm;
+  std::vector<int> listed;
   for (int k = 0; k < unknowns_->size(); ++k) {
+    if (!unknowns_->exists(k)) continue;
+    listed.push_back(k);
     PhysicalParameter out;
     out.name = unknowns_->name(k);
     out.unit = unknowns_->unit(k);
@@ -173,12 +182,12 @@ void Calibrator::Report(const LoopEquations& equations) {
                                   : std::numeric_limits<double>::infinity();
     arm.parameters.push_back(out);
   }
-  arm.covariance = raised;
+  arm.covariance = raised(listed, listed);
   std::vector<std::string> names;
   for (const int k : free) names.push_back(unknowns_->name(k));
   const MatrixXd nothing = MatrixXd::Zero(0, unknowns_->size());
   arm.unseen = UnseenCombinations(
-      free, names, equations.R,
+      free, names, equations_.R,
       Posterior(nothing, fit_->PriorInformation(1, 1), free).Gain().diagonal());
 }
 
@@ -192,9 +201,9 @@ OutputErrorCalibration CalibrateOutputError(
   OutputErrorCalibration result =
       Calibrator(robot, controller, options, training).Run();
   if (result.arm.solved && !validation.empty()) {
+    const LoopWindows windows(robot, controller, options.window_s, validation);
     result.positions.validation =
-        LoopWindows(robot, controller, options.window_s, validation)
-            .ResidualRms(result.values);
+        windows.ResidualRms(windows.Simulate(result.values));
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include "calib/closed_loop_replay.h"
 #include "calib/log_set.h"
 #include "calib/loop_unknowns.h"
+#include "calib/loop_values.h"
 #include "calib/nonlinear_calibration.h"
 #include "model/joint_controller.h"
 #include "model/joint_term.h"

@@ -14,11 +14,25 @@ DriveOutput Drive(const DriveLaw& law, const DriveInput& at, double integral) {
   const double torque =
       at.feedforward + law.kp * error + law.kd * (w - at.v) + integral;
   const double rate = law.ki * error + law.velocity_ki * (w - at.v);
+  out.velocity_error = w - at.v;
   out.torque_limited = std::abs(torque) >= law.torque_limit;
-  const bool pushes = out.torque_limited && torque * rate > 0;
-  if (!pushes) out.integral_rate = rate;
+  out.integral_stands = out.torque_limited && torque * rate > 0;
+  if (!out.integral_stands) out.integral_rate = rate;
   out.torque = std::clamp(torque, -law.torque_limit, law.torque_limit);
   return out;
+}
+
+DriveSlopes SlopesOf(const DriveLaw& law, const DriveOutput& out) {
+  DriveSlopes slopes;
+  slopes.acts = out.torque_limited ? 0 : 1;
+  slopes.integrates = out.integral_stands ? 0 : 1;
+  slopes.follows = out.velocity_limited ? 0 : 1;
+  const double gain = slopes.follows * law.position_gain;
+  slopes.by_q = law.kp + law.kd * gain;
+  slopes.by_v = law.kd;
+  slopes.rate_by_q = law.ki + law.velocity_ki * gain;
+  slopes.rate_by_v = law.velocity_ki;
+  return slopes;
 }
 
 const std::vector<DriveParameter>& DriveParameters() {

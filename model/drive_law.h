@@ -39,11 +39,23 @@ struct DriveInput {
 struct DriveOutput {
   double torque = 0;              // within its limit, before the lag, N m or N
   double integral_rate = 0;       // N m/s or N/s; 0 while it stands still
+  double velocity_error = 0;      // w - v
   bool velocity_limited = false;  // w is its limit, whatever e does
   bool torque_limited = false;
+  bool integral_stands = false;
 };
 
 DriveOutput Drive(const DriveLaw& law, const DriveInput& at, double integral);
+
+// How torque and integral_rate fall as q and v rise, and 1 or 0 for what moves:
+// the torque with what makes it, the integral with its rate, w with e.
+struct DriveSlopes {
+  double by_q = 0, by_v = 0;            // of the torque, where it acts
+  double rate_by_q = 0, rate_by_v = 0;  // of the integral, where it moves
+  double acts = 1, integrates = 1, follows = 1;
+};
+
+DriveSlopes SlopesOf(const DriveLaw& law, const DriveOutput& out);
 
 enum class DriveKind {
   kPd,       // kp, kd, ki: on errors of position and velocity

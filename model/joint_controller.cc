@@ -91,7 +91,13 @@ Eigen::VectorXd JointController::FeedforwardTorque(
 Eigen::VectorXd JointController::Update(const ReferencePoint& reference,
                                         const Eigen::VectorXd& position,
                                         const Eigen::VectorXd& velocity) {
-  const Eigen::VectorXd feedforward = FeedforwardTorque(reference);
+  return Update(reference, FeedforwardTorque(reference), position, velocity);
+}
+
+Eigen::VectorXd JointController::Update(const ReferencePoint& reference,
+                                        const Eigen::VectorXd& feedforward,
+                                        const Eigen::VectorXd& position,
+                                        const Eigen::VectorXd& velocity) {
   Eigen::VectorXd torque(integral_.size());
   at_limit_ = false;
   for (int j = 0; j < torque.size(); ++j) {

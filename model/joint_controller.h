@@ -66,6 +66,11 @@ class JointController {
   Eigen::VectorXd Update(const ReferencePoint& reference,
                          const Eigen::VectorXd& position,
                          const Eigen::VectorXd& velocity);
+  // The same with the feedforward, n, calculated elsewhere.
+  Eigen::VectorXd Update(const ReferencePoint& reference,
+                         const Eigen::VectorXd& feedforward,
+                         const Eigen::VectorXd& position,
+                         const Eigen::VectorXd& velocity);
 
   bool at_limit() const { return at_limit_; }  // some torque of the last one
 

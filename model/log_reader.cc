@@ -58,11 +58,15 @@ struct LogReader::Impl {
     if (options.want_temperature && columns.HasAll(Signal::kTemperature)) {
       temperature = row.Use(columns.Find(Signal::kTemperature));
     }
-    const bool commands_do = options.commands_do && qref != kUnused;
-    if (!options.need_torque ||
-        (commands_do && LacksTorque(columns, options))) {
+    if (!options.need_torque) return;
+    const auto found = options.made_torque.find(path);
+    if (found != options.made_torque.end()) {
+      made = found->second;
+      torque_source = made->source;
       return;
     }
+    const bool commands_do = options.commands_do && qref != kUnused;
+    if (commands_do && LacksTorque(columns, options)) return;
     const TorqueColumns torque = FindTorqueColumns(path, columns, options);
     torque_source = torque.source;
     tau = row.Use(torque.columns);
@@ -200,7 +204,7 @@ struct LogReader::Impl {
     log->q = Signals(q);
     log->qd = Signals(qd);
     log->qdd = Signals(qdd);
-    log->tau = Signals(tau);
+    log->tau = made != nullptr ? MadeTorques(rows) : Signals(tau);
     log->qref = Signals(qref);
     log->temperature = Signals(temperature);
     return true;
@@ -214,7 +218,18 @@ struct LogReader::Impl {
         .middleCols(place, joints);
   }
 
+  // Of the next `count` rows.
+  Eigen::MatrixXd MadeTorques(int count) {
+    if (next_made + count > made->tau.rows()) {
+      throw InputError(path, "", "",
+                       "expected a log that does not grow while it is read");
+    }
+    next_made += count;
+    return made->tau.middleRows(next_made - count, count);
+  }
+
   void Rewind() {
+    next_made = 0;
     source->Rewind();
     Header();
     lines.clear();
@@ -235,6 +250,8 @@ struct LogReader::Impl {
   int qref = kUnused;
   int temperature = kUnused;
   std::string torque_source;
+  std::shared_ptr<const MadeTorque> made;
+  long next_made = 0;  // row of it
 
   std::vector<std::string_view> lines;  // that the source has given
   size_t next_line = 0;
@@ -259,7 +276,9 @@ bool LogReader::has_velocity() const {
   return impl_->columns.HasAll(Signal::kVelocity);
 }
 
-bool LogReader::has_torque() const { return impl_->tau != Impl::kUnused; }
+bool LogReader::has_torque() const {
+  return impl_->tau != Impl::kUnused || impl_->made != nullptr;
+}
 
 bool LogReader::has_acceleration() const {
   return impl_->columns.HasAll(Signal::kAcceleration);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +20,13 @@ enum class TorqueKind {
   kCommand,  // tau columns that hold commanded torques
 };
 
+// Torques that were made for a log that has none, N m or N, a row for each of
+// the log's, joints in columns.
+struct MadeTorque {
+  Eigen::MatrixXd tau;
+  std::string source;  // what torque_source() says
+};
+
 struct LogReaderOptions {
   std::vector<std::string> joint_names;  // the robot's, base to tip
   TorqueKind torque_kind = TorqueKind::kAuto;
@@ -28,6 +37,8 @@ struct LogReaderOptions {
   // Where torque is needed: a log will do that has neither torques nor currents
   // (nor --torque_constants for these) but the commands of all joints.
   bool commands_do = false;
+  // By path: what such logs have instead.
+  std::map<std::string, std::shared_ptr<const MadeTorque>> made_torque;
   // Columns that are in the log and not wanted are not looked at.
   bool want_velocity = false;
   bool want_acceleration = false;

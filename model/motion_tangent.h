@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <vector>
 
 #include "model/aligned_numbers.h"
 #include "model/arm_plan.h"
@@ -8,7 +10,7 @@
 #include "model/batch_inverse_dynamics.h"
 #include "model/batch_regressor.h"
 #include "model/geometry_jacobian.h"
-#include "model/stage_stepper.h"
+#include "model/joint_term.h"
 
 namespace armcal {
 
@@ -31,46 +33,65 @@ class TangentRows {
   AlignedNumbers numbers_;
 };
 
-// How the motion of an arm changes with its own parameters, its start and the
-// torque that it is given: the exact derivatives of StageStepper's steps.
-// Parameters, in the order of columns: ten inertial ones per link; viscous,
-// coulomb, offset, armature of each joint; the width of each joint's Coulomb
-// transition.
+// What of an arm derivatives are taken by, in this order.
+struct TangentParameters {
+  std::vector<int> inertials;  // of the links' ten each, ascending
+  struct Term {
+    int joint;
+    std::optional<JointTerm> term;  // nothing: the Coulomb transition's width
+  };
+  std::vector<Term> terms;
+
+  int size() const { return static_cast<int>(inertials.size() + terms.size()); }
+};
+
+// How the motion of an arm with viscous and Coulomb friction by velocity laws,
+// offset and armature changes with its own parameters, with where it starts and
+// with a torque that is constant over periods of equal length. By the implicit
+// midpoint rule, but for torques by joints' velocities together, which are of
+// first order in the length: 0.1 % with a millisecond. That is enough for
+// estimates, whose minimum is where it is by the residuals and not by the last
+// digits of derivatives.
 class MotionTangent {
  public:
-  explicit MotionTangent(const RolloutArm& arm,
-                         const simd::Kernels& kernels = simd::BestKernels());
+  MotionTangent(const RolloutArm& arm, const TangentParameters& parameters,
+                const simd::Kernels& kernels = simd::BestKernels());
 
   int num_joints() const { return static_cast<int>(arm_.robot.links.size()); }
-  int num_parameters() const { return 15 * num_joints(); }
+  int num_parameters() const { return parameters_.size(); }
 
-  // Takes the first `steps` of a motion, samples in lanes.
-  void Linearise(const StageMotion& motion, long steps);
+  // Takes periods of `length` s from row `first` on, at whose borders the arm
+  // was at (q, qd), a row each.
+  void Linearise(const Eigen::MatrixXd& q, const Eigen::MatrixXd& qd,
+                 long first, long periods, double length);
 
-  // Takes `state` (2 n rows: by q, then qd) through one of these steps, under a
-  // torque whose derivatives (n rows each) are those at its begin, middle and
-  // end. `by_parameters`: the first num_parameters() columns are these
-  // parameters'.
-  void Advance(long step, double length, const TangentRows* const torque[3],
-               bool by_parameters, TangentRows* state) const;
+  // Takes `state` (2 n rows: by q, then qd) through one of these, under a
+  // torque with these derivatives (n rows). `by_parameters`: the first
+  // num_parameters() columns are these parameters'.
+  void Advance(long period, const TangentRows& torque, bool by_parameters,
+               TangentRows* state) const;
 
  private:
-  void SetInertia(const StageMotion& motion, long count);
-  void SetByState(const StageMotion& motion, long count);
-  void SetDirect(const StageMotion& motion, long count);
-  double* Record(long sample) { return records_.data() + sample * size_; }
-  const double* Record(long sample) const {
-    return records_.data() + sample * size_;
+  struct Means;
+  void SetInertia(const Means& means);
+  void SetByState(const Means& means);
+  void SetInertials(const Means& means);
+  void SetTerms(const Means& means);
+  double* Record(long period) { return records_.data() + period * size_; }
+  const double* Record(long period) const {
+    return records_.data() + period * size_;
   }
 
   RolloutArm arm_;
+  TangentParameters parameters_;
   const simd::Kernels* kernels_;
   BatchForwardDynamics inertia_;
   BatchInverseDynamics torque_;
-  BatchRegressor regressor_;
+  std::optional<BatchRegressor> regressor_;
   GeometryJacobian by_position_;
   long direct_, direct_columns_, size_;  // of a record
-  // Of each stage: inertia, by q, by qd, n x n each; at direct_ n rows by
+  double length_ = 0;
+  // Of each period: inertia, by q, by qd, n x n each; at direct_ n rows by
   // parameters.
   AlignedNumbers records_;
   AlignedNumbers columns_;  // scratch, as kernels write it

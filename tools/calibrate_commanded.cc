@@ -79,21 +79,6 @@ void ExpectMasses(const Robot& robot) {
   }
 }
 
-ControllerOptions ReadDrives(const Robot& robot, const CommandedLog& log) {
-  ControllerOptions controller =
-      ControllerFromFlags(robot, log.log.qref.row(0));
-  if (controller.kind == DriveKind::kCascade) {
-    throw InputError(FLAGS_controller, "law", DriveKindName(controller.kind),
-                     "expected pd or p: gains of cascades are not estimated");
-  }
-  for (const DriveLaw& drive : controller.drives) {
-    if (drive.lag == 0) continue;
-    throw InputError(FLAGS_controller, "lag", NumberText(drive.lag),
-                     "expected none: lags of drives are not estimated");
-  }
-  return controller;
-}
-
 }  // namespace
 
 bool CommandedFromFlags() { return !FLAGS_controller.empty(); }
@@ -111,7 +96,8 @@ CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
       Read(LogsFromFlags(), reading, CropFromFlags());
   const std::vector<CommandedLog> validation =
       Read(ValidationLogsFromFlags(), reading, ValidationCropFromFlags());
-  const ControllerOptions controller = ReadDrives(robot, training.at(0));
+  const ControllerOptions controller =
+      ControllerFromFlags(robot, training.at(0).log.qref.row(0));
   const OutputErrorCalibration result =
       CalibrateOutputError(robot, controller, options, training, validation);
   CommandOutcome outcome;

@@ -11,6 +11,7 @@
 #include "model/robot_reader.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
+#include "tools/commanded_torques.h"
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
@@ -119,6 +120,7 @@ CommandOutcome RunDiagnose(const CommandInput& input) {
   LogReaderOptions log_options = LogOptionsFromFlags(robot);
   log_options.want_temperature = true;
   input.Begin("opening the logs");
+  MakeTorquesOfCommands(robot, FilesRead(), &log_options);
   LogSet training(LogsFromFlags(), log_options, CropFromFlags());
   options.progress = input.progress;
   options.baseline.trust = TrustInFile();

@@ -137,7 +137,8 @@ bool RunCase(const BlindRunOptions& options, const fs::path& program,
   const JsonValue content(file, "", parsed);
   for (const std::string& name :
        {RobotFile(content), std::string("training.csv"),
-        std::string("validation.csv"), std::string("reference.csv")}) {
+        std::string("validation.csv"), std::string("reference.csv"),
+        std::string("controller.yaml")}) {
     if (fs::exists(folder / name)) {
       CopyReadable(folder / name, scratch.path() / name, false);
     }

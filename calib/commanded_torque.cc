@@ -1,0 +1,119 @@
+#include "calib/commanded_torque.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "calib/commanded_reference.h"
+#include "model/plant/motion_reader.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr long kPeriodsPerBlock = 1 << 14;
+
+// The integral of a torque that is constant within each period, which begins
+// with the first, by the times at periods' borders.
+class Impulse {
+ public:
+  Impulse(double period, long periods, int n)
+      : period_(period), sums_(MatrixXd::Zero(periods + 1, n)) {}
+
+  void Add(const VectorXd& torque) {
+    sums_.row(added_ + 1) = sums_.row(added_) + period_ * torque.transpose();
+    ++added_;
+  }
+  Eigen::RowVectorXd Mean(double from, double to) const {
+    return (At(to) - At(from)) / (to - from);
+  }
+
+ private:
+  // Before and after its periods, as in the first and the last.
+  Eigen::RowVectorXd At(double t) const {
+    const double share = t / period_;
+    const long k = std::clamp(static_cast<long>(std::floor(share)), 0L,
+                              static_cast<long>(sums_.rows()) - 2);
+    return sums_.row(k) +
+           (share - static_cast<double>(k)) * (sums_.row(k + 1) - sums_.row(k));
+  }
+
+  double period_;
+  MatrixXd sums_;
+  long added_ = 0;
+};
+
+// First-order lags of the drives, of which periods have the mean.
+class Lags {
+ public:
+  explicit Lags(const ControllerOptions& controller) {
+    const double period = 1 / controller.rate_hz;
+    for (const DriveLaw& drive : controller.drives) {
+      decay_.push_back(drive.lag > 0 ? std::exp(-period / drive.lag) : 0);
+      begun_.push_back(drive.lag > 0 ? drive.lag / period * (1 - decay_.back())
+                                     : 0);
+    }
+  }
+  VectorXd Mean(const VectorXd& commanded) {
+    if (torque_.size() == 0) torque_ = commanded;
+    VectorXd mean = commanded;
+    for (Eigen::Index j = 0; j < mean.size(); ++j) {
+      const double behind = torque_[j] - commanded[j];
+      mean[j] += begun_[j] * behind;
+      torque_[j] = commanded[j] + decay_[j] * behind;
+    }
+    return mean;
+  }
+
+ private:
+  std::vector<double> decay_, begun_;
+  VectorXd torque_;  // at the end of the last period
+};
+
+ReferenceMotion MeasuredMotion(const CommandedLog& commanded) {
+  Log log;
+  log.t = commanded.log.t;
+  log.q = commanded.log.q;
+  log.first_row = commanded.log.first_row;
+  return MotionThrough(commanded.path, log);
+}
+
+}  // namespace
+
+MatrixXd CommandedTorque(const Robot& known,
+                         const ControllerOptions& controller,
+                         const CommandedLog& commanded, const VectorXd& times) {
+  const int n = known.num_joints();
+  const double duration = commanded.log.t[commanded.log.size() - 1];
+  const double period = 1 / controller.rate_hz;
+  const long periods = static_cast<long>(std::floor(duration / period)) + 1;
+  const CommandedReference reference(known, controller.feedforward, commanded);
+  const ReferenceMotion measured = MeasuredMotion(commanded);
+  JointController drives(controller, known);
+  DifferencedVelocity velocity(controller);
+  Lags lags(controller);
+  Impulse impulse(period, periods, n);
+  for (long first = 0; first < periods; first += kPeriodsPerBlock) {
+    const long count = std::min(kPeriodsPerBlock, periods - first);
+    const double begin = static_cast<double>(first) * period;
+    const ReferenceSeries at =
+        reference.At(begin, period, count, controller.delay);
+    for (long k = 0; k < count; ++k) {
+      const VectorXd q = measured.at(begin + static_cast<double>(k) * period).q;
+      const VectorXd torque =
+          drives.Update({at.q.row(k), at.qd.row(k), at.qdd.row(k)},
+                        at.feedforward.row(k), q, velocity.Update(q));
+      impulse.Add(lags.Mean(torque));
+    }
+  }
+  const double half = duration / (2. * (commanded.log.size() - 1));
+  MatrixXd torque(times.size(), n);
+  for (Eigen::Index row = 0; row < times.size(); ++row) {
+    torque.row(row) = impulse.Mean(times[row] - half, times[row] + half);
+  }
+  return torque;
+}
+
+}  // namespace armcal

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "calib/closed_loop_replay.h"
+#include "model/joint_controller.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// The torque that drives of known gains gave, N m or N, at these times (s since
+// the log's first row; rows of the result, joints in columns): the controller's
+// own law, period by period, on the command and on the positions as they were
+// measured, which is what it acted on. Behind the lag of the drives, and as the
+// mean over an interval of the log, for it is constant within a period.
+// `known` is the robot that the feedforward knows. Integrals begin at 0 with
+// the log: where they did not, each joint's torque is off by a constant
+// (TorqueLevels).
+Eigen::MatrixXd CommandedTorque(const Robot& known,
+                                const ControllerOptions& controller,
+                                const CommandedLog& commanded,
+                                const Eigen::VectorXd& times);
+
+}  // namespace armcal

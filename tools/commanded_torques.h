@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/log_reader.h"
+#include "model/robot.h"
+
+namespace armcal {
+
+// Where --controller is given: makes the torques of those logs that have
+// commands in their place. Throws InputError, UsageError.
+void MakeTorquesOfCommands(const Robot& robot,
+                           const std::vector<std::string>& logs,
+                           LogReaderOptions* options);
+
+}  // namespace armcal
