@@ -1,6 +1,8 @@
 #include "calib/loop_tangent.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace armcal {
 namespace {
@@ -34,7 +36,9 @@ class Linearisation {
       velocity_(j, qd0) = 1;
       integral_(j, qd0 + n_) = 1;
       unit_torque_(j, 2 * n_ + j) = 1;
-      lags_.emplace_back(values.drives[j].lag, period_);
+    }
+    for (const DriveLaw& drive : values.drives) {
+      if (drive.lag > 0) SetLags();
     }
   }
 
@@ -54,6 +58,12 @@ class Linearisation {
   }
 
  private:
+  void SetLags() {
+    lags_.emplace();
+    for (const DriveLaw& drive : values_.drives) {
+      lags_->emplace_back(drive.lag, period_);
+    }
+  }
   void Control(long k);
   void AddGains(long k);
   void Lag(long k);
@@ -67,7 +77,7 @@ class Linearisation {
   int n_;
   double period_, decay_;
   MotionTangent tangent_;
-  std::vector<LagShares> lags_;
+  std::optional<std::vector<LagShares>> lags_;  // nothing: no drive has one
   long row_ = 0;
   // Derivatives: of (q, qd), of what the drives keep, of the commanded torque
   // and of the period's mean.
@@ -136,8 +146,12 @@ void Linearisation::AddGains(long k) {
 // begin.
 void Linearisation::Lag(long k) {
   const long size = state_.stride();
+  if (!lags_) {
+    std::swap(torque_, command_);  // what was there is written anew
+    return;
+  }
   for (int j = 0; j < n_; ++j) {
-    const LagShares& lag = lags_[j];
+    const LagShares& lag = (*lags_)[j];
     const double* const command = command_.row(j);
     double *const torque = behind_.row(j), *const mean = torque_.row(j);
     for (long c = 0; c < size; ++c) {
@@ -148,7 +162,7 @@ void Linearisation::Lag(long k) {
   }
   for (const LoopColumns::Gain& gain : columns_.gains()) {
     if (gain.gain != &DriveLaw::lag) continue;
-    const LagShares& lag = lags_[gain.joint];
+    const LagShares& lag = (*lags_)[gain.joint];
     const double behind = track_.behind(k, gain.joint);
     torque_(gain.joint, gain.column) += lag.mean_by_lag * behind;
     behind_(gain.joint, gain.column) += lag.end_by_lag * behind;

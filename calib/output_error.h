@@ -20,9 +20,9 @@ struct OutputErrorOptions {
                                         JointTerm::kCoulomb, JointTerm::kOffset,
                                         JointTerm::kArmature};
   double coulomb_width = .02;  // rad/s or m/s, to start with
-  // Logs are simulated in windows, each from a state of its own: a loop forgets
-  // within a fraction of a second where it began.
-  double window_s = 10;
+  // Logs are simulated in windows, each from a state of its own, side by side:
+  // a loop forgets within a fraction of a second where it began.
+  double window_s = 4;
   Progress progress;
 };
 
