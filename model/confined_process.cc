@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <new>
 #include <vector>
 
@@ -32,25 +33,33 @@ constexpr unsigned kArchitecture = AUDIT_ARCH_X86_64;
 constexpr unsigned kArchitecture = AUDIT_ARCH_AARCH64;
 #endif
 
-// What reading and computing take; all else fails with EPERM.
+// What reading and computing take, and pipes, by which sanitizers ask whether
+// memory is there; all else fails with EPERM.
 std::vector<unsigned> AllowedCalls() {
   return {
 #ifdef __NR_stat
-      __NR_stat,         __NR_lstat,        __NR_access,
-      __NR_readlink,
+      __NR_stat,           __NR_lstat,
+      __NR_access,         __NR_readlink,
+      __NR_pipe,
 #endif
-      __NR_read,         __NR_pread64,      __NR_readv,
-      __NR_lseek,        __NR_fstat,        __NR_newfstatat,
-      __NR_statx,        __NR_faccessat,    __NR_readlinkat,
-      __NR_close,        __NR_mmap,         __NR_munmap,
-      __NR_mremap,       __NR_mprotect,     __NR_brk,
-      __NR_madvise,      __NR_write,        __NR_exit,
-      __NR_exit_group,   __NR_futex,        __NR_sched_yield,
-      __NR_getpid,       __NR_gettid,       __NR_clock_gettime,
-      __NR_gettimeofday, __NR_getrandom,    __NR_fcntl,
-      __NR_flock,        __NR_rt_sigaction, __NR_rt_sigprocmask,
-      __NR_rt_sigreturn, __NR_sigaltstack,  __NR_getcwd,
-      __NR_sysinfo,      __NR_uname,
+      __NR_read,           __NR_pread64,
+      __NR_readv,          __NR_pipe2,
+      __NR_lseek,          __NR_fstat,
+      __NR_newfstatat,     __NR_statx,
+      __NR_faccessat,      __NR_readlinkat,
+      __NR_close,          __NR_mmap,
+      __NR_munmap,         __NR_mremap,
+      __NR_mprotect,       __NR_brk,
+      __NR_madvise,        __NR_write,
+      __NR_exit,           __NR_exit_group,
+      __NR_futex,          __NR_sched_yield,
+      __NR_getpid,         __NR_gettid,
+      __NR_clock_gettime,  __NR_gettimeofday,
+      __NR_getrandom,      __NR_fcntl,
+      __NR_flock,          __NR_rt_sigaction,
+      __NR_rt_sigprocmask, __NR_rt_sigreturn,
+      __NR_sigaltstack,    __NR_getcwd,
+      __NR_sysinfo,        __NR_uname,
   };
 }
 
@@ -115,14 +124,26 @@ bool Send(char kind, const std::string& text) {
          WriteAll(kPipe, text.data(), text.size());
 }
 
+// What this process has written to, or may; bytes.
+std::uint64_t DataSize() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t pages = 0;
+  for (int field = 0; field < 6; ++field) file >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
 // Of the child, which has no other thread.
-[[noreturn]] void Run(const std::function<std::string()>& make, int pipe) {
+[[noreturn]] void Run(std::uint64_t memory,
+                      const std::function<std::string()>& make, int pipe) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGBUS,
                            SIGABRT, SIGFPE, SIGILL}) {
     std::signal(signal, SIG_DFL);
   }
   const rlimit none = {0, 0};
   setrlimit(RLIMIT_CORE, &none);
+  const std::uint64_t most = DataSize() + memory;
+  const rlimit data = {most, most};
+  setrlimit(RLIMIT_DATA, &data);
   const int nothing = open("/dev/null", O_RDWR);
   for (int file = 0; file < kPipe; ++file) dup2(nothing, file);
   if (pipe != kPipe) dup2(pipe, kPipe);
@@ -153,11 +174,12 @@ std::string ReadAll(int file) {
 
 }  // namespace
 
-std::optional<Confined> MakeConfined(const std::function<std::string()>& make) {
+std::optional<Confined> MakeConfined(std::uint64_t memory,
+                                     const std::function<std::string()>& make) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return std::nullopt;
   const pid_t child = fork();
-  if (child == 0) Run(make, ends[1]);
+  if (child == 0) Run(memory, make, ends[1]);
   close(ends[1]);
   std::string sent = child > 0 ? ReadAll(ends[0]) : "";
   close(ends[0]);
@@ -168,7 +190,13 @@ std::optional<Confined> MakeConfined(const std::function<std::string()>& make) {
   if (sent.size() < kHead) return std::nullopt;
   std::memcpy(&size, sent.data() + 1, sizeof size);
   if (sent.size() != kHead + size) return std::nullopt;
-  if (sent[0] == kNoMemory) throw std::bad_alloc();
+  // Its own limit is the file's fault, one on this process is not.
+  rlimit addresses{};
+  getrlimit(RLIMIT_AS, &addresses);
+  if (sent[0] == kNoMemory) {
+    if (addresses.rlim_cur != RLIM_INFINITY) throw std::bad_alloc();
+    return std::nullopt;
+  }
   const char kind = sent[0];
   sent.erase(0, kHead);
   return kind == kRefused ? Confined{"", sent} : Confined{sent, ""};

@@ -214,8 +214,12 @@ std::vector<LogArray> ReadVariables(const std::string& path) {
 std::vector<LogArray> ReadMat(const std::string& path) {
   CheckMatElements(path);
   // HDF5's and matio's own faults are many, and most are not mended in Debian.
+  std::error_code error;
+  // matio's arrays, ours and those that are sent.
+  const std::uint64_t memory =
+      4 * MostUnpacked(std::filesystem::file_size(path, error));
   const auto confined =
-      MakeConfined([&] { return PackArrays(ReadVariables(path)); });
+      MakeConfined(memory, [&] { return PackArrays(ReadVariables(path)); });
   if (confined && !confined->refusal.empty()) {
     const std::string head = path + ": ";
     throw InputError(path, "", "", confined->refusal.substr(head.size()));

@@ -9,7 +9,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <new>
 #include <sstream>
 
 #include "model/input_error.h"
@@ -18,21 +17,33 @@
 namespace armcal {
 namespace {
 
+constexpr std::uint64_t kMemory = 64 << 20;
+
 TEST(ConfinedProcess, MakesWhatItIsAsked) {
   const std::string large(3 << 20, 'x');
-  EXPECT_EQ(MakeConfined([&] { return large + "y"; })->made, large + "y");
-  EXPECT_EQ(MakeConfined([] { return std::string(); })->made, "");
-  const auto refused = MakeConfined(
-      []() -> std::string { throw InputError("file", "", "7", "expected 8"); });
+  EXPECT_EQ(MakeConfined(kMemory, [&] { return large + "y"; })->made,
+            large + "y");
+  EXPECT_EQ(MakeConfined(kMemory, [] { return std::string(); })->made, "");
+  const auto refused = MakeConfined(kMemory, []() -> std::string {
+    throw InputError("file", "", "7", "expected 8");
+  });
   EXPECT_EQ(refused->refusal, "file: found '7': expected 8");
-  EXPECT_THROW(MakeConfined([]() -> std::string { throw std::bad_alloc(); }),
-               std::bad_alloc);
+}
+
+TEST(ConfinedProcess, TakesNoMoreMemoryThanItMay) {
+  const auto take = [](size_t bytes) {
+    return MakeConfined(kMemory, [=] {
+      return std::to_string(std::string(bytes, 'x').size());
+    });
+  };
+  EXPECT_TRUE(take(kMemory / 2));
+  EXPECT_FALSE(take(2 * kMemory));
 }
 
 TEST(ConfinedProcess, DiesAlone) {
-  EXPECT_FALSE(MakeConfined([]() -> std::string { std::abort(); }));
-  EXPECT_FALSE(MakeConfined([]() -> std::string { _exit(0); }));
-  EXPECT_FALSE(MakeConfined([]() -> std::string {
+  EXPECT_FALSE(MakeConfined(kMemory, []() -> std::string { std::abort(); }));
+  EXPECT_FALSE(MakeConfined(kMemory, []() -> std::string { _exit(0); }));
+  EXPECT_FALSE(MakeConfined(kMemory, []() -> std::string {
     std::raise(SIGKILL);
     std::abort();
   }));
@@ -40,7 +51,7 @@ TEST(ConfinedProcess, DiesAlone) {
 
 TEST(ConfinedProcess, ReadsButCannotWriteRunOrConnect) {
   const std::string path = WriteFile("as it was");
-  const auto made = MakeConfined([&] {
+  const auto made = MakeConfined(kMemory, [&] {
     std::ostringstream said;
     const auto tell = [&](const char* what, bool done) {
       said << what
