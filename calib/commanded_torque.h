@@ -14,8 +14,8 @@ namespace armcal {
 // measured, which is what it acted on. Behind the lag of the drives, and as the
 // mean over an interval of the log, for it is constant within a period.
 // `known` is the robot that the feedforward knows. Integrals begin at 0 with
-// the log: where they did not, each joint's torque is off by a constant
-// (TorqueLevels).
+// the log: where they did not, each joint's torque is off by a constant; and
+// what logs leave out of the positions adds up in them.
 Eigen::MatrixXd CommandedTorque(const Robot& known,
                                 const ControllerOptions& controller,
                                 const CommandedLog& commanded,

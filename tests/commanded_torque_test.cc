@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "calib/torque_levels.h"
-#include "model/log_writer.h"
 #include "tests/commanded_arm.h"
-#include "tests/temp_file.h"
 
 namespace armcal {
 namespace {
@@ -41,22 +38,6 @@ TEST(CommandedTorque, IsWhatTheDrivesGave) {
   controller.feedforward = Feedforward::kNone;
   for (DriveLaw& drive : controller.drives) drive.torque_limit = 4;
   EXPECT_LT(Misfit(controller, truth, 0), .02);
-}
-
-// Integrals that hold gravity when the log begins are found beside parameters
-// that nobody knows.
-TEST(CommandedTorque, LevelsAreFound) {
-  const Robot truth = CommandedTruth(3);
-  CommandedLog log =
-      RecordCommands(truth, CommandedController(truth), 12, 1e-5);
-  const Eigen::Vector3d level(3, -20, .5);
-  log.log.tau.rowwise() += level.transpose();
-  log.log.qref.resize(0, 0);
-  LogReaderOptions reader;
-  reader.joint_names = truth.JointNames();
-  LogSet logs({WriteFile(LogText(log.log))}, reader, {});
-  logs.Prepare(8, 0);
-  EXPECT_LT((TorqueLevels(FileOf(truth), &logs)[0] - level).norm(), .3);
 }
 
 // Velocity loops in position loops.

@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "calib/commanded_torque.h"
-#include "calib/log_set.h"
-#include "calib/torque_levels.h"
+#include "model/input_error.h"
 #include "tools/simulation_flags.h"
 
 DECLARE_string(controller);
@@ -20,20 +19,15 @@ bool HasTorque(const std::string& path, LogReaderOptions options) {
   return LogReader(path, options).has_torque();
 }
 
-// Takes from the torques what integrals had at the logs' begin.
-void Level(const Robot& robot, const std::vector<DriveLaw>& drives,
-           const std::vector<std::string>& paths, LogReaderOptions* options) {
-  LogSet logs(paths, *options, {});
-  logs.Prepare(DefaultBandwidth(logs.time_bases()), 0);
-  const std::vector<Eigen::VectorXd> levels = TorqueLevels(robot, &logs);
-  for (size_t log = 0; log < paths.size(); ++log) {
-    MadeTorque leveled = *options->made_torque.at(paths[log]);
-    for (int j = 0; j < robot.num_joints(); ++j) {
-      const bool integrates = drives[j].ki > 0 || drives[j].velocity_ki > 0;
-      if (integrates) leveled.tau.col(j).array() -= levels[log][j];
-    }
-    options->made_torque[paths[log]] =
-        std::make_shared<const MadeTorque>(std::move(leveled));
+// What an integral holds follows from the positions of every period; logs have
+// a part of these, and errors that add up would pass for effects.
+void ExpectNoIntegrals(const std::vector<DriveLaw>& drives) {
+  for (size_t j = 0; j < drives.size(); ++j) {
+    if (drives[j].ki == 0 && drives[j].velocity_ki == 0) continue;
+    throw InputError(FLAGS_controller, "joint " + std::to_string(j + 1), "",
+                     "has an integral gain: torques of logs that have none are "
+                     "made of commands where ki (of a cascade velocity_ki) is "
+                     "0 for all joints");
   }
 }
 
@@ -43,13 +37,12 @@ void MakeTorquesOfCommands(const Robot& robot,
                            const std::vector<std::string>& logs,
                            LogReaderOptions* options) {
   if (FLAGS_controller.empty()) return;
-  std::vector<DriveLaw> drives;
-  std::vector<std::string> made_of;
   for (const std::string& path : logs) {
     if (HasTorque(path, *options)) continue;
     const CommandedLog log = ReadCommandedLog(path, *options, {});
     const ControllerOptions controller =
         ControllerFromFlags(robot, log.log.qref.row(0));
+    ExpectNoIntegrals(controller.drives);
     LogReaderOptions reading = *options;
     reading.need_torque = false;
     MadeTorque made;
@@ -58,10 +51,7 @@ void MakeTorquesOfCommands(const Robot& robot,
     made.source = "commands and positions, by " + FLAGS_controller;
     options->made_torque[path] =
         std::make_shared<const MadeTorque>(std::move(made));
-    drives = controller.drives;
-    made_of.push_back(path);
   }
-  if (!made_of.empty()) Level(robot, drives, made_of, options);
 }
 
 }  // namespace armcal

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 import pathlib
 import struct
 
@@ -337,6 +338,23 @@ def controller(old, new):
     return replaced("controller.yaml", old, new)
 
 
+COMMANDS = Group(
+    "commands instead of torques",
+    "diagnose --robot=robot.yaml --log=log.csv --controller=controller.yaml --out=out",
+    {"robot.yaml": SWINGING, "controller.yaml": CONTROLLER + "ki: [0, 0]\n",
+     "log.csv": "t,q1,q2,qref1,qref2\n" + "".join(
+         f"{k / 100:g},{.5 * math.sin(k / 60):.9g},{.4 * math.sin(k / 40):.9g},"
+         f"{.52 * math.sin(k / 60 + .05):.9g},{.41 * math.sin(k / 40 + .05):.9g}\n"
+         for k in range(1200))}, [
+    Row("integral gains", controller("ki: [0, 0]", "ki: [0, 5]"),
+        "controller.yaml: joint 2: has an integral gain: torques of logs that have none are made "
+        "of commands where ki (of a cascade velocity_ki) is 0 for all joints"),
+    Row("neither torque nor command", replaced("log.csv", "qref", "other"),
+        "log.csv: row 1: no torque: missing tau1 or joint1/effort, tau2 or joint2/effort; or "
+        "currents (i1 or joint1/current, ..) with --torque_constants; not recognised: 'other1', "
+        "'other2'"),
+])
+
 SIMULATIONS = Group(
     "simulation",
     "simulate --robot=robot.yaml --controller=controller.yaml --motion=motion.csv --out=out",
@@ -423,4 +441,4 @@ SIMULATIONS = Group(
 
 GROUPS = [FACTORS._replace(prepare=[SIMULATE, REDUCE]),
           CALIBRATIONS._replace(prepare=[SIMULATE, CALIBRATE]),
-          GIVEN._replace(prepare=[SIMULATE, CALIBRATE]), POSE_FILES, SIMULATIONS]
+          GIVEN._replace(prepare=[SIMULATE, CALIBRATE]), POSE_FILES, SIMULATIONS, COMMANDS]
