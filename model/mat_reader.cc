@@ -77,7 +77,8 @@ LogArray ArrayOf(const std::string& name, const matvar_t* v) {
   LogArray array;
   array.name = name;
   array.why_none = "not of real numbers in rows and columns";
-  if (!IsMatrix(v) || v->data == nullptr) return array;
+  // A matrix of no columns may claim millions of rows.
+  if (!IsMatrix(v) || v->data == nullptr || CountOf(v) == 0) return array;
   if (v->class_type == MAT_C_CELL) {
     const auto* const cells = static_cast<matvar_t* const*>(v->data);
     for (std::uint64_t k = 0; k < CountOf(v); ++k) {
