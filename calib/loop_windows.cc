@@ -20,7 +20,9 @@ using Eigen::VectorXd;
 // (m and m/s), and the integral from 0, in torques of an error of that many
 // rad: next to nothing, but finite.
 constexpr double kStartPosition = .01, kStartVelocity = 1, kStartIntegral = 1;
-constexpr double kCatchUp = 1;     // s
+constexpr double kCatchUp = 1;  // s
+// Of a loop that resonates a few tell little.
+constexpr int kProbes = 16;
 constexpr double kScoreBlock = 1;  // s, longer than errors of friction last
 
 // Deviations of the encoders' noise; of a log without any, something beside
@@ -214,9 +216,9 @@ LoopScores LoopWindows::Scores(const LoopValues& values,
                                               stretch, run.tracks[l], true);
     const VectorXd& residual = run.residuals[l];
     const VectorXd scale = RowScale(stretch.num_rows());
-    // Scores' weights, free of the start; and signs that squares are the
-    // trace's estimate of.
-    MatrixXd weights(residual.size(), p + 1);
+    // Scores' weights, free of the start; and signs, whose squares have the
+    // trace in the mean.
+    MatrixXd weights(residual.size(), p + kProbes);
     const MatrixXd start_of_values =
         triangle.topLeftCorner(s, s).triangularView<Eigen::Upper>().solve(
             triangle.block(0, s, s, p));
@@ -224,13 +226,15 @@ LoopScores LoopWindows::Scores(const LoopValues& values,
                           tangent.by_columns.rightCols(s) * start_of_values;
     weights.leftCols(p) = scale.cwiseAbs2().asDiagonal() * weights.leftCols(p);
     for (long k = 0; k < weights.rows(); ++k) {
-      weights(k, p) = (random() & 1) != 0 ? scale[k] : -scale[k];
+      for (int probe = 0; probe < kProbes; ++probe) {
+        weights(k, p + probe) = (random() & 1) != 0 ? scale[k] : -scale[k];
+      }
     }
     const MatrixXd sum =
         LoopNoiseCovariance(controller_, values, stretch, run.tracks[l],
                             tangent.periods, noise_, weights);
     covariance += sum.topLeftCorner(p, p);
-    all.expected_squares += sum(p, p);
+    all.expected_squares += sum.diagonal().tail(kProbes).mean();
     AddScores(stretch.log().t.segment(stretch.first_row(), stretch.num_rows()),
               weights.leftCols(p), residual, &sums);
     all.residual_squares += scale.cwiseProduct(residual).squaredNorm();

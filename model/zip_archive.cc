@@ -89,7 +89,9 @@ ZipArchive::ZipArchive(const std::string& path) : path_(path) {
                 begin = Number(end, at + 16, 4);
   if (begin == kIn64 || count == 0xffff) {
     const size_t locator = end.rfind("PK\6\7");
-    if (locator == end.npos) Refuse("is a damaged zip archive");
+    if (locator == end.npos || locator + 16 > end.size()) {
+      Refuse("is a damaged zip archive");
+    }
     const std::string record = Bytes(Number(end, locator + 8, 8), 56);
     count = Number(record, 32, 8);
     size = Number(record, 40, 8);
