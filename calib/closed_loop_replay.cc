@@ -69,7 +69,11 @@ CommandedLog ReadCommandedLog(const std::string& path,
                               const TimeRange& crop) {
   LogReaderOptions options = given;
   options.commands_do = true;
-  const Log all = ReadWholeLog(path, options);
+  return CommandedRows(path, ReadWholeLog(path, options), crop);
+}
+
+CommandedLog CommandedRows(const std::string& path, const Log& all,
+                           const TimeRange& crop) {
   if (all.qref.size() == 0) {
     throw InputError(path, "header", "",
                      "expected a column qref1.. for every joint, the command "

@@ -25,6 +25,9 @@ struct CommandedLog {
 CommandedLog ReadCommandedLog(const std::string& path,
                               const LogReaderOptions& options,
                               const TimeRange& crop);
+// The same of a log that has been read.
+CommandedLog CommandedRows(const std::string& path, const Log& all,
+                           const TimeRange& crop);
 
 // The command as a motion: before and after the rows as at their ends.
 ReferenceMotion CommandedMotion(const CommandedLog& commanded);

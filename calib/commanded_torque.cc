@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/commanded_reference.h"
+#include "model/drive_filters.h"
 #include "model/plant/motion_reader.h"
 
 namespace armcal {
@@ -45,33 +46,6 @@ class Impulse {
   long added_ = 0;
 };
 
-// First-order lags of the drives, of which periods have the mean.
-class Lags {
- public:
-  explicit Lags(const ControllerOptions& controller) {
-    const double period = 1 / controller.rate_hz;
-    for (const DriveLaw& drive : controller.drives) {
-      decay_.push_back(drive.lag > 0 ? std::exp(-period / drive.lag) : 0);
-      begun_.push_back(drive.lag > 0 ? drive.lag / period * (1 - decay_.back())
-                                     : 0);
-    }
-  }
-  VectorXd Mean(const VectorXd& commanded) {
-    if (torque_.size() == 0) torque_ = commanded;
-    VectorXd mean = commanded;
-    for (Eigen::Index j = 0; j < mean.size(); ++j) {
-      const double behind = torque_[j] - commanded[j];
-      mean[j] += begun_[j] * behind;
-      torque_[j] = commanded[j] + decay_[j] * behind;
-    }
-    return mean;
-  }
-
- private:
-  std::vector<double> decay_, begun_;
-  VectorXd torque_;  // at the end of the last period
-};
-
 ReferenceMotion MeasuredMotion(const CommandedLog& commanded) {
   Log log;
   log.t = commanded.log.t;
@@ -93,7 +67,10 @@ MatrixXd CommandedTorque(const Robot& known,
   const ReferenceMotion measured = MeasuredMotion(commanded);
   JointController drives(controller, known);
   DifferencedVelocity velocity(controller);
-  Lags lags(controller);
+  std::vector<LaggedTorque> lags;
+  for (const DriveLaw& drive : controller.drives) {
+    lags.emplace_back(drive.lag, period);
+  }
   Impulse impulse(period, periods, n);
   for (long first = 0; first < periods; first += kPeriodsPerBlock) {
     const long count = std::min(kPeriodsPerBlock, periods - first);
@@ -102,10 +79,11 @@ MatrixXd CommandedTorque(const Robot& known,
         reference.At(begin, period, count, controller.delay);
     for (long k = 0; k < count; ++k) {
       const VectorXd q = measured.at(begin + static_cast<double>(k) * period).q;
-      const VectorXd torque =
+      VectorXd torque =
           drives.Update({at.q.row(k), at.qd.row(k), at.qdd.row(k)},
                         at.feedforward.row(k), q, velocity.Update(q));
-      impulse.Add(lags.Mean(torque));
+      for (int j = 0; j < n; ++j) torque[j] = lags[j].Mean(torque[j]);
+      impulse.Add(torque);
     }
   }
   const double half = duration / (2. * (commanded.log.size() - 1));

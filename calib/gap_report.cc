@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/format.h"
+
 namespace armcal {
 namespace {
 

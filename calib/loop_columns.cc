@@ -5,12 +5,6 @@
 #include "model/base_inertials.h"
 
 namespace armcal {
-namespace {
-
-constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
-                                JointTerm::kOffset, JointTerm::kArmature};
-
-}  // namespace
 
 LoopColumns::LoopColumns(const Robot& robot, const std::vector<bool>& free)
     : n_(robot.num_joints()) {
@@ -29,7 +23,8 @@ LoopColumns::LoopColumns(const Robot& robot, const std::vector<bool>& free)
     return free[value];
   };
   for (int k = 0; k < 4 * n_; ++k) {
-    if (takes(order.terms() + k)) arm_.terms.push_back({k / 4, kTerms[k % 4]});
+    if (takes(order.terms() + k))
+      arm_.terms.push_back({k / 4, kLoopTerms[k % 4]});
   }
   for (int j = 0; j < n_; ++j) {
     if (takes(order.widths() + j)) arm_.terms.push_back({j, {}});

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "model/drive_filters.h"
+
 namespace armcal {
 namespace {
 
@@ -43,7 +45,8 @@ MatrixXd LoopNoiseCovariance(const ControllerOptions& controller,
                              const VectorXd& noise, const MatrixXd& weights) {
   const auto n = static_cast<int>(noise.size());
   const double period = stretch.period();
-  const double decay = VelocityDecay(controller);
+  const double decay =
+      LowPassDecay(controller.velocity_filter_hz, controller.rate_hz);
   const double rate = (1 - decay) / period;
   std::vector<LagShares> lags;
   for (const DriveLaw& drive : values.drives) {

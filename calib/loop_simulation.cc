@@ -1,8 +1,9 @@
 #include "calib/loop_simulation.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "model/batch_rollout.h"
+#include "model/drive_filters.h"
 
 namespace armcal {
 namespace {
@@ -19,11 +20,10 @@ class Drives {
         stretch_(stretch),
         track_(*track),
         n_(static_cast<int>(start.q.size())),
-        decay_(VelocityDecay(controller)),
+        decay_(LowPassDecay(controller.velocity_filter_hz, controller.rate_hz)),
         last_(start.q - stretch.period() * start.qd),
         velocity_(start.qd),
-        integral_(start.integral),
-        torque_(n_) {
+        integral_(start.integral) {
     const long periods = stretch.num_periods();
     track_.reference = stretch.Reference(values.delay);
     track_.q.resize(periods + 1, n_);
@@ -61,11 +61,9 @@ class Drives {
     track_.velocity_error(k, j) = out.velocity_error;
     track_.slopes[n_ * k + j] = SlopesOf(law, out);
     track_.torque_squares[j] += out.torque * out.torque;
-    if (k == 0) torque_[j] = out.torque;
-    const double behind = torque_[j] - out.torque;
-    track_.behind(k, j) = behind;
-    torque_[j] = out.torque + lags_[j].end * behind;
-    return out.torque + lags_[j].mean * behind;
+    const double mean = lags_[j].Mean(out.torque);
+    track_.behind(k, j) = lags_[j].behind();
+    return mean;
   }
 
  private:
@@ -74,25 +72,11 @@ class Drives {
   LoopTrack& track_;
   int n_;
   double decay_;
-  VectorXd last_, velocity_, integral_, torque_;
-  std::vector<LagShares> lags_;
+  VectorXd last_, velocity_, integral_;
+  std::vector<LaggedTorque> lags_;
 };
 
 }  // namespace
-
-double VelocityDecay(const ControllerOptions& controller) {
-  return std::exp(-2 * M_PI * controller.velocity_filter_hz /
-                  controller.rate_hz);
-}
-
-LagShares::LagShares(double lag, double period) {
-  if (lag <= 0) return;
-  const double ratio = period / lag;
-  end = std::exp(-ratio);
-  mean = (1 - end) / ratio;
-  end_by_lag = end * ratio / lag;
-  mean_by_lag = mean / lag - end_by_lag / ratio;
-}
 
 VectorXd LoopTrack::Residual(const LoopStretch& stretch) const {
   const long n = q.cols();

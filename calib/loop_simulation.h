@@ -32,16 +32,4 @@ std::vector<LoopTrack> SimulateLoop(
     const std::vector<const LoopStretch*>& stretches,
     const std::vector<LoopStart>& starts);
 
-// Of the controller's low pass on differenced positions: what is left of it
-// after a period.
-double VelocityDecay(const ControllerOptions& controller);
-
-// A drive's first-order lag over a period: what is left of what the torque is
-// behind at the begin, at the end and in the mean.
-struct LagShares {
-  LagShares(double lag, double period);
-  double end = 0, mean = 0;
-  double end_by_lag = 0, mean_by_lag = 0;
-};
-
 }  // namespace armcal

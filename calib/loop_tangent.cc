@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "model/drive_filters.h"
+
 namespace armcal {
 namespace {
 
@@ -22,7 +24,7 @@ class Linearisation {
         track_(track),
         n_(static_cast<int>(values.drives.size())),
         period_(stretch.period()),
-        decay_(VelocityDecay(controller)),
+        decay_(LowPassDecay(controller.velocity_filter_hz, controller.rate_hz)),
         tangent_(values.arm, columns.arm()) {
     state_ = TangentRows(2 * n_, columns.size());
     last_ = velocity_ = integral_ = behind_ = command_ = torque_ =
@@ -37,8 +39,9 @@ class Linearisation {
       integral_(j, qd0 + n_) = 1;
       unit_torque_(j, 2 * n_ + j) = 1;
     }
-    for (const DriveLaw& drive : values.drives) {
-      if (drive.lag > 0) SetLags();
+    if (std::any_of(values.drives.begin(), values.drives.end(),
+                    [](const DriveLaw& drive) { return drive.lag > 0; })) {
+      SetLags();
     }
   }
 

@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
-                                JointTerm::kOffset, JointTerm::kArmature};
 constexpr double kAny = -1;
 
 const DriveParameter& ParameterOf(double DriveLaw::*gain) {
@@ -39,7 +37,7 @@ LoopUnknowns::LoopUnknowns(const LoopValues& nominal, DriveKind kind,
   }
   for (int j = 0; j < n_; ++j) {
     const Joint& joint = robot.links[j].joint;
-    for (const JointTerm term : kTerms) {
+    for (const JointTerm term : kLoopTerms) {
       const bool wanted =
           std::count(joint_terms.begin(), joint_terms.end(), term) > 0;
       Add(joint.name + "." + JointTermName(term),
@@ -100,7 +98,7 @@ VectorXd LoopUnknowns::Stack(const LoopValues& values) const {
   for (int j = 0; j < n_; ++j) {
     for (int t = 0; t < 4; ++t) {
       x[order.terms() + 4 * j + t] =
-          TermOf(kTerms[t], values.arm.robot.links[j].joint);
+          TermOf(kLoopTerms[t], values.arm.robot.links[j].joint);
     }
     x[order.widths() + j] = values.arm.transitions[j].width;
   }
@@ -122,7 +120,7 @@ LoopValues LoopUnknowns::At(const VectorXd& x) const {
       link.has_inertial = true;
     }
     for (int t = 0; t < 4; ++t) {
-      *TermOf(kTerms[t], &link.joint) = x[order.terms() + 4 * j + t];
+      *TermOf(kLoopTerms[t], &link.joint) = x[order.terms() + 4 * j + t];
     }
     values.arm.transitions[j].width = x[order.widths() + j];
   }

@@ -5,6 +5,7 @@
 
 #include "model/arm_plan.h"
 #include "model/drive_law.h"
+#include "model/joint_term.h"
 
 namespace armcal {
 
@@ -20,11 +21,15 @@ struct LoopValues {
 // Enough of them for friction some times the values'.
 int EnoughSubsteps(const LoopValues& values, double rate_hz);
 
+// The terms of each joint that can be estimated, in this order.
+inline constexpr JointTerm kLoopTerms[] = {
+    JointTerm::kViscous, JointTerm::kCoulomb, JointTerm::kOffset,
+    JointTerm::kArmature};
 // Of drives' laws, what can be estimated, in this order.
 const std::vector<double DriveLaw::*>& EstimatedGains();
 
-// The order of a loop's values: ten inertial ones per link; viscous, coulomb,
-// offset, armature of each joint; the width of each joint's Coulomb transition;
+// The order of a loop's values: ten inertial ones per link; kLoopTerms of each
+// joint; the width of each joint's Coulomb transition;
 // each of EstimatedGains() of all joints; delay.
 struct LoopOrder {
   explicit LoopOrder(int num_joints) : n(num_joints) {}

@@ -80,10 +80,10 @@ void LoopWindows::AddWindows(int log, double window_s) {
     while (last < size && (k + 1 == count || t[last] < end)) ++last;
     const LoopStretch stretch(logs_[log].log, *references_[log], first,
                               last - first, 1 / controller_.rate_hz);
-    const LoopStart nominal = stretch.Start();
-    VectorXd start(3 * n_);
-    start << nominal.q, nominal.qd, nominal.integral;
-    windows_.push_back({stretch, nominal, start});
+    const LoopStart shown = stretch.Start();
+    VectorXd nominal(3 * n_);
+    nominal << shown.q, shown.qd, shown.integral;
+    windows_.push_back({stretch, nominal, nominal});
     first = last;
   }
 }
@@ -131,9 +131,7 @@ VectorXd LoopWindows::StartPrior() const {
 }
 
 double LoopWindows::StartCost(const Window& w) const {
-  VectorXd nominal(3 * n_);
-  nominal << w.nominal.q, w.nominal.qd, w.nominal.integral;
-  return (nominal - w.start).cwiseQuotient(StartPrior()).squaredNorm();
+  return (w.nominal - w.start).cwiseQuotient(StartPrior()).squaredNorm();
 }
 
 VectorXd LoopWindows::RowScale(long rows) const {
@@ -152,10 +150,8 @@ LoopEquations::Window LoopWindows::Reduce(const Window& w,
   rows.rightCols(1) = scale.cwiseProduct(residual);
   MatrixXd ties = MatrixXd::Zero(s, s + p + 1);
   const VectorXd prior = StartPrior().cwiseInverse();
-  VectorXd nominal(s);
-  nominal << w.nominal.q, w.nominal.qd, w.nominal.integral;
   ties.leftCols(s) = prior.asDiagonal();
-  ties.rightCols(1) = prior.cwiseProduct(nominal - w.start);
+  ties.rightCols(1) = prior.cwiseProduct(w.nominal - w.start);
   TriangularFactor factor(static_cast<int>(s + p));
   factor.AddRows(rows.data(), rows.rows(), rows.rows());
   factor.AddRows(ties.data(), ties.rows(), ties.rows());
@@ -178,15 +174,15 @@ LoopEquations LoopWindows::Linearise(const LoopValues& values,
     triangle = triangle.size() == 0 ? values_only
                                     : MergeTriangles(triangle, values_only);
   }
-  all.spread = columns.spread();
-  all.R = triangle.topLeftCorner(p, p) * all.spread;
+  all.R = triangle.topLeftCorner(p, p) * columns.spread();
   all.z = triangle.topRightCorner(p, 1);
   return all;
 }
 
-void LoopWindows::Move(const LoopEquations& equations, const VectorXd& dx,
+void LoopWindows::Move(const LoopColumns& columns,
+                       const LoopEquations& equations, const VectorXd& dx,
                        double share) {
-  const VectorXd by_column = equations.spread * dx;
+  const VectorXd by_column = columns.spread() * dx;
   const long s = 3 * n_, p = by_column.size();
   for (size_t k = 0; k < windows_.size(); ++k) {
     const auto& [start, triangle] = equations.windows[k];

@@ -26,8 +26,6 @@ struct LoopRun {
 struct LoopEquations {
   Eigen::MatrixXd R;  // R dx = z, a column for each of LoopOrder
   Eigen::VectorXd z;
-  // How values make up the columns' (LoopColumns::spread()).
-  Eigen::MatrixXd spread;
   // Of each window: where it starts (q, qd, integral), and the triangle of
   // start, columns and residual.
   struct Window {
@@ -60,8 +58,8 @@ class LoopWindows {
                           const LoopRun& run) const;
   // Takes the starts to where `equations` put them for a step `dx` of all
   // values, times `share`.
-  void Move(const LoopEquations& equations, const Eigen::VectorXd& dx,
-            double share);
+  void Move(const LoopColumns& columns, const LoopEquations& equations,
+            const Eigen::VectorXd& dx, double share);
   LoopScores Scores(const LoopValues& values, const LoopColumns& columns,
                     const LoopRun& run, const LoopEquations& equations) const;
   // rms of residuals per joint, rad or m, without each window's first second.
@@ -72,8 +70,7 @@ class LoopWindows {
  private:
   struct Window {
     LoopStretch stretch;
-    LoopStart nominal;
-    Eigen::VectorXd start;  // q, qd, integral
+    Eigen::VectorXd nominal, start;  // q, qd, integral
   };
   void AddWindows(int log, double window_s);
   LoopEquations::Window Reduce(const Window& window, const LoopTangent& tangent,

@@ -100,14 +100,14 @@ bool Calibrator::Step(const VectorXd& x) {
   for (int k = 0; k < kMostHalvings; ++k, share /= 2) {
     // Bodies between two that can exist can exist.
     x_ = begin + share * dx;
-    windows_.Move(equations_, dx, share);
+    windows_.Move(*columns_, equations_, dx, share);
     LoopRun next = windows_.Simulate(unknowns_->At(x_));
     if (!next.finite || !(next.cost + fit_->PriorCost(x_) < cost)) continue;
     run_ = std::move(next);
     return true;
   }
   x_ = begin;
-  windows_.Move(equations_, 0 * dx, 0);
+  windows_.Move(*columns_, equations_, 0 * dx, 0);
   return false;
 }
 

@@ -73,23 +73,23 @@ bool Confine() {
   const auto result = [&](unsigned action) {
     filter.push_back(BPF_STMT(BPF_RET | BPF_K, action));
   };
-  // Unless equal, the next instruction is left out.
-  const auto where_equal = [&](unsigned value) {
-    filter.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1));
+  // The next `count` instructions are for this call alone.
+  const auto for_call = [&](unsigned call, unsigned char count) {
+    filter.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, call, 0, count));
   };
   load(offsetof(seccomp_data, arch));
   filter.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kArchitecture, 1, 0));
   result(SECCOMP_RET_ERRNO | EPERM);
   load(offsetof(seccomp_data, nr));
   for (const unsigned call : AllowedCalls()) {
-    where_equal(call);
+    for_call(call, 1);
     result(SECCOMP_RET_ALLOW);
   }
   // Files are opened for reading alone: openat's flags, and open's.
   const auto open_to_read = [&](unsigned call, int argument) {
     constexpr unsigned kWrites =
         O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND;
-    filter.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, call, 0, 4));
+    for_call(call, 4);
     load(offsetof(seccomp_data, args) + argument * sizeof(std::uint64_t));
     filter.push_back(BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, kWrites, 0, 1));
     result(SECCOMP_RET_ERRNO | EPERM);
@@ -190,10 +190,10 @@ std::optional<Confined> MakeConfined(std::uint64_t memory,
   if (sent.size() < kHead) return std::nullopt;
   std::memcpy(&size, sent.data() + 1, sizeof size);
   if (sent.size() != kHead + size) return std::nullopt;
-  // Its own limit is the file's fault, one on this process is not.
-  rlimit addresses{};
-  getrlimit(RLIMIT_AS, &addresses);
   if (sent[0] == kNoMemory) {
+    // Its own limit is the file's fault, one on this process is not.
+    rlimit addresses{};
+    getrlimit(RLIMIT_AS, &addresses);
     if (addresses.rlim_cur != RLIM_INFINITY) throw std::bad_alloc();
     return std::nullopt;
   }

@@ -1,13 +1,15 @@
 #include "model/hdf5_datasets.h"
 
 #include <hdf5/serial/hdf5.h>
-#include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "model/inflated_bytes.h"
 #include "model/input_error.h"
 
 namespace armcal {
@@ -62,32 +64,24 @@ struct Shape {
   std::array<hsize_t, H5S_MAX_RANK> size{}, chunk{};
 };
 
-// How long the inflated bytes are, but for those beyond `most`; nothing where
-// they cannot be inflated.
-std::optional<size_t> InflatedSize(std::vector<unsigned char>* bytes,
-                                   size_t length, size_t most) {
-  z_stream stream{};
-  if (inflateInit(&stream) != Z_OK) return std::nullopt;
-  stream.next_in = bytes->data();
-  stream.avail_in = static_cast<uInt>(length);
-  std::array<unsigned char, 1 << 14> scratch;
-  int code = Z_OK;
-  while (code == Z_OK && stream.total_out <= most) {
-    stream.next_out = scratch.data();
-    stream.avail_out = scratch.size();
-    code = inflate(&stream, Z_NO_FLUSH);
+// Those that a chunk has gone through, in their order.
+std::vector<H5Z_filter_t> FiltersBut(unsigned skipped, hid_t stored) {
+  std::vector<H5Z_filter_t> filters;
+  for (int k = 0; k < H5Pget_nfilters(stored); ++k) {
+    if ((skipped >> k & 1) != 0) continue;
+    unsigned flags = 0;
+    size_t values = 0;
+    filters.push_back(H5Pget_filter2(stored, k, &flags, &values, nullptr, 0,
+                                     nullptr, nullptr));
   }
-  const size_t size = stream.total_out;
-  inflateEnd(&stream);
-  if (code != Z_STREAM_END && code != Z_OK) return std::nullopt;
-  return size;
+  return filters;
 }
 
 // Whether a chunk, once read, is as long as its numbers: HDF5 1.10 copies them
 // without having looked.
 bool ChunkIsWhole(hid_t dataset, hid_t stored, const hsize_t* offset,
                   double needed, hsize_t file_size) {
-  constexpr size_t kChecksum = 4;
+  constexpr double kChecksum = 4;
   unsigned skipped = 0;
   haddr_t address = 0;
   hsize_t size = 0;
@@ -97,35 +91,31 @@ bool ChunkIsWhole(hid_t dataset, hid_t stored, const hsize_t* offset,
   }
   if (size == 0) return true;  // never written
   if (size > file_size) return false;
-  std::vector<unsigned char> bytes(size);
+  std::string bytes(size, '\0');
   if (H5Dread_chunk(dataset, H5P_DEFAULT, offset, &skipped, bytes.data()) < 0) {
     return false;
   }
-  size_t length = size;
-  for (int k = H5Pget_nfilters(stored) - 1; k >= 0; --k) {
-    if ((skipped >> k & 1) != 0) continue;
-    unsigned flags = 0;
-    size_t values = 0;
-    switch (H5Pget_filter2(stored, k, &flags, &values, nullptr, 0, nullptr,
-                           nullptr)) {
-      case H5Z_FILTER_SHUFFLE:
-        break;
-      case H5Z_FILTER_FLETCHER32:
-        if (length < kChecksum) return false;
-        length -= kChecksum;
-        break;
-      case H5Z_FILTER_DEFLATE: {
-        const auto inflated = InflatedSize(
-            &bytes, length, static_cast<size_t>(needed) + kChecksum);
-        if (!inflated) return false;
-        length = *inflated;
-        break;
-      }
-      default:  // nobody's MAT-file
+  const std::vector<H5Z_filter_t> filters = FiltersBut(skipped, stored);
+  auto length = static_cast<double>(size);
+  for (auto filter = filters.rbegin(); filter != filters.rend(); ++filter) {
+    if (*filter == H5Z_FILTER_SHUFFLE) continue;
+    if (*filter == H5Z_FILTER_FLETCHER32) {
+      length -= kChecksum;
+    } else if (*filter == H5Z_FILTER_DEFLATE && !bytes.empty()) {
+      if (length < 0) return false;
+      bytes.resize(static_cast<size_t>(length));
+      length = needed + kChecksum * static_cast<double>(
+                                        std::count(filter + 1, filters.rend(),
+                                                   H5Z_FILTER_FLETCHER32));
+      InflatedBytes inflated([&] { return std::exchange(bytes, {}); });
+      if (!inflated.Read(nullptr, static_cast<std::uint64_t>(length))) {
         return false;
+      }
+    } else {  // nobody's MAT-file
+      return false;
     }
   }
-  return static_cast<double>(length) >= needed;
+  return length >= needed;
 }
 
 bool ChunksAreWhole(hid_t dataset, hid_t stored, const Shape& shape) {

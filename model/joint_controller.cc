@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/drive_filters.h"
 #include "model/forward_dynamics.h"
 #include "model/inverse_dynamics.h"
 
@@ -48,8 +49,7 @@ ControllerOptions DefaultController(const Robot& robot,
 
 DifferencedVelocity::DifferencedVelocity(const ControllerOptions& options)
     : rate_hz_(options.rate_hz),
-      decay_(
-          std::exp(-2 * M_PI * options.velocity_filter_hz / options.rate_hz)) {}
+      decay_(LowPassDecay(options.velocity_filter_hz, options.rate_hz)) {}
 
 const Eigen::VectorXd& DifferencedVelocity::Update(
     const Eigen::VectorXd& position) {

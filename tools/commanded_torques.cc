@@ -14,11 +14,6 @@ DECLARE_string(controller);
 namespace armcal {
 namespace {
 
-bool HasTorque(const std::string& path, LogReaderOptions options) {
-  options.commands_do = true;
-  return LogReader(path, options).has_torque();
-}
-
 // What an integral holds follows from the positions of every period; logs have
 // a part of these, and errors that add up would pass for effects.
 void ExpectNoIntegrals(const std::vector<DriveLaw>& drives) {
@@ -37,17 +32,17 @@ void MakeTorquesOfCommands(const Robot& robot,
                            const std::vector<std::string>& logs,
                            LogReaderOptions* options) {
   if (FLAGS_controller.empty()) return;
+  LogReaderOptions reading = *options;
+  reading.commands_do = true;
   for (const std::string& path : logs) {
-    if (HasTorque(path, *options)) continue;
-    const CommandedLog log = ReadCommandedLog(path, *options, {});
+    if (LogReader(path, reading).has_torque()) continue;
+    const Log all = ReadWholeLog(path, reading);
+    const CommandedLog log = CommandedRows(path, all, {});
     const ControllerOptions controller =
         ControllerFromFlags(robot, log.log.qref.row(0));
     ExpectNoIntegrals(controller.drives);
-    LogReaderOptions reading = *options;
-    reading.need_torque = false;
     MadeTorque made;
-    made.tau =
-        CommandedTorque(robot, controller, log, ReadWholeLog(path, reading).t);
+    made.tau = CommandedTorque(robot, controller, log, all.t);
     made.source = "commands and positions, by " + FLAGS_controller;
     options->made_torque[path] =
         std::make_shared<const MadeTorque>(std::move(made));
