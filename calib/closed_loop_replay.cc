@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "model/input_error.h"
-#include "model/low_pass.h"
 #include "model/plant/closed_loop.h"
 #include "model/plant/motion_reader.h"
 #include "model/rigid_arm.h"
+#include "model/uneven_differences.h"
 
 namespace armcal {
 namespace {
@@ -25,12 +25,8 @@ Log CommandOf(const Log& log) {
   command.t = log.t;
   command.q = log.qref;
   command.first_row = log.first_row;
-  const Eigen::Index steps = log.size() - 1;
-  const Eigen::ArrayXd dt = log.t.tail(steps) - log.t.head(steps);
-  if (log.size() > 8 && dt.maxCoeff() - dt.minCoeff() < 0.01 * dt.mean()) {
-    command.qd = Differentiate(command.q, dt.mean());
-    command.qdd = Differentiate(command.qd, dt.mean());
-  }
+  command.qd = DifferentiateUneven(command.t, command.q);
+  command.qdd = DifferentiateUneven(command.t, command.qd);
   return command;
 }
 

@@ -26,6 +26,13 @@ GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
     auto doubt = usual.col(column.joint);
     doubt = doubt.cwiseMax(kDoubt * columns()[column.joint].col(c).cwiseAbs());
   }
+  for (size_t i = 0; i < signals_->segments.size(); ++i) {
+    for (const TimeRange& lost : signals_->segments[i].lost) {
+      const double reach = 1 / bandwidth_hz;  // of the low pass
+      MaskIn(static_cast<int>(i), {lost.begin - reach, lost.end + reach},
+             &usual);
+    }
+  }
   Unmask();
 }
 
@@ -47,18 +54,16 @@ std::vector<MatrixXd> GapData::FineResidual() const {
 }
 
 MatrixXd GapData::ResidualWith(const VectorXd& x) const {
-  MatrixXd residual = signals_->residual;
-  for (int j = 0; j < rows_->num_joints(); ++j) {
-    residual.col(j) -= columns()[j] * x;
-  }
-  return residual;
+  return ResidualWith(x, std::vector<VectorXd>(rows_->num_joints()));
 }
 
 MatrixXd GapData::ResidualWith(const VectorXd& x,
                                const std::vector<VectorXd>& torque) const {
-  MatrixXd residual = ResidualWith(x);
-  for (int j = 0; j < residual.cols(); ++j) {
+  MatrixXd residual = signals_->residual;
+  for (int j = 0; j < rows_->num_joints(); ++j) {
+    residual.col(j) -= columns()[j] * x;
     if (torque[j].size() > 0) residual.col(j) -= torque[j];
+    residual.col(j) = rows_->WithoutDrift(j, residual.col(j));
   }
   return residual;
 }
@@ -76,11 +81,16 @@ void GapData::Hold(int column) {
 void GapData::Mask(int log, const TimeRange& window) {
   for (size_t i = 0; i < signals_->segments.size(); ++i) {
     if (signals_->segments[i].log != log) continue;
-    const int s = static_cast<int>(i);
-    for (int k = rows_->thin_begin(s); k < rows_->thin_begin(s + 1); ++k) {
-      if (!window.Contains(rows_->thin_time(s, k))) continue;
-      doubt_.row(k) = kNothing * residual().colwise().norm();
-    }
+    MaskIn(static_cast<int>(i), window, &doubt_);
+  }
+}
+
+void GapData::MaskIn(int segment, const TimeRange& window,
+                     MatrixXd* doubt) const {
+  const int end = rows_->thin_begin(segment + 1);
+  for (int k = rows_->thin_begin(segment); k < end; ++k) {
+    if (!window.Contains(rows_->thin_time(segment, k))) continue;
+    doubt->row(k) = kNothing * residual().colwise().norm();
   }
 }
 

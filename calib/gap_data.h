@@ -62,6 +62,9 @@ class GapData {
     Eigen::MatrixXd usual_doubt;
   };
 
+  void MaskIn(int segment, const TimeRange& window,
+              Eigen::MatrixXd* doubt) const;
+
   std::shared_ptr<Signals> signals_;  // not changed once it is complete
   std::unique_ptr<GapRows> rows_;
   std::vector<RecordedTorque> torques_;

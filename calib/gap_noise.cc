@@ -140,11 +140,12 @@ GapNoise EstimateGapNoise(const GapRows& rows,
                           const std::vector<MatrixXd>& residual,
                           const MatrixXd& assumed) {
   const int n = rows.num_joints();
-  const MatrixXd differences = RepeatDifferences(rows, residual);
+  MatrixXd differences = RepeatDifferences(rows, residual);
   const MatrixXd thin = rows.ThinAll(residual);
   GapNoise noise;
   noise.source = NoiseFloor::kRepeats;
   for (int j = 0; j < n; ++j) {
+    differences.col(j) = rows.WithoutDrift(j, differences.col(j));
     const auto repeats = Known(Stretches(rows.runs(j), differences.col(j)));
     if (CountRows(repeats) >= kLeastRows) {
       noise.joints.push_back(FitAutoregression(repeats, false));

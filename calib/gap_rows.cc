@@ -17,6 +17,22 @@ using Eigen::MatrixXd;
 constexpr double kRateOverBandwidth = 2.5;
 constexpr double kPeriodsAtEnds = 4;  // of the bandwidth, bent by filters
 constexpr int kShortestRun = 3 * Autoregression::kOrder;
+// What drives give is not quite what their law says: torques made of commands
+// are not known better than this share of their rms.
+constexpr double kMadeTorqueDoubt = .005;
+
+// N m or N, of each joint; 0 where torques were recorded.
+Eigen::VectorXd MadeTorqueDoubt(const std::vector<GapSegment>& segments) {
+  double samples = 0;
+  Eigen::VectorXd sum;
+  for (const GapSegment& segment : segments) {
+    if (sum.size() == 0) sum.setZero(segment.tau.cols());
+    samples += segment.size();
+    if (!segment.made_torque) continue;
+    sum += segment.tau.colwise().squaredNorm().transpose();
+  }
+  return kMadeTorqueDoubt * (sum / samples).cwiseSqrt();
+}
 
 }  // namespace
 
@@ -38,6 +54,15 @@ GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
   }
   thin_begin_.push_back(begin);
   MakeRuns();
+  made_doubt_ = MadeTorqueDoubt(segments);
+  for (size_t i = 0; i < segments.size(); ++i) {
+    const int s = static_cast<int>(i), first = thin_begin_[i];
+    drift_.emplace_back();
+    if (!segments[i].torque_drifts) continue;
+    Eigen::VectorXd times(thin_begin_[i + 1] - first);
+    for (int k = 0; k < times.size(); ++k) times[k] = thin_time(s, first + k);
+    drift_.back().emplace(times);
+  }
 }
 
 // Tenths of a segment: of the third, sixth and ninth, whose edges are guarded.
@@ -111,6 +136,10 @@ void GapRows::SetNoise(std::vector<Autoregression> noise,
   CHECK_EQ(static_cast<int>(noise.size()), num_joints());
   CHECK_EQ(doubt.rows(), num_thin());
   noise_ = std::move(noise);
+  for (int j = 0; j < num_joints(); ++j) {
+    const double own = noise_[j].stddev();
+    if (own > 0) noise_[j].sigma *= std::hypot(own, made_doubt_[j]) / own;
+  }
   variance_ = doubt.cwiseAbs2();
   weight_.resize(num_thin(), num_joints());
   for (int j = 0; j < num_joints(); ++j) {
@@ -132,8 +161,30 @@ int GapRows::num_rows() const {
   return rows;
 }
 
-MatrixXd GapRows::Whiten(int joint, const MatrixXd& thin) const {
+MatrixXd GapRows::WithoutDrift(int joint, const MatrixXd& thin) const {
   CHECK_EQ(thin.rows(), num_thin());
+  MatrixXd without = thin;
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_thin());
+  for (const Run& run : runs_[joint]) {
+    auto of_run = weights.segment(run.begin, run.size);
+    of_run.setOnes();
+    if (weight_.size() == 0) continue;
+    of_run = weight_.col(joint).segment(run.begin, run.size).cwiseAbs2();
+  }
+  for (int k = 0; k < num_thin(); ++k) {
+    if (!thin.row(k).allFinite()) weights[k] = 0;
+  }
+  for (size_t i = 0; i < drift_.size(); ++i) {
+    if (!drift_[i]) continue;
+    const int begin = thin_begin_[i], size = thin_begin_[i + 1] - begin;
+    without.middleRows(begin, size) = drift_[i]->Without(
+        thin.middleRows(begin, size), weights.segment(begin, size));
+  }
+  return without;
+}
+
+MatrixXd GapRows::Whiten(int joint, const MatrixXd& signals) const {
+  const MatrixXd thin = WithoutDrift(joint, signals);
   MatrixXd rows(num_rows(joint), thin.cols());
   int at = 0;
   for (const Run& run : runs_[joint]) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "calib/autoregression.h"
 #include "calib/gap_segments.h"
+#include "calib/torque_drift.h"
 
 namespace armcal {
 
@@ -64,6 +66,10 @@ class GapRows {
   }
   int num_rows(int joint) const;
   int num_rows() const;
+  // A joint's thinned signals (num_thin() x any) without what the torque's
+  // level may do in logs whose torque drifts, told where the joint moves; rows
+  // that are not known (NaN) stay so.
+  Eigen::MatrixXd WithoutDrift(int joint, const Eigen::MatrixXd& thin) const;
   // Whitened rows of thinned signals (num_thin() x any).
   Eigen::MatrixXd Whiten(int joint, const Eigen::MatrixXd& thin) const;
   // The thinned sample that each row is of.
@@ -89,9 +95,11 @@ class GapRows {
   const std::vector<GapSegment>& segments_;
   double bandwidth_hz_;
   LogPart part_;
-  std::vector<int> stride_;      // per segment
-  std::vector<int> skip_;        // fine samples at its ends
-  std::vector<int> thin_begin_;  // per segment, and the end
+  std::vector<int> stride_;                        // per segment
+  std::vector<int> skip_;                          // fine samples at its ends
+  std::vector<int> thin_begin_;                    // per segment, and the end
+  std::vector<std::optional<TorqueDrift>> drift_;  // per segment
+  Eigen::VectorXd made_doubt_;                     // per joint, N m or N
   std::vector<std::vector<Run>> runs_, still_runs_;
   std::vector<Autoregression> noise_;
   Eigen::MatrixXd variance_, weight_;  // thinned samples x n

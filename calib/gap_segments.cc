@@ -93,6 +93,11 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                   if (index != log || trajectory.segment != part) {
                     segments.emplace_back();
                     segments.back().log = log = index;
+                    if (const MadeTorque* made = logs->made_torque(index)) {
+                      segments.back().made_torque = true;
+                      segments.back().torque_drifts = made->drifts;
+                      segments.back().lost = logs->time_bases()[index].gaps;
+                    }
                     part = trajectory.segment;
                   }
                   AppendCore(trajectory, &segments.back());

@@ -18,6 +18,12 @@ struct GapSegment {
   // interval, not a value; samples x n.
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> still;
 
+  bool made_torque = false;    // of commands, by the law of the drives
+  bool torque_drifts = false;  // torque_drift.h
+  // Where rows were lost: neither the motion nor a torque made of it is as good
+  // there. Of recorded torques, whose noise is larger, none.
+  std::vector<TimeRange> lost;
+
   int size() const { return motion.size(); }
 };
 

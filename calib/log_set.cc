@@ -20,6 +20,9 @@ LogSet::LogSet(const std::vector<std::string>& paths,
     logs_.emplace_back(path, log_options, memory_);
     time_bases_.push_back(AuditTimeBase(crop, &logs_.back()));
     torque_source_ = logs_.back().torque_source();
+    const auto made = log_options.made_torque.find(path);
+    made_.push_back(made == log_options.made_torque.end() ? nullptr
+                                                          : made->second);
   }
 }
 

@@ -35,6 +35,8 @@ class LogSet {
   const std::string& path(int log) const { return paths_[log]; }
   const std::vector<TimeBase>& time_bases() const { return time_bases_; }
   const std::string& torque_source() const { return torque_source_; }
+  // What a log has instead of recorded torques; null where it has these.
+  const MadeTorque* made_torque(int log) const { return made_[log].get(); }
 
   // Sets how trajectories are made; before ForEach. Spikes of the torque are
   // replaced or kept, and no outliers are known. Longest gap as in
@@ -84,6 +86,7 @@ class LogSet {
   TrajectoryOptions options_;
   std::vector<TimeBase> time_bases_;
   std::string torque_source_;
+  std::vector<std::shared_ptr<const MadeTorque>> made_;
   Stretches kept_;  // empty: all
   OutlierLists outliers_;
   long spikes_ = 0;

@@ -24,7 +24,8 @@ enum class TorqueKind {
 // the log's, joints in columns.
 struct MadeTorque {
   Eigen::MatrixXd tau;
-  std::string source;  // what torque_source() says
+  bool drifts = false;  // its level is not known and walks at random
+  std::string source;   // what torque_source() says
 };
 
 struct LogReaderOptions {

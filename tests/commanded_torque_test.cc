@@ -40,6 +40,33 @@ TEST(CommandedTorque, IsWhatTheDrivesGave) {
   EXPECT_LT(Misfit(controller, truth, 0), .02);
 }
 
+// Logs lose rows, a few at a time: only the torque near these is worse.
+TEST(CommandedTorque, OfLogsThatLoseRows) {
+  const Robot truth = CommandedTruth(3);
+  ControllerOptions controller = CommandedController(truth);
+  controller.feedforward = Feedforward::kInverseDynamics;
+  CommandedLog whole = RecordCommands(truth, controller, 8, 1e-6);
+  std::vector<int> kept;
+  for (int k = 0; k < whole.log.size(); ++k) {
+    if (k % 50 >= 5 || k % 3 == 0) kept.push_back(k);
+  }
+  CommandedLog log = whole;
+  log.log.t = whole.log.t(kept);
+  log.log.q = whole.log.q(kept, Eigen::all);
+  log.log.qref = whole.log.qref(kept, Eigen::all);
+  controller.delay += kCommandDelay;
+  MatrixXd error = CommandedTorque(truth, controller, log, log.log.t) -
+                   whole.log.tau(kept, Eigen::all);
+  const int first = FirstCounted(log.log);
+  error = error.bottomRows(error.rows() - first).eval();
+  error.rowwise() -= error.colwise().mean().eval();
+  for (int j = 0; j < 3; ++j) {
+    EXPECT_LT(error.col(j).cwiseAbs().maxCoeff(),
+              .1 * whole.log.tau.col(j).cwiseAbs().maxCoeff())
+        << j;
+  }
+}
+
 // Velocity loops in position loops.
 TEST(CommandedTorque, OfCascades) {
   const Robot truth = CommandedTruth(3);

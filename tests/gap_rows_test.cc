@@ -160,6 +160,25 @@ TEST(GapRows, DoubtfulSamplesCountLess) {
   EXPECT_NEAR(white(10 - 4, 0), 1. / 5, 1e-9);
 }
 
+// Of torques that were made of commands the level is not known, and no more of
+// the rest than to half a percent.
+TEST(GapRows, DoubtMadeTorques) {
+  std::vector<GapSegment> segments = {Segment(5000), Segment(5000)};
+  segments[0].made_torque = segments[0].torque_drifts = true;
+  for (GapSegment& segment : segments) segment.tau.setConstant(8);
+  GapRows rows(segments, kBandwidth);
+  const MatrixXd level = MatrixXd::Constant(584, 1, 7);
+  const MatrixXd without = rows.WithoutDrift(0, level);
+  EXPECT_LT(without.topRows(292).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_EQ(without.bottomRows(292), level.bottomRows(292));
+  rows.SetNoise(White({.03}), MatrixXd::Zero(584, 1));
+  EXPECT_NEAR(rows.variance(0, 0), .03 * .03 + .005 * .005 * 64 / 2, 1e-12);
+  EXPECT_LT(rows.Whiten(0, level).topRows(288).cwiseAbs().maxCoeff(), 1e-6);
+  MatrixXd unknown = level;
+  unknown.topRows(50).setConstant(std::nan(""));
+  EXPECT_LT(rows.WithoutDrift(0, unknown).middleRows(50, 242).norm(), 1e-6);
+}
+
 TEST(GapRows, OfALogTooShortAreNone) {
   const std::vector<GapSegment> segments = {Segment(300)};
   const GapRows rows(segments, kBandwidth);

@@ -7,6 +7,7 @@
 
 #include "model/input_error.h"
 #include "model/log_reader.h"
+#include "model/uneven_differences.h"
 
 namespace armcal {
 
@@ -37,26 +38,18 @@ void CheckTimes(const std::string& path, const Log& log) {
   }
 }
 
-// Differences over the two neighbours, one at the ends.
-Samples Rate(const Samples& t, const Samples& x) {
-  const size_t n = t.size();
-  Samples rate(n);
-  for (size_t k = 0; k < n; ++k) {
-    const size_t a = k == 0 ? 0 : k - 1, b = std::min(k + 1, n - 1);
-    rate[k] = (x[b] - x[a]) / (t[b] - t[a]);
-  }
-  return rate;
-}
-
 Samples ToSamples(const Eigen::VectorXd& v) {
   return Samples(v.data(), v.data() + v.size());
 }
 
 Spline MakeSpline(const Log& log, int joint) {
-  Samples t = ToSamples(log.t), q = ToSamples(log.q.col(joint));
-  Samples qd = log.qd.size() ? ToSamples(log.qd.col(joint)) : Rate(t, q);
-  Samples qdd = log.qdd.size() ? ToSamples(log.qdd.col(joint)) : Rate(t, qd);
-  return Spline(std::move(t), std::move(q), std::move(qd), std::move(qdd));
+  const auto rate = [&log](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return DifferentiateUneven(log.t, x, 3);
+  };
+  const Eigen::VectorXd q = log.q.col(joint);
+  const Eigen::VectorXd qd = log.qd.size() ? log.qd.col(joint) : rate(q);
+  const Eigen::VectorXd qdd = log.qdd.size() ? log.qdd.col(joint) : rate(qd);
+  return Spline(ToSamples(log.t), ToSamples(q), ToSamples(qd), ToSamples(qdd));
 }
 
 }  // namespace

@@ -346,9 +346,6 @@ COMMANDS = Group(
          f"{k / 100:g},{.5 * math.sin(k / 60):.9g},{.4 * math.sin(k / 40):.9g},"
          f"{.52 * math.sin(k / 60 + .05):.9g},{.41 * math.sin(k / 40 + .05):.9g}\n"
          for k in range(1200))}, [
-    Row("integral gains", controller("ki: [0, 0]", "ki: [0, 5]"),
-        "controller.yaml: joint 2: has an integral gain: torques of logs that have none are made "
-        "of commands where ki (of a cascade velocity_ki) is 0 for all joints"),
     Row("neither torque nor command", replaced("log.csv", "qref", "other"),
         "log.csv: row 1: no torque: missing tau1 or joint1/effort, tau2 or joint2/effort; or "
         "currents (i1 or joint1/current, ..) with --torque_constants; not recognised: 'other1', "
