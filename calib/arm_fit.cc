@@ -4,6 +4,7 @@
 #include <ceres/normal_prior.h>
 #include <ceres/problem.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "calib/link_start.h"
@@ -32,6 +33,11 @@ struct Blocks {
       InertialFromLogCholesky(links[i].data(), value.links.data() + 10 * i);
     }
     return value;
+  }
+  // False where a link is too near the boundary for doubles.
+  bool AreFinite() const {
+    return std::all_of(links.begin(), links.end(),
+                       [](const Vector10d& c) { return c.allFinite(); });
   }
   ArmValues value;  // links: only as they were
   std::vector<Vector10d> links;
@@ -169,6 +175,7 @@ ArmFit::End ArmFit::Solve(const LinkEquations& torques,
                           ArmValues* values) const {
   const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
   Blocks blocks(*values);
+  if (!blocks.AreFinite()) return {};
   ceres::Problem problem;
   AddTorques(unknowns_, equations, &blocks, &problem);
   AddPriors(unknowns_, trust_, &blocks, &problem);

@@ -42,6 +42,14 @@ void CheckIntervals(const RowOptions& rows, const LogSet& training,
           "clear of gaps and standstill");
 }
 
+void CheckNoOverflow(const TorqueResidual& residual, const LogSet& held_out) {
+  if (residual.moving().residual_rms.allFinite()) return;
+  throw InputError(
+      held_out.path(0), "", "",
+      "the torque in the held-out logs overflows; expected torques "
+      "in N m, forces in N");
+}
+
 std::string WhyNothingToSolve(const LogFactors& factors,
                               const ModelParameters& parameters) {
   const BlockTriangularFactor all = factors.Merged(

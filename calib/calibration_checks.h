@@ -5,6 +5,7 @@
 
 #include "calib/log_factors.h"
 #include "calib/log_set.h"
+#include "calib/torque_residual.h"
 #include "model/model_parameters.h"
 #include "problems/identification_rows.h"
 
@@ -18,5 +19,9 @@ void CheckIntervals(const RowOptions& rows, const LogSet& training,
 // Why the equations of the logs can have no solution; empty if they can.
 std::string WhyNothingToSolve(const LogFactors& factors,
                               const ModelParameters& parameters);
+
+// Throws InputError where what a held-out log leaves is beyond what squares can
+// hold.
+void CheckNoOverflow(const TorqueResidual& residual, const LogSet& held_out);
 
 }  // namespace armcal

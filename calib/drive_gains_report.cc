@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kAxes[] = {"x", "y", "z"};
+constexpr char kAxes[] = "xyz";
 
 std::string GainText(const DriveGain& gain) {
   if (!gain.identifiable) return "    not observable";

@@ -209,6 +209,7 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   if (validation != nullptr) {
     validation->Prepare(rows.bandwidth_hz, RowReach(rows));
     result.validation = evaluate("validation", validation);
+    CheckNoOverflow(*result.validation, *validation);
   }
   return result;
 }

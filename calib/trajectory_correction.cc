@@ -207,15 +207,16 @@ bool TrajectoryCorrection::Fit(const VectorXd& x, const TrajectoryNoise& noise,
   return true;
 }
 
-void TrajectoryCorrection::Eliminate(MatrixXd* information, VectorXd* gradient,
+bool TrajectoryCorrection::Eliminate(MatrixXd* information, VectorXd* gradient,
                                      NoiseSums* encoder, NoiseSums* torque) {
   const Equations equations = Assemble(true);
   const BlockTridiagonalFactor factor(equations.H);
-  CHECK(factor.positive());  // Fit has solved it
+  if (!factor.positive()) return false;
   gain_ = factor.Solve(equations.H_border);
   *information += equations.border - equations.H_border.transpose() * gain_;
   *gradient += equations.g_border - gain_.transpose() * equations.g;
   SumNoise(factor.Inverse(), encoder, torque);
+  return true;
 }
 
 void TrajectoryCorrection::SumNoise(

@@ -60,8 +60,8 @@ class TrajectoryCorrection {
   const Eigen::MatrixXd& torque_residuals() const { return z_; }
 
   // After Fit: adds the normal equations of the border about x, and what the
-  // residuals say of the noise.
-  void Eliminate(Eigen::MatrixXd* information, Eigen::VectorXd* gradient,
+  // residuals say of the noise. False where the spline is not determined.
+  bool Eliminate(Eigen::MatrixXd* information, Eigen::VectorXd* gradient,
                  NoiseSums* encoder, NoiseSums* torque);
   // After Eliminate: the score of the border at every sample, in order, with
   // what the spline passes on to it.

@@ -64,12 +64,12 @@ TrajectoryEquations TrajectoryPass::Gather(const std::string& stage,
               sum.gradient.setZero(border);
             }
             if (!stretch->Fit(estimate.x, NoiseOf(estimate, log), weighting,
-                              kSteps)) {
+                              kSteps) ||
+                !stretch->Eliminate(&sum.information, &sum.gradient,
+                                    &sum.encoder, &sum.torque)) {
               sum.failed = true;
               return;
             }
-            stretch->Eliminate(&sum.information, &sum.gradient, &sum.encoder,
-                               &sum.torque);
             if (visit) visit(log, stretch);
           });
   sum.failed |= sum.gradient.size() == 0;

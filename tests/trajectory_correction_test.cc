@@ -123,7 +123,7 @@ TEST_F(Scara, InformationIsThatOfDenseAlgebra) {
   MatrixXd information = MatrixXd::Zero(6, 6);
   VectorXd gradient = VectorXd::Zero(6);
   NoiseSums encoder(4), torque(4);
-  correction.Eliminate(&information, &gradient, &encoder, &torque);
+  ASSERT_TRUE(correction.Eliminate(&information, &gradient, &encoder, &torque));
 
   const MatrixXd J = Jacobian(BestPoints());
   const MatrixXd all = (J.transpose() * J).inverse();
@@ -164,7 +164,7 @@ TEST_F(Scara, StepIsThatOfDenseGaussNewton) {
   MatrixXd information = MatrixXd::Zero(6, 6);
   VectorXd gradient = VectorXd::Zero(6);
   NoiseSums encoder(4), torque(4);
-  correction.Eliminate(&information, &gradient, &encoder, &torque);
+  ASSERT_TRUE(correction.Eliminate(&information, &gradient, &encoder, &torque));
   const VectorXd found = information.ldlt().solve(gradient);
   EXPECT_LT((found - step.tail(6)).norm(), 1e-3 * step.tail(6).norm());
 

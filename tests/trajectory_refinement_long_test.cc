@@ -85,7 +85,7 @@ struct Simulation {
     MatrixXd information = MatrixXd::Zero(truth.border(), truth.border());
     VectorXd gradient = VectorXd::Zero(truth.border());
     NoiseSums encoder(robot.num_joints()), torque(robot.num_joints());
-    truth.Eliminate(&information, &gradient, &encoder, &torque);
+    EXPECT_TRUE(truth.Eliminate(&information, &gradient, &encoder, &torque));
     const VectorXd s = information.diagonal().cwiseSqrt().cwiseInverse();
     const MatrixXd scaled = s.asDiagonal() * information * s.asDiagonal();
     return scaled.inverse().diagonal().cwiseSqrt().cwiseProduct(s).head(

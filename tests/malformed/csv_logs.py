@@ -1,7 +1,7 @@
 """Logs in CSV, plain or gzipped."""
 
-from inputs import (ARM, HEADER, LOG, Group, Row, a_folder, both, compressed, cut,
-                    edited, headed, linked, nothing, padded, removed,                     with_row, written)
+from inputs import (ARM, HEADER, LOG, SAMPLES, Group, Row, a_folder, both, compressed,
+                    cut, edited, headed, linked, nothing, padded, removed, with_row, written)
 
 
 def epoch(decimals):
@@ -243,6 +243,10 @@ GROUPS = [Group(
     Row("held out cut", both(written("B.csv", compressed(LOG)), cut("B.csv", -9)),
         "B.csv: row 33: the gzip stream ends early, the file is truncated; copy or record "
         "it again",
+        "calibrate --robot=robot.yaml --log=log.csv --validate=B.csv --out=out"),
+    Row("held out beyond squares", written("B.csv", "\n".join(
+        [HEADER] + [",".join(f"{x:g}" for x in [*s[:-1], 1e266]) for s in SAMPLES])),
+        "B.csv: the torque in the held-out logs overflows; expected torques in N m, forces in N",
         "calibrate --robot=robot.yaml --log=log.csv --validate=B.csv --out=out"),
     Row("held out missing", nothing,
         "absent.csv: cannot be opened: No such file or directory", "calibrate --robot=robot.yaml --log=log.csv --validate=absent.csv --out=out"),
