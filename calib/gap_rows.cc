@@ -164,6 +164,10 @@ int GapRows::num_rows() const {
 MatrixXd GapRows::WithoutDrift(int joint, const MatrixXd& thin) const {
   CHECK_EQ(thin.rows(), num_thin());
   MatrixXd without = thin;
+  if (std::none_of(segments_.begin(), segments_.end(),
+                   [](const GapSegment& s) { return s.torque_drifts; })) {
+    return without;
+  }
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_thin());
   for (const Run& run : runs_[joint]) {
     auto of_run = weights.segment(run.begin, run.size);
