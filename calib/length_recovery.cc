@@ -101,12 +101,14 @@ struct Whitened {
     const auto unscale = s.cwiseInverse().asDiagonal();
     MatrixXd correlation = unscale * independent(rows, rows) * unscale;
     correlation.diagonal().array() += 1e-10;
-    matrix = unscale * M(rows, Eigen::all);
-    value = unscale * x(rows);
+    MatrixXd both(rows.size(), M.cols() + 1);
+    both << M(rows, Eigen::all), x(rows);
+    both = unscale * both;
     noise = unscale * covariance(rows, rows) * unscale;
     const Eigen::LLT<MatrixXd> llt(correlation);
-    llt.matrixL().solveInPlace(matrix);
-    llt.matrixL().solveInPlace(value);
+    llt.matrixL().solveInPlace(both);
+    matrix = both.leftCols(M.cols());
+    value = both.col(M.cols());
     llt.matrixL().solveInPlace(noise);
     noise = llt.matrixL().solve(noise.transpose()).eval();
   }

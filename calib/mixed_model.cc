@@ -63,12 +63,14 @@ MixedModel::MixedModel(const std::vector<UnitEvidence>& evidence, int units,
     const MatrixXd L =
         scale_.asDiagonal() * e.information * scale_.asDiagonal();
     const VectorXd right = scale_.cwiseProduct(e.right);
-    const double powers[] = {1, t, t * t};
+    const auto power = [t](Eigen::Index k) {
+      return k == 0 ? 1 : k == 1 ? t : t * t;
+    };
     for (Eigen::Index a = 0; a < p / m; ++a) {
-      unit.B.middleRows(a * m, m) += powers[a] * L;
-      unit.fixed_right.segment(a * m, m) += powers[a] * right;
+      unit.B.middleRows(a * m, m) += power(a) * L;
+      unit.fixed_right.segment(a * m, m) += power(a) * right;
       for (Eigen::Index b = 0; b < p / m; ++b) {
-        unit.A.block(a * m, b * m, m, m) += powers[a + b] * L;
+        unit.A.block(a * m, b * m, m, m) += power(a + b) * L;
       }
     }
     unit.L += L;
