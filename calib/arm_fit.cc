@@ -175,7 +175,9 @@ ArmFit::End ArmFit::Solve(const LinkEquations& torques,
                           ArmValues* values) const {
   const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
   Blocks blocks(*values);
-  if (!blocks.AreFinite()) return {};
+  if (!blocks.AreFinite()) {
+    return {false, "a link is thinner than doubles can tell", 0};
+  }
   ceres::Problem problem;
   AddTorques(unknowns_, equations, &blocks, &problem);
   AddPriors(unknowns_, trust_, &blocks, &problem);
