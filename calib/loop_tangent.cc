@@ -98,6 +98,7 @@ void Linearisation::Control(long k) {
     double *last = last_.row(j), *velocity = velocity_.row(j),
            *integral = integral_.row(j), *command = command_.row(j);
     const double moves = slopes.integrates * period_;
+#pragma GCC ivdep  // rows are apart
     for (long c = 0; c < size; ++c) {
       const double v = decay_ * velocity[c] + rate * (q[c] - last[c]);
       command[c] =

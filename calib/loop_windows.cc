@@ -52,22 +52,39 @@ void AddScores(const VectorXd& t, const MatrixXd& weights,
 
 }  // namespace
 
+double LoopRun::Excess() const {
+  double rows = 0;
+  for (const VectorXd& residual : residuals) {
+    rows += static_cast<double>(residual.size());
+  }
+  return std::sqrt(cost / rows);
+}
+
 LoopWindows::LoopWindows(const Robot& known,
                          const ControllerOptions& controller, double window_s,
                          const std::vector<CommandedLog>& logs)
     : controller_(controller), logs_(logs), n_(known.num_joints()) {
   noise_ = VectorXd::Zero(n_);
   for (size_t l = 0; l < logs.size(); ++l) {
-    references_.push_back(std::make_unique<CommandedReference>(
+    references_.push_back(std::make_shared<CommandedReference>(
         known, controller.feedforward, logs[l]));
     noise_ += NoiseOf(logs[l].log).cwiseAbs2();
-    AddWindows(static_cast<int>(l), window_s);
+    AddWindows(static_cast<int>(l), window_s, 1);
   }
   noise_ = (noise_ / std::max<size_t>(1, logs.size())).cwiseSqrt();
 }
 
-// Windows of equal length, about `window_s`.
-void LoopWindows::AddWindows(int log, double window_s) {
+LoopWindows LoopWindows::Thinned(double window_s, int every) const {
+  LoopWindows thinned = *this;
+  thinned.windows_.clear();
+  for (size_t l = 0; l < logs_.size(); ++l) {
+    thinned.AddWindows(static_cast<int>(l), window_s, every);
+  }
+  return thinned;
+}
+
+// Of equal length, about `window_s`.
+void LoopWindows::AddWindows(int log, double window_s, int every) {
   const VectorXd& t = logs_[log].log.t;
   const long size = t.size();
   const double duration = t[size - 1];
@@ -78,13 +95,15 @@ void LoopWindows::AddWindows(int log, double window_s) {
     const double end = duration * static_cast<double>(k + 1) / count;
     long last = first;
     while (last < size && (k + 1 == count || t[last] < end)) ++last;
-    const LoopStretch stretch(logs_[log].log, *references_[log], first,
-                              last - first, 1 / controller_.rate_hz);
+    const long begin = first;
+    first = last;
+    if (k % every != 0) continue;
+    const LoopStretch stretch(logs_[log].log, *references_[log], begin,
+                              last - begin, 1 / controller_.rate_hz);
     const LoopStart shown = stretch.Start();
     VectorXd nominal(3 * n_);
     nominal << shown.q, shown.qd, shown.integral;
     windows_.push_back({stretch, nominal, nominal});
-    first = last;
   }
 }
 

@@ -19,6 +19,9 @@ struct LoopRun {
   std::vector<LoopTrack> tracks;
   std::vector<Eigen::VectorXd> residuals;  // of each track
   Eigen::VectorXd torque_rms;              // per joint
+
+  // rms of the whitened residuals: 1 where they are encoder noise.
+  double Excess() const;
 };
 
 // What all windows of logs say of a loop's values about some of them, the
@@ -51,6 +54,8 @@ class LoopWindows {
   // Logs and controller are kept by reference.
   LoopWindows(const Robot& known, const ControllerOptions& controller,
               double window_s, const std::vector<CommandedLog>& logs);
+  // Every so-manieth window of another length, from the logs' begin on.
+  LoopWindows Thinned(double window_s, int every) const;
 
   // From where Move has put the starts.
   LoopRun Simulate(const LoopValues& values) const;
@@ -72,7 +77,7 @@ class LoopWindows {
     LoopStretch stretch;
     Eigen::VectorXd nominal, start;  // q, qd, integral
   };
-  void AddWindows(int log, double window_s);
+  void AddWindows(int log, double window_s, int every);
   LoopEquations::Window Reduce(const Window& window, const LoopTangent& tangent,
                                const Eigen::VectorXd& residual) const;
   double StartCost(const Window& window) const;
@@ -81,7 +86,7 @@ class LoopWindows {
 
   const ControllerOptions& controller_;
   const std::vector<CommandedLog>& logs_;
-  std::vector<std::unique_ptr<const CommandedReference>> references_;
+  std::vector<std::shared_ptr<const CommandedReference>> references_;
   std::vector<Window> windows_;
   Eigen::VectorXd noise_;
   int n_;

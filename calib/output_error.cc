@@ -19,8 +19,17 @@ using Eigen::VectorXd;
 
 constexpr int kMostIterations = 50;
 constexpr int kMostHalvings = 8;
-// A step of this many deviations (white noise's), rms over parameters, is none.
-constexpr double kSettled = .02;
+// A step of this many deviations (white noise's), rms over parameters, is the
+// last: those after it are several times smaller each.
+constexpr double kSettled = .1;
+// Where the file is far from the truth a few short windows show the way as well
+// as all of them, until they have got as near as they tell. What they do not
+// explain yet counts as noise: against a thousand deviations of the encoders
+// nothing holds a value near its file's, and those that positions hardly tell
+// (all torques times two) go anywhere.
+constexpr double kFewWindow = 1;  // s
+constexpr int kFew = 4;           // one in so many
+constexpr double kNear = 1;
 
 LoopValues FilesValues(const Robot& robot, const ControllerOptions& controller,
                        const OutputErrorOptions& options) {
@@ -61,8 +70,8 @@ class Calibrator {
                       run_.torque_rms);
     columns_.emplace(files_.arm.robot, unknowns_->free());
     fit_.emplace(*unknowns_, options_.trust);
-    x_ = unknowns_->nominal();
-    Iterate();
+    Approach();
+    Iterate(false, &windows_);
     if (!result_.arm.solved) return result_;
     result_.values = unknowns_->At(x_);
     result_.arm.robot = result_.values.arm.robot;
@@ -72,9 +81,11 @@ class Calibrator {
   }
 
  private:
-  void Iterate();
+  // Near the bottom, from the file's values, of which run_ is.
+  void Approach();
+  void Iterate(bool far, LoopWindows* windows);
   // Towards x, as far as the cost falls; false where it does not.
-  bool Step(const VectorXd& x);
+  bool Step(const VectorXd& x, LoopWindows* windows);
   void Report();
   void Tell(const std::string& stage, double fraction) const {
     if (options_.progress) options_.progress(stage, fraction);
@@ -88,51 +99,67 @@ class Calibrator {
   std::optional<LoopColumns> columns_;
   std::optional<LoopFit> fit_;
   VectorXd x_;
+  double excess_ = 1;        // of noise that the residuals of now count as
   LoopRun run_;              // at x_
   LoopEquations equations_;  // likewise
   OutputErrorCalibration result_;
 };
 
-bool Calibrator::Step(const VectorXd& x) {
+void Calibrator::Approach() {
+  const LoopRun of_files = run_;
+  x_ = unknowns_->nominal();
+  LoopWindows few = windows_.Thinned(kFewWindow, kFew);
+  run_ = few.Simulate(files_);
+  if (run_.finite) Iterate(true, &few);
+  run_ = windows_.Simulate(unknowns_->At(x_));
+  if (run_.finite) return;
+  x_ = unknowns_->nominal();
+  run_ = of_files;
+}
+
+bool Calibrator::Step(const VectorXd& x, LoopWindows* windows) {
   const VectorXd begin = x_, dx = x - x_;
-  const double cost = run_.cost + fit_->PriorCost(x_);
+  const auto cost_of = [&](const LoopRun& run) {
+    return run.cost / (excess_ * excess_) + fit_->PriorCost(x_);
+  };
+  const double cost = cost_of(run_);
   double share = 1;
   for (int k = 0; k < kMostHalvings; ++k, share /= 2) {
     // Bodies between two that can exist can exist.
     x_ = begin + share * dx;
-    windows_.Move(*columns_, equations_, dx, share);
-    LoopRun next = windows_.Simulate(unknowns_->At(x_));
-    if (!next.finite || !(next.cost + fit_->PriorCost(x_) < cost)) continue;
+    windows->Move(*columns_, equations_, dx, share);
+    LoopRun next = windows->Simulate(unknowns_->At(x_));
+    if (!next.finite || !(cost_of(next) < cost)) continue;
     run_ = std::move(next);
     return true;
   }
   x_ = begin;
-  windows_.Move(*columns_, equations_, 0 * dx, 0);
+  windows->Move(*columns_, equations_, 0 * dx, 0);
   return false;
 }
 
-void Calibrator::Iterate() {
+void Calibrator::Iterate(bool far, LoopWindows* windows) {
+  const double last = far ? kNear : kSettled;
   const double size = std::sqrt(static_cast<double>(unknowns_->size()));
+  result_.arm.solved = false;
   result_.arm.reason = "NO_CONVERGENCE";
   for (int k = 0; k < kMostIterations; ++k) {
     Tell("simulating", -1);
-    equations_ = windows_.Linearise(unknowns_->At(x_), *columns_, run_);
+    excess_ = far ? std::max(1., run_.Excess()) : 1;
+    equations_ = windows->Linearise(unknowns_->At(x_), *columns_, run_);
+    const MatrixXd R = equations_.R / excess_;
     VectorXd x = x_;
-    if (!fit_->Solve(equations_.R, equations_.z + equations_.R * x_, &x)) {
+    if (!fit_->Solve(R, equations_.z / excess_ + R * x_, &x)) {
       result_.arm.reason = "the numbers of the logs overflow";
       return;
     }
     result_.arm.solved = true;
-    result_.arm.iterations = k + 1;
-    const double moved = (equations_.R * (x - x_)).norm() / size;
-    if (moved < kSettled) {
-      result_.arm.reason = "CONVERGENCE";
-      return;
-    }
-    if (Step(x)) continue;
+    ++result_.arm.iterations;
+    const double moved = (R * (x - x_)).norm() / size;
+    const bool falls = Step(x, windows);
     // At the bottom rounding decides whether the cost still falls.
-    if (moved < 10 * kSettled) result_.arm.reason = "CONVERGENCE";
-    return;
+    if (moved < (falls ? 1 : 2) * last) result_.arm.reason = "CONVERGENCE";
+    if (!falls || moved < last) return;
   }
 }
 

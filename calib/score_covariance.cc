@@ -53,7 +53,7 @@ void ScoreCovariance::AccumulateWindow() {
       sum += coefficient * power;
     }
   }
-  squares_.selfadjointView<Eigen::Lower>().rankUpdate(sum);
+  squares_.noalias() += sum * sum.transpose();
 }
 
 // Puts the score's equations behind those of the others.
@@ -99,8 +99,7 @@ void ScoreCovariance::Break() {
 
 MatrixXd ScoreCovariance::Value() {
   Break();
-  MatrixXd full = squares_.selfadjointView<Eigen::Lower>();
-  return full / window_;
+  return squares_ / window_;
 }
 
 int BartlettWindow(double rho, long count, int least) {

@@ -118,6 +118,33 @@ TEST(ReadReferenceMotion, GoesThroughRowsAndIsSmoothBetween) {
   }
 }
 
+// Between rows of any distance a polynomial of fifth order is what it is.
+TEST(ReadReferenceMotion, FollowsAFifthOrderPolynomialAtUnevenTimes) {
+  const auto at = [](double t) {
+    return Eigen::Vector3d(1 - t + t * t / 2 - std::pow(t, 5) / 8,
+                           -1 + t - 5 * std::pow(t, 4) / 8,
+                           1 - 5 * std::pow(t, 3) / 2);
+  };
+  std::string text = "t,q1,qd1,qdd1\n";
+  for (const double t : {0., .1, .9, 1., 1.7, 2.}) {
+    char row[160];
+    const Eigen::Vector3d x = at(t);
+    std::snprintf(row, sizeof row, "%.17g,%.17g,%.17g,%.17g\n", t, x[0], x[1],
+                  x[2]);
+    text += row;
+  }
+  Robot robot = SampleRobot("SCARA RRPR");
+  robot.links.resize(1);
+  const ReferenceMotion motion = ReadReferenceMotion(WriteFile(text), robot);
+  for (double t = 0; t <= 2; t += .01) {
+    const ReferencePoint point = motion.at(t);
+    const Eigen::Vector3d x = at(t);
+    ASSERT_NEAR(point.q[0], x[0], 1e-12) << t;
+    ASSERT_NEAR(point.qd[0], x[1], 1e-11) << t;
+    ASSERT_NEAR(point.qdd[0], x[2], 1e-10) << t;
+  }
+}
+
 // Who steps along it passes its end by rounding.
 TEST(ReadReferenceMotion, StaysAtItsEnds) {
   Robot robot = SampleRobot("SCARA RRPR");

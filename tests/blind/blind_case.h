@@ -30,6 +30,7 @@ struct BlindCase {
   Robot robot;                  // the same, read
   double trust = .03;           // relative error of the robot file
   bool has_reference = false;   // a log of the robot before the effects
+  bool has_torque = true;       // else logs hold commands and positions alone
   bool points = false;          // moves between points, not Fourier motion
   double training_s = 42;       // of motion in training and reference logs
   double zero_velocity = .005;  // rad/s

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calib/commanded_torque.h"
 #include "model/inverse_dynamics.h"
 #include "model/low_pass.h"
 
@@ -33,6 +34,15 @@ std::string Describe(const std::vector<ChosenEffect>& effects) {
     text += ";";
   }
   return text;
+}
+
+// By the drives' own law, without the noise of the recorded torques.
+MatrixXd TorqueOfCommands(const BlindCase& blind, const Scenario& scenario,
+                          const Log& log) {
+  CommandedLog commanded{"made", log};
+  commanded.log.t.array() -= log.t[0];
+  return CommandedTorque(blind.robot, scenario.loop.controller, commanded,
+                         commanded.log.t);
 }
 
 }  // namespace
@@ -116,8 +126,10 @@ std::optional<ModelResidual> SimulateResidual(const BlindCase& blind,
   const PlantMotion motion = MotionOf(run.run.log);
   const MatrixXd model =
       ModelTorque(blind.robot, ZeroVelocityWidths(blind), motion);
-  return ModelResidual{ThinTorque(run.run.log.tau - model, motion.rate),
-                       motion};
+  const MatrixXd torque = blind.has_torque
+                              ? run.run.log.tau
+                              : TorqueOfCommands(blind, scenario, run.run.log);
+  return ModelResidual{ThinTorque(torque - model, motion.rate), motion};
 }
 
 const ModelResidual* QuietRuns::Run(const std::vector<ChosenEffect>& effects) {

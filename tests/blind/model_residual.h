@@ -36,7 +36,8 @@ Eigen::MatrixXd ThinTorque(const Eigen::MatrixXd& x, double rate);
 // Torque of the true robot, without effects, beyond that of its file; thin.
 Eigen::MatrixXd FileError(const BlindCase& blind, const PlantMotion& motion);
 
-// Torques of a log without those of the case's robot file.
+// Torques of a log, or what its commands were if the case has none, without
+// those of the case's robot file.
 struct ModelResidual {
   Eigen::MatrixXd torque;  // thin, samples x joints, N m or N
   PlantMotion motion;

@@ -5,6 +5,7 @@
 // they hide to another (tests/blind/README.md).
 
 #include <gflags/gflags.h>
+#include <glog/logging.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "model/input_text.h"
 #include "model/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
 #include "tests/blind/blind_program.h"
@@ -27,6 +29,10 @@ DEFINE_string(plan, "evaluation",
               "all strata in their shares, or one of them: none_rich, "
               "none_poor, one, two, outside");
 DEFINE_string(logs, "blind/logs", "folder for robot files and logs");
+DEFINE_bool(torques, true,
+            "false: logs hold times, positions and commands alone, the "
+            "diagnoser is told the controller, and visibility (enr) is that on "
+            "positions; the robots are the same");
 DEFINE_string(quiet, "",
               "folder for held-out motion without noise of cases with effects; "
               "empty: none");
@@ -52,12 +58,22 @@ json OracleJson(const OracleGap& gap) {
           {"removed_from_nominal_percent", gap.RemovedFromNominalPercent()}};
 }
 
+// How visible the effects are in what is logged.
+std::vector<EffectSize> SizesAsLogged(const SizedCase& sized) {
+  if (sized.blind.has_torque || sized.sizes.empty()) return sized.sizes;
+  const auto sizes = EffectSizes(sized.blind);
+  CHECK(sizes) << "an arm that has followed follows";
+  return *sizes;
+}
+
 // Of what truth.json says of effect k, and what the bench knows of it.
-void AddSize(const SizedCase& sized, size_t k, json* entry) {
+void AddSize(const SizedCase& sized, const EffectSize& size, size_t k,
+             json* entry) {
   const SizeAim& aim = sized.blind.aims[k];
-  (*entry)["enr"] = sized.sizes[k].enr;
-  (*entry)["enr_raw"] = sized.sizes[k].raw;
-  (*entry)["enr_joints"] = Numbers(sized.sizes[k].joint_enr);
+  (*entry)["enr"] = size.enr;
+  (*entry)["enr_torque"] = sized.sizes[k].enr;
+  (*entry)["enr_raw"] = size.raw;
+  (*entry)["enr_joints"] = Numbers(size.joint_enr);
   (*entry)["enr_target"] = aim.target;
   (*entry)["size_limit"] = sized.limits[k];
 }
@@ -73,11 +89,22 @@ json Label(const SizedCase& sized) {
   label["motion"] = blind.points ? "points" : "fourier";
   label["reference"] = blind.has_reference;
   label["attempt"] = sized.attempt;
-  for (size_t k = 0; k < sized.sizes.size(); ++k) {
-    AddSize(sized, k, &label["effects"][k]);
+  const std::vector<EffectSize> sizes = SizesAsLogged(sized);
+  for (size_t k = 0; k < sizes.size(); ++k) {
+    AddSize(sized, sizes[k], k, &label["effects"][k]);
   }
   if (sized.oracle) label["oracle"] = OracleJson(*sized.oracle);
   return label;
+}
+
+std::string CaseLog(const BlindCase& blind, const ScenarioRun& run) {
+  Log log = run.run.log;
+  if (!blind.has_torque) {
+    log.qd.resize(0, 0);
+    log.qdd.resize(0, 0);
+    log.tau.resize(0, 0);
+  }
+  return LogText(log);
 }
 
 // Where it does not follow its motion as the noisy arm does, there is none.
@@ -88,7 +115,12 @@ void WriteQuiet(const BlindCase& blind, const std::string& name) {
   if (!Follows(quiet.run)) return;
   const fs::path folder = fs::path(FLAGS_quiet) / name;
   fs::create_directories(folder);
-  WriteText(folder / "validation.csv", LogText(quiet.run.log));
+  WriteText(folder / "validation.csv", CaseLog(blind, quiet));
+}
+
+// As BlindScenario has it; its gains are of the robot file.
+std::string ControllerText() {
+  return "law: pd\nbandwidth: " + NumberText(kUsualBandwidthHz) + "\n";
 }
 
 ScenarioRun Reference(const BlindCase& blind) {
@@ -105,22 +137,25 @@ void WriteCase(BlindSet set, uint32_t index) {
   const std::string name = CaseName(index);
   const fs::path label = fs::path(FLAGS_labels) / (name + ".json");
   if (fs::exists(label)) return;  // written last, so the case is complete
-  const SizedCase sized =
+  SizedCase sized =
       DrawSizedCase(BlindCaseSeed(set, FLAGS_seed, index), Plan(index));
+  sized.blind.has_torque = FLAGS_torques;
   const BlindCase& blind = sized.blind;
   const fs::path folder = fs::path(FLAGS_logs) / name;
   fs::create_directories(folder);
   WriteText(folder / "robot.yaml", blind.robot_yaml);
-  WriteText(folder / "training.csv", LogText(sized.training.run.log));
-  WriteText(folder / "validation.csv", LogText(sized.validation.run.log));
+  WriteText(folder / "training.csv", CaseLog(blind, sized.training));
+  WriteText(folder / "validation.csv", CaseLog(blind, sized.validation));
   if (blind.has_reference) {
-    WriteText(folder / "reference.csv", LogText(Reference(blind).run.log));
+    WriteText(folder / "reference.csv", CaseLog(blind, Reference(blind)));
   }
   WriteQuiet(blind, name);
-  WriteText(folder / "case.json",
-            json({{"trust", blind.trust}, {"reference", blind.has_reference}})
-                    .dump(2) +
-                "\n");
+  json told = {{"trust", blind.trust}, {"reference", blind.has_reference}};
+  if (!blind.has_torque) {
+    WriteText(folder / "controller.yaml", ControllerText());
+    told["flags"] = {"--controller=controller.yaml"};
+  }
+  WriteText(folder / "case.json", told.dump(2) + "\n");
   WriteText(label, Label(sized).dump(2) + "\n");
 }
 
