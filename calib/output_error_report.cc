@@ -96,6 +96,13 @@ std::string OutputErrorReport(const Robot& robot,
                held_out.c_str(), positions.noise[j], PositionUnit(joint.type));
   }
   if (solved) {
+    constexpr double kShaken = .5;
+    if (result.model_error < kShaken) {
+      text +=
+          "the loops are near instability: linearised, they amplify encoder "
+          "noise more than the arm was shaken; friction may be further off "
+          "than its deviation says\n";
+    }
     text +=
         Format("residuals are %.2f times what encoder noise makes of them\n",
                result.model_error) +

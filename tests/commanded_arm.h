@@ -16,6 +16,13 @@ namespace armcal {
 constexpr double kFrictionWidth = .02;   // rad/s
 constexpr double kCommandDelay = .0043;  // s
 
+// Deviation of the noise and step, rad.
+struct Encoder {
+  double noise, resolution;
+};
+constexpr Encoder kCoarseEncoder{1e-4, 1e-4};
+constexpr Encoder kUsualEncoder{2e-5, 2 * M_PI / (1 << 17)};  // 17 bits
+
 // n links in a row, about horizontal axes that are askew.
 inline Robot CommandedTruth(int n) {
   Robot robot;
@@ -52,7 +59,7 @@ inline Robot FileOf(Robot robot) {
 // Simbody's arm under the controller, whose command comes late.
 inline CommandedLog RecordCommands(const Robot& truth,
                                    const ControllerOptions& controller,
-                                   double duration, double noise,
+                                   double duration, Encoder encoder,
                                    int seed = 1) {
   const int n = truth.num_joints();
   SimulatedRobot plant;
@@ -74,8 +81,9 @@ inline CommandedLog RecordCommands(const Robot& truth,
       motion.duration, [&](double t) { return motion.at(t - kCommandDelay); }};
   ClosedLoopOptions loop;
   loop.controller = controller;
-  loop.sensors.encoder_noise = Eigen::VectorXd::Constant(n, noise);
-  loop.sensors.encoder_resolution = Eigen::VectorXd::Constant(n, noise);
+  loop.sensors.encoder_noise = Eigen::VectorXd::Constant(n, encoder.noise);
+  loop.sensors.encoder_resolution =
+      Eigen::VectorXd::Constant(n, encoder.resolution);
   loop.sensors.seed = seed;
   SimbodyArm engine(truth);
   CommandedLog log{"made", {}};
@@ -86,9 +94,10 @@ inline CommandedLog RecordCommands(const Robot& truth,
   return log;
 }
 
-inline ControllerOptions CommandedController(const Robot& truth) {
-  ControllerOptions controller =
-      DefaultController(truth, Eigen::VectorXd::Zero(truth.num_joints()), 8);
+inline ControllerOptions CommandedController(const Robot& truth,
+                                             double bandwidth_hz = 8) {
+  ControllerOptions controller = DefaultController(
+      truth, Eigen::VectorXd::Zero(truth.num_joints()), bandwidth_hz);
   controller.feedforward = Feedforward::kNone;
   for (DriveLaw& drive : controller.drives) drive.torque_limit = 1e9;
   return controller;

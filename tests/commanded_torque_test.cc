@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 // what is made of command and encoders alone, in shares of its rms.
 double Misfit(const ControllerOptions& controller, const Robot& truth,
               double noise) {
-  CommandedLog log = RecordCommands(truth, controller, 8, noise);
+  CommandedLog log = RecordCommands(truth, controller, 8, {noise, noise});
   const MatrixXd given = log.log.tau;
   log.log.tau.resize(0, 0);
   ControllerOptions late = controller;
@@ -45,7 +45,7 @@ TEST(CommandedTorque, OfLogsThatLoseRows) {
   const Robot truth = CommandedTruth(3);
   ControllerOptions controller = CommandedController(truth);
   controller.feedforward = Feedforward::kInverseDynamics;
-  CommandedLog whole = RecordCommands(truth, controller, 8, 1e-6);
+  CommandedLog whole = RecordCommands(truth, controller, 8, {1e-6, 1e-6});
   std::vector<int> kept;
   for (int k = 0; k < whole.log.size(); ++k) {
     if (k % 50 >= 5 || k % 3 == 0) kept.push_back(k);

@@ -19,7 +19,8 @@ TEST(OutputErrorTest, FindsWhatPositionsTell) {
     const ControllerOptions controller = CommandedController(truth);
     OutputErrorOptions options;
     options.trust.inertia = 0;
-    const CommandedLog log = RecordCommands(truth, controller, 6, kNoise);
+    const CommandedLog log =
+        RecordCommands(truth, controller, 6, {kNoise, kNoise});
     const OutputErrorCalibration result =
         CalibrateOutputError(FileOf(truth), controller, options, {log}, {log});
     ASSERT_TRUE(result.arm.converged()) << result.arm.reason;
@@ -51,7 +52,8 @@ TEST(OutputErrorTest, ScaleOfTorqueNeedsGainsOrGravity) {
   Robot truth = CommandedTruth(1);
   truth.gravity.setZero();
   const ControllerOptions controller = CommandedController(truth);
-  const CommandedLog log = RecordCommands(truth, controller, 6, kNoise);
+  const CommandedLog log =
+      RecordCommands(truth, controller, 6, {kNoise, kNoise});
   const auto identifiable = [&](double gains, const std::string& name) {
     OutputErrorOptions options;
     options.trust.gains = gains;

@@ -2,11 +2,11 @@
 # clang-tidy over armcal's own sources by the checks of .clang-tidy; fails on any
 # finding. Some ten seconds a file on each core: name files while you work.
 #   FILE...      only these sources; default all of model/ problems/ calib/ tools/
-#   --build DIR  has compile_commands.json, default build-instrumented
+#   --build DIR  has compile_commands.json, default build-tidy, which is not built
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-build=build-instrumented files=()
+build=build-tidy files=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --build)
@@ -21,7 +21,7 @@ done
 
 tools/setup.sh --full
 if [[ ! -e $build/compile_commands.json ]]; then
-  cmake --preset instrumented -B "$build" >/dev/null
+  cmake --preset instrumented -B "$build" -DPYTHON=ON >/dev/null
 fi
 if [[ ${#files[@]} -eq 0 ]]; then
   mapfile -t files < <(find model problems calib tools -name '*.cc' | sort)
