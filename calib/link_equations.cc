@@ -110,6 +110,12 @@ struct LinkPass::Columns {
   std::vector<int> wider;  // the columns they belong to
 };
 
+VectorXd EquationNoise(const LinearCalibration& linear) {
+  constexpr double kLeast = 1e-5;  // of the torque
+  if (!linear.training) return linear.noise;
+  return linear.noise.cwiseMax(kLeast * linear.training->moving().torque_rms);
+}
+
 LinkPass::LinkPass(const ArmUnknowns& unknowns, const LinearCalibration& linear,
                    const Progress& progress, LogSet* logs)
     : unknowns_(unknowns), linear_(linear), progress_(progress), logs_(logs) {}

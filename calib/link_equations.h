@@ -35,6 +35,11 @@ struct LinkInformation {
   Eigen::VectorXd least;
 };
 
+// Standard deviations of a linear calibration's weak rows, per joint, but at
+// least a little of the torque: logs without noise would have what is left of
+// the filters pull estimates off what else is measured.
+Eigen::VectorXd EquationNoise(const LinearCalibration& linear);
+
 // Passes over the logs. `noise`: standard deviations per joint of the weak
 // rows; those of rows that follow each other tell less than their number, which
 // the linear calibration's inflation stands for.

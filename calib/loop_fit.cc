@@ -12,14 +12,32 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-LoopFit::LoopFit(const LoopUnknowns& unknowns, const LoopTrust& trust)
-    : unknowns_(unknowns), inertia_(trust.inertia), files_(unknowns.nominal()) {
+LoopFit::LoopFit(const LoopUnknowns& unknowns, const LoopTrust& trust,
+                 const TorqueInformation* torques)
+    : unknowns_(unknowns),
+      torques_(torques),
+      inertia_(trust.inertia),
+      files_(unknowns.nominal()) {
   constexpr double kInside = .01;  // m, kg
   for (int k = 0; k < unknowns.links_size() && unknowns.is_free(0); k += 10) {
     const Vector10d c =
         LogCholeskyFromInertial(files_.segment<10>(k), kInside, kInside);
     InertialFromLogCholesky(c.data(), files_.data() + k);
   }
+}
+
+MatrixXd LoopFit::TorqueRows() const {
+  if (torques_ == nullptr) return MatrixXd::Zero(0, unknowns_.size());
+  MatrixXd rows = MatrixXd::Zero(torques_->R.rows(), unknowns_.size());
+  rows.leftCols(torques_->R.cols()) = torques_->R;
+  return rows;
+}
+
+MatrixXd LoopFit::TorqueScores() const {
+  MatrixXd scores = MatrixXd::Zero(unknowns_.size(), unknowns_.size());
+  if (torques_ == nullptr) return scores;
+  scores.topLeftCorner(torques_->S.rows(), torques_->S.cols()) = torques_->S;
+  return scores;
 }
 
 bool LoopFit::Solve(const MatrixXd& R, const VectorXd& z, VectorXd* x) const {
@@ -29,10 +47,17 @@ bool LoopFit::Solve(const MatrixXd& R, const VectorXd& z, VectorXd* x) const {
   // Links that are held may be such as no body has.
   const int first = unknowns_.is_free(0) ? 0 : links;
   const long size = unknowns_.size() - first;
-  MatrixXd A = MatrixXd::Zero(R.rows() + others, size);
+  const MatrixXd by_torque = TorqueRows();
+  const long told = R.rows() + by_torque.rows();
+  MatrixXd all(told, unknowns_.size());
+  all << R, by_torque;
+  MatrixXd A = MatrixXd::Zero(told + others, size);
   VectorXd b = VectorXd::Zero(A.rows());
-  A.topRows(R.rows()) = R.rightCols(size);
-  b.head(R.rows()) = z - R.leftCols(first) * x->head(first);
+  A.topRows(told) = all.rightCols(size);
+  b.head(R.rows()) = z;
+  if (torques_ != nullptr)
+    b.segment(R.rows(), torques_->z.size()) = torques_->z;
+  b.head(told) -= all.leftCols(first) * x->head(first);
   VectorXd start = files_.tail(size);
   std::vector<TermRange> ranges;
   for (int k = 0; k < others; ++k) {
@@ -44,8 +69,8 @@ bool LoopFit::Solve(const MatrixXd& R, const VectorXd& z, VectorXd* x) const {
     value = (*x)[unknown];
     if (ranges.back() == TermRange::kHeld) continue;
     const double prior = unknowns_.prior(unknown);
-    A(R.rows() + k, size - others + k) = 1 / prior;
-    b[R.rows() + k] = files_[unknown] / prior;
+    A(told + k, size - others + k) = 1 / prior;
+    b[told + k] = files_[unknown] / prior;
     if (ranges.back() == TermRange::kPositive) {
       value = std::max(value, kClear * prior);
     }
@@ -64,6 +89,10 @@ bool LoopFit::Solve(const MatrixXd& R, const VectorXd& z, VectorXd* x) const {
 
 double LoopFit::PriorCost(const VectorXd& x) const {
   double cost = 0;
+  if (torques_ != nullptr) {
+    cost +=
+        (torques_->R * x.head(torques_->R.cols()) - torques_->z).squaredNorm();
+  }
   for (int k = 0; k < unknowns_.links_size() && unknowns_.is_free(0); k += 10) {
     const InertialPrior prior(files_.segment<10>(k), inertia_);
     const Vector10d c = LogCholeskyFromInertial(x.segment<10>(k), 0, 0);

@@ -94,19 +94,18 @@ void Linearisation::Control(long k) {
   const long size = state_.stride();
   for (int j = 0; j < n_; ++j) {
     const DriveSlopes& slopes = track_.slopes[n_ * k + j];
-    const double* const q = state_.row(j);
-    double *last = last_.row(j), *velocity = velocity_.row(j),
-           *integral = integral_.row(j), *command = command_.row(j);
-    const double moves = slopes.integrates * period_;
-#pragma GCC ivdep  // rows are apart
-    for (long c = 0; c < size; ++c) {
-      const double v = decay_ * velocity[c] + rate * (q[c] - last[c]);
-      command[c] =
-          slopes.acts * (integral[c] - slopes.by_q * q[c] - slopes.by_v * v);
-      integral[c] -= moves * (slopes.rate_by_q * q[c] + slopes.rate_by_v * v);
-      velocity[c] = v;
-      last[c] = q[c];
-    }
+    const auto row = [size, j](TangentRows* rows) {
+      return Eigen::Map<Eigen::ArrayXd>(rows->row(j), size);
+    };
+    const auto q = row(&state_);
+    auto last = row(&last_), velocity = row(&velocity_),
+         integral = row(&integral_), command = row(&command_);
+    velocity = decay_ * velocity + rate * (q - last);
+    command =
+        slopes.acts * (integral - slopes.by_q * q - slopes.by_v * velocity);
+    integral -= slopes.integrates * period_ *
+                (slopes.rate_by_q * q + slopes.rate_by_v * velocity);
+    last = q;
   }
   AddGains(k);
 }

@@ -19,9 +19,6 @@ using Eigen::VectorXd;
 
 // Rounds of taking the torques linearly in the geometry.
 constexpr int kMostRounds = 20;
-// Of the torque: equations are not trusted beyond it. Logs without noise would
-// have what is left of the filters pull the geometry off exact poses.
-constexpr double kLeastNoise = 1e-5;
 constexpr double kSettled = 0.05;  // noise deviations, rms over parameters
 
 bool HasUnknownLengths(const LinearCalibration& linear) {
@@ -97,12 +94,8 @@ class NonlinearCalibrator {
       : linear_(linear),
         options_(options),
         unknowns_(robot, linear, options.refine, poses),
-        noise_(linear.noise),
+        noise_(EquationNoise(linear)),
         values_(unknowns_.nominal()) {
-    if (linear.training) {
-      noise_ =
-          noise_.cwiseMax(kLeastNoise * linear.training->moving().torque_rms);
-    }
     if (poses == nullptr) return;
     pose_options_.refine = options.refine;
     pose_options_.loss = options.pose_loss;

@@ -49,8 +49,10 @@ class Calibrator {
  public:
   Calibrator(const Robot& robot, const ControllerOptions& controller,
              const OutputErrorOptions& options,
-             const std::vector<CommandedLog>& training)
+             const std::vector<CommandedLog>& training,
+             const TorqueInformation* torques)
       : options_(options),
+        torques_(torques),
         kind_(controller.kind),
         files_(FilesValues(robot, controller, options)),
         windows_(robot, controller, options.window_s, training) {}
@@ -66,10 +68,14 @@ class Calibrator {
           "the loop of the robot file's arm and this controller is not stable";
       return result_;
     }
+    if (torques_ != nullptr && !torques_->reason.empty()) {
+      result_.arm.reason = "the logs with torques: " + torques_->reason;
+      return result_;
+    }
     unknowns_.emplace(files_, kind_, options_.trust, options_.joint_terms,
                       run_.torque_rms);
     columns_.emplace(files_.arm.robot, unknowns_->free());
-    fit_.emplace(*unknowns_, options_.trust);
+    fit_.emplace(*unknowns_, options_.trust, torques_);
     Approach();
     Iterate(false, &windows_);
     if (!result_.arm.solved) return result_;
@@ -81,7 +87,9 @@ class Calibrator {
   }
 
  private:
-  // Near the bottom, from the file's values, of which run_ is.
+  // The file's values, or what torques say where they say it.
+  VectorXd Start() const;
+  // Near the bottom; run_ is of the file's values.
   void Approach();
   void Iterate(bool far, LoopWindows* windows);
   // Towards x, as far as the cost falls; false where it does not.
@@ -92,6 +100,7 @@ class Calibrator {
   }
 
   const OutputErrorOptions& options_;
+  const TorqueInformation* torques_;
   DriveKind kind_;
   LoopValues files_;
   LoopWindows windows_;
@@ -105,11 +114,20 @@ class Calibrator {
   OutputErrorCalibration result_;
 };
 
+VectorXd Calibrator::Start() const {
+  VectorXd x = unknowns_->nominal();
+  if (torques_ == nullptr) return x;
+  for (int k = 0; k < torques_->x.size(); ++k) {
+    if (unknowns_->is_free(k)) x[k] = torques_->x[k];
+  }
+  return x;
+}
+
 void Calibrator::Approach() {
   const LoopRun of_files = run_;
-  x_ = unknowns_->nominal();
+  x_ = Start();
   LoopWindows few = windows_.Thinned(kFewWindow, kFew);
-  run_ = few.Simulate(files_);
+  run_ = few.Simulate(unknowns_->At(x_));
   if (run_.finite) Iterate(true, &few);
   run_ = windows_.Simulate(unknowns_->At(x_));
   if (run_.finite) return;
@@ -170,14 +188,17 @@ void Calibrator::Report() {
       windows_.Scores(result_.values, *columns_, run_, equations_);
   const double excess = scores.residual_squares / scores.expected_squares;
   result_.model_error = std::sqrt(excess);
+  const MatrixXd by_torque = fit_->TorqueRows();
+  MatrixXd data(equations_.R.rows() + by_torque.rows(), by_torque.cols());
+  data << equations_.R, by_torque;
   const auto trusting = [&](double inertia, double times) {
-    return Posterior(equations_.R, fit_->PriorInformation(inertia, times),
-                     free);
+    return Posterior(data, fit_->PriorInformation(inertia, times), free);
   };
   const double inertia = options_.trust.inertia;
   const Posterior posterior = trusting(inertia, 1);
   const MatrixXd covariance =
       excess * posterior.Sandwich(SquareRoot(scores.covariance)) +
+      posterior.Sandwich(SquareRoot(fit_->TorqueScores())) +
       posterior.Sandwich(SquareRoot(fit_->PriorInformation(inertia, 1)));
   // Where a second's scores scatter by more than noise explains, the model is
   // wrong, and they tell how sure the estimate is.
@@ -214,7 +235,7 @@ void Calibrator::Report() {
   for (const int k : free) names.push_back(unknowns_->name(k));
   const MatrixXd nothing = MatrixXd::Zero(0, unknowns_->size());
   arm.unseen = UnseenCombinations(
-      free, names, equations_.R,
+      free, names, data,
       Posterior(nothing, fit_->PriorInformation(1, 1), free).Gain().diagonal());
 }
 
@@ -224,9 +245,10 @@ OutputErrorCalibration CalibrateOutputError(
     const Robot& robot, const ControllerOptions& controller,
     const OutputErrorOptions& options,
     const std::vector<CommandedLog>& training,
-    const std::vector<CommandedLog>& validation) {
+    const std::vector<CommandedLog>& validation,
+    const TorqueInformation* torques) {
   OutputErrorCalibration result =
-      Calibrator(robot, controller, options, training).Run();
+      Calibrator(robot, controller, options, training, torques).Run();
   if (result.arm.solved && !validation.empty()) {
     const LoopWindows windows(robot, controller, options.window_s, validation);
     result.positions.validation =

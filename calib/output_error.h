@@ -8,6 +8,7 @@
 #include "calib/loop_unknowns.h"
 #include "calib/loop_values.h"
 #include "calib/nonlinear_calibration.h"
+#include "calib/torque_information.h"
 #include "model/joint_controller.h"
 #include "model/joint_term.h"
 #include "model/robot.h"
@@ -48,11 +49,13 @@ struct OutputErrorCalibration {
 // Estimates an arm and its controller from commanded and measured positions
 // alone: simulated in closed loop, the arm shall be where it was measured
 // (output error). Gauss-Newton with exact derivatives of the simulation. The
-// controller knows the robot file.
+// controller knows the robot file. `torques`: what other logs, with torques, of
+// the same arm say (null: none); one estimate is made of both.
 OutputErrorCalibration CalibrateOutputError(
     const Robot& robot, const ControllerOptions& controller,
     const OutputErrorOptions& options,
     const std::vector<CommandedLog>& training,
-    const std::vector<CommandedLog>& validation);
+    const std::vector<CommandedLog>& validation,
+    const TorqueInformation* torques = nullptr);
 
 }  // namespace armcal

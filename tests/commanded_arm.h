@@ -4,12 +4,16 @@
 
 #include <cmath>
 #include <map>
+#include <random>
 #include <string>
 
 #include "calib/closed_loop_replay.h"
+#include "calib/torque_information.h"
+#include "model/log_writer.h"
 #include "model/plant/closed_loop.h"
 #include "model/plant/reference_motion.h"
 #include "model/plant/simbody_arm.h"
+#include "tests/temp_file.h"
 
 namespace armcal {
 
@@ -92,6 +96,20 @@ inline CommandedLog RecordCommands(const Robot& truth,
     log.log.qref.row(k) = motion.at(log.log.t[k]).q;
   }
   return log;
+}
+
+// What such a log's torques say, measured with that noise, N m.
+inline TorqueInformation TorquesOf(const CommandedLog& commanded,
+                                   const Robot& file, double noise, int seed) {
+  Log log = commanded.log;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (double& tau : log.tau.reshaped()) tau += noise * normal(random);
+  LogReaderOptions reading;
+  reading.joint_names = file.JointNames();
+  LogSet logs({WriteFile(LogText(log))}, reading, {});
+  return InformByTorques(file, CalibrateLinear(file, {}, &logs, nullptr), {},
+                         &logs);
 }
 
 inline ControllerOptions CommandedController(const Robot& truth,

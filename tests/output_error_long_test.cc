@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -20,6 +21,7 @@ struct Study {
   int joints, draws;
   double gains, bandwidth_hz;
   Encoder encoder;
+  double torque_noise = 0;  // N m, of a second log with torques; 0: none
 };
 
 class OutputErrorStudy : public testing::TestWithParam<Study> {};
@@ -30,6 +32,8 @@ INSTANTIATE_TEST_SUITE_P(Arms, OutputErrorStudy,
                                          Study{1, 200, .1, 8, kUsualEncoder},
                                          Study{3, 100, 0, 8, kUsualEncoder},
                                          Study{6, 100, 0, 4, kUsualEncoder},
+                                         Study{1, 200, .3, 8, kUsualEncoder,
+                                               .1},
                                          Study{1, 200, 0, 8, kCoarseEncoder},
                                          Study{3, 100, 0, 8, kCoarseEncoder}));
 
@@ -60,9 +64,18 @@ TEST_P(OutputErrorStudy, IntervalsHoldTheTruth) {
     OutputErrorOptions options;
     options.trust.inertia = 0;
     options.trust.gains = study.gains;
-    const OutputErrorCalibration result = CalibrateOutputError(
-        FileOf(truth), file, options,
-        {RecordCommands(truth, controller, 30, study.encoder, draw + 1)}, {});
+    const auto record = [&](int seed) {
+      return RecordCommands(truth, controller, 30, study.encoder, seed);
+    };
+    std::optional<TorqueInformation> torques;
+    if (study.torque_noise > 0) {
+      torques = TorquesOf(record(draw + 1001), FileOf(truth),
+                          study.torque_noise, draw + 1);
+      ASSERT_EQ(torques->reason, "");
+    }
+    const OutputErrorCalibration result =
+        CalibrateOutputError(FileOf(truth), file, options, {record(draw + 1)},
+                             {}, torques ? &*torques : nullptr);
     ASSERT_TRUE(result.arm.converged()) << result.arm.reason;
     for (const PhysicalParameter& p : result.arm.parameters) {
       const auto value = expected.find(p.name);

@@ -71,5 +71,49 @@ TEST(OutputErrorTest, ScaleOfTorqueNeedsGainsOrGravity) {
   EXPECT_FALSE(identifiable(1, "joint1.kp"));
 }
 
+// ... or another log with torques, which also finds what they find alone.
+TEST(OutputErrorTest, TorquesOfAnotherLogTellTheScale) {
+  Robot truth = CommandedTruth(1);
+  truth.gravity.setZero();
+  const ControllerOptions controller = CommandedController(truth);
+  ControllerOptions file = controller;
+  file.drives[0].kp *= 1.4;
+  file.drives[0].kd *= .7;
+  const TorqueInformation torques =
+      TorquesOf(RecordCommands(truth, controller, 6, {kNoise, kNoise}, 2),
+                FileOf(truth), .05, 3);
+  ASSERT_EQ(torques.reason, "");
+  OutputErrorOptions options;
+  options.trust.inertia = 0;
+  options.trust.gains = 1;
+  const OutputErrorCalibration result = CalibrateOutputError(
+      FileOf(truth), file, options,
+      {RecordCommands(truth, controller, 6, {kNoise, kNoise})}, {}, &torques);
+  ASSERT_TRUE(result.arm.converged()) << result.arm.reason;
+  auto expected = TrueValues(truth);
+  expected["joint1.kp"] = controller.drives[0].kp;
+  expected["joint1.kd"] = controller.drives[0].kd;
+  for (const PhysicalParameter& p : result.arm.parameters) {
+    const auto value = expected.find(p.name);
+    if (value == expected.end()) continue;
+    EXPECT_TRUE(p.identifiable) << p.name;
+    EXPECT_LT(std::abs(p.value - value->second), 3.5 * p.stddev) << p.name;
+    EXPECT_LT(p.stddev, .04 * value->second) << p.name;
+  }
+}
+
+// Logs whose torques tell nothing are named.
+TEST(OutputErrorTest, RefusesWithTheTorquesReason) {
+  const Robot truth = CommandedTruth(1);
+  const ControllerOptions controller = CommandedController(truth);
+  TorqueInformation torques;
+  torques.reason = "nothing moves";
+  const OutputErrorCalibration result = CalibrateOutputError(
+      FileOf(truth), controller, {},
+      {RecordCommands(truth, controller, 6, {kNoise, kNoise})}, {}, &torques);
+  EXPECT_FALSE(result.arm.solved);
+  EXPECT_EQ(result.arm.reason, "the logs with torques: nothing moves");
+}
+
 }  // namespace
 }  // namespace armcal

@@ -2,7 +2,9 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,10 @@ DEFINE_double(gains_trust, 0,
 DEFINE_double(delay_trust, 0.02,
               "`S` with --controller: standard deviation of the command's "
               "delay, which is then estimated; 0: exact");
+
+DEFINE_string(torque_log, "",
+              "`FILES` logs with torques of the same arm, beside --log's of "
+              "commands: one estimate is made of both");
 
 namespace armcal {
 namespace {
@@ -71,6 +77,44 @@ std::vector<CommandedLog> Read(const std::vector<std::string>& paths,
   return logs;
 }
 
+std::vector<std::string> TorqueLogsFromFlags() {
+  const std::vector<std::string> paths = SplitAtCommas(FLAGS_torque_log);
+  std::vector<std::string> others = LogsFromFlags();
+  for (const std::string& log : ValidationLogsFromFlags()) {
+    others.push_back(log);
+  }
+  for (const std::string& path : paths) {
+    others.push_back(path);
+    if (path.empty() || std::count(others.begin(), others.end(), path) > 1) {
+      throw UsageError("--torque_log: found '" + FLAGS_torque_log +
+                       "', expected names of logs that are named once, with "
+                       "commas between them");
+    }
+  }
+  return paths;
+}
+
+// Nothing without --torque_log.
+std::optional<TorqueInformation> TorquesFromFlags(const Robot& robot,
+                                                  const CommandInput& input) {
+  const std::vector<std::string> paths = TorqueLogsFromFlags();
+  if (paths.empty()) return std::nullopt;
+  LinearCalibrationOptions linear = LinearOptionsFromFlags(robot);
+  if (linear.identification != Identification::kWeak ||
+      linear.solver != LinearSolver::kWeighted) {
+    throw UsageError(
+        "--torque_log: expected --identification=weak and --solver=weighted "
+        "with it, whose equations have weights beside positions");
+  }
+  linear.progress = input.progress;
+  NonlinearCalibrationOptions options;
+  options.trust = TrustFromFlags();
+  options.progress = input.progress;
+  LogSet logs(paths, LogOptionsFromFlags(robot), TimeRange());
+  return InformByTorques(robot, CalibrateLinear(robot, linear, &logs, nullptr),
+                         options, &logs);
+}
+
 void ExpectMasses(const Robot& robot) {
   for (const Link& link : robot.links) {
     if (link.inertial.mass > 0) continue;
@@ -81,7 +125,14 @@ void ExpectMasses(const Robot& robot) {
 
 }  // namespace
 
-bool CommandedFromFlags() { return !FLAGS_controller.empty(); }
+bool CommandedFromFlags() {
+  if (FLAGS_controller.empty() && !FLAGS_torque_log.empty()) {
+    throw UsageError(
+        "--torque_log: found no --controller beside it, expected logs of "
+        "commands in --log; logs with torques alone are --log's");
+  }
+  return !FLAGS_controller.empty();
+}
 
 CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
   const Robot robot = RobotFromFlags(input);
@@ -98,12 +149,21 @@ CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
       Read(ValidationLogsFromFlags(), reading, ValidationCropFromFlags());
   const ControllerOptions controller =
       ControllerFromFlags(robot, training.at(0).log.qref.row(0));
+  const std::optional<TorqueInformation> torques =
+      TorquesFromFlags(robot, input);
   const OutputErrorCalibration result =
-      CalibrateOutputError(robot, controller, options, training, validation);
+      CalibrateOutputError(robot, controller, options, training, validation,
+                           torques ? &*torques : nullptr);
   CommandOutcome outcome;
   OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   nlohmann::json json = OutputErrorJson(robot, training, validation, result);
-  outcome.output.text = OutputErrorReport(robot, result);
+  const std::vector<std::string> torque_logs = TorqueLogsFromFlags();
+  if (torques) {
+    json["torque_logs"] = torque_logs;
+    outcome.output.text =
+        "with the torques of " + JoinNames(torque_logs) + "\n";
+  }
+  outcome.output.text += OutputErrorReport(robot, result);
   if (result.arm.solved) AddRobotOutputs(result.arm, &json, &outcome);
   outcome.output.json = json.dump(2) + "\n";
   out.Add("calibration.json", outcome.output.json);
@@ -111,6 +171,7 @@ CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
   for (const std::string& path : ValidationLogsFromFlags()) {
     files.push_back(path);
   }
+  files.insert(files.end(), torque_logs.begin(), torque_logs.end());
   AddReport("calibrate", robot, json, files, nullptr, &out);
   outcome.output.verdict = robot.name + ": ";
   outcome.output.positive = Shortcomings(result).empty();
