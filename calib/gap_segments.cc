@@ -21,7 +21,10 @@ constexpr double kSmoothTorqueHz = 3;
 constexpr double kSmoothTemperatureHz = .2;
 // Of errors of stamps, which are known every second.
 constexpr double kSmoothStampHz = .3;
-constexpr double kShortest = 2;         // s
+constexpr double kShortest = 2;  // s
+// Drives creep for a while when their command has come to rest: a torque that
+// was made of it is more certain than what friction is there.
+constexpr double kCreepSpeed = .01;     // rad/s or m/s
 constexpr double kMotionBandwidth = 5;  // of the torque's
 
 void AppendRows(const MatrixXd& rows, MatrixXd* to) {
@@ -69,9 +72,12 @@ void FindStillJoints(GapSegment* segment) {
   const MatrixXd velocity = MeanVelocity(motion.q, motion.dt);
   const int reach =
       static_cast<int>(std::ceil(kStandstillMeanTime / 2 / motion.dt));
+  const double speed = segment->made_torque ? kCreepSpeed : kStandstillSpeed;
   for (int j = 0; j < motion.num_joints(); ++j) {
     segment->still.col(j) =
-        FindStandstill(velocity.col(j), motion.dt, reach).matrix().array();
+        FindStandstill(velocity.col(j), motion.dt, reach, speed)
+            .matrix()
+            .array();
   }
 }
 

@@ -103,7 +103,7 @@ void LoopWindows::AddWindows(int log, double window_s, int every) {
     const LoopStart shown = stretch.Start();
     VectorXd nominal(3 * n_);
     nominal << shown.q, shown.qd, shown.integral;
-    windows_.push_back({stretch, nominal, nominal});
+    windows_.push_back({log, stretch, nominal, nominal});
   }
 }
 
@@ -260,22 +260,30 @@ LoopScores LoopWindows::Scores(const LoopValues& values,
   return all;
 }
 
+void LoopWindows::ForEachRow(const VisitRow& visit) const {
+  for (size_t w = 0; w < windows_.size(); ++w) {
+    const LoopStretch& stretch = windows_[w].stretch;
+    const CommandedLog& log = logs_[windows_[w].log];
+    const VectorXd& t = log.log.t;
+    const long first = stretch.first_row();
+    for (long k = 0; k < stretch.num_rows(); ++k) {
+      visit(log, first + k, w, k, t[first + k] >= t[first] + kCatchUp);
+    }
+  }
+}
+
 VectorXd LoopWindows::ResidualRms(const LoopRun& run) const {
   if (!run.finite) {
     return VectorXd::Constant(n_, std::numeric_limits<double>::infinity());
   }
   VectorXd squares = VectorXd::Zero(n_);
   long count = 0;
-  for (size_t l = 0; l < windows_.size(); ++l) {
-    const LoopStretch& stretch = windows_[l].stretch;
-    const VectorXd& t = stretch.log().t;
-    const long first = stretch.first_row();
-    for (long k = 0; k < stretch.num_rows(); ++k) {
-      if (t[first + k] < t[first] + kCatchUp) continue;
-      squares += run.residuals[l].segment(n_ * k, n_).cwiseAbs2();
-      ++count;
-    }
-  }
+  ForEachRow(
+      [&](const CommandedLog&, long, size_t window, long row, bool counts) {
+        if (!counts) return;
+        squares += run.residuals[window].segment(n_ * row, n_).cwiseAbs2();
+        ++count;
+      });
   return (squares / static_cast<double>(std::max(1L, count))).cwiseSqrt();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -69,11 +70,18 @@ class LoopWindows {
                     const LoopRun& run, const LoopEquations& equations) const;
   // rms of residuals per joint, rad or m, without each window's first second.
   Eigen::VectorXd ResidualRms(const LoopRun& run) const;
+  // Visits the rows of all windows; `counts`: not in a window's first second,
+  // in which its simulation forgets where it began.
+  using VisitRow =
+      std::function<void(const CommandedLog& log, long row, size_t window,
+                         long row_of_window, bool counts)>;
+  void ForEachRow(const VisitRow& visit) const;
   // Of the encoders, per joint, rad or m: all logs'.
   const Eigen::VectorXd& noise() const { return noise_; }
 
  private:
   struct Window {
+    int log;
     LoopStretch stretch;
     Eigen::VectorXd nominal, start;  // q, qd, integral
   };

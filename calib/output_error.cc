@@ -249,11 +249,17 @@ OutputErrorCalibration CalibrateOutputError(
     const TorqueInformation* torques) {
   OutputErrorCalibration result =
       Calibrator(robot, controller, options, training, torques).Run();
-  if (result.arm.solved && !validation.empty()) {
-    const LoopWindows windows(robot, controller, options.window_s, validation);
-    result.positions.validation =
-        windows.ResidualRms(windows.Simulate(result.values));
-  }
+  if (!result.arm.solved) return result;
+  const bool held_out = !validation.empty();
+  if (!held_out && options.trace_bins == 0) return result;
+  const LoopWindows windows(robot, controller, options.window_s,
+                            held_out ? validation : training);
+  std::vector<LoopRun> runs = {windows.Simulate(result.values)};
+  if (held_out) result.positions.validation = windows.ResidualRms(runs[0]);
+  if (options.trace_bins == 0) return result;
+  runs.insert(runs.begin(),
+              windows.Simulate(FilesValues(robot, controller, options)));
+  result.traces = TracePositions(windows, runs, options.trace_bins);
   return result;
 }
 

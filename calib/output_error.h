@@ -8,6 +8,7 @@
 #include "calib/loop_unknowns.h"
 #include "calib/loop_values.h"
 #include "calib/nonlinear_calibration.h"
+#include "calib/position_trace.h"
 #include "calib/torque_information.h"
 #include "model/joint_controller.h"
 #include "model/joint_term.h"
@@ -24,6 +25,9 @@ struct OutputErrorOptions {
   // Logs are simulated in windows, each from a state of its own, side by side:
   // a loop forgets within a fraction of a second where it began.
   double window_s = 4;
+  // Above 0: positions of the held-out logs, or of all if there are none, are
+  // kept for drawing in at most so many bins.
+  int trace_bins = 0;
   Progress progress;
 };
 
@@ -44,6 +48,8 @@ struct OutputErrorCalibration {
   // Of residuals over what encoder noise alone makes of them: 1 where the model
   // is right. Deviations are this many times wider.
   double model_error = 1;
+  // Simulated with the file's values and with the estimate.
+  std::vector<PositionTrace> traces;
 };
 
 // Estimates an arm and its controller from commanded and measured positions

@@ -37,13 +37,19 @@ void SeriesEnvelope::Add(double t, const Eigen::VectorXd& values) {
 
 void SeriesEnvelope::Break() { follows_ = false; }
 
-// A gap shorter than a bin is lost: nobody would see it.
+// Across a gap only where there are too many of them.
 void SeriesEnvelope::Halve() {
-  std::vector<Bin> half;
-  for (size_t k = 0; k < bins_.size(); k += 2) {
-    half.push_back(std::move(bins_[k]));
-    if (k + 1 < bins_.size()) Merge(bins_[k + 1], &half.back());
-  }
+  const auto halved = [this](bool across_gaps) {
+    std::vector<Bin> half;
+    for (size_t k = 0; k < bins_.size(); ++k) {
+      half.push_back(bins_[k]);
+      if (k + 1 == bins_.size()) break;
+      if (across_gaps || bins_[k + 1].follows) Merge(bins_[++k], &half.back());
+    }
+    return half;
+  };
+  std::vector<Bin> half = halved(false);
+  if (half.size() > 3 * most_bins_ / 4) half = halved(true);
   bins_ = std::move(half);
   samples_per_bin_ *= 2;
 }

@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace armcal {
-namespace {
-
-constexpr double kStandstillSpeed = 1e-3;  // rad/s or m/s
-
-}  // namespace
-
 Eigen::MatrixXd MeanVelocity(const Eigen::MatrixXd& q, double dt) {
   const Eigen::Index n = q.rows();
   const Eigen::Index half = std::max<Eigen::Index>(
@@ -27,14 +21,14 @@ Eigen::MatrixXd MeanVelocity(const Eigen::MatrixXd& q, double dt) {
 }
 
 Eigen::Array<bool, Eigen::Dynamic, 1> FindStandstill(
-    const Eigen::MatrixXd& velocity, double dt, int reach) {
+    const Eigen::MatrixXd& velocity, double dt, int reach, double speed) {
   const int n = static_cast<int>(velocity.rows());
   const int least =
       std::max(1, static_cast<int>(std::ceil(kStandstillTime / dt - 1e-9)));
   Eigen::Array<bool, Eigen::Dynamic, 1> standstill =
       Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, false);
   const Eigen::Array<bool, Eigen::Dynamic, 1> moves =
-      (velocity.array().abs() >= kStandstillSpeed).rowwise().any();
+      (velocity.array().abs() >= speed).rowwise().any();
   int begin = 0;
   for (int k = 0; k <= n; ++k) {
     if (k < n && !moves[k]) continue;

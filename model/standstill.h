@@ -10,10 +10,13 @@ inline constexpr double kStandstillMeanTime = 0.2;  // s, of judged velocities
 // Mean velocity over kStandstillMeanTime around each sample (less at the ends).
 Eigen::MatrixXd MeanVelocity(const Eigen::MatrixXd& q, double dt);
 
-// Samples at which all |velocity| stay below 1e-3 rad/s (m/s) for
-// kStandstillTime or longer. `reach`: how many samples on each side of its own
-// a velocity stands for.
+inline constexpr double kStandstillSpeed = 1e-3;  // rad/s or m/s
+
+// Samples at which all |velocity| stay below `speed` for kStandstillTime or
+// longer. `reach`: how many samples on each side of its own a velocity stands
+// for.
 Eigen::Array<bool, Eigen::Dynamic, 1> FindStandstill(
-    const Eigen::MatrixXd& velocity, double dt, int reach);
+    const Eigen::MatrixXd& velocity, double dt, int reach,
+    double speed = kStandstillSpeed);
 
 }  // namespace armcal

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "tests/commanded_arm.h"
@@ -44,6 +45,44 @@ TEST(OutputErrorTest, FindsWhatPositionsTell) {
     // An integral part takes any constant torque.
     EXPECT_EQ(result.arm.unseen.size(), static_cast<size_t>(n));
   }
+}
+
+// What is drawn of a log that was held out: how far the arm was from its
+// command, and that the estimate follows it to the noise where the file does
+// not.
+TEST(OutputErrorTest, TracesWhatIsHeldOut) {
+  const Robot truth = CommandedTruth(1);
+  const ControllerOptions controller = CommandedController(truth);
+  const auto record = [&](int seed) {
+    return RecordCommands(truth, controller, 6, {kNoise, kNoise}, seed);
+  };
+  OutputErrorOptions options;
+  options.trace_bins = 10000;
+  const CommandedLog held_out = record(2);
+  const OutputErrorCalibration result = CalibrateOutputError(
+      FileOf(truth), controller, options, {record(1)}, {held_out});
+  ASSERT_EQ(result.traces.size(), 1u);
+  EXPECT_EQ(result.traces[0].log, held_out.path);
+  const auto& bins = result.traces[0].follows.bins();
+  ASSERT_GT(bins.size(), 500u);
+  EXPECT_GE(bins[0].begin, 1);  // the first second is the simulation's own
+  double by_file = 0, by_estimate = 0;
+  for (const SeriesEnvelope::Bin& bin : bins) {
+    ASSERT_EQ(bin.low.size(), 5);
+    long row = 0;
+    while (held_out.log.t[row] < bin.begin) ++row;
+    EXPECT_EQ(bin.low[0], held_out.log.q(row, 0) - held_out.log.qref(row, 0));
+    // Simulated minus commanded and measured minus simulated.
+    EXPECT_NEAR(bin.low[1] + bin.low[3], bin.low[0], 1e-12);
+    EXPECT_NEAR(bin.low[2] + bin.low[4], bin.low[0], 1e-12);
+    by_file += bin.low[3] * bin.low[3];
+    by_estimate += bin.low[4] * bin.low[4];
+  }
+  const auto size = static_cast<double>(bins.size());
+  EXPECT_NEAR(std::sqrt(by_estimate / size), result.positions.validation[0],
+              1e-9);
+  EXPECT_LT(std::sqrt(by_estimate / size), 1.5 * kNoise);
+  EXPECT_GT(std::sqrt(by_file / size), 10 * kNoise);
 }
 
 // Without gravity no position tells how large torques are: with gains that are

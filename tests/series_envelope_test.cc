@@ -63,5 +63,23 @@ TEST(SeriesEnvelope, AGapBeginsABin) {
   EXPECT_EQ(gaps, 2);
 }
 
+// No bin reaches across one, however often bins are joined afterwards; but
+// where nearly every sample has one, memory stays bounded.
+TEST(SeriesEnvelope, GapsOutliveManySamples) {
+  SeriesEnvelope few(1, 20), many(1, 20);
+  for (int k = 0; k < 1000; ++k) {
+    const double t = k + (k >= 333 ? 100 : 0);
+    if (k == 333) few.Break();
+    many.Break();
+    few.Add(t, Eigen::VectorXd::Ones(1));
+    many.Add(t, Eigen::VectorXd::Ones(1));
+  }
+  EXPECT_LE(few.bins().size(), 20u);
+  for (const SeriesEnvelope::Bin& bin : few.bins()) {
+    EXPECT_TRUE(bin.end < 333 || bin.begin >= 433) << bin.begin;
+  }
+  EXPECT_LE(many.bins().size(), 20u);
+}
+
 }  // namespace
 }  // namespace armcal

@@ -17,6 +17,7 @@
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
+#include "tools/report/report_data.h"
 #include "tools/simulation_flags.h"
 
 DECLARE_string(controller);
@@ -123,6 +124,21 @@ void ExpectMasses(const Robot& robot) {
   }
 }
 
+void AddDrawings(const Robot& robot, const OutputErrorCalibration& result,
+                 nlohmann::json* extra) {
+  if (!result.arm.solved) return;
+  (*extra)["positions"] =
+      PositionsJson(robot, {"the robot file", "calibrated"}, result.traces);
+  std::vector<std::string> names;
+  std::vector<bool> seen;
+  for (const PhysicalParameter& p : result.arm.parameters) {
+    names.push_back(p.name);
+    seen.push_back(p.identifiable);
+  }
+  (*extra)["correlations"] = nlohmann::json::array({CorrelationsJson(
+      "The robot and its drives", names, result.arm.covariance, seen)});
+}
+
 }  // namespace
 
 bool CommandedFromFlags() {
@@ -149,6 +165,11 @@ CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
       Read(ValidationLogsFromFlags(), reading, ValidationCropFromFlags());
   const ControllerOptions controller =
       ControllerFromFlags(robot, training.at(0).log.qref.row(0));
+  if (!OutFromFlags().empty()) {
+    const auto logs = validation.empty() ? training.size() : validation.size();
+    options.trace_bins =
+        MostTraceBins(static_cast<int>(logs), robot.num_joints(), 2);
+  }
   const std::optional<TorqueInformation> torques =
       TorquesFromFlags(robot, input);
   const OutputErrorCalibration result =
@@ -164,7 +185,12 @@ CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
         "with the torques of " + JoinNames(torque_logs) + "\n";
   }
   outcome.output.text += OutputErrorReport(robot, result);
-  if (result.arm.solved) AddRobotOutputs(result.arm, &json, &outcome);
+  if (result.arm.solved) {
+    ControllerOptions drives = controller;
+    drives.drives = result.values.drives;
+    drives.delay = result.values.delay;
+    AddRobotOutputs(result.arm, drives, &json, &outcome);
+  }
   outcome.output.json = json.dump(2) + "\n";
   out.Add("calibration.json", outcome.output.json);
   std::vector<std::string> files = LogsFromFlags();
@@ -172,7 +198,12 @@ CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
     files.push_back(path);
   }
   files.insert(files.end(), torque_logs.begin(), torque_logs.end());
-  AddReport("calibrate", robot, json, files, nullptr, &out);
+  AddReport(
+      "calibrate", robot, json, files,
+      [&](ReportContent* content) {
+        AddDrawings(robot, result, &content->extra);
+      },
+      &out);
   outcome.output.verdict = robot.name + ": ";
   outcome.output.positive = Shortcomings(result).empty();
   outcome.output.notes = robot.notes;

@@ -114,8 +114,9 @@ std::optional<Refinement> RefinementFromFlags(
   return refinement;
 }
 
-void AddRobotOutputs(const NonlinearCalibration& refined, nlohmann::json* json,
-                     CommandOutcome* outcome) {
+void AddRobotOutputs(const NonlinearCalibration& refined,
+                     const std::optional<ControllerOptions>& controller,
+                     nlohmann::json* json, CommandOutcome* outcome) {
   std::string& report = outcome->output.text;
   outcome->robot = refined.robot;
   OutputFolder* const out = &outcome->folders[0];
@@ -125,15 +126,15 @@ void AddRobotOutputs(const NonlinearCalibration& refined, nlohmann::json* json,
   for (const std::string& loss : UrdfLosses(refined.robot)) {
     report += "robot.urdf  " + loss + "\n";
   }
-  report +=
-      AddExports({refined.robot, {}}, ExportBesideUrdfFromFlags(), json, out);
+  report += AddExports({refined.robot, {}, controller},
+                       ExportBesideUrdfFromFlags(), json, out);
 }
 
 void AddRefinedOutputs(const Robot& robot, const NonlinearCalibration& refined,
                        nlohmann::json* json, CommandOutcome* outcome) {
   AddRefined(refined, json);
   outcome->output.text += NonlinearReport(robot, refined);
-  if (refined.solved) AddRobotOutputs(refined, json, outcome);
+  if (refined.solved) AddRobotOutputs(refined, {}, json, outcome);
 }
 
 }  // namespace armcal

@@ -7,6 +7,7 @@
 
 #include "calib/linear_calibration.h"
 #include "calib/nonlinear_calibration.h"
+#include "model/joint_controller.h"
 #include "model/pose_reader.h"
 #include "model/robot.h"
 #include "tools/command.h"
@@ -32,9 +33,10 @@ std::optional<Refinement> RefinementFromFlags(
 std::optional<RefineGeometry> RefineGeometryFromFlags();
 
 // Adds the robot's files and the covariance of its parameters, and says what
-// the files lose.
-void AddRobotOutputs(const NonlinearCalibration& refined, nlohmann::json* json,
-                     CommandOutcome* outcome);
+// the files lose. `controller`: what moves it where commands are positions.
+void AddRobotOutputs(const NonlinearCalibration& refined,
+                     const std::optional<ControllerOptions>& controller,
+                     nlohmann::json* json, CommandOutcome* outcome);
 
 // Adds what a refined calibration says, its figures, robot and files; these to
 // the first folder.

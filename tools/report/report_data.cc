@@ -111,6 +111,25 @@ TracedModel TraceRobot(const std::string& label, const Robot& robot,
   return {label, parameters, parameters.Values(robot)};
 }
 
+json PositionsJson(const Robot& robot, const std::vector<std::string>& labels,
+                   const std::vector<PositionTrace>& traces) {
+  const int n = robot.num_joints(), models = static_cast<int>(labels.size());
+  json list = json::array();
+  for (const PositionTrace& trace : traces) {
+    json joints = json::array();
+    for (int j = 0; j < n; ++j) {
+      joints.push_back(
+          JointTraceJson(robot.links[j].joint, j, n, models, trace.follows));
+    }
+    list.push_back({{"log", trace.log},
+                    {"logs", traces.size()},
+                    {"labels", labels},
+                    {"t", TimesJson(trace.follows)},
+                    {"joints", joints}});
+  }
+  return list;
+}
+
 json TracesJson(const Robot& robot, const std::vector<std::string>& labels,
                 const std::vector<TorqueTrace>& traces, const LogSet& logs) {
   json list = json::array();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/log_set.h"
+#include "calib/position_trace.h"
 #include "calib/torque_trace.h"
 #include "model/robot.h"
 
@@ -27,6 +28,11 @@ nlohmann::json TracesJson(const Robot& robot,
 nlohmann::json TracesJson(const Robot& robot,
                           const std::vector<TracedModel>& models, LogSet* logs,
                           const Progress& progress);
+
+// The same of positions: {log, logs, labels, t, joints}.
+nlohmann::json PositionsJson(const Robot& robot,
+                             const std::vector<std::string>& labels,
+                             const std::vector<PositionTrace>& traces);
 
 // Numbers of 5 digits; a list per column.
 nlohmann::json RoundedJson(const Eigen::VectorXd& values);

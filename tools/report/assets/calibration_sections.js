@@ -17,6 +17,14 @@ const calibrationSections = (data) => {
         j.coulomb_transition
             ? `${number(j.coulomb_transition.width)} ${j.coulomb_transition.unit}` : '–']));
 
+  // rms, simulated minus measured.
+  const positionTable = () => (result.joints || []).some((j) => isNumber(j.position_residual_rms)) && [table(
+      ['joint', 'robot file', 'estimate', 'held out', 'encoder noise'],
+      result.joints.map((j) => [j.name, ...[j.nominal_position_residual_rms, j.position_residual_rms,
+        j.validation_position_residual_rms, j.encoder_noise_stddev].map(
+            (x) => isNumber(x) ? `${number(x)} ${j.position_unit}` : '–')])),
+    note('Root mean square of simulated minus measured positions.')];
+
   const driveGains = () => {
     if (!(result.drive_gains || []).length) return null;
     const load = result.payload || {}, axes = ['x', 'y', 'z'].map((axis) => isNumber(load['com_' + axis])
@@ -45,6 +53,9 @@ const calibrationSections = (data) => {
   const parameters = () => {
     if (data.command !== 'calibrate') return null;
     const physical = (result.parameters || []).filter((p) => isNumber(p.value));
+    if (result.method === 'output_error') {
+      return [note('The upright orange mark is the file.'), parameterTable(physical)];
+    }
     if (!(result.model_parameters || []).length) return null;
     return [
       heading('Model parameters, which torques determine'),
@@ -154,5 +165,5 @@ const calibrationSections = (data) => {
               ? ` Given up as wrong: rows ${result.poses.outlier_rows.slice(0, 20).join(', ')}.` : ''))];
   };
 
-  return {driveGains, jointTable, geometry, poses, parameters, correlation, rank};
+  return {driveGains, jointTable, positionTable, geometry, poses, parameters, correlation, rank};
 };

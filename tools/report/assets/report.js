@@ -128,16 +128,16 @@
       note(Object.entries(p.versions).map(([name, v]) => `${name} ${v}`).join(', '))];
   };
 
-  const {torques, maps, spectra} = torqueSections(data);
-  const {driveGains, jointTable, geometry, poses, parameters, correlation, rank} = calibrationSections(data);
+  const {torques, positions, maps, spectra} = torqueSections(data);
+  const {driveGains, jointTable, positionTable, geometry, poses, parameters, correlation, rank} = calibrationSections(data);
   const {dataFindings, effects, absorbed, gap, where, untestable} = diagnosisSections(data);
   const sections = [
     ['The data', dataFindings], ['Which effect', effects], ['What was only a wrong parameter', absorbed],
     ['How far the gap shrinks', gap], ['Where it lies', where],
-    ['Torque per current', driveGains], ['Joints', jointTable], ['Checks', checks], ['Simulated from the log', rollouts],
+    ['Torque per current', driveGains], ['Joints', jointTable], ['Positions, in closed loop', positionTable], ['Checks', checks], ['Simulated from the log', rollouts],
     ['The motion', motion], ['The postures', postures], ['What it will tell', predicted], ['Assumed', assumed],
     ['Geometry', geometry], ['Pose by pose', poses],
-    ['Torque, recorded and predicted', torques], ['What the residual follows', maps],
+    ['Following the command', positions], ['Torque, recorded and predicted', torques], ['What the residual follows', maps],
     ['Spectrum of what is left', spectra],
     ['Parameters', parameters], ['Correlations', correlation], ['What the logs show', rank],
     ['Not testable on these data', untestable], ['The robot', robot],

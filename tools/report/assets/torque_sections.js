@@ -1,6 +1,7 @@
 'use strict';
 // Recorded and predicted torques: over time, what the difference follows, its
-// spectrum. Each section is a function that gives nodes, or null.
+// spectrum; measured and simulated positions. Each section is a function that
+// gives nodes, or null.
 const torqueSections = (data) => {
   const {html, number, shortened, legend, profile, note, heading} = charts;
   const result = data.result;
@@ -31,14 +32,15 @@ const torqueSections = (data) => {
 
   const heldOut = data.command === 'diagnose'
       ? ' Only stretches that nothing was fitted to are drawn.' : '';
-  const torques = () => {
-    const drawn = perLog(data.torques, (trace) => {
-      const labels = ['recorded', ...trace.labels], together = plots.group();
+  // What was recorded and what models say, and below it the difference.
+  const traced = (traces, words) => {
+    const drawn = perLog(traces, (trace) => {
+      const labels = [words.recorded, ...trace.labels], together = plots.group();
       return [legend(labels), ...trace.joints.flatMap((joint) => [
-        plots.add(`${shortened(joint.name, 60)}, ${joint.unit}`,
+        plots.add(`${shortened(joint.name, 60)}${words.what}, ${joint[words.unit]}`,
                   () => rows(trace.t, joint, 0, labels.length), ['s', ...labels],
                   {customBars: true}, together),
-        plots.add(`${shortened(joint.name, 60)}, recorded minus predicted, ${joint.unit}`,
+        plots.add(`${shortened(joint.name, 60)}, ${words.difference}, ${joint[words.unit]}`,
                   () => rows(trace.t, joint, labels.length, 2 * labels.length - 1),
                   ['s', ...trace.labels], {customBars: true}, together, 'low')])];
     });
@@ -46,6 +48,15 @@ const torqueSections = (data) => {
         'Drag to zoom all of them, shift and drag to move, double click for all. With the keyboard: arrows ' +
         'read values, + and − zoom, shift and arrows move, Home shows all. Where a log has more samples ' +
         'than fit, a band holds the least and the largest of them.' + heldOut)];
+  };
+  const torques = () => traced(data.torques, {
+    recorded: 'recorded', what: '', difference: 'recorded minus predicted', unit: 'unit'});
+  const positions = () => {
+    const drawn = traced(data.extra.positions || [], {
+      recorded: 'measured', what: ' minus its command', difference: 'measured minus simulated',
+      unit: 'position_unit'});
+    return drawn && [note('The arm and its drives simulated in closed loop along the command, in windows ' +
+        'of a few seconds, whose first second is left out.'), ...drawn];
   };
 
   const densities = (trace, j) => trace.spectrum.f.slice(1).map(
@@ -93,5 +104,5 @@ const torqueSections = (data) => {
         'Over frequency: see the spectrum.' + heldOut)];
   };
 
-  return {torques, maps, spectra};
+  return {torques, positions, maps, spectra};
 };
