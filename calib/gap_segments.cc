@@ -24,7 +24,7 @@ constexpr double kSmoothStampHz = .3;
 constexpr double kShortest = 2;  // s
 // Drives creep for a while when their command has come to rest: a torque that
 // was made of it is more certain than what friction is there.
-constexpr double kCreepSpeed = .01;     // rad/s or m/s
+constexpr double kCreepSpeed = .004;    // rad/s or m/s
 constexpr double kMotionBandwidth = 5;  // of the torque's
 
 void AppendRows(const MatrixXd& rows, MatrixXd* to) {

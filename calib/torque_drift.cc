@@ -11,9 +11,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// s between knots. What is slower than this is not seen of torques; what walks
-// faster counts as noise.
-constexpr double kKnots = 3;
+constexpr double kKnots = 3;  // s
 
 // Solves a symmetric tridiagonal positive definite system for the columns of b.
 MatrixXd SolveTridiagonal(VectorXd diagonal, const VectorXd& next, MatrixXd b) {
@@ -45,9 +43,11 @@ TorqueDrift::TorqueDrift(const VectorXd& times) {
 
 MatrixXd TorqueDrift::Without(const MatrixXd& x,
                               const VectorXd& weights) const {
-  // As much as this many rows want knots to be as high as their neighbours,
-  // which those are that few rows are near.
-  constexpr double kTension = .3;
+  // As much as this many rows, about half of those between two knots, want
+  // knots to be as high as their neighbours: the level walks by less from one
+  // to the next than the rows there are uncertain, and torques that drift are
+  // still to be seen.
+  constexpr double kTension = 30;
   CHECK_EQ(x.rows(), place_.size());
   if (knots_ == 0) return x;
   VectorXd diagonal = VectorXd::Constant(knots_, 1e-12);

@@ -105,6 +105,31 @@ TEST(GapSegments, KnowWhichJointStandsStill) {
   }
 }
 
+// A joint that creeps stands still where its torque was made of commands.
+TEST(GapSegments, CreepingStandsStillWhereTorquesAreMade) {
+  Log log = Swing(12);
+  for (int k = 0; k < log.size(); ++k) {
+    if (log.t[k] >= 4 && log.t[k] <= 7) log.q(k, 1) += .002 * (log.t[k] - 5.5);
+  }
+  const std::string path = WriteFile(LogCsv(log));
+  LogReaderOptions reader;
+  reader.joint_names = {"a", "b"};
+  const auto still = [&] {
+    LogSet logs({path}, reader, {});
+    const auto segments = ReadSegments(kBandwidth, {}, &logs);
+    return segments.at(0).still.col(1).count() * segments[0].motion.dt;
+  };
+  EXPECT_EQ(still(), 0);
+  const auto made = std::make_shared<MadeTorque>();
+  made->tau = log.tau;
+  log.tau.resize(0, 0);
+  log.qref = log.q;
+  WriteFile(LogCsv(log));
+  reader.commands_do = true;
+  reader.made_torque[path] = made;
+  EXPECT_NEAR(still(), 3, .3);
+}
+
 TEST(GapSegments, EndAtGapsAndLogsAndAreLongEnough) {
   const Log log = Swing(12);
   // 0 to 5 s and 5.5 to 12 s; all of it; 0 to 1.5 s, too short, and the rest.
