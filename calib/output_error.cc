@@ -173,7 +173,9 @@ void Calibrator::Iterate(bool far, LoopWindows* windows) {
     }
     result_.arm.solved = true;
     ++result_.arm.iterations;
-    const double moved = (R * (x - x_)).norm() / size;
+    const double moved = std::hypot((R * (x - x_)).norm(),
+                                    (fit_->TorqueRows() * (x - x_)).norm()) /
+                         size;
     const bool falls = Step(x, windows);
     // At the bottom rounding decides whether the cost still falls.
     if (moved < (falls ? 1 : 2) * last) result_.arm.reason = "CONVERGENCE";

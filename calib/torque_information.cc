@@ -1,12 +1,15 @@
 #include "calib/torque_information.h"
 
 #include <Eigen/QR>
+#include <algorithm>
+#include <cstdio>
 #include <vector>
 
 #include "calib/arm_fit.h"
 #include "calib/arm_unknowns.h"
 #include "calib/link_equations.h"
 #include "calib/loop_values.h"
+#include "calib/posterior.h"
 
 namespace armcal {
 namespace {
@@ -29,6 +32,23 @@ MatrixXd Explained(const MatrixXd& R, const std::vector<int>& known) {
       .solve(R);
 }
 
+// By how much scores may scatter more than the few windows of short logs say:
+// what errors that are correlated only where rows overlap make of variances is
+// known without these, and of no unknown may it be more.
+double Excess(const ArmUnknowns& unknowns, const LinkInformation& information,
+              const MatrixXd& prior) {
+  const std::vector<int> free = unknowns.FreeIndices();
+  const VectorXd told = Posterior(information.R, prior, free)
+                            .Sandwich(SquareRoot(information.S))
+                            .diagonal();
+  double excess = 1;
+  for (const int k : free) {
+    if (told[k] > 0) excess = std::max(excess, information.least[k] / told[k]);
+  }
+  if (getenv("DBG")) std::fprintf(stderr, "excess %g\n", excess);
+  return excess;
+}
+
 }  // namespace
 
 TorqueInformation InformByTorques(const Robot& robot,
@@ -48,8 +68,9 @@ TorqueInformation InformByTorques(const Robot& robot,
   LinkPass pass(unknowns, linear, options.progress, logs);
   const LinkEquations equations = pass.Reduce(at, noise);
   const ArmFit fit(unknowns, options.trust, nullptr);
-  const LinkInformation information = pass.Inform(
-      at, noise, fit.PoseRows(at), fit.PriorInformation(options.trust));
+  const MatrixXd prior = fit.PriorInformation(options.trust);
+  const LinkInformation information =
+      pass.Inform(at, noise, fit.PoseRows(at), prior);
   result.x = at.Stacked().head(size);
 
   const std::vector<int> offsets = OffsetColumns(n);
@@ -61,8 +82,8 @@ TorqueInformation InformByTorques(const Robot& robot,
   const MatrixXd R = information.R.leftCols(size);
   MatrixXd scores = MatrixXd::Identity(size, size);
   scores(Eigen::all, offsets) -= Explained(R, offsets).transpose();
-  result.S =
-      scores * information.S.topLeftCorner(size, size) * scores.transpose();
+  result.S = Excess(unknowns, information, prior) * scores *
+             information.S.topLeftCorner(size, size) * scores.transpose();
   return result;
 }
 
