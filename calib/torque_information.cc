@@ -2,7 +2,6 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
 #include "calib/arm_fit.h"
@@ -37,15 +36,17 @@ MatrixXd Explained(const MatrixXd& R, const std::vector<int>& known) {
 // known without these, and of no unknown may it be more.
 double Excess(const ArmUnknowns& unknowns, const LinkInformation& information,
               const MatrixXd& prior) {
+  constexpr double kSeen = 1e-3;  // of the variance, by data
   const std::vector<int> free = unknowns.FreeIndices();
-  const VectorXd told = Posterior(information.R, prior, free)
-                            .Sandwich(SquareRoot(information.S))
-                            .diagonal();
+  const Posterior posterior(information.R, prior, free);
+  const VectorXd all = posterior.Gain().diagonal();
+  const VectorXd told =
+      posterior.Sandwich(SquareRoot(information.S)).diagonal();
   double excess = 1;
   for (const int k : free) {
-    if (told[k] > 0) excess = std::max(excess, information.least[k] / told[k]);
+    if (told[k] < kSeen * all[k]) continue;
+    excess = std::max(excess, information.least[k] / told[k]);
   }
-  if (getenv("DBG")) std::fprintf(stderr, "excess %g\n", excess);
   return excess;
 }
 
