@@ -1,8 +1,10 @@
 # calibrate --controller: logs of commands, alone and with logs of torques.
 set(robot --robot=${DATA_DIR}/scara/robot.yaml)
 file(WRITE ${WORK_DIR}/drives.yaml "rate: 1000\nbandwidth: 8\nfeedforward: none\n")
+file(WRITE ${WORK_DIR}/late.yaml
+     "rate: 1000\nbandwidth: 8\nfeedforward: none\ndelay: 0.004\n")
 foreach(k RANGE 1 2)
-  run("log ${k}" simulate ${robot} --robot_error=.2 --controller=drives.yaml --run=${k}
+  run("log ${k}" simulate ${robot} --robot_error=.2 --controller=late.yaml --run=${k}
       --encoder_noise=5e-5 --duration=8 --effects= --out=log${k} --truth=hidden)
   expect_code(0)
 endforeach()
@@ -12,7 +14,7 @@ run("commands and torques" calibrate ${loop} --torque_log=log2/log.csv --trust=.
     --export=mjcf --out=both)
 expect_code(0)
 expect_text(out "with the torques of log2/log.csv" "simulated minus measured positions"
-            "residuals are" "scara: ")
+            "residuals are" "drive.delay")
 file(READ ${WORK_DIR}/both/calibration.json text)
 string(JSON value GET "${text}" torque_logs 0)
 if(NOT value STREQUAL "log2/log.csv")
