@@ -55,8 +55,9 @@ bool LoopFit::Solve(const MatrixXd& R, const VectorXd& z, VectorXd* x) const {
   VectorXd b = VectorXd::Zero(A.rows());
   A.topRows(told) = all.rightCols(size);
   b.head(R.rows()) = z;
-  if (torques_ != nullptr)
+  if (torques_ != nullptr) {
     b.segment(R.rows(), torques_->z.size()) = torques_->z;
+  }
   b.head(told) -= all.leftCols(first) * x->head(first);
   VectorXd start = files_.tail(size);
   std::vector<TermRange> ranges;

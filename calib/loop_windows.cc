@@ -63,7 +63,7 @@ double LoopRun::Excess() const {
 LoopWindows::LoopWindows(const Robot& known,
                          const ControllerOptions& controller, double window_s,
                          const std::vector<CommandedLog>& logs)
-    : controller_(controller), logs_(logs), n_(known.num_joints()) {
+    : LoopWindows(controller, logs, known.num_joints()) {
   noise_ = VectorXd::Zero(n_);
   for (size_t l = 0; l < logs.size(); ++l) {
     references_.push_back(std::make_shared<CommandedReference>(
@@ -75,8 +75,9 @@ LoopWindows::LoopWindows(const Robot& known,
 }
 
 LoopWindows LoopWindows::Thinned(double window_s, int every) const {
-  LoopWindows thinned = *this;
-  thinned.windows_.clear();
+  LoopWindows thinned(controller_, logs_, n_);
+  thinned.references_ = references_;
+  thinned.noise_ = noise_;
   for (size_t l = 0; l < logs_.size(); ++l) {
     thinned.AddWindows(static_cast<int>(l), window_s, every);
   }

@@ -85,6 +85,10 @@ class LoopWindows {
     LoopStretch stretch;
     Eigen::VectorXd nominal, start;  // q, qd, integral
   };
+  // All but the windows.
+  LoopWindows(const ControllerOptions& controller,
+              const std::vector<CommandedLog>& logs, int num_joints)
+      : controller_(controller), logs_(logs), n_(num_joints) {}
   void AddWindows(int log, double window_s, int every);
   LoopEquations::Window Reduce(const Window& window, const LoopTangent& tangent,
                                const Eigen::VectorXd& residual) const;

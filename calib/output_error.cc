@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "calib/loop_fit.h"
 #include "calib/loop_windows.h"
@@ -124,7 +125,7 @@ VectorXd Calibrator::Start() const {
 }
 
 void Calibrator::Approach() {
-  const LoopRun of_files = run_;
+  LoopRun of_files = std::move(run_);
   x_ = Start();
   LoopWindows few = windows_.Thinned(kFewWindow, kFew);
   run_ = few.Simulate(unknowns_->At(x_));
@@ -132,7 +133,7 @@ void Calibrator::Approach() {
   run_ = windows_.Simulate(unknowns_->At(x_));
   if (run_.finite) return;
   x_ = unknowns_->nominal();
-  run_ = of_files;
+  run_ = std::move(of_files);
 }
 
 bool Calibrator::Step(const VectorXd& x, LoopWindows* windows) {

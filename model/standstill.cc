@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace armcal {
+
 Eigen::MatrixXd MeanVelocity(const Eigen::MatrixXd& q, double dt) {
   const Eigen::Index n = q.rows();
   const Eigen::Index half = std::max<Eigen::Index>(

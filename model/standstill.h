@@ -4,13 +4,12 @@
 
 namespace armcal {
 
+inline constexpr double kStandstillSpeed = 1e-3;    // rad/s or m/s
 inline constexpr double kStandstillTime = 0.5;      // s
 inline constexpr double kStandstillMeanTime = 0.2;  // s, of judged velocities
 
 // Mean velocity over kStandstillMeanTime around each sample (less at the ends).
 Eigen::MatrixXd MeanVelocity(const Eigen::MatrixXd& q, double dt);
-
-inline constexpr double kStandstillSpeed = 1e-3;  // rad/s or m/s
 
 // Samples at which all |velocity| stay below `speed` for kStandstillTime or
 // longer. `reach`: how many samples on each side of its own a velocity stands
