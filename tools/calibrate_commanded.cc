@@ -80,17 +80,11 @@ std::vector<CommandedLog> Read(const std::vector<std::string>& paths,
 
 std::vector<std::string> TorqueLogsFromFlags() {
   const std::vector<std::string> paths = SplitAtCommas(FLAGS_torque_log);
-  std::vector<std::string> others = LogsFromFlags();
-  for (const std::string& log : ValidationLogsFromFlags()) {
-    others.push_back(log);
-  }
-  for (const std::string& path : paths) {
-    others.push_back(path);
-    if (path.empty() || std::count(others.begin(), others.end(), path) > 1) {
-      throw UsageError("--torque_log: found '" + FLAGS_torque_log +
-                       "', expected names of logs that are named once, with "
-                       "commas between them");
-    }
+  const bool gap = std::count(paths.begin(), paths.end(), "") > 0;
+  if (gap || !NamedBefore(paths).empty()) {
+    throw UsageError("--torque_log: found '" + FLAGS_torque_log +
+                     "', expected names of logs that are named once, with "
+                     "commas between them");
   }
   return paths;
 }

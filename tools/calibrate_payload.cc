@@ -2,7 +2,6 @@
 
 #include <gflags/gflags.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -23,22 +22,13 @@ namespace armcal {
 namespace {
 
 std::vector<std::string> PayloadLogs() {
-  std::vector<std::string> logs = SplitAtCommas(FLAGS_payload_log);
-  std::vector<std::string> others = LogsFromFlags();
-  for (const std::string& log : ValidationLogsFromFlags()) {
-    others.push_back(log);
-  }
-  for (const std::string& log : logs) {
-    if (log.empty()) {
-      throw UsageError("--payload_log: found '" + FLAGS_payload_log +
-                       "', expected file names with commas between them");
-    }
-    if (std::count(logs.begin(), logs.end(), log) > 1 ||
-        std::count(others.begin(), others.end(), log) > 0) {
-      throw UsageError("--payload_log names " + log +
-                       ", which is named before; logs of the bare arm (--log, "
-                       "--validate) and with the payload are different ones");
-    }
+  const std::vector<std::string> logs =
+      FileNames("payload_log", FLAGS_payload_log);
+  const std::string twice = NamedBefore(logs);
+  if (!twice.empty()) {
+    throw UsageError("--payload_log names " + twice +
+                     ", which is named before; logs of the bare arm (--log, "
+                     "--validate) and with the payload are different ones");
   }
   return logs;
 }

@@ -72,17 +72,6 @@ FlagWords EffectWords() { return {EffectNames(), true}; }
 const FlagWordsAdded kSeparated("separate", &EffectWords);
 const FlagWordsAdded kLeftOut("without", &EffectWords);
 
-std::vector<std::string> FileNames(const std::string& flag,
-                                   const std::string& value) {
-  std::vector<std::string> names = SplitAtCommas(value);
-  for (const std::string& name : names) {
-    if (!name.empty()) continue;
-    throw UsageError("--" + flag + ": found '" + value +
-                     "', expected file names with commas between them");
-  }
-  return names;
-}
-
 // "/joint_states" or "effort:/torques".
 LogTopic ParseTopic(const std::string& text) {
   const size_t colon = text.find(':');
@@ -214,6 +203,17 @@ LogReaderOptions LogOptionsFromFlags(const Robot& robot) {
 
 std::string RobotPathFromFlags() { return FLAGS_robot; }
 
+std::vector<std::string> FileNames(const std::string& flag,
+                                   const std::string& value) {
+  std::vector<std::string> names = SplitAtCommas(value);
+  for (const std::string& name : names) {
+    if (!name.empty()) continue;
+    throw UsageError("--" + flag + ": found '" + value +
+                     "', expected file names with commas between them");
+  }
+  return names;
+}
+
 std::vector<std::string> LogsFromFlags() {
   if (FLAGS_log.empty()) throw UsageError("--log=FILE is needed");
   return FileNames("log", FLAGS_log);
@@ -259,6 +259,16 @@ void CheckLogsApart() {
                      ", which --log calibrates on; give --crop and "
                      "--validate_crop to use a part of it for each");
   }
+}
+
+std::string NamedBefore(const std::vector<std::string>& logs) {
+  std::vector<std::string> all = LogsFromFlags();
+  for (const std::string& log : ValidationLogsFromFlags()) all.push_back(log);
+  for (const std::string& log : logs) {
+    if (std::count(all.begin(), all.end(), log) > 0) return log;
+    all.push_back(log);
+  }
+  return "";
 }
 
 std::optional<double> BandwidthFromFlags() {

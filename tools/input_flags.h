@@ -30,6 +30,9 @@ TimeRange ValidationCropFromFlags();                 // --validate_crop
 // Refuses a log that is named twice, or held out whole from what it is
 // calibrated on.
 void CheckLogsApart();
+// Of the logs of a further flag the first that is named twice or is one of
+// --log or --validate; empty: none.
+std::string NamedBefore(const std::vector<std::string>& logs);
 std::optional<double> BandwidthFromFlags();  // --bandwidth
 std::string OutFromFlags();                  // --out
 std::string BaseFromFlags();                 // --base
@@ -44,6 +47,9 @@ double PositiveNumber(const std::string& flag, const std::string& text);
 std::vector<TimeRange> ParseRanges(const std::string& flag,
                                    const std::string& text);
 std::vector<std::string> SplitAtCommas(const std::string& text);
+// The same, none of them empty.
+std::vector<std::string> FileNames(const std::string& flag,
+                                   const std::string& value);
 
 // The effects of a list of names.
 std::vector<const Effect*> ParseEffects(const std::string& flag,
