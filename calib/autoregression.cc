@@ -91,6 +91,17 @@ Autoregression FromCovariance(const VectorXd& r) {
   return noise;
 }
 
+// What one e_t of 1 makes of x.
+VectorXd ImpulseResponse(const Autoregression& noise) {
+  constexpr int kLength = 4000, kOrder = Autoregression::kOrder;
+  VectorXd h = VectorXd::Zero(kLength + kOrder);
+  h[kOrder] = 1;
+  for (int k = kOrder + 1; k < h.size(); ++k) {
+    for (int i = 1; i <= kOrder; ++i) h[k] += noise.a[i - 1] * h[k - i];
+  }
+  return h;
+}
+
 }  // namespace
 
 MatrixXd Autoregression::Whiten(const MatrixXd& x) const {
@@ -103,14 +114,19 @@ MatrixXd Autoregression::Whiten(const MatrixXd& x) const {
 }
 
 double Autoregression::stddev() const {
-  // By the impulse response: its energy is the variance per unit of sigma^2.
-  constexpr int kLength = 4000;
-  VectorXd h = VectorXd::Zero(kLength + kOrder);
-  h[kOrder] = 1;
-  for (int k = kOrder + 1; k < h.size(); ++k) {
-    for (int i = 1; i <= kOrder; ++i) h[k] += a[i - 1] * h[k - i];
+  // The impulse response's energy is the variance per unit of sigma^2.
+  return sigma * ImpulseResponse(*this).norm();
+}
+
+Autoregression PlusWhite(const Autoregression& noise, double stddev) {
+  const VectorXd h = ImpulseResponse(noise);
+  VectorXd r(Autoregression::kOrder + 1);
+  for (int lag = 0; lag < r.size(); ++lag) {
+    const Eigen::Index overlap = h.size() - lag;
+    r[lag] = noise.sigma * noise.sigma * h.head(overlap).dot(h.tail(overlap));
   }
-  return sigma * h.norm();
+  r[0] += stddev * stddev;
+  return r[0] > 0 ? FromCovariance(r) : noise;
 }
 
 Autoregression FitAutoregression(const std::vector<VectorXd>& stretches,

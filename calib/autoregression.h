@@ -18,6 +18,10 @@ struct Autoregression {
   double stddev() const;  // of x itself
 };
 
+// Of its sum with independent white noise: the autoregression with the sum's
+// covariances up to the order.
+Autoregression PlusWhite(const Autoregression& noise, double stddev);
+
 // Fits stretches of equally sampled noise by the Yule-Walker equations.
 // Robust against what comes and goes and against lines: the spectrum is the
 // median over time windows (Welch's, Hann, half overlapping; Allen et al. 2012)

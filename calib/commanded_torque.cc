@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "calib/commanded_reference.h"
+#include "calib/position_noise.h"
 #include "model/drive_filters.h"
 #include "model/plant/motion_reader.h"
 
@@ -54,6 +56,21 @@ ReferenceMotion MeasuredMotion(const CommandedLog& commanded) {
   return MotionThrough(commanded.path, log);
 }
 
+// Samples x as many as there are standard deviations.
+MatrixXd WhiteNoise(const VectorXd& stddev, int samples, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  return MatrixXd::NullaryExpr(
+      samples, stddev.size(),
+      [&](Eigen::Index, Eigen::Index j) { return stddev[j] * normal(random); });
+}
+
+// What an integral holds follows from the positions of every period; logs have
+// a part of these, and do not say what it held when they began.
+bool Integrates(const DriveLaw& drive) {
+  return drive.ki != 0 || drive.velocity_ki != 0;
+}
+
 }  // namespace
 
 MatrixXd CommandedTorque(const Robot& known,
@@ -92,6 +109,31 @@ MatrixXd CommandedTorque(const Robot& known,
     torque.row(row) = impulse.Mean(times[row] - half, times[row] + half);
   }
   return torque;
+}
+
+MadeTorque MakeTorque(const Robot& known, const ControllerOptions& controller,
+                      const CommandedLog& commanded, const VectorXd& times,
+                      unsigned seed) {
+  constexpr double kRate = .01;  // over which it is next to linear
+  const Log& log = commanded.log;
+  const auto torque = [&](const CommandedLog& of) {
+    return CommandedTorque(known, controller, of, of.log.t);
+  };
+  const MatrixXd tau = torque(commanded);
+  MadeTorque made;
+  made.tau = CommandedTorque(known, controller, commanded, times);
+  made.t = log.t;
+  made.position_noise = WhiteNoise(PositionNoise(log.q - log.qref),
+                                   static_cast<int>(log.t.size()), seed);
+  CommandedLog other = commanded;
+  other.log.q += made.position_noise;
+  made.torque_noise = torque(other) - tau;
+  other.log.q = log.q;
+  other.log.t = log.t / (1 + kRate);
+  made.by_rate = (tau - torque(other)) / kRate;
+  made.drifts = std::any_of(controller.drives.begin(), controller.drives.end(),
+                            &Integrates);
+  return made;
 }
 
 }  // namespace armcal

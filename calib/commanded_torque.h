@@ -4,6 +4,7 @@
 
 #include "calib/closed_loop_replay.h"
 #include "model/joint_controller.h"
+#include "model/log_reader.h"
 #include "model/robot.h"
 
 namespace armcal {
@@ -20,5 +21,13 @@ Eigen::MatrixXd CommandedTorque(const Robot& known,
                                 const ControllerOptions& controller,
                                 const CommandedLog& commanded,
                                 const Eigen::VectorXd& times);
+
+// The same, and what makes it wrong: a draw (by `seed`) of noise as white and
+// as large as that of the positions, which the tracking error tells, for it
+// hardly changes between rows at uneven times or over lost ones; and a clock
+// that stamps other times than those of the drives.
+MadeTorque MakeTorque(const Robot& known, const ControllerOptions& controller,
+                      const CommandedLog& commanded,
+                      const Eigen::VectorXd& times, unsigned seed);
 
 }  // namespace armcal

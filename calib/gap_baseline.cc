@@ -84,6 +84,7 @@ GapBaseline::GapBaseline(const Robot& robot, const BaselineOptions& options,
     transitions_.push_back(transition);
     AddLink(j, options.trust);
     AddTerms(j, options.joint_trust.value_or(options.trust), usual_torque[j]);
+    AddReversal(j, options.reversal_s);
   }
   columns_.push_back({BaselineColumn::Kind::kTiming, -1, 0, options.timing_s});
 }
@@ -145,6 +146,12 @@ void GapBaseline::AddTerms(int j, double trust, double usual_torque) {
   }
 }
 
+void GapBaseline::AddReversal(int j, double timing) {
+  const double spread = timing * robot_.links[j].joint.coulomb;
+  if (spread <= 0) return;
+  columns_.push_back({BaselineColumn::Kind::kReversal, j, 0, spread});
+}
+
 // Joint j's torque per unit of a column; empty where it has none.
 VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
                                  const MatrixXd& inertial,
@@ -167,6 +174,11 @@ VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
       return TermTorque(JointTerm::kCoulomb, other, motion, j) -
              TermTorque(JointTerm::kCoulomb, transitions_[j], motion, j);
     }
+    case BaselineColumn::Kind::kReversal:
+      if (!own) return {};
+      return -Differentiate(
+          TermTorque(JointTerm::kCoulomb, transitions_[j], motion, j),
+          motion.dt);
     case BaselineColumn::Kind::kTiming:
       return -Differentiate(torque.nominal().col(j), motion.dt);
     case BaselineColumn::Kind::kEffect:

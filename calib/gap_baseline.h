@@ -21,7 +21,15 @@ namespace armcal {
 // the robot is known to have.
 struct BaselineColumn {
   // kDay: a joint term in the diagnosed logs only, not in a reference.
-  enum class Kind { kInertial, kTerm, kZeroVelocity, kTiming, kDay, kEffect };
+  enum class Kind {
+    kInertial,
+    kTerm,
+    kZeroVelocity,
+    kReversal,
+    kTiming,
+    kDay,
+    kEffect
+  };
   Kind kind;
   int joint;      // or link; -1: all
   int index = 0;  // inertial parameter or JointTerm or shape or parameter of
@@ -43,6 +51,9 @@ struct BaselineOptions {
   // The same of armature and friction, where these are not the file's.
   std::optional<double> joint_trust;
   double timing_s = 5e-4;  // standard deviation, torque against position
+  // The same of friction's change of sign against that of the velocity, whose
+  // low pass takes a stop for a turn; 0: none.
+  double reversal_s = 0;
 };
 
 class GapBaseline {
@@ -83,6 +94,7 @@ class GapBaseline {
   void AddLink(int link, double trust);
   double WidthOf(const BaselineColumn& column) const;  // of kZeroVelocity
   void AddTerms(int joint, double trust, double usual_torque);
+  void AddReversal(int joint, double timing);
   Eigen::VectorXd FineColumn(const BaselineColumn& column, int j,
                              const Eigen::MatrixXd& inertial,
                              const RecordedTorque& torque) const;

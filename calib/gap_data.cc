@@ -1,13 +1,34 @@
 #include "calib/gap_data.h"
 
+#include <algorithm>
+
 namespace armcal {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Of one prior standard deviation of the ways through zero velocity.
-constexpr double kDoubt = .3;
+constexpr double kDoubt = .3, kDoubtOfMadeTorques = .5;
 constexpr double kNothing = 1e3;
+
+namespace {
+
+// A doubtful sample is in the whitened rows of all that follow it within the
+// noise's memory, and filters spread it as far before. Torques that are
+// recorded have more noise than that.
+MatrixXd Spread(const MatrixXd& doubt) {
+  constexpr Eigen::Index kReach = Autoregression::kOrder;
+  MatrixXd spread = doubt;
+  for (Eigen::Index k = 0; k < doubt.rows(); ++k) {
+    const Eigen::Index first = std::max<Eigen::Index>(0, k - kReach);
+    const Eigen::Index last = std::min(doubt.rows() - 1, k + kReach);
+    spread.row(k) =
+        doubt.middleRows(first, last - first + 1).colwise().maxCoeff();
+  }
+  return spread;
+}
+
+}  // namespace
 
 GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
                  double bandwidth_hz, LogPart part)
@@ -24,7 +45,14 @@ GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
     const BaselineColumn& column = baseline.columns()[c];
     if (!column.IsZeroVelocityDoubt()) continue;
     auto doubt = usual.col(column.joint);
-    doubt = doubt.cwiseMax(kDoubt * columns()[column.joint].col(c).cwiseAbs());
+    doubt = doubt.cwiseMax(columns()[column.joint].col(c).cwiseAbs());
+  }
+  for (size_t i = 0; i < signals_->segments.size(); ++i) {
+    const int s = static_cast<int>(i), begin = rows_->thin_begin(s);
+    auto here = usual.middleRows(begin, rows_->thin_begin(s + 1) - begin);
+    const bool made = signals_->segments[i].made_torque;
+    here *= made ? kDoubtOfMadeTorques : kDoubt;
+    if (made) here = Spread(here);
   }
   for (size_t i = 0; i < signals_->segments.size(); ++i) {
     for (const TimeRange& lost : signals_->segments[i].lost) {

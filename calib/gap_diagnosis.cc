@@ -19,6 +19,8 @@ using Eigen::VectorXd;
 // Relative standard deviation of joint terms that were fitted, not given.
 constexpr double kTrustInFitted = .5;
 constexpr double kTimingWithReference = .05;  // s
+// Of torques that are known well enough to show it, s.
+constexpr double kReversalOfMadeTorques = .005;
 
 bool Overlaps(const std::vector<GapEvent>& events, const GapEvent& event) {
   return std::any_of(events.begin(), events.end(), [&](const GapEvent& other) {
@@ -63,7 +65,6 @@ class Diagnoser {
 
   const Robot& robot_;
   const DiagnosisOptions& options_;
-  bool has_reference_ = false;
   double delay_ = 0;            // of recorded torque, s, that was undone
   VectorXd usual_temperature_;  // deg C
   std::optional<GapBaseline> baseline_;
@@ -100,6 +101,10 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   if (!lacked.families.empty()) trust.joint_trust = kTrustInFitted;
   // How late a log's torque is, a reference tells.
   if (!before.empty()) trust.timing_s = kTimingWithReference;
+  if (std::all_of(segments.begin(), segments.end(),
+                  [](const GapSegment& s) { return s.made_torque; })) {
+    trust.reversal_s = kReversalOfMadeTorques;
+  }
   baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
   if (!before.empty()) {
     const ReferenceModel model =
@@ -109,7 +114,7 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
     AdvanceTorque(delay_, &segments);
   }
   result_.ladder = lacked;
-  has_reference_ = reference != nullptr;
+  result_.has_reference = reference != nullptr;
   Tell("choosing effects");
   Fit(segments, before, split);
   if (split) {
@@ -129,7 +134,7 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   }
   const GapFindings findings = ListFindings(
       robot_, *fit_, *held_out_, result_.torque,
-      has_reference_ ? std::vector<LackedFamily>() : lacked.families);
+      result_.has_reference ? std::vector<LackedFamily>() : lacked.families);
   result_.effects = findings.effects;
   result_.candidates = findings.candidates;
   found_without_name_ = findings.without_name;

@@ -66,6 +66,7 @@ struct GapDiagnosis {
   std::vector<ShownEffect> shown;  // what a reference shows of itself
   std::vector<RunDrift> drifts;    // from log to log
   NoiseFloor floor = NoiseFloor::kAssumed;
+  bool has_reference = false;
   GapFigures torque;
   std::optional<ForwardGap> forward;
   LackedFamilies ladder;  // what the file gives no joint at all

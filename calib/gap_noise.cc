@@ -113,6 +113,7 @@ double VarianceDoubt(NoiseFloor source) {
   switch (source) {
     case NoiseFloor::kRepeats:
     case NoiseFloor::kReference:
+    case NoiseFloor::kPositions:
       return .25;
     case NoiseFloor::kStandstill:
       return 1;
@@ -130,6 +131,8 @@ const char* NoiseFloorName(NoiseFloor source) {
       return "standstill";
     case NoiseFloor::kReference:
       return "reference";
+    case NoiseFloor::kPositions:
+      return "positions";
     case NoiseFloor::kAssumed:
       return "assumed";
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "calib/gap_days.h"
+#include "calib/gap_position_noise.h"
 #include "calib/gap_reference.h"
 #include "calib/motion_scale.h"
 
@@ -38,8 +39,11 @@ GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
     : baseline_(baseline),
       data_(std::make_unique<GapData>(std::move(training), baseline,
                                       bandwidth_hz, part)) {
+  noise_ = NoiseOfPositions(baseline, data_->rows());
   if (!reference.empty()) {
-    noise_ = ReferenceNoise(baseline, bandwidth_hz, reference);
+    if (noise_.joints.empty()) {
+      noise_ = ReferenceNoise(baseline, bandwidth_hz, reference);
+    }
     reference_ =
         std::make_shared<GapData>(std::move(reference), baseline, bandwidth_hz);
     for (const int c : DayColumns(baseline)) reference_->Hold(c);
@@ -62,7 +66,7 @@ void GapRegression::EstimateNoise() {
   if (reference_) {
     reference_->SetNoise(noise_.joints);
     before_ = RefitBaseline(*reference_);
-  } else {
+  } else if (noise_.source != NoiseFloor::kPositions) {
     data_->SetNoise(WhiteNoise(data_->residual()));
     noise_ = EstimateGapNoise(data_->rows(), data_->FineResidual(),
                               data_->ResidualWith(RefitBaseline(*data_)));

@@ -195,7 +195,7 @@ std::string Drifts(const std::vector<RunDrift>& drifts) {
 }
 
 std::string MovedTitle(const GapDiagnosis& diagnosis) {
-  return diagnosis.floor == NoiseFloor::kReference
+  return diagnosis.has_reference
              ? "\nfriction that has changed since the reference\n"
              : "\nparameters far from the file's\n";
 }
@@ -207,7 +207,7 @@ std::string BriefReport(const GapDiagnosis& diagnosis) {
     case GapVerdict::kNoiseFloor:
       return "The model agrees with the log to within the noise.";
     case GapVerdict::kAbsorbed:
-      return diagnosis.floor == NoiseFloor::kReference
+      return diagnosis.has_reference
                  ? "Nothing but friction and timing has changed since the "
                    "reference."
                  : "Nothing is missing in the model but better values: "

@@ -19,7 +19,7 @@ constexpr double kPeriodsAtEnds = 4;  // of the bandwidth, bent by filters
 constexpr int kShortestRun = 3 * Autoregression::kOrder;
 // What drives give is not quite what their law says: torques made of commands
 // are not known better than this share of their rms.
-constexpr double kMadeTorqueDoubt = .005;
+constexpr double kMadeTorqueDoubt = .001;
 
 // N m or N, of each joint; 0 where torques were recorded.
 Eigen::VectorXd MadeTorqueDoubt(const std::vector<GapSegment>& segments) {
@@ -137,8 +137,7 @@ void GapRows::SetNoise(std::vector<Autoregression> noise,
   CHECK_EQ(doubt.rows(), num_thin());
   noise_ = std::move(noise);
   for (int j = 0; j < num_joints(); ++j) {
-    const double own = noise_[j].stddev();
-    if (own > 0) noise_[j].sigma *= std::hypot(own, made_doubt_[j]) / own;
+    if (made_doubt_[j] > 0) noise_[j] = PlusWhite(noise_[j], made_doubt_[j]);
   }
   variance_ = doubt.cwiseAbs2();
   weight_.resize(num_thin(), num_joints());

@@ -14,6 +14,7 @@ namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 // A regressor must not hold the noise of what it explains.
 constexpr double kSmoothTorqueHz = 3;
@@ -50,19 +51,45 @@ void AppendCore(const Trajectory& trajectory, GapSegment* segment) {
              &motion.temperature);
 }
 
-// At the segment's samples, smooth.
-Eigen::VectorXd StampErrors(const std::vector<StampError>& errors,
-                            const Motion& motion) {
-  Eigen::VectorXd at(motion.size());
-  size_t k = 1;
+// Rows of x, of the times t (two or more), at the motion's samples; between
+// rows, and as the nearest beyond their ends.
+MatrixXd AtSamples(const VectorXd& t, const MatrixXd& x, const Motion& motion) {
+  MatrixXd at(motion.size(), x.cols());
+  Eigen::Index k = 1;
   for (int row = 0; row < motion.size(); ++row) {
-    const double t = motion.time(row);
-    while (k + 1 < errors.size() && errors[k].stamp < t) ++k;
-    const StampError &a = errors[k - 1], &b = errors[k];
-    const double share = (t - a.stamp) / (b.stamp - a.stamp);
-    at[row] = a.error + std::clamp(share, 0., 1.) * (b.error - a.error);
+    const double now = motion.time(row);
+    while (k + 1 < t.size() && t[k] < now) ++k;
+    const double share =
+        std::clamp((now - t[k - 1]) / (t[k] - t[k - 1]), 0., 1.);
+    at.row(row) = x.row(k - 1) + share * (x.row(k) - x.row(k - 1));
   }
-  return ZeroPhaseLowPass(at, 1 / motion.dt, kSmoothStampHz);
+  return at;
+}
+
+// At the segment's samples, smooth.
+VectorXd StampErrors(const std::vector<StampError>& errors,
+                     const Motion& motion) {
+  VectorXd t(errors.size()), error(errors.size());
+  for (size_t k = 0; k < errors.size(); ++k) {
+    t[static_cast<long>(k)] = errors[k].stamp;
+    error[static_cast<long>(k)] = errors[k].error;
+  }
+  return ZeroPhaseLowPass(AtSamples(t, error, motion), 1 / motion.dt,
+                          kSmoothStampHz);
+}
+
+// Low-passed as the motion and the torque are.
+void AddErrors(const MadeTorque& made, double bandwidth_hz,
+               GapSegment* segment) {
+  if (made.t.size() < 2) return;
+  Motion& motion = segment->motion;
+  const auto smooth = [&](const MatrixXd& x) {
+    return ZeroPhaseLowPass(AtSamples(made.t, x, motion), 1 / motion.dt,
+                            MotionBandwidth(bandwidth_hz));
+  };
+  segment->position_noise = smooth(made.position_noise);
+  segment->torque_noise = smooth(made.torque_noise);
+  motion.torque_by_rate = smooth(made.by_rate);
 }
 
 // Joint by joint, on positions that are smooth already.
@@ -115,6 +142,9 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                  segments.end());
   for (GapSegment& segment : segments) {
     FindStillJoints(&segment);
+    if (const MadeTorque* made = logs->made_torque(segment.log)) {
+      AddErrors(*made, bandwidth_hz, &segment);
+    }
     Motion& motion = segment.motion;
     motion.torque =
         ZeroPhaseLowPass(segment.tau, 1 / motion.dt, kSmoothTorqueHz);

@@ -20,6 +20,9 @@ struct GapSegment {
 
   bool made_torque = false;    // of commands, by the law of the drives
   bool torque_drifts = false;  // torque_drift.h
+  // A draw of the positions' noise and of what it makes of such torques,
+  // samples x n; empty: none.
+  Eigen::MatrixXd position_noise, torque_noise;
   // Where rows were lost: neither the motion nor a torque made of it is as good
   // there. Of recorded torques, whose noise is larger, none.
   std::vector<TimeRange> lost;

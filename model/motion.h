@@ -21,6 +21,10 @@ struct Motion {
   // Wanted only where what is asked says more than what is given: at a limit.
   Eigen::MatrixXd torque;
 
+  // Of torques that were made of these positions: what they grow by per unit of
+  // rate of the stamps' clock beyond time, N m or N; empty: they were recorded.
+  Eigen::MatrixXd torque_by_rate;
+
   int size() const { return static_cast<int>(q.rows()); }
   int num_joints() const { return static_cast<int>(q.cols()); }
   double time(int row) const { return t0 + row * dt; }

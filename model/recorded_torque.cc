@@ -240,7 +240,20 @@ MatrixXd RecordedTorque::ChangeOf(const SimulatedRobot& changed,
   AddLaws(changed, track, &tau);
   tau = Recorded(changed, track, std::move(tau));
   tau -= nominal_;
+  if (changed.clock) AddMadeByClock(changed.clock, &tau);
   return tau;
+}
+
+// What drives gave was told from stamps, too.
+void RecordedTorque::AddMadeByClock(const std::function<double(double)>& clock,
+                                    MatrixXd* tau) const {
+  if (motion_.torque_by_rate.size() == 0) return;
+  const double h = motion_.dt;
+  for (int k = 0; k < motion_.size(); ++k) {
+    const double t = motion_.time(k);
+    const double rate = (clock(t + h) - clock(t - h)) / (2 * h) - 1;
+    tau->row(k) += rate * motion_.torque_by_rate.row(k);
+  }
 }
 
 // Whether it has joint laws, perhaps in joints that warm up, and nothing else.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -48,7 +49,8 @@ class RecordedTorque {
   //                             recorded motion of the motor (deflection.h),
   //                             then inverse dynamics of the links;
   //   sensors, clock            the motion behind the readings, and the
-  //                             recorded torque;
+  //                             recorded torque, or what the clock made of one
+  //                             that was made of the readings;
   //   torque_delay              interpolated between samples
   //   actuators                 inverted from the torque needed, with the help
   //                             of the recorded one (actuator_inversion.h).
@@ -80,6 +82,8 @@ class RecordedTorque {
                         Eigen::MatrixXd* tau) const;
   void AddLaws(const SimulatedRobot& changed, const MotionTrack& track,
                Eigen::MatrixXd* tau) const;
+  void AddMadeByClock(const std::function<double(double)>& clock,
+                      Eigen::MatrixXd* tau) const;
   Eigen::MatrixXd Recorded(const SimulatedRobot& changed,
                            const MotionTrack& track,
                            Eigen::MatrixXd needed) const;

@@ -57,6 +57,27 @@ TEST(Autoregression, StddevIsThatOfTheProcess) {
   EXPECT_NEAR(noise.stddev(), StddevOfAr2(), 1e-9);
 }
 
+// White noise beside white noise, and beside a process of two terms.
+TEST(Autoregression, PlusWhiteIsTheirSum) {
+  Autoregression noise;
+  noise.sigma = 3;
+  const Autoregression white = PlusWhite(noise, 4);
+  EXPECT_NEAR(white.sigma, 5, 1e-4);
+  EXPECT_LT(white.a.norm(), 1e-6);
+  noise.a << kA1, kA2, 0, 0;
+  noise.sigma = kSigma;
+  std::mt19937_64 random(5);
+  VectorXd x = Ar2(&random, 20000);
+  for (double& value : x) value += .5 * Normal(&random);
+  const Autoregression sum = PlusWhite(noise, .5);
+  EXPECT_NEAR(sum.stddev(), std::hypot(StddevOfAr2(), .5), .02);
+  const VectorXd left = sum.Whiten(x);
+  EXPECT_NEAR(std::sqrt(left.squaredNorm() / left.size()), 1, .02);
+  for (int lag = 1; lag <= 6; ++lag) {
+    EXPECT_NEAR(Correlation(left, lag), 0, .04) << lag;
+  }
+}
+
 TEST(Autoregression, WhitenTakesOutWhatThePastSays) {
   Autoregression noise;
   noise.sigma = 2;

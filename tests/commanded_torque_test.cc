@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/commanded_arm.h"
 
 namespace armcal {
@@ -65,6 +67,51 @@ TEST(CommandedTorque, OfLogsThatLoseRows) {
               .015 * whole.log.tau.col(j).cwiseAbs().maxCoeff())
         << j;
   }
+}
+
+// Positions shake by what their encoders do, at even times or not; what torques
+// make of it is held against Simbody in gap_position_noise_test.
+TEST(CommandedTorque, KnowsTheNoiseOfPositions) {
+  const Robot truth = CommandedTruth(3);
+  const ControllerOptions controller = CommandedController(truth);
+  CommandedLog log = RecordCommands(truth, controller, 20, kUsualEncoder);
+  const double stddev =
+      std::hypot(kUsualEncoder.noise, kUsualEncoder.resolution / std::sqrt(12));
+  std::vector<int> kept;
+  for (int k = 0; k < log.log.size(); ++k) {
+    if (k % 7 != 3) kept.push_back(k);
+  }
+  for (const bool uneven : {false, true}) {
+    if (uneven) {
+      log.log.t = VectorXd(log.log.t(kept));
+      log.log.q = MatrixXd(log.log.q(kept, Eigen::all));
+      log.log.qref = MatrixXd(log.log.qref(kept, Eigen::all));
+    }
+    const MadeTorque made = MakeTorque(truth, controller, log, log.log.t, 1);
+    EXPECT_EQ(made.t, log.log.t);
+    EXPECT_EQ(made.torque_noise.rows(), log.log.size());
+    for (int j = 0; j < 3; ++j) {
+      const auto x = made.position_noise.col(j);
+      EXPECT_NEAR(x.norm() / std::sqrt(x.size()) / stddev, 1, .2) << j;
+    }
+  }
+}
+
+// Stamps of a clock that is 2 % fast.
+TEST(CommandedTorque, KnowsWhatItsClockMakes) {
+  const Robot truth = CommandedTruth(3);
+  ControllerOptions controller = CommandedController(truth);
+  CommandedLog log = RecordCommands(truth, controller, 8, {0, 0});
+  controller.delay += kCommandDelay;
+  log.log.t *= 1.02;
+  const MadeTorque made = MakeTorque(truth, controller, log, log.log.t, 1);
+  const long rows = made.tau.rows() - FirstCounted(log.log);
+  MatrixXd error = (made.tau - log.log.tau).bottomRows(rows);
+  MatrixXd left = error - .02 * made.by_rate.bottomRows(rows);
+  for (MatrixXd* x : {&error, &left}) {
+    x->rowwise() -= x->colwise().mean().eval();
+  }
+  EXPECT_LT(left.norm(), .3 * error.norm());
 }
 
 // Velocity loops in position loops.

@@ -131,6 +131,32 @@ TEST_P(GapBaselineTest, TimingIsTheTorqueOfOtherTimes) {
   }
 }
 
+// Friction of 1.5 that changes sign 2 ms later than the velocity does.
+TEST_P(GapBaselineTest, FrictionMayChangeSignAtOtherTimes) {
+  BaselineOptions options;
+  options.reversal_s = .002;
+  const GapBaseline turning(robot_, options, VectorXd::Constant(n(), 10));
+  const auto thin =
+      turning.ThinColumns(*rows_, RecordedTorques(turning, *rows_));
+  Robot slippery = robot_;
+  for (Link& link : slippery.links) link.joint.coulomb = 0;
+  const auto friction = [&](int j, double later) -> VectorXd {
+    return Torque(robot_, turning.transitions(), j, later) -
+           Torque(slippery, turning.transitions(), j, later);
+  };
+  int reversals = 0;
+  for (int c = 0; c < turning.size(); ++c) {
+    if (turning.columns()[c].kind != Kind::kReversal) continue;
+    const int j = turning.columns()[c].joint;
+    const VectorXd expected =
+        (friction(j, -kStep) - friction(j, kStep)) * (.002 / (2 * kStep));
+    EXPECT_LT((thin[j].col(c) - expected).norm(), .05 * expected.norm()) << j;
+    EXPECT_EQ(thin[(j + 1) % n()].col(c).norm(), 0) << c;
+    ++reversals;
+  }
+  EXPECT_EQ(reversals, n());
+}
+
 // By hand: 5 % of the file's numbers, of lengths for the moments.
 TEST_P(GapBaselineTest, SpreadsAreTheTrustInTheFile) {
   for (const BaselineColumn& column : baseline_->columns()) {

@@ -161,7 +161,7 @@ TEST(GapRows, DoubtfulSamplesCountLess) {
 }
 
 // Of torques that were made of commands the level is not known, and no more of
-// the rest than to half a percent.
+// the rest than to a thousandth.
 TEST(GapRows, DoubtMadeTorques) {
   std::vector<GapSegment> segments = {Segment(5000), Segment(5000)};
   segments[0].made_torque = segments[0].torque_drifts = true;
@@ -172,7 +172,7 @@ TEST(GapRows, DoubtMadeTorques) {
   EXPECT_LT(without.topRows(292).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_EQ(without.bottomRows(292), level.bottomRows(292));
   rows.SetNoise(White({.03}), MatrixXd::Zero(584, 1));
-  EXPECT_NEAR(rows.variance(0, 0), .03 * .03 + .005 * .005 * 64 / 2, 1e-12);
+  EXPECT_NEAR(rows.variance(0, 0), .03 * .03 + .001 * .001 * 64 / 2, 1e-9);
   EXPECT_LT(rows.Whiten(0, level).topRows(288).cwiseAbs().maxCoeff(), 1e-6);
   MatrixXd unknown = level;
   unknown.topRows(50).setConstant(std::nan(""));

@@ -130,6 +130,15 @@ TEST(RecordedTorque, ClockScalesTheMotion) {
             1e-4 * expected.cwiseAbs().maxCoeff());
 }
 
+// A torque that was made of the stamps grows with their clock's rate as well.
+TEST(RecordedTorque, ClockMakesTorques) {
+  TwoLinks two;
+  two.changed.clock = [](double t) { return 1.02 * t; };
+  const MatrixXd recorded = two.Change();
+  two.motion.torque_by_rate = MatrixXd::Constant(kSamples, 2, 5);
+  EXPECT_LT(Worst(two.Change(), recorded.array() + .1), 1e-9);
+}
+
 // A constant force on the tool: virtual work by differences of the tool's
 // position.
 TEST(RecordedTorque, ForceOnTheToolTakesItsWork) {

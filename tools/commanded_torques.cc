@@ -2,7 +2,6 @@
 
 #include <gflags/gflags.h>
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -14,11 +13,7 @@ DECLARE_string(controller);
 namespace armcal {
 namespace {
 
-// What an integral holds follows from the positions of every period; logs have
-// a part of these, and do not say what it held when they began.
-bool Integrates(const DriveLaw& drive) {
-  return drive.ki != 0 || drive.velocity_ki != 0;
-}
+constexpr unsigned kSeed = 1;  // the same answer to the same logs
 
 }  // namespace
 
@@ -34,10 +29,7 @@ void MakeTorquesOfCommands(const Robot& robot,
     const CommandedLog log = CommandedRows(path, all, {});
     const ControllerOptions controller =
         ControllerFromFlags(robot, log.log.qref.row(0));
-    MadeTorque made;
-    made.drifts = std::any_of(controller.drives.begin(),
-                              controller.drives.end(), &Integrates);
-    made.tau = CommandedTorque(robot, controller, log, all.t);
+    MadeTorque made = MakeTorque(robot, controller, log, all.t, kSeed);
     made.source = "commands and positions, by " + FLAGS_controller;
     options->made_torque[path] =
         std::make_shared<const MadeTorque>(std::move(made));
