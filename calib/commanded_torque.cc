@@ -121,7 +121,9 @@ MadeTorque MakeTorque(const Robot& known, const ControllerOptions& controller,
   };
   const MatrixXd tau = torque(commanded);
   MadeTorque made;
-  made.tau = CommandedTorque(known, controller, commanded, times);
+  made.tau = times.size() == tau.rows()
+                 ? tau
+                 : CommandedTorque(known, controller, commanded, times);
   made.t = log.t;
   made.position_noise = WhiteNoise(PositionNoise(log.q - log.qref),
                                    static_cast<int>(log.t.size()), seed);

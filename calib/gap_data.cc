@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace armcal {
+namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -10,8 +11,6 @@ using Eigen::VectorXd;
 // Of one prior standard deviation of the ways through zero velocity.
 constexpr double kDoubt = .3, kDoubtOfMadeTorques = .5;
 constexpr double kNothing = 1e3;
-
-namespace {
 
 // A doubtful sample is in the whitened rows of all that follow it within the
 // noise's memory, and filters spread it as far before. Torques that are

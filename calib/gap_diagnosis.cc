@@ -101,8 +101,7 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   if (!lacked.families.empty()) trust.joint_trust = kTrustInFitted;
   // How late a log's torque is, a reference tells.
   if (!before.empty()) trust.timing_s = kTimingWithReference;
-  if (std::all_of(segments.begin(), segments.end(),
-                  [](const GapSegment& s) { return s.made_torque; })) {
+  if (HaveNoiseOfPositions(segments)) {
     trust.reversal_s = kReversalOfMadeTorques;
   }
   baseline_.emplace(lacked.robot, trust, UsualTorque(segments));

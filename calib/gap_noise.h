@@ -13,8 +13,7 @@ enum class NoiseFloor {
   kRepeats,     // motion done twice: what the model lacks falls out
   kStandstill,  // the scatter while joints stand
   kReference,  // what a model fitted to logs of the robot before leaves of them
-  kPositions,  // of torques made of commands: what encoders' noise makes of
-               // them
+  kPositions,  // of the encoders, which torques made of commands have
   kAssumed     // what a refit leaves: holds what the model lacks as well
 };
 const char* NoiseFloorName(NoiseFloor source);

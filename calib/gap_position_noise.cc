@@ -1,6 +1,5 @@
 #include "calib/gap_position_noise.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "model/low_pass.h"
@@ -40,22 +39,16 @@ class NoiseTorque {
 }  // namespace
 
 GapNoise NoiseOfPositions(const GapBaseline& baseline, const GapRows& rows) {
-  const std::vector<GapSegment>& segments = rows.segments();
-  if (std::any_of(segments.begin(), segments.end(), [](const GapSegment& s) {
-        return s.torque_noise.size() == 0;
-      })) {
-    return {};
-  }
+  constexpr double kLeast = 1e-12;  // N m or N, of encoders without noise
   const NoiseTorque torque(baseline);
   std::vector<MatrixXd> noise;
-  for (const GapSegment& segment : segments) {
+  for (const GapSegment& segment : rows.segments()) {
     noise.push_back(torque.Of(segment));
   }
   MatrixXd thin = rows.ThinAll(noise);
   for (int j = 0; j < thin.cols(); ++j) {
     thin.col(j) = rows.WithoutDrift(j, thin.col(j));
   }
-  constexpr double kLeast = 1e-12;  // N m or N, of encoders without noise
   GapNoise of_positions = ResidualNoise(rows, thin);
   for (int j = 0; j < thin.cols(); ++j) {
     if (thin.col(j).isZero(0)) of_positions.joints[j].sigma = kLeast;

@@ -39,9 +39,11 @@ GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
     : baseline_(baseline),
       data_(std::make_unique<GapData>(std::move(training), baseline,
                                       bandwidth_hz, part)) {
-  noise_ = NoiseOfPositions(baseline, data_->rows());
+  const bool of_positions = HaveNoiseOfPositions(data_->rows().segments()) &&
+                            HaveNoiseOfPositions(reference);
+  if (of_positions) noise_ = NoiseOfPositions(baseline, data_->rows());
   if (!reference.empty()) {
-    if (noise_.joints.empty()) {
+    if (!of_positions) {
       noise_ = ReferenceNoise(baseline, bandwidth_hz, reference);
     }
     reference_ =

@@ -78,7 +78,7 @@ VectorXd StampErrors(const std::vector<StampError>& errors,
                           kSmoothStampHz);
 }
 
-// Low-passed as the motion and the torque are.
+// What makes a made torque wrong, low-passed as motion and torque are.
 void AddErrors(const MadeTorque& made, double bandwidth_hz,
                GapSegment* segment) {
   if (made.t.size() < 2) return;
@@ -160,6 +160,12 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
 
 double MotionBandwidth(double bandwidth_hz) {
   return kMotionBandwidth * bandwidth_hz;
+}
+
+bool HaveNoiseOfPositions(const std::vector<GapSegment>& segments) {
+  return std::all_of(segments.begin(), segments.end(), [](const GapSegment& s) {
+    return s.torque_noise.size() > 0;
+  });
 }
 
 RecordedPositions AuditPositions(const Progress& progress, LogSet* logs) {

@@ -37,6 +37,9 @@ struct GapSegment {
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                                      const Progress& progress, LogSet* logs);
 
+// Whether their torques, if any, were made of commands, with a draw of noise.
+bool HaveNoiseOfPositions(const std::vector<GapSegment>& segments);
+
 // Noise of the recorded positions (position_noise.h), n entries, and the rate
 // they were recorded at.
 struct RecordedPositions {

@@ -24,14 +24,14 @@ enum class TorqueKind {
 // the log's, joints in columns.
 struct MadeTorque {
   Eigen::MatrixXd tau;
-  // What makes them wrong, in rows as of tau, which are at t, s since the log's
-  // first; empty: not known.
+  // What makes them wrong, rows at the times t, s since the log's first row;
+  // empty: not known.
   Eigen::VectorXd t;
   Eigen::MatrixXd position_noise;  // one draw of that of the log, rad or m
   Eigen::MatrixXd torque_noise;    // and what it makes of tau, N m or N
-  Eigen::MatrixXd by_rate;  // of the stamps' clock beyond time, per unit, N m
-  bool drifts = false;      // its level is not known and walks at random
-  std::string source;       // what torque_source() says
+  Eigen::MatrixXd by_rate;         // Motion::torque_by_rate, N m or N
+  bool drifts = false;             // its level is not known and walks at random
+  std::string source;              // what torque_source() says
 };
 
 struct LogReaderOptions {

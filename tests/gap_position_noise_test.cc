@@ -89,9 +89,10 @@ TEST_F(GapPositionNoiseTest, GrowsWithTheEncoders) {
 }
 
 TEST_F(GapPositionNoiseTest, RecordedTorquesHaveNone) {
-  const auto segments = Read(kUsualEncoder, false);
-  const GapRows rows(segments, kBandwidth);
-  EXPECT_TRUE(NoiseOfPositions(Baseline(), rows).joints.empty());
+  std::vector<GapSegment> segments = Read(kUsualEncoder, true);
+  EXPECT_TRUE(HaveNoiseOfPositions(segments));
+  segments.push_back(Read(kUsualEncoder, false).at(0));
+  EXPECT_FALSE(HaveNoiseOfPositions(segments));
 }
 
 }  // namespace
