@@ -57,7 +57,7 @@ ReferenceMotion MeasuredMotion(const CommandedLog& commanded) {
 }
 
 // Samples x as many as there are standard deviations.
-MatrixXd WhiteNoise(const VectorXd& stddev, int samples, unsigned seed) {
+MatrixXd DrawWhite(const VectorXd& stddev, int samples, unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   return MatrixXd::NullaryExpr(
@@ -125,8 +125,8 @@ MadeTorque MakeTorque(const Robot& known, const ControllerOptions& controller,
                  ? tau
                  : CommandedTorque(known, controller, commanded, times);
   made.t = log.t;
-  made.position_noise = WhiteNoise(PositionNoise(log.q - log.qref),
-                                   static_cast<int>(log.t.size()), seed);
+  made.position_noise = DrawWhite(PositionNoise(log.q - log.qref),
+                                  static_cast<int>(log.t.size()), seed);
   CommandedLog other = commanded;
   other.log.q += made.position_noise;
   made.torque_noise = torque(other) - tau;

@@ -172,7 +172,7 @@ TEST(GapRows, DoubtMadeTorques) {
   EXPECT_LT(without.topRows(292).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_EQ(without.bottomRows(292), level.bottomRows(292));
   rows.SetNoise(White({.03}), MatrixXd::Zero(584, 1));
-  EXPECT_NEAR(rows.variance(0, 0), .03 * .03 + .001 * .001 * 64 / 2, 1e-9);
+  EXPECT_NEAR(rows.variance(0, 0), .03 * .03 + .001 * .001 * 64 / 2, 1e-12);
   EXPECT_LT(rows.Whiten(0, level).topRows(288).cwiseAbs().maxCoeff(), 1e-6);
   MatrixXd unknown = level;
   unknown.topRows(50).setConstant(std::nan(""));
