@@ -241,7 +241,7 @@ class Running(InFolder):
                 count[0] += 1
                 time.sleep(1e-4)
 
-        thread = threading.Thread(target=spin)
+        thread = threading.Thread(target=spin, daemon=True)
         thread.start()
         stages = []
 
@@ -290,10 +290,12 @@ class Running(InFolder):
 
     def test_ctrl_c(self):
         timer = threading.Timer(.05, os.kill, (os.getpid(), signal.SIGINT))
+        self.addCleanup(timer.join)  # or it would end another test
         with self.assertRaises(KeyboardInterrupt):
             timer.start()
-            armcal.diagnose(self.robot, "run1/log.csv")
-        timer.join()
+            # Takes a second; had it gone on to its end, it would have written.
+            armcal.excite(self.robot, duration=60, out="design")
+        self.assertFalse(os.path.exists("design"))
 
 
 if __name__ == "__main__":
