@@ -184,13 +184,9 @@ JointGap Diagnoser::JointFigures(int j) const {
     gap.after_rms = sigma * result_.torque.joints(j, 2);
   }
   gap.organised = OrganisedBy(CourseOf(j));
-  gap.unexplained = Excess(*fit_, j, true);
-  // Without any order, it may be noise that is louder here than where it was
-  // told: up to twice; in motion, where clocks and encoders err, to twice the
-  // standard deviation at rest.
-  const double rows = (result_.floor == NoiseFloor::kStandstill ? 3 : 1) *
-                      fit_->rows().num_rows(j);
-  if (gap.organised.by.empty() && gap.unexplained < rows) gap.unexplained = 0;
+  gap.unexplained = UnexplainedOf(
+      {Excess(*fit_, j, true), fit_->rows().num_rows(j), result_.floor,
+       !gap.organised.by.empty(), gap.after_rms / sigma});
   return gap;
 }
 

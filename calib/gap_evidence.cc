@@ -7,17 +7,32 @@
 namespace armcal {
 namespace {
 
-// Of ProbabilityOf: logistic regression with a ridge on the 414 effects that
-// were found in 376 cases of the evaluation of a1d248e9, which are calibration
-// cases since. Few of these come and go: weights of that are of the 347 effects
-// in all 312 cases of seed 303 and the 78 withheld ones of seed 1.
-constexpr double kConstant = -.4844, kOdds = .1849, kRest = -.396,
-                 kOthers = -.6281, kBeside = -2.1768, kImitated = -.7697,
-                 kConfirmed = 1.1957, kLeft = -1.0649;
-constexpr double kEvent = -2.1697, kEventOdds = .1454, kEventRest = -.8588,
-                 kEventOthers = -.972, kEvents = -.2195, kOneJoint = -1.1486;
+// Of ProbabilityOf.
+struct EffectWeights {
+  double constant, odds, rest, others, beside, imitated, confirmed, left;
+};
+struct EventWeights {
+  double constant, odds, rest, others, events, one_joint;
+};
+
+// Logistic regression with a ridge on the 414 effects that were found in 376
+// cases of the evaluation of a1d248e9, which are calibration cases since. Few
+// of these come and go: weights of that are of the 347 effects in all 312 cases
+// of seed 303 and the 78 withheld ones of seed 1.
+constexpr EffectWeights kOfRecorded = {-.4844,  .1849,  -.396,  -.6281,
+                                       -2.1768, -.7697, 1.1957, -1.0649};
+constexpr EventWeights kEventOfRecorded = {-2.1697, .1454,  -.8588,
+                                           -.972,   -.2195, -1.1486};
+// The same on the 971 effects and 76 that come and go in the cases of 32b58689
+// and e68f85a0 without torques, as found by what is beside this.
+constexpr EffectWeights kOfMade = {-1.6719, .2528,   -.559, -.9838,
+                                   -.8015,  -1.0474, .8157, -1.1392};
+constexpr EventWeights kEventOfMade = {-3.376, 0,       -1.0671,
+                                       -.16,   -1.4223, -1.0063};
 
 constexpr double kMostOdds = 12;
+
+double Logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
 // Springs, masses and gains are what loose bolts, sloshing loads and warming
 // motors look like.
@@ -51,6 +66,7 @@ GapEvidence::GapEvidence(const GapFit& fit, const HeldOut& held_out,
     : fit_(fit), held_out_(held_out), figures_(figures) {
   common_.chosen =
       static_cast<int>(fit.selection().drops.size()) + !fit.events().empty();
+  common_.made_torque = HaveNoiseOfPositions(fit.rows().segments());
   common_.next = std::max(
       0., ScoresBeside(fit.screen(), fit.candidates(), fit.selection_options(),
                        fit.selection().chosen, -1)
@@ -111,15 +127,17 @@ double ProbabilityOf(const EffectEvidence& e) {
   const double rest = std::log1p(e.next) - std::min(e.strength, 12.);
   const double odds = std::clamp(e.odds, -1., 8.);
   const int others = e.chosen - 1;
-  const double sum =
-      e.events > 0
-          ? kEvent + kEventOdds * odds + kEventRest * rest +
-                kEventOthers * others + kEvents * std::min(e.events, 8) +
-                kOneJoint * std::min(e.one_joint, 1.5)
-          : kConstant + kOdds * odds + kRest * rest + kOthers * others +
-                kBeside * e.beside + kImitated * e.imitated +
-                kConfirmed * e.confirmation.Share() + kLeft * e.left;
-  return 1 / (1 + std::exp(-sum));
+  if (e.events > 0) {
+    const EventWeights& w = e.made_torque ? kEventOfMade : kEventOfRecorded;
+    return Logistic(w.constant + w.odds * odds + w.rest * rest +
+                    w.others * others + w.events * std::min(e.events, 8) +
+                    w.one_joint * std::min(e.one_joint, 1.5));
+  }
+  const EffectWeights& w = e.made_torque ? kOfMade : kOfRecorded;
+  return Logistic(w.constant + w.odds * odds + w.rest * rest +
+                  w.others * others + w.beside * e.beside +
+                  w.imitated * e.imitated +
+                  w.confirmed * e.confirmation.Share() + w.left * e.left);
 }
 
 double Excess(const GapFit& fit, int joint, bool with_effects) {

@@ -210,8 +210,10 @@ bool IsPossible(const FoundEffect& found) {
 
 bool IsContradicted(const FoundEffect& found) {
   constexpr double kVisible = 40;  // chi^2
+  constexpr double kHelps = .03;   // of the noise's mean square
   const Confirmation& confirmation = found.evidence.confirmation;
-  return confirmation.expected > kVisible && confirmation.explained < 0;
+  return confirmation.expected > kVisible && confirmation.explained < 0 &&
+         found.evidence.gain < kHelps;
 }
 
 bool IsClaimed(const FoundEffect& found) {
@@ -219,7 +221,10 @@ bool IsClaimed(const FoundEffect& found) {
   if (!IsPossible(found) || IsContradicted(found)) return false;
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
-  if (!IsSeenAgain(found)) return found.probability >= kLikelyUnseen;
+  if (!IsSeenAgain(found)) {
+    return found.probability >=
+           (found.evidence.made_torque ? kLikely : kLikelyUnseen);
+  }
   return found.probability >= kLikely ||
          (found.probability >= kLeastClaimed && found.evidence.gain > 0);
 }

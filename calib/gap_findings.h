@@ -40,7 +40,8 @@ bool IsSeenAgain(const FoundEffect& found);
 // Whether such a thing can be: a load is held by the tool.
 bool IsPossible(const FoundEffect& found);
 
-// Whether held-out data should show it, and do not.
+// Whether held-out data should show it, and have neither chi^2 nor the mean
+// square lower with it. A form that is a little too large raises chi^2 alone.
 bool IsContradicted(const FoundEffect& found);
 
 // Whether it is told as an effect; what is not is a candidate. It has to be

@@ -7,6 +7,7 @@
 
 #include "calib/gap_days.h"
 #include "calib/gap_form_error.h"
+#include "calib/gap_idle.h"
 #include "calib/gap_null.h"
 #include "calib/gap_reference.h"
 #include "calib/motion_scale.h"
@@ -66,11 +67,13 @@ double GapFit::UsualExcess(const FrictionExcess& excess, bool of_itself) const {
 // Contacts stand out from all that friction does when nothing touches the arm,
 // which only a reference tells. What one joint alone feels in motion may be its
 // own: where the arm has no other, it has to stand out from the rest of the log
-// as well. Whether there were any.
+// as well. Whether there were any. Torques that are made of commands have the
+// drives' integrals in them, which wind up where friction holds.
 bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
                              ContactSearch search) {
   const bool of_itself = search == ContactSearch::kInMotion;
   if (IsLeftOut(*FindEffect("external_contact"))) return false;
+  if (HaveNoiseOfPositions(rows().segments())) return false;
   if (of_itself ? rows().num_joints() > 1 : !regression_.reference())
     return false;
   const FrictionExcess excess = ExcessBeside(effects);
@@ -239,6 +242,22 @@ void GapFit::ChooseBeside(const std::vector<GapEvent>& events) {
 void GapFit::Finish() {
   selection_ = WithoutChance(screen(), rows(), candidates(), options_.selection,
                              selection_, kSeed);
+  Refine();
+  for (int idle; (idle = FindIdle(regression_, pool_, options_.selection,
+                                  selection_, refined_)) >= 0;) {
+    selection_ = DescribeSelection(screen(), candidates(), options_.selection,
+                                   Without(selection_.chosen, idle));
+    Refine();
+  }
+  const MatrixXd left = data()->ResidualWith(
+      refined_.baseline, regression_.TorqueOf(refined_.effects));
+  left_.resize(left.cols());
+  for (int j = 0; j < left.cols(); ++j) {
+    left_[j] = rows().Whiten(j, left.col(j));
+  }
+}
+
+void GapFit::Refine() {
   rivals_.clear();
   for (size_t k = 0; k < selection_.chosen.size(); ++k) {
     rivals_.push_back(CompareRivals(regression_, pool_, options_.selection,
@@ -252,12 +271,6 @@ void GapFit::Finish() {
   } else if (!refined_.effects.empty()) {
     refined_ = RefineEffects(screen(), baseline(), scale(), refined_.effects,
                              -1, data());
-  }
-  const MatrixXd left = data()->ResidualWith(
-      refined_.baseline, regression_.TorqueOf(refined_.effects));
-  left_.resize(left.cols());
-  for (int j = 0; j < left.cols(); ++j) {
-    left_[j] = rows().Whiten(j, left.col(j));
   }
 }
 

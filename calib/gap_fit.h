@@ -83,6 +83,7 @@ class GapFit {
   void TakeAsKnown(const std::vector<GapEvent>& events);
   void SelectWithEvents();
   void Finish();
+  void Refine();
   double UsualExcess(const FrictionExcess& excess, bool of_itself) const;
   FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
 

@@ -20,9 +20,11 @@ struct Visibility {
 Visibility VisibilityOf(const GapFit& fit, const GapCandidate& candidate) {
   Visibility visibility;
   const GapScreen& screen = fit.screen();
+  // Where its joint does not move, others may feel it.
+  const bool own = candidate.joint >= 0 && screen.num_rows(candidate.joint) > 0;
   double rows = 0;
   for (int j = 0; j < screen.num_joints(); ++j) {
-    if (candidate.joint < 0 || candidate.joint == j) rows += screen.num_rows(j);
+    if (!own || candidate.joint == j) rows += screen.num_rows(j);
   }
   for (const int c : candidate.columns) {
     if (!(screen.raw(c) > 0)) continue;
@@ -35,8 +37,8 @@ Visibility VisibilityOf(const GapFit& fit, const GapCandidate& candidate) {
 }
 
 std::string WhyNot(const Visibility& visibility, bool moves) {
-  if (!moves) return "the joint does not move";
   if (visibility.size >= kMaterial) return "";
+  if (!moves) return "the joint does not move";
   if (visibility.share < kVisible) {
     return "the model's own parameters would take it for theirs";
   }

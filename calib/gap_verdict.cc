@@ -2,6 +2,17 @@
 
 namespace armcal {
 
+double UnexplainedOf(const JointLeft& left) {
+  // What is real is there again in what was held out.
+  if (left.held_out > 0 && left.held_out < 1) return 0;
+  // Without any order, it may be noise that is louder here than where it was
+  // told: up to twice; in motion, where clocks and encoders err, to twice the
+  // standard deviation at rest.
+  const int louder = left.floor == NoiseFloor::kStandstill ? 3 : 1;
+  if (!left.is_ordered && left.excess < louder * left.rows) return 0;
+  return left.excess;
+}
+
 GapVerdict JudgeGap(const GapFacts& facts) {
   constexpr double kReal = 100;        // chi^2 that is not chance
   constexpr double kUnexplained = .3;  // of what could be removed

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "calib/gap_noise.h"
 #include "calib/gap_shrink.h"
 
 namespace armcal {
@@ -14,6 +15,18 @@ enum class GapVerdict {
   kNotTestable
 };
 const char* GapVerdictName(GapVerdict verdict);
+
+// What effects leave of one joint.
+struct JointLeft {
+  double excess = 0;  // chi^2 beyond the noise's, in sample
+  int rows = 0;
+  NoiseFloor floor = NoiseFloor::kAssumed;  // where the noise was told from
+  bool is_ordered = false;                  // by position, velocity, time, ...
+  double held_out = 0;  // rms over the noise's; 0 or NaN: not known
+};
+
+// How much of the excess is more than noise, chi^2.
+double UnexplainedOf(const JointLeft& left);
 
 // What a verdict is spoken on.
 struct GapFacts {

@@ -158,6 +158,27 @@ TEST_P(EffectOf, IsLinearInItsLinearParameters) {
   });
 }
 
+// Its own joint, where it would be felt, tells nothing while it is held.
+TEST(WhatALinkCarries, IsNotFeltBeyondJointsThatStand) {
+  EffectArm arm("SCARA RRPR");
+  arm.motion.qd.col(0).setZero();
+  arm.motion.qdd.col(0).setZero();
+  arm.motion.q.col(0).setConstant(.3);
+  arm.SetScale();
+  RecordedTorque recorded = arm.Recorded();
+  for (const char* name : {"link_length", "link_inertia"}) {
+    const Effect& effect = *FindEffect(name);
+    const MatrixXd first =
+        arm.Change(effect, 0, arm.Sizes(effect, 0), &recorded);
+    EXPECT_LT(first.rightCols(3).cwiseAbs().maxCoeff(), 1e-9) << name;
+    EXPECT_NE(effect.unfit(arm.Site(0)), "") << name;
+    const MatrixXd second =
+        arm.Change(effect, 1, arm.Sizes(effect, 1), &recorded);
+    EXPECT_GT(second.col(1).cwiseAbs().maxCoeff(), 1e-3) << name;
+    EXPECT_EQ(effect.unfit(arm.Site(1)), "") << name;
+  }
+}
+
 // tau = m c^2 qdd + m g c sin q of a point mass m at c below the axis, whose
 // weight on the axis nothing shows.
 TEST(PayloadOfAPendulum, IsAPointMass) {

@@ -5,19 +5,26 @@
 namespace armcal {
 namespace {
 
-EffectEvidence Clear() {
+// For torques that were recorded, or made of commands.
+class ProbabilityOfTest : public testing::TestWithParam<bool> {
+ protected:
+  static EffectEvidence Clear();
+};
+
+EffectEvidence ProbabilityOfTest::Clear() {
   EffectEvidence evidence;
+  evidence.made_torque = GetParam();
   evidence.odds = 8;
   evidence.strength = 7;
   evidence.confirmation = {500, 500};
   return evidence;
 }
 
-TEST(ProbabilityOf, IsHighForWhatIsClear) {
+TEST_P(ProbabilityOfTest, IsHighForWhatIsClear) {
   EXPECT_GT(ProbabilityOf(Clear()), .95);
 }
 
-TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainst) {
+TEST_P(ProbabilityOfTest, FallsWithAllThatSpeaksAgainst) {
   const double clear = ProbabilityOf(Clear());
   const auto expect_less = [&](const char* what, auto change) {
     EffectEvidence evidence = Clear();
@@ -40,7 +47,7 @@ TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainst) {
               [](EffectEvidence* e) { e->left = .5; });
 }
 
-TEST(ProbabilityOf, AContactFeltByOneJointManyTimesIsNone) {
+TEST_P(ProbabilityOfTest, AContactFeltByOneJointManyTimesIsNone) {
   EffectEvidence once = Clear();
   once.events = 1;
   once.one_joint = .3;
@@ -51,6 +58,8 @@ TEST(ProbabilityOf, AContactFeltByOneJointManyTimesIsNone) {
   EXPECT_LT(ProbabilityOf(often), ProbabilityOf(once));
   EXPECT_LT(ProbabilityOf(one_joint), ProbabilityOf(once));
 }
+
+INSTANTIATE_TEST_SUITE_P(Torques, ProbabilityOfTest, testing::Bool());
 
 }  // namespace
 }  // namespace armcal

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace armcal {
 namespace {
 
@@ -12,6 +14,29 @@ GapFacts Facts(double nominal, double refit, double after) {
   facts.torque.refit = refit;
   facts.torque.after = after;
   return facts;
+}
+
+TEST(UnexplainedOf, IsOrderedOrMuch) {
+  JointLeft left{300, 400, NoiseFloor::kRepeats, true, 2};
+  EXPECT_EQ(UnexplainedOf(left), 300);
+  left.is_ordered = false;
+  EXPECT_EQ(UnexplainedOf(left), 0);
+  left.excess = 500;
+  EXPECT_EQ(UnexplainedOf(left), 500);
+  left.floor = NoiseFloor::kStandstill;
+  EXPECT_EQ(UnexplainedOf(left), 0);
+}
+
+TEST(UnexplainedOf, IsThereAgainInWhatWasHeldOut) {
+  JointLeft left{3000, 400, NoiseFloor::kRepeats, true, .9};
+  EXPECT_EQ(UnexplainedOf(left), 0);
+  left.held_out = 1.1;
+  EXPECT_EQ(UnexplainedOf(left), 3000);
+  // Where nothing was held out, or the joint does not move there.
+  left.held_out = 0;
+  EXPECT_EQ(UnexplainedOf(left), 3000);
+  left.held_out = std::nan("");
+  EXPECT_EQ(UnexplainedOf(left), 3000);
 }
 
 TEST(JudgeGap, WithoutEffects) {

@@ -108,6 +108,11 @@ std::string WhyNoNeighbour(const EffectSite& site) {
   return Neighbours(site).empty() ? "the robot has one joint" : "";
 }
 
+std::string WhyNotCarried(const EffectSite& site) {
+  const bool moves = (site.scale->speed.head(site.joint + 1).array() > 0).any();
+  return moves ? "" : "neither the joint nor one before it moves";
+}
+
 void AddFriction(const EffectSite& site, const InstantTorque& torque,
                  SimulatedRobot* robot) {
   robot->joint_laws.push_back({site.joint,

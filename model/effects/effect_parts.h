@@ -47,6 +47,8 @@ std::vector<int> Neighbours(const EffectSite& site);
 // Their numbers, from 1: a parameter of effects between two joints.
 EffectParameter NeighbourParameter();
 std::string WhyNoNeighbour(const EffectSite& site);
+// Of what is felt by its swinging and lifting: why not here, or empty.
+std::string WhyNotCarried(const EffectSite& site);
 
 // A law of the site's joint without states.
 using InstantTorque = std::function<double(const ArmInstant& instant)>;

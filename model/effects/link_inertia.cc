@@ -25,7 +25,7 @@ Effect LinkInertia() {
   effect.unfit = [](const EffectSite& site) -> std::string {
     return site.robot->links[site.joint].inertial.ToVector().isZero()
                ? "the link has no mass"
-               : "";
+               : WhyNotCarried(site);
   };
   effect.experiment = "poses of the joints before, held, and swung";
   return effect;

@@ -34,7 +34,7 @@ Effect LinkLength() {
   };
   effect.unfit = [](const EffectSite& site) -> std::string {
     const bool last = site.joint + 1 == site.robot->num_joints();
-    return last ? "the last link carries no joint" : "";
+    return last ? "the last link carries no joint" : WhyNotCarried(site);
   };
   effect.experiment = "poses seen by a tracker";
   return effect;
