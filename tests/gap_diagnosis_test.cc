@@ -68,5 +68,16 @@ TEST_F(GapDiagnosisTest, APayloadSinceTheReference) {
   ExpectEstimate(diagnosis.effects[0], "mass", .6, .02);
 }
 
+// What is far from in proportion in it looks like a heavier link beside it, as
+// long as columns are those of a small one.
+TEST_F(GapDiagnosisTest, AnOffsetOfManyDegreesIsOneEffect) {
+  Add("encoder_offset", 1, {-.3});
+  const GapDiagnosis diagnosis = Diagnose(File(), true);
+  ExpectFirst(diagnosis, "encoder_offset", 1);
+  ExpectEstimate(diagnosis.effects[0], "offset", -.3, .01);
+  EXPECT_EQ(diagnosis.effects.size(), 1u);
+  EXPECT_EQ(diagnosis.candidates.size(), 1u);
+}
+
 }  // namespace
 }  // namespace armcal
