@@ -203,6 +203,16 @@ std::string MovedTitle(const GapDiagnosis& diagnosis) {
 }  // namespace
 
 std::string BriefReport(const GapDiagnosis& diagnosis) {
+  constexpr double kNoisy = 2;  // times the noise's mean square
+  const bool nothing_named = diagnosis.verdict == GapVerdict::kNoiseFloor ||
+                             diagnosis.verdict == GapVerdict::kAbsorbed;
+  if (nothing_named && diagnosis.torque.refit > kNoisy) {
+    return Format(
+        "No known effect is seen, yet held-out torque is off by %.3g times the "
+        "noise's mean square: the noise may be louder than was told, or "
+        "something is missing that the fitted logs do not show.",
+        diagnosis.torque.refit);
+  }
   switch (diagnosis.verdict) {
     case GapVerdict::kNoiseFloor:
       return "The model agrees with the log to within the noise.";

@@ -125,6 +125,19 @@ TEST(BriefReport, SaysWhatItCannotName) {
   }
 }
 
+TEST(BriefReport, DoesNotCallItNoiseWhereMoreIsLeft) {
+  GapDiagnosis diagnosis = Diagnosis();
+  diagnosis.effects.clear();
+  for (const GapVerdict verdict :
+       {GapVerdict::kNoiseFloor, GapVerdict::kAbsorbed}) {
+    diagnosis.verdict = verdict;
+    diagnosis.torque.refit = 49;
+    EXPECT_THAT(BriefReport(diagnosis), HasSubstr("off by 49 times"));
+    diagnosis.torque.refit = 1.9;
+    EXPECT_THAT(BriefReport(diagnosis), Not(HasSubstr("off by")));
+  }
+}
+
 TEST(FullReport, WhatNothingTellsOfIsNotSeen) {
   GapDiagnosis diagnosis = Diagnosis();
   diagnosis.effects[0].estimates = {
