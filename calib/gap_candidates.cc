@@ -131,6 +131,11 @@ bool SamePlace(const GapCandidate& a, const GapCandidate& b) {
   return a.effect == b.effect && a.joint == b.joint;
 }
 
+std::vector<GapCandidate> AllBut(std::vector<GapCandidate> effects, size_t k) {
+  effects.erase(effects.begin() + static_cast<long>(k));
+  return effects;
+}
+
 std::vector<GapCandidate> ListCandidates(
     const GapBaseline& baseline, const GapRows& rows, const MotionScale& scale,
     const MatrixXd& residual, const std::vector<std::string>& without) {

@@ -32,6 +32,9 @@ struct GapCandidate {
 // Whether they are one effect at one place, of which there are not two.
 bool SamePlace(const GapCandidate& a, const GapCandidate& b);
 
+// In their order, without the k-th.
+std::vector<GapCandidate> AllBut(std::vector<GapCandidate> effects, size_t k);
+
 // Every effect but those `without` names, at every place, at every value of its
 // grids. Shapes that are found in the residual (frequencies, times) come from
 // `residual`, thinned samples x n.

@@ -242,12 +242,13 @@ void GapFit::ChooseBeside(const std::vector<GapEvent>& events) {
 void GapFit::Finish() {
   selection_ = WithoutChance(screen(), rows(), candidates(), options_.selection,
                              selection_, kSeed);
-  Refine();
-  for (int idle; (idle = FindIdle(regression_, pool_, options_.selection,
-                                  selection_, refined_)) >= 0;) {
+  while (true) {
+    Refine();
+    const int idle =
+        FindIdle(regression_, pool_, options_.selection, selection_, refined_);
+    if (idle < 0) break;
     selection_ = DescribeSelection(screen(), candidates(), options_.selection,
                                    Without(selection_.chosen, idle));
-    Refine();
   }
   const MatrixXd left = data()->ResidualWith(
       refined_.baseline, regression_.TorqueOf(refined_.effects));
@@ -275,9 +276,8 @@ void GapFit::Refine() {
 }
 
 VectorXd GapFit::BaselineWithout(size_t k) const {
-  std::vector<GapCandidate> others = refined_.effects;
-  others.erase(others.begin() + k);
-  return regression_.BaselineBeside(regression_.TorqueOf(others));
+  return regression_.BaselineBeside(
+      regression_.TorqueOf(AllBut(refined_.effects, k)));
 }
 
 }  // namespace armcal

@@ -7,14 +7,6 @@
 #include "calib/gap_search.h"
 
 namespace armcal {
-namespace {
-
-std::vector<GapCandidate> Without(std::vector<GapCandidate> effects, size_t k) {
-  effects.erase(effects.begin() + static_cast<long>(k));
-  return effects;
-}
-
-}  // namespace
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -170,7 +162,7 @@ JointRows HeldOut::Whitened(const MatrixXd& residual) const {
 HeldOut::Merit HeldOut::MeritOf(size_t k, double after) const {
   const RefinedEffects& refined = fit_.refined();
   const MatrixXd without =
-      Residual(Without(refined.effects, k), fit_.BaselineWithout(k));
+      Residual(AllBut(refined.effects, k), fit_.BaselineWithout(k));
   const MatrixXd with = Residual(refined.effects, refined.baseline);
   return {MeanSquare(Deviations(without).cwiseAbs2()) - after,
           Confirm(Whitened(without), Whitened(with))};

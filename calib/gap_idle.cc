@@ -9,11 +9,9 @@ int FindIdle(const GapRegression& regression, const CandidatePool& pool,
   int idle = -1;
   double least = options.threshold;
   for (size_t k = 0; k < refined.effects.size(); ++k) {
-    std::vector<GapCandidate> others = refined.effects;
-    others.erase(others.begin() + static_cast<long>(k));
-    const RefinedEffects without =
-        RefineEffects(regression.screen(), regression.baseline(),
-                      regression.scale(), others, -1, regression.data());
+    const RefinedEffects without = RefineEffects(
+        regression.screen(), regression.baseline(), regression.scale(),
+        AllBut(refined.effects, k), -1, regression.data());
     const double score =
         (refined.drop - without.drop) / options.inflation -
         Price(regression.screen(), pool.candidates()[selection.chosen[k]]);
