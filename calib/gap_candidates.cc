@@ -79,6 +79,9 @@ std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
         *tried *= static_cast<int>(grid.size());
         break;
       }
+      case Search::kRefined:
+        shapes = Expand(shapes, k, {parameter.size(site)});
+        break;
       case Search::kPositionFrequency:
         shapes = Expand(shapes, k, proposals.Harmonics(site.joint));
         *tried *= kHarmonics;

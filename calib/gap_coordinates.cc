@@ -44,6 +44,7 @@ std::optional<Coordinate> CoordinateOf(const EffectParameter& parameter,
       if (parameter.sign == EffectParameter::Sign::kPositive) c.low = 0;
       break;
     case Search::kGrid:
+    case Search::kRefined:
       if (IsChoice(parameter, site)) return {};
       c = GridCoordinate(parameter, site, value);
       break;

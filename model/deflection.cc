@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "model/flanked_spring.h"
@@ -29,12 +30,13 @@ class DeflectionRun {
  public:
   DeflectionRun(const DeflectedJoint& joint, double dt)
       : law_(*joint.transmission),
-        signals_(2, joint.load.size()),
+        signals_(4, joint.load.size()),
         dt_(dt),
         step_(2 + static_cast<int>(law_.initial_state.size())),
         x_(2 + law_.initial_state.size()),
         unused_(law_.initial_state.size()) {
-    signals_ << joint.load.transpose(), joint.inertia.transpose();
+    signals_ << joint.load.transpose(), joint.stiffness.transpose(),
+        joint.damping.transpose(), joint.inertia.transpose();
   }
 
   // Where it begins, and in how many steps per half a sample it moves.
@@ -68,14 +70,18 @@ class DeflectionRun {
   }
 
  private:
-  void Rate(const Eigen::Vector2d& signal, const double* x, double* dx) {
+  void Rate(const Eigen::Vector4d& signal, const double* x, double* dx) {
+    const auto [load, stiffness, damping, inertia] =
+        std::tie(signal[0], signal[1], signal[2], signal[3]);
     dx[0] = x[1];
-    dx[1] = (signal[0] - law_.torque(x[0], x[1], x + 2, dx + 2)) / signal[1];
+    dx[1] = (load - stiffness * x[0] - damping * x[1] -
+             law_.torque(x[0], x[1], x + 2, dx + 2)) /
+            inertia;
   }
 
   // At rest under the load of sample k, with the law's own states as given.
   void Settle(int k) {
-    const Eigen::Vector2d signal = signals_.col(k);
+    const Eigen::Vector4d signal = signals_.col(k);
     const auto& start = law_.initial_deflection;
     x_ << (start ? start(signal[0]) : 0), 0, law_.initial_state;
     const auto rate = [&](double, const double* x, double* dx) {
@@ -103,7 +109,7 @@ class DeflectionRun {
          law_.torque(x_[0], 0, &x_[0] + 2, unused_.data())) /
         dx;
     const double stiffness = std::max({slope, law_.stiffest, 0.});
-    const double omega = std::sqrt(stiffness / signals_.row(1).minCoeff());
+    const double omega = std::sqrt(stiffness / signals_.row(3).minCoeff());
     return static_cast<int>(std::clamp(std::ceil(omega * dt_ / kPhasePerStep),
                                        1., 0. + kMostSubsteps));
   }
@@ -123,7 +129,7 @@ class DeflectionRun {
   }
 
   const Transmission& law_;
-  Eigen::MatrixXd signals_;  // load and inertia, samples in columns
+  Eigen::MatrixXd signals_;  // load and its slopes, samples in columns
   double dt_;
   StiffStepOf<Size> step_;
   VectorXd x_, unused_, signal_;
@@ -139,13 +145,22 @@ Deflection Follow(const DeflectedJoint& joint, double dt) {
 simd::DeflectedLink LinkOf(const DeflectedJoint& joint,
                            const FlankedSpring& spring, double dt,
                            Deflection* to) {
+  CHECK(spring.gap == 0 || spring.stiffening == 0);
   const auto samples = joint.load.size();
   *to = {VectorXd(samples), VectorXd(samples), VectorXd(samples)};
   const auto start = DeflectionRun<2>(joint, dt).Begin();
-  return {spring.gap,        spring.stiffness,       spring.damping,
-          joint.load.data(), joint.inertia.data(),   start.angle,
-          start.rate,        start.substeps,         to->angle.data(),
-          to->rate.data(),   to->acceleration.data()};
+  return {spring.gap,
+          spring.stiffness,
+          spring.damping,
+          spring.stiffening,
+          {joint.load.data(), joint.stiffness.data(), joint.damping.data(),
+           joint.inertia.data()},
+          start.angle,
+          start.rate,
+          start.substeps,
+          to->angle.data(),
+          to->rate.data(),
+          to->acceleration.data()};
 }
 
 }  // namespace
@@ -168,8 +183,8 @@ std::vector<Deflection> FollowDeflections(
   // A lane takes as long as the one with most steps.
   std::stable_sort(order.begin(), order.end(),
                    [](const auto* a, const auto* b) {
-                     return std::make_pair(a->gap > 0, a->substeps) <
-                            std::make_pair(b->gap > 0, b->substeps);
+                     return std::make_pair(a->kind(), a->substeps) <
+                            std::make_pair(b->kind(), b->substeps);
                    });
   if (order.empty()) return all;
   simd::BestKernels().deflections(order.data(), static_cast<int>(order.size()),

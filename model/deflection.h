@@ -17,15 +17,17 @@ struct Deflection {
 };
 
 // The deflection d of a joint whose motor moves as recorded and whose link
-// would need `load` (N m or N) to move with it:
-//   inertia d'' + T(d, d') = load,
-// T the transmission's torque and `inertia` that of all the joint carries (the
-// mass matrix' diagonal, kg m^2 or kg). What the load's dependence on position
-// and velocity makes of d is neglected: it is as small as gravity's stiffness
-// is beside the transmission's.
+// would need `load` (N m or N) to move with it, to first order in d:
+//   inertia d'' + damping d' + stiffness d + T(d, d') = load,
+// T the transmission's torque, and the others the load's slopes over the
+// joint's own acceleration, velocity and position (model/rigid_torque.h).
+// `damping` has either sign: an arm that is being stretched takes energy from
+// an oscillation of the joint that swings it, several times what a gear's
+// damping takes.
 struct DeflectedJoint {
   const Transmission* transmission;
-  Eigen::Ref<const Eigen::VectorXd> load, inertia;  // at samples
+  // At samples.
+  Eigen::Ref<const Eigen::VectorXd> load, stiffness, damping, inertia;
 };
 
 // Of each, samples dt s apart, as many of all. Those with a FlankedSpring are

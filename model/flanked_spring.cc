@@ -22,7 +22,10 @@ Corner CornerAt(double x) {
 
 double FlankedSpring::operator()(double deflection, double rate, const double*,
                                  double*) const {
-  if (gap == 0) return stiffness * deflection + damping * rate;
+  if (gap == 0) {
+    const double stiffer = stiffening * deflection * deflection;
+    return stiffness * deflection * (1 + stiffer) + damping * rate;
+  }
   const double w = kRounding * gap;
   const Corner ahead = CornerAt((deflection - gap / 2) / w);
   const Corner behind = CornerAt((-deflection - gap / 2) / w);

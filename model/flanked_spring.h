@@ -4,16 +4,19 @@ namespace armcal {
 
 // The law of a transmission (simulated_robot.h): a spring and a damper between
 // flanks that leave a gap, in which there is neither; the gap's corners are
-// rounded. Without a gap, of any size, it is a spring and a damper. It is a
-// class of its own so that whoever follows deflections knows it again
-// (Transmission::torque.target) and follows many of them in lanes.
+// rounded. Without a gap, of any size, it is a damper and a spring that may
+// stiffen, stiffness d (1 + stiffening d^2), as harmonic drives do (Tuttle and
+// Seering 1996). It is a class of its own so that whoever follows deflections
+// knows it again (Transmission::torque.target) and follows many of them in
+// lanes.
 struct FlankedSpring {
   // Of the gap: over this much the corners are rounded.
   static constexpr double kRounding = .05;
 
-  double gap = 0;        // rad or m
-  double stiffness = 0;  // N m/rad or N/m, of a flank
-  double damping = 0;    // N m s/rad or N s/m, of a flank
+  double gap = 0;         // rad or m
+  double stiffness = 0;   // N m/rad or N/m, of a flank
+  double damping = 0;     // N m s/rad or N s/m, of a flank
+  double stiffening = 0;  // 1/rad^2 or 1/m^2, without a gap only
 
   double operator()(double deflection, double rate, const double* = nullptr,
                     double* = nullptr) const;

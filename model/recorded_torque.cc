@@ -7,11 +7,9 @@
 
 #include "model/actuator_inversion.h"
 #include "model/delayed_signal.h"
-#include "model/forward_dynamics.h"
 #include "model/joint_law_torques.h"
 #include "model/joint_warmth.h"
 #include "model/motion_behind_readings.h"
-#include "model/rigid_torque.h"
 
 namespace armcal {
 namespace {
@@ -96,16 +94,21 @@ MatrixXd RecordedTorque::RigidTorque(const Robot& robot, const Motion& motion,
   return tau;
 }
 
-// Diagonals of the mass matrix along the recorded motion, samples x n.
-const MatrixXd& RecordedTorque::Inertia() const {
+// Along the recorded motion.
+const LinkTorqueSlopes& RecordedTorque::Slopes() const {
   const std::lock_guard<std::mutex> lock(kept_->mutex);
-  MatrixXd& inertia = kept_->inertia;
-  if (inertia.size() > 0) return inertia;
-  inertia.resize(motion_.size(), robot_.num_joints());
-  for (int k = 0; k < motion_.size(); ++k) {
-    inertia.row(k) = LinkInertias(robot_, motion_.q.row(k));
-  }
-  return inertia;
+  LinkTorqueSlopes& slopes = kept_->slopes;
+  if (slopes.inertia.size() == 0) slopes = SlopesOfLinkTorque(robot_, motion_);
+  return slopes;
+}
+
+// `load`: of all joints. A motion behind readings is close to the recorded one.
+DeflectedJoint RecordedTorque::Deflected(const Transmission& transmission,
+                                         const MatrixXd& load) const {
+  const int j = transmission.joint;
+  const LinkTorqueSlopes& slopes = Slopes();
+  return {&transmission, load.col(j), slopes.stiffness.col(j),
+          slopes.damping.col(j), slopes.inertia.col(j)};
 }
 
 // Of the robot itself along the recorded motion.
@@ -135,8 +138,7 @@ std::vector<std::vector<Deflection>> RecordedTorque::DeflectTogether(
       continue;
     }
     for (const Transmission& law : one.transmissions) {
-      const int j = law.joint;
-      joints.push_back({&law, load_.col(j), Inertia().col(j)});
+      joints.push_back(Deflected(law, load_));
       of.push_back(i);
     }
   }
@@ -158,8 +160,7 @@ void RecordedTorque::AddTransmissions(const SimulatedRobot& changed,
   if (deflections.empty()) {
     std::vector<DeflectedJoint> joints;
     for (const Transmission& law : changed.transmissions) {
-      const int j = law.joint;
-      joints.push_back({&law, load.col(j), Inertia().col(j)});
+      joints.push_back(Deflected(law, load));
     }
     deflections = FollowDeflections(joints, motion.dt);
   }

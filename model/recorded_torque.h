@@ -10,6 +10,7 @@
 #include "model/joint_term.h"
 #include "model/motion.h"
 #include "model/motion_track.h"
+#include "model/rigid_torque.h"
 #include "model/robot.h"
 #include "model/simulated_robot.h"
 #include "model/wrench_torque.h"
@@ -62,7 +63,7 @@ class RecordedTorque {
   // What is worked out when it is first asked for, once for all copies.
   struct Kept {
     std::mutex mutex;
-    Eigen::MatrixXd inertia;  // empty: not yet asked for
+    LinkTorqueSlopes slopes;  // empty: not yet asked for
     std::vector<std::shared_ptr<const AttachedPoints>> points;
   };
   void FollowWarmth(const std::vector<JointThermal>& thermal);
@@ -73,7 +74,9 @@ class RecordedTorque {
       const std::vector<SimulatedRobot>& changed) const;
   Eigen::MatrixXd ChangeOf(const SimulatedRobot& changed,
                            const std::vector<Deflection>& deflections);
-  const Eigen::MatrixXd& Inertia() const;
+  const LinkTorqueSlopes& Slopes() const;
+  DeflectedJoint Deflected(const Transmission& transmission,
+                           const Eigen::MatrixXd& load) const;
   const AttachedPoints& PointsOf(const Attachment& attachment) const;
   Eigen::MatrixXd RigidTorque(const Robot& robot, const Motion& motion,
                               bool as_recorded) const;

@@ -1,6 +1,7 @@
 #include "model/rigid_torque.h"
 
 #include "model/batch_inverse_dynamics.h"
+#include "model/forward_dynamics.h"
 
 namespace armcal {
 
@@ -39,6 +40,33 @@ MatrixXd LinkTorque(const Robot& robot, const Motion& motion) {
   BatchInverseDynamics(robot).Torque(
       {motion.q, motion.qd, motion.qdd, MatrixXd()}, motion.size(), to.data());
   return tau;
+}
+
+LinkTorqueSlopes SlopesOfLinkTorque(const Robot& robot, const Motion& motion) {
+  const int samples = motion.size(), n = motion.num_joints();
+  LinkTorqueSlopes slopes = {MatrixXd(samples, n), MatrixXd(samples, n),
+                             MatrixXd(samples, n)};
+  // Differences: the torque is of second degree in the velocity, so that any
+  // step is exact there; a position's is the cube root of what rounds.
+  constexpr double kPositionStep = 1e-5, kVelocityStep = 1;
+  Motion moved = motion;
+  for (int j = 0; j < n; ++j) {
+    const auto slope = [&](MatrixXd* signal, double step) -> VectorXd {
+      const VectorXd as_it_was = signal->col(j);
+      signal->col(j).array() = as_it_was.array() + step;
+      const VectorXd above = LinkTorque(robot, moved).col(j);
+      signal->col(j).array() = as_it_was.array() - step;
+      const VectorXd below = LinkTorque(robot, moved).col(j);
+      signal->col(j) = as_it_was;
+      return (above - below) / (2 * step);
+    };
+    slopes.stiffness.col(j) = slope(&moved.q, kPositionStep);
+    slopes.damping.col(j) = slope(&moved.qd, kVelocityStep);
+  }
+  for (int k = 0; k < samples; ++k) {
+    slopes.inertia.row(k) = LinkInertias(robot, motion.q.row(k));
+  }
+  return slopes;
 }
 
 MatrixXd CoulombAlong(const std::vector<CoulombTransition>& transitions,

@@ -13,6 +13,13 @@ namespace armcal {
 
 // Of the links: recursive Newton-Euler, in lanes.
 Eigen::MatrixXd LinkTorque(const Robot& robot, const Motion& motion);
+// Its slopes: of each joint's torque over that joint's own position, velocity
+// and acceleration, samples x n, N m/rad, N m s/rad, kg m^2, or of a prismatic
+// joint. Inertias are LinkInertias (model/forward_dynamics.h).
+struct LinkTorqueSlopes {
+  Eigen::MatrixXd stiffness, damping, inertia;
+};
+LinkTorqueSlopes SlopesOfLinkTorque(const Robot& robot, const Motion& motion);
 // The joints' states of Coulomb friction, -1 to 1.
 Eigen::MatrixXd CoulombAlong(const std::vector<CoulombTransition>& transitions,
                              const Motion& motion);

@@ -24,9 +24,11 @@ Transmission SpringAndDamper(double k, double c) {
   return law;
 }
 
+// Of links whose load does not depend on where and how fast the joint moves.
 Deflection Follow(const Transmission& law, const VectorXd& load) {
   const VectorXd inertia = VectorXd::Constant(kSamples, kInertia);
-  return FollowDeflections({{&law, load, inertia}}, kStep)[0];
+  const VectorXd none = VectorXd::Zero(kSamples);
+  return FollowDeflections({{&law, load, none, none, inertia}}, kStep)[0];
 }
 
 // Forced vibration of one mass: the textbook's amplitude and phase, long after
@@ -51,6 +53,32 @@ TEST(Deflection, IsTheForcedVibrationOfTheLink) {
   }
 }
 
+// What the load depends on adds to the gear's own spring and damper, here to
+// make the ones of a textbook's vibration; a load that drives the oscillation,
+// too. With a law, and with a spring in lanes.
+TEST(Deflection, TakesWhatItsLoadDependsOn) {
+  const double k = 5000, c = 40;
+  const VectorXd t = VectorXd::LinSpaced(kSamples, 0, (kSamples - 1) * kStep);
+  const VectorXd load = 10 * (20 * t.array()).sin();
+  const VectorXd inertia = VectorXd::Constant(kSamples, kInertia);
+  const Deflection expected = Follow(SpringAndDamper(k, c), load);
+  for (const double share : {-1., -.2, .4, 1.}) {
+    const VectorXd stiffness = VectorXd::Constant(kSamples, share * k / 2);
+    const VectorXd damping = VectorXd::Constant(kSamples, share * c / 2);
+    const double own_k = (1 - share / 2) * k, own_c = (1 - share / 2) * c;
+    std::vector<Transmission> both(2, SpringAndDamper(own_k, own_c));
+    both[1].torque = FlankedSpring{0, own_k, own_c};
+    for (const Transmission& law : both) {
+      const Deflection d = FollowDeflections(
+          {{&law, load, stiffness, damping, inertia}}, kStep)[0];
+      EXPECT_LT((d.angle - expected.angle).norm(), 1e-4 * expected.angle.norm())
+          << share;
+      EXPECT_LT((d.rate - expected.rate).norm(), 1e-3 * expected.rate.norm())
+          << share;
+    }
+  }
+}
+
 // A spring of 1e9 N m/rad, in steps far beyond its period, is the static one.
 TEST(Deflection, OfAStiffGearIsStatic) {
   const VectorXd t = VectorXd::LinSpaced(kSamples, 0, (kSamples - 1) * kStep);
@@ -67,6 +95,41 @@ TEST(Deflection, BeginsQuietly) {
       VectorXd::LinSpaced(kSamples, 10, 10 + slope * (kSamples - 1) * kStep);
   const Deflection d = Follow(SpringAndDamper(k, 4), load);
   EXPECT_LT((d.rate.array() - slope / k).abs().maxCoeff(), .05 * slope / k);
+}
+
+// A load that is dropped leaves a free oscillation, of Duffing's period:
+//   4 / sqrt(k / I (1 + s A^2)) K(m),  m = s A^2 / (2 (1 + s A^2)),
+// A its amplitude and K the complete elliptic integral of parameter m.
+TEST(Deflection, RingsFasterWhereItStiffens) {
+  const double k = 2000, load = 20;
+  const VectorXd none = VectorXd::Zero(kSamples);
+  const VectorXd inertia = VectorXd::Constant(kSamples, kInertia);
+  VectorXd dropped = none;
+  dropped.head(100).setConstant(load);
+  for (const double stiffer : {0., .3, 3.}) {
+    Transmission law;
+    law.torque = FlankedSpring{0, k, 0, stiffer * std::pow(k / load, 2)};
+    const VectorXd d =
+        FollowDeflections({{&law, dropped, none, none, inertia}}, kStep)[0]
+            .angle;
+    const double A = d.head(98).mean(),
+                 sA2 = stiffer * std::pow(A * k / load, 2);
+    EXPECT_NEAR(A * (1 + sA2), load / k, 1e-6 * load / k);
+    const double m = sA2 / (2 * (1 + sA2));
+    const double period = 4 / std::sqrt(k / kInertia * (1 + sA2)) *
+                          std::comp_ellint_1(std::sqrt(m));
+    // Rising through zero, the first time and the last.
+    std::vector<double> crossings;
+    for (int i = 100; i + 1 < kSamples; ++i) {
+      if (d[i] < 0 && d[i + 1] >= 0) {
+        crossings.push_back((i - d[i] / (d[i + 1] - d[i])) * kStep);
+      }
+    }
+    ASSERT_GT(crossings.size(), 15u);
+    EXPECT_NEAR((crossings.back() - crossings.front()) / (crossings.size() - 1),
+                period, .005 * period)
+        << stiffer;
+  }
 }
 
 // Free flight across a gap: with the load F from the flank, F / M t^2 / 2.
@@ -99,13 +162,17 @@ TEST(Deflection, CrossesAGapInFreeFlight) {
 // differences for its slopes; and together as alone, to the bit.
 TEST(Deflection, SpringsInLanesGoAsTheirLaws) {
   const VectorXd t = VectorXd::LinSpaced(kSamples, 0, (kSamples - 1) * kStep);
-  std::vector<VectorXd> loads, inertias;
+  std::vector<VectorXd> loads, stiffnesses, dampings, inertias;
   std::vector<Transmission> springs, laws;
   for (int i = 0; i < 11; ++i) {
     loads.push_back(20 * ((3. + i) * t.array()).sin() + i);
     inertias.push_back(1.5 + .5 * ((2. + i) * t.array()).cos());
+    stiffnesses.push_back(60 * ((4. - i) * t.array()).cos());
+    dampings.push_back(1.5 * ((2. + i) * t.array()).sin());
     const double k = 2000 * (1 + i * i);
-    const FlankedSpring spring{i % 3 == 0 ? 0 : .002 * i, k, .3 * std::sqrt(k)};
+    FlankedSpring spring{i % 3 == 0 ? 0 : .002 * i, k, .3 * std::sqrt(k)};
+    // By 60 % at the load.
+    if (i % 6 == 3) spring.stiffening = .6 * std::pow(k / 20, 2);
     springs.emplace_back();
     springs.back().torque = spring;
     springs.back().stiffest = k;
@@ -116,15 +183,17 @@ TEST(Deflection, SpringsInLanesGoAsTheirLaws) {
   }
   std::vector<DeflectedJoint> all;
   for (int i = 0; i < 11; ++i) {
-    all.push_back({&springs[i], loads[i], inertias[i]});
+    all.push_back(
+        {&springs[i], loads[i], stiffnesses[i], dampings[i], inertias[i]});
   }
   const std::vector<Deflection> together = FollowDeflections(all, kStep);
   for (int i = 0; i < 11; ++i) {
     const Deflection alone = FollowDeflections({all[i]}, kStep)[0];
     EXPECT_EQ(alone.angle, together[i].angle) << i;
     EXPECT_EQ(alone.acceleration, together[i].acceleration) << i;
-    const Deflection law =
-        FollowDeflections({{&laws[i], loads[i], inertias[i]}}, kStep)[0];
+    DeflectedJoint unknown = all[i];
+    unknown.transmission = &laws[i];
+    const Deflection law = FollowDeflections({unknown}, kStep)[0];
     EXPECT_LT((alone.angle - law.angle).norm(), 1e-6 * law.angle.norm()) << i;
     EXPECT_LT((alone.rate - law.rate).norm(), 1e-5 * law.rate.norm()) << i;
     EXPECT_LT((alone.acceleration - law.acceleration).norm(),

@@ -85,20 +85,26 @@ class EffectPlant {
     return Judged(Unexplained(log) - background_);
   }
 
-  // By how much what the effect adds to the log differs
-  // from the change that is expected, as a share of it in rms.
+  // By how much what the effect (at p; of its usual size) adds to the log
+  // differs from the change that is expected, as a share of it in rms; `from` a
+  // time on, s.
   double Disagreement(const Effect& effect, int joint) const {
     Eigen::VectorXd p = arm_.Sizes(effect, joint);
     // Of its usual size it is as small as two logs without effects differ by
     // (1 mN m rms); this is one of its larger sizes.
     if (effect.name == "elasticity") p[0] *= 8;
+    return Disagreement(effect, joint, p);
+  }
+  double Disagreement(const Effect& effect, int joint, const Eigen::VectorXd& p,
+                      double from = 0) const {
     SimulatedRobot robot = Bare();
     effect.apply(arm_.Site(joint), p, &robot);
     const Log log = Run(robot);
-    const Eigen::MatrixXd measured = Measured(log);
     RecordedTorque recorded(arm_.robot, arm_.transitions, MotionOf(log));
-    const Eigen::MatrixXd expected =
-        Judged(arm_.Change(effect, joint, p, &recorded));
+    Eigen::MatrixXd expected = Judged(arm_.Change(effect, joint, p, &recorded));
+    const auto rows = expected.rows() - static_cast<int>(from * kLogRate);
+    const Eigen::MatrixXd measured = Measured(log).bottomRows(rows);
+    expected = expected.bottomRows(rows).eval();
     return (measured - expected).norm() / expected.norm();
   }
 

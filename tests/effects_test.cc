@@ -74,7 +74,8 @@ TEST_P(EffectOf, ParametersSayWhatTheyAre) {
     EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
     EXPECT_FALSE(parameter.unit.empty());
     EXPECT_EQ(static_cast<bool>(parameter.grid),
-              parameter.search == Search::kGrid)
+              parameter.search == Search::kGrid ||
+                  parameter.search == Search::kRefined)
         << parameter.name;
   }
 }

@@ -47,6 +47,7 @@ struct EffectParameter {
   enum class Search {
     kLinear,
     kGrid,               // tried at the values of `grid`, then refined
+    kRefined,            // tried at its size only, then refined
     kPositionFrequency,  // from the residual's spectrum over position, rad/rad
     kTimeFrequency,      // from its spectrum over time, Hz
     kTime,               // from where in time the residual is large, s
@@ -63,6 +64,7 @@ struct EffectParameter {
   // does; columns are differences over this much. Others: a usual value.
   std::function<double(const EffectSite&)> size;
   // kGrid: values to try, rising; the first and last are the range.
+  // kRefined: the range.
   std::function<std::vector<double>(const EffectSite&)> grid;
 };
 

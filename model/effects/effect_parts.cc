@@ -79,6 +79,18 @@ EffectParameter Gridded(const std::string& name, const std::string& unit,
           std::move(grid)};
 }
 
+EffectParameter Refined(const std::string& name, const std::string& unit,
+                        double usual, double most) {
+  return {name,
+          unit,
+          EffectParameter::Search::kRefined,
+          EffectParameter::Sign::kFree,
+          [=](const EffectSite&) { return usual; },
+          [=](const EffectSite&) {
+            return std::vector<double>{usual, most};
+          }};
+}
+
 EffectParameter Searched(const std::string& name, const std::string& unit,
                          EffectParameter::Search search, SiteSize size) {
   return {name, unit, search, EffectParameter::Sign::kPositive, std::move(size),

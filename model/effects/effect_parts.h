@@ -39,6 +39,9 @@ EffectParameter Linear(
 // Its usual value is the one in the middle of the grid.
 EffectParameter Gridded(const std::string& name, const std::string& unit,
                         SiteGrid grid);
+// Tried at its usual value; `most` is the other end of its range.
+EffectParameter Refined(const std::string& name, const std::string& unit,
+                        double usual, double most);
 EffectParameter Searched(const std::string& name, const std::string& unit,
                          EffectParameter::Search search, SiteSize size);
 

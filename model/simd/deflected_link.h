@@ -3,11 +3,21 @@
 namespace armcal::simd {
 
 // A link behind a FlankedSpring (model/flanked_spring.h) along a log, as the
-// kernel reads it:  inertia d'' + T(d, d') = load.
+// kernel reads it (model/deflection.h):
+//   inertia d'' + damping d' + stiffness d + T(d, d') = load.
 struct DeflectedLink {
-  double gap, stiffness, damping;
-  const double* load;     // N m or N, of each sample
-  const double* inertia;  // kg m^2 or kg
+  // Each as those before it, but that takes more work: a linear spring has a
+  // step in closed form.
+  enum class Kind { kLinear, kStiffening, kFlanked };
+  Kind kind() const {
+    if (gap > 0) return Kind::kFlanked;
+    return stiffening != 0 ? Kind::kStiffening : Kind::kLinear;
+  }
+
+  double gap, stiffness, damping, stiffening;  // of the spring
+  struct {
+    const double *load, *stiffness, *damping, *inertia;
+  } along;  // of each sample
   double start, start_rate;
   int substeps;  // per half a sample
   // Of each sample: d, d', and d'' as its mean over the sample.

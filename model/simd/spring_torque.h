@@ -13,13 +13,21 @@ ARMCAL_INLINE Lanes Largest(const Lanes& a, const Lanes& b) {
 ARMCAL_INLINE Lanes Magnitude(const Lanes& x) { return x < 0 ? -x : x; }
 
 struct SpringLanes {
-  Lanes gap, stiffness, damping;
+  Lanes gap, stiffness, damping, stiffening;
 };
 
 // The law's torque and its slopes over deflection and rate.
 struct SpringTorque {
   Lanes torque, by_deflection, by_rate;
 };
+
+// Without a gap.
+ARMCAL_INLINE SpringTorque GaplessTorqueOf(const SpringLanes& spring,
+                                           const Lanes& d, const Lanes& rate) {
+  const Lanes stiffer = spring.stiffening * d * d;
+  return {spring.stiffness * d * (1 + stiffer) + spring.damping * rate,
+          spring.stiffness * (1 + 3 * stiffer), spring.damping};
+}
 
 ARMCAL_INLINE SpringTorque TorqueOf(const SpringLanes& spring, const Lanes& d,
                                     const Lanes& rate) {
