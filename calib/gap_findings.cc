@@ -211,9 +211,10 @@ bool IsPossible(const FoundEffect& found) {
 bool IsContradicted(const FoundEffect& found) {
   constexpr double kVisible = 40;  // chi^2
   constexpr double kHelps = .03;   // of the noise's mean square
+  constexpr double kForm = .2;     // by which the form of a law may be wrong
   const Confirmation& confirmation = found.evidence.confirmation;
-  return confirmation.expected > kVisible && confirmation.explained < 0 &&
-         found.evidence.gain < kHelps;
+  return confirmation.expected > std::max(kVisible, kForm * found.drop) &&
+         confirmation.explained < 0 && found.evidence.gain < kHelps;
 }
 
 bool IsClaimed(const FoundEffect& found) {

@@ -41,7 +41,9 @@ bool IsSeenAgain(const FoundEffect& found);
 bool IsPossible(const FoundEffect& found);
 
 // Whether held-out data should show it, and have neither chi^2 nor the mean
-// square lower with it. A form that is a little too large raises chi^2 alone.
+// square lower with it. A form that is a little too large raises chi^2 alone;
+// and what is small beside what it explained where it was fitted may be what
+// its form has wrong.
 bool IsContradicted(const FoundEffect& found);
 
 // Whether it is told as an effect; what is not is a candidate. It has to be

@@ -70,6 +70,10 @@ TEST_F(IsClaimedTest, WhatHeldOutDataContradictIsNot) {
   EXPECT_TRUE(Claimed(.99, .1, 500, -20));
   // Too little to tell.
   EXPECT_TRUE(Claimed(.99, -.01, 20, -10));
+  // Less than a law's form is wrong by, of what was fitted.
+  found_.drop = 5000;
+  EXPECT_TRUE(Claimed(.99, -.01, 500, -20));
+  EXPECT_FALSE(Claimed(.99, -.01, 1500, -20));
 }
 
 TEST_F(IsClaimedTest, TouchesAreJudgedWhereTheyWere) {
