@@ -139,15 +139,4 @@ std::vector<VectorXd> GapData::WhitenedResidual() const {
   return white;
 }
 
-VectorXd UsualTorque(const std::vector<GapSegment>& segments) {
-  double samples = 0;
-  VectorXd sum;
-  for (const GapSegment& segment : segments) {
-    if (sum.size() == 0) sum = VectorXd::Zero(segment.tau.cols());
-    sum += segment.tau.colwise().squaredNorm().transpose();
-    samples += segment.size();
-  }
-  return (sum / samples).cwiseSqrt();
-}
-
 }  // namespace armcal

@@ -72,7 +72,4 @@ class GapData {
   Eigen::MatrixXd doubt_;
 };
 
-// rms of the recorded torque, n entries.
-Eigen::VectorXd UsualTorque(const std::vector<GapSegment>& segments);
-
 }  // namespace armcal

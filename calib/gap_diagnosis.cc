@@ -9,6 +9,7 @@
 #include "calib/gap_held_out.h"
 #include "calib/gap_reference.h"
 #include "calib/gap_trace.h"
+#include "calib/torque_bursts.h"
 
 namespace armcal {
 namespace {
@@ -268,7 +269,11 @@ void Diagnoser::TellUnexplained() {
 
 void Diagnoser::Judge() {
   result_.data = AuditTorque(robot_, fit_->rows());
-  if (!result_.data.empty()) {
+  const bool testable = result_.data.empty();
+  for (DataFinding& burst : TellTorqueBursts(robot_, fit_->rows().segments())) {
+    result_.data.push_back(std::move(burst));
+  }
+  if (!testable) {
     result_.verdict = GapVerdict::kNotTestable;
     result_.effects.clear();
     result_.candidates.clear();

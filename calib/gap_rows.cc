@@ -18,21 +18,8 @@ constexpr double kRateOverBandwidth = 2.5;
 constexpr double kPeriodsAtEnds = 4;  // of the bandwidth, bent by filters
 constexpr int kShortestRun = 3 * Autoregression::kOrder;
 // What drives give is not quite what their law says: torques made of commands
-// are not known better than this share of their rms.
+// are not known better than this share of what they usually are.
 constexpr double kMadeTorqueDoubt = .001;
-
-// N m or N, of each joint; 0 where torques were recorded.
-Eigen::VectorXd MadeTorqueDoubt(const std::vector<GapSegment>& segments) {
-  double samples = 0;
-  Eigen::VectorXd sum;
-  for (const GapSegment& segment : segments) {
-    if (sum.size() == 0) sum.setZero(segment.tau.cols());
-    samples += segment.size();
-    if (!segment.made_torque) continue;
-    sum += segment.tau.colwise().squaredNorm().transpose();
-  }
-  return kMadeTorqueDoubt * (sum / samples).cwiseSqrt();
-}
 
 }  // namespace
 
@@ -54,7 +41,11 @@ GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
   }
   thin_begin_.push_back(begin);
   MakeRuns();
-  made_doubt_ = MadeTorqueDoubt(segments);
+  if (std::any_of(
+          segments.begin(), segments.end(),
+          [](const GapSegment& segment) { return segment.made_torque; })) {
+    made_doubt_ = kMadeTorqueDoubt * UsualTorque(segments);
+  }
   for (size_t i = 0; i < segments.size(); ++i) {
     const int s = static_cast<int>(i), first = thin_begin_[i];
     drift_.emplace_back();
@@ -137,7 +128,9 @@ void GapRows::SetNoise(std::vector<Autoregression> noise,
   CHECK_EQ(doubt.rows(), num_thin());
   noise_ = std::move(noise);
   for (int j = 0; j < num_joints(); ++j) {
-    if (made_doubt_[j] > 0) noise_[j] = PlusWhite(noise_[j], made_doubt_[j]);
+    if (made_doubt_.size() > 0) {
+      noise_[j] = PlusWhite(noise_[j], made_doubt_[j]);
+    }
   }
   variance_ = doubt.cwiseAbs2();
   weight_.resize(num_thin(), num_joints());

@@ -5,6 +5,7 @@
 
 #include "calib/calibration_checks.h"
 #include "calib/position_noise.h"
+#include "calib/torque_bursts.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
 #include "model/low_pass.h"
@@ -145,6 +146,9 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
     if (const MadeTorque* made = logs->made_torque(segment.log)) {
       AddErrors(*made, bandwidth_hz, &segment);
     }
+    for (const TimeRange& burst : TimesOf(FindTorqueBursts(segment))) {
+      segment.lost.push_back(burst);
+    }
     Motion& motion = segment.motion;
     motion.torque =
         ZeroPhaseLowPass(segment.tau, 1 / motion.dt, kSmoothTorqueHz);
@@ -160,6 +164,25 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
 
 double MotionBandwidth(double bandwidth_hz) {
   return kMotionBandwidth * bandwidth_hz;
+}
+
+VectorXd UsualTorque(const std::vector<GapSegment>& segments) {
+  double samples = 0;
+  VectorXd sum;
+  for (const GapSegment& segment : segments) {
+    if (sum.size() == 0) sum = VectorXd::Zero(segment.tau.cols());
+    for (int k = 0; k < segment.size(); ++k) {
+      const double t = segment.motion.time(k);
+      if (std::any_of(
+              segment.lost.begin(), segment.lost.end(),
+              [t](const TimeRange& lost) { return lost.Contains(t); })) {
+        continue;
+      }
+      sum += segment.tau.row(k).cwiseAbs2().transpose();
+      ++samples;
+    }
+  }
+  return (sum / std::max(1., samples)).cwiseSqrt();
 }
 
 bool HaveNoiseOfPositions(const std::vector<GapSegment>& segments) {

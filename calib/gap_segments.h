@@ -23,8 +23,9 @@ struct GapSegment {
   // A draw of the positions' noise and of what it makes of such torques,
   // samples x n; empty: none.
   Eigen::MatrixXd position_noise, torque_noise;
-  // Where rows were lost: neither the motion nor a torque made of it is as good
-  // there. Of recorded torques, whose noise is larger, none.
+  // Where rows were lost, or a loop its stability (torque_bursts.h): neither
+  // the motion nor a torque made of it is as good there. Of recorded torques,
+  // whose noise is larger, none.
   std::vector<TimeRange> lost;
 
   int size() const { return motion.size(); }
@@ -36,6 +37,9 @@ struct GapSegment {
 // must not have been bent below it.
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                                      const Progress& progress, LogSet* logs);
+
+// rms of the recorded torque, n entries, N m or N, where rows are not lost.
+Eigen::VectorXd UsualTorque(const std::vector<GapSegment>& segments);
 
 // Whether their torques, if any, were made of commands, with a draw of noise.
 bool HaveNoiseOfPositions(const std::vector<GapSegment>& segments);

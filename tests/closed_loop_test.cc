@@ -53,6 +53,8 @@ TEST(ClosedLoop, TorqueIsInverseDynamicsOfTheMotion) {
   ASSERT_EQ(run.log.size(), 1001);
   // Held torques come half a control period late.
   EXPECT_LT(run.tracking_rms.maxCoeff(), 3e-4);
+  EXPECT_GE(run.tracking_peak, run.tracking_rms.maxCoeff());
+  EXPECT_LT(run.tracking_peak, 5e-3);
   for (int k = 300; k < 750; k += 20) {
     const ReferencePoint point = reference.at(run.log.t[k]);
     VectorXd tau = InverseDynamics(robot, point.q, point.qd, point.qdd);

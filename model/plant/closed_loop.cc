@@ -180,6 +180,8 @@ class Loop {
       if (tick < 0) continue;
       ++periods;
       squares += error_.cwiseAbs2();
+      run.tracking_peak =
+          std::max(run.tracking_peak, error_.cwiseAbs().maxCoeff());
       saturated += at_limit;
       if (options_.progress && tick % 1000 == 0) {
         options_.progress(tick / static_cast<double>(end + 1));

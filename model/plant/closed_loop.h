@@ -30,6 +30,7 @@ struct ClosedLoopRun {
   // Root mean square of qref - q, n entries, rad or m; NaN where the log has
   // no row.
   Eigen::VectorXd tracking_rms;
+  double tracking_peak = 0;  // rad or m, the largest of any joint
 };
 
 // Whether the log's rate divides the controller's.

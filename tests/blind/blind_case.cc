@@ -163,7 +163,8 @@ uint64_t BlindCaseSeed(BlindSet set, uint32_t seed, uint32_t index) {
 }
 
 bool Follows(const ClosedLoopRun& run) {
-  return run.finite && run.tracking_rms.maxCoeff() < .05;
+  return run.finite && run.tracking_rms.maxCoeff() < .05 &&
+         run.tracking_peak < .2;
 }
 
 BlindCase DrawBlindCase(uint64_t seed, const CasePlan& plan, uint32_t attempt) {
