@@ -73,15 +73,16 @@ std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
     switch (parameter.search) {
       case Search::kLinear:
         break;
-      case Search::kGrid: {
-        const std::vector<double> grid = parameter.grid(site);
+      case Search::kGrid:
+      case Search::kRefined: {
+        std::vector<double> grid = parameter.grid(site);
+        if (parameter.search == Search::kRefined) {
+          grid = {grid.begin() + 1, grid.end() - 1};
+        }
         shapes = Expand(shapes, k, grid);
         *tried *= static_cast<int>(grid.size());
         break;
       }
-      case Search::kRefined:
-        shapes = Expand(shapes, k, {parameter.size(site)});
-        break;
       case Search::kPositionFrequency:
         shapes = Expand(shapes, k, proposals.Harmonics(site.joint));
         *tried *= kHarmonics;

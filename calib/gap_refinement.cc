@@ -55,6 +55,34 @@ class ProjectedResidual : public ceres::CostFunction {
     }
     return effects;
   }
+  // The lowest around what a search found. What rings has a minimum wherever
+  // its oscillation is in phase for a while, and only one where it stays so.
+  VectorXd LowestAround(const VectorXd& u) const {
+    std::vector<VectorXd> points = {u};
+    for (const Coordinate& shape : coordinates_) {
+      if (ParameterOf(shape).search != EffectParameter::Search::kRefined) {
+        continue;
+      }
+      for (const Coordinate& size : coordinates_) {
+        if (size.effect == shape.effect &&
+            ParameterOf(size).search == EffectParameter::Search::kLinear) {
+          AddAround(size, shape, &points);
+        }
+      }
+    }
+    double lowest = std::numeric_limits<double>::infinity();
+    VectorXd best = u;
+    if (points.size() == 1) return best;
+    const std::vector<JointRows> torques = Torques(points);
+    for (size_t k = 0; k < points.size(); ++k) {
+      const double left = screen_.ResidualBeside(torques[k]).squaredNorm();
+      if (!(left < lowest)) continue;
+      lowest = left;
+      best = points[k];
+    }
+    return best;
+  }
+
   VectorXd BaselineAt(const VectorXd& u) const {
     return screen_.BaselineBeside(Find(u).torque);
   }
@@ -81,6 +109,27 @@ class ProjectedResidual : public ceres::CostFunction {
     RowMajorMatrix jacobian;        // empty: not asked for yet
     std::vector<JointRows> beside;  // torques of its neighbours, likewise
   };
+
+  const EffectParameter& ParameterOf(const Coordinate& c) const {
+    return effects_[c.effect].effect->parameters[c.parameter];
+  }
+
+  // From half of a size to twice of it, for values of a shape.
+  void AddAround(const Coordinate& size, const Coordinate& shape,
+                 std::vector<VectorXd>* points) const {
+    constexpr int kSteps = 12;  // to either side
+    const VectorXd u = points->front();
+    for (const double share : {0., .01, .03, .1, .3}) {
+      for (int k = -kSteps; k <= kSteps; ++k) {
+        VectorXd at = u;
+        at[&size - coordinates_.data()] = size.Inverse(
+            size.centre * std::pow(2, k / static_cast<double>(kSteps)));
+        at[&shape - coordinates_.data()] =
+            shape.Inverse(shape.low + share * (shape.high - shape.low));
+        points->push_back(at);
+      }
+    }
+  }
 
   std::vector<JointRows> Torques(const std::vector<VectorXd>& points) const {
     std::vector<std::vector<GapCandidate>> sets;
@@ -276,7 +325,7 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   const int size = static_cast<int>(coordinates.size());
   auto* cost = new ProjectedResidual(screen, baseline, scale, effects,
                                      coordinates, *data);
-  VectorXd u = VectorXd::Ones(size);
+  VectorXd u = cost->LowestAround(VectorXd::Ones(size));
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, u.data());
   SetBounds(coordinates, u.data(), &problem);

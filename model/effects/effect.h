@@ -47,7 +47,7 @@ struct EffectParameter {
   enum class Search {
     kLinear,
     kGrid,               // tried at the values of `grid`, then refined
-    kRefined,            // tried at its size only, then refined
+    kRefined,            // the same; the ends of `grid` are its range only
     kPositionFrequency,  // from the residual's spectrum over position, rad/rad
     kTimeFrequency,      // from its spectrum over time, Hz
     kTime,               // from where in time the residual is large, s
@@ -63,8 +63,8 @@ struct EffectParameter {
   // kLinear: a size that would matter, of the order of 5 % of what the joint
   // does; columns are differences over this much. Others: a usual value.
   std::function<double(const EffectSite&)> size;
-  // kGrid: values to try, rising; the first and last are the range.
-  // kRefined: the range.
+  // Rising values. kGrid: to try; the first and last are the range.
+  // kRefined: the range's ends, and between them those to try.
   std::function<std::vector<double>(const EffectSite&)> grid;
 };
 

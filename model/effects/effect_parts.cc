@@ -80,15 +80,14 @@ EffectParameter Gridded(const std::string& name, const std::string& unit,
 }
 
 EffectParameter Refined(const std::string& name, const std::string& unit,
-                        double usual, double most) {
+                        std::vector<double> grid) {
+  const double usual = grid[1];
   return {name,
           unit,
           EffectParameter::Search::kRefined,
           EffectParameter::Sign::kFree,
-          [=](const EffectSite&) { return usual; },
-          [=](const EffectSite&) {
-            return std::vector<double>{usual, most};
-          }};
+          [usual](const EffectSite&) { return usual; },
+          [grid](const EffectSite&) { return grid; }};
 }
 
 EffectParameter Searched(const std::string& name, const std::string& unit,

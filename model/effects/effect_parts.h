@@ -39,9 +39,10 @@ EffectParameter Linear(
 // Its usual value is the one in the middle of the grid.
 EffectParameter Gridded(const std::string& name, const std::string& unit,
                         SiteGrid grid);
-// Tried at its usual value; `most` is the other end of its range.
+// Tried at the values between the first and the last of `grid`, which are its
+// range; the first that is tried is usual.
 EffectParameter Refined(const std::string& name, const std::string& unit,
-                        double usual, double most);
+                        std::vector<double> grid);
 EffectParameter Searched(const std::string& name, const std::string& unit,
                          EffectParameter::Search search, SiteSize size);
 

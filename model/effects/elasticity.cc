@@ -33,18 +33,19 @@ Effect Elasticity() {
   effect.name = "elasticity";
   effect.law = "tau = ID(q - compliance load) - ID(q)";
   effect.shows = "fast motion and reversals";
-  effect.parameters = {Linear(
-                           "compliance", "P/E",
-                           [](const EffectSite& site) {
-                             return 3e-4 * Radian(site) / TorqueScale(site);
-                           },
-                           EffectParameter::Sign::kPositive),
-                       Gridded("damping_ratio", "1",
-                               [](const EffectSite&) {
-                                 return std::vector<double>{.005, .02, .07, .25};
-                               }),
-                       Refined("stiffening", "1", 0, 1)};
-  effect.larger_sizes = {3, 5, 8, 13, 20, 32, 50, 80, 130};
+  effect.parameters = {
+      Linear(
+          "compliance", "P/E",
+          [](const EffectSite& site) {
+            return 3e-4 * Radian(site) / TorqueScale(site);
+          },
+          EffectParameter::Sign::kPositive),
+      Gridded("damping_ratio", "1",
+              [](const EffectSite&) {
+                return std::vector<double>{.005, .02, .07, .25};
+              }),
+      Refined("stiffening", "1", {0, .01, .05, 1})};
+  effect.larger_sizes = GeometricGrid(1.25, 160, 23);
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     if (p[0] <= 0) return;
