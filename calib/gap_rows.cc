@@ -41,11 +41,7 @@ GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
   }
   thin_begin_.push_back(begin);
   MakeRuns();
-  if (std::any_of(
-          segments.begin(), segments.end(),
-          [](const GapSegment& segment) { return segment.made_torque; })) {
-    made_doubt_ = kMadeTorqueDoubt * UsualTorque(segments);
-  }
+  made_doubt_ = kMadeTorqueDoubt * UsualTorque(segments, true);
   for (size_t i = 0; i < segments.size(); ++i) {
     const int s = static_cast<int>(i), first = thin_begin_[i];
     drift_.emplace_back();
@@ -128,9 +124,7 @@ void GapRows::SetNoise(std::vector<Autoregression> noise,
   CHECK_EQ(doubt.rows(), num_thin());
   noise_ = std::move(noise);
   for (int j = 0; j < num_joints(); ++j) {
-    if (made_doubt_.size() > 0) {
-      noise_[j] = PlusWhite(noise_[j], made_doubt_[j]);
-    }
+    if (made_doubt_[j] > 0) noise_[j] = PlusWhite(noise_[j], made_doubt_[j]);
   }
   variance_ = doubt.cwiseAbs2();
   weight_.resize(num_thin(), num_joints());

@@ -99,7 +99,7 @@ class GapRows {
   std::vector<int> skip_;                          // fine samples at its ends
   std::vector<int> thin_begin_;                    // per segment, and the end
   std::vector<std::optional<TorqueDrift>> drift_;  // per segment
-  Eigen::VectorXd made_doubt_;  // n, N m or N; empty: recorded torques
+  Eigen::VectorXd made_doubt_;                     // per joint, N m or N
   std::vector<std::vector<Run>> runs_, still_runs_;
   std::vector<Autoregression> noise_;
   Eigen::MatrixXd variance_, weight_;  // thinned samples x n

@@ -166,20 +166,17 @@ double MotionBandwidth(double bandwidth_hz) {
   return kMotionBandwidth * bandwidth_hz;
 }
 
-VectorXd UsualTorque(const std::vector<GapSegment>& segments) {
+VectorXd UsualTorque(const std::vector<GapSegment>& segments,
+                     bool of_made_torques) {
   double samples = 0;
   VectorXd sum;
   for (const GapSegment& segment : segments) {
     if (sum.size() == 0) sum = VectorXd::Zero(segment.tau.cols());
     for (int k = 0; k < segment.size(); ++k) {
-      const double t = segment.motion.time(k);
-      if (std::any_of(
-              segment.lost.begin(), segment.lost.end(),
-              [t](const TimeRange& lost) { return lost.Contains(t); })) {
-        continue;
-      }
-      sum += segment.tau.row(k).cwiseAbs2().transpose();
+      if (segment.IsLost(segment.motion.time(k))) continue;
       ++samples;
+      if (of_made_torques && !segment.made_torque) continue;
+      sum += segment.tau.row(k).cwiseAbs2().transpose();
     }
   }
   return (sum / std::max(1., samples)).cwiseSqrt();

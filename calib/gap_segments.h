@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "calib/log_set.h"
@@ -29,6 +30,11 @@ struct GapSegment {
   std::vector<TimeRange> lost;
 
   int size() const { return motion.size(); }
+  bool IsLost(double t) const {
+    return std::any_of(lost.begin(), lost.end(), [t](const TimeRange& range) {
+      return range.Contains(t);
+    });
+  }
 };
 
 // The segments of the logs, in order; those shorter than 2 s are left out.
@@ -38,8 +44,10 @@ struct GapSegment {
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                                      const Progress& progress, LogSet* logs);
 
-// rms of the recorded torque, n entries, N m or N, where rows are not lost.
-Eigen::VectorXd UsualTorque(const std::vector<GapSegment>& segments);
+// rms of the torque, n entries, N m or N, where rows are not lost;
+// `of_made_torques`: with recorded ones as 0.
+Eigen::VectorXd UsualTorque(const std::vector<GapSegment>& segments,
+                            bool of_made_torques = false);
 
 // Whether their torques, if any, were made of commands, with a draw of noise.
 bool HaveNoiseOfPositions(const std::vector<GapSegment>& segments);
