@@ -55,6 +55,7 @@ class ProjectedResidual : public ceres::CostFunction {
     }
     return effects;
   }
+
   // The lowest around what a search found. What rings has a minimum wherever
   // its oscillation is in phase for a while, and only one where it stays so.
   VectorXd LowestAround(const VectorXd& u) const {

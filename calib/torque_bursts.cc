@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "model/format.h"
 
 namespace armcal {
 namespace {
@@ -84,12 +85,13 @@ std::vector<DataFinding> TellTorqueBursts(
         return a.rms / a.usual < b.rms / b.usual;
       });
   const Joint& joint = robot.links[worst.joint].joint;
-  char evidence[300];
-  std::snprintf(evidence, sizeof evidence,
-                "between %.0f and %.0f s %s took %.3g %s, %.0f times its usual "
-                "torque; such seconds are not judged by",
-                worst.window.begin, worst.window.end, joint.name.c_str(),
-                worst.rms, EffortUnit(joint.type), worst.rms / worst.usual);
+  const std::string evidence =
+      Format("between %.0f and %.0f s ", worst.window.begin, worst.window.end) +
+      joint.name +
+      Format(
+          " took %.3g %s, %.0f times its usual torque; such seconds are not "
+          "judged by",
+          worst.rms, EffortUnit(joint.type), worst.rms / worst.usual);
   return {{"the control loop was unstable for a moment", evidence,
            "lower gains, or a log without it"}};
 }
