@@ -9,6 +9,7 @@
 
 #include "model/batch_regressor.h"
 #include "model/low_pass.h"
+#include "model/recording_delay.h"
 
 namespace armcal {
 namespace {
@@ -180,7 +181,8 @@ VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
           TermTorque(JointTerm::kCoulomb, transitions_[j], motion, j),
           motion.dt);
     case BaselineColumn::Kind::kTiming:
-      return -Differentiate(torque.nominal().col(j), motion.dt);
+      return SlopeByDelay(torque.nominal().col(j), motion.torque.OfJoint(j),
+                          motion.dt);
     case BaselineColumn::Kind::kEffect:
       break;
   }

@@ -270,7 +270,8 @@ void Diagnoser::TellUnexplained() {
 void Diagnoser::Judge() {
   result_.data = AuditTorque(robot_, fit_->rows());
   const bool testable = result_.data.empty();
-  for (DataFinding& burst : TellTorqueBursts(robot_, fit_->rows().segments())) {
+  for (DataFinding& burst : TellTorqueBursts(robot_, fit_->rows().segments(),
+                                             options_.bandwidth_hz)) {
     result_.data.push_back(std::move(burst));
   }
   if (!testable) {

@@ -151,10 +151,8 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
   }
   const auto unclaimed = std::stable_partition(
       result_.effects.begin(), result_.effects.end(), IsClaimed);
-  // Something is there when held-out data have it, too.
-  result_.without_name =
-      unclaimed == result_.effects.begin() &&
-      std::any_of(unclaimed, result_.effects.end(), IsSeenAgain);
+  result_.without_name = unclaimed == result_.effects.begin() &&
+                         IsThereWithoutName(result_.effects, torque_);
   result_.effects.erase(unclaimed, result_.effects.end());
   std::stable_partition(
       result_.effects.begin(), result_.effects.end(),
@@ -194,6 +192,12 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 bool IsSeenAgain(const FoundEffect& found) {
   constexpr double kShare = .3;
   return found.evidence.confirmation.Share() > kShare;
+}
+
+bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
+                        const GapFigures& held_out) {
+  return held_out.after < held_out.refit &&
+         std::any_of(effects.begin(), effects.end(), IsSeenAgain);
 }
 
 bool IsPossible(const FoundEffect& found) {

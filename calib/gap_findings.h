@@ -37,6 +37,11 @@ struct FoundEffect {
 // Whether held-out data have it as well, in part.
 bool IsSeenAgain(const FoundEffect& found);
 
+// Whether something is there though none of its effects is claimed: held-out
+// data have one of them as well, and it does not only mend what others spoiled.
+bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
+                        const GapFigures& held_out);
+
 // Whether such a thing can be: a load is held by the tool.
 bool IsPossible(const FoundEffect& found);
 

@@ -11,6 +11,20 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+double TimeOf(const GapRows& rows) {
+  double time = 0;
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i);
+    time += rows.thin_time(s, rows.thin_begin(s + 1) - 1) -
+            rows.thin_time(s, rows.thin_begin(s));
+  }
+  return time;
+}
+
+}  // namespace
+
 HeldOut::HeldOut(const GapFit& fit)
     : fit_(fit),
       other_logs_(false),
@@ -31,13 +45,16 @@ HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs)
 }
 
 // An arm that was touched in one log may have been in another: windows that
-// stand out from what the fitted effects leave are not judged by.
+// stand out from what the fitted effects leave are not judged by. What stands
+// out in more than a third of the time was no touch.
 void HeldOut::MaskEvents() {
   constexpr int kMostWindows = 12;
+  constexpr double kMostOfTime = 1. / 3;
   constexpr double kReal = 100;                      // chi^2
   const std::vector<double> durations = {.4, 1, 2};  // s
   const MatrixXd residual =
       Residual(fit_.refined().effects, fit_.refined().baseline);
+  double masked = 0;
   for (int round = 0; round < kMostWindows; ++round) {
     const MatrixXd left = Deviations(residual).unaryExpr(
         [](double x) { return std::isnan(x) ? 0 : x; });
@@ -61,6 +78,8 @@ void HeldOut::MaskEvents() {
     if (log < 0) return;
     const TimeRange range{worst.centre - worst.duration,
                           worst.centre + worst.duration};
+    masked += 2 * worst.duration;
+    if (masked > kMostOfTime * TimeOf(rows())) return;
     data_->Mask(log, range);
     data_->SetNoise(fit_.noise().joints);
   }

@@ -216,7 +216,8 @@ void AdvanceTorque(double delay, std::vector<GapSegment>* segments) {
   for (GapSegment& segment : *segments) {
     const double samples = -delay / segment.motion.dt;
     segment.tau = Delayed(segment.tau, samples);
-    segment.motion.torque = Delayed(segment.motion.torque, samples);
+    Eigen::MatrixXd& smooth = segment.motion.torque.tau;
+    smooth = Delayed(smooth, samples);
   }
 }
 

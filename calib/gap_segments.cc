@@ -5,6 +5,7 @@
 
 #include "calib/calibration_checks.h"
 #include "calib/position_noise.h"
+#include "calib/smooth_torque.h"
 #include "calib/torque_bursts.h"
 #include "model/input_error.h"
 #include "model/input_text.h"
@@ -17,8 +18,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A regressor must not hold the noise of what it explains.
-constexpr double kSmoothTorqueHz = 3;
 // Thermometers are noisy, and gears warm up in minutes.
 constexpr double kSmoothTemperatureHz = .2;
 // Of errors of stamps, which are known every second.
@@ -146,12 +145,12 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
     if (const MadeTorque* made = logs->made_torque(segment.log)) {
       AddErrors(*made, bandwidth_hz, &segment);
     }
-    for (const TimeRange& burst : TimesOf(FindTorqueBursts(segment))) {
+    for (const TimeRange& burst :
+         TimesOf(FindTorqueBursts(segment, bandwidth_hz))) {
       segment.lost.push_back(burst);
     }
     Motion& motion = segment.motion;
-    motion.torque =
-        ZeroPhaseLowPass(segment.tau, 1 / motion.dt, kSmoothTorqueHz);
+    motion.torque = SmoothTorqueOf(segment);
     const auto& errors = logs->time_bases()[segment.log].stamp_errors;
     if (errors.size() > 1) motion.stamp_error = StampErrors(errors, motion);
     if (motion.temperature.size() == 0) continue;

@@ -58,7 +58,7 @@ MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
       scale.top_speed[j] =
           std::max(scale.top_speed[j], motion.qd.col(j).cwiseAbs().maxCoeff());
       scale.top_torque[j] = std::max(
-          scale.top_torque[j], motion.torque.col(j).cwiseAbs().maxCoeff());
+          scale.top_torque[j], motion.torque.tau.col(j).cwiseAbs().maxCoeff());
       scale.low[j] = std::min(scale.low[j], motion.q.col(j).minCoeff());
       scale.high[j] = std::max(scale.high[j], motion.q.col(j).maxCoeff());
     }

@@ -4,6 +4,16 @@
 
 namespace armcal {
 
+// A torque as it was recorded, N m or N, low-passed at hz; empty: it was not.
+struct SmoothTorque {
+  Eigen::MatrixXd tau;
+  double hz = 0;
+
+  SmoothTorque OfJoint(int j) const {
+    return {tau.size() > 0 ? tau.col(j) : tau, hz};
+  }
+};
+
 // Motion of an arm at equally spaced instants, samples in rows, joints in
 // columns in the robot's order.
 struct Motion {
@@ -17,10 +27,9 @@ struct Motion {
   Eigen::VectorXd usual_temperature;
   // How far stamps are from even ones, s (TimeBase); empty: they are even.
   Eigen::VectorXd stamp_error;
-  // As the controller recorded it, N m or N, smooth; empty: not recorded.
-  // Wanted only where what is asked says more than what is given: at a limit.
-  Eigen::MatrixXd torque;
-
+  // As the controller recorded it. Wanted where what is asked for says more
+  // than what is given: at a limit, and where it comes late.
+  SmoothTorque torque;
   // Of torques that were made of these positions: what they grow by per unit of
   // rate of the stamps' clock beyond time, N m or N; empty: they were recorded.
   Eigen::MatrixXd torque_by_rate;

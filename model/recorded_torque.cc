@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "model/actuator_inversion.h"
-#include "model/delayed_signal.h"
 #include "model/joint_law_torques.h"
 #include "model/joint_warmth.h"
 #include "model/motion_behind_readings.h"
+#include "model/recording_delay.h"
 
 namespace armcal {
 namespace {
@@ -199,13 +199,13 @@ MatrixXd RecordedTorque::Recorded(const SimulatedRobot& changed,
                                   const MotionTrack& track,
                                   MatrixXd tau) const {
   if (!changed.actuators.empty()) {
-    tau = CommandFor(changed.actuators, track, tau, motion_.torque);
+    tau = CommandFor(changed.actuators, track, tau, motion_.torque.tau);
   }
   if (!changed.sensors.empty()) {
     tau = TorqueReadings(changed.sensors, track, tau);
   }
   if (changed.torque_delay != 0) {
-    tau = Delayed(tau, changed.torque_delay / motion_.dt);
+    tau += ChangeByDelay(tau, motion_.torque, motion_.dt, changed.torque_delay);
   }
   return tau;
 }

@@ -52,7 +52,7 @@ class RecordedTorque {
   //   sensors, clock            the motion behind the readings, and the
   //                             recorded torque, or what the clock made of one
   //                             that was made of the readings;
-  //   torque_delay              interpolated between samples
+  //   torque_delay              recording_delay.h
   //   actuators                 inverted from the torque needed, with the help
   //                             of the recorded one (actuator_inversion.h).
   std::vector<OfJoints> Changes(const std::vector<SimulatedRobot>& changed);

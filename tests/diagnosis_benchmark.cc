@@ -64,8 +64,8 @@ struct RecordedArm {
       for (double& x : segment.tau.col(j))
         x += kNoise * rms[j] * normal(random);
     }
-    segment.motion.torque =
-        ZeroPhaseLowPass(segment.tau, 1 / segment.motion.dt, 3);
+    segment.motion.torque = {
+        ZeroPhaseLowPass(segment.tau, 1 / segment.motion.dt, 3), 3};
     segment.still.setConstant(segment.size(), tau.cols(), false);
     segments = {segment};
   }

@@ -63,7 +63,8 @@ class EffectPlant {
         ZeroPhaseLowPass(log.q, 1 / motion.dt, kMotionHz, Ends::kExtrapolate);
     motion.qd = Differentiate(motion.q, motion.dt);
     motion.qdd = Differentiate(motion.qd, motion.dt);
-    motion.torque = ZeroPhaseLowPass(log.tau, 1 / motion.dt, kMotionHz);
+    motion.torque = {ZeroPhaseLowPass(log.tau, 1 / motion.dt, kMotionHz),
+                     kMotionHz};
     return motion;
   }
 

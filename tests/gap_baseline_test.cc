@@ -44,7 +44,9 @@ class GapBaselineTest : public testing::TestWithParam<std::string> {
     path.phase += begin * path.omega;
     Log log = RecordMotion(path, 8, kStep);
     log.tau = MatrixXd::Zero(log.size(), n());
-    return MakeSegment(log);
+    GapSegment segment = MakeSegment(log);
+    segment.motion.torque = {};  // whose delay it would show
+    return segment;
   }
   // Thinned torque of joint j of a robot along the motion, `later` s later.
   VectorXd Torque(const Robot& robot,

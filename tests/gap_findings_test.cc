@@ -30,6 +30,20 @@ std::vector<std::string> Sorted(std::vector<FoundEffect> effects) {
   return Names(effects);
 }
 
+TEST(IsThereWithoutName, WhereHeldOutDataHaveItAndGainByIt) {
+  FoundEffect seen = Found("delay", -1, 112), spoils = Found("spring", 1, 200);
+  seen.evidence.confirmation = {1300, 3800};
+  spoils.evidence.confirmation = {2500, -5000};
+  GapFigures held_out;
+  held_out.refit = 2;
+  held_out.after = 1.5;
+  EXPECT_TRUE(IsThereWithoutName({seen, spoils}, held_out));
+  EXPECT_FALSE(IsThereWithoutName({spoils}, held_out));
+  EXPECT_FALSE(IsThereWithoutName({}, held_out));
+  held_out.after = 4;
+  EXPECT_FALSE(IsThereWithoutName({seen, spoils}, held_out));
+}
+
 class IsClaimedTest : public testing::Test {
  protected:
   // chi^2 that held-out data should have of it, and have.

@@ -31,7 +31,7 @@ class GapFitTest : public testing::Test {
     AddNoise(&random_, VectorXd::Constant(2, noise), &segment.tau);
     segment.still.setConstant(segment.size(), 2, false);
     segment.still.col(1).setConstant(stands_);
-    segment.motion.torque = segment.tau;
+    segment.motion.torque = {segment.tau, .5 / segment.motion.dt};
     GapFitOptions options;
     options.bandwidth_hz = kBandwidth;
     fit_.emplace(baseline_, options, std::vector<GapSegment>{segment},

@@ -16,7 +16,7 @@ inline GapSegment MakeSegment(const Log& log) {
   segment.motion.q = log.q;
   segment.motion.qd = log.qd;
   segment.motion.qdd = log.qdd;
-  segment.motion.torque = log.tau;
+  segment.motion.torque = {log.tau, .5 / segment.motion.dt};
   segment.tau = log.tau;
   segment.still.setConstant(log.q.rows(), log.q.cols(), false);
   return segment;
