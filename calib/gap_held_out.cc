@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "calib/gap_search.h"
 
@@ -21,6 +22,35 @@ double TimeOf(const GapRows& rows) {
             rows.thin_time(s, rows.thin_begin(s));
   }
   return time;
+}
+
+struct LogWindow {
+  int log;
+  TimeWindow window;
+};
+
+// Of deviations, NaN where joints rest; none where all may be chance.
+std::optional<LogWindow> StrongestWindow(const GapRows& rows,
+                                         const MatrixXd& deviations) {
+  constexpr double kReal = 100;                      // chi^2
+  const std::vector<double> durations = {.4, 1, 2};  // s
+  const MatrixXd left =
+      deviations.unaryExpr([](double x) { return std::isnan(x) ? 0 : x; });
+  std::optional<LogWindow> strongest;
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i), begin = rows.thin_begin(s);
+    const int size = rows.thin_begin(s + 1) - begin;
+    VectorXd t(size);
+    for (int k = 0; k < size; ++k) t[k] = rows.thin_time(s, begin + k);
+    int searched = 0;
+    for (const TimeWindow& window : StrongWindows(left.middleRows(begin, size),
+                                                  t, durations, 1, &searched)) {
+      const double most = strongest ? strongest->window.strength : kReal;
+      if (window.strength <= most) continue;
+      strongest = {rows.segments()[i].log, window};
+    }
+  }
+  return strongest;
 }
 
 }  // namespace
@@ -50,37 +80,17 @@ HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs)
 void HeldOut::MaskEvents() {
   constexpr int kMostWindows = 12;
   constexpr double kMostOfTime = 1. / 3;
-  constexpr double kReal = 100;                      // chi^2
-  const std::vector<double> durations = {.4, 1, 2};  // s
   const MatrixXd residual =
       Residual(fit_.refined().effects, fit_.refined().baseline);
   double masked = 0;
   for (int round = 0; round < kMostWindows; ++round) {
-    const MatrixXd left = Deviations(residual).unaryExpr(
-        [](double x) { return std::isnan(x) ? 0 : x; });
-    double most = kReal;
-    int log = -1;
-    TimeWindow worst{0, 0};
-    for (size_t i = 0; i < segments().size(); ++i) {
-      const int s = static_cast<int>(i), begin = rows().thin_begin(s);
-      const int size = rows().thin_begin(s + 1) - begin;
-      VectorXd t(size);
-      for (int k = 0; k < size; ++k) t[k] = rows().thin_time(s, begin + k);
-      int searched = 0;
-      for (const TimeWindow& window : StrongWindows(
-               left.middleRows(begin, size), t, durations, 1, &searched)) {
-        if (window.strength <= most) continue;
-        most = window.strength;
-        worst = window;
-        log = segments()[i].log;
-      }
-    }
-    if (log < 0) return;
-    const TimeRange range{worst.centre - worst.duration,
-                          worst.centre + worst.duration};
-    masked += 2 * worst.duration;
+    const auto worst = StrongestWindow(rows(), Deviations(residual));
+    if (!worst) return;
+    const TimeWindow& window = worst->window;
+    masked += 2 * window.duration;
     if (masked > kMostOfTime * TimeOf(rows())) return;
-    data_->Mask(log, range);
+    data_->Mask(worst->log, {window.centre - window.duration,
+                             window.centre + window.duration});
     data_->SetNoise(fit_.noise().joints);
   }
 }
