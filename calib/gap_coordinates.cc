@@ -67,6 +67,15 @@ std::optional<Coordinate> CoordinateOf(const EffectParameter& parameter,
   return c;
 }
 
+// A linear parameter without a torque in these logs: unevenness where stamps
+// are even. A search would leave it anywhere.
+bool IsAbsent(const GapCandidate& effect, int linear) {
+  if (effect.torque.empty()) return false;  // not evaluated
+  const JointRows& torque = effect.torque[linear];
+  return std::all_of(torque.begin(), torque.end(),
+                     [](const auto& of_joint) { return of_joint.size() == 0; });
+}
+
 }  // namespace
 
 std::vector<Coordinate> ListCoordinates(
@@ -79,10 +88,14 @@ std::vector<Coordinate> ListCoordinates(
     const auto& parameters = effect.effect->parameters;
     int linear = 0;
     for (int k = 0; k < static_cast<int>(parameters.size()); ++k) {
-      const bool is_linear = parameters[k].search == Search::kLinear;
+      double size = 0;
+      if (parameters[k].search == Search::kLinear) {
+        size = effect.size[linear];
+        if (IsAbsent(effect, linear++)) continue;
+      }
       std::optional<Coordinate> c =
           CoordinateOf(parameters[k], {&baseline.robot(), effect.joint, &scale},
-                       effect.p[k], is_linear ? effect.size[linear++] : 0);
+                       effect.p[k], size);
       if (!c) continue;
       c->effect = e;
       c->parameter = k;

@@ -10,6 +10,8 @@
 namespace armcal {
 namespace {
 
+constexpr double kEven = 1e-3;  // of a step, beside which stamps are even
+
 // Steps in bins of 0.1 %, so that a median needs no memory of the log's size.
 class StepHistogram {
  public:
@@ -187,12 +189,19 @@ TimeBase AuditTimeBase(const TimeRange& crop, KeptLog* log) {
   }
   base.median_step = audit.steps.Median();
   base.dt = audit.steps.MeanBelow(3 * base.median_step);
-  base.uniform = base.max_step - base.min_step < 1e-3 * base.dt;
+  base.uniform = base.max_step - base.min_step < kEven * base.dt;
   if (base.uniform) {
     base.dt = (base.range.end - base.range.begin) /
               static_cast<double>(base.samples - 1);
   }
-  if (!base.uniform) base.stamp_errors = ticks.Errors();
+  base.stamp_errors = ticks.Errors();
+  // Even stamps of which some were lost have what rounding leaves.
+  if (std::all_of(base.stamp_errors.begin(), base.stamp_errors.end(),
+                  [&](const StampError& error) {
+                    return std::abs(error.error) < kEven * base.dt;
+                  })) {
+    base.stamp_errors.clear();
+  }
   base.motion_hz = audit.motion.Frequency();
   log->Rewind();
   if (base.max_step <= 3 * base.median_step) return base;

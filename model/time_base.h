@@ -36,7 +36,7 @@ struct TimeBase {
   double dt = 0;
   bool uniform = false;  // all steps equal dt: no resampling needed
   std::vector<TimeRange> gaps;
-  // Empty where all steps are equal. Lost samples are counted.
+  // Empty where stamps are even. Lost samples are counted.
   std::vector<StampError> stamp_errors;
   // rms velocity over rms position of the joint that changes fastest, over
   // 2 pi: about where the motion's spectrum lies, Hz. 0 if nothing moves.

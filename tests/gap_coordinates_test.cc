@@ -40,6 +40,18 @@ TEST_F(GapCoordinatesTest, WhatIsVaried) {
   EXPECT_EQ(Of("coupled_friction").size(), 3u);
 }
 
+// Where stamps are even, unevenness says nothing.
+TEST_F(GapCoordinatesTest, WhatHasNoTorqueIsNotVaried) {
+  GapCandidate clock = OfOnes("time_base");
+  const auto list = [&] {
+    return ListCoordinates(baseline_, arm_.scale, {clock}, 0);
+  };
+  EXPECT_EQ(list().size(), 2u) << "not evaluated yet";
+  clock.torque = {{VectorXd::Ones(3), VectorXd()}, JointRows(2)};
+  ASSERT_EQ(list().size(), 1u);
+  EXPECT_EQ(list()[0].parameter, 0);
+}
+
 TEST_F(GapCoordinatesTest, OfOneEffectOrOfAll) {
   const std::vector<GapCandidate> effects = {OfOnes("cable"),
                                              OfOnes("viscous_friction")};

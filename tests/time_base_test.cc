@@ -121,6 +121,9 @@ TEST(AuditTimeBase, KnowsHowUnevenStampsAre) {
     EXPECT_NEAR(error.error, sway(t) - line, 5e-4) << t;
   }
   EXPECT_TRUE(Audit(Uniform(500, .004, 3)).stamp_errors.empty());
+  std::vector<std::string> lost = Uniform(11250, .004, 6);
+  for (int k = 11000; k > 0; k -= 300) lost.erase(lost.begin() + k);
+  EXPECT_TRUE(Audit(lost).stamp_errors.empty());
 }
 
 TEST(AuditTimeBase, KeepsGapsOutOfTheStep) {
