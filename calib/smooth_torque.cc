@@ -12,7 +12,8 @@ using Eigen::RowVectorXd;
 
 constexpr double kRecordedHz = 3;
 constexpr double kMadeHz[] = {1.5, 3, 5, 6.5, 8, 10, 12.5, 16, 20};
-// Power beside the noise's: of a delay next to nothing may be its own.
+// Power over the noise's. The baseline takes nearly all of a delay's torque:
+// with less than this, what is left would be the noise's.
 constexpr double kAboveNoise = 1000;
 
 double Power(const GapSegment& segment, const MatrixXd& band,
