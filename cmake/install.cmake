@@ -44,7 +44,7 @@ foreach(package armcal armcal-dev)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package})
 endforeach()
 
-# Headers are included as here, "model/robot.h", from include/armcal.
+# Headers are included as here, "model/robot/robot.h", from include/armcal.
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/armcal)
 foreach(library ${exported})
   set_target_properties(${library} PROPERTIES OUTPUT_NAME armcal_${library})

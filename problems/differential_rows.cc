@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/low_pass.h"
+#include "model/signals/low_pass.h"
 
 namespace armcal {
 

@@ -2,41 +2,7 @@
 
 #include <algorithm>
 
-#include "problems/differential_rows.h"
-#include "problems/integral_rows.h"
-#include "problems/weak_rows.h"
-
 namespace armcal {
-
-double RowReach(const RowOptions& options) {
-  switch (options.identification) {
-    case Identification::kWeak:
-      return options.window_s;
-    case Identification::kDifferential:
-      return options.bandwidth_hz > 0 ? DifferentialReach(options) : 0;
-    case Identification::kIntegral:
-      break;
-  }
-  double reach = options.intervals.empty() ? options.interval_s : 0;
-  for (const TimeRange& interval : options.intervals) {
-    reach = std::max(reach, interval.end - interval.begin);
-  }
-  return reach;
-}
-
-std::unique_ptr<IdentificationRows> MakeRows(const Trajectory& trajectory,
-                                             const RowOptions& options,
-                                             const MotionRegressor& regressor) {
-  switch (options.identification) {
-    case Identification::kWeak:
-      return std::make_unique<WeakRows>(trajectory, options, regressor);
-    case Identification::kDifferential:
-      return std::make_unique<DifferentialRows>(trajectory, options, regressor);
-    case Identification::kIntegral:
-      break;
-  }
-  return std::make_unique<IntegralRows>(trajectory, options, regressor);
-}
 
 void RowBatch::Evaluate(const IdentificationRows& rows,
                         const MotionFunctions& functions, RowScratch* scratch) {
@@ -76,12 +42,6 @@ void ForEachRow(const IdentificationRows& rows,
     batch.Evaluate(rows, functions, &scratch);
     batch.ForEachRow(rows, functions, &row, sink);
   }
-}
-
-void ForEachRow(const Trajectory& trajectory, const RowOptions& options,
-                MotionRegressor* regressor, const RowSink& sink) {
-  regressor->Enter(trajectory);
-  ForEachRow(*MakeRows(trajectory, options, *regressor), *regressor, sink);
 }
 
 }  // namespace armcal

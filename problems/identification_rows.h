@@ -2,11 +2,10 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <memory>
 #include <vector>
 
-#include "model/time_base.h"
-#include "model/trajectory.h"
+#include "model/log_files/time_base.h"
+#include "model/signals/trajectory.h"
 #include "problems/joint_columns.h"
 #include "problems/motion_functions.h"
 
@@ -46,9 +45,6 @@ struct RowScratch {
 };
 using RowSink = std::function<void(const IdentificationRow&)>;
 
-// How far rows reach beyond the sample they are assigned to, s.
-double RowReach(const RowOptions& options);
-
 // The rows of a trajectory's core in order of time, but for those that reach
 // into a useless sample. Any number of threads may evaluate them; a row is the
 // same bits whichever others it is evaluated with. Trajectory and functions
@@ -63,11 +59,6 @@ class IdentificationRows {
   virtual void Evaluate(long begin, long count, double* const* out, long stride,
                         RowScratch* scratch) const = 0;
 };
-
-// Of the trajectory that `regressor` has entered.
-std::unique_ptr<IdentificationRows> MakeRows(const Trajectory& trajectory,
-                                             const RowOptions& options,
-                                             const MotionRegressor& regressor);
 
 // Some of them, evaluated together.
 struct RowBatch {
@@ -85,8 +76,4 @@ struct RowBatch {
 // Calls `sink` for every row, in order.
 void ForEachRow(const IdentificationRows& rows,
                 const MotionFunctions& functions, const RowSink& sink);
-// The same of a trajectory, which is entered.
-void ForEachRow(const Trajectory& trajectory, const RowOptions& options,
-                MotionRegressor* regressor, const RowSink& sink);
-
 }  // namespace armcal

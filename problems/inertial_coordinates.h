@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "model/inertial_parameters.h"
+#include "model/robot/inertial_parameters.h"
 
 namespace armcal {
 

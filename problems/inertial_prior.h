@@ -2,7 +2,7 @@
 
 #include <ceres/cost_function.h>
 
-#include "model/inertial_parameters.h"
+#include "model/robot/inertial_parameters.h"
 
 namespace armcal {
 

@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "model/arm_geometry.h"
-#include "model/batch_regressor.h"
-#include "model/geometry_jacobian.h"
-#include "model/joint_term.h"
+#include "model/dynamics/batch_regressor.h"
+#include "model/dynamics/geometry_jacobian.h"
+#include "model/dynamics/joint_term.h"
+#include "model/robot/arm_geometry.h"
 #include "problems/motion_functions.h"
 
 namespace armcal {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "model/harmonic_basis.h"
+#include "model/signals/harmonic_basis.h"
 #include "problems/excitation_criterion.h"
 #include "problems/motion_information.h"
 #include "problems/motion_limits.h"

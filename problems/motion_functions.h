@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "model/batch_regressor.h"
-#include "model/joint_term.h"
-#include "model/model_parameters.h"
-#include "model/trajectory.h"
+#include "model/dynamics/batch_regressor.h"
+#include "model/dynamics/joint_term.h"
+#include "model/dynamics/model_parameters.h"
+#include "model/signals/trajectory.h"
 
 namespace armcal {
 

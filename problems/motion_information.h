@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "model/model_parameters.h"
-#include "model/motion.h"
-#include "model/regressor_gradient.h"
-#include "model/robot.h"
+#include "model/dynamics/model_parameters.h"
+#include "model/dynamics/regressor_gradient.h"
+#include "model/robot/robot.h"
+#include "model/signals/motion.h"
 
 namespace armcal {
 

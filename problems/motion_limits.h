@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "model/motion.h"
-#include "model/robot.h"
+#include "model/robot/robot.h"
+#include "model/signals/motion.h"
 #include "problems/motion_information.h"
 
 namespace armcal {

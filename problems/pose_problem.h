@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "model/arm_geometry.h"
-#include "model/pose_reader.h"
+#include "model/log_files/pose_reader.h"
+#include "model/robot/arm_geometry.h"
 #include "problems/robust_loss.h"
 
 namespace armcal {

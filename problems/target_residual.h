@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "model/arm_geometry.h"
+#include "model/robot/arm_geometry.h"
 
 namespace armcal {
 

@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "model/joint_term.h"
-#include "model/model_parameters.h"
-#include "model/trajectory.h"
+#include "model/dynamics/joint_term.h"
+#include "model/dynamics/model_parameters.h"
+#include "model/signals/trajectory.h"
 
 namespace armcal {
 

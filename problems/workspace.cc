@@ -7,8 +7,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "model/kinematics.h"
-#include "model/uniform_draw.h"
+#include "model/robot/kinematics.h"
+#include "model/text/uniform_draw.h"
 
 namespace armcal {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/robot.h"
+#include "model/robot/robot.h"
 #include "problems/motion_information.h"
 
 namespace armcal {

@@ -4,14 +4,15 @@
 
 #include <cmath>
 
-#include "calib/calibration_report.h"
-#include "calib/drive_gains_report.h"
-#include "calib/linear_calibration.h"
-#include "calib/motion_advice.h"
-#include "calib/outlier_report.h"
-#include "calib/segment_selection.h"
-#include "calib/verdict.h"
-#include "model/input_text.h"
+#include "calib/drive_gains/report.h"
+#include "calib/excite/motion_advice.h"
+#include "calib/excite/segment_selection.h"
+#include "calib/linear/calibrate_linear.h"
+#include "calib/linear/calibration.h"
+#include "calib/linear/calibration_report.h"
+#include "calib/linear/outlier_report.h"
+#include "calib/linear/verdict.h"
+#include "model/text/input_text.h"
 #include "tools/calibrate_commanded.h"
 #include "tools/calibrate_flags.h"
 #include "tools/calibrate_payload.h"

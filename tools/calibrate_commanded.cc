@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "calib/output_error.h"
-#include "calib/output_error_report.h"
-#include "model/input_text.h"
+#include "calib/closed_loop/output_error.h"
+#include "calib/closed_loop/output_error_report.h"
+#include "calib/linear/calibrate_linear.h"
+#include "model/text/input_text.h"
 #include "tools/calibrate_flags.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command_report.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/transition_choice.h"
-#include "model/input_text.h"
+#include "calib/linear/transition_choice.h"
+#include "model/text/input_text.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "calib/linear_calibration.h"
-#include "model/robot.h"
+#include "calib/linear/calibration.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 

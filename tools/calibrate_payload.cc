@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "calib/drive_gains_report.h"
+#include "calib/drive_gains/estimate_drive_gains.h"
+#include "calib/drive_gains/report.h"
 #include "tools/command.h"
 #include "tools/command_report.h"
 #include "tools/input_flags.h"

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "calib/drive_gains.h"
-#include "calib/linear_calibration.h"
-#include "model/log_reader.h"
-#include "model/robot.h"
+#include "calib/drive_gains/drive_gains.h"
+#include "calib/linear/calibration.h"
+#include "model/log_files/log_reader.h"
+#include "model/robot/robot.h"
 #include "tools/command.h"
 
 namespace armcal {

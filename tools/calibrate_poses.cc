@@ -2,13 +2,14 @@
 
 #include <gflags/gflags.h>
 
-#include "calib/pose_calibration.h"
-#include "calib/pose_report.h"
-#include "calib/verdict.h"
-#include "model/pose_reader.h"
-#include "model/robot_reader.h"
-#include "model/urdf_update.h"
-#include "model/urdf_writer.h"
+#include "calib/poses/calibrate_poses.h"
+#include "calib/poses/calibration.h"
+#include "calib/poses/report.h"
+#include "calib/poses/verdict.h"
+#include "model/log_files/pose_reader.h"
+#include "model/robot_files/robot_reader.h"
+#include "model/robot_files/urdf_update.h"
+#include "model/robot_files/urdf_writer.h"
 #include "tools/calibrate_refined.h"
 #include "tools/calibrate_report.h"
 #include "tools/command.h"

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "calib/nonlinear_report.h"
-#include "model/input_text.h"
-#include "model/robot_reader.h"
-#include "model/urdf_update.h"
-#include "model/urdf_writer.h"
+#include "calib/refine/nonlinear_report.h"
+#include "model/robot_files/robot_reader.h"
+#include "model/robot_files/urdf_update.h"
+#include "model/robot_files/urdf_writer.h"
+#include "model/text/input_text.h"
 #include "tools/command.h"
 #include "tools/export_flags.h"
 #include "tools/flag_choices.h"

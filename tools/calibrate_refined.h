@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "calib/linear_calibration.h"
-#include "calib/nonlinear_calibration.h"
-#include "model/joint_controller.h"
-#include "model/pose_reader.h"
-#include "model/robot.h"
+#include "calib/linear/calibration.h"
+#include "calib/refine/nonlinear_calibration.h"
+#include "model/dynamics/joint_controller.h"
+#include "model/log_files/pose_reader.h"
+#include "model/robot/robot.h"
 #include "tools/command.h"
 
 namespace armcal {

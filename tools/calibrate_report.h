@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "calib/linear_calibration.h"
-#include "calib/log_set.h"
-#include "calib/nonlinear_calibration.h"
-#include "model/robot.h"
+#include "calib/linear/calibration.h"
+#include "calib/logs/log_set.h"
+#include "calib/refine/nonlinear_calibration.h"
+#include "model/robot/robot.h"
 #include "tools/output_folder.h"
 
 namespace armcal {

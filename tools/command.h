@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "calib/log_set.h"
-#include "model/robot.h"
+#include "calib/logs/log_set.h"
+#include "model/robot/robot.h"
 #include "tools/console.h"
 #include "tools/output_folder.h"
 
 namespace armcal {
 
-struct TracedModel;  // calib/torque_trace.h
+struct TracedModel;  // calib/logs/torque_trace.h
 
 enum ExitCode {
   kExitOk = 0,

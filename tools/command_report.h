@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/robot.h"
+#include "model/robot/robot.h"
 #include "tools/output_folder.h"
 #include "tools/report/report_page.h"
 

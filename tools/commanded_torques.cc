@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "calib/commanded_torque.h"
+#include "calib/closed_loop/commanded_torque.h"
 #include "tools/simulation_flags.h"
 
 DECLARE_string(controller);

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "model/log_reader.h"
-#include "model/robot.h"
+#include "model/log_files/log_reader.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "model/input_error.h"
+#include "model/text/input_error.h"
 #include "tools/progress_bar.h"
 #include "tools/terminal.h"
 

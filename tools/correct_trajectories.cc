@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "calib/trajectory_refinement.h"
+#include "calib/refine/trajectory_refinement.h"
 #include "tools/command.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "calib/linear_calibration.h"
-#include "calib/log_set.h"
-#include "model/robot.h"
+#include "calib/linear/calibration.h"
+#include "calib/logs/log_set.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 

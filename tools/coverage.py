@@ -21,7 +21,7 @@ HELD_TO_IT = ("model", "problems", "calib")
 
 
 def folder_of(path):
-    """calib/gap_fit.cc is of calib, model/effects/spring.cc of model/effects and
+    """calib/diagnose/select/fit.cc is of calib, model/effects/arm/spring.cc of model/effects and
     of model."""
     folder = os.path.dirname(path)
     while folder:

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <memory>
 
-#include "calib/corrected_robot_export.h"
-#include "calib/gap_report.h"
+#include "calib/diagnose/report.h"
+#include "calib/diagnose/robot_export.h"
 #include "model/effects/effects.h"
-#include "model/robot_reader.h"
+#include "model/robot_files/robot_reader.h"
 #include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
 #include "tools/commanded_torques.h"

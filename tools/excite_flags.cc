@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "model/input_text.h"
+#include "model/text/input_text.h"
 #include "tools/command.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"

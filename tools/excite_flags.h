@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "calib/design_target.h"
-#include "calib/excitation.h"
-#include "calib/posture_design.h"
+#include "calib/excite/design_target.h"
+#include "calib/excite/excitation.h"
+#include "calib/excite/posture_design.h"
 #include "model/effects/effects.h"
-#include "model/robot.h"
+#include "model/robot/robot.h"
 #include "tools/command.h"
 
 namespace armcal {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/robot_files/robot_formats.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/corrected_robot_export.h"
+#include "calib/diagnose/robot_export.h"
 #include "tools/output_folder.h"
 
 namespace armcal {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "model/input_text.h"
+#include "model/text/input_text.h"
 #include "tools/command.h"
 #include "tools/nearest_name.h"
 

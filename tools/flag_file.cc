@@ -5,8 +5,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "model/input_error.h"
-#include "model/input_text.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
 #include "tools/command.h"
 
 namespace armcal {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "model/input_text.h"
+#include "model/text/input_text.h"
 #include "tools/flag_choices.h"
 
 namespace armcal {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/input_text.h"
-#include "model/robot_reader.h"
+#include "model/robot_files/robot_reader.h"
+#include "model/text/input_text.h"
 #include "tools/command.h"
 #include "tools/flag_choices.h"
 

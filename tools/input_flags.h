@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "model/effects/effects.h"
-#include "model/input_error.h"
-#include "model/log_reader.h"
-#include "model/robot.h"
-#include "model/time_base.h"
+#include "model/log_files/log_reader.h"
+#include "model/log_files/time_base.h"
+#include "model/robot/robot.h"
+#include "model/text/input_error.h"
 #include "problems/robust_loss.h"
 #include "tools/command.h"
 

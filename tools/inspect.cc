@@ -2,9 +2,9 @@
 
 #include <gflags/gflags.h>
 
-#include "calib/inspection_report.h"
-#include "calib/robot_audit.h"
-#include "model/log_writer.h"
+#include "calib/inspect/inspection_report.h"
+#include "calib/inspect/robot_audit.h"
+#include "model/log_files/log_writer.h"
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"

@@ -14,8 +14,8 @@
 #include <system_error>
 #include <vector>
 
-#include "calib/thread_limit.h"
-#include "model/input_error.h"
+#include "calib/numerics/thread_limit.h"
+#include "model/text/input_error.h"
 #include "tools/command.h"
 #include "tools/completion.h"
 #include "tools/console.h"

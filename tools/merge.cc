@@ -5,13 +5,14 @@
 #include <filesystem>
 #include <set>
 
-#include "calib/calibration_report.h"
-#include "calib/factor_calibration.h"
-#include "calib/factor_file.h"
-#include "calib/factor_report.h"
-#include "calib/fleet_report.h"
-#include "calib/verdict.h"
-#include "model/input_error.h"
+#include "calib/fleet/combine.h"
+#include "calib/fleet/factor_calibration.h"
+#include "calib/fleet/factor_file.h"
+#include "calib/fleet/factor_report.h"
+#include "calib/fleet/report.h"
+#include "calib/linear/calibration_report.h"
+#include "calib/linear/verdict.h"
+#include "model/text/input_error.h"
 #include "tools/input_flags.h"
 #include "tools/report/report_page.h"
 

@@ -16,7 +16,7 @@
 #include <optional>
 #include <thread>
 
-#include "model/input_error.h"
+#include "model/text/input_error.h"
 #include "tools/interruption.h"
 #include "tools/staged_files.h"
 

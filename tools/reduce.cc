@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <set>
 
-#include "calib/factor_calibration.h"
-#include "calib/factor_file.h"
-#include "calib/factor_report.h"
-#include "calib/log_reduction.h"
-#include "calib/sha256.h"
-#include "model/calendar_time.h"
-#include "model/input_error.h"
+#include "calib/fleet/factor_calibration.h"
+#include "calib/fleet/factor_file.h"
+#include "calib/fleet/factor_report.h"
+#include "calib/fleet/log_reduction.h"
+#include "calib/numerics/sha256.h"
+#include "model/text/calendar_time.h"
+#include "model/text/input_error.h"
 #include "tools/calibrate_flags.h"
 #include "tools/input_flags.h"
 #include "tools/report/report_page.h"

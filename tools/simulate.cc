@@ -2,9 +2,9 @@
 
 #include <gflags/gflags.h>
 
-#include "model/input_text.h"
-#include "model/log_writer.h"
+#include "model/log_files/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
+#include "model/text/input_text.h"
 #include "tools/command.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "model/input_text.h"
+#include "model/text/input_text.h"
 #include "tools/command.h"
 #include "tools/flag_choices.h"
 #include "tools/nearest_name.h"

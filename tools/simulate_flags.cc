@@ -2,10 +2,10 @@
 
 #include <gflags/gflags.h>
 
-#include "model/controller_reader.h"
-#include "model/input_error.h"
-#include "model/input_text.h"
 #include "model/plant/motion_reader.h"
+#include "model/robot_files/controller_reader.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
 #include "tools/command.h"
 #include "tools/input_flags.h"
 #include "tools/simulate_effects.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "model/input_text.h"
+#include "model/text/input_text.h"
 #include "tools/command.h"
 
 namespace armcal {

@@ -2,7 +2,7 @@
 
 #include <gflags/gflags.h>
 
-#include "model/controller_reader.h"
+#include "model/robot_files/controller_reader.h"
 #include "tools/command.h"
 #include "tools/input_flags.h"
 

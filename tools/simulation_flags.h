@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "model/joint_controller.h"
-#include "model/robot.h"
+#include "model/dynamics/joint_controller.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 

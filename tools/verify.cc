@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "calib/calibration_reader.h"
-#include "calib/verification_report.h"
+#include "calib/refine/calibration_reader.h"
+#include "calib/verify/verification_report.h"
 #include "tools/command_report.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"

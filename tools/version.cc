@@ -1,7 +1,7 @@
 #include "tools/version.h"
 
-#include "model/input_error.h"
-#include "model/library_versions.h"
+#include "model/text/input_error.h"
+#include "model/text/library_versions.h"
 
 namespace armcal {
 

@@ -3,9 +3,10 @@
 #include <exception>
 #include <iostream>
 
-#include "calib/calibration_report.h"
-#include "calib/linear_calibration.h"
-#include "model/robot_reader.h"
+#include "calib/linear/calibrate_linear.h"
+#include "calib/linear/calibration.h"
+#include "calib/linear/calibration_report.h"
+#include "model/robot_files/robot_reader.h"
 
 int main(int argc, char** argv) {
   if (argc != 3) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/robot.h"
-#include "model/simulated_robot.h"
+#include "model/dynamics/simulated_robot.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 // Inline, because the truth of blind tests (model/plant/hidden/) has classes of

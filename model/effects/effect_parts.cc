@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/forward_dynamics.h"
-#include "model/motor_map.h"
+#include "model/dynamics/forward_dynamics.h"
+#include "model/dynamics/motor_map.h"
 
 namespace armcal {
 inline namespace effects {

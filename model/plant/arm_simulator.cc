@@ -8,8 +8,8 @@
 #include <cmath>
 #include <string>
 
-#include "model/input_error.h"
 #include "model/plant/interpolated_terms.h"
+#include "model/text/input_error.h"
 
 namespace armcal {
 namespace {

@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include "model/arm_dynamics.h"
+#include "model/dynamics/arm_dynamics.h"
+#include "model/dynamics/simulated_robot.h"
 #include "model/plant/simulator_layout.h"
-#include "model/simulated_robot.h"
 
 namespace armcal {
 

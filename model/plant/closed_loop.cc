@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "model/input_error.h"
-#include "model/input_text.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
 
 namespace armcal {
 

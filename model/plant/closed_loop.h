@@ -3,12 +3,12 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "model/joint_controller.h"
-#include "model/log.h"
+#include "model/dynamics/joint_controller.h"
+#include "model/dynamics/simulated_robot.h"
+#include "model/log_files/log.h"
 #include "model/plant/arm_simulator.h"
 #include "model/plant/reference_motion.h"
 #include "model/plant/sensors.h"
-#include "model/simulated_robot.h"
 
 namespace armcal {
 

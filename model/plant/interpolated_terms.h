@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/arm_dynamics.h"
+#include "model/dynamics/arm_dynamics.h"
 
 namespace armcal {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "model/input_error.h"
-#include "model/log_reader.h"
-#include "model/uneven_differences.h"
+#include "model/log_files/log_reader.h"
+#include "model/signals/uneven_differences.h"
+#include "model/text/input_error.h"
 
 namespace armcal {
 

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "model/log.h"
+#include "model/log_files/log.h"
 #include "model/plant/reference_motion.h"
-#include "model/robot.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "model/robot.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "model/input_error.h"
+#include "model/text/input_error.h"
 
 namespace armcal {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "model/arm_dynamics.h"
-#include "model/robot.h"
+#include "model/dynamics/arm_dynamics.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "model/arm_dynamics.h"
-#include "model/simulated_robot.h"
+#include "model/dynamics/arm_dynamics.h"
+#include "model/dynamics/simulated_robot.h"
 
 namespace armcal {
 

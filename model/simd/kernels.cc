@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "model/input_error.h"
+#include "model/text/input_error.h"
 
 namespace armcal::simd {
 

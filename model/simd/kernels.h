@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "model/simd/arm_constants.h"
-#include "model/simd/chain_constants.h"
-#include "model/simd/column_pair.h"
-#include "model/simd/deflected_link.h"
-#include "model/simd/filter_section.h"
-#include "model/simd/geometry_constants.h"
-#include "model/simd/tangent_step.h"
+#include "model/simd/lanes/column_pair.h"
+#include "model/simd/lanes/filter_section.h"
+#include "model/simd/motion/arm_constants.h"
+#include "model/simd/motion/deflected_link.h"
+#include "model/simd/motion/tangent_step.h"
+#include "model/simd/regressor/chain_constants.h"
+#include "model/simd/regressor/geometry_constants.h"
 
 namespace armcal::simd {
 

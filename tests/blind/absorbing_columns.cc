@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/low_pass.h"
+#include "model/signals/low_pass.h"
 
 namespace armcal {
 namespace {

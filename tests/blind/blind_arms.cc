@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <map>
 
-#include "model/robot.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 namespace {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "model/plant/random_stream.h"
-#include "model/robot_reader.h"
+#include "model/robot_files/robot_reader.h"
 #include "tests/blind/blind_arms.h"
 #include "tests/blind/size_parameter.h"
 

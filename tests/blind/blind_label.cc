@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "calib/json_value.h"
-#include "model/input_error.h"
+#include "calib/numerics/json_value.h"
+#include "model/text/input_error.h"
 
 namespace armcal {
 namespace {

@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "calib/json_value.h"
-#include "model/input_error.h"
+#include "calib/numerics/json_value.h"
+#include "model/text/input_error.h"
 #include "tests/blind/isolated_process.h"
 
 namespace armcal {

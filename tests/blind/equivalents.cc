@@ -1,6 +1,6 @@
 #include "tests/blind/equivalents.h"
 
-#include "calib/json_value.h"
+#include "calib/numerics/json_value.h"
 
 namespace armcal {
 namespace {

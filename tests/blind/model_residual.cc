@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "calib/commanded_torque.h"
-#include "model/inverse_dynamics.h"
-#include "model/low_pass.h"
+#include "calib/closed_loop/commanded_torque.h"
+#include "model/dynamics/inverse_dynamics.h"
+#include "model/signals/low_pass.h"
 
 namespace armcal {
 namespace {

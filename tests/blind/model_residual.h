@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/log.h"
+#include "model/log_files/log.h"
 #include "tests/blind/blind_case.h"
 
 namespace armcal {

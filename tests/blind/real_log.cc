@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "model/log_reader.h"
-#include "model/low_pass.h"
+#include "model/log_files/log_reader.h"
+#include "model/signals/low_pass.h"
 
 namespace armcal {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "model/log.h"
-#include "model/time_base.h"
+#include "model/log_files/log.h"
+#include "model/log_files/time_base.h"
 #include "tests/blind/model_residual.h"
 
 namespace armcal {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/input_error.h"
+#include "model/text/input_error.h"
 #include "tests/blind/blind_program.h"
 #include "tests/blind/blind_score.h"
 #include "tests/blind/day_changes.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/inverse_dynamics.h"
-#include "model/kinematics.h"
+#include "model/dynamics/inverse_dynamics.h"
+#include "model/robot/kinematics.h"
 #include "tests/blind/real_log.h"
 
 namespace armcal {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "model/log.h"
-#include "model/robot.h"
+#include "model/log_files/log.h"
+#include "model/robot/robot.h"
 #include "tests/blind/blind_label.h"
 
 namespace armcal {

@@ -14,9 +14,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "model/input_text.h"
-#include "model/log_writer.h"
+#include "model/log_files/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
+#include "model/text/input_text.h"
 #include "tests/blind/blind_program.h"
 #include "tests/blind/case_files.h"
 #include "tests/blind/sized_case.h"

@@ -14,9 +14,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "model/log_writer.h"
+#include "model/log_files/log_writer.h"
 #include "model/plant/random_stream.h"
-#include "model/robot_reader.h"
+#include "model/robot_files/robot_reader.h"
 #include "tests/blind/blind_program.h"
 #include "tests/blind/case_files.h"
 #include "tests/blind/withheld_size.h"

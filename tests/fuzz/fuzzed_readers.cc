@@ -4,16 +4,16 @@
 #include <fstream>
 #include <sstream>
 
-#include "calib/calibration_reader.h"
-#include "calib/factor_file.h"
-#include "calib/given_calibration.h"
-#include "calib/sha256.h"
-#include "model/bag_folder.h"
-#include "model/controller_reader.h"
-#include "model/input_error.h"
-#include "model/log_reader.h"
-#include "model/pose_reader.h"
-#include "model/robot_reader.h"
+#include "calib/fleet/factor_file.h"
+#include "calib/numerics/sha256.h"
+#include "calib/refine/calibration_reader.h"
+#include "calib/refine/given_calibration.h"
+#include "model/log_files/log_reader.h"
+#include "model/log_files/pose_reader.h"
+#include "model/robot_files/controller_reader.h"
+#include "model/robot_files/robot_reader.h"
+#include "model/ros_bags/bag_folder.h"
+#include "model/text/input_error.h"
 
 namespace armcal {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "model/batch_inverse_dynamics.h"
-#include "model/batch_regressor.h"
-#include "tests/benchmark_log.h"
+#include "model/dynamics/batch_inverse_dynamics.h"
+#include "model/dynamics/batch_regressor.h"
+#include "tests/fixtures/benchmark_log.h"
 
 namespace armcal {
 namespace {

@@ -12,9 +12,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "model/urdf_writer.h"
-#include "tests/benchmark_log.h"
-#include "tests/free_fall.h"
+#include "model/robot_files/urdf_writer.h"
+#include "tests/fixtures/benchmark_log.h"
+#include "tests/fixtures/free_fall.h"
 
 namespace armcal {
 namespace {

@@ -12,8 +12,8 @@
 #include <pinocchio/algorithm/rnea.hpp>
 #include <vector>
 
-#include "model/robot.h"
-#include "tests/benchmark_log.h"
+#include "model/robot/robot.h"
+#include "tests/fixtures/benchmark_log.h"
 
 namespace armcal {
 namespace {

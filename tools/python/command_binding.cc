@@ -6,11 +6,11 @@
 #include <chrono>
 #include <thread>
 
-#include "calib/thread_limit.h"
-#include "calib/torque_trace.h"
-#include "model/decimal_point.h"
-#include "model/log_reader.h"
-#include "model/trajectory.h"
+#include "calib/logs/torque_trace.h"
+#include "calib/numerics/thread_limit.h"
+#include "model/log_files/log_reader.h"
+#include "model/signals/trajectory.h"
+#include "model/text/decimal_point.h"
 #include "tools/flag_text.h"
 #include "tools/input_flags.h"
 #include "tools/python/flag_session.h"

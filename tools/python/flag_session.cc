@@ -3,7 +3,7 @@
 #include <chrono>
 #include <vector>
 
-#include "model/input_text.h"
+#include "model/text/input_text.h"
 #include "tools/flag_parser.h"
 #include "tools/python/samples.h"
 

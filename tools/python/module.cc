@@ -3,7 +3,7 @@
 #include <glog/logging.h>
 #include <pybind11/pybind11.h>
 
-#include "model/input_error.h"
+#include "model/text/input_error.h"
 #include "tools/command.h"
 #include "tools/python/command_binding.h"
 #include "tools/python/robot_binding.h"

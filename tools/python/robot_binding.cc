@@ -6,14 +6,14 @@
 
 #include <filesystem>
 
-#include "model/decimal_point.h"
-#include "model/forward_dynamics.h"
-#include "model/input_text.h"
-#include "model/inverse_dynamics.h"
-#include "model/kinematics.h"
-#include "model/robot_reader.h"
-#include "model/urdf_update.h"
-#include "model/urdf_writer.h"
+#include "model/dynamics/forward_dynamics.h"
+#include "model/dynamics/inverse_dynamics.h"
+#include "model/robot/kinematics.h"
+#include "model/robot_files/robot_reader.h"
+#include "model/robot_files/urdf_update.h"
+#include "model/robot_files/urdf_writer.h"
+#include "model/text/decimal_point.h"
+#include "model/text/input_text.h"
 #include "tools/python/loaded_robot.h"
 #include "tools/python/samples.h"
 

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "calib/log_set.h"
-#include "calib/position_trace.h"
-#include "calib/torque_trace.h"
-#include "model/robot.h"
+#include "calib/closed_loop/position_trace.h"
+#include "calib/logs/log_set.h"
+#include "calib/logs/torque_trace.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string_view>
 
-#include "calib/sha256.h"
-#include "model/input_error.h"
+#include "calib/numerics/sha256.h"
+#include "model/text/input_error.h"
 #include "tools/report/assets.h"
 
 namespace armcal {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "model/forward_dynamics.h"
-#include "model/inverse_dynamics.h"
+#include "model/dynamics/forward_dynamics.h"
+#include "model/dynamics/inverse_dynamics.h"
 #include "model/plant/hidden/random_signal.h"
 
 namespace armcal {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/simulated_robot.h"
+#include "model/dynamics/simulated_robot.h"
 
 namespace armcal {
 

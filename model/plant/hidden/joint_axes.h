@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "model/simulated_robot.h"
+#include "model/dynamics/simulated_robot.h"
 
 namespace armcal {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/simulated_robot.h"
+#include "model/dynamics/simulated_robot.h"
 
 namespace armcal {
 

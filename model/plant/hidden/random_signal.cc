@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/uniform_draw.h"
+#include "model/text/uniform_draw.h"
 
 namespace armcal {
 

@@ -2,11 +2,11 @@
 
 #include <memory>
 
-#include "model/input_error.h"
+#include "model/dynamics/rigid_arm.h"
 #include "model/plant/hidden/joint_friction.h"
 #include "model/plant/robot_variation.h"
 #include "model/plant/simbody_arm.h"
-#include "model/rigid_arm.h"
+#include "model/text/input_error.h"
 
 namespace armcal {
 

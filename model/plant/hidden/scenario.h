@@ -8,7 +8,7 @@
 #include "model/plant/closed_loop.h"
 #include "model/plant/hidden/hidden_effects.h"
 #include "model/plant/reference_motion.h"
-#include "model/robot.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 

@@ -1,0 +1,346 @@
+#include "calib/diagnose/candidates/candidates.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "calib/diagnose/candidates/proposals.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Search = EffectParameter::Search;
+
+// What the nonlinear parameters of an effect may be.
+struct Shape {
+  VectorXd p;
+  int log = -1;
+};
+
+std::vector<Shape> Expand(const std::vector<Shape>& shapes, int k,
+                          const std::vector<double>& values) {
+  std::vector<Shape> more;
+  for (const Shape& shape : shapes) {
+    for (const double value : values) {
+      more.push_back(shape);
+      more.back().p[k] = value;
+    }
+  }
+  return more;
+}
+
+// At the times that stand out, in the log they are of.
+std::vector<Shape> AtTimes(const Effect& effect, const GapProposals& proposals,
+                           const std::vector<Shape>& shapes, int* tried) {
+  std::vector<Shape> windows;
+  int all = 0;
+  for (int log = 0; log < proposals.num_logs(); ++log) {
+    int searched = 0;
+    for (const TimeWindow& window : proposals.Windows(log, &searched)) {
+      for (Shape shape : shapes) {
+        for (size_t k = 0; k < effect.parameters.size(); ++k) {
+          const Search search = effect.parameters[k].search;
+          if (search == Search::kTime) shape.p[k] = window.centre;
+          if (search == Search::kDuration) shape.p[k] = window.duration / 2;
+        }
+        shape.log = log;
+        windows.push_back(shape);
+      }
+    }
+    all += searched;
+  }
+  *tried *= std::max(1, all);
+  return windows;
+}
+
+// All combinations of values of the nonlinear parameters.
+std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
+                          const GapProposals& proposals, int* tried) {
+  // Frequencies that a search passes.
+  constexpr int kHarmonics = 200, kFrequencies = 400;
+  std::vector<Shape> shapes = {{VectorXd::Zero(effect.parameters.size())}};
+  *tried = 1;
+  bool happens_once = false;
+  for (size_t i = 0; i < effect.parameters.size(); ++i) {
+    const int k = static_cast<int>(i);
+    const EffectParameter& parameter = effect.parameters[i];
+    switch (parameter.search) {
+      case Search::kLinear:
+        break;
+      case Search::kGrid:
+      case Search::kRefined: {
+        std::vector<double> grid = parameter.grid(site);
+        if (parameter.search == Search::kRefined) {
+          grid = {grid.begin() + 1, grid.end() - 1};
+        }
+        shapes = Expand(shapes, k, grid);
+        *tried *= static_cast<int>(grid.size());
+        break;
+      }
+      case Search::kPositionFrequency:
+        shapes = Expand(shapes, k, proposals.Harmonics(site.joint));
+        *tried *= kHarmonics;
+        break;
+      case Search::kTimeFrequency:
+        shapes = Expand(shapes, k, proposals.Frequencies(site.joint));
+        *tried *= kFrequencies;
+        break;
+      case Search::kTime:
+      case Search::kDuration:
+        happens_once = true;
+        break;
+    }
+  }
+  return happens_once ? AtTimes(effect, proposals, shapes, tried) : shapes;
+}
+
+void ListShapes(const Effect& effect, const EffectSite& site,
+                const GapProposals& proposals,
+                std::vector<GapCandidate>* candidates) {
+  if (effect.unfit && !effect.unfit(site).empty()) return;
+  int tried = 1;
+  for (const Shape& shape : Shapes(effect, site, proposals, &tried)) {
+    GapCandidate candidate;
+    candidate.effect = &effect;
+    candidate.joint = site.joint;
+    candidate.p = shape.p;
+    candidate.log = shape.log;
+    candidate.tried = tried;
+    for (size_t k = 0; k < effect.parameters.size(); ++k) {
+      if (effect.parameters[k].search != Search::kLinear) continue;
+      candidate.linear.push_back(static_cast<int>(k));
+      candidate.size.conservativeResize(candidate.linear.size());
+      candidate.size[candidate.size.size() - 1] =
+          effect.parameters[k].size(site);
+    }
+    if (candidate.size.allFinite() && (candidate.size.array() > 0).all()) {
+      candidates->push_back(candidate);
+    }
+  }
+}
+
+}  // namespace
+
+std::string GapCandidate::place() const {
+  return effect->name + (joint < 0 ? "" : "@" + std::to_string(joint + 1));
+}
+
+bool SamePlace(const GapCandidate& a, const GapCandidate& b) {
+  return a.effect == b.effect && a.joint == b.joint;
+}
+
+std::vector<GapCandidate> AllBut(std::vector<GapCandidate> effects, size_t k) {
+  effects.erase(effects.begin() + static_cast<long>(k));
+  return effects;
+}
+
+std::vector<GapCandidate> ListCandidates(
+    const GapBaseline& baseline, const GapRows& rows, const MotionScale& scale,
+    const MatrixXd& residual, const std::vector<std::string>& without) {
+  const GapProposals proposals(rows, residual);
+  std::vector<GapCandidate> candidates;
+  for (const Effect& effect : Effects()) {
+    if (std::count(without.begin(), without.end(), effect.name) > 0) continue;
+    const bool whole = effect.scope == Effect::Scope::kRobot;
+    for (int j = whole ? -1 : 0; j < (whole ? 0 : rows.num_joints()); ++j) {
+      ListShapes(effect, {&baseline.robot(), j, &scale}, proposals,
+                 &candidates);
+    }
+  }
+  return candidates;
+}
+
+bool SwingsInTime(const Effect& effect) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                     [](const EffectParameter& parameter) {
+                       return parameter.search ==
+                              EffectParameter::Search::kTimeFrequency;
+                     });
+}
+
+std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate) {
+  std::vector<GapCandidate> larger;
+  for (const double multiple : candidate.effect->larger_sizes) {
+    larger.push_back(candidate);
+    larger.back().size *= multiple;
+    larger.back().tried *= 1 + candidate.effect->larger_sizes.size();
+    larger.back().is_larger = true;
+    larger.back().torque.clear();
+  }
+  return larger;
+}
+
+std::vector<GapCandidate> FewLargerOnes(const GapCandidate& candidate) {
+  constexpr size_t kFew = 5;
+  const std::vector<GapCandidate> all = LargerOnes(candidate);
+  if (all.size() <= kFew) return all;
+  std::vector<GapCandidate> few;
+  for (size_t k = 0; k < kFew; ++k) {
+    few.push_back(all[(2 * k + 1) * all.size() / (2 * kFew)]);
+  }
+  return few;
+}
+
+std::vector<int> FirstShapes(const std::vector<GapCandidate>& candidates) {
+  std::vector<int> first;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].effect->larger_sizes.empty()) continue;
+    if (std::none_of(first.begin(), first.end(), [&](int other) {
+          return SamePlace(candidates[other], candidates[i]);
+        })) {
+      first.push_back(static_cast<int>(i));
+    }
+  }
+  return first;
+}
+
+bool HasShape(const GapCandidate& candidate) {
+  return candidate.linear.size() < candidate.effect->parameters.size() ||
+         !candidate.effect->larger_sizes.empty();
+}
+
+std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects) {
+  std::vector<GapCandidate> sharper;
+  for (GapCandidate effect : effects) {
+    if (!HasShape(effect)) continue;
+    for (size_t l = 0; l < effect.linear.size(); ++l) {
+      double& p = effect.p[effect.linear[l]];
+      // A size matters to what grows with it otherwise than linearly.
+      if (!effect.effect->larger_sizes.empty() && p > 0) effect.size[l] = p;
+      p = 0;
+    }
+    effect.is_larger = true;
+    effect.torque.clear();
+    sharper.push_back(effect);
+  }
+  return sharper;
+}
+
+void AddThinned(const GapRows& rows, int segment,
+                const std::vector<RecordedTorque::OfJoints>& torques,
+                const std::vector<JointRows*>& thin) {
+  constexpr size_t kColumns = 12;  // filtered at once
+  std::vector<std::pair<const VectorXd*, VectorXd*>> columns;
+  for (size_t i = 0; i < torques.size(); ++i) {
+    for (int j = 0; j < rows.num_joints(); ++j) {
+      if (torques[i][j].size() == 0) continue;
+      VectorXd& all = (*thin[i])[j];
+      if (all.size() == 0) all = VectorXd::Zero(rows.num_thin());
+      columns.emplace_back(&torques[i][j], &all);
+    }
+  }
+  const int begin = rows.thin_begin(segment);
+  for (size_t first = 0; first < columns.size(); first += kColumns) {
+    const size_t count = std::min(kColumns, columns.size() - first);
+    MatrixXd fine(columns[first].first->size(), count);
+    for (size_t c = 0; c < count; ++c) fine.col(c) = *columns[first + c].first;
+    const MatrixXd low = rows.Thin(segment, fine);
+    for (size_t c = 0; c < count; ++c) {
+      columns[first + c].second->segment(begin, low.rows()) = low.col(c);
+    }
+  }
+}
+
+namespace {
+
+// One of a candidate's torques.
+struct TorqueOf {
+  GapCandidate* candidate;
+  size_t k;
+
+  SimulatedRobot Robot(const GapBaseline& baseline,
+                       const MotionScale& scale) const {
+    VectorXd p = candidate->p;
+    p[candidate->linear[k]] = candidate->size[k];
+    SimulatedRobot changed;
+    changed.robot = baseline.robot();
+    candidate->effect->apply({&baseline.robot(), candidate->joint, &scale}, p,
+                             &changed);
+    return changed;
+  }
+};
+
+void Evaluate(const std::vector<TorqueOf>& torques, const GapBaseline& baseline,
+              const GapRows& rows, const MotionScale& scale,
+              std::vector<RecordedTorque>* recorded) {
+  for (const TorqueOf& one : torques) {
+    one.candidate->torque[one.k].resize(rows.num_joints());
+  }
+  for (size_t s = 0; s < recorded->size(); ++s) {
+    std::vector<SimulatedRobot> changed;
+    std::vector<JointRows*> thin;
+    for (const TorqueOf& one : torques) {
+      if (!one.candidate->IsIn(rows.segments()[s].log)) continue;
+      changed.push_back(one.Robot(baseline, scale));
+      thin.push_back(&one.candidate->torque[one.k]);
+    }
+    AddThinned(rows, static_cast<int>(s), (*recorded)[s].Changes(changed),
+               thin);
+  }
+}
+
+}  // namespace
+
+void ReuseTorques(std::vector<GapCandidate>* evaluated,
+                  std::vector<GapCandidate>* candidates) {
+  for (GapCandidate& candidate : *candidates) {
+    const auto same = std::find_if(
+        evaluated->begin(), evaluated->end(), [&](const GapCandidate& other) {
+          return !other.torque.empty() && SamePlace(other, candidate) &&
+                 other.log == candidate.log && other.p == candidate.p &&
+                 other.size == candidate.size;
+        });
+    if (same != evaluated->end()) candidate.torque = std::move(same->torque);
+  }
+}
+
+void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
+                        const MotionScale& scale,
+                        const std::vector<RecordedTorque>& torques,
+                        std::vector<GapCandidate>* candidates) {
+  // Neighbours share what they can, instants of the motion above all.
+  constexpr size_t kTogether = 16;
+  std::vector<std::vector<TorqueOf>> missing;
+  for (GapCandidate& candidate : *candidates) {
+    if (!candidate.torque.empty()) continue;
+    candidate.torque.resize(candidate.linear.size());
+    for (size_t k = 0; k < candidate.linear.size(); ++k) {
+      if (missing.empty() || missing.back().size() == kTogether) {
+        missing.emplace_back();
+      }
+      missing.back().push_back({&candidate, k});
+    }
+  }
+  tbb::enumerable_thread_specific<std::vector<RecordedTorque>> own(torques);
+  tbb::parallel_for(
+      tbb::blocked_range<size_t>(0, missing.size()),
+      [&](const tbb::blocked_range<size_t>& range) {
+        for (size_t i = range.begin(); i < range.end(); ++i) {
+          Evaluate(missing[i], baseline, rows, scale, &own.local());
+        }
+      },
+      tbb::simple_partitioner());
+}
+
+void AddCandidates(const GapRows& rows, std::vector<GapCandidate>* candidates,
+                   GapScreen* screen) {
+  for (GapCandidate& candidate : *candidates) {
+    candidate.columns.clear();
+    for (const JointRows& torque : candidate.torque) {
+      JointRows column(torque.size());
+      for (size_t j = 0; j < torque.size(); ++j) {
+        if (torque[j].size() == 0) continue;
+        column[j] = rows.Whiten(static_cast<int>(j), torque[j]);
+      }
+      candidate.columns.push_back(screen->AddColumn(std::move(column)));
+    }
+  }
+}
+
+}  // namespace armcal

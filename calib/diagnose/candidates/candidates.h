@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/data/baseline.h"
+#include "calib/diagnose/data/rows.h"
+#include "calib/diagnose/data/screen.h"
+#include "model/effects/effects.h"
+
+namespace armcal {
+
+// An effect at a place, its shape given: torque is linear in what is left.
+struct GapCandidate {
+  const Effect* effect = nullptr;
+  int joint = -1;           // from 0; -1: the whole robot
+  Eigen::VectorXd p;        // linear parameters 0
+  std::vector<int> linear;  // entries of p
+  Eigen::VectorXd size;     // of the linear ones: their column's unit
+  // Torque of each of them at its size: per joint thinned samples, empty where
+  // it is zero.
+  std::vector<JointRows> torque;
+  std::vector<int> columns;  // of the screen, in the order of `linear`
+  int log = -1;   // the one it happened in, of what happens once; -1: all
+  int tried = 1;  // shapes of the same effect at the same place
+  bool is_larger = false;  // than the first size of its effect
+  bool IsIn(int other_log) const { return log < 0 || log == other_log; }
+  std::string place() const;
+};
+
+// Whether they are one effect at one place, of which there are not two.
+bool SamePlace(const GapCandidate& a, const GapCandidate& b);
+
+// In their order, without the k-th.
+std::vector<GapCandidate> AllBut(std::vector<GapCandidate> effects, size_t k);
+
+// Every effect but those `without` names, at every place, at every value of its
+// grids. Shapes that are found in the residual (frequencies, times) come from
+// `residual`, thinned samples x n.
+std::vector<GapCandidate> ListCandidates(
+    const GapBaseline& baseline, const GapRows& rows, const MotionScale& scale,
+    const Eigen::MatrixXd& residual, const std::vector<std::string>& without);
+
+// Whether it is a sine and a cosine of time, whose phase is each log's own.
+bool SwingsInTime(const Effect& effect);
+
+// The same candidate at the larger sizes of its effect; at a few of them.
+std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate);
+std::vector<GapCandidate> FewLargerOnes(const GapCandidate& candidate);
+// One candidate (index) of each effect that has larger sizes, at each place.
+std::vector<int> FirstShapes(const std::vector<GapCandidate>& candidates);
+
+// Whether its torque is not linear in all of its parameters.
+bool HasShape(const GapCandidate& candidate);
+// Of effects, those that have a shape as candidates of that shape and size.
+std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects);
+
+// Low-passes and thins torques of a segment into the thinned samples of all,
+// per joint; joints that they are nothing of stay empty.
+void AddThinned(const GapRows& rows, int segment,
+                const std::vector<RecordedTorque::OfJoints>& torques,
+                const std::vector<JointRows*>& thin);
+
+// Moves torques to candidates from those that are the same, which are left
+// without.
+void ReuseTorques(std::vector<GapCandidate>* evaluated,
+                  std::vector<GapCandidate>* candidates);
+
+// Fills in the torques of those that have none, several at a time.
+void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
+                        const MotionScale& scale,
+                        const std::vector<RecordedTorque>& torques,
+                        std::vector<GapCandidate>* candidates);
+
+// Their columns, whitened as the rows are now.
+void AddCandidates(const GapRows& rows, std::vector<GapCandidate>* candidates,
+                   GapScreen* screen);
+
+}  // namespace armcal

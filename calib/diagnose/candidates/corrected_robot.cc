@@ -1,0 +1,90 @@
+#include "calib/diagnose/candidates/corrected_robot.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "model/dynamics/forward_dynamics.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::VectorXd;
+
+// Of the inertia that a joint moves: a motor so light that its link does not
+// feel it, and not so light that it rings faster than can be simulated.
+constexpr double kLightMotor = .02;
+
+void GiveMotors(const MotionScale& scale, CorrectedRobot* corrected) {
+  Robot& robot = corrected->plant.robot;
+  const VectorXd inertia =
+      MassMatrix(robot, (scale.low + scale.high) / 2).diagonal();
+  for (const Transmission& law : corrected->plant.transmissions) {
+    Joint& joint = robot.links[law.joint].joint;
+    if (joint.armature > 0) continue;
+    joint.armature = kLightMotor * inertia[law.joint];
+    char text[120];
+    std::snprintf(text, sizeof(text),
+                  "joint %s yields but has no armature: simulated with %.3g %s",
+                  joint.name.c_str(), joint.armature,
+                  IsRotational(joint.type) ? "kg m^2" : "kg");
+    corrected->notes.push_back(text);
+  }
+}
+
+// How much of the plant is not its robot.
+size_t NumSlots(const SimulatedRobot& plant) {
+  return plant.joint_laws.size() + plant.transmissions.size() +
+         plant.wrenches.size() + plant.actuators.size() + plant.sensors.size() +
+         plant.thermal.size() + (plant.clock ? 1 : 0) +
+         (plant.torque_delay != 0 ? 1 : 0);
+}
+
+CarriedEffect Carry(const EffectSite& site, const GapCandidate& found,
+                    SimulatedRobot* plant) {
+  const size_t slots = NumSlots(*plant);
+  found.effect->apply(site, found.p, plant);
+  return {found, EstimatesOf(*found.effect, site, found.p),
+          NumSlots(*plant) == slots};
+}
+
+}  // namespace
+
+CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
+                                  const VectorXd& x,
+                                  const std::vector<GapCandidate>& effects,
+                                  const MotionScale& scale) {
+  CorrectedRobot corrected;
+  corrected.delay = baseline.DelayAt(x);
+  corrected.width = scale.width;
+  corrected.scale = scale;
+  const Robot fitted = baseline.With(x);
+  corrected.plant.robot = fitted;
+  for (const KnownEffect& known : baseline.KnownAt(x)) {
+    GapCandidate effect;
+    effect.effect = known.effect;
+    effect.joint = known.joint;
+    effect.p = known.p;
+    corrected.effects.push_back(
+        Carry({&fitted, known.joint, &baseline.known().scale()}, effect,
+              &corrected.plant));
+  }
+  for (const GapCandidate& effect : effects) {
+    corrected.effects.push_back(
+        Carry({&fitted, effect.joint, &scale}, effect, &corrected.plant));
+  }
+  // Who replays a log applies all of it.
+  corrected.delay += corrected.plant.torque_delay;
+  corrected.plant.torque_delay = 0;
+  for (int j = 0; j < fitted.num_joints(); ++j) {
+    std::vector<CoulombPart> coulomb = baseline.CoulombAt(j, x);
+    // Effects may have changed the joint's own friction.
+    coulomb.front().force += corrected.plant.robot.links[j].joint.coulomb -
+                             fitted.links[j].joint.coulomb;
+    AddJointTerms(j, coulomb, &corrected.plant);
+    corrected.coulomb.push_back(std::move(coulomb));
+  }
+  GiveMotors(scale, &corrected);
+  return corrected;
+}
+
+}  // namespace armcal

@@ -1,0 +1,350 @@
+#include "calib/diagnose/candidates/refinement.h"
+
+#include <ceres/ceres.h>
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+#include "calib/diagnose/candidates/coordinates.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+using RowMajorMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int kMostIterations = 12;
+
+// What effects leave of the torque, and forward differences of it as Ceres
+// takes them, of several parameters at a time. Whatever was evaluated once is
+// kept: solvers ask again for what they have accepted.
+class ProjectedResidual : public ceres::CostFunction {
+ public:
+  ProjectedResidual(const GapScreen& screen, const GapBaseline& baseline,
+                    const MotionScale& scale, std::vector<GapCandidate> effects,
+                    std::vector<Coordinate> coordinates, const GapData& data)
+      : screen_(screen),
+        baseline_(baseline),
+        scale_(scale),
+        effects_(std::move(effects)),
+        coordinates_(std::move(coordinates)),
+        data_(data),
+        costs_as_much_together_(
+            std::any_of(effects_.begin(), effects_.end(),
+                        [](const GapCandidate& effect) {
+                          return !effect.effect->larger_sizes.empty();
+                        })),
+        torques_(data.torques()) {
+    mutable_parameter_block_sizes()->push_back(
+        static_cast<int>(coordinates_.size()));
+    set_num_residuals(static_cast<int>(
+        screen.ResidualBeside(JointRows(screen.num_joints())).size()));
+  }
+
+  std::vector<GapCandidate> At(const VectorXd& u) const {
+    std::vector<GapCandidate> effects = effects_;
+    for (size_t k = 0; k < coordinates_.size(); ++k) {
+      const Coordinate& c = coordinates_[k];
+      effects[c.effect].p[c.parameter] = c.Value(u[k]);
+    }
+    return effects;
+  }
+
+  // The lowest around what a search found. What rings has a minimum wherever
+  // its oscillation is in phase for a while, and only one where it stays so.
+  VectorXd LowestAround(const VectorXd& u) const {
+    std::vector<VectorXd> points = {u};
+    for (const Coordinate& shape : coordinates_) {
+      if (ParameterOf(shape).search != EffectParameter::Search::kRefined) {
+        continue;
+      }
+      for (const Coordinate& size : coordinates_) {
+        if (size.effect == shape.effect &&
+            ParameterOf(size).search == EffectParameter::Search::kLinear) {
+          AddAround(size, shape, &points);
+        }
+      }
+    }
+    double lowest = std::numeric_limits<double>::infinity();
+    VectorXd best = u;
+    if (points.size() == 1) return best;
+    const std::vector<JointRows> torques = Torques(points);
+    for (size_t k = 0; k < points.size(); ++k) {
+      const double left = screen_.ResidualBeside(torques[k]).squaredNorm();
+      if (!(left < lowest)) continue;
+      lowest = left;
+      best = points[k];
+    }
+    return best;
+  }
+
+  VectorXd BaselineAt(const VectorXd& u) const {
+    return screen_.BaselineBeside(Find(u).torque);
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const auto size = static_cast<Eigen::Index>(coordinates_.size());
+    Point& point = Find(Eigen::Map<const VectorXd>(parameters[0], size));
+    if (!point.residual.allFinite()) return false;
+    Eigen::Map<VectorXd>(residuals, num_residuals()) = point.residual;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    if (point.jacobian.size() == 0) Differentiate(&point);
+    if (!point.jacobian.allFinite()) return false;
+    std::copy(point.jacobian.data(),
+              point.jacobian.data() + point.jacobian.size(), jacobians[0]);
+    return true;
+  }
+
+ private:
+  struct Point {
+    VectorXd u;
+    JointRows torque;  // whitened
+    VectorXd residual;
+    RowMajorMatrix jacobian;        // empty: not asked for yet
+    std::vector<JointRows> beside;  // torques of its neighbours, likewise
+  };
+
+  const EffectParameter& ParameterOf(const Coordinate& c) const {
+    return effects_[c.effect].effect->parameters[c.parameter];
+  }
+
+  // From half of a size to twice of it, for values of a shape.
+  void AddAround(const Coordinate& size, const Coordinate& shape,
+                 std::vector<VectorXd>* points) const {
+    constexpr int kSteps = 12;  // to either side
+    const VectorXd u = points->front();
+    for (const double share : {0., .01, .03, .1, .3}) {
+      for (int k = -kSteps; k <= kSteps; ++k) {
+        VectorXd at = u;
+        at[&size - coordinates_.data()] = size.Inverse(
+            size.centre * std::pow(2, k / static_cast<double>(kSteps)));
+        at[&shape - coordinates_.data()] =
+            shape.Inverse(shape.low + share * (shape.high - shape.low));
+        points->push_back(at);
+      }
+    }
+  }
+
+  std::vector<JointRows> Torques(const std::vector<VectorXd>& points) const {
+    std::vector<std::vector<GapCandidate>> sets;
+    for (const VectorXd& u : points) sets.push_back(At(u));
+    std::vector<JointRows> torques =
+        EffectTorques(baseline_, scale_, sets, data_.rows(), &torques_.local());
+    for (JointRows& torque : torques) torque = WhitenEach(data_.rows(), torque);
+    return torques;
+  }
+
+  Point& Find(const VectorXd& u) const {
+    for (Point& point : points_) {
+      if (point.u == u) return point;
+    }
+    std::vector<VectorXd> all = {u};
+    if (costs_as_much_together_) {
+      for (const Neighbour& next : NeighboursOf(u)) all.push_back(next.u);
+    }
+    std::vector<JointRows> torques = Torques(all);
+    points_.push_back(
+        {u, torques[0], screen_.ResidualBeside(torques[0]), {}, {}});
+    torques.erase(torques.begin());
+    points_.back().beside = std::move(torques);
+    return points_.back();
+  }
+
+  // Where differences are taken, a coordinate each.
+  struct Neighbour {
+    VectorXd u;
+    double step;
+  };
+  std::vector<Neighbour> NeighboursOf(const VectorXd& u) const {
+    constexpr double kRelativeStep = 1e-4;
+    const double least =
+        std::sqrt(std::numeric_limits<double>::epsilon());  // Ceres'
+    std::vector<Neighbour> neighbours;
+    for (Eigen::Index k = 0; k < u.size(); ++k) {
+      neighbours.push_back(
+          {u, std::max(least, kRelativeStep * std::abs(u[k]))});
+      neighbours.back().u[k] += neighbours.back().step;
+    }
+    return neighbours;
+  }
+
+  void Differentiate(Point* point) const {
+    const std::vector<Neighbour> neighbours = NeighboursOf(point->u);
+    if (point->beside.empty()) {
+      std::vector<VectorXd> all;
+      for (const Neighbour& next : neighbours) all.push_back(next.u);
+      point->beside = Torques(all);
+    }
+    point->jacobian.resize(num_residuals(), point->u.size());
+    for (Eigen::Index k = 0; k < point->u.size(); ++k) {
+      point->jacobian.col(k) =
+          (screen_.ResidualBeside(point->beside[k]) - point->residual) *
+          (1 / neighbours[k].step);
+    }
+  }
+
+  const GapScreen& screen_;
+  const GapBaseline& baseline_;
+  const MotionScale& scale_;
+  std::vector<GapCandidate> effects_;
+  std::vector<Coordinate> coordinates_;
+  const GapData& data_;
+  // Whether a point takes about as long as with its neighbours, in lanes.
+  bool costs_as_much_together_;
+  mutable tbb::enumerable_thread_specific<std::vector<RecordedTorque>> torques_;
+  mutable std::deque<Point> points_;
+};
+
+void SetBounds(const std::vector<Coordinate>& coordinates, double* u,
+               ceres::Problem* problem) {
+  for (size_t k = 0; k < coordinates.size(); ++k) {
+    const Coordinate& c = coordinates[k];
+    const int index = static_cast<int>(k);
+    if (std::isfinite(c.low)) {
+      u[k] = std::max(u[k], c.Inverse(c.low));
+      problem->SetParameterLowerBound(u, index, c.Inverse(c.low));
+    }
+    if (std::isfinite(c.high)) {
+      u[k] = std::min(u[k], c.Inverse(c.high));
+      problem->SetParameterUpperBound(u, index, c.Inverse(c.high));
+    }
+  }
+}
+
+// (J'J)^-1 in the units of p, without the directions that bounds hold.
+MatrixXd CovarianceAt(const ceres::CostFunction& cost,
+                      const std::vector<Coordinate>& coordinates,
+                      const VectorXd& u) {
+  const int size = static_cast<int>(u.size());
+  VectorXd residual(cost.num_residuals());
+  RowMajorMatrix J(cost.num_residuals(), size);
+  const double* block = u.data();
+  double* jacobian = J.data();
+  MatrixXd covariance = MatrixXd::Zero(size, size);
+  if (!cost.Evaluate(&block, residual.data(), &jacobian)) return covariance;
+  std::vector<int> free;
+  for (int k = 0; k < size; ++k) {
+    if (!coordinates[k].AtBound(u[k]) && J.col(k).squaredNorm() > 0) {
+      free.push_back(k);
+    }
+  }
+  if (free.empty()) return covariance;
+  MatrixXd information(free.size(), free.size());
+  for (size_t a = 0; a < free.size(); ++a) {
+    for (size_t b = 0; b < free.size(); ++b) {
+      information(a, b) = J.col(free[a]).dot(J.col(free[b]));
+    }
+  }
+  const MatrixXd inverse =
+      information.completeOrthogonalDecomposition().pseudoInverse();
+  for (size_t a = 0; a < free.size(); ++a) {
+    for (size_t b = 0; b < free.size(); ++b) {
+      covariance(free[a], free[b]) = inverse(a, b) *
+                                     coordinates[free[a]].Slope(u[free[a]]) *
+                                     coordinates[free[b]].Slope(u[free[b]]);
+    }
+  }
+  return covariance;
+}
+
+// From coordinates to all parameters one after the other.
+MatrixXd Spread(const std::vector<GapCandidate>& effects,
+                const std::vector<Coordinate>& coordinates,
+                const MatrixXd& covariance) {
+  std::vector<int> begin = {0};
+  for (const GapCandidate& effect : effects) {
+    begin.push_back(begin.back() + static_cast<int>(effect.p.size()));
+  }
+  MatrixXd all = MatrixXd::Zero(begin.back(), begin.back());
+  for (size_t a = 0; a < coordinates.size(); ++a) {
+    for (size_t b = 0; b < coordinates.size(); ++b) {
+      all(begin[coordinates[a].effect] + coordinates[a].parameter,
+          begin[coordinates[b].effect] + coordinates[b].parameter) =
+          covariance(a, b);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
+                       const std::vector<GapCandidate>& effects,
+                       GapData* data) {
+  return EffectTorques(baseline, scale, {effects}, data->rows(),
+                       data->mutable_torques())[0];
+}
+
+std::vector<JointRows> EffectTorques(
+    const GapBaseline& baseline, const MotionScale& scale,
+    const std::vector<std::vector<GapCandidate>>& sets, const GapRows& rows,
+    std::vector<RecordedTorque>* torques) {
+  std::vector<JointRows> thin(sets.size(), JointRows(rows.num_joints()));
+  std::vector<JointRows*> to;
+  for (JointRows& one : thin) to.push_back(&one);
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i), log = rows.segments()[i].log;
+    std::vector<SimulatedRobot> changed(sets.size());
+    for (size_t k = 0; k < sets.size(); ++k) {
+      changed[k].robot = baseline.robot();
+      for (const GapCandidate& effect : sets[k]) {
+        if (!effect.IsIn(log)) continue;
+        effect.effect->apply({&baseline.robot(), effect.joint, &scale},
+                             effect.p, &changed[k]);
+      }
+    }
+    AddThinned(rows, s, (*torques)[i].Changes(changed), to);
+  }
+  return thin;
+}
+
+JointRows WhitenEach(const GapRows& rows, const JointRows& thin) {
+  JointRows white(thin.size());
+  for (size_t j = 0; j < thin.size(); ++j) {
+    if (thin[j].size() == 0) continue;
+    white[j] = rows.Whiten(static_cast<int>(j), thin[j]);
+  }
+  return white;
+}
+
+RefinedEffects RefineEffects(const GapScreen& screen,
+                             const GapBaseline& baseline,
+                             const MotionScale& scale,
+                             const std::vector<GapCandidate>& effects, int only,
+                             GapData* data) {
+  RefinedEffects refined;
+  refined.effects = effects;
+  const std::vector<Coordinate> coordinates =
+      ListCoordinates(baseline, scale, effects, only);
+  const int size = static_cast<int>(coordinates.size());
+  auto* cost = new ProjectedResidual(screen, baseline, scale, effects,
+                                     coordinates, *data);
+  VectorXd u = cost->LowestAround(VectorXd::Ones(size));
+  ceres::Problem problem;
+  problem.AddResidualBlock(cost, nullptr, u.data());
+  SetBounds(coordinates, u.data(), &problem);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = kMostIterations;
+  options.function_tolerance = 1e-5;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  refined.effects = cost->At(u);
+  refined.covariance =
+      Spread(effects, coordinates, CovarianceAt(*cost, coordinates, u));
+  refined.baseline = cost->BaselineAt(u);
+  refined.drop =
+      screen.ResidualBeside(JointRows(screen.num_joints())).squaredNorm() -
+      2 * summary.final_cost;
+  return refined;
+}
+
+}  // namespace armcal

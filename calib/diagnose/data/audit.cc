@@ -1,0 +1,91 @@
+#include "calib/diagnose/data/audit.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "model/dynamics/inverse_dynamics.h"
+#include "model/dynamics/link_regressor.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kShare = .1;  // of the inertial torque
+// Of the joint's torque: below it the arm hardly accelerates.
+constexpr double kLeastInertial = .01;
+
+// Thinned, all segments: the recorded torque, what it takes to accelerate the
+// links and armatures, and (per joint) torque at rest per unit of the links'
+// parameters, and a constant.
+struct StaticRegression {
+  MatrixXd torque, inertial;
+  std::vector<MatrixXd> columns;
+};
+
+StaticRegression Prepare(const Robot& robot, const GapRows& rows) {
+  const int n = robot.num_joints();
+  StaticRegression all;
+  all.torque.resize(rows.num_thin(), n);
+  all.inertial.resize(rows.num_thin(), n);
+  all.columns.assign(n, MatrixXd(rows.num_thin(), 10 * n + 1));
+  LinkRegressor regressor(robot);
+  const VectorXd rest = VectorXd::Zero(n);
+  MatrixXd P, D;
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i), begin = rows.thin_begin(s);
+    const Motion& motion = rows.segments()[i].motion;
+    const MatrixXd torque = rows.Thin(s, rows.segments()[i].tau);
+    const MatrixXd q = rows.Pick(s, motion.q), qdd = rows.Thin(s, motion.qdd);
+    all.torque.middleRows(begin, torque.rows()) = torque;
+    for (int k = 0; k < q.rows(); ++k) {
+      const VectorXd at = q.row(k), acceleration = qdd.row(k);
+      VectorXd inertial = InverseDynamics(robot, at, rest, acceleration) -
+                          InverseDynamics(robot, at, rest, rest);
+      regressor.Momentum(at, rest, &P, &D);
+      for (int j = 0; j < n; ++j) {
+        inertial[j] += robot.links[j].joint.armature * acceleration[j];
+        all.columns[j].row(begin + k) << -D.row(j), 1;
+      }
+      all.inertial.row(begin + k) = inertial;
+    }
+  }
+  return all;
+}
+
+double Rms(const VectorXd& x) {
+  return std::sqrt(x.squaredNorm() / std::max<Eigen::Index>(1, x.size()));
+}
+
+}  // namespace
+
+std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows) {
+  const StaticRegression all = Prepare(robot, rows);
+  int told = 0;
+  double worst = 0;
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    const std::vector<int> moving = rows.SampleOfRow(j);
+    if (moving.empty()) continue;
+    const VectorXd torque = all.torque.col(j)(moving);
+    const double inertial = Rms(all.inertial.col(j)(moving));
+    if (inertial < kLeastInertial * Rms(torque)) continue;
+    const MatrixXd columns = all.columns[j](moving, Eigen::all);
+    const VectorXd x = columns.completeOrthogonalDecomposition().solve(torque);
+    const double left = Rms(torque - columns * x);
+    ++told;
+    worst = std::max(worst, left / inertial);
+  }
+  if (told == 0 || worst > kShare) return {};
+  char evidence[200];
+  std::snprintf(evidence, sizeof evidence,
+                "a law of position alone leaves at most %.1f %% of the torque "
+                "that the recorded accelerations need",
+                100 * worst);
+  return {{"the torque was computed from the positions, not measured", evidence,
+           "log the motors' currents or measured torque"}};
+}
+
+}  // namespace armcal

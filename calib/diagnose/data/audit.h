@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/data/rows.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// Something about the data that a diagnosis depends on.
+struct DataFinding {
+  std::string finding;
+  std::string evidence;
+  std::string flag;  // what to change, or empty
+};
+
+// Whether the recorded torque was computed from the recorded positions, as a
+// gravity compensation's command is: then it follows a static law of position
+// to a tenth of what it takes at least to accelerate the arm as recorded, which
+// measured torque cannot. Empty where it was not, or where nothing tells: no
+// masses, hardly any acceleration.
+std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows);
+
+}  // namespace armcal

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/data/known_effects.h"
+#include "calib/diagnose/data/rows.h"
+#include "calib/logs/joint_term_laws.h"
+#include "model/dynamics/joint_term.h"
+#include "model/dynamics/recorded_torque.h"
+#include "model/effects/effect.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// One thing that the model may vary, in units of its prior's standard
+// deviation: an inertial parameter, a joint term, or a nuisance (how friction
+// changes sign, how torque and position are shifted in time), or an effect that
+// the robot is known to have.
+struct BaselineColumn {
+  // kDay: a joint term in the diagnosed logs only, not in a reference.
+  enum class Kind {
+    kInertial,
+    kTerm,
+    kZeroVelocity,
+    kReversal,
+    kTiming,
+    kDay,
+    kEffect
+  };
+  Kind kind;
+  int joint;      // or link; -1: all
+  int index = 0;  // inertial parameter or JointTerm or shape or parameter of
+                  // KnownEffects
+  double spread;  // SI units per prior standard deviation
+
+  // Whether it is one of the changes of friction near zero velocity that show
+  // where that is doubtful: half and twice the usual width.
+  bool IsZeroVelocityDoubt() const {
+    return kind == Kind::kZeroVelocity && (index == 1 || index == 2);
+  }
+};
+
+// The model that a gap is judged against: the robot, and how far each of its
+// parameters may be from it. `trust` is the relative standard deviation of the
+// file's inertial parameters, armature and friction.
+struct BaselineOptions {
+  double trust = 0.05;
+  // The same of armature and friction, where these are not the file's.
+  std::optional<double> joint_trust;
+  double timing_s = 5e-4;  // standard deviation, torque against position
+  // The same of friction's change of sign against that of the velocity, whose
+  // low pass takes a stop for a turn; 0: none.
+  double reversal_s = 0;
+};
+
+class GapBaseline {
+ public:
+  GapBaseline(const Robot& robot, const BaselineOptions& options,
+              const Eigen::VectorXd& usual_torque);
+
+  // The same freedom around values x: they are the new zero.
+  GapBaseline MovedTo(const Eigen::VectorXd& x) const;
+  // From now on friction may differ between a reference and the diagnosed logs
+  // by as much as that of gears does from day to day.
+  void FreeDays();
+  // From now on the linear parameters of these are columns, too. Once.
+  void AddKnown(const KnownEffects& known);
+
+  const Robot& robot() const { return robot_; }
+  int size() const { return static_cast<int>(columns_.size()); }
+  const std::vector<BaselineColumn>& columns() const { return columns_; }
+  const std::vector<CoulombTransition>& transitions() const {
+    return transitions_;
+  }
+  // Torque of all columns at unit value, low-passed and thinned: n matrices of
+  // thinned samples x size(), of which row k column c is joint j's.
+  std::vector<Eigen::MatrixXd> ThinColumns(
+      const GapRows& rows, const std::vector<RecordedTorque>& torques) const;
+  // The robot with these values of the columns; nuisances have no place in it.
+  Robot With(const Eigen::VectorXd& x) const;
+  // Coulomb friction of joint j at x: the joint's own, as far as it changes
+  // sign as transitions() say, and what the nuisances give to other widths.
+  std::vector<CoulombPart> CoulombAt(int j, const Eigen::VectorXd& x) const;
+  // The known effects at x.
+  std::vector<KnownEffect> KnownAt(const Eigen::VectorXd& x) const;
+  const KnownEffects& known() const { return known_; }
+  // By how much recorded torque is later than the motion, s.
+  double DelayAt(const Eigen::VectorXd& x) const;
+
+ private:
+  void AddLink(int link, double trust);
+  double WidthOf(const BaselineColumn& column) const;  // of kZeroVelocity
+  void AddTerms(int joint, double trust, double usual_torque);
+  void AddReversal(int joint, double timing);
+  Eigen::VectorXd FineColumn(const BaselineColumn& column, int j,
+                             const Eigen::MatrixXd& inertial,
+                             const RecordedTorque& torque) const;
+
+  Robot robot_;
+  std::vector<BaselineColumn> columns_;
+  KnownEffects known_;
+  std::vector<CoulombTransition> transitions_;
+};
+
+// A RecordedTorque per segment.
+std::vector<RecordedTorque> RecordedTorques(const GapBaseline& baseline,
+                                            const GapRows& rows);
+
+}  // namespace armcal

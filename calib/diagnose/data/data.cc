@@ -1,0 +1,142 @@
+#include "calib/diagnose/data/data.h"
+
+#include <algorithm>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Of one prior standard deviation of the ways through zero velocity.
+constexpr double kDoubt = .3, kDoubtOfMadeTorques = .5;
+constexpr double kNothing = 1e3;
+
+// A doubtful sample is in the whitened rows of all that follow it within the
+// noise's memory, and filters spread it as far before. Torques that are
+// recorded have more noise than that.
+MatrixXd Spread(const MatrixXd& doubt) {
+  constexpr Eigen::Index kReach = Autoregression::kOrder;
+  MatrixXd spread = doubt;
+  for (Eigen::Index k = 0; k < doubt.rows(); ++k) {
+    const Eigen::Index first = std::max<Eigen::Index>(0, k - kReach);
+    const Eigen::Index last = std::min(doubt.rows() - 1, k + kReach);
+    spread.row(k) =
+        doubt.middleRows(first, last - first + 1).colwise().maxCoeff();
+  }
+  return spread;
+}
+
+}  // namespace
+
+GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
+                 double bandwidth_hz, LogPart part)
+    : signals_(std::make_shared<Signals>()) {
+  signals_->segments = std::move(segments);
+  rows_ = std::make_unique<GapRows>(signals_->segments, bandwidth_hz, part);
+  torques_ = RecordedTorques(baseline, *rows_);
+  signals_->residual = rows_->ThinAll(FineResidual());
+  signals_->columns = columns_ =
+      std::make_shared<const Columns>(baseline.ThinColumns(*rows_, torques_));
+  MatrixXd& usual = signals_->usual_doubt;
+  usual = MatrixXd::Zero(residual().rows(), residual().cols());
+  for (int c = 0; c < baseline.size(); ++c) {
+    const BaselineColumn& column = baseline.columns()[c];
+    if (!column.IsZeroVelocityDoubt()) continue;
+    auto doubt = usual.col(column.joint);
+    doubt = doubt.cwiseMax(columns()[column.joint].col(c).cwiseAbs());
+  }
+  for (size_t i = 0; i < signals_->segments.size(); ++i) {
+    const int s = static_cast<int>(i), begin = rows_->thin_begin(s);
+    auto here = usual.middleRows(begin, rows_->thin_begin(s + 1) - begin);
+    const bool made = signals_->segments[i].made_torque;
+    here *= made ? kDoubtOfMadeTorques : kDoubt;
+    if (made) here = Spread(here);
+  }
+  for (size_t i = 0; i < signals_->segments.size(); ++i) {
+    for (const TimeRange& lost : signals_->segments[i].lost) {
+      const double reach = 1 / bandwidth_hz;  // of the low pass
+      MaskIn(static_cast<int>(i), {lost.begin - reach, lost.end + reach},
+             &usual);
+    }
+  }
+  Unmask();
+}
+
+GapData::GapData(const GapData& other, LogPart part)
+    : signals_(other.signals_),
+      rows_(std::make_unique<GapRows>(signals_->segments,
+                                      other.rows_->bandwidth_hz(), part)),
+      torques_(other.torques_),
+      columns_(signals_->columns) {
+  Unmask();
+}
+
+std::vector<MatrixXd> GapData::FineResidual() const {
+  std::vector<MatrixXd> residual;
+  for (size_t s = 0; s < torques_.size(); ++s) {
+    residual.push_back(signals_->segments[s].tau - torques_[s].nominal());
+  }
+  return residual;
+}
+
+MatrixXd GapData::ResidualWith(const VectorXd& x) const {
+  return ResidualWith(x, std::vector<VectorXd>(rows_->num_joints()));
+}
+
+MatrixXd GapData::ResidualWith(const VectorXd& x,
+                               const std::vector<VectorXd>& torque) const {
+  MatrixXd residual = signals_->residual;
+  for (int j = 0; j < rows_->num_joints(); ++j) {
+    residual.col(j) -= columns()[j] * x;
+    if (torque[j].size() > 0) residual.col(j) -= torque[j];
+    residual.col(j) = rows_->WithoutDrift(j, residual.col(j));
+  }
+  return residual;
+}
+
+void GapData::SetNoise(std::vector<Autoregression> noise) {
+  rows_->SetNoise(std::move(noise), doubt_);
+}
+
+void GapData::Hold(int column) {
+  Columns held = *columns_;
+  for (MatrixXd& columns : held) columns.col(column).setZero();
+  columns_ = std::make_shared<const Columns>(std::move(held));
+}
+
+void GapData::Mask(int log, const TimeRange& window) {
+  for (size_t i = 0; i < signals_->segments.size(); ++i) {
+    if (signals_->segments[i].log != log) continue;
+    MaskIn(static_cast<int>(i), window, &doubt_);
+  }
+}
+
+void GapData::MaskIn(int segment, const TimeRange& window,
+                     MatrixXd* doubt) const {
+  const int end = rows_->thin_begin(segment + 1);
+  for (int k = rows_->thin_begin(segment); k < end; ++k) {
+    if (!window.Contains(rows_->thin_time(segment, k))) continue;
+    doubt->row(k) = kNothing * residual().colwise().norm();
+  }
+}
+
+void GapData::Unmask() { doubt_ = signals_->usual_doubt; }
+
+std::vector<MatrixXd> GapData::WhitenedColumns() const {
+  std::vector<MatrixXd> white;
+  for (int j = 0; j < rows_->num_joints(); ++j) {
+    white.push_back(rows_->Whiten(j, columns()[j]));
+  }
+  return white;
+}
+
+std::vector<VectorXd> GapData::WhitenedResidual() const {
+  std::vector<VectorXd> white;
+  for (int j = 0; j < rows_->num_joints(); ++j) {
+    white.push_back(rows_->Whiten(j, residual().col(j)));
+  }
+  return white;
+}
+
+}  // namespace armcal

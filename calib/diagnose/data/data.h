@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "calib/diagnose/data/baseline.h"
+#include "calib/diagnose/data/noise.h"
+#include "calib/diagnose/data/rows.h"
+#include "calib/diagnose/data/segment.h"
+
+namespace armcal {
+
+// Logs made ready for a diagnosis: motion, torque of the robot as its file has
+// it, what is left of the recorded torque, and the baseline's columns.
+class GapData {
+ public:
+  // `segments` are kept. `usual_torque`: n entries, N m or N.
+  GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
+          double bandwidth_hz, LogPart part = LogPart::kAll);
+  // The same logs, other rows of them; shares what does not differ.
+  GapData(const GapData& other, LogPart part);
+  GapData(const GapData&) = delete;
+  GapData& operator=(const GapData&) = delete;
+
+  const GapRows& rows() const { return *rows_; }
+  std::vector<RecordedTorque>* mutable_torques() { return &torques_; }
+  const std::vector<RecordedTorque>& torques() const { return torques_; }
+  // Recorded minus nominal torque, thinned samples x n, N m or N.
+  const Eigen::MatrixXd& residual() const { return signals_->residual; }
+  // The same on the segments' own grids.
+  std::vector<Eigen::MatrixXd> FineResidual() const;
+  // Per joint, thinned samples x baseline size.
+  const std::vector<Eigen::MatrixXd>& columns() const { return *columns_; }
+  // What the baseline at x leaves.
+  Eigen::MatrixXd ResidualWith(const Eigen::VectorXd& x) const;
+  // The same beside a torque: per joint thinned samples, empty where it is 0.
+  Eigen::MatrixXd ResidualWith(
+      const Eigen::VectorXd& x,
+      const std::vector<Eigen::VectorXd>& torque) const;
+
+  // Friction near zero velocity is doubted beyond what the baseline's columns
+  // can vary: laws differ, and encoders do not see slow creep.
+  void SetNoise(std::vector<Autoregression> noise);
+  // As if this column of the baseline did not act in these logs.
+  void Hold(int column);
+  // From now on nothing is believed of a log in this time, s.
+  void Mask(int log, const TimeRange& window);
+  // All is believed again.
+  void Unmask();
+  // Whitened, per joint.
+  std::vector<Eigen::MatrixXd> WhitenedColumns() const;
+  std::vector<Eigen::VectorXd> WhitenedResidual() const;
+
+ private:
+  using Columns = std::vector<Eigen::MatrixXd>;
+  // What does not depend on which samples have rows.
+  struct Signals {
+    std::vector<GapSegment> segments;
+    Eigen::MatrixXd residual;
+    std::shared_ptr<const Columns> columns;  // none of them held
+    Eigen::MatrixXd usual_doubt;
+  };
+
+  void MaskIn(int segment, const TimeRange& window,
+              Eigen::MatrixXd* doubt) const;
+
+  std::shared_ptr<Signals> signals_;  // not changed once it is complete
+  std::unique_ptr<GapRows> rows_;
+  std::vector<RecordedTorque> torques_;
+  std::shared_ptr<const Columns> columns_;
+  Eigen::MatrixXd doubt_;
+};
+
+}  // namespace armcal

@@ -1,0 +1,241 @@
+#include "calib/diagnose/data/rows.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/signals/low_pass.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+
+constexpr double kRateOverBandwidth = 2.5;
+constexpr double kPeriodsAtEnds = 4;  // of the bandwidth, bent by filters
+constexpr int kShortestRun = 3 * Autoregression::kOrder;
+// What drives give is not quite what their law says: torques made of commands
+// are not known better than this share of what they usually are.
+constexpr double kMadeTorqueDoubt = .001;
+
+}  // namespace
+
+GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
+                 LogPart part)
+    : segments_(segments), bandwidth_hz_(bandwidth_hz), part_(part) {
+  CHECK_GT(bandwidth_hz, 0);
+  int begin = 0;
+  for (const GapSegment& segment : segments) {
+    const double rate = 1 / segment.motion.dt;
+    stride_.push_back(std::max(
+        1, static_cast<int>(
+               std::floor(rate / (kRateOverBandwidth * bandwidth_hz) + 1e-6))));
+    skip_.push_back(
+        static_cast<int>(std::ceil(kPeriodsAtEnds / bandwidth_hz * rate)));
+    thin_begin_.push_back(begin);
+    begin += std::max(
+        0, (segment.size() - 1 - 2 * skip_.back()) / stride_.back() + 1);
+  }
+  thin_begin_.push_back(begin);
+  MakeRuns();
+  made_doubt_ = kMadeTorqueDoubt * UsualTorque(segments, true);
+  for (size_t i = 0; i < segments.size(); ++i) {
+    const int s = static_cast<int>(i), first = thin_begin_[i];
+    drift_.emplace_back();
+    if (!segments[i].torque_drifts) continue;
+    Eigen::VectorXd times(thin_begin_[i + 1] - first);
+    for (int k = 0; k < times.size(); ++k) times[k] = thin_time(s, first + k);
+    drift_.back().emplace(times);
+  }
+}
+
+// Tenths of a segment: of the third, sixth and ninth, whose edges are guarded.
+GapRows::Use GapRows::UseOf(int segment, int joint, int k) const {
+  const int within = k - thin_begin_[segment];
+  const int size = thin_begin_[segment + 1] - thin_begin_[segment];
+  if (part_ != LogPart::kAll) {
+    const double guard = kPeriodsAtEnds / bandwidth_hz_ / 2 / step(segment);
+    const double tenth = size / 10.0;
+    const int block = std::min(9, static_cast<int>(within / tenth));
+    const bool held_out = block % 3 == 2;
+    const double from_edge =
+        std::min(within - block * tenth, (block + 1) * tenth - within);
+    if (held_out != (part_ == LogPart::kHeldOut)) return Use::kNone;
+    if (held_out && from_edge < guard) return Use::kNone;
+  }
+  return segments_[segment].still(skip_[segment] + within * stride_[segment],
+                                  joint)
+             ? Use::kStill
+             : Use::kMoving;
+}
+
+void GapRows::MakeRuns() {
+  const int n = segments_.empty() ? 0 : segments_[0].motion.num_joints();
+  runs_.resize(n);
+  still_runs_.resize(n);
+  for (int j = 0; j < n; ++j) {
+    for (size_t i = 0; i < segments_.size(); ++i) {
+      const int s = static_cast<int>(i);
+      const int end = thin_begin_[s + 1];
+      int begin = thin_begin_[s];
+      for (int k = begin + 1; k <= end; ++k) {
+        const Use use = UseOf(s, j, begin);
+        if (k < end && UseOf(s, j, k) == use) continue;
+        if (k - begin >= kShortestRun && use != Use::kNone) {
+          (use == Use::kStill ? still_runs_ : runs_)[j].push_back(
+              {s, begin, k - begin});
+        }
+        begin = k;
+      }
+    }
+  }
+}
+
+double GapRows::step(int segment) const {
+  return stride_[segment] * segments_[segment].motion.dt;
+}
+
+double GapRows::thin_time(int segment, int k) const {
+  return segments_[segment].motion.time(
+      skip_[segment] + (k - thin_begin_[segment]) * stride_[segment]);
+}
+
+MatrixXd GapRows::Pick(int segment, const MatrixXd& signal) const {
+  CHECK_EQ(signal.rows(), segments_[segment].size());
+  MatrixXd thin(thin_begin_[segment + 1] - thin_begin_[segment], signal.cols());
+  for (int k = 0; k < thin.rows(); ++k) {
+    thin.row(k) = signal.row(skip_[segment] + k * stride_[segment]);
+  }
+  return thin;
+}
+
+MatrixXd GapRows::Thin(int segment, const MatrixXd& signal) const {
+  return Pick(segment,
+              ZeroPhaseLowPass(signal, 1 / segments_[segment].motion.dt,
+                               bandwidth_hz_));
+}
+
+void GapRows::SetNoise(std::vector<Autoregression> noise,
+                       const MatrixXd& doubt) {
+  CHECK_EQ(static_cast<int>(noise.size()), num_joints());
+  CHECK_EQ(doubt.rows(), num_thin());
+  noise_ = std::move(noise);
+  for (int j = 0; j < num_joints(); ++j) {
+    if (made_doubt_[j] > 0) noise_[j] = PlusWhite(noise_[j], made_doubt_[j]);
+  }
+  variance_ = doubt.cwiseAbs2();
+  weight_.resize(num_thin(), num_joints());
+  for (int j = 0; j < num_joints(); ++j) {
+    const double own = std::pow(noise_[j].stddev(), 2);
+    variance_.col(j).array() += own;
+    weight_.col(j) = (own / variance_.col(j).array()).sqrt();
+  }
+}
+
+int GapRows::num_rows(int joint) const {
+  int rows = 0;
+  for (const Run& run : runs_[joint]) rows += run.size - Autoregression::kOrder;
+  return rows;
+}
+
+int GapRows::num_rows() const {
+  int rows = 0;
+  for (int j = 0; j < num_joints(); ++j) rows += num_rows(j);
+  return rows;
+}
+
+MatrixXd GapRows::WithoutDrift(int joint, const MatrixXd& thin) const {
+  CHECK_EQ(thin.rows(), num_thin());
+  MatrixXd without = thin;
+  if (std::none_of(segments_.begin(), segments_.end(),
+                   [](const GapSegment& s) { return s.torque_drifts; })) {
+    return without;
+  }
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_thin());
+  for (const Run& run : runs_[joint]) {
+    auto of_run = weights.segment(run.begin, run.size);
+    of_run.setOnes();
+    if (weight_.size() == 0) continue;
+    of_run = weight_.col(joint).segment(run.begin, run.size).cwiseAbs2();
+  }
+  for (int k = 0; k < num_thin(); ++k) {
+    if (!thin.row(k).allFinite()) weights[k] = 0;
+  }
+  for (size_t i = 0; i < drift_.size(); ++i) {
+    if (!drift_[i]) continue;
+    const int begin = thin_begin_[i], size = thin_begin_[i + 1] - begin;
+    without.middleRows(begin, size) = drift_[i]->Without(
+        thin.middleRows(begin, size), weights.segment(begin, size));
+  }
+  return without;
+}
+
+MatrixXd GapRows::Whiten(int joint, const MatrixXd& signals) const {
+  const MatrixXd thin = WithoutDrift(joint, signals);
+  MatrixXd rows(num_rows(joint), thin.cols());
+  int at = 0;
+  for (const Run& run : runs_[joint]) {
+    const int size = run.size - Autoregression::kOrder;
+    rows.middleRows(at, size) =
+        weight_.col(joint)
+            .segment(run.begin + Autoregression::kOrder, size)
+            .asDiagonal() *
+        noise_[joint].Whiten(thin.middleRows(run.begin, run.size));
+    at += size;
+  }
+  return rows;
+}
+
+MatrixXd GapRows::Stacked(const std::vector<MatrixXd>& signals,
+                          OfSegment part) const {
+  MatrixXd all(num_thin(), signals.at(0).cols());
+  for (size_t i = 0; i < signals.size(); ++i) {
+    const int s = static_cast<int>(i);
+    const MatrixXd thin = (this->*part)(s, signals[i]);
+    all.middleRows(thin_begin_[s], thin.rows()) = thin;
+  }
+  return all;
+}
+
+MatrixXd GapRows::ThinAll(const std::vector<MatrixXd>& signals) const {
+  return Stacked(signals, &GapRows::Thin);
+}
+
+MatrixXd GapRows::PickAll(const std::vector<MatrixXd>& signals) const {
+  return Stacked(signals, &GapRows::Pick);
+}
+
+std::vector<GapRows::Place> GapRows::PlacesOfRows(int joint) const {
+  std::vector<Place> places;
+  for (const Run& run : runs_[joint]) {
+    for (int k = Autoregression::kOrder; k < run.size; ++k) {
+      const int sample = run.begin + k;
+      places.push_back({sample, run.segment, thin_time(run.segment, sample)});
+    }
+  }
+  return places;
+}
+
+std::vector<int> GapRows::SampleOfRow(int joint) const {
+  std::vector<int> samples;
+  for (const Run& run : runs_[joint]) {
+    for (int k = Autoregression::kOrder; k < run.size; ++k) {
+      samples.push_back(run.begin + k);
+    }
+  }
+  return samples;
+}
+
+void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
+                 LogPart part, const LogSet& logs) {
+  if (GapRows(segments, bandwidth_hz, part).num_rows() > 0) return;
+  throw InputError(logs.path(0), "", "",
+                   "no motion is left of it, expected a longer stretch without "
+                   "gap or standstill, or a higher --bandwidth than " +
+                       NumberText(bandwidth_hz) + " Hz");
+}
+
+}  // namespace armcal

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "calib/diagnose/data/segment.h"
+#include "calib/logs/log_set.h"
+#include "calib/logs/torque_drift.h"
+#include "calib/numerics/autoregression.h"
+
+namespace armcal {
+
+// Which samples of a log have rows: all; or, where no log is held out, seven
+// tenths of them for fitting and choosing, three tenths (the third, sixth and
+// ninth tenth of each segment) for judging, with guards between them.
+enum class LogPart { kAll, kFitted, kHeldOut };
+
+// Rows of a regression on the torque of some logs: signals are low-passed at
+// the bandwidth, thinned to 2.5 times it, and whitened by each joint's noise.
+// Samples of which a joint stands still, and the ends that filters bend, have
+// no row.
+class GapRows {
+ public:
+  // References to segments are kept.
+  GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
+          LogPart part = LogPart::kAll);
+
+  int num_joints() const { return static_cast<int>(runs_.size()); }
+  double bandwidth_hz() const { return bandwidth_hz_; }
+  const std::vector<GapSegment>& segments() const { return segments_; }
+  double step(int segment) const;  // s, between thinned samples
+  // Thinned samples of all segments, one below the other.
+  int num_thin() const { return thin_begin_.back(); }
+  int thin_begin(int segment) const { return thin_begin_[segment]; }
+  double thin_time(int segment, int k) const;  // s since the log's first row
+
+  // A fine signal (samples x any) of a segment, low-passed and thinned.
+  Eigen::MatrixXd Thin(int segment, const Eigen::MatrixXd& signal) const;
+  // The same without the low pass.
+  Eigen::MatrixXd Pick(int segment, const Eigen::MatrixXd& signal) const;
+
+  // A fine signal of each segment likewise, one below the other.
+  Eigen::MatrixXd ThinAll(const std::vector<Eigen::MatrixXd>& signals) const;
+  Eigen::MatrixXd PickAll(const std::vector<Eigen::MatrixXd>& signals) const;
+
+  // Uninterrupted thinned samples, [begin, begin + size) of all, of a segment.
+  struct Run {
+    int segment;
+    int begin;
+    int size;
+  };
+  const std::vector<Run>& runs(int joint) const { return runs_[joint]; }
+  // The same where the joint stands still.
+  const std::vector<Run>& still_runs(int joint) const {
+    return still_runs_[joint];
+  }
+
+  // `doubt`: standard deviation of what else may be wrong with single samples
+  // (thinned samples x n, N m or N); rows count the less.
+  void SetNoise(std::vector<Autoregression> noise,
+                const Eigen::MatrixXd& doubt);
+  const Autoregression& noise(int joint) const { return noise_[joint]; }
+  // Variance of a thinned sample: of the noise and the doubt.
+  double variance(int joint, int sample) const {
+    return variance_(sample, joint);
+  }
+  int num_rows(int joint) const;
+  int num_rows() const;
+  // A joint's thinned signals (num_thin() x any) without what the torque's
+  // level may do in logs whose torque drifts, told where the joint moves; rows
+  // that are not known (NaN) stay so.
+  Eigen::MatrixXd WithoutDrift(int joint, const Eigen::MatrixXd& thin) const;
+  // Whitened rows of thinned signals (num_thin() x any).
+  Eigen::MatrixXd Whiten(int joint, const Eigen::MatrixXd& thin) const;
+  // The thinned sample that each row is of.
+  std::vector<int> SampleOfRow(int joint) const;
+  // The same with its segment and its time, s since the log's first row.
+  struct Place {
+    int sample;
+    int segment;
+    double time;
+  };
+  std::vector<Place> PlacesOfRows(int joint) const;
+
+ private:
+  // Thin() or Pick() of each segment, one below the other.
+  using OfSegment = Eigen::MatrixXd (GapRows::*)(int,
+                                                 const Eigen::MatrixXd&) const;
+  Eigen::MatrixXd Stacked(const std::vector<Eigen::MatrixXd>& signals,
+                          OfSegment part) const;
+  enum class Use { kMoving, kStill, kNone };
+  void MakeRuns();
+  Use UseOf(int segment, int joint, int k) const;
+
+  const std::vector<GapSegment>& segments_;
+  double bandwidth_hz_;
+  LogPart part_;
+  std::vector<int> stride_;                        // per segment
+  std::vector<int> skip_;                          // fine samples at its ends
+  std::vector<int> thin_begin_;                    // per segment, and the end
+  std::vector<std::optional<TorqueDrift>> drift_;  // per segment
+  Eigen::VectorXd made_doubt_;                     // per joint, N m or N
+  std::vector<std::vector<Run>> runs_, still_runs_;
+  std::vector<Autoregression> noise_;
+  Eigen::MatrixXd variance_, weight_;  // thinned samples x n
+};
+
+// Throws InputError where a part of the logs has no rows: nothing to fit or to
+// judge by.
+void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
+                 LogPart part, const LogSet& logs);
+
+}  // namespace armcal

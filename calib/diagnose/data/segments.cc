@@ -1,0 +1,182 @@
+#include "calib/diagnose/data/segments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/diagnose/data/smooth_torque.h"
+#include "calib/diagnose/data/torque_bursts.h"
+#include "calib/linear/calibration_checks.h"
+#include "calib/logs/position_noise.h"
+#include "model/signals/low_pass.h"
+#include "model/signals/standstill.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Thermometers are noisy, and gears warm up in minutes.
+constexpr double kSmoothTemperatureHz = .2;
+// Of errors of stamps, which are known every second.
+constexpr double kSmoothStampHz = .3;
+constexpr double kShortest = 2;  // s
+// Drives creep for a while when their command has come to rest: a torque that
+// was made of it is more certain than what friction is there.
+constexpr double kCreepSpeed = .004;    // rad/s or m/s
+constexpr double kMotionBandwidth = 5;  // of the torque's
+
+void AppendRows(const MatrixXd& rows, MatrixXd* to) {
+  const Eigen::Index before = to->rows();
+  to->conservativeResize(before + rows.rows(), rows.cols());
+  to->bottomRows(rows.rows()) = rows;
+}
+
+void AppendCore(const Trajectory& trajectory, GapSegment* segment) {
+  const int begin = trajectory.core_begin;
+  const int rows = trajectory.core_end - begin;
+  Motion& motion = segment->motion;
+  if (motion.size() == 0) {
+    motion.t0 = trajectory.time(begin);
+    motion.dt = trajectory.dt;
+  }
+  AppendRows(trajectory.q.middleRows(begin, rows), &motion.q);
+  AppendRows(trajectory.qd.middleRows(begin, rows), &motion.qd);
+  AppendRows(trajectory.qdd.middleRows(begin, rows), &motion.qdd);
+  AppendRows(trajectory.tau.middleRows(begin, rows), &segment->tau);
+  if (trajectory.temperature.size() == 0) return;
+  AppendRows(trajectory.temperature.middleRows(begin, rows),
+             &motion.temperature);
+}
+
+// Rows of x, of the times t (two or more), at the motion's samples; between
+// rows, and as the nearest beyond their ends.
+MatrixXd AtSamples(const VectorXd& t, const MatrixXd& x, const Motion& motion) {
+  MatrixXd at(motion.size(), x.cols());
+  Eigen::Index k = 1;
+  for (int row = 0; row < motion.size(); ++row) {
+    const double now = motion.time(row);
+    while (k + 1 < t.size() && t[k] < now) ++k;
+    const double share =
+        std::clamp((now - t[k - 1]) / (t[k] - t[k - 1]), 0., 1.);
+    at.row(row) = x.row(k - 1) + share * (x.row(k) - x.row(k - 1));
+  }
+  return at;
+}
+
+// At the segment's samples, smooth.
+VectorXd StampErrors(const std::vector<StampError>& errors,
+                     const Motion& motion) {
+  VectorXd t(errors.size()), error(errors.size());
+  for (size_t k = 0; k < errors.size(); ++k) {
+    t[static_cast<long>(k)] = errors[k].stamp;
+    error[static_cast<long>(k)] = errors[k].error;
+  }
+  return ZeroPhaseLowPass(AtSamples(t, error, motion), 1 / motion.dt,
+                          kSmoothStampHz);
+}
+
+// What makes a made torque wrong, low-passed as motion and torque are.
+void AddErrors(const MadeTorque& made, double bandwidth_hz,
+               GapSegment* segment) {
+  if (made.t.size() < 2) return;
+  Motion& motion = segment->motion;
+  const auto smooth = [&](const MatrixXd& x) {
+    return ZeroPhaseLowPass(AtSamples(made.t, x, motion), 1 / motion.dt,
+                            MotionBandwidth(bandwidth_hz));
+  };
+  segment->position_noise = smooth(made.position_noise);
+  segment->torque_noise = smooth(made.torque_noise);
+  motion.torque_by_rate = smooth(made.by_rate);
+}
+
+// Joint by joint, on positions that are smooth already.
+void FindStillJoints(GapSegment* segment) {
+  const Motion& motion = segment->motion;
+  segment->still.resize(motion.size(), motion.num_joints());
+  const MatrixXd velocity = MeanVelocity(motion.q, motion.dt);
+  const int reach =
+      static_cast<int>(std::ceil(kStandstillMeanTime / 2 / motion.dt));
+  const double speed = segment->made_torque ? kCreepSpeed : kStandstillSpeed;
+  for (int j = 0; j < motion.num_joints(); ++j) {
+    segment->still.col(j) =
+        FindStandstill(velocity.col(j), motion.dt, reach, speed)
+            .matrix()
+            .array();
+  }
+}
+
+}  // namespace
+
+std::vector<GapSegment> ReadSegments(double bandwidth_hz,
+                                     const Progress& progress, LogSet* logs) {
+  if (!(bandwidth_hz > 0)) {
+    throw InputError("", "--bandwidth", NumberText(bandwidth_hz),
+                     "expected a frequency above 0 Hz: torques are compared "
+                     "below it");
+  }
+  CheckBandwidth(bandwidth_hz, *logs);
+  logs->Prepare(MotionBandwidth(bandwidth_hz), 0, true, .25 / bandwidth_hz);
+  std::vector<GapSegment> segments;
+  int log = -1, part = -1;
+  logs->ForEach("reading the logs", progress,
+                [&](int index, const Trajectory& trajectory) {
+                  if (index != log || trajectory.segment != part) {
+                    segments.emplace_back();
+                    segments.back().log = log = index;
+                    if (const MadeTorque* made = logs->made_torque(index)) {
+                      segments.back().made_torque = true;
+                      segments.back().torque_drifts = made->drifts;
+                      segments.back().lost = logs->time_bases()[index].gaps;
+                    }
+                    part = trajectory.segment;
+                  }
+                  AppendCore(trajectory, &segments.back());
+                });
+  const auto is_short = [](const GapSegment& segment) {
+    return segment.size() * segment.motion.dt < kShortest;
+  };
+  segments.erase(std::remove_if(segments.begin(), segments.end(), is_short),
+                 segments.end());
+  for (GapSegment& segment : segments) {
+    FindStillJoints(&segment);
+    if (const MadeTorque* made = logs->made_torque(segment.log)) {
+      AddErrors(*made, bandwidth_hz, &segment);
+    }
+    for (const TimeRange& burst :
+         TimesOf(FindTorqueBursts(segment, bandwidth_hz))) {
+      segment.lost.push_back(burst);
+    }
+    Motion& motion = segment.motion;
+    motion.torque = SmoothTorqueOf(segment);
+    const auto& errors = logs->time_bases()[segment.log].stamp_errors;
+    if (errors.size() > 1) motion.stamp_error = StampErrors(errors, motion);
+    if (motion.temperature.size() == 0) continue;
+    motion.temperature =
+        ZeroPhaseLowPass(motion.temperature, 1 / motion.dt,
+                         kSmoothTemperatureHz, Ends::kExtrapolate);
+  }
+  return segments;
+}
+
+double MotionBandwidth(double bandwidth_hz) {
+  return kMotionBandwidth * bandwidth_hz;
+}
+
+RecordedPositions AuditPositions(const Progress& progress, LogSet* logs) {
+  RecordedPositions recorded;
+  logs->Prepare(0, 0);
+  logs->ForEach("reading the logs", progress,
+                [&](int, const Trajectory& trajectory) {
+                  if (recorded.noise.size() > 0 || trajectory.size() < 100) {
+                    return;
+                  }
+                  recorded.noise = PositionNoise(trajectory.q);
+                  recorded.rate_hz = 1 / trajectory.dt;
+                });
+  return recorded;
+}
+
+}  // namespace armcal

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/diagnose/data/segment.h"
+#include "calib/logs/log_set.h"
+
+namespace armcal {
+
+// The segments of the logs, in order; those shorter than 2 s are left out.
+// Motion is low-passed at five times the bandwidth of the torque residual:
+// what is computed from it passes that filter again, as the torque does, and
+// must not have been bent below it.
+std::vector<GapSegment> ReadSegments(double bandwidth_hz,
+                                     const Progress& progress, LogSet* logs);
+
+// Noise of the recorded positions (position_noise.h), n entries, and the rate
+// they were recorded at.
+struct RecordedPositions {
+  Eigen::VectorXd noise;  // rad or m
+  double rate_hz = 0;
+};
+RecordedPositions AuditPositions(const Progress& progress, LogSet* logs);
+
+// Of the motion of segments, Hz.
+double MotionBandwidth(double bandwidth_hz);
+
+}  // namespace armcal

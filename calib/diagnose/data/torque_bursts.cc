@@ -1,0 +1,115 @@
+#include "calib/diagnose/data/torque_bursts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/signals/low_pass.h"
+#include "model/text/format.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kSecond = 1;
+constexpr double kBeyond = 1;       // of the usual torque
+constexpr double kBeyondFast = 10;  // of what the noise of positions makes
+constexpr double kReach = .5;       // s, of filters, per power of ten
+
+// Of each second: its first sample and rms of a joint's torque.
+struct Second {
+  int begin;
+  double rms, fast;
+  bool moves;
+};
+
+std::vector<Second> SecondsOf(const GapSegment& segment, const VectorXd& fast,
+                              int joint) {
+  const int size =
+      std::max(1, static_cast<int>(std::lround(kSecond / segment.motion.dt)));
+  std::vector<Second> seconds;
+  for (int k = 0; k < segment.size(); k += size) {
+    const int rows = std::min(size, segment.size() - k);
+    const auto rms = [&](const VectorXd& x) {
+      return x.segment(k, rows).norm() / std::sqrt(rows);
+    };
+    seconds.push_back({k, rms(segment.tau.col(joint)), rms(fast),
+                       !segment.still.col(joint).segment(k, rows).all()});
+  }
+  return seconds;
+}
+
+// Of the seconds in which the joint moves.
+double Middle(const std::vector<Second>& seconds, double Second::*value) {
+  std::vector<double> moving;
+  for (const Second& second : seconds) {
+    if (second.moves) moving.push_back(second.*value);
+  }
+  if (moving.empty()) return 0;
+  const auto middle = moving.begin() + static_cast<long>(moving.size() / 2);
+  std::nth_element(moving.begin(), middle, moving.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::vector<TorqueBurst> FindTorqueBursts(const GapSegment& segment,
+                                          double bandwidth_hz) {
+  std::vector<TorqueBurst> bursts;
+  if (!segment.made_torque || bandwidth_hz <= 0) return bursts;
+  const Motion& motion = segment.motion;
+  const MatrixXd fast =
+      segment.tau - ZeroPhaseLowPass(segment.tau, 1 / motion.dt, bandwidth_hz);
+  for (int j = 0; j < motion.num_joints(); ++j) {
+    const std::vector<Second> seconds = SecondsOf(segment, fast.col(j), j);
+    const double usual = Middle(seconds, &Second::rms);
+    const double least =
+        std::max(kBeyond * usual, kBeyondFast * Middle(seconds, &Second::fast));
+    for (const Second& second : seconds) {
+      if (usual == 0 || second.fast < least) continue;
+      const double begin = motion.time(second.begin);
+      bursts.push_back({j, {begin, begin + kSecond}, second.fast, usual});
+    }
+  }
+  return bursts;
+}
+
+std::vector<TimeRange> TimesOf(const std::vector<TorqueBurst>& bursts) {
+  std::vector<TimeRange> times;
+  for (const TorqueBurst& burst : bursts) {
+    const double reach = kReach * (1 + std::log10(burst.fast / burst.usual));
+    times.push_back({burst.window.begin - reach, burst.window.end + reach});
+  }
+  return times;
+}
+
+std::vector<DataFinding> TellTorqueBursts(
+    const Robot& robot, const std::vector<GapSegment>& segments,
+    double bandwidth_hz) {
+  std::vector<TorqueBurst> all;
+  for (const GapSegment& segment : segments) {
+    const std::vector<TorqueBurst> here =
+        FindTorqueBursts(segment, bandwidth_hz);
+    all.insert(all.end(), here.begin(), here.end());
+  }
+  if (all.empty()) return {};
+  const TorqueBurst& worst = *std::max_element(
+      all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return a.fast / a.usual < b.fast / b.usual;
+      });
+  const Joint& joint = robot.links[worst.joint].joint;
+  const std::string evidence =
+      Format("between %.0f and %.0f s ", worst.window.begin, worst.window.end) +
+      joint.name +
+      Format(
+          " swung with %.3g %s above %.3g Hz, %.3g times its usual torque; "
+          "such "
+          "seconds are not judged by",
+          worst.fast, EffortUnit(joint.type), bandwidth_hz,
+          worst.fast / worst.usual);
+  return {{"the control loop rang or was unstable for a moment", evidence,
+           "lower gains, or a log without it"}};
+}
+
+}  // namespace armcal

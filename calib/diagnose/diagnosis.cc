@@ -1,0 +1,307 @@
+#include "calib/diagnose/diagnosis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "calib/diagnose/data/torque_bursts.h"
+#include "calib/diagnose/judge/held_out.h"
+#include "calib/diagnose/select/fit.h"
+#include "calib/diagnose/select/reference.h"
+#include "calib/diagnose/trace.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Relative standard deviation of joint terms that were fitted, not given.
+constexpr double kTrustInFitted = .5;
+constexpr double kTimingWithReference = .05;  // s
+// Of torques that are known well enough to show it, s.
+constexpr double kReversalOfMadeTorques = .005;
+
+bool Overlaps(const std::vector<GapEvent>& events, const GapEvent& event) {
+  return std::any_of(events.begin(), events.end(), [&](const GapEvent& other) {
+    const Contact &a = event.contact, &b = other.contact;
+    return a.log == b.log && a.window.begin <= b.window.end &&
+           b.window.begin <= a.window.end;
+  });
+}
+
+class Diagnoser {
+ public:
+  Diagnoser(const Robot& robot, const DiagnosisOptions& options)
+      : robot_(robot), options_(options) {}
+
+  GapDiagnosis Run(LogSet* training, LogSet* validation, LogSet* reference);
+
+ private:
+  std::vector<GapSegment> Read(LogSet* logs, LogPart part,
+                               bool must_move = true) {
+    if (logs == nullptr) return {};
+    const double hz = options_.bandwidth_hz;
+    std::vector<GapSegment> segments =
+        ReadSegments(hz, options_.progress, logs);
+    if (must_move || segments.empty()) CheckMotion(segments, hz, part, *logs);
+    KnowUsualTemperature(&segments);
+    AdvanceTorque(delay_, &segments);
+    return segments;
+  }
+  // Steps whose length depends on what is found.
+  void Tell(const std::string& step) const {
+    if (options_.progress) options_.progress(step, -1);
+  }
+  // Friction is the model's at the temperature of the first sample read.
+  void KnowUsualTemperature(std::vector<GapSegment>* segments);
+  void Fit(const std::vector<GapSegment>& segments,
+           const std::vector<GapSegment>& before, bool split);
+  JointGap JointFigures(int joint) const;
+  JointCourse CourseOf(int joint) const;
+  void Simulate(LogSet* held_out, bool split);
+  void TellUnexplained();
+  void Judge();
+
+  const Robot& robot_;
+  const DiagnosisOptions& options_;
+  double delay_ = 0;            // of recorded torque, s, that was undone
+  VectorXd usual_temperature_;  // deg C
+  std::optional<GapBaseline> baseline_;
+  std::optional<GapFit> fit_;
+  std::optional<HeldOut> held_out_;
+  bool found_without_name_ = false;  // GapFindings'
+  GapDiagnosis result_;
+};
+
+void Diagnoser::KnowUsualTemperature(std::vector<GapSegment>* segments) {
+  for (GapSegment& segment : *segments) {
+    Motion& motion = segment.motion;
+    if (motion.temperature.size() == 0) continue;
+    if (usual_temperature_.size() == 0) {
+      usual_temperature_ = motion.temperature.row(0);
+    }
+    motion.usual_temperature = usual_temperature_;
+  }
+}
+
+GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
+                            LogSet* reference) {
+  const bool split = validation == nullptr;
+  // What touches an arm that rests, a reference tells.
+  std::vector<GapSegment> segments =
+      Read(training, split ? LogPart::kHeldOut : LogPart::kAll,
+           reference == nullptr);
+  std::vector<GapSegment> before = Read(reference, LogPart::kAll);
+  Tell("fitting the baseline");
+  const LackedFamilies lacked =
+      FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
+                        before.empty() ? segments : before);
+  BaselineOptions trust = options_.baseline;
+  if (!lacked.families.empty()) trust.joint_trust = kTrustInFitted;
+  // How late a log's torque is, a reference tells.
+  if (!before.empty()) trust.timing_s = kTimingWithReference;
+  if (HaveNoiseOfPositions(segments)) {
+    trust.reversal_s = kReversalOfMadeTorques;
+  }
+  baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
+  if (!before.empty()) {
+    const ReferenceModel model =
+        FitReference(*baseline_, options_.bandwidth_hz, &before);
+    baseline_ = model.baseline;
+    delay_ = model.delay;
+    AdvanceTorque(delay_, &segments);
+  }
+  result_.ladder = lacked;
+  result_.has_reference = reference != nullptr;
+  Tell("choosing effects");
+  Fit(segments, before, split);
+  if (split) {
+    held_out_.emplace(*fit_);
+  } else {
+    held_out_.emplace(*fit_, Read(validation, LogPart::kAll));
+  }
+  Tell("checking what was held out");
+  result_.bandwidth_hz = options_.bandwidth_hz;
+  result_.floor = fit_->noise().source;
+  const HeldOut::Residuals residuals = held_out_->AllResiduals();
+  result_.torque =
+      ShrinkFigures(held_out_->SquaresOf(residuals),
+                    VarianceDoubt(fit_->noise().source) / 2, options_.seed);
+  for (int j = 0; j < robot_.num_joints(); ++j) {
+    result_.joints.push_back(JointFigures(j));
+  }
+  const GapFindings findings = ListFindings(
+      robot_, *fit_, *held_out_, result_.torque,
+      result_.has_reference ? std::vector<LackedFamily>() : lacked.families);
+  result_.effects = findings.effects;
+  result_.candidates = findings.candidates;
+  found_without_name_ = findings.without_name;
+  result_.traces =
+      TraceHeldOut(held_out_->rows(), residuals, !result_.effects.empty());
+  Simulate(split ? training : validation, split);
+  result_.moved = ListMoved(*fit_, fit_->refined().baseline);
+  result_.shown = ListShown(*fit_, fit_->refined().baseline);
+  result_.drifts = ListRunDrifts(*fit_, fit_->refined().baseline);
+  result_.untestable = ListUntestable(*fit_);
+  TellUnexplained();
+  Judge();
+  return result_;
+}
+
+// What happens once may happen in the part that is held out, where nothing else
+// is looked for.
+void Diagnoser::Fit(const std::vector<GapSegment>& segments,
+                    const std::vector<GapSegment>& before, bool split) {
+  const GapFitOptions options{options_.bandwidth_hz, options_.selection,
+                              options_.without};
+  fit_.emplace(*baseline_, options, segments,
+               split ? LogPart::kFitted : LogPart::kAll, before);
+  fit_->Choose();
+  if (!split) return;
+  GapFit all(*fit_, LogPart::kAll);
+  all.FindEvents(fit_->events());
+  std::vector<GapEvent> events = fit_->events();
+  for (const GapEvent& event : all.events()) {
+    const bool fitted =
+        2 * RowsOf(fit_->rows(), event) >= RowsOf(all.rows(), event);
+    if (!fitted && !Overlaps(events, event)) events.push_back(event);
+  }
+  SortByTime(&events);
+  if (events.size() > fit_->events().size()) fit_->ChooseBeside(events);
+}
+
+JointGap Diagnoser::JointFigures(int j) const {
+  const Joint& joint = robot_.links[j].joint;
+  const double sigma = fit_->rows().noise(j).stddev();
+  JointGap gap;
+  gap.name = joint.name;
+  gap.unit = EffortUnit(joint.type);
+  gap.floor_rms = sigma;
+  if (result_.torque.joints.rows() > j) {
+    gap.nominal_rms = sigma * result_.torque.joints(j, 0);
+    gap.refit_rms = sigma * result_.torque.joints(j, 1);
+    gap.after_rms = sigma * result_.torque.joints(j, 2);
+  }
+  gap.organised = OrganisedBy(CourseOf(j));
+  gap.unexplained = UnexplainedOf(
+      {Excess(*fit_, j, true), fit_->rows().num_rows(j), result_.floor,
+       !gap.organised.by.empty(), gap.after_rms / sigma});
+  return gap;
+}
+
+JointCourse Diagnoser::CourseOf(int j) const {
+  const GapRows& rows = fit_->rows();
+  std::vector<MatrixXd> fine;
+  for (size_t s = 0; s < rows.segments().size(); ++s) {
+    const Motion& motion = rows.segments()[s].motion;
+    fine.emplace_back(motion.size(), 5);
+    fine.back() << motion.q.col(j), motion.qd.col(j), motion.qdd.col(j),
+        fit_->data()->torques()[s].load().col(j),
+        VectorXd::LinSpaced(motion.size(), motion.time(0),
+                            motion.time(motion.size() - 1));
+  }
+  const MatrixXd at = rows.PickAll(fine)(rows.SampleOfRow(j), Eigen::all);
+  return {fit_->screen().Residual(j, {}),
+          at.col(0),
+          at.col(1),
+          at.col(2),
+          at.col(3),
+          at.col(4)};
+}
+
+// The held-out motion by the file's robot, the refitted one and the one with
+// the effects; events are not repeated.
+void Diagnoser::Simulate(LogSet* held_out, bool split) {
+  const RefinedEffects& refined = fit_->refined();
+  const auto robot = [&](const VectorXd& x,
+                         const std::vector<GapCandidate>& effects) {
+    return MakeCorrectedRobot(*baseline_, x, effects, fit_->scale());
+  };
+  ForwardRobots robots = {robot(fit_->before(), {}), robot(fit_->refit(), {}),
+                          robot(refined.baseline, refined.effects)};
+  result_.corrected = robots.after;
+  // Segments have their torque as if it came without delay; logs have not.
+  result_.corrected.delay += delay_;
+  if (!options_.forward) return;
+  CountedTimes counted;
+  if (split) counted = TimesWithRows(held_out_->rows());
+  if (options_.controller) {
+    for (CorrectedRobot* each :
+         {&robots.nominal, &robots.refit, &robots.after}) {
+      each->delay += delay_;
+    }
+    Tell("simulating what was held out");
+    result_.forward =
+        ForwardGapInLoop(robots, robot_, *options_.controller,
+                         options_.commanded, options_.seed, counted);
+    return;
+  }
+  if (held_out_->segments().empty()) return;
+  const RecordedPositions positions =
+      AuditPositions(options_.progress, held_out);
+  if (positions.noise.size() == 0) return;
+  Tell("simulating what was held out");
+  result_.forward =
+      ForwardGapInWindows(robots, held_out_->segments(),
+                          {positions.noise, positions.rate_hz,
+                           MotionBandwidth(options_.bandwidth_hz),
+                           fit_->noise().joints, held_out_->rows().step(0)},
+                          options_.seed, counted);
+}
+
+// What no effect explains, in sample: its share of what a refit leaves beyond
+// the noise, and the joint that holds most of it.
+void Diagnoser::TellUnexplained() {
+  double left = 0, most = 0, refit = 0;
+  for (int j = 0; j < robot_.num_joints(); ++j) {
+    const double here = result_.joints[j].unexplained;
+    left += here;
+    refit += Excess(*fit_, j, false);
+    if (here <= most) continue;
+    most = here;
+    result_.unexplained.joint = result_.joints[j].name;
+    result_.unexplained.organised_by = result_.joints[j].organised.by;
+  }
+  result_.unexplained.share = left / std::max(1., std::max(left, refit));
+}
+
+void Diagnoser::Judge() {
+  result_.data = AuditTorque(robot_, fit_->rows());
+  const bool testable = result_.data.empty();
+  for (DataFinding& burst : TellTorqueBursts(robot_, fit_->rows().segments(),
+                                             options_.bandwidth_hz)) {
+    result_.data.push_back(std::move(burst));
+  }
+  if (!testable) {
+    result_.verdict = GapVerdict::kNotTestable;
+    result_.effects.clear();
+    result_.candidates.clear();
+    return;
+  }
+  double left = 0;
+  for (const JointGap& joint : result_.joints) left += joint.unexplained;
+  result_.verdict =
+      JudgeGap({result_.torque, !result_.effects.empty(), found_without_name_,
+                left, result_.unexplained.share});
+}
+
+}  // namespace
+
+GapDiagnosis DiagnoseGap(const Robot& robot, const DiagnosisOptions& options,
+                         LogSet* training, LogSet* validation,
+                         LogSet* reference) {
+  return Diagnoser(robot, options).Run(training, validation, reference);
+}
+
+double DiagnosisBandwidth(const std::vector<TimeBase>& time_bases) {
+  constexpr double kLeast = 10, kShareOfRate = .125;
+  double hz = std::max(kLeast, DefaultBandwidth(time_bases));
+  for (const TimeBase& base : time_bases) {
+    hz = std::min(hz, kShareOfRate / base.dt);
+  }
+  return hz;
+}
+
+}  // namespace armcal

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/data/audit.h"
+#include "calib/diagnose/data/baseline.h"
+#include "calib/diagnose/data/noise.h"
+#include "calib/diagnose/judge/evidence.h"
+#include "calib/diagnose/judge/findings.h"
+#include "calib/diagnose/judge/forward.h"
+#include "calib/diagnose/judge/moved.h"
+#include "calib/diagnose/judge/probability.h"
+#include "calib/diagnose/judge/removed_share.h"
+#include "calib/diagnose/judge/runs.h"
+#include "calib/diagnose/judge/shown.h"
+#include "calib/diagnose/judge/testability.h"
+#include "calib/diagnose/judge/verdict.h"
+#include "calib/diagnose/judge/where.h"
+#include "calib/diagnose/select/families.h"
+#include "calib/diagnose/select/selection.h"
+#include "calib/logs/log_set.h"
+#include "calib/logs/torque_trace.h"
+#include "model/log_files/time_base.h"
+
+namespace armcal {
+
+struct DiagnosisOptions {
+  BaselineOptions baseline;
+  double bandwidth_hz = 0;
+  SelectionOptions selection;
+  std::vector<std::string> without;  // effects that are not considered
+  std::uint64_t seed = 1;
+  // Whether held-out logs are simulated as well; along their commands where
+  // these and the controller are given, else over windows.
+  bool forward = true;
+  std::optional<ControllerOptions> controller;
+  std::vector<CommandedLog> commanded;
+  Progress progress;
+};
+
+// What is left beside the effects that were found.
+struct Unexplained {
+  std::string joint;
+  std::string organised_by;
+  double share = 0;  // of the refitted model's excess over the noise
+};
+
+struct JointGap {
+  std::string name;
+  std::string unit;
+  // rms of the held-out torque residual, N m or N.
+  double nominal_rms = 0, refit_rms = 0, after_rms = 0, floor_rms = 0;
+  Organisation organised;  // of the refitted model's residual
+  double unexplained = 0;  // chi^2 beyond the noise's after the effects
+};
+
+struct GapDiagnosis {
+  GapVerdict verdict = GapVerdict::kNoiseFloor;
+  std::vector<FoundEffect> effects;  // strongest first
+  std::vector<PlacedEffect> candidates;
+  std::vector<MovedParameter> moved;
+  std::vector<ShownEffect> shown;  // what a reference shows of itself
+  std::vector<RunDrift> drifts;    // from log to log
+  NoiseFloor floor = NoiseFloor::kAssumed;
+  bool has_reference = false;
+  GapFigures torque;
+  std::optional<ForwardGap> forward;
+  LackedFamilies ladder;  // what the file gives no joint at all
+  CorrectedRobot corrected;
+  std::vector<JointGap> joints;
+  std::vector<TorqueTrace> traces;  // of what is held out, TraceHeldOut
+  Unexplained unexplained;
+  std::vector<DataFinding> data;
+  std::vector<UntestableEffect> untestable;
+  double bandwidth_hz = 0;
+};
+
+// Effects bend torques faster than motions go: at least 10 Hz, and at most an
+// eighth of every sample rate.
+double DiagnosisBandwidth(const std::vector<TimeBase>& time_bases);
+
+// Diagnoses the gap between `robot` and the training logs; figures are of the
+// validation logs, or of parts of the training logs that are held out where
+// there are none. `reference`: logs of the robot before, which the baseline is
+// fitted to as well; null: none.
+GapDiagnosis DiagnoseGap(const Robot& robot, const DiagnosisOptions& options,
+                         LogSet* training, LogSet* validation,
+                         LogSet* reference);
+
+}  // namespace armcal

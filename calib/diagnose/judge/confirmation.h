@@ -1,0 +1,22 @@
+#pragma once
+
+#include "calib/diagnose/data/screen.h"
+
+namespace armcal {
+
+// Whether residuals that nothing was chosen on are what an effect says. Both in
+// units of their variance.
+struct Confirmation {
+  double expected = 0;   // chi^2 by which it changes what is predicted
+  double explained = 0;  // by which chi^2 is lower with it
+
+  // 1 where the effect is right, 0 where it is half of what it says, -1 where
+  // it is not there; near 0 where it is too small to tell.
+  double Share() const;
+};
+
+// From whitened residuals per joint with and without the effect, each beside
+// the baseline that was fitted so.
+Confirmation Confirm(const JointRows& without, const JointRows& with);
+
+}  // namespace armcal

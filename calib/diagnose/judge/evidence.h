@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/diagnose/judge/held_out.h"
+#include "calib/diagnose/judge/probability.h"
+#include "calib/diagnose/judge/removed_share.h"
+#include "calib/diagnose/select/fit.h"
+
+namespace armcal {
+
+// What speaks for an effect besides its score, and against it.
+struct EffectEvidence {
+  double odds = 0;      // ln of its softmax probability against the next
+  double strength = 0;  // ln of its drop of chi^2
+  int chosen = 1;       // how many effects were, all events being one
+  // How many others are on its joint (if it has one), a law and its mean being
+  // one: what has no name may be pieced together from several that have.
+  int beside = 0;
+  // Whether mechanisms without a name are often taken for it.
+  bool imitated = false;
+  double next = 0;            // score of the best further candidate, at least 0
+  int events = 0;             // windows of it, of what comes and goes
+  double one_joint = 0;       // GapEvent's, of the strongest
+  double gain = 0;            // by how much it lowers the held-out mean square
+  Confirmation confirmation;  // by held-out data
+  // What all effects leave there of the gap of its joint, or of all.
+  double left = 0;
+  bool made_torque = false;  // of commands: their noise is of another kind
+};
+
+// The evidence for what a fit chose. Keeps references.
+class GapEvidence {
+ public:
+  GapEvidence(const GapFit& fit, const HeldOut& held_out,
+              const GapFigures& figures);
+
+  // For its k-th effect, `all` that could stand in its place.
+  EffectEvidence ForEffect(size_t k,
+                           const std::vector<PlacedEffect>& all) const;
+  // For all events together, as one effect.
+  EffectEvidence ForEvents() const;
+
+ private:
+  int Beside(size_t k) const;
+
+  const GapFit& fit_;
+  const HeldOut& held_out_;
+  const GapFigures& figures_;
+  EffectEvidence common_;  // what is said of all
+};
+
+// The probability that the effect is the one, and the joint: a logistic
+// regression on evidence, fitted to which effects were right in the calibration
+// cases of the blind bench (tests/blind/EVALUATIONS.md says which).
+double ProbabilityOf(const EffectEvidence& evidence);
+
+// chi^2 of joint j beyond the noise's that the fit's effects leave, or with
+// none of them. How well the noise is known, its source tells.
+double Excess(const GapFit& fit, int joint, bool with_effects);
+
+}  // namespace armcal

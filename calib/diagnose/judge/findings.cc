@@ -1,0 +1,276 @@
+#include "calib/diagnose/judge/findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "calib/diagnose/data/estimate_deviations.h"
+#include "model/effects/effects.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Less probable effects are candidates, no more.
+constexpr double kLeastClaimed = .3;
+constexpr double kLikelyUnseen = .7;  // that held-out data do not show
+// What is likelier than not is told first, however little it explains. Nothing
+// else is of what comes and goes, which may be anything, nor of what does not
+// help where nothing was chosen on.
+constexpr double kLikely = .5;
+
+// Whether b is what a file has a number for and a's law has a mean of.
+bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
+  return a.joint >= 0 && a.joint == b.joint && HasMean(*a.effect, *b.effect);
+}
+
+class Findings {
+ public:
+  Findings(const Robot& robot, const GapFit& fit, const HeldOut& held_out,
+           const GapFigures& torque)
+      : robot_(robot),
+        fit_(fit),
+        evidence_(fit, held_out, torque),
+        torque_(torque) {}
+
+  GapFindings List(const std::vector<LackedFamily>& families);
+
+ private:
+  FoundEffect Describe(const GapCandidate& effect,
+                       const MatrixXd& covariance) const;
+  FoundEffect Found(size_t k) const;
+  FoundEffect Contacts() const;
+  void AddFamilies(const std::vector<LackedFamily>& families);
+  void ShareTheRest(FoundEffect* found, bool is_first);
+
+  const Robot& robot_;
+  const GapFit& fit_;
+  const GapEvidence evidence_;
+  const GapFigures& torque_;
+  GapFindings result_;
+};
+
+FoundEffect Findings::Describe(const GapCandidate& effect,
+                               const MatrixXd& covariance) const {
+  const EffectSite site = {&robot_, effect.joint, &fit_.scale()};
+  FoundEffect found;
+  found.effect = effect.effect;
+  found.joint = effect.joint;
+  found.p = effect.p;
+  found.estimates = EstimatesOf(*effect.effect, site, effect.p);
+  found.stddev = EstimateDeviations(*effect.effect, site, effect.p, covariance);
+  return found;
+}
+
+FoundEffect Findings::Found(size_t k) const {
+  const RefinedEffects& refined = fit_.refined();
+  const GapCandidate& effect = refined.effects[k];
+  Eigen::Index begin = 0;
+  for (size_t i = 0; i < k; ++i) begin += refined.effects[i].p.size();
+  FoundEffect found = Describe(
+      effect,
+      refined.covariance.block(begin, begin, effect.p.size(), effect.p.size()));
+  found.score = fit_.selection().scores[k];
+  found.drop = fit_.selection().drops[k];
+  const std::vector<PlacedEffect> all = Alternatives(fit_, k);
+  for (const PlacedEffect& other : CredibleSet(all)) {
+    if (other.effect != found.effect || other.joint != found.joint) {
+      found.equivalent.push_back(other);
+    }
+  }
+  found.evidence = evidence_.ForEffect(k, all);
+  found.probability = ProbabilityOf(found.evidence);
+  found.removed_percent =
+      100 * found.evidence.gain / std::max(.1, torque_.refit - 1);
+  found.ci95[0] = found.ci95[1] = std::numeric_limits<double>::quiet_NaN();
+  if (refined.effects.size() == 1) {
+    found.removed_percent = torque_.removed_percent;
+    std::copy(torque_.ci95, torque_.ci95 + 2, found.ci95);
+  }
+  found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
+  return found;
+}
+
+// All windows in which the arm was touched, as one effect: the strongest's
+// estimates.
+FoundEffect Findings::Contacts() const {
+  const std::vector<GapEvent>& events = fit_.events();
+  const GapEvent& strongest = *std::max_element(
+      events.begin(), events.end(),
+      [](const GapEvent& a, const GapEvent& b) { return a.drop < b.drop; });
+  FoundEffect found;
+  if (strongest.fitted) {
+    found = Describe(strongest.fitted->effect, strongest.fitted->covariance);
+  } else {
+    found.effect = FindEffect("external_contact");
+    found.estimates =
+        ContactEstimates(robot_, strongest.contact, &found.stddev);
+  }
+  found.score = strongest.score;
+  found.evidence = evidence_.ForEvents();
+  found.probability = ProbabilityOf(found.evidence);
+  for (const GapEvent& event : events) {
+    found.drop += event.drop;
+    found.contacts.push_back(event.contact);
+    if (event.beyond_friction) found.probability = 1 - kFalseContacts;
+  }
+  return found;
+}
+
+// What the file gives no joint at all, as one effect each.
+void Findings::AddFamilies(const std::vector<LackedFamily>& families) {
+  for (const LackedFamily& family : families) {
+    FoundEffect found;
+    found.effect = family.effect;
+    found.probability = 1;
+    found.score = found.drop = family.drop;
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      const Joint& joint = robot_.links[j].joint;
+      if (family.value[j] == 0) continue;
+      found.estimates.push_back({joint.name + "." + JointTermName(family.term),
+                                 JointTermUnit(family.term, joint.type),
+                                 family.value[j]});
+      found.stddev.push_back(family.stddev[j]);
+    }
+    result_.effects.push_back(found);
+  }
+}
+
+GapFindings Findings::List(const std::vector<LackedFamily>& families) {
+  AddFamilies(families);
+  if (!fit_.events().empty()) result_.effects.push_back(Contacts());
+  for (size_t k = 0; k < fit_.refined().effects.size(); ++k) {
+    result_.effects.push_back(Found(k));
+  }
+  SortFindings(&result_.effects);
+  JoinMeans(&result_.effects);
+  for (FoundEffect& found : result_.effects) {
+    ShareTheRest(&found, &found == &result_.effects.front());
+  }
+  const auto unclaimed = std::stable_partition(
+      result_.effects.begin(), result_.effects.end(), IsClaimed);
+  result_.without_name = unclaimed == result_.effects.begin() &&
+                         IsThereWithoutName(result_.effects, torque_);
+  result_.effects.erase(unclaimed, result_.effects.end());
+  std::stable_partition(
+      result_.effects.begin(), result_.effects.end(),
+      [](const FoundEffect& found) { return found.probability >= kLikely; });
+  return result_;
+}
+
+// The probability that an effect does not have is that of all others together;
+// of a further one, which may not be there at all, others have as much of it as
+// scores say. The set of candidates ends where 95 % are in it, or where each of
+// the others has next to nothing.
+void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
+  constexpr double kCredible = .95, kLeastCandidate = .01;
+  double others = 0;
+  for (const PlacedEffect& other : found->equivalent) {
+    others += other.probability;
+  }
+  const double rest = 1 - found->probability;
+  const double shared = is_first
+                            ? rest
+                            : std::min(rest, found->probability * others /
+                                                 std::max(1e-9, 1 - others));
+  result_.candidates.push_back(
+      {found->effect, found->joint, found->probability, found->score});
+  double sum = 1 - shared;
+  for (PlacedEffect& other : found->equivalent) {
+    other.probability *= shared / std::max(1e-9, others);
+    if (sum < kCredible && other.probability >= kLeastCandidate) {
+      result_.candidates.push_back(other);
+    }
+    sum += other.probability;
+  }
+}
+
+}  // namespace
+
+bool IsSeenAgain(const FoundEffect& found) {
+  constexpr double kShare = .3;
+  return found.evidence.confirmation.Share() > kShare;
+}
+
+bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
+                        const GapFigures& held_out) {
+  return held_out.after < held_out.refit &&
+         std::any_of(effects.begin(), effects.end(), IsSeenAgain);
+}
+
+bool IsPossible(const FoundEffect& found) {
+  constexpr double kFarthest = 1;  // m, of a load from the last link's frame
+  if (found.effect->name != "payload") return true;
+  double squared = 0;
+  for (const EffectEstimate& estimate : found.estimates) {
+    if (estimate.name.rfind("com_", 0) == 0 && std::isfinite(estimate.value)) {
+      squared += estimate.value * estimate.value;
+    }
+  }
+  return squared <= kFarthest * kFarthest;
+}
+
+bool IsContradicted(const FoundEffect& found) {
+  constexpr double kVisible = 40;  // chi^2
+  constexpr double kHelps = .03;   // of the noise's mean square
+  constexpr double kForm = .2;     // by which the form of a law may be wrong
+  const Confirmation& confirmation = found.evidence.confirmation;
+  return confirmation.expected > std::max(kVisible, kForm * found.drop) &&
+         confirmation.explained < 0 && found.evidence.gain < kHelps;
+}
+
+bool IsClaimed(const FoundEffect& found) {
+  if (!found.contacts.empty()) return found.probability >= kLikely;
+  if (!IsPossible(found) || IsContradicted(found)) return false;
+  // At a frequency that other data do not have, it was a random torque.
+  if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
+  if (!IsSeenAgain(found)) {
+    return found.probability >=
+           (found.evidence.made_torque ? kLikely : kLikelyUnseen);
+  }
+  return found.probability >= kLikely ||
+         (found.probability >= kLeastClaimed && found.evidence.gain > 0);
+}
+
+void SortFindings(std::vector<FoundEffect>* effects) {
+  constexpr double kMuch = .2;  // of the number's drop
+  std::stable_sort(effects->begin(), effects->end(),
+                   [](const FoundEffect& a, const FoundEffect& b) {
+                     return a.drop > b.drop;
+                   });
+  for (size_t k = 1; k < effects->size(); ++k) {
+    for (size_t i = k; i > 0; --i) {
+      FoundEffect &before = (*effects)[i - 1], &law = (*effects)[i];
+      if (!IsMeanOf(before, law) || law.drop < kMuch * before.drop) break;
+      std::swap(before, law);
+    }
+  }
+}
+
+void JoinMeans(std::vector<FoundEffect>* effects) {
+  for (size_t k = 0; k < effects->size(); ++k) {
+    for (size_t i = k + 1; i < effects->size();) {
+      FoundEffect& law = (*effects)[k];
+      const FoundEffect& mean = (*effects)[i];
+      if (!IsMeanOf(mean, law)) {
+        ++i;
+        continue;
+      }
+      law.estimates.insert(law.estimates.end(), mean.estimates.begin(),
+                           mean.estimates.end());
+      law.stddev.insert(law.stddev.end(), mean.stddev.begin(),
+                        mean.stddev.end());
+      effects->erase(effects->begin() + i);
+    }
+  }
+}
+
+GapFindings ListFindings(const Robot& robot, const GapFit& fit,
+                         const HeldOut& held_out, const GapFigures& torque,
+                         const std::vector<LackedFamily>& families) {
+  return Findings(robot, fit, held_out, torque).List(families);
+}
+
+}  // namespace armcal

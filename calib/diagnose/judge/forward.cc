@@ -1,0 +1,219 @@
+#include "calib/diagnose/judge/forward.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <future>
+#include <limits>
+#include <utility>
+
+#include "calib/logs/position_noise.h"
+#include "model/log_files/time_base.h"
+#include "model/text/input_error.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+// Deviations of a loop are averaged over this: a bootstrap of every sample
+// would say the same, later.
+constexpr double kBin = .02;  // s
+// Of exact logs; differences of simulations are not smaller.
+constexpr double kLeastFloor = 1e-9;  // rad or m
+
+// Mean squares of all three robots, rows in time, rad^2 or m^2.
+using Squares = std::array<MatrixXd, 3>;
+
+// All three at once: an engine each.
+template <typename Simulate>
+Squares OfAll(const ForwardRobots& robots, const Simulate& simulate) {
+  auto nominal =
+      std::async(std::launch::async, [&] { return simulate(robots.nominal); });
+  auto refit =
+      std::async(std::launch::async, [&] { return simulate(robots.refit); });
+  const MatrixXd after = simulate(robots.after);
+  return {nominal.get(), refit.get(), after};
+}
+
+void Append(const MatrixXd& rows, MatrixXd* to) {
+  const Eigen::Index before = to->rows();
+  to->conservativeResize(before + rows.rows(), rows.cols());
+  to->bottomRows(rows.rows()) = rows;
+}
+
+// Where bins of a log begin that count.
+std::vector<int> Bins(const Log& log, int per_bin,
+                      const std::function<bool(double)>& counts) {
+  std::vector<int> bins;
+  for (int k = FirstCounted(log); k + per_bin <= log.size(); k += per_bin) {
+    if (counts(log.t[k])) bins.push_back(k);
+  }
+  return bins;
+}
+
+int RowsPerBin(const Log& log) {
+  const double step = log.t[log.size() - 1] / (log.size() - 1);
+  return std::max(1, static_cast<int>(std::lround(kBin / step)));
+}
+
+// The rows without NaN.
+std::vector<int> Rows(const MatrixXd& squares) {
+  std::vector<int> rows;
+  for (Eigen::Index k = 0; k < squares.rows(); ++k) {
+    if (!squares.row(k).hasNaN()) rows.push_back(static_cast<int>(k));
+  }
+  return rows;
+}
+
+void SetFigures(const Squares& squares, const VectorXd& floor,
+                std::uint64_t seed, ForwardGap* gap) {
+  gap->has_figures = squares[0].rows() > 0;
+  if (!gap->has_figures) return;
+  gap->floor = floor.cwiseMax(kLeastFloor);
+  const VectorXd weight = gap->floor.cwiseAbs2().cwiseInverse();
+  gap->figures = ShrinkFigures(
+      {squares[0] * weight.asDiagonal(), squares[1] * weight.asDiagonal(),
+       squares[2] * weight.asDiagonal()},
+      0, seed);
+  if (gap->figures.joints.size() > 0) {
+    gap->figures.joints = gap->floor.asDiagonal() * gap->figures.joints;
+  }
+}
+
+// A robot that is too stiff to simulate, as an absurd fit may be, diverges.
+template <typename Simulate>
+MatrixXd OrDiverged(const MatrixXd& diverged, const Simulate& simulate) try {
+  return simulate();
+} catch (const InputError&) {
+  return diverged;
+}
+
+// Mean squares of a loop over bins, infinite where it diverges.
+MatrixXd LoopSquares(const CorrectedRobot& robot, const Robot& known,
+                     const ControllerOptions& controller,
+                     const CommandedLog& log, const std::vector<int>& bins) {
+  const auto count = static_cast<Eigen::Index>(bins.size());
+  const MatrixXd infinite =
+      MatrixXd::Constant(count, known.num_joints(), kInfinity);
+  return OrDiverged(infinite, [&] {
+    const ClosedLoopReplay replay =
+        ReplayClosedLoop(robot.plant, robot.delay, known, controller, log);
+    if (!replay.finite) return infinite;
+    const int per_bin = RowsPerBin(log.log), first = FirstCounted(log.log);
+    MatrixXd squares = infinite;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      squares.row(k) = replay.position.middleRows(bins[k] - first, per_bin)
+                           .colwise()
+                           .squaredNorm() /
+                       per_bin;
+    }
+    return squares;
+  });
+}
+
+// Windows of which begin and end count.
+ReplayWindows CountedWindows(const GapSegment& segment,
+                             const CountedTimes& counted) {
+  const ReplayWindows all = CutWindows(segment, kForwardWindow);
+  if (!counted) return all;
+  ReplayWindows windows{all.length, {}};
+  for (const int k : all.begin) {
+    if (counted(segment.log, segment.motion.time(k)) &&
+        counted(segment.log, segment.motion.time(k + all.length))) {
+      windows.begin.push_back(k);
+    }
+  }
+  return windows;
+}
+
+}  // namespace
+
+CountedTimes TimesWithRows(const GapRows& rows) {
+  std::vector<std::pair<int, TimeRange>> parts;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    for (const GapRows::Run& run : rows.runs(j)) {
+      const int k = run.begin - rows.thin_begin(run.segment);
+      parts.push_back({rows.segments()[run.segment].log,
+                       {rows.thin_time(run.segment, k),
+                        rows.thin_time(run.segment, k + run.size - 1)}});
+    }
+  }
+  return [parts](int log, double t) {
+    return std::any_of(parts.begin(), parts.end(), [=](const auto& part) {
+      return part.first == log && part.second.Contains(t);
+    });
+  };
+}
+
+ForwardGap ForwardGapInLoop(const ForwardRobots& robots, const Robot& known,
+                            const ControllerOptions& controller,
+                            const std::vector<CommandedLog>& logs,
+                            std::uint64_t seed, const CountedTimes& counted) {
+  ForwardGap gap;
+  Squares squares;
+  VectorXd floor = VectorXd::Zero(known.num_joints());  // squared
+  for (const CommandedLog& log : logs) {
+    const std::vector<int> bins =
+        Bins(log.log, RowsPerBin(log.log),
+             [&](double t) { return !counted || counted(gap.runs, t); });
+    const Squares found = OfAll(robots, [&](const CorrectedRobot& robot) {
+      return LoopSquares(robot, known, controller, log, bins);
+    });
+    for (int m = 0; m < 3; ++m) {
+      gap.diverged[m] += !found[m].allFinite();
+      Append(found[m], &squares[m]);
+    }
+    floor += PositionNoise(log.log.q).cwiseAbs2() / logs.size();
+    ++gap.runs;
+  }
+  if (gap.runs > 0) SetFigures(squares, floor.cwiseSqrt(), seed, &gap);
+  return gap;
+}
+
+ForwardGap ForwardGapInWindows(const ForwardRobots& robots,
+                               const std::vector<GapSegment>& segments,
+                               const MeasurementNoise& noise,
+                               std::uint64_t seed,
+                               const CountedTimes& counted) {
+  ForwardGap gap;
+  gap.closed_loop = false;
+  Squares squares;
+  MatrixXd floor;
+  for (const GapSegment& segment : segments) {
+    const ReplayWindows windows = CountedWindows(segment, counted);
+    if (windows.begin.empty()) continue;
+    const auto count = static_cast<Eigen::Index>(windows.begin.size());
+    const MatrixXd nothing =
+        MatrixXd::Constant(count, segment.tau.cols(), kNaN);
+    auto alone = std::async(std::launch::async, [&] {
+      return OrDiverged(nothing, [&] {
+        return NoiseSquares(robots.after, segment, windows, noise,
+                            seed + gap.runs);
+      });
+    });
+    const Squares found = OfAll(robots, [&](const CorrectedRobot& robot) {
+      return OrDiverged(nothing,
+                        [&] { return ReplaySquares(robot, segment, windows); });
+    });
+    Append(alone.get(), &floor);
+    for (int m = 0; m < 3; ++m) {
+      gap.diverged[m] +=
+          static_cast<int>(found[m].col(0).array().isNaN().count());
+      Append(found[m], &squares[m]);
+    }
+    gap.runs += static_cast<int>(count);
+  }
+  if (gap.runs == 0) return gap;
+  // NaN in any is NaN in the sum.
+  const std::vector<int> rows = Rows(squares[0] + squares[1] + squares[2]);
+  for (MatrixXd& one : squares) one = one(rows, Eigen::all).eval();
+  floor = floor(Rows(floor), Eigen::all).eval();
+  SetFigures(squares, floor.colwise().mean().cwiseSqrt(), seed, &gap);
+  return gap;
+}
+
+}  // namespace armcal

@@ -1,0 +1,200 @@
+#include "calib/diagnose/judge/held_out.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "calib/diagnose/candidates/search.h"
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+double TimeOf(const GapRows& rows) {
+  double time = 0;
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i);
+    time += rows.thin_time(s, rows.thin_begin(s + 1) - 1) -
+            rows.thin_time(s, rows.thin_begin(s));
+  }
+  return time;
+}
+
+struct LogWindow {
+  int log;
+  TimeWindow window;
+};
+
+// Of deviations, NaN where joints rest; none where all may be chance.
+std::optional<LogWindow> StrongestWindow(const GapRows& rows,
+                                         const MatrixXd& deviations) {
+  constexpr double kReal = 100;                      // chi^2
+  const std::vector<double> durations = {.4, 1, 2};  // s
+  const MatrixXd left =
+      deviations.unaryExpr([](double x) { return std::isnan(x) ? 0 : x; });
+  std::optional<LogWindow> strongest;
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i), begin = rows.thin_begin(s);
+    const int size = rows.thin_begin(s + 1) - begin;
+    VectorXd t(size);
+    for (int k = 0; k < size; ++k) t[k] = rows.thin_time(s, begin + k);
+    int searched = 0;
+    for (const TimeWindow& window : StrongWindows(left.middleRows(begin, size),
+                                                  t, durations, 1, &searched)) {
+      const double most = strongest ? strongest->window.strength : kReal;
+      if (window.strength <= most) continue;
+      strongest = {rows.segments()[i].log, window};
+    }
+  }
+  return strongest;
+}
+
+}  // namespace
+
+HeldOut::HeldOut(const GapFit& fit)
+    : fit_(fit),
+      other_logs_(false),
+      data_(std::make_unique<GapData>(*fit.data(), LogPart::kHeldOut)) {
+  for (const GapEvent& event : fit.events()) {
+    data_->Mask(event.contact.log, event.contact.window);
+  }
+  data_->SetNoise(fit.noise().joints);
+}
+
+HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs)
+    : fit_(fit),
+      other_logs_(true),
+      data_(std::make_unique<GapData>(std::move(other_logs), fit.baseline(),
+                                      fit.rows().bandwidth_hz())) {
+  data_->SetNoise(fit.noise().joints);
+  if (!fit.events().empty()) MaskEvents();
+}
+
+// An arm that was touched in one log may have been in another: windows that
+// stand out from what the fitted effects leave are not judged by. What stands
+// out in more than a third of the time was no touch.
+void HeldOut::MaskEvents() {
+  constexpr int kMostWindows = 12;
+  constexpr double kMostOfTime = 1. / 3;
+  const MatrixXd residual =
+      Residual(fit_.refined().effects, fit_.refined().baseline);
+  double masked = 0;
+  for (int round = 0; round < kMostWindows; ++round) {
+    const auto worst = StrongestWindow(rows(), Deviations(residual));
+    if (!worst) return;
+    const TimeWindow& window = worst->window;
+    masked += 2 * window.duration;
+    if (masked > kMostOfTime * TimeOf(rows())) return;
+    data_->Mask(worst->log, {window.centre - window.duration,
+                             window.centre + window.duration});
+    data_->SetNoise(fit_.noise().joints);
+  }
+}
+
+MatrixXd HeldOut::ResidualOf(const std::vector<GapCandidate>& effects,
+                             const VectorXd& baseline) const {
+  return data_->ResidualWith(
+      baseline,
+      EffectTorque(fit_.baseline(), fit_.scale(), effects, data_.get()));
+}
+
+MatrixXd HeldOut::Residual(const std::vector<GapCandidate>& effects,
+                           const VectorXd& baseline) const {
+  return ResidualOf(other_logs_ ? InTheirPhase(effects, baseline) : effects,
+                    baseline);
+}
+
+// As effects are in logs that they were not fitted to: what happened once did
+// not, and what swings in time swings as much, at a phase of each log's own.
+std::vector<GapCandidate> HeldOut::InTheirPhase(
+    const std::vector<GapCandidate>& effects, const VectorXd& baseline) const {
+  std::vector<GapCandidate> here, swinging;
+  for (const GapCandidate& effect : effects) {
+    if (effect.log >= 0) continue;
+    (SwingsInTime(*effect.effect) ? swinging : here).push_back(effect);
+  }
+  if (swinging.empty()) return here;
+  const int logs = segments().empty() ? 0 : segments().back().log + 1;
+  for (const GapCandidate& effect : swinging) {
+    const MatrixXd residual = ResidualOf(here, baseline);
+    for (int log = 0; log < logs; ++log) {
+      here.push_back(InPhase(effect, log, residual));
+    }
+  }
+  return here;
+}
+
+GapCandidate HeldOut::InPhase(const GapCandidate& effect, int log,
+                              const MatrixXd& residual) const {
+  GapCandidate one = effect;
+  one.log = log;
+  Eigen::Vector2d both(effect.p[effect.linear[0]], effect.p[effect.linear[1]]);
+  const double size = both.norm();
+  JointRows unit[2];
+  for (int k = 0; k < 2; ++k) {
+    one.p[effect.linear[k]] = 1;
+    one.p[effect.linear[1 - k]] = 0;
+    unit[k] = EffectTorque(fit_.baseline(), fit_.scale(), {one}, data_.get());
+  }
+  Eigen::Matrix2d G = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d g = Eigen::Vector2d::Zero();
+  for (int j = 0; j < residual.cols(); ++j) {
+    if (unit[0][j].size() == 0 || unit[1][j].size() == 0) continue;
+    for (int a = 0; a < 2; ++a) {
+      g[a] += unit[a][j].dot(residual.col(j));
+      for (int b = 0; b < 2; ++b) G(a, b) += unit[a][j].dot(unit[b][j]);
+    }
+  }
+  const Eigen::Vector2d best = G.ldlt().solve(g);
+  if (best.allFinite() && best.norm() > 0) both = size * best.normalized();
+  for (int k = 0; k < 2; ++k) one.p[effect.linear[k]] = both[k];
+  return one;
+}
+
+MatrixXd HeldOut::Deviations(const MatrixXd& residual) const {
+  MatrixXd deviations = residual;
+  for (int j = 0; j < deviations.cols(); ++j) {
+    std::vector<bool> moves(deviations.rows(), false);
+    for (const int k : rows().SampleOfRow(j)) moves[k] = true;
+    for (int k = 0; k < deviations.rows(); ++k) {
+      deviations(k, j) = moves[k]
+                             ? residual(k, j) / std::sqrt(rows().variance(j, k))
+                             : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return deviations;
+}
+
+HeldOut::Residuals HeldOut::AllResiduals() const {
+  return {Residual({}, fit_.before()), Residual({}, fit_.refit()),
+          Residual(fit_.refined().effects, fit_.refined().baseline)};
+}
+
+HeldOutSquares HeldOut::SquaresOf(const Residuals& residuals) const {
+  return {Deviations(residuals.nominal).cwiseAbs2(),
+          Deviations(residuals.refit).cwiseAbs2(),
+          Deviations(residuals.after).cwiseAbs2()};
+}
+
+JointRows HeldOut::Whitened(const MatrixXd& residual) const {
+  JointRows white(residual.cols());
+  for (int j = 0; j < residual.cols(); ++j) {
+    white[j] = rows().Whiten(j, residual.col(j));
+  }
+  return white;
+}
+
+HeldOut::Merit HeldOut::MeritOf(size_t k, double after) const {
+  const RefinedEffects& refined = fit_.refined();
+  const MatrixXd without =
+      Residual(AllBut(refined.effects, k), fit_.BaselineWithout(k));
+  const MatrixXd with = Residual(refined.effects, refined.baseline);
+  return {MeanSquare(Deviations(without).cwiseAbs2()) - after,
+          Confirm(Whitened(without), Whitened(with))};
+}
+
+}  // namespace armcal

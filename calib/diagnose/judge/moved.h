@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/select/fit.h"
+
+namespace armcal {
+
+// A parameter of the baseline that is far from where it was said to be.
+struct MovedParameter {
+  std::string name;  // "<link>.mass", "<joint>.viscous"
+  std::string unit;
+  double nominal = 0, value = 0, stddev = 0;
+  double deviations = 0;  // of the prior
+};
+
+// Those that the data move by more than two standard deviations of the prior
+// and of their own, the farthest first; x: the baseline's values. With a
+// reference: friction that is not what it was then, by more than two of its own
+// and half of what is usual from day to day.
+std::vector<MovedParameter> ListMoved(const GapFit& fit,
+                                      const Eigen::VectorXd& x);
+
+}  // namespace armcal

@@ -1,0 +1,70 @@
+#include "calib/diagnose/judge/probability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace armcal {
+namespace {
+
+constexpr double kCredible = .95;
+
+}  // namespace
+
+std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
+  const std::vector<GapCandidate>& candidates = fit.candidates();
+  const Eigen::VectorXd scores =
+      ScoresBeside(fit.screen(), candidates, fit.selection_options(),
+                   fit.selection().chosen, static_cast<int>(k));
+  std::map<std::pair<const Effect*, int>, double> best;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    if (!std::isfinite(scores[i])) continue;
+    const auto place =
+        std::make_pair(candidates[i].effect, candidates[i].joint);
+    const auto found = best.emplace(place, scores[i]).first;
+    found->second = std::max(found->second, scores[i]);
+  }
+  // What fitting the shape of the chosen one gained, the others may have
+  // gained too where it was not tried.
+  if (!fit.rivals(k).empty()) {
+    double grid = 0, fitted = -1e300;
+    for (const RefinedScore& rival : fit.rivals(k)) {
+      if (rival.score <= fitted) continue;
+      fitted = rival.score;
+      grid = best[{rival.effect, rival.joint}];
+    }
+    for (auto& [place, score] : best) score += std::max(0., fitted - grid);
+    for (const RefinedScore& rival : fit.rivals(k)) {
+      best[{rival.effect, rival.joint}] = rival.score;
+    }
+  }
+  std::vector<PlacedEffect> all;
+  for (const auto& [place, score] : best) {
+    all.push_back({place.first, place.second, 0, score});
+  }
+  std::sort(all.begin(), all.end(),
+            [](const PlacedEffect& a, const PlacedEffect& b) {
+              return a.score > b.score;
+            });
+  double sum = 0;
+  for (PlacedEffect& effect : all) {
+    effect.probability =
+        std::exp((effect.score - all[0].score) / (2 * kTemperature));
+    sum += effect.probability;
+  }
+  for (PlacedEffect& effect : all) effect.probability /= sum;
+  return all;
+}
+
+std::vector<PlacedEffect> CredibleSet(const std::vector<PlacedEffect>& all) {
+  std::vector<PlacedEffect> set;
+  double sum = 0;
+  for (const PlacedEffect& effect : all) {
+    if (sum >= kCredible) break;
+    sum += effect.probability;
+    set.push_back(effect);
+  }
+  return set;
+}
+
+}  // namespace armcal

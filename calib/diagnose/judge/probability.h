@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/select/fit.h"
+
+namespace armcal {
+
+// An effect at a place, whatever its shape, and how probable it is that it is
+// the one.
+struct PlacedEffect {
+  const Effect* effect = nullptr;
+  int joint = -1;  // from 0; -1: all joints or the whole robot
+  double probability = 0;
+  double score = 0;
+};
+
+// Divides scores: neither noise nor the catalogue nor forms are as a score
+// assumes (GAP.md B).
+constexpr double kTemperature = 4;
+
+// The effects that could stand in place of the k-th that was chosen, the most
+// probable first, as scores over the temperature say: P ~ exp(score / (2
+// kTemperature)). Scores of those whose shapes were fitted are set against each
+// other as such, those of the others are of their grids.
+std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k);
+
+// The first ones, up to 95 % together.
+std::vector<PlacedEffect> CredibleSet(const std::vector<PlacedEffect>& all);
+
+}  // namespace armcal

@@ -1,0 +1,81 @@
+#include "calib/diagnose/judge/testability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "model/effects/effects.h"
+
+namespace armcal {
+namespace {
+
+constexpr double kVisible = 1e-4;  // share of the squares of a column
+constexpr double kMaterial = .3;   // times the noise, rms
+
+struct Visibility {
+  double share = 0;  // that the baseline does not absorb
+  double size = 0;   // rms over the noise's, of an effect of usual size
+};
+
+Visibility VisibilityOf(const GapFit& fit, const GapCandidate& candidate) {
+  Visibility visibility;
+  const GapScreen& screen = fit.screen();
+  // Where its joint does not move, others may feel it.
+  const bool own = candidate.joint >= 0 && screen.num_rows(candidate.joint) > 0;
+  double rows = 0;
+  for (int j = 0; j < screen.num_joints(); ++j) {
+    if (!own || candidate.joint == j) rows += screen.num_rows(j);
+  }
+  for (const int c : candidate.columns) {
+    if (!(screen.raw(c) > 0)) continue;
+    visibility.share = std::max(visibility.share, screen.visible(c));
+    visibility.size = std::max(
+        visibility.size,
+        std::sqrt(std::max(0., screen.G()(c, c)) / std::max(1., rows)));
+  }
+  return visibility;
+}
+
+std::string WhyNot(const Visibility& visibility, bool moves) {
+  if (visibility.size >= kMaterial) return "";
+  if (!moves) return "the joint does not move";
+  if (visibility.share < kVisible) {
+    return "the model's own parameters would take it for theirs";
+  }
+  return "one that matters would hide in the noise of this motion";
+}
+
+}  // namespace
+
+std::vector<UntestableEffect> ListUntestable(const GapFit& fit) {
+  std::map<std::pair<const Effect*, int>, Visibility> seen;
+  for (const GapCandidate& candidate : fit.candidates()) {
+    Visibility& best = seen[{candidate.effect, candidate.joint}];
+    const Visibility own = VisibilityOf(fit, candidate);
+    best.share = std::max(best.share, own.share);
+    best.size = std::max(best.size, own.size);
+  }
+  const Robot& robot = fit.baseline().robot();
+  std::vector<UntestableEffect> untestable;
+  for (const Effect& effect : Effects()) {
+    const bool whole = effect.scope == Effect::Scope::kRobot;
+    for (int j = whole ? -1 : 0; j < (whole ? 0 : robot.num_joints()); ++j) {
+      const EffectSite site = {&robot, j, &fit.scale()};
+      std::string why = effect.unfit ? effect.unfit(site) : "";
+      const auto found = seen.find({&effect, j});
+      if (fit.IsLeftOut(effect)) {
+        why = "it was not to be considered";
+      } else if (why.empty()) {
+        why = found == seen.end()
+                  ? "nothing stands out where it would be looked for"
+                  : WhyNot(found->second, whole || fit.rows().num_rows(j) > 0);
+      }
+      if (why.empty()) continue;
+      untestable.push_back(
+          {effect.name, whole ? "" : robot.links[j].joint.name, why});
+    }
+  }
+  return untestable;
+}
+
+}  // namespace armcal

@@ -1,0 +1,52 @@
+#include "calib/diagnose/judge/verdict.h"
+
+namespace armcal {
+
+double UnexplainedOf(const JointLeft& left) {
+  // What is real is there again in what was held out.
+  if (left.held_out > 0 && left.held_out < 1) return 0;
+  // Without any order, it may be noise that is louder here than where it was
+  // told: up to twice; in motion, where clocks and encoders err, to twice the
+  // standard deviation at rest.
+  const int louder = left.floor == NoiseFloor::kStandstill ? 3 : 1;
+  if (!left.is_ordered && left.excess < louder * left.rows) return 0;
+  return left.excess;
+}
+
+GapVerdict JudgeGap(const GapFacts& facts) {
+  constexpr double kReal = 100;        // chi^2 that is not chance
+  constexpr double kUnexplained = .3;  // of what could be removed
+  const bool much_left = facts.left > kReal && facts.left_share > kUnexplained;
+  const double after = facts.torque.after - 1;
+  const double nominal = facts.torque.nominal - 1;
+  const double refit = facts.torque.refit - 1;
+  if (facts.effects) {
+    const bool held_out_left =
+        after > kUnexplained && after > kUnexplained * refit;
+    return much_left || held_out_left ? GapVerdict::kPartlyExplained
+                                      : GapVerdict::kExplained;
+  }
+  if (much_left || facts.found_without_name) return GapVerdict::kUnknown;
+  return nominal > .3 && refit < .5 * nominal ? GapVerdict::kAbsorbed
+                                              : GapVerdict::kNoiseFloor;
+}
+
+const char* GapVerdictName(GapVerdict verdict) {
+  switch (verdict) {
+    case GapVerdict::kNoiseFloor:
+      return "noise_floor";
+    case GapVerdict::kAbsorbed:
+      return "absorbed";
+    case GapVerdict::kExplained:
+      return "explained";
+    case GapVerdict::kPartlyExplained:
+      return "partly_explained";
+    case GapVerdict::kUnknown:
+      return "unknown";
+    case GapVerdict::kNotTestable:
+      return "not_testable";
+  }
+  return "";
+}
+
+}  // namespace armcal

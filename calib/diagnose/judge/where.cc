@@ -1,0 +1,66 @@
+#include "calib/diagnose/judge/where.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace armcal {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int kBins = 10;
+// Bin means of noise: chi^2 of kBins, 99.9 %, seven coordinates looked at.
+constexpr double kNoise = 35;
+
+// Sum over bins of (mean)^2 n, of y in the order of x.
+double ChiSquaredOfBins(const VectorXd& x, const VectorXd& y) {
+  std::vector<int> order(x.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return x[a] < x[b]; });
+  double chi_squared = 0;
+  const size_t size = order.size();
+  for (int bin = 0; bin < kBins; ++bin) {
+    const size_t begin = size * bin / kBins, end = size * (bin + 1) / kBins;
+    double sum = 0;
+    for (size_t k = begin; k < end; ++k) sum += y[order[k]];
+    if (end > begin)
+      chi_squared += sum * sum / static_cast<double>(end - begin);
+  }
+  return chi_squared;
+}
+
+}  // namespace
+
+Organisation OrganisedBy(const JointCourse& course) {
+  Organisation best;
+  if (course.residual.size() < 5 * kBins) return best;
+  // Louder than the noise it was told is not ordered.
+  const double rms = std::sqrt(course.residual.squaredNorm() /
+                               static_cast<double>(course.residual.size()));
+  const VectorXd r = course.residual / std::max(1., rms);
+  const VectorXd direction = course.velocity.cwiseSign();
+  const VectorXd against = r.cwiseProduct(direction);
+  struct Coordinate {
+    const char* name;
+    VectorXd x;
+    const VectorXd& y;
+  };
+  const std::vector<Coordinate> coordinates = {
+      {"velocity", course.velocity, r},
+      {"speed", course.velocity.cwiseAbs(), against},
+      {"position", course.position, r},
+      {"acceleration", course.acceleration, r},
+      {"load", course.load, r},
+      {"load and direction", course.load.cwiseAbs(), against},
+      {"time", course.time, r}};
+  for (const Coordinate& coordinate : coordinates) {
+    const double excess = ChiSquaredOfBins(coordinate.x, coordinate.y) - kNoise;
+    if (excess > best.excess) best = {coordinate.name, excess};
+  }
+  return best;
+}
+
+}  // namespace armcal

@@ -1,0 +1,328 @@
+#include "calib/diagnose/robot_export.h"
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "calib/diagnose/candidates/friction_share.h"
+#include "calib/numerics/json_figures.h"
+#include "calib/refine/possible_links.h"
+#include "model/robot_files/robot_formats.h"
+#include "model/robot_files/urdf_update.h"
+#include "model/robot_files/urdf_writer.h"
+
+namespace armcal {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kNoDelay = 1e-4;  // s, that nobody would miss
+
+std::string Short(double x) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.4g", x);
+  return text;
+}
+
+using Add = void (*)(const GapCandidate& found, Joint* joint,
+                     JointDrive* drive);
+
+// An effect that formats have fields for: how it adds to them, and the field
+// that some formats lack.
+struct HeldEffect {
+  const char* effect;
+  std::optional<RobotField> field;
+  Add add;
+};
+
+// As the effects' own `apply` has it, with the sign of a robot file's fields.
+const HeldEffect kHeldEffects[] = {
+    {"viscous_friction", std::nullopt,
+     [](const GapCandidate& found, Joint* joint, JointDrive*) {
+       joint->viscous += found.p[0];
+     }},
+    {"coulomb_friction", std::nullopt,
+     [](const GapCandidate& found, Joint* joint, JointDrive*) {
+       joint->coulomb += found.p[0];
+     }},
+    {"torque_offset", RobotField::kOffset,
+     [](const GapCandidate& found, Joint* joint, JointDrive*) {
+       joint->offset += found.p[0];
+     }},
+    {"torque_gain", RobotField::kGain,
+     [](const GapCandidate& found, Joint*, JointDrive* drive) {
+       drive->gain /= 1 + found.p[0];
+     }},
+    {"spring", RobotField::kSpring,
+     [](const GapCandidate& found, Joint*, JointDrive* drive) {
+       drive->rest = found.p[1] / found.p[0];
+       drive->stiffness = found.p[0];
+     }}};
+
+const HeldEffect* FindHeld(const CarriedEffect& effect) {
+  if (effect.found.joint < 0) return nullptr;
+  for (const HeldEffect& held : kHeldEffects) {
+    if (effect.found.effect->name != held.effect) continue;
+    const bool no_spring =
+        held.field == RobotField::kSpring && effect.found.p[0] <= 0;
+    return no_spring ? nullptr : &held;
+  }
+  return nullptr;
+}
+
+bool IsIn(const RobotFormat& format, const CarriedEffect& effect) {
+  const HeldEffect* held = FindHeld(effect);
+  return effect.in_robot ||
+         (held != nullptr && (!held->field || format.Holds(*held->field)));
+}
+
+// Friction that brakes: URDF readers refuse any other.
+void ForbidPushing(const char* what, double* value, const Joint& joint,
+                   std::vector<std::string>* losses) {
+  if (*value >= 0) return;
+  losses->push_back(std::string(what) + " friction of joint " + joint.name +
+                    " was fitted as " + Short(*value) +
+                    " and is 0 in the file, which cannot push");
+  *value = 0;
+}
+
+// Which links cannot exist, and why.
+std::string Impossible(const Robot& robot) {
+  std::string text;
+  for (const Link& link : robot.links) {
+    const InertialParameters& body = link.inertial;
+    if (body.ToVector().isZero(0)) continue;
+    const std::string why = WhyUnphysical(body);
+    if (why.empty()) continue;
+    text += (text.empty() ? "" : "; ") + link.name + ": " + why;
+  }
+  return text;
+}
+
+void KeepFileLinks(const Robot& file, Robot* robot) {
+  for (int i = 0; i < robot->num_joints(); ++i) {
+    const InertialParameters& body = robot->links[i].inertial;
+    if (body.ToVector().isZero(0) || WhyUnphysical(body).empty()) continue;
+    robot->links[i].inertial = file.links[i].inertial;
+  }
+}
+
+// Simulators take bodies that can exist only. A motor on a spring keeps its
+// inertia.
+void MakeLinksPossible(const CorrectedRobot& corrected, const Robot& file,
+                       Robot* robot, std::vector<std::string>* losses) {
+  const std::string why = Impossible(*robot);
+  if (why.empty()) return;
+  std::vector<bool> free_armature(robot->num_joints(), true);
+  for (const Transmission& law : corrected.plant.transmissions) {
+    free_armature[law.joint] = false;
+  }
+  const auto possible =
+      FindPossibleLinks(*robot, file, corrected.scale, free_armature);
+  if (!possible || !Impossible(possible->robot).empty()) {
+    KeepFileLinks(file, robot);
+    losses->push_back(
+        "links keep the file's inertia where what was fitted "
+        "cannot exist (" +
+        why + ")");
+    return;
+  }
+  *robot = possible->robot;
+  std::string differs;
+  for (int j = 0; j < robot->num_joints(); ++j) {
+    differs += (j == 0 ? "" : ", ") + robot->links[j].joint.name + " " +
+               Short(possible->differs_percent[j]) + " %";
+  }
+  losses->push_back("what was fitted cannot exist (" + why +
+                    "): the links are the nearest that can, whose torques in "
+                    "motion like the log's differ by (rms) " +
+                    differs);
+}
+
+// What the format can hold of it.
+RobotDescription Describe(const CorrectedRobot& corrected, const Robot& file,
+                          const RobotFormat& format,
+                          std::vector<std::string>* losses) {
+  RobotDescription description{corrected.plant.robot, {}};
+  Robot& robot = description.robot;
+  description.drives.resize(robot.num_joints());
+  for (const CarriedEffect& effect : corrected.effects) {
+    const HeldEffect* held = FindHeld(effect);
+    const int j = effect.found.joint;
+    if (held != nullptr && IsIn(format, effect)) {
+      held->add(effect.found, &robot.links[j].joint, &description.drives[j]);
+    } else if (j >= 0) {
+      const FrictionShare share =
+          ShareOfFriction(effect, corrected.plant.robot, corrected.scale);
+      robot.links[j].joint.viscous += share.viscous;
+      robot.links[j].joint.coulomb += share.coulomb;
+    }
+  }
+  MakeLinksPossible(corrected, file, &robot, losses);
+  for (Link& link : robot.links) {
+    ForbidPushing("viscous", &link.joint.viscous, link.joint, losses);
+    ForbidPushing("Coulomb", &link.joint.coulomb, link.joint, losses);
+    ForbidPushing("armature", &link.joint.armature, link.joint, losses);
+  }
+  return description;
+}
+
+std::string Sentence(const RobotFormat& format, const CarriedEffect& effect,
+                     const Robot& robot) {
+  std::string values;
+  for (const EffectEstimate& estimate : effect.estimates) {
+    values += (values.empty() ? "" : ", ") + estimate.name + " " +
+              Short(estimate.value) +
+              (estimate.unit == "1" ? "" : " " + estimate.unit);
+  }
+  const int j = effect.found.joint;
+  return std::string(format.title) + " has no field for " +
+         effect.found.effect->name +
+         (j < 0 ? "" : " of joint " + robot.links[j].joint.name) + " (" +
+         values + "): see effects.json";
+}
+
+// What stands in the file in its stead.
+std::string ShareSentence(const CorrectedRobot& corrected,
+                          const CarriedEffect& effect) {
+  const FrictionShare share =
+      ShareOfFriction(effect, corrected.plant.robot, corrected.scale);
+  if (share.viscous == 0 && share.coulomb == 0) return "";
+  return "; its share of viscous friction " + Short(share.viscous) +
+         " and of Coulomb friction " + Short(share.coulomb) + " is in the file";
+}
+
+void AddLosses(const CorrectedRobot& corrected, const RobotFormat& format,
+               const RobotDescription& description,
+               std::vector<std::string>* losses) {
+  const std::string title = format.title;
+  for (const std::string& loss : Losses(format, description)) {
+    losses->push_back(loss);
+  }
+  for (const CarriedEffect& effect : corrected.effects) {
+    if (IsIn(format, effect)) continue;
+    losses->push_back(Sentence(format, effect, description.robot) +
+                      ShareSentence(corrected, effect));
+  }
+  for (const std::vector<CoulombPart>& parts : corrected.coulomb) {
+    if (parts.front().force == 0 && parts.size() == 1) continue;
+    losses->push_back(title +
+                      " has no field for how friction changes sign through "
+                      "zero velocity: see effects.json");
+    break;
+  }
+  if (std::abs(corrected.delay) >= kNoDelay) {
+    losses->push_back(title + " has no field for time: torque was recorded " +
+                      Short(1e3 * std::abs(corrected.delay)) + " ms " +
+                      (corrected.delay > 0 ? "after" : "before") +
+                      " the motion");
+  }
+  for (const std::string& note : corrected.notes) losses->push_back(note);
+}
+
+RobotFile MakeFile(const CorrectedRobot& corrected, const Robot& file,
+                   const RobotFormat& format) {
+  RobotFile result{&format, "", {}};
+  const RobotDescription description =
+      Describe(corrected, file, format, &result.losses);
+  AddLosses(corrected, format, description, &result.losses);
+  result.text = format.write(description);
+  return result;
+}
+
+bool SameGeometry(const Robot& a, const Robot& b) {
+  for (int i = 0; i < a.num_joints(); ++i) {
+    if (a.links[i].X_PF.matrix() != b.links[i].X_PF.matrix() ||
+        a.links[i].X_ML.matrix() != b.links[i].X_ML.matrix()) {
+      return false;
+    }
+  }
+  return a.X_LT.matrix() == b.X_LT.matrix();
+}
+
+json JointJson(const CorrectedRobot& corrected, int j) {
+  const Joint& joint = corrected.plant.robot.links[j].joint;
+  json coulomb = json::array();
+  for (const CoulombPart& part : corrected.coulomb[j]) {
+    const bool speed = part.transition.law == CoulombTransition::Law::kVelocity;
+    coulomb.push_back({{"force", JsonNumber(part.force)},
+                       {"width", JsonNumber(part.transition.width)},
+                       {"law", speed ? "velocity" : "displacement"}});
+  }
+  return {{"name", joint.name},
+          {"viscous", JsonNumber(joint.viscous)},
+          {"offset", JsonNumber(joint.offset)},
+          {"armature", JsonNumber(joint.armature)},
+          {"coulomb", coulomb},
+          {"effect_width", JsonNumber(corrected.width[j])}};
+}
+
+std::vector<std::string> FormatsWith(const CarriedEffect& effect) {
+  std::vector<std::string> names;
+  for (const RobotFormat& format : RobotFormats()) {
+    if (IsIn(format, effect)) names.push_back(format.name);
+  }
+  return names;
+}
+
+json EffectJson(const CarriedEffect& effect, const Robot& robot) {
+  const Effect& law = *effect.found.effect;
+  const int j = effect.found.joint;
+  const JointType type =
+      j < 0 ? JointType::kRevolute : robot.links[j].joint.type;
+  json parameters = json::array();
+  for (size_t k = 0; k < law.parameters.size(); ++k) {
+    parameters.push_back({{"name", law.parameters[k].name},
+                          {"unit", ParameterUnit(law.parameters[k].unit, type)},
+                          {"value", JsonNumber(effect.found.p[k])}});
+  }
+  return {{"effect", law.name},
+          {"joint", j < 0 ? "" : robot.links[j].joint.name},
+          {"joint_index", j + 1},
+          {"law", law.law},
+          {"in_urdf", IsIn(UrdfFormat(), effect)},
+          {"in", FormatsWith(effect)},
+          {"parameters", parameters}};
+}
+
+}  // namespace
+
+nlohmann::json RobotFilesJson(const std::vector<RobotFile>& files) {
+  json list = json::array();
+  for (const RobotFile& file : files) {
+    list.push_back({{"format", file.format->name},
+                    {"file", file.format->file},
+                    {"losses", file.losses}});
+  }
+  return list;
+}
+
+RobotExport ExportCorrectedRobot(
+    const CorrectedRobot& corrected, const Robot& file, const std::string& urdf,
+    const std::string& base, const std::vector<const RobotFormat*>& formats) {
+  RobotExport result;
+  const RobotFormat of_urdf = UrdfFormat();
+  const RobotDescription description =
+      Describe(corrected, file, of_urdf, &result.losses);
+  const Robot& robot = description.robot;
+  AddLosses(corrected, of_urdf, description, &result.losses);
+  result.urdf = urdf.empty()
+                    ? MakeUrdf(robot)
+                    : UpdateUrdf(urdf, robot, !SameGeometry(robot, file), base);
+  for (const RobotFormat* format : formats) {
+    result.files.push_back(MakeFile(corrected, file, *format));
+  }
+  json joints = json::array(), effects = json::array();
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    joints.push_back(JointJson(corrected, j));
+  }
+  for (const CarriedEffect& effect : corrected.effects) {
+    effects.push_back(EffectJson(effect, robot));
+  }
+  result.effects = {{"delay_s", JsonNumber(corrected.delay)},
+                    {"joints", joints},
+                    {"effects", effects}};
+  return result;
+}
+
+}  // namespace armcal

@@ -1,0 +1,93 @@
+#include "calib/diagnose/select/events.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+namespace {
+
+using Eigen::VectorXd;
+using Search = EffectParameter::Search;
+
+// Of an event's width, how far to both sides it is taken out.
+constexpr double kEventReach = 2.5;
+
+}  // namespace
+
+GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
+                             const Contact& contact) {
+  const ContactStrength strength = StrengthOf(rows, excess, contact);
+  GapEvent event;
+  event.contact = contact;
+  event.beyond_friction = true;
+  event.drop = event.score = strength.all;
+  event.one_joint = strength.one_joint / strength.all;
+  return event;
+}
+
+void SortByTime(std::vector<GapEvent>* events) {
+  std::sort(events->begin(), events->end(),
+            [](const GapEvent& a, const GapEvent& b) {
+              return a.contact.window.begin < b.contact.window.begin;
+            });
+}
+
+void DescribeAgain(const Robot& robot, const GapRows& rows,
+                   const FrictionExcess& alone, const FrictionExcess& beside,
+                   std::vector<GapEvent>* events) {
+  SortByTime(events);
+  for (GapEvent& event : *events) {
+    const Contact before = event.contact;
+    event.contact = DescribeContact(robot, rows, event.at_rest ? alone : beside,
+                                    before.log, before.window);
+    event.contact.window = before.window;
+    if (event.fitted) event.contact.force = before.force;
+  }
+}
+
+TimeRange WindowOf(const GapCandidate& candidate) {
+  double time = 0, width = 0;
+  for (size_t k = 0; k < candidate.effect->parameters.size(); ++k) {
+    const Search search = candidate.effect->parameters[k].search;
+    if (search == Search::kTime) time = candidate.p[k];
+    if (search == Search::kDuration) width = candidate.p[k];
+  }
+  return {time - kEventReach * width, time + kEventReach * width};
+}
+
+int RowsOf(const GapRows& rows, const GapEvent& event) {
+  int count = 0;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    for (const GapRows::Place& place : rows.PlacesOfRows(j)) {
+      count += rows.segments()[place.segment].log == event.contact.log &&
+               event.contact.window.Contains(place.time);
+    }
+  }
+  return count;
+}
+
+double OneJointShare(const GapScreen& screen, const GapRows& rows,
+                     const GapEvent& event) {
+  const TimeRange& window = event.contact.window;
+  const double centre = (window.begin + window.end) / 2;
+  const double width = (window.end - window.begin) / (2 * kEventReach);
+  VectorXd course = VectorXd::Zero(rows.num_thin());
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i);
+    if (rows.segments()[i].log != event.contact.log) continue;
+    for (int k = rows.thin_begin(s); k < rows.thin_begin(s + 1); ++k) {
+      course[k] =
+          std::exp(-std::pow((rows.thin_time(s, k) - centre) / width, 2));
+    }
+  }
+  double most = 0;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    JointRows column(rows.num_joints());
+    column[j] = rows.Whiten(j, course);
+    if (column[j].norm() < 1e-9) continue;
+    most = std::max(most, screen.DropOf({column}));
+  }
+  return most / std::max(1., event.drop);
+}
+
+}  // namespace armcal

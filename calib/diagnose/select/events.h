@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/data/screen.h"
+#include "calib/diagnose/select/contacts.h"
+#include "model/log_files/time_base.h"
+
+namespace armcal {
+
+// Something that happened once.
+struct GapEvent {
+  Contact contact;
+  // A force and its course, fitted to joints that move: the effect's parameters
+  // and their covariance. None of what was found beyond friction, nor where
+  // joints have no lever to tell the force by.
+  struct Fitted {
+    GapCandidate effect;
+    Eigen::MatrixXd covariance;
+  };
+  std::optional<Fitted> fitted;
+  bool beyond_friction = false;
+  // Found at rest: what effects that were fitted to motion say of rest, it is
+  // not told beside.
+  bool at_rest = false;
+  double drop = 0;  // of chi^2
+  double score = 0;
+  // The drop that a torque of the same course on one joint alone would bring,
+  // over `drop`: a touch is felt by several joints.
+  double one_joint = 0;
+};
+
+GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
+                             const Contact& contact);
+void SortByTime(std::vector<GapEvent>* events);
+// As they are beside what was fitted without them, in the order of time: the
+// excess beside the baseline alone, and beside effects as well.
+void DescribeAgain(const Robot& robot, const GapRows& rows,
+                   const FrictionExcess& alone, const FrictionExcess& beside,
+                   std::vector<GapEvent>* events);
+
+// Where in time a candidate with a time and a duration is.
+TimeRange WindowOf(const GapCandidate& candidate);
+
+// Rows that are not believed once the event is taken out.
+int RowsOf(const GapRows& rows, const GapEvent& event);
+
+// GapEvent::one_joint of an event whose window and drop are known.
+double OneJointShare(const GapScreen& screen, const GapRows& rows,
+                     const GapEvent& event);
+
+}  // namespace armcal

@@ -1,0 +1,173 @@
+#include "calib/diagnose/select/excess.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kLongestBlock = 2;  // s
+constexpr double kFewestBlocks = 10;
+
+// Coulomb friction of a segment's joints, samples x n, N m or N.
+MatrixXd CoulombTorque(const GapBaseline& baseline, const VectorXd& x,
+                       const GapSegment& segment) {
+  const Motion& motion = segment.motion;
+  MatrixXd tau = MatrixXd::Zero(motion.size(), motion.num_joints());
+  for (int j = 0; j < motion.num_joints(); ++j) {
+    for (const CoulombPart& part : baseline.CoulombAt(j, x)) {
+      tau.col(j).array() +=
+          part.force *
+          (motion.qd.col(j).array() / part.transition.width).tanh();
+    }
+  }
+  return tau;
+}
+
+// Of `size` rows around each row, fewer at the ends.
+MatrixXd MovingMean(const MatrixXd& x, int size) {
+  MatrixXd mean(x.rows(), x.cols());
+  const int rows = static_cast<int>(x.rows());
+  for (int k = 0; k < rows; ++k) {
+    const int begin = std::max(0, k - size / 2);
+    const int end = std::min(rows, begin + size);
+    mean.row(k) = x.middleRows(begin, end - begin).colwise().mean();
+  }
+  return mean;
+}
+
+// Coulomb friction changes from day to day: by how much what is left of the
+// torque is against the motion, where that is clear, in the median, since a
+// push takes less than half of it. `friction`: as the model has it.
+double MoreFriction(const VectorXd& left, const VectorXd& friction,
+                    double coulomb) {
+  constexpr double kClear = .9;  // of the Coulomb friction
+  constexpr size_t kLeast = 60;  // samples
+  std::vector<double> against;
+  for (int k = 0; k < left.size(); ++k) {
+    if (std::abs(friction[k]) < kClear * coulomb) continue;
+    against.push_back(friction[k] > 0 ? left[k] : -left[k]);
+  }
+  if (against.size() < kLeast) return 0;
+  const auto middle = against.begin() + against.size() / 2;
+  std::nth_element(against.begin(), middle, against.end());
+  return *middle;
+}
+
+}  // namespace
+
+FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
+                                  const VectorXd& x, const GapRows& rows,
+                                  const MatrixXd& residual) {
+  const int n = rows.num_joints();
+  CHECK_EQ(residual.rows(), rows.num_thin());
+  FrictionExcess excess;
+  const Robot robot = baseline.With(x);
+  excess.coulomb.resize(n);
+  for (int j = 0; j < n; ++j) {
+    excess.coulomb[j] = std::max(0., robot.links[j].joint.coulomb);
+  }
+  excess.torque = excess.friction = excess.deviations =
+      MatrixXd::Zero(rows.num_thin(), n);
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i), begin = rows.thin_begin(s);
+    const GapSegment& segment = rows.segments()[i];
+    const MatrixXd own = rows.Thin(s, CoulombTorque(baseline, x, segment));
+    const MatrixXd moves =
+        1 - rows.Pick(s, segment.still.cast<double>().matrix()).array();
+    const int size =
+        std::max(1, static_cast<int>(std::lround(kExcessTime / rows.step(s))));
+    excess.torque.middleRows(begin, own.rows()) =
+        MovingMean(residual.middleRows(begin, own.rows()) + own, size);
+    excess.friction.middleRows(begin, own.rows()) =
+        MovingMean(own.cwiseProduct(moves), size);
+  }
+  for (int j = 0; j < n; ++j) {
+    excess.coulomb[j] +=
+        std::max(0., MoreFriction(excess.torque.col(j) - excess.friction.col(j),
+                                  excess.friction.col(j), excess.coulomb[j]));
+    // The ways through zero velocity may have taken a push for friction.
+    excess.friction.col(j) = excess.friction.col(j)
+                                 .cwiseMin(excess.coulomb[j])
+                                 .cwiseMax(-excess.coulomb[j]);
+    excess.deviations.col(j) =
+        (excess.torque.col(j).cwiseAbs().array() - excess.coulomb[j]) /
+        rows.noise(j).stddev();
+  }
+  return excess;
+}
+
+double BlockTime(const GapRows& rows) {
+  double time = 0;
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i);
+    time += (rows.thin_begin(s + 1) - rows.thin_begin(s)) * rows.step(s);
+  }
+  return std::clamp(time / kFewestBlocks, 2 * kExcessTime, kLongestBlock);
+}
+
+std::vector<double> BlockMaxima(const GapRows& rows, double block,
+                                const VectorXd& series) {
+  CHECK_EQ(series.size(), rows.num_thin());
+  std::vector<double> maxima;
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i);
+    std::map<long, double> blocks;
+    for (int k = rows.thin_begin(s); k < rows.thin_begin(s + 1); ++k) {
+      const long at = std::lround(std::floor(rows.thin_time(s, k) / block));
+      const auto most = blocks.emplace(at, series[k]).first;
+      most->second = std::max(most->second, series[k]);
+    }
+    for (const auto& [at, most] : blocks) maxima.push_back(most);
+  }
+  return maxima;
+}
+
+namespace {
+
+// P(X > median + x) = share (1 + x / (m scale))^-m = probability / further.
+double Quantile(double median, double scale, double m, double share,
+                double further, double probability) {
+  return median +
+         m * scale * (std::pow(further * share / probability, 1 / m) - 1);
+}
+
+}  // namespace
+
+double PredictedMaximum(std::vector<double> maxima, double further,
+                        double probability) {
+  if (maxima.size() < 2) return std::numeric_limits<double>::infinity();
+  std::sort(maxima.begin(), maxima.end());
+  const double median = maxima[(maxima.size() - 1) / 2];
+  double sum = 0;
+  int above = 0;
+  for (const double x : maxima) {
+    if (x <= median) continue;
+    sum += x - median;
+    ++above;
+  }
+  if (above == 0) return median;
+  return Quantile(median, sum / above, above,
+                  static_cast<double>(above) / maxima.size(), further,
+                  probability);
+}
+
+double PredictedUsualMaximum(std::vector<double> maxima, double further,
+                             double probability) {
+  constexpr size_t kFewest = 8;
+  if (maxima.size() < kFewest) return std::numeric_limits<double>::infinity();
+  std::sort(maxima.begin(), maxima.end());
+  const size_t last = maxima.size() - 1;
+  const double median = maxima[last / 2];
+  const double scale = (maxima[3 * last / 4] - median) / std::log(2.);
+  return Quantile(median, scale, maxima.size() / 4., .5, further, probability);
+}
+
+}  // namespace armcal

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/diagnose/data/baseline.h"
+#include "calib/diagnose/data/rows.h"
+
+namespace armcal {
+
+// How far torque is beyond what friction can hold, moving or at rest. A joint
+// at rest holds any torque up to its Coulomb friction, whatever the direction,
+// and so does one whose direction is doubtful: within it nothing is known.
+struct FrictionExcess {
+  // Thinned samples x n, means over kExcessTime, N m or N:
+  Eigen::MatrixXd torque;    // recorded less the model's, friction left in it
+  Eigen::MatrixXd friction;  // Coulomb, as the motion says; 0 at rest
+  // (|torque| - Coulomb friction) / the noise's standard deviation.
+  Eigen::MatrixXd deviations;
+  Eigen::VectorXd coulomb;  // n, N m or N
+
+  // The largest of all joints, per thinned sample.
+  Eigen::VectorXd Largest() const { return deviations.rowwise().maxCoeff(); }
+};
+
+// The shortest push that is looked for, s.
+inline constexpr double kExcessTime = .15;
+
+// `residual`: recorded torque less that of the robot at x, friction included,
+// thinned samples x n.
+FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
+                                  const Eigen::VectorXd& x, const GapRows& rows,
+                                  const Eigen::MatrixXd& residual);
+
+// How long the blocks are that maxima are taken of: 2 s, and no longer than a
+// tenth of the rows' time, but twice kExcessTime.
+double BlockTime(const GapRows& rows);
+// The largest value in every block of every segment; `series`: thinned samples.
+std::vector<double> BlockMaxima(const GapRows& rows, double block,
+                                const Eigen::VectorXd& series);
+
+// What the largest of as many further maxima exceeds with this probability.
+// Maxima above their median have an exponential tail (peaks over a threshold,
+// Pickands 1975, in Gumbel's domain); that its scale is known from few of them
+// makes what is predicted a Lomax distribution:
+//   P(X > median + x) = 1/2 (1 + x / (m scale))^-m, m exceedances.
+double PredictedMaximum(std::vector<double> maxima, double further,
+                        double probability);
+// The same of maxima of which up to a quarter may be something else: the scale
+// is told by their upper quartile, as well as a quarter of them tells.
+double PredictedUsualMaximum(std::vector<double> maxima, double further,
+                             double probability);
+
+}  // namespace armcal

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/diagnose/data/baseline.h"
+#include "calib/diagnose/data/segment.h"
+#include "model/effects/effects.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// A term that a robot file gives no joint (friction of a frictionless model),
+// as the logs say it is.
+struct LackedFamily {
+  const Effect* effect = nullptr;
+  JointTerm term;
+  // n, SI units of the term; 0 where it would be negative.
+  Eigen::VectorXd value;
+  Eigen::VectorXd stddev;  // with the noise that is left when all are fitted
+  double drop = 0;         // of chi^2 when it is left out
+  // rms of what is left of each joint's torque with this and the families
+  // before it, N m or N.
+  Eigen::VectorXd left;
+};
+
+struct LackedFamilies {
+  std::vector<LackedFamily> families;  // empty: the file gives all
+  Eigen::VectorXd without;             // rms left with none of them
+  Robot robot;                         // the file's with all of them
+};
+
+// Viscous friction, Coulomb friction, armature and offsets, those of which the
+// file gives none, fitted beside the baseline to the segments.
+LackedFamilies FitLackedFamilies(const Robot& robot,
+                                 const BaselineOptions& options,
+                                 double bandwidth_hz,
+                                 const std::vector<GapSegment>& segments);
+
+}  // namespace armcal

@@ -1,0 +1,284 @@
+#include "calib/diagnose/select/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "calib/diagnose/data/days.h"
+#include "calib/diagnose/data/motion_scale.h"
+#include "calib/diagnose/select/chosen.h"
+#include "calib/diagnose/select/form_error.h"
+#include "calib/diagnose/select/idle.h"
+#include "calib/diagnose/select/null.h"
+#include "calib/diagnose/select/reference.h"
+#include "model/effects/effects.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostEvents = 12;
+constexpr std::uint64_t kSeed = 1;  // of what chance would give
+
+}  // namespace
+
+GapFit::GapFit(const GapBaseline& baseline, const GapFitOptions& options,
+               std::vector<GapSegment> training, LogPart part,
+               std::vector<GapSegment> reference)
+    : options_(options),
+      regression_(baseline, options.bandwidth_hz, std::move(training), part,
+                  std::move(reference)),
+      pool_(&regression_, options.without) {}
+
+GapFit::GapFit(const GapFit& other, LogPart part)
+    : options_(other.options_),
+      regression_(other.regression_, part),
+      pool_(&regression_, other.pool_) {}
+
+// What the baseline and effects leave of the torque beyond friction.
+FrictionExcess GapFit::ExcessBeside(
+    const std::vector<GapCandidate>& effects) const {
+  const JointRows torque = regression_.TorqueOf(effects);
+  const VectorXd x = regression_.BaselineBeside(torque);
+  return ExcessOverFriction(baseline(), x, rows(),
+                            data()->ResidualWith(x, torque));
+}
+
+// Above what the excess of a log without a contact is: of the reference, or of
+// the log itself but for a few windows.
+double GapFit::UsualExcess(const FrictionExcess& excess, bool of_itself) const {
+  const GapData* reference = regression_.reference();
+  const GapRows& before = reference ? reference->rows() : rows();
+  const double block = BlockTime(before);
+  const std::vector<double> own = BlockMaxima(rows(), block, excess.Largest());
+  const double further = static_cast<double>(own.size());
+  double usual = 0;
+  if (of_itself) usual = PredictedUsualMaximum(own, further, kFalseContacts);
+  if (!reference) return usual;
+  const FrictionExcess known = ExcessOverFriction(
+      baseline(), refit(), before, reference->ResidualWith(refit()));
+  return std::max(usual,
+                  PredictedMaximum(BlockMaxima(before, block, known.Largest()),
+                                   further, kFalseContacts));
+}
+
+// Contacts stand out from all that friction does when nothing touches the arm,
+// which only a reference tells. What one joint alone feels in motion may be its
+// own: where the arm has no other, it has to stand out from the rest of the log
+// as well. Whether there were any. Torques that are made of commands have the
+// drives' integrals in them, which wind up where friction holds.
+bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
+                             ContactSearch search) {
+  const bool of_itself = search == ContactSearch::kInMotion;
+  if (IsLeftOut(*FindEffect("external_contact"))) return false;
+  if (HaveNoiseOfPositions(rows().segments())) return false;
+  if (of_itself ? rows().num_joints() > 1 : !regression_.reference())
+    return false;
+  const FrictionExcess excess = ExcessBeside(effects);
+  const double usual = UsualExcess(excess, of_itself);
+  bool any = false;
+  for (const Contact& contact :
+       FindContacts(baseline().robot(), rows(), excess, usual, search)) {
+    if (std::any_of(events_.begin(), events_.end(), [&](const GapEvent& event) {
+          return event.contact.log == contact.log &&
+                 event.contact.window.Contains(contact.time);
+        })) {
+      continue;
+    }
+    events_.push_back(EventBeyondFriction(rows(), excess, contact));
+    events_.back().at_rest = search == ContactSearch::kAtRest;
+    data()->Mask(contact.log, contact.window);
+    any = true;
+  }
+  return any;
+}
+
+void GapFit::MakeScreen() {
+  regression_.Refit();
+  while (options_.selection.events &&
+         TakeOutContacts({}, ContactSearch::kAtRest)) {
+    regression_.Refit();
+  }
+  pool_.List();
+}
+
+// Effects, and again with the shapes and sizes that fit best: what the nearest
+// of a grid left is no effect.
+void GapFit::Select() {
+  constexpr int kRounds = 2;
+  const auto select = [this] {
+    selection_ = SelectEffects(screen(), candidates(), options_.selection);
+  };
+  select();
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<GapCandidate> chosen = pool_.Fitted(selection_.chosen);
+    if (std::none_of(chosen.begin(), chosen.end(), HasShape)) return;
+    pool_.Add(
+        Sharper(RefineEffects(screen(), baseline(), scale(), chosen, -1, data())
+                    .effects));
+    const std::vector<int> before = selection_.chosen;
+    select();
+    if (selection_.chosen.size() == before.size() &&
+        std::is_permutation(before.begin(), before.end(),
+                            selection_.chosen.begin(), [this](int a, int b) {
+                              return SamePlace(candidates()[a],
+                                               candidates()[b]);
+                            })) {
+      return;
+    }
+  }
+}
+
+void GapFit::TakeOutEvent(size_t k) {
+  GapEvent event;
+  const RefinedEffects refined =
+      RefineEffects(screen(), baseline(), scale(),
+                    {pool_.Fitted(selection_.chosen)[k]}, -1, data());
+  const GapCandidate& fitted = refined.effects[0];
+  event.contact = DescribeContact(baseline().robot(), rows(), ExcessBeside({}),
+                                  fitted.log, WindowOf(fitted));
+  event.contact.window = WindowOf(fitted);
+  if (fitted.p.head<3>().norm() < event.contact.largest_force) {
+    event.fitted = {fitted, refined.covariance};
+    event.contact.force = {fitted.p.head<3>(),
+                           refined.covariance.topLeftCorner<3, 3>()};
+  }
+  event.drop = selection_.drops[k];
+  event.score = selection_.scores[k];
+  event.one_joint = OneJointShare(screen(), rows(), event);
+  data()->Mask(event.contact.log, event.contact.window);
+  events_.push_back(event);
+}
+
+// chi^2 that a selection and the events so far leave, and what they cost:
+// what is not believed any more is as if each row had been fitted.
+double GapFit::Cost(const Selection& selection) const {
+  constexpr int kParametersOfAnEvent = 5;  // force, time and duration
+  double cost =
+      screen().ResidualBeside(JointRows(rows().num_joints())).squaredNorm() -
+      TotalDrop(screen(), candidates(), selection.chosen);
+  for (const int c : selection.chosen) cost += Price(screen(), candidates()[c]);
+  for (const GapEvent& event : events_) {
+    cost += RowsOf(rows(), event) +
+            kParametersOfAnEvent * std::log(rows().num_rows());
+  }
+  return cost;
+}
+
+// Selects again as if nothing had happened while the arm moved.
+void GapFit::ForgetTouches() {
+  std::vector<GapEvent> contacts;
+  std::copy_if(events_.begin(), events_.end(), std::back_inserter(contacts),
+               [](const GapEvent& event) { return event.beyond_friction; });
+  SelectBeside(contacts);
+}
+
+void GapFit::TakeAsKnown(const std::vector<GapEvent>& events) {
+  events_ = events;
+  data()->Unmask();
+  for (const GapEvent& event : events_) {
+    data()->Mask(event.contact.log, event.contact.window);
+  }
+}
+
+void GapFit::SelectBeside(const std::vector<GapEvent>& events) {
+  TakeAsKnown(events);
+  options_.selection.events = false;
+  MakeScreen();
+  Select();
+}
+
+// Effects, and events one by one: what lasts may look like a series of
+// touches, and has to explain more than they do.
+void GapFit::SelectWithEvents() {
+  double lasting = std::numeric_limits<double>::infinity();
+  while (true) {
+    MakeScreen();
+    Select();
+    const auto event =
+        std::find_if(selection_.chosen.begin(), selection_.chosen.end(),
+                     [&](int c) { return candidates()[c].log >= 0; });
+    if (event != selection_.chosen.end() &&
+        static_cast<int>(events_.size()) < kMostEvents) {
+      if (std::isinf(lasting)) {
+        SelectionOptions options = options_.selection;
+        options.events = false;
+        lasting = Cost(SelectEffects(screen(), candidates(), options));
+      }
+      TakeOutEvent(event - selection_.chosen.begin());
+    } else if (TakeOutContacts(pool_.Fitted(selection_.chosen),
+                               ContactSearch::kOfTwoJoints) ||
+               TakeOutContacts(pool_.Fitted(selection_.chosen),
+                               ContactSearch::kInMotion)) {
+    } else {
+      break;
+    }
+  }
+  if (lasting < Cost(selection_)) ForgetTouches();
+}
+
+void GapFit::FindEvents(const std::vector<GapEvent>& known) {
+  TakeAsKnown(known);
+  SelectWithEvents();
+  if (regression_.IsTheSameDayBeside(pool_.Fitted(selection_.chosen))) {
+    SelectWithEvents();
+  }
+  DescribeAgain(baseline().robot(), rows(), ExcessBeside({}),
+                ExcessBeside(pool_.Fitted(selection_.chosen)), &events_);
+}
+
+void GapFit::Choose() {
+  FindEvents({});
+  Finish();
+}
+
+void GapFit::ChooseBeside(const std::vector<GapEvent>& events) {
+  SelectBeside(events);
+  Finish();
+}
+
+void GapFit::Finish() {
+  selection_ = WithoutChance(screen(), rows(), candidates(), options_.selection,
+                             selection_, kSeed);
+  while (true) {
+    Refine();
+    const int idle =
+        FindIdle(regression_, pool_, options_.selection, selection_, refined_);
+    if (idle < 0) break;
+    selection_ = DescribeSelection(screen(), candidates(), options_.selection,
+                                   Without(selection_.chosen, idle));
+  }
+  const MatrixXd left = data()->ResidualWith(
+      refined_.baseline, regression_.TorqueOf(refined_.effects));
+  left_.resize(left.cols());
+  for (int j = 0; j < left.cols(); ++j) {
+    left_[j] = rows().Whiten(j, left.col(j));
+  }
+}
+
+void GapFit::Refine() {
+  rivals_.clear();
+  for (size_t k = 0; k < selection_.chosen.size(); ++k) {
+    rivals_.push_back(CompareRivals(regression_, pool_, options_.selection,
+                                    selection_, static_cast<int>(k)));
+    selection_.chosen[k] = rivals_[k].best;
+  }
+  refined_.effects = pool_.Fitted(selection_.chosen);
+  refined_.baseline = refit();
+  if (refined_.effects.size() == 1 && rivals_[0].refined) {
+    refined_ = *rivals_[0].refined;
+  } else if (!refined_.effects.empty()) {
+    refined_ = RefineEffects(screen(), baseline(), scale(), refined_.effects,
+                             -1, data());
+  }
+}
+
+VectorXd GapFit::BaselineWithout(size_t k) const {
+  return regression_.BaselineBeside(
+      regression_.TorqueOf(AllBut(refined_.effects, k)));
+}
+
+}  // namespace armcal

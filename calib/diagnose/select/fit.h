@@ -1,0 +1,100 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "calib/diagnose/candidates/refinement.h"
+#include "calib/diagnose/select/events.h"
+#include "calib/diagnose/select/pool.h"
+#include "calib/diagnose/select/regression.h"
+#include "calib/diagnose/select/rivals.h"
+#include "calib/diagnose/select/selection.h"
+
+namespace armcal {
+
+struct GapFitOptions {
+  double bandwidth_hz = 0;
+  SelectionOptions selection;
+  std::vector<std::string> without;  // effects that are not considered
+};
+
+// The regression of a diagnosis on its training logs, and what it chose.
+class GapFit {
+ public:
+  GapFit(const GapBaseline& baseline, const GapFitOptions& options,
+         std::vector<GapSegment> training, LogPart part,
+         std::vector<GapSegment> reference);
+
+  // With nothing chosen, on another part of the same logs.
+  GapFit(const GapFit& other, LogPart part);
+
+  // Chooses effects and refines them; events are taken out of the data one by
+  // one first, since nothing else can be told while they last.
+  void Choose();
+  // The events alone, beside those that are known.
+  void FindEvents(const std::vector<GapEvent>& known);
+  // Effects beside these events, in the order of time, which are all that there
+  // were.
+  void ChooseBeside(const std::vector<GapEvent>& events);
+
+  const GapBaseline& baseline() const { return regression_.baseline(); }
+  const GapNoise& noise() const { return regression_.noise(); }
+  const MotionScale& scale() const { return regression_.scale(); }
+  const GapScreen& screen() const { return regression_.screen(); }
+  const GapRows& rows() const { return regression_.rows(); }
+  GapData* data() const { return regression_.data(); }
+  const SelectionOptions& selection_options() const {
+    return options_.selection;
+  }
+  bool IsLeftOut(const Effect& effect) const {
+    const auto& names = options_.without;
+    return std::count(names.begin(), names.end(), effect.name) > 0;
+  }
+  const std::vector<GapCandidate>& candidates() const {
+    return pool_.candidates();
+  }
+  const Selection& selection() const { return selection_; }
+  const RefinedEffects& refined() const { return refined_; }
+  // In the order of time.
+  const std::vector<GapEvent>& events() const { return events_; }
+  // Of the k-th effect.
+  const std::vector<RefinedScore>& rivals(size_t k) const {
+    return rivals_[k].scores;
+  }
+  // GapRegression's.
+  const Eigen::VectorXd& before() const { return regression_.before(); }
+  const Eigen::VectorXd& refit() const { return regression_.refit(); }
+  // Whitened residual of joint j beside the refined effects: their torque as it
+  // is, not as columns have it.
+  const Eigen::VectorXd& Left(int joint) const { return left_[joint]; }
+  // The baseline beside the refined effects but for the k-th.
+  Eigen::VectorXd BaselineWithout(size_t k) const;
+
+ private:
+  void MakeScreen();
+  void Select();
+  bool TakeOutContacts(const std::vector<GapCandidate>& effects,
+                       ContactSearch search);
+  void TakeOutEvent(size_t k);
+  double Cost(const Selection& selection) const;
+  void ForgetTouches();
+  void SelectBeside(const std::vector<GapEvent>& events);
+  void TakeAsKnown(const std::vector<GapEvent>& events);
+  void SelectWithEvents();
+  void Finish();
+  void Refine();
+  double UsualExcess(const FrictionExcess& excess, bool of_itself) const;
+  FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
+
+  GapFitOptions options_;
+  GapRegression regression_;
+  CandidatePool pool_;
+  Selection selection_;
+  RefinedEffects refined_;
+  JointRows left_;
+  std::vector<Rivals> rivals_;
+  std::vector<GapEvent> events_;
+};
+
+}  // namespace armcal

@@ -1,0 +1,123 @@
+#include "calib/diagnose/select/pool.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "calib/diagnose/select/chosen.h"
+#include "calib/diagnose/select/selection.h"
+
+namespace armcal {
+
+using Eigen::VectorXd;
+
+CandidatePool::CandidatePool(GapRegression* regression,
+                             std::vector<std::string> without)
+    : regression_(*regression), without_(std::move(without)) {}
+
+CandidatePool::CandidatePool(GapRegression* regression,
+                             const CandidatePool& other)
+    : regression_(*regression),
+      without_(other.without_),
+      candidates_(other.candidates_),
+      evaluated_(other.evaluated_) {
+  Forget();
+}
+
+void CandidatePool::List() {
+  Forget();
+  Add(ListCandidates(
+      regression_.baseline(), regression_.rows(), regression_.scale(),
+      regression_.data()->ResidualWith(regression_.refit()), without_));
+  Add(AFewLargerOnes());
+  Add(LargerOnesWhereTheyShow());
+}
+
+void CandidatePool::Add(std::vector<GapCandidate> more) {
+  if (more.empty()) return;
+  Evaluate(&more);
+  AddCandidates(regression_.rows(), &more, regression_.mutable_screen());
+  candidates_.insert(candidates_.end(), std::make_move_iterator(more.begin()),
+                     std::make_move_iterator(more.end()));
+  regression_.mutable_screen()->Factor();
+}
+
+std::vector<GapCandidate> CandidatePool::Fitted(
+    const std::vector<int>& which) const {
+  std::vector<GapCandidate> fitted;
+  const GapScreen::Fit fit =
+      regression_.screen().Solve(ColumnsOf(candidates_, which));
+  int at = 0;
+  for (const int c : which) {
+    fitted.push_back(candidates_[c]);
+    GapCandidate& effect = fitted.back();
+    for (size_t l = 0; l < effect.linear.size(); ++l) {
+      effect.p[effect.linear[l]] = fit.coefficients[at++] * effect.size[l];
+    }
+  }
+  return fitted;
+}
+
+std::vector<GapCandidate> CandidatePool::AFewLargerOnes() const {
+  std::vector<GapCandidate> larger;
+  for (const int c : FirstShapes(candidates_)) {
+    const GapCandidate& candidate = candidates_[c];
+    if (candidate.joint < 0 || !HasMoreThanNoise(candidate.joint)) continue;
+    for (const GapCandidate& one : FewLargerOnes(candidate)) {
+      larger.push_back(one);
+    }
+  }
+  return larger;
+}
+
+std::vector<GapCandidate> CandidatePool::LargerOnesWhereTheyShow() const {
+  constexpr int kPlaces = 3;
+  if (std::none_of(candidates_.begin(), candidates_.end(),
+                   [](const GapCandidate& one) { return one.is_larger; })) {
+    return {};
+  }
+  // Whatever their sign: a small one may be the opposite of a large one.
+  const GapScreen& screen = regression_.screen();
+  VectorXd scores = VectorXd::Zero(candidates_.size());
+  for (size_t i = 0; i < candidates_.size(); ++i) {
+    if (candidates_[i].effect->larger_sizes.empty()) continue;
+    scores[i] = screen.Solve(candidates_[i].columns).drop -
+                Price(screen, candidates_[i]);
+  }
+  std::vector<GapCandidate> larger;
+  for (const int place : BestPlaces(candidates_, scores, kPlaces)) {
+    for (const GapCandidate& shape : candidates_) {
+      if (!SamePlace(shape, candidates_[place]) || shape.is_larger) continue;
+      for (const GapCandidate& one : LargerOnes(shape)) larger.push_back(one);
+    }
+  }
+  return larger;
+}
+
+bool CandidatePool::HasMoreThanNoise(int joint) const {
+  constexpr double kMore = 1.1;  // of the variance
+  const GapScreen& screen = regression_.screen();
+  return screen.Residual(joint, {}).squaredNorm() >
+         kMore * screen.num_rows(joint);
+}
+
+// What a candidate's torque is, events do not change.
+void CandidatePool::Evaluate(std::vector<GapCandidate>* candidates) {
+  ReuseTorques(&evaluated_, candidates);
+  EvaluateCandidates(regression_.baseline(), regression_.rows(),
+                     regression_.scale(), regression_.data()->torques(),
+                     candidates);
+}
+
+void CandidatePool::Forget() {
+  evaluated_.insert(evaluated_.end(),
+                    std::make_move_iterator(candidates_.begin()),
+                    std::make_move_iterator(candidates_.end()));
+  candidates_.clear();
+  evaluated_.erase(std::remove_if(evaluated_.begin(), evaluated_.end(),
+                                  [](const GapCandidate& one) {
+                                    return one.torque.empty();
+                                  }),
+                   evaluated_.end());
+}
+
+}  // namespace armcal

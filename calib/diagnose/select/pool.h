@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/select/regression.h"
+
+namespace armcal {
+
+// The candidates of a regression, and their columns in its screen.
+class CandidatePool {
+ public:
+  // Keeps `regression`. `without`: effects that are not considered.
+  CandidatePool(GapRegression* regression, std::vector<std::string> without);
+  // Of a regression on other rows of the same logs: torques that are evaluated
+  // there are not evaluated again.
+  CandidatePool(GapRegression* regression, const CandidatePool& other);
+
+  // Lists candidates for the regression as it is now, and factors its screen
+  // with them: those that are not linear in their size at larger ones as well,
+  // at a few where there is more than noise, at all of them and in all shapes
+  // where they show most.
+  void List();
+  // Adds some, and factors again.
+  void Add(std::vector<GapCandidate> more);
+
+  const std::vector<GapCandidate>& candidates() const { return candidates_; }
+  // Those (indices) with their linear parameters, fitted together.
+  std::vector<GapCandidate> Fitted(const std::vector<int>& which) const;
+
+ private:
+  std::vector<GapCandidate> AFewLargerOnes() const;
+  std::vector<GapCandidate> LargerOnesWhereTheyShow() const;
+  bool HasMoreThanNoise(int joint) const;
+  void Evaluate(std::vector<GapCandidate>* candidates);
+  void Forget();
+
+  GapRegression& regression_;
+  std::vector<std::string> without_;
+  std::vector<GapCandidate> candidates_;
+  std::vector<GapCandidate> evaluated_;  // of lists before
+};
+
+}  // namespace armcal

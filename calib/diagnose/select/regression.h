@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "calib/diagnose/candidates/refinement.h"
+#include "calib/diagnose/data/baseline.h"
+#include "calib/diagnose/data/data.h"
+#include "calib/diagnose/data/noise.h"
+#include "calib/diagnose/data/screen.h"
+
+namespace armcal {
+
+// The baseline fitted to logs within its prior, and what a reference tells of
+// it; what it leaves of the torque is for effects to explain.
+class GapRegression {
+ public:
+  // `reference`: logs of the robot before, or none: the baseline is fitted to
+  // them as well, and what it leaves of them is the noise that anything new has
+  // to rise above.
+  GapRegression(const GapBaseline& baseline, double bandwidth_hz,
+                std::vector<GapSegment> training, LogPart part,
+                std::vector<GapSegment> reference);
+
+  // On another part of the same logs.
+  GapRegression(const GapRegression& other, LogPart part);
+
+  // Anew, with an empty screen: at first, and where masks have changed.
+  void Refit();
+  // Whether what had looked like another day than the reference's is none
+  // beside these effects; friction is held from the next Refit on.
+  bool IsTheSameDayBeside(const std::vector<GapCandidate>& effects);
+
+  const GapBaseline& baseline() const { return baseline_; }
+  const GapNoise& noise() const { return noise_; }
+  const MotionScale& scale() const { return scale_; }
+  const GapScreen& screen() const { return *screen_; }
+  GapScreen* mutable_screen() { return &*screen_; }
+  const GapRows& rows() const { return data_->rows(); }
+  GapData* data() const { return data_.get(); }
+  const GapData* reference() const { return reference_.get(); }  // or null
+  // The baseline's values before these logs: the file's, or those of the
+  // reference.
+  const Eigen::VectorXd& before() const { return before_; }
+  // Its values without any effect.
+  const Eigen::VectorXd& refit() const { return refit_; }
+  // Per joint thinned samples, N m or N.
+  JointRows TorqueOf(const std::vector<GapCandidate>& effects) const;
+  // The baseline's values beside such a torque.
+  Eigen::VectorXd BaselineBeside(const JointRows& torque) const;
+
+ private:
+  void EstimateNoise();
+  bool HoldDays();
+
+  const GapBaseline& baseline_;
+  std::unique_ptr<GapData> data_;
+  std::shared_ptr<GapData> reference_;  // the same for any part
+  GapNoise noise_;
+  MotionScale scale_;
+  std::optional<GapScreen> screen_;
+  // Whether friction is that of another day than the reference's, and the
+  // columns of it that are held nevertheless.
+  std::optional<bool> another_day_;
+  std::set<int> held_;
+  Eigen::VectorXd before_, refit_;
+};
+
+}  // namespace armcal

@@ -1,0 +1,73 @@
+#include "calib/diagnose/select/rivals.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "calib/diagnose/candidates/coordinates.h"
+#include "calib/diagnose/candidates/refinement.h"
+#include "calib/diagnose/select/chosen.h"
+#include "calib/diagnose/select/form_error.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kOut = -std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
+                     const SelectionOptions& options,
+                     const Selection& selection, int k) {
+  constexpr int kMostRivals = 3;
+  constexpr double kNear = .5;  // of the drop
+  const GapScreen& screen = regression.screen();
+  const std::vector<GapCandidate>& candidates = pool.candidates();
+  VectorXd scores =
+      ScoresBeside(screen, candidates, options, selection.chosen, k);
+  const double least =
+      selection.scores[k] - std::max(20., kNear * selection.drops[k]);
+  const double by_others =
+      TotalDrop(screen, candidates, Without(selection.chosen, k));
+  // What happened once is no rival of what lasts: it was taken out.
+  for (int i = 0; i < scores.size(); ++i) {
+    if (candidates[i].log >= 0) scores[i] = kOut;
+  }
+  std::vector<int> near;
+  while (static_cast<int>(near.size()) < 1 + kMostRivals) {
+    int c;
+    if (!(scores.maxCoeff(&c) >= least)) break;
+    near.push_back(c);
+    for (int i = 0; i < scores.size(); ++i) {
+      if (SamePlace(candidates[i], candidates[c])) scores[i] = kOut;
+    }
+  }
+  const GapBaseline& baseline = regression.baseline();
+  const MotionScale& scale = regression.scale();
+  std::vector<RefinedEffects> refined(near.size());
+  tbb::parallel_for(size_t{0}, near.size(), [&](size_t r) {
+    std::vector<int> chosen = selection.chosen;
+    chosen[k] = near[r];
+    refined[r] = RefineEffects(screen, baseline, scale, pool.Fitted(chosen), k,
+                               regression.data());
+  });
+  Rivals rivals{{}, selection.chosen[k], {}};
+  double best_score = kOut;
+  for (size_t r = 0; r < near.size(); ++r) {
+    const GapCandidate& rival = candidates[near[r]];
+    const size_t varied = ListCoordinates(baseline, scale, {rival}, 0).size();
+    const double score = refined[r].drop - by_others -
+                         RefinedPrice(screen, rival, static_cast<int>(varied));
+    rivals.scores.push_back({rival.effect, rival.joint, score});
+    if (!(score > best_score)) continue;
+    best_score = score;
+    rivals.best = near[r];
+    rivals.refined = refined[r];
+  }
+  return rivals;
+}
+
+}  // namespace armcal

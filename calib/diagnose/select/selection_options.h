@@ -1,0 +1,18 @@
+#pragma once
+
+namespace armcal {
+
+struct SelectionOptions {
+  int most_effects = 3;
+  // An effect's score, drop of chi^2 - k ln N - 2 ln(shapes tried), has to
+  // exceed this.
+  double threshold = 12;
+  // A further effect has to explain this share of the strongest one's drop: on
+  // a joint that has one already (whose form is never quite right), elsewhere.
+  double same_joint_share = 0.03;
+  double other_joint_share = 0.004;
+  double inflation = 1;  // of noise variance: drops are divided by it
+  bool events = true;    // whether something may have happened once
+};
+
+}  // namespace armcal

@@ -1,0 +1,143 @@
+#include "calib/fleet/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "calib/fleet/factor_calibration.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+int UnitOf(const std::vector<std::string>& units, const ReducedLog& log) {
+  const auto at = std::lower_bound(units.begin(), units.end(), log.unit);
+  return static_cast<int>(at - units.begin());
+}
+
+Reduction OfUnit(const Reduction& all, const std::string& unit) {
+  Reduction own{all.model, {}};
+  for (const ReducedLog& log : all.logs) {
+    if (log.unit == unit) own.logs.push_back(log);
+  }
+  return own;
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Each unit's variances, drawn to the median of all as if that were an estimate
+// of kFleet degrees of freedom.
+void ShrinkNoise(const VectorXd& freedom, MatrixXd* noise) {
+  constexpr double kFleet = 20;
+  for (Eigen::Index i = 0; i < noise->cols(); ++i) {
+    std::vector<double> known;
+    for (Eigen::Index u = 0; u < noise->rows(); ++u) {
+      if (freedom[u] > 0) known.push_back(std::pow((*noise)(u, i), 2));
+    }
+    if (known.empty()) continue;
+    const double median = Median(known);
+    for (Eigen::Index u = 0; u < noise->rows(); ++u) {
+      const double own = freedom[u] > 0 ? std::pow((*noise)(u, i), 2) : 0;
+      (*noise)(u, i) = std::sqrt((kFleet * median + freedom[u] * own) /
+                                 (kFleet + freedom[u]));
+    }
+  }
+}
+
+// Each unit by itself; returns the degrees of freedom that a joint's noise has.
+VectorXd CalibrateUnits(const Robot& robot, const Reduction& reduction,
+                        const Progress& progress, FleetCalibration* fleet) {
+  const auto units = static_cast<Eigen::Index>(fleet->units.size());
+  VectorXd freedom = VectorXd::Zero(units);
+  for (Eigen::Index u = 0; u < units; ++u) {
+    if (progress) {
+      progress("units alone",
+               static_cast<double>(u) / static_cast<double>(units));
+    }
+    const Reduction logs = OfUnit(reduction, fleet->units[u]);
+    const LinearCalibration own = CalibrateFromFactors(robot, logs);
+    fleet->logs.push_back(static_cast<int>(logs.logs.size()));
+    fleet->equations.push_back(own.equations);
+    fleet->own.row(u) = own.x.transpose();
+    fleet->own_stddev.row(u) = own.stddev.transpose();
+    if (!own.solved) continue;
+    fleet->noise.row(u) = own.noise.transpose();
+    const double inflation = Inflations(logs).mean();
+    const double spent =
+        static_cast<double>(own.parameters.size()) / robot.num_joints();
+    freedom[u] = std::max(0., (static_cast<double>(own.equations) - spent) /
+                                  inflation / inflation);
+  }
+  return freedom;
+}
+
+// Of one log's equations that are used.
+UnitEvidence EvidenceOf(const BlockTriangularFactor& factor,
+                        const std::vector<bool>& used, const VectorXd& noise,
+                        double inflation) {
+  const int m = factor.num_parameters();
+  UnitEvidence evidence{0, 0, MatrixXd::Zero(m, m), VectorXd::Zero(m)};
+  for (int i = 0; i < factor.num_joints(); ++i) {
+    if (!used[i]) continue;
+    const std::vector<int>& columns = factor.columns(i);
+    const auto k = static_cast<Eigen::Index>(columns.size());
+    const MatrixXd R = factor.Triangle(i) / (noise[i] * inflation);
+    evidence.information(columns, columns) +=
+        R.leftCols(k).transpose() * R.leftCols(k);
+    evidence.right(columns) += R.leftCols(k).transpose() * R.col(k);
+  }
+  return evidence;
+}
+
+}  // namespace
+
+std::vector<std::string> UnitNames(const Reduction& reduction) {
+  std::set<std::string> names;
+  for (const ReducedLog& log : reduction.logs) {
+    if (!log.unit.empty()) names.insert(log.unit);
+  }
+  return {names.begin(), names.end()};
+}
+
+FleetCalibration CalibrateFleet(const Robot& robot, const Reduction& reduction,
+                                const LinearCalibration& pooled,
+                                const FleetOptions& options,
+                                const Progress& progress) {
+  FleetCalibration fleet;
+  fleet.units = UnitNames(reduction);
+  const auto units = static_cast<Eigen::Index>(fleet.units.size());
+  const int m = pooled.parameters.size();
+  fleet.own = fleet.own_stddev = MatrixXd::Zero(units, m);
+  fleet.noise = MatrixXd::Zero(units, robot.num_joints());
+  ShrinkNoise(CalibrateUnits(robot, reduction, progress, &fleet), &fleet.noise);
+  const VectorXd inflations = Inflations(reduction);
+  std::vector<UnitEvidence> evidence;
+  bool dated = true;
+  for (size_t k = 0; k < reduction.logs.size(); ++k) {
+    const ReducedLog& log = reduction.logs[k];
+    if (log.unit.empty()) continue;
+    const int unit = UnitOf(fleet.units, log);
+    evidence.push_back(EvidenceOf(FactorOf(pooled.parameters, log),
+                                  pooled.used[k], fleet.noise.row(unit),
+                                  inflations[static_cast<Eigen::Index>(k)]));
+    evidence.back().unit = unit;
+    evidence.back().time = log.time.value_or(0);
+    dated = dated && log.time.has_value();
+  }
+  if (progress) progress("units together", -1);
+  FleetOptions fitted = options;
+  fitted.drift = options.drift && dated;
+  if (!dated) {
+    for (UnitEvidence& e : evidence) e.time = 0;
+  }
+  fleet.fit = FitFleet(evidence, static_cast<int>(units), fitted);
+  return fleet;
+}
+
+}  // namespace armcal

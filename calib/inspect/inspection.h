@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "calib/inspect/log_coverage.h"
+#include "calib/inspect/log_reading.h"
+#include "calib/logs/channel_audit.h"
+#include "calib/logs/inspection_finding.h"
+#include "model/log_files/log_reader.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// What a log holds and what is wrong with it.
+struct LogInspection {
+  std::string path;
+  int rows = 0;
+  bool whole = true;    // false: only the first rows were looked at
+  double duration = 0;  // s
+  StampFigures stamps;
+  std::string torque_source;  // empty: none, but commands
+  Eigen::VectorXd travel;     // per joint, rad or m
+  Eigen::VectorXd top_speed;  // rad/s or m/s
+  // Rms of command minus position, rad or m; empty where no command is logged.
+  Eigen::VectorXd tracking_rms;
+  double moving_share = 0;      // of the time
+  double residual_percent = 0;  // of torques by the best fit of the arm
+  std::vector<InspectionFinding> findings;
+  bool as_it_is = false;  // its torques fit the robot best as logged
+  LogReading reading;
+  LogCoverage coverage;  // CoverageOf, where asked for
+
+  explicit LogInspection(const Robot& robot) : reading(robot) {}
+};
+
+// Throws InputError for what cannot be read at all.
+LogInspection InspectLog(const Robot& robot, const std::string& path,
+                         const LogReaderOptions& options);
+
+// The log as the reading has it, with its time in s.
+Log Mended(const Robot& robot, const Log& log, const LogInspection& inspection);
+
+}  // namespace armcal

@@ -1,0 +1,164 @@
+#include "calib/inspect/inspection_report.h"
+
+#include "calib/numerics/json_figures.h"
+#include "model/text/format.h"
+
+namespace armcal {
+namespace {
+
+using nlohmann::json;
+
+std::string FindingText(const InspectionFinding& finding) {
+  std::string text = "  ! " + finding.sentence;
+  if (finding.probability < .995) {
+    text += Format(" (probability %.2f)", finding.probability);
+  }
+  return text + "\n      " + finding.evidence + "\n      " + finding.remedy +
+         "\n";
+}
+
+std::string CoverageText(const LogCoverage& coverage) {
+  if (!coverage.known) {
+    return coverage.reason.empty()
+               ? ""
+               : "  what it can tell: nothing yet, " + coverage.reason + "\n";
+  }
+  std::string text = "  time: " + coverage.time_base;
+  if (coverage.stamp_wander > 1e-3) {
+    text += Format("; stamps wander by %.1f ms beside even samples",
+                   1e3 * coverage.stamp_wander);
+  }
+  text += Format(
+      "\n  calibrated on it, the model leaves %.3g %%; noise is told from %s\n",
+      coverage.residual_percent, coverage.noise_source.c_str());
+  text += Format("  %d of %d directions of the model parameters show\n",
+                 coverage.rank, coverage.total);
+  for (const std::string& unseen : coverage.unseen) {
+    text += "    not seen: " + unseen + "\n";
+  }
+  if (!coverage.advice.empty()) {
+    text +=
+        "    to see more: " + coverage.advice + ", or armcal excite --given\n";
+  }
+  return text;
+}
+
+json CoverageJson(const LogCoverage& coverage) {
+  if (!coverage.known) return {{"known", false}, {"reason", coverage.reason}};
+  return {{"known", true},
+          {"rank", coverage.rank},
+          {"total", coverage.total},
+          {"unseen", coverage.unseen},
+          {"advice", coverage.advice},
+          {"residual_percent", JsonNumber(coverage.residual_percent)},
+          {"outliers", coverage.outliers},
+          {"noise_source", coverage.noise_source},
+          {"stamp_wander", JsonNumber(coverage.stamp_wander)}};
+}
+
+std::string LogText(const Robot& robot, const LogInspection& log) {
+  std::string text = log.path + "\n";
+  text += Format("  %d rows in %.4g s, a step of %.4g ms, %.0f %% in motion\n",
+                 log.rows, log.duration, 1e3 * log.stamps.mean_step,
+                 100 * log.moving_share);
+  if (!log.whole) text += "  only these first rows were looked at\n";
+  if (log.stamps.duplicates > 0) {
+    text += Format("  %ld rows have the time of the row before\n",
+                   log.stamps.duplicates);
+  }
+  if (log.stamps.longest_gap > 3 * log.stamps.mean_step) {
+    text +=
+        Format("  the longest step is %.4g ms\n", 1e3 * log.stamps.longest_gap);
+  }
+  text += "  torque: " + (log.torque_source.empty()
+                              ? "none; commands (qref) that --controller lets "
+                                "a simulated robot follow"
+                              : log.torque_source);
+  if (log.residual_percent > 0) {
+    text += Format("; the best fit of this arm leaves %.3g %%",
+                   log.residual_percent);
+  }
+  text += "\n";
+  for (int j = 0; j < log.top_speed.size(); ++j) {
+    const Joint& joint = robot.links[j].joint;
+    text += Format("    %-24s travels %7.3g %s, up to %6.3g %s/s",
+                   joint.name.c_str(), log.travel[j], PositionUnit(joint.type),
+                   log.top_speed[j], PositionUnit(joint.type));
+    if (log.torque_source.empty()) {
+      text += Format(", %.3g %s rms off its command", log.tracking_rms[j],
+                     PositionUnit(joint.type));
+    }
+    text += "\n";
+  }
+  text += CoverageText(log.coverage);
+  for (const InspectionFinding& finding : log.findings) {
+    text += FindingText(finding);
+  }
+  if (log.findings.empty()) text += "  nothing wrong was found\n";
+  return text;
+}
+
+json FindingsJson(const Robot& robot,
+                  const std::vector<InspectionFinding>& findings) {
+  json list = json::array();
+  for (const InspectionFinding& finding : findings) {
+    list.push_back(
+        {{"finding", finding.finding},
+         {"sentence", finding.sentence},
+         {"evidence", finding.evidence},
+         {"flag", finding.remedy},
+         {"joint",
+          finding.joint < 0 ? "" : robot.links[finding.joint].joint.name},
+         {"joint_index", finding.joint + 1},
+         {"probability", JsonNumber(finding.probability)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string FullReport(const Robot& robot,
+                       const std::vector<InspectionFinding>& of_robot,
+                       const std::vector<LogInspection>& logs) {
+  std::string text =
+      Format("%s: %d joints\n", robot.name.c_str(), robot.num_joints());
+  for (const InspectionFinding& finding : of_robot) {
+    text += FindingText(finding);
+  }
+  if (of_robot.empty()) text += "  nothing wrong was found\n";
+  for (const LogInspection& log : logs) text += "\n" + LogText(robot, log);
+  return text;
+}
+
+json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
+            const std::vector<LogInspection>& logs) {
+  json list = json::array();
+  for (const LogInspection& log : logs) {
+    json joints = json::array();
+    for (int j = 0; j < log.top_speed.size(); ++j) {
+      joints.push_back({{"name", robot.links[j].joint.name},
+                        {"travel", JsonNumber(log.travel[j])},
+                        {"top_speed", JsonNumber(log.top_speed[j])}});
+      if (log.tracking_rms.size() == 0) continue;
+      joints.back()["tracking_rms"] = JsonNumber(log.tracking_rms[j]);
+    }
+    list.push_back({{"file", log.path},
+                    {"rows", log.rows},
+                    {"whole", log.whole},
+                    {"duration", JsonNumber(log.duration)},
+                    {"step", JsonNumber(log.stamps.mean_step)},
+                    {"longest_step", JsonNumber(log.stamps.longest_gap)},
+                    {"lost_share", JsonNumber(log.stamps.lost_share)},
+                    {"duplicates", log.stamps.duplicates},
+                    {"moving_share", JsonNumber(log.moving_share)},
+                    {"torque", log.torque_source},
+                    {"residual_percent", JsonNumber(log.residual_percent)},
+                    {"joints", joints},
+                    {"coverage", CoverageJson(log.coverage)},
+                    {"findings", FindingsJson(robot, log.findings)}});
+  }
+  return {{"robot", {{"findings", FindingsJson(robot, of_robot)}}},
+          {"logs", list}};
+}
+
+}  // namespace armcal

@@ -1,0 +1,91 @@
+#include "calib/inspect/log_coverage.h"
+
+#include <algorithm>
+
+#include "calib/diagnose/data/audit.h"
+#include "calib/diagnose/data/rows.h"
+#include "calib/diagnose/data/segments.h"
+#include "calib/excite/motion_advice.h"
+#include "calib/linear/calibrate_linear.h"
+#include "calib/linear/calibration.h"
+#include "calib/linear/calibration_report.h"
+#include "model/text/format.h"
+#include "model/text/input_error.h"
+
+namespace armcal {
+namespace {
+
+double Wander(const TimeBase& base) {
+  double least = 0, most = 0;
+  for (const StampError& e : base.stamp_errors) {
+    least = std::min(least, e.error);
+    most = std::max(most, e.error);
+  }
+  return most - least;
+}
+
+// Torques that are a law of the positions.
+void AddAuditedTorque(const Robot& robot, double bandwidth_hz, LogSet* logs,
+                      LogCoverage* coverage) {
+  const std::vector<GapSegment> segments = ReadSegments(bandwidth_hz, {}, logs);
+  const GapRows rows(segments, bandwidth_hz);
+  if (rows.num_thin() == 0) return;
+  for (const DataFinding& finding : AuditTorque(robot, rows)) {
+    coverage->findings.push_back(
+        {"computed_torque", finding.finding, finding.evidence, finding.flag});
+  }
+}
+
+void AddOutliers(const Robot& robot, long samples, LogCoverage* coverage) {
+  constexpr double kMany = .005;  // of the samples
+  for (size_t j = 0; j < coverage->outliers.size(); ++j) {
+    const double share = static_cast<double>(coverage->outliers[j]) /
+                         static_cast<double>(std::max(1L, samples));
+    if (share < kMany) continue;
+    coverage->findings.push_back(
+        {"outliers",
+         "the torque of " + robot.links[j].joint.name + " has gross errors",
+         Format("%ld samples (%.1f %%)", coverage->outliers[j], 100 * share),
+         "armcal calibrate leaves them out and lists them in outliers.csv",
+         static_cast<int>(j)});
+  }
+}
+
+}  // namespace
+
+LogCoverage CoverageOf(const Robot& robot, const std::string& path,
+                       const LogReaderOptions& options) {
+  LogCoverage coverage;
+  try {
+    LogSet logs({path}, options, TimeRange());
+    coverage.time_base = logs.time_bases()[0].Describe();
+    coverage.stamp_wander = Wander(logs.time_bases()[0]);
+    const LinearCalibrationOptions linear;
+    const LinearCalibration result =
+        CalibrateLinear(robot, linear, &logs, nullptr);
+    coverage.reason = result.reason;
+    if (!result.solved) return coverage;
+    const Identifiability& id = result.identifiability;
+    coverage.known = true;
+    coverage.rank = id.batch_rank;
+    coverage.total = id.total;
+    for (const auto& d : id.directions) coverage.unseen.push_back(d.text);
+    coverage.residual_percent = result.training->moving().stacked_percent;
+    coverage.noise_source = NoiseSourceName(result.sample_noise[0].source);
+    coverage.outliers.assign(robot.num_joints(), 0);
+    for (const auto& list : logs.outliers()) {
+      for (const TorqueOutlier& outlier : list) {
+        ++coverage.outliers[outlier.joint];
+      }
+    }
+    AddOutliers(robot, logs.time_bases()[0].samples, &coverage);
+    coverage.advice = AdviceText(
+        robot, AdviseMotions(robot, result, linear, &logs), id.total);
+    AddAuditedTorque(robot, logs.bandwidth_hz(), &logs, &coverage);
+  } catch (const InputError& error) {
+    coverage.reason = error.what();
+  }
+  return coverage;
+}
+
+}  // namespace armcal

@@ -1,0 +1,159 @@
+#include "calib/inspect/robot_audit.h"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <functional>
+
+#include "model/robot/kinematics.h"
+#include "model/text/format.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// About the centre of mass, kg m^2.
+Matrix3d CentralInertia(const InertialParameters& body) {
+  const Vector3d c = body.first_moment / body.mass;
+  return body.inertia - body.mass * (c.squaredNorm() * Matrix3d::Identity() -
+                                     c * c.transpose());
+}
+
+// m
+double RadiusOfGyration(const InertialParameters& body) {
+  return std::sqrt(std::abs(CentralInertia(body).trace()) / 2 / body.mass);
+}
+
+// The longest distance between neighbouring joints and the tool, m.
+double LongestLink(const Robot& robot) {
+  double longest = 0;
+  Vector3d before = Vector3d::Zero();
+  for (const Eigen::Isometry3d& X_WL :
+       LinkPoses(robot, Eigen::VectorXd::Zero(robot.num_joints()))) {
+    longest = std::max(longest, (X_WL.translation() - before).norm());
+    before = X_WL.translation();
+  }
+  return longest;
+}
+
+std::string Number(double x) { return Format("%.3g", x); }
+
+std::string NamesWhere(const Robot& robot,
+                       const std::function<bool(const Link&)>& holds) {
+  std::string names;
+  for (const Link& link : robot.links) {
+    if (holds(link)) names += (names.empty() ? "" : ", ") + link.name;
+  }
+  return names;
+}
+
+bool HasMass(const Link& link) {
+  return link.has_inertial && link.inertial.mass > 0;
+}
+
+class RobotAudit {
+ public:
+  explicit RobotAudit(const Robot& robot) : robot_(robot) {}
+
+  std::vector<InspectionFinding> Run() {
+    AddMissing();
+    for (const Link& link : robot_.links) AddUnphysical(link);
+    AddDefaults();
+    for (const Link& link : robot_.links) AddSize(link);
+    AddLimits();
+    return findings_;
+  }
+
+ private:
+  void Add(const char* finding, const std::string& sentence,
+           const std::string& evidence, const char* remedy) {
+    findings_.push_back({finding, sentence, evidence, remedy});
+  }
+
+  void AddMissing() {
+    const std::string names =
+        NamesWhere(robot_, [](const Link& link) { return !link.has_inertial; });
+    if (names.empty()) return;
+    Add("no_inertia", "links have no inertia", names,
+        "armcal calibrate needs none; for simulators export its robot.urdf");
+  }
+
+  void AddUnphysical(const Link& link) {
+    if (!link.has_inertial) return;
+    const std::string why = WhyUnphysical(link.inertial);
+    if (why.empty()) return;
+    Add("unphysical", "no body can have the inertia of " + link.name, why,
+        "armcal calibrate exports one that can exist");
+  }
+
+  // Several links with one inertia, or all of their masses at their origins.
+  void AddDefaults() {
+    int same = 0, centred = 0, bodies = 0;
+    const Link* first = nullptr;
+    for (const Link& link : robot_.links) {
+      if (!HasMass(link)) continue;
+      ++bodies;
+      centred += link.inertial.first_moment.norm() < 1e-9;
+      if (first == nullptr) first = &link;
+      same += CentralInertia(link.inertial)
+                  .isApprox(CentralInertia(first->inertial), 1e-6);
+    }
+    if (bodies < 2) return;
+    if (same == bodies) {
+      Add("default_inertia", "all links have the same inertia: a placeholder",
+          Number(CentralInertia(first->inertial)(0, 0)) + " kg m^2",
+          "trust it little: --trust=1");
+    }
+    if (centred == bodies) {
+      Add("default_inertia",
+          "all links have their mass at their frame's origin",
+          std::to_string(bodies) + " links", "trust it little: --trust=1");
+    }
+  }
+
+  // Meshes in mm make inertias a million times too large.
+  void AddSize(const Link& link) {
+    constexpr double kLarge = 3, kSmall = 1e-3;  // of the longest link
+    if (!HasMass(link) || !WhyUnphysical(link.inertial).empty()) return;
+    const double length = LongestLink(robot_);
+    if (!(length > 0)) return;
+    const double radius = RadiusOfGyration(link.inertial);
+    const double com = link.inertial.first_moment.norm() / link.inertial.mass;
+    if (radius > kLarge * length || (radius > 0 && radius < kSmall * length)) {
+      Add("suspicious_inertia",
+          "the inertia of " + link.name + " does not suit the arm's size",
+          "radius of gyration " + Number(radius) + " m, longest link " +
+              Number(length) + " m",
+          "was it computed from a mesh in mm?");
+    }
+    if (com > kLarge * length) {
+      Add("suspicious_inertia",
+          "the centre of mass of " + link.name + " lies far outside the arm",
+          Number(com) + " m from the link's origin, longest link " +
+              Number(length) + " m",
+          "is it in mm?");
+    }
+  }
+
+  void AddLimits() {
+    const std::string names = NamesWhere(robot_, [](const Link& link) {
+      return link.joint.type != JointType::kContinuous &&
+             !std::isfinite(link.joint.upper);
+    });
+    if (names.empty()) return;
+    Add("no_limits", "joints have no position limits", names,
+        "armcal excite --position_limits=..");
+  }
+
+  const Robot& robot_;
+  std::vector<InspectionFinding> findings_;
+};
+
+}  // namespace
+
+std::vector<InspectionFinding> AuditRobot(const Robot& robot) {
+  return RobotAudit(robot).Run();
+}
+
+}  // namespace armcal

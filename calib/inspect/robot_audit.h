@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/logs/inspection_finding.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// What a robot file lacks, what cannot exist and what looks like a default:
+// links without inertia, bodies that cannot be, equal inertias or all centres
+// of mass at their frames' origins, inertias that do not suit the arm's size
+// (meshes in mm), joints without limits.
+std::vector<InspectionFinding> AuditRobot(const Robot& robot);
+
+}  // namespace armcal

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/linear/identifiability.h"
+#include "calib/linear/length_recovery.h"
+#include "calib/linear/solution.h"
+#include "calib/linear/used_equations.h"
+#include "calib/logs/log_set.h"
+#include "calib/logs/sample_noise.h"
+#include "calib/logs/torque_residual.h"
+#include "model/dynamics/model_parameters.h"
+#include "model/robot/robot.h"
+#include "problems/identification_rows.h"
+#include "problems/robust_loss.h"
+
+namespace armcal {
+
+struct LinearCalibrationOptions {
+  GeometryKnowledge geometry = GeometryKnowledge::kKnown;
+  std::vector<JointTerm> joint_terms = {JointTerm::kViscous,
+                                        JointTerm::kCoulomb, JointTerm::kOffset,
+                                        JointTerm::kArmature};
+  // Given: the same transition of Coulomb friction for all joints, or each
+  // joint's own; else each joint's is fitted.
+  std::optional<CoulombTransition> transition;
+  std::vector<CoulombTransition> joint_transitions;
+  Identification identification = Identification::kWeak;
+  // Length of the weak form's test functions, s. Not given: 1.5 periods of the
+  // bandwidth, at least 0.3 s (shorter ones are biased by encoder noise).
+  std::optional<double> window_s;
+  std::vector<TimeRange> intervals;  // of the integral model
+  double interval_s = 0.5;
+  Quadrature quadrature = Quadrature::kTrapezoid;
+  LinearSolver solver = LinearSolver::kWeighted;
+  // Of the weighted solver; squared in any case where a joint has fewer
+  // equations than twice the parameters. Not given: Huber's. Any but squared
+  // also takes gross errors out of the torque samples.
+  std::optional<RobustLoss> loss;
+  // Cutoff for positions, differential rows and residuals, Hz; 0: none.
+  // Not given: DefaultBandwidth.
+  std::optional<double> bandwidth_hz;
+  Progress progress;
+};
+
+// What a linear calibration found. Vectors have an entry per model parameter,
+// or per joint where said.
+struct LinearCalibration {
+  explicit LinearCalibration(const ModelParameters& model);
+
+  ModelParameters parameters;
+  std::vector<CoulombTransition> transitions;  // per joint, if in the model
+  bool fitted_transitions = false;
+
+  bool solved = false;
+  std::string reason;  // why it stopped, or why it refused
+  int passes = 0;      // over the logs
+  Eigen::VectorXd x;
+  Eigen::VectorXd stddev;  // infinite where not identifiable
+  Eigen::MatrixXd covariance;
+  // What it would be if the equations had independent errors.
+  Eigen::MatrixXd independent_covariance;
+  std::string covariance_method;
+  // Of the covariance: rows per window of its scores, rows that overlap.
+  int score_window = 1;
+  int rows_per_window = 1;
+  std::vector<bool> identifiable;
+  Eigen::VectorXd noise;  // per joint, of the equations: N m, N (N m s, N s)
+  std::vector<SampleNoise> sample_noise;  // per joint, if solved
+  // Per joint, rad or m, where trajectories were corrected; else empty.
+  Eigen::VectorXd encoder_noise;
+  Identifiability identifiability;
+  std::vector<RecoveredLength> lengths;
+
+  LinearSolver solver = LinearSolver::kWeighted;
+  RobustLoss loss = RobustLoss::kSquared;  // that was used
+  std::vector<JointTerm> joint_terms;      // asked for, merged or not
+  RowOptions rows;
+  EquationMask used;  // [log][joint]
+  // Standard deviations over those of independent rows, median.
+  double inflation = 1;
+  long equations = 0;
+  std::vector<long> outliers;  // per joint: equations Huber weighs below 1/2
+  std::vector<UnpoweredJoint> unpowered;
+  Eigen::VectorXd travel;            // per joint, rad or m
+  Eigen::ArrayXd mean_square_speed;  // per joint, (rad/s)^2 or (m/s)^2
+  std::optional<TorqueResidual> training;
+  std::optional<TorqueResidual> validation;
+};
+
+}  // namespace armcal

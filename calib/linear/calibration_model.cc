@@ -1,0 +1,45 @@
+#include "calib/linear/calibration_model.h"
+
+#include <algorithm>
+
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+
+namespace armcal {
+
+RowOptions MakeRowOptions(const LinearCalibrationOptions& options,
+                          const LogSet& training) {
+  RowOptions rows;
+  rows.bandwidth_hz =
+      options.bandwidth_hz.value_or(DefaultBandwidth(training.time_bases()));
+  rows.identification = options.identification;
+  rows.window_s = options.window_s.value_or(
+      rows.bandwidth_hz > 0 ? std::max(0.3, 1.5 / rows.bandwidth_hz) : 0.5);
+  rows.intervals = options.intervals;
+  rows.interval_s = options.interval_s;
+  rows.quadrature = options.quadrature;
+  return rows;
+}
+
+ModelParameters MakeParameters(const Robot& robot,
+                               const LinearCalibrationOptions& options,
+                               const Transitions& transitions) {
+  ModelParameters::Options model;
+  model.geometry = options.geometry;
+  model.joint_terms = options.joint_terms;
+  model.transitions = transitions;
+  return ModelParameters(robot, model);
+}
+
+std::optional<Transitions> GivenTransitions(
+    const Robot& robot, const LinearCalibrationOptions& options) {
+  if (options.transition) {
+    return Transitions(robot.links.size(), {*options.transition});
+  }
+  if (options.joint_transitions.empty()) return {};
+  Transitions transitions;
+  for (const auto& t : options.joint_transitions) transitions.push_back({t});
+  return transitions;
+}
+
+}  // namespace armcal

@@ -1,0 +1,114 @@
+#include "calib/linear/score_covariance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/simd/kernels.h"
+
+namespace armcal {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Index Whole(Index rows) { return (rows + 7) / 8 * 8; }
+
+// A' x, both with rows to fill registers.
+void Multiply(const MatrixXd& A, const VectorXd& x, VectorXd* products) {
+  simd::BestKernels().inner_products(A.data(), A.rows(),
+                                     static_cast<int>(A.cols()), x.data(),
+                                     x.size(), 1, A.rows(), products->data());
+}
+
+}  // namespace
+
+ScoreCovariance::ScoreCovariance(int size, int window, const MatrixXd& gain)
+    : window_(std::max(1, window)),
+      sum_(VectorXd::Zero(size)),
+      squares_(MatrixXd::Zero(size, size)) {
+  if (gain.size() == 0) return;
+  gain_ = MatrixXd::Zero(Whole(size), size);
+  gain_.topRows(size) = gain.transpose();
+}
+
+// M gain s of the window.
+VectorXd ScoreCovariance::TakenByFit(const VectorXd& sum) const {
+  VectorXd s = VectorXd::Zero(gain_.rows()), x = s;
+  s.head(sum.size()) = sum;
+  Multiply(gain_, s, &x);
+  VectorXd fitted = VectorXd::Zero(C_.rows()), taken(sum.size());
+  Multiply(U_, x, &fitted);
+  Multiply(C_, fitted, &taken);
+  return taken;
+}
+
+void ScoreCovariance::AccumulateWindow() {
+  VectorXd sum = sum_;
+  if (gain_.size() > 0) {
+    VectorXd power = sum_;
+    for (const double coefficient : {1.0 / 2, 3.0 / 8, 5.0 / 16}) {
+      power = TakenByFit(power);
+      sum += coefficient * power;
+    }
+  }
+  squares_.noalias() += sum * sum.transpose();
+}
+
+// Puts the score's equations behind those of the others.
+void ScoreCovariance::Put(const Score& score) {
+  const Index n = score.C.rows(), size = sum_.size();
+  if (C_.size() == 0) {
+    C_ = MatrixXd::Zero(Whole(window_ * n), size);
+    U_ = MatrixXd::Zero(gain_.rows(), window_ * n);
+  }
+  const int place = (oldest_ + static_cast<int>(recent_.size())) % window_;
+  C_.middleRows(place * n, n) = score.C;
+  U_.middleCols(place * n, n).topRows(size) = score.U.transpose();
+}
+
+void ScoreCovariance::DropOldest() {
+  sum_ -= recent_.front();
+  recent_.pop_front();
+  if (gain_.size() > 0) {
+    const Index n = U_.cols() / window_;
+    C_.middleRows(oldest_ * n, n).setZero();
+  }
+  oldest_ = oldest_ + 1 < window_ ? oldest_ + 1 : 0;
+}
+
+void ScoreCovariance::Add(const Score& score) {
+  if (static_cast<int>(recent_.size()) == window_) DropOldest();
+  if (gain_.size() > 0) Put(score);
+  recent_.push_back(score.value);
+  sum_ += score.value;
+  AccumulateWindow();
+}
+
+void ScoreCovariance::Break() {
+  // A series shorter than the window lies in so many windows as a whole.
+  const int room = window_ - static_cast<int>(recent_.size());
+  for (int k = 0; k < room && !recent_.empty(); ++k) AccumulateWindow();
+  while (!recent_.empty()) {
+    DropOldest();
+    if (!recent_.empty()) AccumulateWindow();
+  }
+  sum_.setZero();
+}
+
+MatrixXd ScoreCovariance::Value() {
+  Break();
+  return squares_ / window_;
+}
+
+int BartlettWindow(double rho, long count, int least) {
+  const double r = std::clamp(rho, 0.0, 0.97);
+  const double alpha = 4 * r * r / (std::pow(1 - r, 2) * std::pow(1 + r, 2));
+  const double width = 1.1447 * std::cbrt(alpha * static_cast<double>(count));
+  const int most = std::max(1, static_cast<int>(count / 5));
+  return std::min(most,
+                  std::max(least, static_cast<int>(std::ceil(width)) + 1));
+}
+
+}  // namespace armcal

@@ -1,0 +1,77 @@
+#include "calib/linear/torque_outliers.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/signals/spikes.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kReach = 15;
+// A jump of the residual is an error of the sample only where the torque makes
+// it, not the prediction.
+constexpr double kLeastJump = 0.5;
+constexpr double kLeastShare = 0.01;  // of the torque's rms
+
+// Adds those of one joint in the trajectory's core.
+void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
+           std::vector<TorqueOutlier>* list) {
+  const TorqueSamples& s = t.samples;
+  const VectorXd tau = s.tau.col(joint);
+  const double rms = tau.norm() / std::sqrt(std::max<double>(1, tau.size()));
+  const VectorXd residual = residuals.col(joint);
+  const double least = kLeastShare * rms;
+  const Outlying found = FindOutlying(residual, kReach, least);
+  for (int k = 0; k < s.size(); ++k) {
+    const bool in_core = s.place[k] >= t.core_begin && s.place[k] < t.core_end;
+    if (!in_core || !found.marked[k]) continue;
+    const double size = residual[k] - found.level[k];
+    const double jump = tau[k] - Bridge(tau, k, found.marked);
+    if (jump / size < kLeastJump) continue;
+    list->push_back({s.row[k], s.t[k], joint, tau[k], tau[k] - residual[k],
+                     size / std::max(found.deviation, least / 8)});
+  }
+}
+
+}  // namespace
+
+OutlierLists FindTorqueOutliers(SamplePass* pass) {
+  OutlierLists lists(pass->logs().size());
+  pass->Run("outliers", [&](int log, const Trajectory& t,
+                            const MatrixXd& residuals) {
+    const int n = t.num_joints();
+    std::vector<std::vector<TorqueOutlier>> found(n);
+    tbb::parallel_for(0, n, [&](int i) { Judge(t, residuals, i, &found[i]); });
+    for (const std::vector<TorqueOutlier>& of_joint : found) {
+      lists[log].insert(lists[log].end(), of_joint.begin(), of_joint.end());
+    }
+  });
+  for (std::vector<TorqueOutlier>& list : lists) {
+    std::sort(list.begin(), list.end(),
+              [](const TorqueOutlier& a, const TorqueOutlier& b) {
+                return a.row != b.row ? a.row < b.row : a.joint < b.joint;
+              });
+  }
+  return lists;
+}
+
+bool SameSamples(const OutlierLists& a, const OutlierLists& b) {
+  if (a.size() != b.size()) return false;
+  for (size_t log = 0; log < a.size(); ++log) {
+    const bool same =
+        std::equal(a[log].begin(), a[log].end(), b[log].begin(), b[log].end(),
+                   [](const TorqueOutlier& p, const TorqueOutlier& q) {
+                     return p.row == q.row && p.joint == q.joint;
+                   });
+    if (!same) return false;
+  }
+  return true;
+}
+
+}  // namespace armcal

@@ -1,0 +1,90 @@
+#include "calib/linear/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "model/robot/joint.h"
+
+namespace armcal {
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+// A joint that travels less shows nothing but noise and play, rad or m.
+constexpr double kLeastTravel = 2e-3;
+// Shares of what was measured that a fit must not leave: of all joints' torque,
+// and of one joint's (where others can be right).
+constexpr double kMostResidual = 70;  // %: half of the mean square
+constexpr double kMostOfOneJoint = 90;
+
+std::string Number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", x);
+  return text;
+}
+
+bool IsUnpowered(const LinearCalibration& result, int joint) {
+  return std::any_of(result.unpowered.begin(), result.unpowered.end(),
+                     [joint](const auto& u) { return u.joint == joint; });
+}
+
+void AddUnexplained(const Robot& robot, const LinearCalibration& result,
+                    Sentences* sentences) {
+  const auto figures = result.training->moving();
+  if (figures.stacked_percent > kMostResidual) {
+    sentences->push_back("the model leaves " + Number(figures.stacked_percent) +
+                         " % of the torque unexplained: torque and motion do "
+                         "not belong together");
+    return;
+  }
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    if (!(figures.percent[i] > kMostOfOneJoint)) continue;
+    if (IsUnpowered(result, i)) continue;
+    sentences->push_back("the model leaves " + Number(figures.percent[i]) +
+                         " % of the torque of " + robot.links[i].joint.name +
+                         " unexplained");
+  }
+}
+
+}  // namespace
+
+void AddUnmoved(const Robot& robot, const Eigen::VectorXd& travel,
+                const std::string& what, Sentences* sentences) {
+  for (int i = 0; i < travel.size(); ++i) {
+    if (travel[i] >= kLeastTravel) continue;
+    const Joint& joint = robot.links[i].joint;
+    sentences->push_back(joint.name + " never moves (by " + Number(travel[i]) +
+                         " " + PositionUnit(joint.type) + " at most): " + what);
+  }
+}
+
+Sentences Shortcomings(const Robot& robot, const LinearCalibration& result) {
+  if (!result.solved) return {result.reason};
+  const Identifiability& id = result.identifiability;
+  Sentences sentences;
+  if (id.batch_rank == 0) {
+    return {"none of the " + std::to_string(id.total) +
+            " parameters shows in this motion"};
+  }
+  if (id.batch_rank < id.total) {
+    AddUnmoved(robot, result.travel, "what only its motion shows is unknown",
+               &sentences);
+  }
+  if (result.training) AddUnexplained(robot, result, &sentences);
+  return sentences;
+}
+
+nlohmann::json VerdictJson(const Sentences& shortcomings) {
+  return {{"passed", shortcomings.empty()}, {"reasons", shortcomings}};
+}
+
+std::string VerdictText(const Sentences& shortcomings) {
+  std::string text;
+  for (const std::string& sentence : shortcomings) {
+    text += "failed     " + sentence + "\n";
+  }
+  return text;
+}
+
+}  // namespace armcal

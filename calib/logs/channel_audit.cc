@@ -1,0 +1,241 @@
+#include "calib/logs/channel_audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "model/text/format.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kMoving = .02;   // rad/s or m/s
+constexpr double kStuckTime = 1;  // s of motion
+constexpr double kLostShare = .1;
+constexpr double kAtLimit = .02;  // share of samples
+constexpr int kFewValues = 40;
+
+std::vector<double> Steps(const Log& log) {
+  std::vector<double> steps;
+  for (int k = 0; k + 1 < log.size(); ++k) {
+    steps.push_back(log.t[k + 1] - log.t[k]);
+  }
+  return steps;
+}
+
+double Quantile(std::vector<double> x, double share) {
+  const auto k = static_cast<size_t>(share * static_cast<double>(x.size() - 1));
+  std::nth_element(x.begin(), x.begin() + k, x.end());
+  return x[k];
+}
+
+// Positions' slope over a few steps around each sample.
+VectorXd SlopeOf(const Log& log, int j) {
+  constexpr int kReach = 3;
+  VectorXd slope = VectorXd::Zero(log.size());
+  for (int k = 0; k < log.size(); ++k) {
+    const int a = std::max(0, k - kReach);
+    const int b = std::min(log.size() - 1, k + kReach);
+    const double time = log.t[b] - log.t[a];
+    if (time > 0) slope[k] = (log.q(b, j) - log.q(a, j)) / time;
+  }
+  return slope;
+}
+
+// The longest time of `moves` for which a column has one value.
+double LongestConstant(const Log& log, const VectorXd& x,
+                       const Eigen::Array<bool, Eigen::Dynamic, 1>& moves) {
+  double longest = 0, run = 0;
+  for (int k = 0; k + 1 < log.size(); ++k) {
+    if (x[k + 1] != x[k]) run = 0;
+    if (x[k + 1] == x[k] && moves[k]) run += log.t[k + 1] - log.t[k];
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+class ChannelAudit {
+ public:
+  ChannelAudit(const Robot& robot, const Log& log, const StampFigures& stamps)
+      : robot_(robot), log_(log), stamps_(stamps) {}
+
+  std::vector<InspectionFinding> Run() {
+    AddTime();
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      const VectorXd slope = SlopeOf(log_, j);
+      AddStuck(j, slope);
+      AddVelocity(j, slope);
+      if (log_.tau.size() == 0) continue;
+      AddStuckTorque(j, slope);
+      AddLimit(j);
+      AddFewValues(j);
+    }
+    return findings_;
+  }
+
+ private:
+  std::string Name(const char* signal, int j) const {
+    return std::string(signal) + " of " + robot_.links[j].joint.name;
+  }
+
+  void AddTime() {
+    if (stamps_.unit != 1) {
+      const char* name = stamps_.unit == 1e-3   ? "ms"
+                         : stamps_.unit == 1e-6 ? "us"
+                                                : "ns";
+      findings_.push_back(
+          {"time_unit", std::string("the time is in ") + name + ", not in s",
+           Format("steps of %.4g as logged: no arm is sampled every %.4g s",
+                  stamps_.step / stamps_.unit, stamps_.step / stamps_.unit),
+           std::string("name the column t[") + name + "]"});
+    }
+    if (stamps_.lost_share > kLostShare) {
+      findings_.push_back(
+          {"lost_samples", "samples are missing between the others",
+           Format("%.0f %% of steps of %.4g ms are not there",
+                  100 * stamps_.lost_share, 1e3 * stamps_.step),
+           "log without losses; single losses are interpolated"});
+    }
+  }
+
+  // A column that does not change although the others of its joint do.
+  void AddStuckTorque(int j, const VectorXd& slope) {
+    // What is cut off stands at a limit.
+    const VectorXd tau = log_.tau.col(j);
+    const double low = tau.minCoeff(), high = tau.maxCoeff();
+    Eigen::Array<bool, Eigen::Dynamic, 1> counts =
+        slope.array().abs() > kMoving;
+    if (low < high) {
+      counts = counts && tau.array() > low && tau.array() < high;
+    }
+    const double torque = LongestConstant(log_, tau, counts);
+    if (torque > kStuckTime)
+      Stuck("torque", j, torque, "while the joint moves");
+  }
+  void AddStuck(int j, const VectorXd& slope) {
+    const Eigen::Array<bool, Eigen::Dynamic, 1> moves =
+        slope.array().abs() > kMoving;
+    if (log_.qref.size() > 0) {
+      const double command = LongestConstant(log_, log_.qref.col(j), moves);
+      if (command > kStuckTime) {
+        Stuck("command", j, command, "while the joint moves");
+      }
+    }
+    if (log_.qd.size() == 0) return;
+    const double velocity = LongestConstant(
+        log_, log_.qd.col(j), moves && log_.qd.col(j).array() != 0);
+    if (velocity > kStuckTime) {
+      Stuck("velocity", j, velocity, "while its position changes");
+    }
+    const double position = LongestConstant(
+        log_, log_.q.col(j), log_.qd.col(j).array().abs() > kMoving);
+    if (position > kStuckTime) {
+      Stuck("position", j, position, "while its velocity does not vanish");
+    }
+  }
+  void Stuck(const char* signal, int j, double time, const char* although) {
+    findings_.push_back(
+        {"stuck", Name(signal, j) + " is stuck",
+         Format("the same number for %.3g s %s", time, although),
+         "leave that time out (--crop), or mend the sensor", j});
+  }
+
+  void AddVelocity(int j, const VectorXd& slope) {
+    if (log_.qd.size() == 0) return;
+    const double square = slope.squaredNorm();
+    const VectorXd qd = log_.qd.col(j);
+    if (square < log_.size() * kMoving * kMoving || qd.squaredNorm() == 0) {
+      return;
+    }
+    const double factor = slope.dot(qd) / square;
+    const double alike = slope.dot(qd) / std::sqrt(square * qd.squaredNorm());
+    if (alike > .8 && factor > .7 && factor < 1.4) return;
+    findings_.push_back(
+        {"velocity", Name("velocity", j) + " is not that of its position",
+         Format("%.3g times the position's slope, correlation %.2f", factor,
+                alike),
+         alike < -.8 ? "turn the sign of one of them"
+                     : "check its unit and its order",
+         j});
+  }
+
+  void AddLimit(int j) {
+    const VectorXd tau = log_.tau.col(j);
+    const double low = tau.minCoeff(), high = tau.maxCoeff();
+    if (low == high) return;
+    for (const double limit : {low, high}) {
+      const double share =
+          static_cast<double>((tau.array() == limit).count()) / log_.size();
+      if (share < kAtLimit) continue;
+      findings_.push_back(
+          {"saturated", Name("torque", j) + " is cut off",
+           Format("%.1f %% of samples are exactly %.6g", 100 * share, limit),
+           "drive within the limit, or leave that time out (--crop)", j});
+    }
+  }
+
+  void AddFewValues(int j) {
+    const VectorXd tau = log_.tau.col(j);
+    std::set<double> values;
+    for (const double x : tau) {
+      values.insert(x);
+      if (static_cast<int>(values.size()) > kFewValues) return;
+    }
+    if (values.size() < 2) return;
+    findings_.push_back({"quantised", Name("torque", j) + " is coarse",
+                         Format("%d different values in %d samples",
+                                static_cast<int>(values.size()), log_.size()),
+                         "log more digits", j});
+  }
+
+  const Robot& robot_;
+  const Log& log_;
+  const StampFigures& stamps_;
+  std::vector<InspectionFinding> findings_;
+};
+
+}  // namespace
+
+StampFigures AuditStamps(const Log& log) {
+  StampFigures figures;
+  std::vector<double> steps = Steps(log);
+  figures.duplicates = std::count(steps.begin(), steps.end(), 0.);
+  steps.erase(std::remove(steps.begin(), steps.end(), 0.), steps.end());
+  if (steps.empty()) return figures;
+  figures.step = Quantile(steps, .2);
+  figures.longest_gap = *std::max_element(steps.begin(), steps.end());
+  figures.mean_step =
+      (log.t[log.size() - 1] - log.t[0]) / static_cast<double>(steps.size());
+  // Arms are logged every 0.1 ms to 0.25 s.
+  constexpr double kSlowest = .25;
+  while (figures.step * figures.unit > kSlowest && figures.unit > 1e-9) {
+    figures.unit /= 1000;
+  }
+  long periods = 0, lost = 0;
+  for (const double step : steps) {
+    const double ratio = step / figures.step;
+    const long whole = std::max(1L, std::lround(ratio));
+    if (whole > 100 || std::abs(ratio - static_cast<double>(whole)) > .25) {
+      continue;
+    }
+    periods += whole;
+    lost += whole - 1;
+  }
+  if (periods > 0) {
+    figures.lost_share =
+        static_cast<double>(lost) / static_cast<double>(periods);
+  }
+  figures.step *= figures.unit;
+  figures.mean_step *= figures.unit;
+  figures.longest_gap *= figures.unit;
+  return figures;
+}
+
+std::vector<InspectionFinding> AuditChannels(const Robot& robot, const Log& log,
+                                             const StampFigures& stamps) {
+  return ChannelAudit(robot, log, stamps).Run();
+}
+
+}  // namespace armcal

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+
+#include "calib/logs/log_set.h"
+#include "model/dynamics/model_parameters.h"
+
+namespace armcal {
+
+// Passes over the torque samples of logs that look at their residuals at some
+// parameters. All is kept from pass to pass as far as the logs' memory goes, so
+// the logs must stay as they are prepared.
+class SamplePass {
+ public:
+  // `residuals` of each of t.samples (sample_residuals.h), samples in rows. Of
+  // the trajectory, samples, positions, standstill and core; nothing else.
+  using Visit = std::function<void(int log, const Trajectory& t,
+                                   const Eigen::MatrixXd& residuals)>;
+
+  SamplePass(const ModelParameters& parameters, const Eigen::VectorXd& x,
+             const Progress& progress, LogSet* logs);
+
+  int num_joints() const { return parameters_.num_joints(); }
+  const LogSet& logs() const { return *logs_; }
+
+  // At full rate, outliers of the logs not replaced.
+  void Run(const std::string& stage, const Visit& visit);
+
+ private:
+  ModelParameters parameters_;
+  Eigen::VectorXd x_;
+  Progress progress_;
+  LogSet* logs_;
+  struct Stretch {
+    int log;
+    Trajectory trajectory;
+    Eigen::MatrixXd residuals;
+  };
+  KeptItems<Stretch> stretches_;
+};
+
+}  // namespace armcal

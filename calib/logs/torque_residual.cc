@@ -1,0 +1,95 @@
+#include "calib/logs/torque_residual.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "model/signals/low_pass.h"
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd PredictTorques(const Trajectory& trajectory, const VectorXd& x,
+                        const MotionRegressor& regressor) {
+  constexpr int kBatch = 256;
+  const auto& used = regressor.row_columns();
+  MatrixXd predicted(trajectory.size(), trajectory.num_joints());
+  JointColumns U;
+  U.Resize(RowSizes(regressor, 0), kBatch);
+  for (int first = 0; first < trajectory.size(); first += kBatch) {
+    const int count = std::min(kBatch, trajectory.size() - first);
+    regressor.Differential(first, count, U.data(), U.stride());
+    for (int i = 0; i < trajectory.num_joints(); ++i) {
+      predicted.col(i).segment(first, count) =
+          Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>(
+              U.column(i, 0), count, static_cast<int>(used[i].size()),
+              Eigen::OuterStride<>(U.stride())) *
+          x(used[i]);
+    }
+  }
+  return predicted;
+}
+
+TorqueResidual::TorqueResidual(int num_joints) {
+  for (Sums* sums : {&moving_, &whole_}) {
+    sums->torque = sums->residual = Eigen::ArrayXd::Zero(num_joints);
+  }
+}
+
+void TorqueResidual::Add(const Trajectory& trajectory, const VectorXd& x,
+                         double bandwidth_hz,
+                         const MotionRegressor& regressor) {
+  MatrixXd predicted = PredictTorques(trajectory, x, regressor);
+  MatrixXd recorded = trajectory.tau_recorded;
+  if (bandwidth_hz > 0) {
+    predicted = ZeroPhaseLowPass(predicted, 1 / trajectory.dt, bandwidth_hz);
+    recorded = ZeroPhaseLowPass(recorded, 1 / trajectory.dt, bandwidth_hz);
+  }
+  for (int k = trajectory.core_begin; k < trajectory.core_end; ++k) {
+    const Eigen::ArrayXd tau = recorded.row(k).transpose();
+    const Eigen::ArrayXd r = tau - predicted.row(k).transpose().array();
+    for (Sums* sums : {&moving_, &whole_}) {
+      if (sums == &moving_ && trajectory.standstill[k]) continue;
+      sums->torque += tau.square();
+      sums->residual += r.square();
+      sums->count += 1;
+    }
+  }
+}
+
+double TorqueResidual::excluded_share() const {
+  return whole_.count > 0 ? 1 - moving_.count / whole_.count : 0;
+}
+
+TorqueResidual::Figures TorqueResidual::MakeFigures(const Sums& sums) {
+  const double count = std::max(1.0, sums.count);
+  Figures f;
+  f.torque_rms = (sums.torque / count).sqrt();
+  f.residual_rms = (sums.residual / count).sqrt();
+  f.percent = 100 * (sums.residual / sums.torque).sqrt();
+  for (int j = 0; j < f.percent.size(); ++j) {
+    if (sums.torque[j] <= 0) f.percent[j] = std::nan("");
+  }
+  const double torque = sums.torque.sum();
+  f.stacked_percent =
+      torque > 0 ? 100 * std::sqrt(sums.residual.sum() / torque) : std::nan("");
+  return f;
+}
+
+TorqueResidual EvaluateTorqueResidual(const ModelParameters& parameters,
+                                      const VectorXd& x, double bandwidth_hz,
+                                      const std::string& stage,
+                                      const Progress& progress, LogSet* logs) {
+  TorqueResidual residual(parameters.num_joints());
+  std::vector<MotionRegressor> regressors(logs->size(),
+                                          MotionRegressor(parameters));
+  logs->ForEach(stage, progress, [&](int log, const Trajectory& t) {
+    regressors[log].Enter(t);
+    residual.Add(t, x, bandwidth_hz, regressors[log]);
+  });
+  return residual;
+}
+
+}  // namespace armcal

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/logs/wiring.h"
+#include "model/log_files/log.h"
+
+namespace armcal {
+
+// A log in memory on a uniform grid, low-passed: what questions about a whole
+// log are asked of.
+class UniformSeries {
+ public:
+  // Stretches across gaps of more than `longest_gap` s do not count. Motion and
+  // torque are low-passed at `bandwidth_hz`. The log has q, tau or not (then
+  // tau() is empty and there is nothing to Pick).
+  UniformSeries(const Log& log, double dt, double longest_gap,
+                double bandwidth_hz);
+
+  double dt() const { return dt_; }
+  int num_moving() const { return static_cast<int>(moving_.size()); }
+  // Low-passed, rows on the grid.
+  const Motion& motion() const { return motion_; }
+  const Eigen::MatrixXd& tau() const { return tau_; }
+  // Rows at which the arm moves, away from gaps and ends.
+  const std::vector<int>& moving() const { return moving_; }
+  // At most `count` of them, evenly; torques as recorded `delay` s later.
+  WiringSamples Pick(int count, double delay) const;
+
+ private:
+  double dt_;
+  Motion motion_;
+  Eigen::MatrixXd tau_;
+  std::vector<int> moving_;
+};
+
+}  // namespace armcal

@@ -1,0 +1,151 @@
+#include "calib/logs/wiring.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "model/dynamics/batch_regressor.h"
+#include "problems/inertial_prior.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kTransition = .03;  // rad/s or m/s, of Coulomb friction
+constexpr double kLeastMass = 1e-3;  // kg, of a link whose file has none
+constexpr int kTerms = 4;            // viscous, Coulomb, offset, armature
+constexpr double kLeastShare = .01;  // of the torque: no model is better
+
+// Torque of a unit of every link's inertial parameters and every joint's terms.
+std::vector<MatrixXd> Columns(const Robot& robot, const Motion& motion) {
+  const int n = robot.num_joints();
+  std::vector<MatrixXd> columns(
+      n, MatrixXd::Zero(motion.size(), 10 * n + kTerms * n));
+  std::vector<double*> links;  // of which joint i's torque has i and beyond
+  for (int i = 0; i < n; ++i) links.push_back(&columns[i](0, 10 * i));
+  BatchRegressor(robot).Differential(
+      {motion.q, motion.qd, motion.qdd, MatrixXd()}, motion.size(),
+      links.data(), motion.size());
+  for (int i = 0; i < n; ++i) {
+    MatrixXd own(motion.size(), kTerms);
+    own << motion.qd.col(i),
+        (motion.qd.col(i).array() / kTransition).tanh().matrix(),
+        VectorXd::Ones(motion.size()), motion.qdd.col(i);
+    columns[i].middleCols(10 * n + kTerms * i, kTerms) = own;
+  }
+  return columns;
+}
+
+double Rms(const VectorXd& x) {
+  return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
+}
+
+}  // namespace
+
+Wiring::Wiring(int num_joints)
+    : column(num_joints),
+      position_sign(VectorXd::Ones(num_joints)),
+      torque_sign(VectorXd::Ones(num_joints)) {
+  std::iota(column.begin(), column.end(), 0);
+}
+
+WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring) {
+  WiringSamples joints = samples;
+  for (size_t j = 0; j < wiring.column.size(); ++j) {
+    const auto to = static_cast<Eigen::Index>(j);
+    const int from = wiring.column[j];
+    const double sign = wiring.position_sign[to];
+    joints.motion.q.col(to) = sign * samples.motion.q.col(from);
+    joints.motion.qd.col(to) = sign * samples.motion.qd.col(from);
+    joints.motion.qdd.col(to) = sign * samples.motion.qdd.col(from);
+    joints.tau.col(to) = wiring.torque_sign[to] * samples.tau.col(from);
+  }
+  return joints;
+}
+
+TorqueFit::TorqueFit(const Robot& robot, const Motion& motion)
+    : columns_(Columns(robot, motion)) {
+  const int n = robot.num_joints(), size = 10 * n + kTerms * n;
+  for (const MatrixXd& columns : columns_) {
+    MatrixXd square = MatrixXd::Zero(size, size);
+    square.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+    squares_.emplace_back(square.selfadjointView<Eigen::Lower>());
+  }
+  nominal_ = VectorXd::Zero(size);
+  prior_ = MatrixXd::Zero(size, size);
+  for (int i = 0; i < n; ++i) {
+    Vector10d V = robot.links[i].inertial.ToVector();
+    if (!(V[0] > kLeastMass)) {
+      V << kLeastMass, 0, 0, 0, 1e-6, 0, 1e-6, 0, 0, 1e-6;
+    }
+    const auto W = InertialPrior(V, 1).W();
+    nominal_.segment<10>(10 * i) = V;
+    prior_.block<10, 10>(10 * i, 10 * i) = W.transpose() * W;
+  }
+}
+
+VectorXd TorqueFit::Solve(const MatrixXd& tau, const VectorXd& variance,
+                          const std::vector<bool>& held) const {
+  const auto n = static_cast<int>(columns_.size());
+  MatrixXd A = prior_;
+  VectorXd b = prior_ * nominal_;
+  for (int j = 0; j < n; ++j) {
+    const double weight = 1 / (variance[j] + 1e-18);
+    A += weight * squares_[j];
+    b += weight * columns_[j].transpose() * tau.col(j);
+    // Next to nothing, so that what does not move has a value.
+    const double rms = Rms(tau.col(j));
+    A.diagonal().segment(10 * n + kTerms * j, kTerms).array() +=
+        1e-4 / (rms * rms + 1e-12);
+  }
+  for (size_t c = 0; c < held.size(); ++c) {
+    if (!held[c]) continue;
+    A.row(c).setZero();
+    A.col(c).setZero();
+    A(c, c) = 1;
+    b[c] = 0;
+  }
+  return A.ldlt().solve(b);
+}
+
+// Viscous and Coulomb friction and armature take power.
+void TorqueFit::HoldNegative(const VectorXd& x, std::vector<bool>* held) const {
+  const auto n = static_cast<int>(columns_.size());
+  for (int j = 0; j < n; ++j) {
+    for (const int k : {0, 1, 3}) {
+      const int c = 10 * n + kTerms * j + k;
+      if (x[c] < 0) (*held)[c] = true;
+    }
+  }
+}
+
+double TorqueFit::Misfit(const MatrixXd& tau, double* residual_percent) const {
+  constexpr int kRounds = 3;  // of the joints' noise
+  const auto n = static_cast<int>(columns_.size());
+  const auto samples = static_cast<double>(tau.rows());
+  VectorXd variance(n), rms(n);
+  for (int j = 0; j < n; ++j) variance[j] = std::pow(.1 * Rms(tau.col(j)), 2);
+  std::vector<bool> held(nominal_.size(), false);
+  double misfit = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const VectorXd x = Solve(tau, variance, held);
+    HoldNegative(x, &held);
+    const VectorXd off = x - nominal_;
+    misfit = .5 * off.dot(prior_ * off);
+    for (int j = 0; j < n; ++j) {
+      rms[j] = Rms(tau.col(j) - columns_[j] * x);
+      const double least = kLeastShare * Rms(tau.col(j)) + 1e-9;
+      variance[j] = rms[j] * rms[j] + least * least;
+      misfit += .5 * samples * std::log(variance[j]);
+    }
+  }
+  if (residual_percent != nullptr) {
+    *residual_percent = 100 * rms.norm() * std::sqrt(samples) / tau.norm();
+  }
+  return misfit;
+}
+
+}  // namespace armcal

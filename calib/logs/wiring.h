@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "model/robot/robot.h"
+#include "model/signals/motion.h"
+
+namespace armcal {
+
+// Samples of a log's columns as they came, some hundred of them while the arm
+// moves: the motion of what is called joint 1, 2, .. and its torque.
+struct WiringSamples {
+  Motion motion;
+  Eigen::MatrixXd tau;  // samples x n
+};
+
+// Which column belongs to which joint, and with what sign.
+struct Wiring {
+  std::vector<int> column;                     // of each joint, from 0
+  Eigen::VectorXd position_sign, torque_sign;  // of each joint, +-1
+
+  explicit Wiring(int num_joints);
+};
+
+// The samples as joints have them if that is the wiring.
+WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring);
+
+// How well torques fit an arm that moves like this, with inertias, friction and
+// armature fitted as they can be: friction takes power, and inertias are those
+// of the file to their own size (InertialPrior, trust 1).
+class TorqueFit {
+ public:
+  TorqueFit(const Robot& robot, const Motion& motion);
+
+  // Half the sum over joints and samples of the log of the mean square
+  // residual, in nats; small is good. `tau`: samples x n, N m or N.
+  // `residual_percent`, unless null: of all torques.
+  double Misfit(const Eigen::MatrixXd& tau,
+                double* residual_percent = nullptr) const;
+
+ private:
+  Eigen::VectorXd Solve(const Eigen::MatrixXd& tau,
+                        const Eigen::VectorXd& variance,
+                        const std::vector<bool>& held) const;
+  void HoldNegative(const Eigen::VectorXd& x, std::vector<bool>* held) const;
+
+  std::vector<Eigen::MatrixXd> columns_, squares_;  // per joint
+  Eigen::VectorXd nominal_;
+  Eigen::MatrixXd prior_;
+};
+
+}  // namespace armcal

@@ -1,0 +1,156 @@
+#include "calib/poses/calibrate_poses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "calib/numerics/median.h"
+#include "calib/poses/fit.h"
+#include "model/signals/dense_solvers.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Poses one of whose residual vectors (of a target, the pose or the wire) is so
+// long that Tukey's loss gives it up.
+std::vector<int> FindOutliers(const PoseFit& fit, const PoseUnknowns& at,
+                              const std::vector<int>& rows) {
+  VectorXd residuals;
+  fit.Jacobian(rows, at, &residuals);
+  const double limit = LossScale(RobustLoss::kTukey, fit.Coordinates());
+  const Eigen::Index per_pose = residuals.size() / rows.size();
+  std::vector<int> outliers;
+  for (size_t k = 0; k < rows.size(); ++k) {
+    const auto r = residuals.segment(k * per_pose, per_pose)
+                       .reshaped(fit.Coordinates(), Eigen::AutoSize);
+    if (r.colwise().norm().maxCoeff() > limit) outliers.push_back(rows[k]);
+  }
+  return outliers;
+}
+
+// rms of positions (of the first target, or of lengths) about their mean, m.
+double Extent(const PoseMeasurements& measured) {
+  MatrixXd p = measured.lengths;
+  if (!measured.targets.empty()) p = measured.targets[0];
+  if (measured.poses.size() > 0) p = measured.poses.leftCols(3);
+  const MatrixXd about = p.rowwise() - p.colwise().mean();
+  return about.norm() / std::sqrt(static_cast<double>(p.rows()));
+}
+
+// Leaves out every folds-th pose in turn and predicts it from the others.
+void CrossValidate(const PoseFit& fit, const std::vector<bool>& free,
+                   const PoseUnknowns& start, RobustLoss loss, int folds,
+                   int poses, PoseCalibration* result) {
+  if (folds < 2) return;
+  std::vector<double> all;
+  for (int fold = 0; fold < folds; ++fold) {
+    std::vector<int> kept, left_out;
+    for (int k = 0; k < poses; ++k) {
+      (k % folds == fold ? left_out : kept).push_back(k);
+    }
+    PoseUnknowns unknowns = start;
+    if (!fit.Solve(free, kept, loss, &unknowns)) continue;
+    for (const double d : fit.Distances(left_out, unknowns)) all.push_back(d);
+  }
+  if (all.empty()) return;
+  result->held_out_rms = Rms(all);
+  result->held_out_median = Median(all);
+}
+
+// The free parameters with standard deviations from the data alone.
+void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
+                      const std::vector<int>& rows, const PoseUnknowns& at,
+                      PoseCalibration* result) {
+  const ArmGeometry& geometry = fit.geometry();
+  const std::vector<std::string> names = geometry.Names();
+  const std::vector<std::string> units = geometry.Units();
+  const VectorXd nominal = geometry.Values();
+  VectorXd residuals;
+  const MatrixXd J = fit.Jacobian(rows, at, &residuals);
+  std::vector<int> columns;
+  for (int k = 0; k < geometry.size(); ++k) {
+    if (free[k]) columns.push_back(k);
+  }
+  const int num_free = static_cast<int>(columns.size());
+  for (Eigen::Index c = geometry.size(); c < J.cols(); ++c) {
+    columns.push_back(static_cast<int>(c));
+  }
+  MatrixXd A(J.rows(), columns.size());
+  for (size_t k = 0; k < columns.size(); ++k) A.col(k) = J.col(columns[k]);
+  const VectorXd scale = A.colwise().norm().cwiseMax(1e-300);
+  const Eigen::JacobiSVD<MatrixXd> svd(A * scale.cwiseInverse().asDiagonal(),
+                                       Eigen::ComputeThinV);
+  const VectorXd& s = svd.singularValues();
+  const double factor =
+      fit.VarianceFactor(residuals, static_cast<int>(columns.size()));
+  for (int k = 0; k < num_free; ++k) {
+    double variance = 0, unseen = 0;
+    for (Eigen::Index d = 0; d < s.size(); ++d) {
+      const double v = svd.matrixV()(k, d);
+      if (s[d] > 1e-9 * s[0]) {
+        variance += v * v / (s[d] * s[d]);
+      } else {
+        unseen += v * v;
+      }
+    }
+    const int p = columns[k];
+    // The loss of a hopeless fit may be all slope: no variance then.
+    const bool seen = unseen < 1e-6 && std::isfinite(factor);
+    result->parameters.push_back(
+        {names[p], units[p], nominal[p], at.geometry[p],
+         seen ? std::sqrt(factor * variance) / scale[k]
+              : std::numeric_limits<double>::infinity(),
+         fit.PriorOf(p), seen});
+  }
+}
+
+}  // namespace
+
+PoseCalibration CalibratePoses(const Robot& robot,
+                               const PoseMeasurements& measured,
+                               const PoseCalibrationOptions& options) {
+  PoseFit fit(robot, measured, options);
+  PoseCalibration result;
+  result.robot = robot;
+  result.count = measured.size();
+  result.refined = options.refine != RefineGeometry::kNothing;
+  result.travel =
+      measured.q.colwise().maxCoeff() - measured.q.colwise().minCoeff();
+  result.extent = Extent(measured);
+  const PoseSolution solution = SolvePoses(measured, options.refine, &fit);
+  result.reason = solution.refusal;
+  result.before = solution.before;
+  result.before_rms = solution.before.empty() ? 0 : Rms(solution.before);
+  result.held = solution.held;
+  if (!result.reason.empty()) return result;
+  const PoseUnknowns& unknowns = solution.unknowns;
+  const std::vector<bool>& free = solution.free;
+  const std::vector<int> rows = fit.AllRows();
+  result.solved = true;
+  result.reason = "solved";
+  result.noise = fit.noise();
+  result.after = fit.Distances(rows, unknowns);
+  result.rms = Rms(result.after);
+  result.median = Median(result.after);
+  result.max = *std::max_element(result.after.begin(), result.after.end());
+  result.outliers = FindOutliers(fit, unknowns, rows);
+  std::vector<int> inliers;
+  std::set_difference(rows.begin(), rows.end(), result.outliers.begin(),
+                      result.outliers.end(), std::back_inserter(inliers));
+  if (!inliers.empty()) {
+    result.inlier_rms = Rms(fit.Distances(inliers, unknowns));
+  }
+  CrossValidate(fit, free, unknowns, options.loss, options.folds,
+                measured.size(), &result);
+  ReportParameters(fit, free, rows, unknowns, &result);
+  ArmGeometry refined = fit.geometry();
+  refined.SetValues(unknowns.geometry);
+  result.robot = refined.ApplyTo(robot);
+  return result;
+}
+
+}  // namespace armcal

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "model/robot/arm_geometry.h"
+#include "model/robot/robot.h"
+#include "problems/pose_problem.h"
+
+namespace armcal {
+
+struct PoseCalibrationOptions {
+  RefineGeometry refine = RefineGeometry::kAll;
+  // Tukey's gives wrong poses up, where Huber's lets each pull for ever.
+  RobustLoss loss = RobustLoss::kTukey;
+  // How far the arm's parameters may reasonably be from the file's: standard
+  // deviations of the prior, m and rad.
+  double prior_length = 0.01;
+  double prior_angle = 0.02;
+  int folds = 6;  // of the cross-validation
+};
+
+struct GeometryEstimate {
+  std::string name;
+  std::string unit;
+  double nominal;
+  double value;
+  double stddev;  // infinite where not identifiable
+  double prior;   // standard deviation of the prior, 0: none
+  bool identifiable;
+};
+
+// A calibration of the geometry from measured poses.
+struct PoseCalibration {
+  bool solved = false;
+  std::string reason;
+  std::vector<GeometryEstimate> parameters;  // estimated ones
+  // Sentences: what is held because the poses cannot tell it.
+  std::vector<std::string> held;
+  int count = 0;           // poses
+  bool refined = false;    // the arm's own geometry too
+  Eigen::VectorXd travel;  // per joint, rad or m
+  double extent = 0;       // m, rms of measured positions about their mean
+  PoseNoise noise;
+  // m, per pose and target: with only the frame fitted, with the estimate.
+  std::vector<double> before, after;
+  double before_rms = 0;  // m, only the frame fitted
+  double rms = 0;         // m, all poses
+  double inlier_rms = 0;
+  double median = 0;
+  double max = 0;
+  double held_out_rms = 0;  // cross-validated
+  double held_out_median = 0;
+  std::vector<int> outliers;  // poses that Tukey's loss gives up
+  Robot robot;                // with the refined geometry
+};
+
+}  // namespace armcal

@@ -1,0 +1,236 @@
+#include "calib/poses/fit.h"
+
+#include <ceres/manifold.h>
+#include <ceres/normal_prior.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "calib/numerics/median.h"
+#include "calib/poses/start.h"
+#include "model/signals/column_basis.h"
+#include "problems/dense_solver.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kSamePose = 1e-4;  // rad or m
+// Without some to spare the noise would be a guess.
+constexpr int kSpareEquations = 10;
+
+}  // namespace
+
+PoseFit::PoseFit(const Robot& robot, const PoseMeasurements& measured,
+                 const PoseCalibrationOptions& options)
+    : measured_(measured),
+      options_(options),
+      geometry_(std::make_shared<ArmGeometry>(robot)),
+      names_(geometry_->Names()),
+      nominal_(geometry_->Values()) {}
+
+std::vector<int> PoseFit::AllRows() const {
+  std::vector<int> rows(measured_.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+double GeometryPrior(const ArmGeometry& geometry, int k, double length,
+                     double angle) {
+  if (ArmGeometry::IsBase(k) || geometry.IsTool(k)) return 0;
+  return geometry.Units()[k] == "m" ? length : angle;
+}
+
+double PoseFit::PriorOf(int k) const {
+  return GeometryPrior(*geometry_, k, options_.prior_length,
+                       options_.prior_angle);
+}
+
+MatrixXd PoseFit::Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
+                           VectorXd* residuals) const {
+  PoseUnknowns unknowns = at;
+  ceres::Problem problem;
+  AddPoseResiduals(geometry_, measured_, rows, noise_, RobustLoss::kSquared,
+                   &unknowns, &problem);
+  ceres::Problem::EvaluateOptions evaluate;
+  evaluate.parameter_blocks.push_back(unknowns.geometry.data());
+  const int step = measured_.lengths.size() > 0 ? 4 : 3;
+  for (int k = 0; k < unknowns.other.size(); k += step) {
+    evaluate.parameter_blocks.push_back(unknowns.other.data() + k);
+  }
+  ceres::CRSMatrix crs;
+  std::vector<double> r;
+  problem.Evaluate(evaluate, nullptr, &r, nullptr, &crs);
+  if (residuals) *residuals = Eigen::Map<VectorXd>(r.data(), r.size());
+  MatrixXd J = MatrixXd::Zero(crs.num_rows, crs.num_cols);
+  for (int r = 0; r < crs.num_rows; ++r) {
+    for (int k = crs.rows[r]; k < crs.rows[r + 1]; ++k) {
+      J(r, crs.cols[k]) = crs.values[k];
+    }
+  }
+  return J;
+}
+
+// Of parameters that the poses cannot tell apart the first is kept: the
+// instrument's, then joint zeros, then the others in the order of the arm.
+std::vector<bool> PoseFit::HoldUnseen(const std::vector<bool>& wanted,
+                                      const std::vector<int>& rows,
+                                      const PoseUnknowns& at,
+                                      std::vector<std::string>* held) const {
+  const MatrixXd J = Jacobian(rows, at);
+  const int g = geometry_->size();
+  ColumnBasis basis(static_cast<int>(J.rows()));
+  const double rows_scale = J.leftCols(6).norm() / std::sqrt(6.0);
+  for (Eigen::Index c = g; c < J.cols(); ++c) {
+    basis.Add(J.col(c), rows_scale, 1e-7);
+  }
+  std::vector<int> order(g);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [this](int a, int b) {
+    const auto rank = [this](int k) {
+      if (ArmGeometry::IsBase(k) || geometry_->IsTool(k)) return 0;
+      return names_[k].rfind(".theta") != std::string::npos ? 1 : 2;
+    };
+    return rank(a) < rank(b);
+  });
+  std::vector<bool> free(g, false);
+  for (const int k : order) {
+    if (!wanted[k]) continue;
+    free[k] = basis.Add(J.col(k), rows_scale, 1e-5);
+    if (free[k] || held == nullptr) continue;
+    held->push_back(names_[k] +
+                    (J.col(k).norm() < 1e-5 * rows_scale
+                         ? " is not seen by these poses"
+                         : " cannot be told from the parameters before it"));
+  }
+  return free;
+}
+
+bool PoseFit::Solve(const std::vector<bool>& free, const std::vector<int>& rows,
+                    RobustLoss loss, PoseUnknowns* unknowns) const {
+  ceres::Problem problem;
+  AddPoseResiduals(geometry_, measured_, rows, noise_, loss, unknowns,
+                   &problem);
+  MatrixXd weight = MatrixXd::Zero(geometry_->size(), geometry_->size());
+  std::vector<int> constant;
+  for (int k = 0; k < geometry_->size(); ++k) {
+    if (!free[k]) constant.push_back(k);
+    if (PriorOf(k) > 0) weight(k, k) = 1 / PriorOf(k);
+  }
+  problem.AddResidualBlock(new ceres::NormalPrior(weight, nominal_), nullptr,
+                           unknowns->geometry.data());
+  if (!constant.empty()) {
+    problem.SetManifold(unknowns->geometry.data(),
+                        new ceres::SubsetManifold(geometry_->size(), constant));
+  }
+  const ceres::Solver::Summary summary = SolveDense(1e-12, &problem);
+  return summary.IsSolutionUsable() && unknowns->geometry.allFinite() &&
+         unknowns->other.allFinite();
+}
+
+std::vector<double> PoseFit::Distances(const std::vector<int>& rows,
+                                       const PoseUnknowns& at) const {
+  const MatrixXd errors = PositionErrors(*geometry_, measured_, at);
+  std::vector<double> distances;
+  for (const int k : rows) {
+    for (Eigen::Index c = 0; c < errors.cols(); c += Width()) {
+      distances.push_back(errors.row(k).segment(c, Width()).norm());
+    }
+  }
+  return distances;
+}
+
+// Robust: 1.4826 times the median of absolute coordinates, corrected for what
+// the unknowns have taken out of them.
+void PoseFit::EstimateNoise(const std::vector<bool>& free,
+                            const PoseUnknowns& at) {
+  const MatrixXd position = PositionErrors(*geometry_, measured_, at);
+  const MatrixXd rotation = RotationErrors(*geometry_, measured_, at);
+  const double N = static_cast<double>(position.size() + rotation.size());
+  const double left = std::max(1.0, N - NumUnknowns(free, at));
+  const auto spread = [&](const MatrixXd& errors) {
+    std::vector<double> sizes;
+    for (const double e : errors.reshaped()) sizes.push_back(std::abs(e));
+    return std::max(1e-7, 1.4826 * Median(sizes) * std::sqrt(N / left));
+  };
+  noise_.position = spread(position);
+  if (rotation.size() > 0) noise_.rotation = spread(rotation);
+}
+
+// Poses that repeat an arm position add nothing to the geometry.
+std::string PoseFit::WhyTooFew(const std::vector<bool>& free,
+                               const PoseUnknowns& at) const {
+  std::vector<int> different;
+  for (int k = 0; k < measured_.size(); ++k) {
+    const bool seen =
+        std::any_of(different.begin(), different.end(), [&](int j) {
+          return (measured_.q.row(j) - measured_.q.row(k))
+                     .cwiseAbs()
+                     .maxCoeff() < kSamePose;
+        });
+    if (!seen) different.push_back(k);
+  }
+  const int per_pose = measured_.lengths.size() > 0 ? 1
+                       : measured_.poses.size() > 0
+                           ? 6
+                           : 3 * static_cast<int>(measured_.targets.size());
+  const int poses = static_cast<int>(different.size());
+  const int equations = per_pose * poses;
+  const int unknowns = NumUnknowns(free, at);
+  if (equations >= unknowns + kSpareEquations) return "";
+  return std::to_string(poses) +
+         (poses == 1 ? " arm position gives "
+                     : " different arm positions give ") +
+         std::to_string(equations) + " equations for " +
+         std::to_string(unknowns) + " unknowns, at least " +
+         std::to_string(unknowns + kSpareEquations) +
+         " are needed; measure more positions";
+}
+
+bool PoseFit::SolveWithNoise(const std::vector<bool>& free,
+                             const std::vector<int>& rows,
+                             PoseUnknowns* unknowns) {
+  std::vector<RobustLoss> losses = {options_.loss};
+  if (options_.loss != RobustLoss::kSquared) {
+    losses.insert(losses.begin(), RobustLoss::kHuber);
+  }
+  for (const RobustLoss loss : losses) {
+    for (int round = 0; round < 4; ++round) {
+      if (!Solve(free, rows, loss, unknowns)) return false;
+      EstimateNoise(free, *unknowns);
+    }
+  }
+  return Solve(free, rows, options_.loss, unknowns);
+}
+
+PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
+                        PoseFit* fit) {
+  PoseSolution solution;
+  const std::vector<int> rows = fit->AllRows();
+  solution.unknowns = StartPoses(fit->geometry(), measured);
+  fit->EstimateNoise(std::vector<bool>(fit->geometry().size(), false),
+                     solution.unknowns);
+  const auto solve = [&](RefineGeometry what, const char* failure) {
+    solution.held.clear();
+    solution.free = fit->HoldUnseen(fit->Wanted(what), rows, solution.unknowns,
+                                    &solution.held);
+    solution.refusal = fit->WhyTooFew(solution.free, solution.unknowns);
+    if (!solution.refusal.empty()) return false;
+    if (!fit->SolveWithNoise(solution.free, rows, &solution.unknowns)) {
+      solution.refusal = failure;
+    }
+    return solution.refusal.empty();
+  };
+  if (!solve(RefineGeometry::kNothing,
+             "the instrument's frame cannot be found")) {
+    return solution;
+  }
+  solution.before = fit->Distances(rows, solution.unknowns);
+  solve(refine, "the geometry cannot be solved for");
+  return solution;
+}
+
+}  // namespace armcal

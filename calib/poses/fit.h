@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "calib/poses/calibration.h"
+#include "model/log_files/pose_reader.h"
+#include "model/robot/arm_geometry.h"
+#include "problems/pose_problem.h"
+
+namespace armcal {
+
+// Standard deviation of the robot file's prior on parameter k of the geometry,
+// given those of its lengths (m) and angles (rad); 0: none, of base and tool.
+double GeometryPrior(const ArmGeometry& geometry, int k, double length,
+                     double angle);
+
+// Fits of measured poses with some of the geometry's parameters free, and what
+// there is to be fitted. `rows` are indices of poses, `free` flags of the
+// geometry's parameters.
+class PoseFit {
+ public:
+  PoseFit(const Robot& robot, const PoseMeasurements& measured,
+          const PoseCalibrationOptions& options);
+
+  const ArmGeometry& geometry() const { return *geometry_; }
+  const PoseNoise& noise() const { return noise_; }
+  std::vector<int> AllRows() const;
+  // Of the estimate's covariance over (J'J)^-1 (pose_problem.h).
+  double VarianceFactor(const Eigen::VectorXd& residuals,
+                        int num_unknowns) const {
+    return armcal::VarianceFactor(residuals, Coordinates(), options_.loss,
+                                  num_unknowns);
+  }
+  // Coordinates of a position error.
+  int Width() const { return measured_.lengths.size() > 0 ? 1 : 3; }
+  // Coordinates of a residual that share a loss.
+  int Coordinates() const { return measured_.poses.size() > 0 ? 6 : Width(); }
+  // Standard deviation of the prior on parameter k; 0: none.
+  double PriorOf(int k) const;
+
+  // The parameters that refinement and this kind of measurement ask for.
+  std::vector<bool> Wanted(RefineGeometry refine) const {
+    return FreeGeometry(*geometry_, refine, &measured_);
+  }
+  // Of those, the ones that the poses can tell apart; *held says why not.
+  std::vector<bool> HoldUnseen(const std::vector<bool>& wanted,
+                               const std::vector<int>& rows,
+                               const PoseUnknowns& at,
+                               std::vector<std::string>* held) const;
+  // Why there are too few poses for so many unknowns; empty if there are not.
+  std::string WhyTooFew(const std::vector<bool>& free,
+                        const PoseUnknowns& at) const;
+  // Of all unknowns, in noise units and without the loss.
+  Eigen::MatrixXd Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
+                           Eigen::VectorXd* residuals = nullptr) const;
+  // Adds the residuals of poses `rows`, whose blocks are those of `unknowns`.
+  void AddResiduals(const std::vector<int>& rows, PoseUnknowns* unknowns,
+                    ceres::Problem* problem) const {
+    AddPoseResiduals(geometry_, measured_, rows, noise_, options_.loss,
+                     unknowns, problem);
+  }
+  // False where the solver found no usable solution.
+  bool Solve(const std::vector<bool>& free, const std::vector<int>& rows,
+             RobustLoss loss, PoseUnknowns* unknowns) const;
+  // With the noise re-estimated; a loss that gives poses up starts where
+  // Huber's ends.
+  bool SolveWithNoise(const std::vector<bool>& free,
+                      const std::vector<int>& rows, PoseUnknowns* unknowns);
+  void EstimateNoise(const std::vector<bool>& free, const PoseUnknowns& at);
+  // Distances of every target (or pose, or wire) of `rows`, m.
+  std::vector<double> Distances(const std::vector<int>& rows,
+                                const PoseUnknowns& at) const;
+
+ private:
+  static int NumUnknowns(const std::vector<bool>& free,
+                         const PoseUnknowns& at) {
+    return static_cast<int>(std::count(free.begin(), free.end(), true) +
+                            at.other.size());
+  }
+
+  const PoseMeasurements& measured_;
+  const PoseCalibrationOptions& options_;
+  std::shared_ptr<const ArmGeometry> geometry_;
+  std::vector<std::string> names_;
+  Eigen::VectorXd nominal_;
+  PoseNoise noise_;
+};
+
+// Poses fitted alone, from their start values: first the instrument's frame,
+// then what `refine` asks for and the poses can tell.
+struct PoseSolution {
+  std::string refusal;  // why there is none; empty: solved
+  PoseUnknowns unknowns;
+  std::vector<bool> free;         // of the geometry's parameters
+  std::vector<std::string> held;  // sentences
+  std::vector<double> before;     // distances, m, with only the frame fitted
+};
+PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
+                        PoseFit* fit);
+
+}  // namespace armcal

@@ -1,0 +1,111 @@
+#include "calib/poses/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "calib/linear/verdict.h"
+#include "calib/numerics/json_figures.h"
+#include "calib/poses/verdict.h"
+
+namespace armcal {
+namespace {
+
+using nlohmann::json;
+
+// Lengths in mm and angles in degrees, as people read them.
+std::string Estimate(const GeometryEstimate& p) {
+  const bool angle = p.unit == "rad";
+  const double scale = angle ? 57.29577951308232 : 1e3;
+  char text[128], spread[32] = "(not seen)  ";
+  if (std::isfinite(p.stddev)) {
+    std::snprintf(spread, sizeof(spread), "+- %-9.2g", scale * p.stddev);
+  }
+  std::snprintf(text, sizeof(text), "  %-22s %12.4f -> %12.4f %s %s\n",
+                p.name.c_str(), scale * p.nominal, scale * p.value, spread,
+                angle ? "deg" : "mm");
+  return text;
+}
+
+const char* Kind(const PoseMeasurements& measured) {
+  if (measured.lengths.size() > 0) return "wire lengths";
+  return measured.targets.empty() ? "tool poses" : "targets";
+}
+
+std::string OutlierText(const PoseMeasurements& measured,
+                        const PoseCalibration& result) {
+  if (result.outliers.empty()) return "";
+  std::string text = "outliers   " + std::to_string(result.outliers.size()) +
+                     " poses beyond Tukey's limit, rows";
+  constexpr size_t kShown = 12;
+  for (size_t k = 0; k < std::min(kShown, result.outliers.size()); ++k) {
+    text += " " + std::to_string(measured.row[result.outliers[k]]);
+  }
+  if (result.outliers.size() > kShown) text += " ... (all in calibration.json)";
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
+                       const PoseCalibration& result) {
+  if (!result.solved) {
+    return robot.name + ": not calibrated: " + result.reason + "\n";
+  }
+  char line[256];
+  std::snprintf(line, sizeof(line),
+                "poses      %d, %s; noise %.3g mm\n"
+                "deviation  %.4f mm rms with the file's geometry, %.4f mm with "
+                "the estimate\n"
+                "           median %.4f mm, max %.4f mm; cross-validated "
+                "%.4f mm rms, median %.4f mm\n",
+                measured.size(), Kind(measured), 1e3 * result.noise.position,
+                1e3 * result.before_rms, 1e3 * result.rms, 1e3 * result.median,
+                1e3 * result.max, 1e3 * result.held_out_rms,
+                1e3 * result.held_out_median);
+  std::string text = line + OutlierText(measured, result) +
+                     "\ngeometry                       file        estimate\n";
+  for (const GeometryEstimate& p : result.parameters) text += Estimate(p);
+  for (const std::string& sentence : result.held) {
+    text += "held       " + sentence + "\n";
+  }
+  return text + VerdictText(Shortcomings(robot, result));
+}
+
+json PoseJson(const Robot& robot, const PoseMeasurements& measured,
+              const PoseCalibration& result) {
+  json geometry = json::array(), outliers = json::array();
+  for (const GeometryEstimate& p : result.parameters) {
+    geometry.push_back(
+        {{"name", p.name},
+         {"unit", p.unit},
+         {"nominal", p.nominal},
+         {"value", JsonNumber(p.value)},
+         {"stddev", JsonNumber(p.stddev)},
+         {"prior_stddev", p.prior > 0 ? JsonNumber(p.prior) : json(nullptr)},
+         {"identifiable", p.identifiable}});
+  }
+  for (const int k : result.outliers) outliers.push_back(measured.row[k]);
+  return {{"format", "armcal calibration 1"},
+          {"robot", robot.name},
+          {"estimate", "refined"},
+          {"geometry", geometry},
+          {"held", result.held},
+          {"verdict", VerdictJson(Shortcomings(robot, result))},
+          {"poses",
+           {{"count", measured.size()},
+            {"kind", Kind(measured)},
+            {"unit", "m"},
+            {"rms", result.rms},
+            {"max", result.max},
+            {"median", result.median},
+            {"before_rms", result.before_rms},
+            {"cross_validated_rms", result.held_out_rms},
+            {"cross_validated_median", result.held_out_median},
+            {"noise_stddev", result.noise.position},
+            {"outlier_rows", outliers}}},
+          {"termination",
+           {{"converged", result.solved}, {"reason", result.reason}}}};
+}
+
+}  // namespace armcal

@@ -1,0 +1,70 @@
+#include "calib/refine/arm_covariance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/linear/overlap_covariance.h"
+#include "calib/linear/row_covariance.h"
+#include "calib/numerics/posterior.h"
+#include "calib/numerics/unseen_combinations.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+ArmTrust Weaker(double inertia, const ArmTrust& trust, double geometry) {
+  return {inertia, geometry * trust.length, geometry * trust.angle,
+          geometry * trust.joint_terms};
+}
+
+// Of a variance by errors that follow each other.
+constexpr double kMostInflation = 1e8;
+
+}  // namespace
+
+ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
+                                    const ArmFit& fit, const ArmTrust& trust,
+                                    const ArmValues& at,
+                                    const LinkInformation& torques) {
+  const std::vector<int> free = unknowns.FreeIndices();
+  const MatrixXd poses = fit.PoseRows(at);
+  MatrixXd data(torques.R.rows() + poses.rows(), unknowns.size());
+  data << torques.R, poses;
+  const auto trusting = [&](const ArmTrust& t) {
+    return Posterior(data, fit.PriorInformation(t), free);
+  };
+  const Posterior posterior = trusting(trust);
+  const MatrixXd rest =
+      posterior.Sandwich(poses) +
+      posterior.Sandwich(SquareRoot(fit.PriorInformation(trust)));
+  ArmCovariance result;
+  result.covariance = RaiseToLogScatter(
+      RaiseTo(torques.least + rest.diagonal(),
+              rest + posterior.Sandwich(SquareRoot(torques.S))),
+      posterior.Gain(), torques.log_sums);
+  const ArmTrust weak = Weaker(1, trust, 1);
+  const MatrixXd nothing = MatrixXd::Zero(0, data.cols());
+  std::vector<std::string> names;
+  for (const int k : free) names.push_back(unknowns.name(k));
+  const VectorXd prior =
+      Posterior(nothing, fit.PriorInformation(weak), free).Gain().diagonal();
+  result.unseen = UnseenCombinations(free, names, data, prior);
+  const VectorXd trusted = trusting(weak).Gain().diagonal();
+  const VectorXd untrusted =
+      trusting(Weaker(100, trust, 100)).Gain().diagonal();
+  const VectorXd independent = posterior.Gain().diagonal();
+  for (int k = 0; k < unknowns.size(); ++k) {
+    // Errors that follow each other widen an interval, but not beyond what is
+    // known without data: there nothing but rounding is left of the equations.
+    const double variance = result.covariance(k, k);
+    const bool known =
+        variance < std::min(prior[k], kMostInflation * independent[k]);
+    result.identifiable.push_back(known && unknowns.is_free(k) &&
+                                  untrusted[k] < 2 * trusted[k]);
+  }
+  return result;
+}
+
+}  // namespace armcal

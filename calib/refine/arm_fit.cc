@@ -1,0 +1,228 @@
+#include "calib/refine/arm_fit.h"
+
+#include <ceres/manifold.h>
+#include <ceres/normal_prior.h>
+#include <ceres/problem.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/refine/link_start.h"
+#include "problems/dense_solver.h"
+#include "problems/inertial_coordinates.h"
+#include "problems/inertial_manifold.h"
+#include "problems/inertial_prior.h"
+#include "problems/torque_factor_residual.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The parameter blocks of a Ceres problem.
+struct Blocks {
+  explicit Blocks(const ArmValues& values) : value(values) {
+    for (Eigen::Index k = 0; k < values.links.size(); k += 10) {
+      links.push_back(
+          LogCholeskyFromInertial(values.links.segment<10>(k), 0, 0));
+    }
+  }
+  ArmValues Values() {
+    for (size_t i = 0; i < links.size(); ++i) {
+      InertialFromLogCholesky(links[i].data(), value.links.data() + 10 * i);
+    }
+    return value;
+  }
+  // False where a link is too near the boundary for doubles.
+  bool AreFinite() const {
+    return std::all_of(links.begin(), links.end(),
+                       [](const Vector10d& c) { return c.allFinite(); });
+  }
+  ArmValues value;  // links: only as they were
+  std::vector<Vector10d> links;
+};
+
+// Keeps the entries of a block that are not free.
+void Hold(const ArmUnknowns& unknowns, int begin, int size, double* block,
+          ceres::Problem* problem) {
+  std::vector<int> held;
+  for (int k = 0; k < size; ++k) {
+    if (!unknowns.is_free(begin + k)) held.push_back(k);
+  }
+  if (static_cast<int>(held.size()) == size) {
+    problem->SetParameterBlockConstant(block);
+  } else if (!held.empty()) {
+    problem->SetManifold(block, new ceres::SubsetManifold(size, held));
+  }
+}
+
+void AddNormalPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
+                    int begin, const VectorXd& mean, double* block,
+                    ceres::Problem* problem) {
+  MatrixXd weight = MatrixXd::Zero(mean.size(), mean.size());
+  for (int k = 0; k < mean.size(); ++k) {
+    const double prior = unknowns.NormalPrior(begin + k, trust);
+    if (prior > 0) weight(k, k) = 1 / prior;
+  }
+  problem->AddResidualBlock(new ceres::NormalPrior(weight, mean), nullptr,
+                            block);
+}
+
+// The torque equations and, as equations of their own, the prior on terms.
+LinkEquations WithTermPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
+                            const LinkEquations& equations) {
+  const Eigen::Index rows = equations.R.rows();
+  const VectorXd& nominal = unknowns.nominal().terms;
+  LinkEquations all = equations;
+  all.R.conservativeResize(rows + nominal.size(), Eigen::NoChange);
+  all.R.bottomRows(nominal.size()).setZero();
+  all.z.conservativeResize(rows + nominal.size());
+  for (int t = 0; t < nominal.size(); ++t) {
+    const int k = unknowns.terms_begin() + t;
+    const double weight = 1 / unknowns.NormalPrior(k, trust);
+    all.R(rows + t, k) = weight;
+    all.z[rows + t] = weight * nominal[t];
+  }
+  return all;
+}
+
+void AddTorques(const ArmUnknowns& unknowns, const LinkEquations& equations,
+                Blocks* blocks, ceres::Problem* problem) {
+  ArmValues& v = blocks->value;
+  std::vector<double*> all;
+  for (Vector10d& c : blocks->links) all.push_back(c.data());
+  all.insert(all.end(),
+             {v.terms.data(), v.tilt.data(), v.poses.geometry.data()});
+  problem->AddResidualBlock(
+      new TorqueFactorResidual(equations.R.leftCols(unknowns.other_begin()),
+                               equations.z, unknowns.num_links(),
+                               {static_cast<int>(v.terms.size()), 2,
+                                static_cast<int>(v.poses.geometry.size())}),
+      nullptr, all);
+}
+
+void AddPriors(const ArmUnknowns& unknowns, const ArmTrust& trust,
+               Blocks* blocks, ceres::Problem* problem) {
+  const ArmValues& nominal = unknowns.nominal();
+  for (int i = 0; i < unknowns.num_links(); ++i) {
+    double* const c = blocks->links[i].data();
+    problem->AddResidualBlock(
+        new InertialPrior(nominal.links.segment<10>(10 * i), trust.inertia),
+        nullptr, c);
+    problem->SetManifold(c, new InertialManifold);
+  }
+  AddNormalPrior(unknowns, trust, unknowns.tilt_begin(), nominal.tilt,
+                 blocks->value.tilt.data(), problem);
+  AddNormalPrior(unknowns, trust, unknowns.geometry_begin(),
+                 nominal.poses.geometry, blocks->value.poses.geometry.data(),
+                 problem);
+}
+
+// What is held, and friction and armature not below 0.
+void AddLimits(const ArmUnknowns& unknowns, Blocks* blocks,
+               ceres::Problem* problem) {
+  ArmValues& v = blocks->value;
+  const int num_terms = static_cast<int>(v.terms.size());
+  Hold(unknowns, unknowns.terms_begin(), num_terms, v.terms.data(), problem);
+  for (int t = 0; t < num_terms; ++t) {
+    if (!unknowns.is_positive(unknowns.terms_begin() + t)) continue;
+    problem->SetParameterLowerBound(v.terms.data(), t, 0);
+  }
+  Hold(unknowns, unknowns.tilt_begin(), 2, v.tilt.data(), problem);
+  Hold(unknowns, unknowns.geometry_begin(),
+       static_cast<int>(v.poses.geometry.size()), v.poses.geometry.data(),
+       problem);
+}
+
+}  // namespace
+
+ArmFit::ArmFit(const ArmUnknowns& unknowns, const ArmTrust& trust,
+               const PoseFit* poses)
+    : unknowns_(unknowns), trust_(trust), poses_(poses) {}
+
+bool ArmFit::Start(const LinkEquations& torques, ArmValues* values) const {
+  const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
+  const int size = unknowns_.tilt_begin();
+  VectorXd x(size);
+  for (int i = 0; i < unknowns_.num_links(); ++i) {  // inside the boundary
+    const Vector10d c = LogCholeskyFromInertial(
+        unknowns_.nominal().links.segment<10>(10 * i), 0.01, 0.01);
+    InertialFromLogCholesky(c.data(), x.data() + 10 * i);
+  }
+  x.tail(values->terms.size()) = values->terms;
+  std::vector<TermRange> ranges;
+  for (int t = 0; t < values->terms.size(); ++t) {
+    ranges.push_back(unknowns_.is_positive(unknowns_.terms_begin() + t)
+                         ? TermRange::kPositive
+                     : unknowns_.is_free(unknowns_.terms_begin() + t)
+                         ? TermRange::kFree
+                         : TermRange::kHeld);
+  }
+  const Eigen::Index others = unknowns_.size() - size;
+  const auto start =
+      StartLinks(equations.R.leftCols(size),
+                 equations.z - equations.R.rightCols(others) *
+                                   values->Stacked().tail(others),
+                 trust_.inertia, ranges, x);
+  if (!start) return false;
+  values->links = start->head(values->links.size());
+  values->terms = start->tail(values->terms.size());
+  return true;
+}
+
+ArmFit::End ArmFit::Solve(const LinkEquations& torques,
+                          ArmValues* values) const {
+  const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
+  Blocks blocks(*values);
+  if (!blocks.AreFinite()) {
+    return {false, "a link is thinner than doubles can tell", 0};
+  }
+  ceres::Problem problem;
+  AddTorques(unknowns_, equations, &blocks, &problem);
+  AddPriors(unknowns_, trust_, &blocks, &problem);
+  if (poses_ != nullptr) {
+    poses_->AddResiduals(poses_->AllRows(), &blocks.value.poses, &problem);
+  }
+  AddLimits(unknowns_, &blocks, &problem);
+  const ceres::Solver::Summary summary = SolveDense(1e-9, &problem);
+  const ArmValues result = blocks.Values();
+  End end;
+  end.reason = ceres::TerminationTypeToString(summary.termination_type);
+  end.iterations = static_cast<int>(summary.iterations.size());
+  end.usable = summary.IsSolutionUsable() && result.Stacked().allFinite();
+  if (end.usable) *values = result;
+  return end;
+}
+
+MatrixXd ArmFit::PriorInformation(const ArmTrust& trust) const {
+  MatrixXd information = MatrixXd::Zero(unknowns_.size(), unknowns_.size());
+  for (int i = 0; i < unknowns_.num_links(); ++i) {
+    const auto W = InertialPrior(unknowns_.nominal().links.segment<10>(10 * i),
+                                 trust.inertia)
+                       .W();
+    information.block<10, 10>(10 * i, 10 * i) = W.transpose() * W;
+  }
+  for (int k = unknowns_.terms_begin(); k < unknowns_.size(); ++k) {
+    const double prior = unknowns_.NormalPrior(k, trust);
+    if (prior > 0) information(k, k) = 1 / (prior * prior);
+  }
+  return information;
+}
+
+MatrixXd ArmFit::PoseRows(const ArmValues& values) const {
+  if (poses_ == nullptr) return MatrixXd::Zero(0, unknowns_.size());
+  VectorXd residuals;
+  const MatrixXd J =
+      poses_->Jacobian(poses_->AllRows(), values.poses, &residuals);
+  int num_free = 0;
+  for (int k = unknowns_.geometry_begin(); k < unknowns_.size(); ++k) {
+    num_free += unknowns_.is_free(k);
+  }
+  MatrixXd rows = MatrixXd::Zero(J.rows(), unknowns_.size());
+  rows.rightCols(J.cols()) =
+      J / std::sqrt(poses_->VarianceFactor(residuals, num_free));
+  return rows;
+}
+
+}  // namespace armcal

@@ -1,0 +1,270 @@
+#include "calib/refine/calibration_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+
+#include "calib/linear/transition_choice.h"
+#include "calib/numerics/json_value.h"
+#include "calib/refine/arm_unknowns.h"
+#include "model/dynamics/proximal_chain.h"
+#include "model/dynamics/robot_lengths.h"
+#include "model/robot/arm_geometry.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+
+namespace armcal {
+namespace {
+
+constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
+                                JointTerm::kOffset, JointTerm::kArmature};
+
+// A number of the robot that a file may set.
+struct Slot {
+  std::string unit;
+  double nominal;
+  std::function<void(double)> set;
+  bool was_set = false;
+};
+using Slots = std::map<std::string, Slot>;
+
+// Inertial parameters as vectors until all are known.
+struct Links {
+  explicit Links(const Robot& robot) {
+    for (const Link& link : robot.links) {
+      values.push_back(link.inertial.ToVector());
+    }
+  }
+  void ApplyTo(Robot* robot) const {
+    for (size_t i = 0; i < values.size(); ++i) {
+      robot->links[i].inertial = InertialParameters::FromVector(values[i]);
+      robot->links[i].has_inertial = true;
+    }
+  }
+  std::vector<Vector10d> values;
+};
+
+void AddDynamics(Links* links, Robot* robot, Slots* slots) {
+  for (size_t i = 0; i < robot->links.size(); ++i) {
+    Link& link = robot->links[i];
+    for (int k = 0; k < 10; ++k) {
+      double* value = &links->values[i][k];
+      (*slots)[link.name + "." + InertialName(k)] = {
+          InertialUnit(k), *value, [value](double x) { *value = x; }};
+    }
+    for (const JointTerm term : kTerms) {
+      double* value = TermOf(term, &link.joint);
+      (*slots)[link.joint.name + "." + JointTermName(term)] = {
+          JointTermUnit(term, link.joint.type), *value,
+          [value](double x) { *value = x; }};
+    }
+  }
+}
+
+// The geometry's own parameters and, of the base, what torques see of it.
+void AddGeometry(const ArmGeometry& geometry, Eigen::VectorXd* values,
+                 Slots* slots) {
+  const std::vector<std::string> names = geometry.Names();
+  for (int k = 0; k < geometry.size(); ++k) {
+    const bool tilt = names[k] == "base.pitch" || names[k] == "base.roll";
+    if (ArmGeometry::IsBase(k) && !tilt) continue;
+    double* value = &(*values)[k];
+    (*slots)[names[k]] = {geometry.Units()[k], *value,
+                          [value](double x) { *value = x; }};
+  }
+}
+
+bool SameNumber(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)) + 1e-12;
+}
+
+void ExpectRefined(const JsonValue& root) {
+  const JsonValue estimate = root.At("estimate");
+  if (estimate.Text() != "refined") {
+    estimate.Refuse(
+        "expected 'refined': a simulation needs links that can exist; run "
+        "armcal calibrate --estimate=refined with a robot file that gives "
+        "every link a mass");
+  }
+}
+
+std::vector<CoulombTransition> ReadTransitions(const JsonValue& root,
+                                               const Robot& robot) {
+  using Law = CoulombTransition::Law;
+  std::vector<CoulombTransition> transitions(robot.num_joints());
+  const std::vector<JsonValue> joints = root.At("joints").Entries();
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    if (!joints[j].Has("coulomb_transition")) continue;  // without friction
+    const JsonValue entry = joints[j].At("coulomb_transition");
+    const std::string law = entry.At("law").Text();
+    if (law != "velocity" && law != "displacement") {
+      entry.At("law").Refuse("expected 'velocity' or 'displacement'");
+    }
+    const bool velocity = law == "velocity";
+    entry.At("unit").Expect(PositionUnit(robot.links[j].joint.type) +
+                                std::string(velocity ? "/s" : ""),
+                            "");
+    const double width = entry.At("width").Number();
+    if (!(width >= kLeastTransition)) {
+      entry.At("width").Refuse("expected a width of at least " +
+                               NumberText(kLeastTransition));
+    }
+    transitions[j] = {velocity ? Law::kVelocity : Law::kDisplacement, width};
+  }
+  return transitions;
+}
+
+// With the lengths that the linear calibration recovered.
+Robot WithLengthsOf(const JsonValue& root, const Robot& nominal) {
+  const std::vector<Length> known = MakeProximalChain(nominal).lengths;
+  std::vector<Length> lengths;
+  for (const JsonValue& entry : root.At("geometry").Entries()) {
+    if (!entry.Has("symbol")) continue;
+    const std::string symbol = entry.At("symbol").Text();
+    const auto length =
+        std::find_if(known.begin(), known.end(),
+                     [&symbol](const Length& l) { return l.name == symbol; });
+    if (length == known.end() ||
+        !SameNumber(length->value, entry.At("nominal").Number())) {
+      entry.Refuse("expected a length of the robot file, as it has it");
+    }
+    lengths.push_back(*length);
+    lengths.back().value = entry.At("used").Number();
+  }
+  return lengths.empty() ? nominal : WithLengths(nominal, lengths);
+}
+
+// Parameters that are no robot's: of where the instrument and its targets are,
+// and of the controller. (Coulomb's width stands in coulomb_transition.)
+bool IsNotTheRobots(const std::string& name) {
+  for (const char* owner : {"instrument.", "target", "wire.", "drive."}) {
+    if (name.rfind(owner, 0) == 0) return true;
+  }
+  const std::string term = name.substr(name.rfind('.') + 1);
+  return term == "kp" || term == "kd" || term == "ki" ||
+         term == "coulomb_width";
+}
+
+bool IsNeverNegative(const std::string& name) {
+  const std::string term = name.substr(name.rfind('.') + 1);
+  return term == "mass" || term == "viscous" || term == "coulomb" ||
+         term == "armature";
+}
+
+void SetFrom(const JsonValue& entry, Slots* slots) {
+  const JsonValue name = entry.At("name");
+  const auto slot = slots->find(name.Text());
+  if (slot == slots->end()) {
+    if (IsNotTheRobots(name.Text())) return;
+    name.Refuse("expected a parameter of the robot of --robot");
+  }
+  if (slot->second.was_set) name.Refuse("expected every parameter only once");
+  entry.At("unit").Expect(slot->second.unit, ", the unit of " + name.Text());
+  const JsonValue prior = entry.At("prior");
+  if (!SameNumber(prior.Number(), slot->second.nominal)) {
+    prior.Refuse("expected " + NumberText(slot->second.nominal) +
+                 ", what the robot file has for " + name.Text() +
+                 ": give the file that was calibrated, or calibrate again");
+  }
+  const JsonValue value = entry.At("value");
+  if (IsNeverNegative(name.Text()) && value.Number() < 0) {
+    value.Refuse("expected a number of at least 0, as " + name.Text() + " is");
+  }
+  slot->second.set(value.Number());
+  slot->second.was_set = true;
+}
+
+Robot ReadRobotOf(const JsonValue& root, const Robot& nominal) {
+  Robot robot = WithLengthsOf(root, nominal);
+  ArmGeometry geometry(robot);
+  const Eigen::VectorXd file = geometry.Values();
+  Eigen::VectorXd values = file;
+  Links links(robot);
+  Slots slots;
+  AddDynamics(&links, &robot, &slots);
+  const Slots dynamics = slots;  // which all have to be there
+  AddGeometry(geometry, &values, &slots);
+  const JsonValue parameters = root.At("parameters");
+  for (const JsonValue& entry : parameters.Entries()) SetFrom(entry, &slots);
+  for (const auto& [name, slot] : dynamics) {
+    if (slots.at(name).was_set) continue;
+    throw InputError(root.file(), "key parameters", "",
+                     "expected an entry for " + name);
+  }
+  links.ApplyTo(&robot);
+  if (values == file) return robot;
+  geometry.SetValues(values);
+  return geometry.ApplyTo(robot);
+}
+
+void CheckFriction(const JsonValue& root, const Robot& robot) {
+  const std::vector<JsonValue> joints = root.At("joints").Entries();
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    if (robot.links[j].joint.coulomb != 0) joints[j].At("coulomb_transition");
+  }
+}
+
+// `path` as it is where nothing of it can be looked up.
+std::string Canonical(const std::string& path) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(path, error);
+  if (error) return path;
+  const auto canonical = std::filesystem::weakly_canonical(absolute, error);
+  return error ? path : canonical.string();
+}
+
+}  // namespace
+
+void ExpectCalibrationOf(const Robot& robot, const JsonValue& root) {
+  root.At("format").Expect("armcal calibration 1",
+                           ", the format this version reads");
+  const std::string other =
+      ", the robot of --robot: this is a calibration of another robot";
+  root.At("robot").Expect(robot.name, other);
+  const JsonValue joints = root.At("joints");
+  const std::vector<JsonValue> entries = joints.Entries();
+  if (static_cast<int>(entries.size()) != robot.num_joints()) {
+    joints.Refuse("expected " + std::to_string(robot.num_joints()) +
+                  " joints, as the robot of --robot has");
+  }
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    entries[j].At("name").Expect(robot.links[j].joint.name, other);
+  }
+}
+
+bool CalibratedRobot::Saw(const std::string& log,
+                          const TimeRange& range) const {
+  for (size_t k = 0; k < logs.size(); ++k) {
+    if (Canonical(logs[k]) == Canonical(log) &&
+        range.begin < log_ranges[k].end && range.end > log_ranges[k].begin) {
+      return true;
+    }
+  }
+  return false;
+}
+
+CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal) {
+  const nlohmann::json parsed = ReadJson(path);
+  const JsonValue root(path, "", parsed);
+  ExpectCalibrationOf(nominal, root);
+  ExpectRefined(root);
+  CalibratedRobot result;
+  result.transitions = ReadTransitions(root, nominal);
+  result.robot = ReadRobotOf(root, nominal);
+  CheckFriction(root, result.robot);
+  result.bandwidth_hz = root.At("bandwidth_hz").Number();
+  if (result.bandwidth_hz < 0) {
+    root.At("bandwidth_hz").Refuse("expected a frequency in Hz, or 0");
+  }
+  result.converged = root.At("refined").At("converged").Bool();
+  for (const JsonValue& log : root.At("logs").Entries()) {
+    result.logs.push_back(log.At("file").Text());
+    result.log_ranges.push_back(
+        {log.At("begin_s").Number(), log.At("end_s").Number()});
+  }
+  return result;
+}
+
+}  // namespace armcal

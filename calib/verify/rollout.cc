@@ -1,0 +1,251 @@
+#include "calib/verify/rollout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+#include "calib/numerics/block_bootstrap.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Of each length, model and stretch of a log as many are repeated by referees,
+// where that is no matter of more steps than these.
+constexpr int kRefereed = 1;
+constexpr long kRefereeSteps = 1500;
+constexpr double kRefereeTolerance = 1e-8;
+
+class Roller {
+ public:
+  Roller(const std::vector<RolloutModel>& models, const RolloutOptions& options)
+      : models_(models), options_(options) {
+    for (const double window_s : options.windows_s) {
+      rollouts_.push_back({window_s, {}, 0});
+    }
+  }
+
+  void Add(int log, const Trajectory& trajectory) {
+    std::vector<std::vector<int>> begins;  // of windows, per length
+    for (Rollouts& rollouts : rollouts_) {
+      begins.push_back(Begins(trajectory, &rollouts));
+      for (const int k : begins.back()) {
+        const MatrixXd unknown = MatrixXd::Constant(
+            models_.size(), trajectory.num_joints(), kInfinity);
+        rollouts.windows.push_back({log, trajectory.time(k), unknown, unknown});
+      }
+    }
+    for (size_t m = 0; m < models_.size(); ++m) {
+      const MatrixXd& coulomb = models_[m].replay->Follow(trajectory);
+      for (size_t r = 0; r < rollouts_.size(); ++r) {
+        Simulate(trajectory, begins[r], static_cast<int>(m), coulomb,
+                 &rollouts_[r]);
+      }
+    }
+  }
+
+  std::vector<Rollouts> TakeRollouts() { return std::move(rollouts_); }
+
+ private:
+  static int Length(const Rollouts& rollouts, const Trajectory& trajectory) {
+    return std::max(
+        1, static_cast<int>(std::lround(rollouts.window_s / trajectory.dt)));
+  }
+
+  static std::vector<int> Begins(const Trajectory& trajectory,
+                                 Rollouts* rollouts) {
+    const int length = Length(*rollouts, trajectory);
+    std::vector<int> begins;
+    for (int k = trajectory.core_begin; k < trajectory.core_end; ++k) {
+      if ((trajectory.first_index + k) % length != 0) continue;
+      if (k + length >= trajectory.size()) continue;
+      if (2 * trajectory.standstill.segment(k, length + 1).count() > length) {
+        ++rollouts->standstill;
+        continue;
+      }
+      begins.push_back(k);
+    }
+    return begins;
+  }
+
+  // Model m over the last windows of the rollouts.
+  void Simulate(const Trajectory& trajectory, const std::vector<int>& begins,
+                int m, const MatrixXd& coulomb, Rollouts* rollouts) {
+    const int length = Length(*rollouts, trajectory);
+    const std::vector<ReplayedWindow> replayed = models_[m].replay->Run(
+        trajectory, begins, length, coulomb, options_.tolerance);
+    int refereed = 0;
+    for (size_t w = 0; w < begins.size(); ++w) {
+      if (!replayed[w].finished) continue;
+      const auto rms = [&](const MatrixXd& x, const MatrixXd& recorded) {
+        return ((x - recorded.middleRows(begins[w] + 1, length))
+                    .colwise()
+                    .norm() /
+                std::sqrt(length))
+            .eval();
+      };
+      RolloutWindow& window =
+          rollouts->windows[rollouts->windows.size() - begins.size() + w];
+      window.q.row(m) = rms(replayed[w].q, trajectory.q);
+      window.qd.row(m) = rms(replayed[w].qd, trajectory.qd);
+      if (refereed++ < kRefereed && models_[m].referee != nullptr) {
+        Referee(trajectory, begins[w], coulomb.row(begins[w]), replayed[w].q,
+                models_[m].referee, rollouts);
+      }
+    }
+  }
+
+  static void Referee(const Trajectory& trajectory, int begin,
+                      const VectorXd& coulomb, const MatrixXd& q,
+                      TorqueReplay* referee, Rollouts* rollouts) {
+    IntegrationOptions options;
+    options.relative = options.absolute = kRefereeTolerance;
+    options.max_steps = kRefereeSteps;
+    const Integration run =
+        referee->Run(trajectory, begin, begin + static_cast<int>(q.rows()),
+                     coulomb, options);
+    if (!run.finished) return;
+    ++rollouts->refereed;
+    rollouts->referee_difference =
+        std::max(rollouts->referee_difference,
+                 (run.x.leftCols(q.cols()) - q).cwiseAbs().maxCoeff());
+  }
+
+  const std::vector<RolloutModel>& models_;
+  const RolloutOptions& options_;
+  std::vector<Rollouts> rollouts_;
+};
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return kNaN;
+  const size_t half = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + half, values.end());
+  if (values.size() % 2 == 1) return values[half];
+  const double below = *std::max_element(values.begin(), values.begin() + half);
+  return (below + values[half]) / 2;
+}
+
+// `statistic` of all windows, and its interval.
+RolloutFigure WithInterval(
+    int windows, double correlation_time, std::uint64_t seed,
+    const std::function<double(const std::vector<int>&)>& statistic) {
+  std::vector<int> all(windows);
+  std::iota(all.begin(), all.end(), 0);
+  RolloutFigure figure{statistic(all), kNaN, kNaN, windows};
+  if (windows < 2) return figure;
+  figure.block = BootstrapBlock(windows, correlation_time);
+  const BootstrapInterval interval =
+      BlockBootstrap(windows, figure.block, seed, statistic);
+  figure.low = interval.low;
+  figure.high = interval.high;
+  return figure;
+}
+
+double RmsOver(const Eigen::RowVectorXd& rms, const std::vector<int>& joints) {
+  double sum = 0;
+  for (const int j : joints) sum += rms[j] * rms[j];
+  return std::sqrt(sum / static_cast<double>(joints.size()));
+}
+
+std::vector<double> Errors(const Rollouts& rollouts, int model,
+                           const std::vector<int>& joints) {
+  std::vector<double> errors;
+  for (const RolloutWindow& window : rollouts.windows) {
+    errors.push_back(window.Error(model, joints));
+  }
+  return errors;
+}
+
+double MedianOf(const std::vector<double>& errors,
+                const std::vector<int>& chosen) {
+  std::vector<double> values;
+  for (const int k : chosen) values.push_back(errors[k]);
+  return Median(std::move(values));
+}
+
+}  // namespace
+
+bool RolloutWindow::diverged(int model) const {
+  return !q.row(model).allFinite();
+}
+
+double RolloutWindow::Error(int model, const std::vector<int>& joints) const {
+  return RmsOver(q.row(model), joints);
+}
+
+double RolloutWindow::VelocityError(int model,
+                                    const std::vector<int>& joints) const {
+  return RmsOver(qd.row(model), joints);
+}
+
+int Rollouts::NumDiverged(int model) const {
+  return static_cast<int>(std::count_if(
+      windows.begin(), windows.end(),
+      [model](const RolloutWindow& w) { return w.diverged(model); }));
+}
+
+std::vector<Rollouts> RollOut(const std::vector<RolloutModel>& models,
+                              const RolloutOptions& options,
+                              double bandwidth_hz, LogSet* logs) {
+  const double longest =
+      *std::max_element(options.windows_s.begin(), options.windows_s.end());
+  logs->Prepare(bandwidth_hz, longest);
+  Roller roller(models, options);
+  logs->ForEach("rollouts", options.progress,
+                [&roller](int log, const Trajectory& trajectory) {
+                  roller.Add(log, trajectory);
+                });
+  return roller.TakeRollouts();
+}
+
+std::vector<int> JointsWithUnit(const Robot& robot, const std::string& unit) {
+  std::vector<int> joints;
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    if (PositionUnit(robot.links[j].joint.type) == unit) joints.push_back(j);
+  }
+  return joints;
+}
+
+RolloutFigure MedianError(const Rollouts& rollouts, int model,
+                          const std::vector<int>& joints, std::uint64_t seed) {
+  const std::vector<double> errors = Errors(rollouts, model, joints);
+  return WithInterval(static_cast<int>(errors.size()), CorrelationTime(errors),
+                      seed, [&errors](const std::vector<int>& chosen) {
+                        return MedianOf(errors, chosen);
+                      });
+}
+
+double MedianVelocityError(const Rollouts& rollouts, int model,
+                           const std::vector<int>& joints) {
+  std::vector<double> errors;
+  for (const RolloutWindow& window : rollouts.windows) {
+    errors.push_back(window.VelocityError(model, joints));
+  }
+  return Median(std::move(errors));
+}
+
+RolloutFigure MedianRatio(const Rollouts& rollouts, int a, int b,
+                          const std::vector<int>& joints, std::uint64_t seed) {
+  const std::vector<double> of_a = Errors(rollouts, a, joints);
+  const std::vector<double> of_b = Errors(rollouts, b, joints);
+  std::vector<double> ratios;
+  for (size_t k = 0; k < of_a.size(); ++k) {
+    const double ratio = of_a[k] / of_b[k];
+    ratios.push_back(std::isnan(ratio) ? 1 : ratio);  // both diverge
+  }
+  const double time = std::max(
+      {CorrelationTime(of_a), CorrelationTime(of_b), CorrelationTime(ratios)});
+  return WithInterval(static_cast<int>(of_a.size()), time, seed,
+                      [&](const std::vector<int>& chosen) {
+                        return MedianOf(of_a, chosen) / MedianOf(of_b, chosen);
+                      });
+}
+
+}  // namespace armcal

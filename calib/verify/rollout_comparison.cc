@@ -1,0 +1,96 @@
+#include "calib/verify/rollout_comparison.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "calib/verify/arm_engine.h"
+
+namespace armcal {
+namespace {
+
+constexpr double kIntegrated = 1e-5;  // rad, m: of RolloutOptions::tolerance
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// A robot, and in Simbody what is simulated there too.
+struct Model {
+  Model(const Robot& robot, const std::vector<CoulombTransition>& transitions)
+      : replay(robot, transitions),
+        engine(MakeArmEngine(robot)),
+        referee(robot, transitions, engine.dynamics.get()) {}
+
+  RolloutModel Get() {
+    return {&replay, engine.is_simbody ? &referee : nullptr};
+  }
+
+  BatchTorqueReplay replay;
+  ArmEngine engine;
+  TorqueReplay referee;
+};
+
+RolloutComparison Compare(const Robot& robot, const Rollouts& rollouts,
+                          const std::string& unit, bool calibrated,
+                          std::uint64_t seed) {
+  const std::vector<int> joints = JointsWithUnit(robot, unit);
+  RolloutComparison c;
+  c.window_s = rollouts.window_s;
+  c.unit = unit;
+  c.windows = static_cast<int>(rollouts.windows.size());
+  c.standstill = rollouts.standstill;
+  c.before_diverged = rollouts.NumDiverged(0);
+  c.before = MedianError(rollouts, 0, joints, seed);
+  c.before_velocity_rms = MedianVelocityError(rollouts, 0, joints);
+  c.after_velocity_rms = kNaN;
+  if (calibrated) {
+    c.after_diverged = rollouts.NumDiverged(1);
+    c.after = MedianError(rollouts, 1, joints, seed);
+    c.ratio = MedianRatio(rollouts, 1, 0, joints, seed);
+    c.after_velocity_rms = MedianVelocityError(rollouts, 1, joints);
+  }
+  for (const int j : joints) {
+    c.joints.push_back(
+        {robot.links[j].joint.name, MedianError(rollouts, 0, {j}, seed).value,
+         calibrated ? MedianError(rollouts, 1, {j}, seed).value : kNaN});
+  }
+  return c;
+}
+
+}  // namespace
+
+bool RolloutComparison::is_judged() const {
+  return window_s == kJudgedWindow && ratio && ratio->can_judge() &&
+         (after->value >= kIntegrated || before.value >= kIntegrated);
+}
+
+RolloutComparisons CompareRollouts(const Robot& file,
+                                   const CalibratedRobot* calibrated,
+                                   const RolloutOptions& options,
+                                   double bandwidth_hz, std::uint64_t seed,
+                                   LogSet* logs) {
+  std::vector<CoulombTransition> transitions(file.num_joints());
+  if (calibrated != nullptr) transitions = calibrated->transitions;
+  Model before(file, transitions);
+  std::vector<RolloutModel> models = {before.Get()};
+  RolloutComparisons result;
+  result.before_in_simbody = before.engine.is_simbody;
+  std::unique_ptr<Model> after;
+  if (calibrated != nullptr) {
+    after = std::make_unique<Model>(calibrated->robot, transitions);
+    models.push_back(after->Get());
+    result.after_in_simbody = after->engine.is_simbody;
+  }
+  for (const Rollouts& rollouts :
+       RollOut(models, options, bandwidth_hz, logs)) {
+    result.refereed += rollouts.refereed;
+    result.referee_difference =
+        std::max(result.referee_difference, rollouts.referee_difference);
+    for (const char* unit : {"rad", "m"}) {
+      if (JointsWithUnit(file, unit).empty()) continue;
+      result.windows.push_back(
+          Compare(file, rollouts, unit, calibrated != nullptr, seed));
+    }
+  }
+  return result;
+}
+
+}  // namespace armcal

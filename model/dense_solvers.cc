@@ -1,4 +1,0 @@
-#include "model/dense_solvers.h"
-
-template class Eigen::JacobiSVD<Eigen::MatrixXd>;
-template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;

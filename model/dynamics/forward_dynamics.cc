@@ -1,0 +1,141 @@
+#include "model/dynamics/forward_dynamics.h"
+
+#include <glog/logging.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "model/dynamics/inverse_dynamics.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// Of the largest, an inertia that is rounding.
+constexpr double kNoInertia = 1e-15;
+
+// X_PM(q) of joint i, where P is the moved frame M of the joint before (W for
+// the first).
+Isometry3d MovedFrame(const Robot& robot, int i, double q) {
+  const Link& link = robot.links[i];
+  const Isometry3d X_PF =
+      i == 0 ? link.X_PF : robot.links[i - 1].X_ML * link.X_PF;
+  return X_PF * JointTransform(link.joint.type, q);
+}
+
+InertialParameters InMovedFrame(const Link& link) {
+  return link.inertial.ReexpressIn(link.X_ML);
+}
+
+// Force and moment about Mo, in M.
+struct Wrench {
+  Vector3d force;
+  Vector3d moment;
+};
+
+// What a unit acceleration of its joint takes of a body at rest.
+Wrench UnitWrench(const InertialParameters& body, JointType type) {
+  const Vector3d z = Vector3d::UnitZ();
+  if (IsRotational(type)) return {z.cross(body.first_moment), body.inertia * z};
+  return {body.mass * z, body.first_moment.cross(z)};
+}
+
+double AlongJoint(const Wrench& wrench, JointType type) {
+  return IsRotational(type) ? wrench.moment.z() : wrench.force.z();
+}
+
+Wrench InParent(const Wrench& wrench, const Isometry3d& X_PM) {
+  const Vector3d force = X_PM.linear() * wrench.force;
+  return {force,
+          X_PM.linear() * wrench.moment + X_PM.translation().cross(force)};
+}
+
+}  // namespace
+
+Eigen::MatrixXd MassMatrix(const Robot& robot, const VectorXd& q) {
+  const int n = robot.num_joints();
+  CHECK_EQ(q.size(), n);
+  std::vector<Isometry3d> X_PM(n);
+  std::vector<InertialParameters> composite(n);
+  for (int i = n - 1; i >= 0; --i) {
+    X_PM[i] = MovedFrame(robot, i, q[i]);
+    composite[i] = InMovedFrame(robot.links[i]);
+    if (i + 1 < n) composite[i] += composite[i + 1].ReexpressIn(X_PM[i + 1]);
+  }
+  Eigen::MatrixXd M(n, n);
+  for (int i = 0; i < n; ++i) {
+    Wrench wrench = UnitWrench(composite[i], robot.links[i].joint.type);
+    for (int j = i; j >= 0; --j) {
+      M(i, j) = M(j, i) = AlongJoint(wrench, robot.links[j].joint.type);
+      wrench = InParent(wrench, X_PM[j]);
+    }
+  }
+  return M;
+}
+
+VectorXd LinkInertias(const Robot& robot, const VectorXd& q) {
+  constexpr double kLeastShare = .05;
+  VectorXd inertia = MassMatrix(robot, q).diagonal();
+  for (int j = 0; j < inertia.size(); ++j) {
+    const double both = inertia[j] + robot.links[j].joint.armature;
+    inertia[j] = std::max(inertia[j], kLeastShare * std::abs(both));
+  }
+  return inertia;
+}
+
+VectorXd GravityTorque(const Robot& robot, const VectorXd& q) {
+  const VectorXd rest = VectorXd::Zero(robot.num_joints());
+  return InverseDynamics(robot, q, rest, rest);
+}
+
+VectorXd SolveInertia(const Eigen::MatrixXd& M, const VectorXd& tau) {
+  const Eigen::LDLT<Eigen::MatrixXd> factor(M);
+  // Eigen's solution for a pivot of zero would be a joint that does not move.
+  const VectorXd pivots = factor.vectorD().cwiseAbs();
+  if (!(pivots.minCoeff() > kNoInertia * pivots.maxCoeff())) {
+    return VectorXd::Constant(tau.size(),
+                              std::numeric_limits<double>::quiet_NaN());
+  }
+  return factor.solve(tau);
+}
+
+VectorXd ForwardDynamics(const Robot& robot, const VectorXd& q,
+                         const VectorXd& qd, const VectorXd& tau) {
+  const int n = robot.num_joints();
+  CHECK_EQ(tau.size(), n);
+  Eigen::MatrixXd M = MassMatrix(robot, q);
+  for (int i = 0; i < n; ++i) M(i, i) += robot.links[i].joint.armature;
+  return SolveInertia(M,
+                      tau - InverseDynamics(robot, q, qd, VectorXd::Zero(n)));
+}
+
+ArmEnergy Energy(const Robot& robot, const VectorXd& q, const VectorXd& qd) {
+  const int n = robot.num_joints();
+  CHECK(q.size() == n && qd.size() == n);
+  ArmEnergy energy;
+  Isometry3d X_WM = Isometry3d::Identity();
+  Vector3d omega = Vector3d::Zero(), v = Vector3d::Zero();  // of M, in M
+  for (int i = 0; i < n; ++i) {
+    const Isometry3d X_PM = MovedFrame(robot, i, q[i]);
+    X_WM = X_WM * X_PM;
+    v = X_PM.linear().transpose() * (v + omega.cross(X_PM.translation()));
+    omega = X_PM.linear().transpose() * omega;
+    const bool turns = IsRotational(robot.links[i].joint.type);
+    (turns ? omega : v).z() += qd[i];
+    const InertialParameters body = InMovedFrame(robot.links[i]);
+    energy.kinetic += 0.5 * body.mass * v.squaredNorm() +
+                      v.dot(omega.cross(body.first_moment)) +
+                      0.5 * omega.dot(body.inertia * omega);
+    energy.potential -= robot.gravity.dot(body.mass * X_WM.translation() +
+                                          X_WM.linear() * body.first_moment);
+  }
+  return energy;
+}
+
+}  // namespace armcal

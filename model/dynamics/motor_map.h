@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "model/dynamics/simulated_robot.h"
+
+namespace armcal {
+
+// The law of an ActuatorMap (simulated_robot.h) of one motor, without states
+// and whatever the arm does: what it gives of a command, N m or N. It is a
+// class of its own so that whoever inverts maps knows it again
+// (ActuatorMap::apply.target).
+struct MotorMap {
+  int joint = 0;
+  std::function<double(double commanded)> given;
+
+  void operator()(const ArmInstant&, const double*, double*,
+                  Eigen::VectorXd* torque) const {
+    (*torque)[joint] = given((*torque)[joint]);
+  }
+};
+
+}  // namespace armcal

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "model/dynamics/deflection.h"
+#include "model/dynamics/joint_term.h"
+#include "model/dynamics/motion_track.h"
+#include "model/dynamics/rigid_torque.h"
+#include "model/dynamics/simulated_robot.h"
+#include "model/dynamics/wrench_torque.h"
+#include "model/robot/robot.h"
+#include "model/signals/motion.h"
+
+namespace armcal {
+
+// The torque that a controller records while the motors of a robot move as its
+// encoders recorded: inverse dynamics with the slots of a SimulatedRobot.
+// Keeps what does not change from one question to the next; one per thread.
+class RecordedTorque {
+ public:
+  // The robot without effects; its joints' friction changes sign as
+  // `transitions` say (n entries).
+  RecordedTorque(const Robot& robot, std::vector<CoulombTransition> transitions,
+                 Motion motion);
+
+  const Motion& motion() const { return motion_; }
+  // Of the robot itself, samples x n, N m or N: links, armature, joint terms.
+  const Eigen::MatrixXd& nominal() const { return nominal_; }
+  // What drives hand to their links: without armature and friction.
+  const Eigen::MatrixXd& load() const { return load_; }
+  // What its friction heats the joints with, W, samples x n.
+  const Eigen::MatrixXd& friction_power() const { return friction_power_; }
+
+  // Per joint, torque at the samples, N m or N; empty where it is nothing.
+  using OfJoints = std::vector<Eigen::VectorXd>;
+  // What the slots of each of `changed` add to the nominal torque; which others
+  // there are makes no difference but to the time it takes.
+  // Each has the robot of the constructor, itself perhaps changed (links,
+  // gravity, joint terms, a geometry), and no laws but those to be judged:
+  //   joint laws and wrenches   exact, with their states along the motion. They
+  //                             see the nominal load, and the temperature that
+  //                             was recorded (above the usual one) or that
+  //                             `thermal` makes of nominal friction;
+  //   robot                     exact;
+  //   transmissions             the deflection's equation of motion along the
+  //                             recorded motion of the motor (deflection.h),
+  //                             then inverse dynamics of the links;
+  //   sensors, clock            the motion behind the readings, and the
+  //                             recorded torque, or what the clock made of one
+  //                             that was made of the readings;
+  //   torque_delay              recording_delay.h
+  //   actuators                 inverted from the torque needed, with the help
+  //                             of the recorded one (actuator_inversion.h).
+  std::vector<OfJoints> Changes(const std::vector<SimulatedRobot>& changed);
+  // The same of one, samples x n.
+  Eigen::MatrixXd Change(const SimulatedRobot& changed);
+
+ private:
+  // What is worked out when it is first asked for, once for all copies.
+  struct Kept {
+    std::mutex mutex;
+    LinkTorqueSlopes slopes;  // empty: not yet asked for
+    std::vector<std::shared_ptr<const AttachedPoints>> points;
+  };
+  void FollowWarmth(const std::vector<JointThermal>& thermal);
+  bool IsOfLawsAlone(const SimulatedRobot& changed) const;
+  void TakeLaws(const std::vector<SimulatedRobot>& changed,
+                const std::vector<size_t>& which, std::vector<OfJoints>* to);
+  std::vector<std::vector<Deflection>> DeflectTogether(
+      const std::vector<SimulatedRobot>& changed) const;
+  Eigen::MatrixXd ChangeOf(const SimulatedRobot& changed,
+                           const std::vector<Deflection>& deflections);
+  const LinkTorqueSlopes& Slopes() const;
+  DeflectedJoint Deflected(const Transmission& transmission,
+                           const Eigen::MatrixXd& load) const;
+  const AttachedPoints& PointsOf(const Attachment& attachment) const;
+  Eigen::MatrixXd RigidTorque(const Robot& robot, const Motion& motion,
+                              bool as_recorded) const;
+  void AddTransmissions(const SimulatedRobot& changed, const Motion& motion,
+                        std::vector<Deflection> deflections, MotionTrack* track,
+                        Eigen::MatrixXd* tau) const;
+  void AddLaws(const SimulatedRobot& changed, const MotionTrack& track,
+               Eigen::MatrixXd* tau) const;
+  void AddMadeByClock(const std::function<double(double)>& clock,
+                      Eigen::MatrixXd* tau) const;
+  Eigen::MatrixXd Recorded(const SimulatedRobot& changed,
+                           const MotionTrack& track,
+                           Eigen::MatrixXd needed) const;
+
+  Robot robot_;
+  std::vector<CoulombTransition> transitions_;
+  Motion motion_;
+  Eigen::MatrixXd nominal_, load_;
+  Eigen::MatrixXd coulomb_;         // states of Coulomb friction, samples x n
+  Eigen::MatrixXd friction_power_;  // W, samples x n
+  MotionTrack track_;
+  std::vector<JointThermal> thermal_;  // behind track_.warmth
+  std::shared_ptr<Kept> kept_;
+};
+
+}  // namespace armcal

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/log_files/joint_series.h"
+#include "model/log_files/line_source.h"
+#include "model/ros_bags/bag_file.h"
+#include "model/ros_bags/joint_messages.h"
+
+namespace armcal {
+
+// What the messages of a ROS 2 bag say about a robot's joints. Messages of one
+// topic that name other joints of the robot are a series of their own; those
+// that name none (a gripper's) are left out.
+class BagLog {
+ public:
+  // Of `options.topics`; where they are none, or all have a signal of their
+  // own, of all other topics of type JointState too. Throws InputError, also
+  // for a topic that is not there.
+  BagLog(const std::string& path, const LineOptions& options);
+
+  // Reads a file of the bag. They come in the order of recording.
+  void Read(const std::string& file);
+  // After the last file.
+  std::vector<JointSeries> TakeSeries();
+  // "the bag has /joint_states (sensor_msgs/msg/JointState of a, b)".
+  std::string Topics() const;
+
+ private:
+  // An array of a JointState and what it is taken for.
+  struct Field {
+    Signal signal;
+    std::vector<double> JointState::*values;
+  };
+  // Where messages with these names in this order go.
+  struct Layout {
+    int series = -1;          // -1: none of the robot's joints
+    std::vector<int> places;  // of the series' joints among the names
+  };
+  // What one topic's messages are taken for.
+  struct Role {
+    std::optional<Signal> signal;
+    std::map<std::string, Layout> layouts;   // by the bytes of the names
+    std::map<std::vector<int>, int> series;  // by the robot's joints named
+  };
+  struct Topic {
+    BagTopic about;
+    std::vector<Role> roles;
+    long messages = 0;
+    std::set<std::string> names;  // of joints, also not the robot's
+  };
+
+  bool IsWanted(const BagTopic& about) const;
+  Topic& FindTopic(const BagTopic& about);
+  void CheckTopic(const Topic& topic) const;
+  void Add(const BagMessage& message, Topic* topic);
+  void AddState(const BagMessage& message, Topic* topic);
+  void AddArray(const BagMessage& message, Topic* topic);
+  const Layout& FindLayout(Role* role, Topic* topic);
+  std::vector<Field> FieldsOf(const Role& role) const;
+  int StartSeries(const Topic& topic, const Role& role,
+                  const std::vector<int>& joints, bool has_stamps);
+
+  std::string path_;
+  std::vector<std::string> joint_names_;
+  std::vector<LogTopic> chosen_;
+  bool all_states_ = false;  // JointState of topics not chosen
+  Signal effort_;            // what a JointState's effort is
+  std::map<std::pair<std::string, std::string>, Topic> topics_;  // name, type
+  std::vector<JointSeries> series_;
+  JointState state_;
+  std::vector<double> array_;
+  std::string unpacked_;
+};
+
+}  // namespace armcal

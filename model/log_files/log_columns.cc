@@ -1,0 +1,268 @@
+#include "model/log_files/log_columns.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+
+namespace armcal {
+namespace {
+
+// The separator that the header holds most often.
+char FindSeparator(std::string_view header) {
+  const auto count = [&](char c) {
+    return std::count(header.begin(), header.end(), c);
+  };
+  char best = ',';
+  for (char c : {';', '\t'}) {
+    if (count(c) > count(best)) best = c;
+  }
+  return best;
+}
+
+// Adds an item to a list that reads "a, b, c".
+void AddTo(std::string* list, std::string_view item) {
+  if (!list->empty()) *list += ", ";
+  *list += item;
+}
+
+// 12 for the name "q12" and the prefix "q"; -1 where that is not its shape.
+int NumberAfter(std::string_view prefix, std::string_view name) {
+  if (name.substr(0, prefix.size()) != prefix) return -1;
+  name.remove_prefix(prefix.size());
+  int number = -1;
+  const char* end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data(), end, number);
+  return error == std::errc() && stop == end ? number : -1;
+}
+
+bool EndsWithPart(std::string_view path, std::string_view part) {
+  if (path.size() < part.size()) return false;
+  const size_t rest = path.size() - part.size();
+  return path.substr(rest) == part && (rest == 0 || path[rest - 1] == '/');
+}
+
+}  // namespace
+
+LogColumns::LogColumns(const std::string& file, std::string_view header,
+                       const std::vector<std::string>& joint_names,
+                       const std::string& about)
+    : file_(file), about_(about), joint_names_(joint_names) {
+  // numpy.savetxt makes the header a comment.
+  if (!header.empty() && header.front() == '#') header.remove_prefix(1);
+  separator_ = FindSeparator(header);
+  for (size_t begin = 0; begin <= header.size();) {
+    const size_t end = std::min(header.find(separator_, begin), header.size());
+    names_.emplace_back(Trim(header.substr(begin, end - begin), " \""));
+    begin = end + 1;
+  }
+  if (header.find('\r') != header.npos) {
+    Refuse("the lines end in CR alone; save the file with LF or CRLF");
+  }
+  if (Trim(header, " \"").empty()) {
+    Refuse("the row is empty, expected names of columns, as in t,q1,tau1");
+  }
+  if (std::all_of(names_.begin(), names_.end(),
+                  [](const auto& name) { return ParseNumber(name); })) {
+    Refuse("expected a header that names the columns, as in t,q1,tau1");
+  }
+  if (size() == 1) {
+    Refuse("expected several columns separated by , ; or TAB, found " +
+           Quoted(names_[0]));
+  }
+  for (int i = 0; i < size(); ++i) Classify(i);
+}
+
+void LogColumns::Classify(int index) {
+  std::string_view unit;
+  const std::string_view base = SplitUnit(names_[index], &unit);
+  if (IsTimeName(base)) {
+    time_columns_.push_back(index);
+    return;
+  }
+  for (Signal signal : kSignals) {
+    const int number = NumberAfter(NamesOf(signal).number_prefix, base);
+    if (number >= 0) return Add({index, signal, number, true}, unit);
+  }
+  const size_t slash = base.rfind('/');
+  if (slash == base.npos) return;
+  const int number = FindJoint(base.substr(0, slash));
+  if (number == 0) return;
+  for (Signal signal : kSignals) {
+    if (base.substr(slash + 1) == NamesOf(signal).path_part) {
+      return Add({index, signal, number, false}, unit);
+    }
+  }
+}
+
+void LogColumns::Add(Match match, std::string_view unit) {
+  if (match.signal == Signal::kEffort && FindUnit(Signal::kCurrent, unit)) {
+    match.signal = Signal::kCurrent;
+  }
+  matches_.push_back(match);
+}
+
+int LogColumns::FindJoint(std::string_view path) const {
+  // A joint name may itself be a path; then the longest match is meant.
+  size_t longest = 0;
+  int number = 0;
+  for (size_t i = 0; i < joint_names_.size(); ++i) {
+    const std::string& name = joint_names_[i];
+    if (name.size() <= longest || !EndsWithPart(path, name)) continue;
+    longest = name.size();
+    number = static_cast<int>(i) + 1;
+  }
+  return number;
+}
+
+std::vector<LogColumns::Match> LogColumns::Matches(Signal signal,
+                                                   int number) const {
+  std::vector<Match> found;
+  for (const Match& match : matches_) {
+    if (match.signal == signal && match.number == number) {
+      found.push_back(match);
+    }
+  }
+  return found;
+}
+
+int LogColumns::FindTime(int* unit_decimals) const {
+  if (time_columns_.empty()) {
+    Refuse("no time column: expected t, time, timestamp or __time" +
+           Unrecognised());
+  }
+  const std::string& name = names_[time_columns_[0]];
+  if (time_columns_.size() > 1) {
+    Refuse("two time columns, " + Quoted(name) + " and " +
+           Quoted(names_[time_columns_[1]]) + "; rename one");
+  }
+  std::string_view unit;
+  SplitUnit(name, &unit);
+  if (FindTimeUnit(unit, unit_decimals)) return time_columns_[0];
+  Refuse("column " + Quoted(name) + ": expected a unit of s, ms, us or ns");
+}
+
+bool LogColumns::HasAny(Signal signal) const {
+  return std::any_of(matches_.begin(), matches_.end(),
+                     [&](const Match& m) { return m.signal == signal; });
+}
+
+bool LogColumns::HasAll(Signal signal) const { return Missing(signal).empty(); }
+
+std::string LogColumns::Missing(Signal signal) const {
+  const SignalNames& names = NamesOf(signal);
+  std::string missing;
+  for (size_t i = 0; i < joint_names_.size(); ++i) {
+    const int number = static_cast<int>(i) + 1;
+    if (!Matches(signal, number).empty()) continue;
+    AddTo(&missing, std::string(names.number_prefix) + std::to_string(number) +
+                        " or " + joint_names_[i] + "/" +
+                        std::string(names.path_part));
+  }
+  return missing;
+}
+
+std::vector<LogColumn> LogColumns::Find(Signal signal,
+                                        const std::string& advice) const {
+  CheckJointCount(signal);
+  const std::string missing = Missing(signal);
+  if (!missing.empty()) {
+    Refuse("missing " + missing + "; " + CountsOf(signal) + Unrecognised() +
+           advice);
+  }
+  std::vector<LogColumn> columns;
+  for (size_t i = 0; i < joint_names_.size(); ++i) {
+    const auto found = Matches(signal, static_cast<int>(i) + 1);
+    const std::string& name = names_[found[0].index];
+    if (found.size() > 1) {
+      Refuse("two columns for the " + std::string(NamesOf(signal).path_part) +
+             " of joint " + joint_names_[i] + ", " + Quoted(name) + " and " +
+             Quoted(names_[found[1].index]) + "; rename one");
+    }
+    columns.push_back({found[0].index, UnitScale(signal, name)});
+  }
+  return columns;
+}
+
+double LogColumns::UnitScale(Signal signal, const std::string& name) const {
+  std::string_view unit;
+  SplitUnit(name, &unit);
+  if (unit.empty()) return 1;
+  if (const Unit* known = FindUnit(signal, unit)) return known->scale;
+  std::string units;
+  for (const Unit& known : NamesOf(signal).units) AddTo(&units, known.name);
+  Refuse("column " + Quoted(name) + ": expected a unit of " + units);
+}
+
+std::set<int> LogColumns::Numbers(Signal signal) const {
+  std::set<int> numbers;
+  for (const Match& match : matches_) {
+    if (match.signal == signal && match.by_number) numbers.insert(match.number);
+  }
+  return numbers;
+}
+
+// A robot with fewer joints than the log is as wrong as one with more; the
+// first columns would fit and mean other joints.
+void LogColumns::CheckJointCount(Signal signal) const {
+  const std::set<int> numbers = Numbers(signal);
+  if (numbers.empty()) return;
+  const int joints = static_cast<int>(joint_names_.size());
+  const auto in_range = numbers.lower_bound(1);
+  if (in_range == numbers.end() || *in_range > joints) return;
+  if (*numbers.begin() < 1) {
+    Refuse("joints are numbered from 1; " + CountsOf(signal));
+  }
+  if (*numbers.rbegin() > joints) {
+    Refuse("wrong number of joints: " + CountsOf(signal));
+  }
+}
+
+std::string LogColumns::CountsOf(Signal signal) const {
+  const std::string prefix(NamesOf(signal).number_prefix);
+  const size_t joints = joint_names_.size();
+  std::string text = "the robot has " + std::to_string(joints) +
+                     (joints == 1 ? " joint" : " joints") + ", the log holds ";
+  const std::set<int> numbers = Numbers(signal);
+  if (numbers.empty()) {
+    const auto count =
+        std::count_if(matches_.begin(), matches_.end(),
+                      [&](const Match& m) { return m.signal == signal; });
+    return text + std::to_string(count) + " such columns";
+  }
+  const int first = *numbers.begin();
+  const int last = *numbers.rbegin();
+  if (last > first && last - first + 1 == static_cast<int>(numbers.size())) {
+    return text + prefix + std::to_string(first) + ".." + prefix +
+           std::to_string(last);
+  }
+  std::string list;
+  for (int number : numbers) AddTo(&list, prefix + std::to_string(number));
+  return text + list;
+}
+
+std::string LogColumns::Unrecognised() const {
+  constexpr int kShown = 6;
+  std::string list;
+  int count = 0;
+  for (int i = 0; i < size(); ++i) {
+    const bool known =
+        std::count(time_columns_.begin(), time_columns_.end(), i) > 0 ||
+        std::any_of(matches_.begin(), matches_.end(),
+                    [&](const Match& m) { return m.index == i; });
+    if (known || names_[i].empty()) continue;
+    if (++count <= kShown) AddTo(&list, Quoted(names_[i]));
+  }
+  const std::string about = about_.empty() ? "" : "; " + about_;
+  if (count == 0) return about;
+  if (count > kShown) AddTo(&list, std::to_string(count - kShown) + " more");
+  return "; not recognised: " + list + about;
+}
+
+void LogColumns::Refuse(const std::string& expected) const {
+  throw InputError(file_, "row 1", "", expected);
+}
+
+}  // namespace armcal

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/log_files/log_topic.h"
+
+namespace armcal {
+
+// Where the joint torque comes from.
+enum class TorqueKind {
+  kAuto,     // tau columns; where there are none, currents
+  kLink,     // tau columns, on the joint side, as they are
+  kMotor,    // tau columns on the motor side, times the gear ratio
+  kCurrent,  // current columns, times torque constant and gear ratio
+  kCommand,  // tau columns that hold commanded torques
+};
+
+// Torques that were made for a log that has none, N m or N, a row for each of
+// the log's, joints in columns.
+struct MadeTorque {
+  Eigen::MatrixXd tau;
+  // What makes them wrong, rows at the times t, s since the log's first row;
+  // empty: not known.
+  Eigen::VectorXd t;
+  Eigen::MatrixXd position_noise;  // one draw of that of the log, rad or m
+  Eigen::MatrixXd torque_noise;    // and what it makes of tau, N m or N
+  Eigen::MatrixXd by_rate;         // Motion::torque_by_rate, N m or N
+  bool drifts = false;             // its level is not known and walks at random
+  std::string source;              // what torque_source() says
+};
+
+struct LogReaderOptions {
+  std::vector<std::string> joint_names;  // the robot's, base to tip
+  TorqueKind torque_kind = TorqueKind::kAuto;
+  std::vector<double> torque_constants;  // N m/A per joint; empty: not given
+  std::vector<double> gear_ratios;       // per joint; empty: 1
+  std::vector<LogTopic> topics;          // of a bag (line_source.h)
+  bool need_torque = true;
+  // Where torque is needed: a log will do that has neither torques nor currents
+  // (nor --torque_constants for these) but the commands of all joints.
+  bool commands_do = false;
+  // By path: what such logs have instead.
+  std::map<std::string, std::shared_ptr<const MadeTorque>> made_torque;
+  // Columns that are in the log and not wanted are not looked at.
+  bool want_velocity = false;
+  bool want_acceleration = false;
+  bool want_reference = false;
+  bool want_temperature = false;
+};
+
+}  // namespace armcal

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "model/log_files/log_signal.h"
+
+namespace armcal {
+
+// A topic of a ROS 2 bag that belongs to the log.
+struct LogTopic {
+  std::string name;
+  // What its numbers are; nothing: what a JointState's fields say.
+  std::optional<Signal> signal;
+};
+
+}  // namespace armcal

@@ -1,0 +1,179 @@
+#include "model/log_files/pose_reader.h"
+
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "model/log_files/line_source.h"
+#include "model/log_files/log_columns.h"
+#include "model/log_files/log_row.h"
+#include "model/log_files/open_lines.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+
+namespace armcal {
+namespace {
+
+constexpr double kQuaternionNorm = 0.02;  // rounding to two digits is taken
+constexpr std::size_t kMostPoses = 100'000;
+
+// The column called `name` but for its unit; index -1 where there is none.
+// Parts of a quaternion have no unit.
+LogColumn FindColumn(const std::string& file, const LogColumns& columns,
+                     const std::string& name) {
+  LogColumn found{-1, 1};
+  for (int k = 0; k < columns.size(); ++k) {
+    std::string_view unit;
+    if (Trim(SplitUnit(columns.name(k), &unit)) != name) continue;
+    if (found.index >= 0) {
+      throw InputError(file, "row 1", name, "the column is there twice");
+    }
+    if (name[0] == 'q' && !unit.empty()) {
+      throw InputError(file, "row 1, column " + columns.name(k),
+                       std::string(unit), "expected no unit");
+    }
+    const double scale = unit.empty() || unit == "m" ? 1
+                         : unit == "mm"              ? 1e-3
+                                                     : 0;
+    if (scale == 0) {
+      throw InputError(file, "row 1, column " + columns.name(k),
+                       std::string(unit), "expected the unit m or mm");
+    }
+    found = {k, scale};
+  }
+  return found;
+}
+
+// All columns of `names`, or none: InputError where only some are there.
+std::vector<LogColumn> FindAll(const std::string& file,
+                               const LogColumns& columns,
+                               const std::vector<std::string>& names) {
+  std::vector<LogColumn> found;
+  std::string missing;
+  for (const std::string& name : names) {
+    const LogColumn column = FindColumn(file, columns, name);
+    if (column.index >= 0) {
+      found.push_back(column);
+    } else {
+      missing += (missing.empty() ? "" : ", ") + name;
+    }
+  }
+  if (found.empty() || found.size() == names.size()) return found;
+  throw InputError(file, "row 1", "", "the column " + missing + " is missing");
+}
+
+// Places of the measured columns among a row's values; -1: not there.
+struct Places {
+  int q = -1, pose = -1, length = -1, u95 = -1;
+  int num_u95 = 0;
+  std::vector<int> targets;
+};
+
+Places ChooseColumns(const std::string& path, const LogColumns& columns,
+                     LogRow* row) {
+  Places places;
+  places.q = row->Use(columns.Find(Signal::kPosition));
+  for (int k = 1;; ++k) {
+    const std::string n = std::to_string(k);
+    const auto found = FindAll(path, columns, {"x" + n, "y" + n, "z" + n});
+    if (found.empty()) break;
+    places.targets.push_back(row->Use(found));
+  }
+  const auto pose =
+      FindAll(path, columns, {"x", "y", "z", "qw", "qx", "qy", "qz"});
+  if (!pose.empty()) places.pose = row->Use(pose);
+  const auto length = FindAll(path, columns, {"length1"});
+  if (!length.empty()) places.length = row->Use(length);
+  for (int k = 1;; ++k) {
+    const auto u95 = FindAll(path, columns, {"u95_" + std::to_string(k)});
+    if (u95.empty()) break;
+    const int place = row->Use(u95);
+    if (places.num_u95++ == 0) places.u95 = place;
+  }
+  const int kinds = (places.targets.empty() ? 0 : 1) + (places.pose >= 0) +
+                    (places.length >= 0);
+  if (kinds == 1) return places;
+  throw InputError(path, "row 1", "",
+                   "expected one kind of measurement: x1 y1 z1 [x2 ..] "
+                   "(targets), x y z qw qx qy qz (poses) or length1 (a wire)");
+}
+
+// A number as people write it.
+std::string Text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+// Finite numbers that no instrument can have measured.
+void CheckValues(const std::string& path, const PoseMeasurements& measured) {
+  const auto refuse = [&](int k, const std::string& column,
+                          const std::string& found, const char* expected) {
+    throw InputError(
+        path, "row " + std::to_string(measured.row[k]) + ", column " + column,
+        found, expected);
+  };
+  for (Eigen::Index k = 0; k < measured.lengths.size(); ++k) {
+    const double length = measured.lengths[k];
+    if (length > 0) continue;
+    refuse(k, "length1", Text(length), "expected a length above 0");
+  }
+  for (Eigen::Index k = 0; k < measured.poses.rows(); ++k) {
+    const Eigen::Vector4d q = measured.poses.row(k).tail<4>();
+    if (std::abs(q.norm() - 1) < kQuaternionNorm) continue;
+    refuse(k, "qw",
+           Text(q[0]) + " " + Text(q[1]) + " " + Text(q[2]) + " " + Text(q[3]),
+           "expected a unit quaternion");
+  }
+}
+
+}  // namespace
+
+PoseMeasurements ReadPoses(const std::string& path,
+                           const std::vector<std::string>& joint_names) {
+  const std::unique_ptr<LineSource> source =
+      OpenLines(path, {joint_names, {}, false});
+  std::string_view line;
+  if (!source->NextLine(&line)) {
+    throw InputError(path, "", "", "the file is empty");
+  }
+  const LogColumns columns(path, line, joint_names);
+  LogRow row(path, columns, -1);
+  const Places places = ChooseColumns(path, columns, &row);
+  std::vector<double> values;
+  std::string_view no_time;
+  PoseMeasurements result;
+  while (source->NextLine(&line)) {
+    if (Trim(line).empty()) continue;
+    if (result.row.size() == kMostPoses) {
+      throw InputError(path, "row " + std::to_string(source->row()), "",
+                       "expected at most " + std::to_string(kMostPoses) +
+                           " poses, which all are kept in memory");
+    }
+    values.resize(values.size() + row.width());
+    double* const last = values.data() + values.size() - row.width();
+    if (!row.Parse(line, last, &no_time)) {
+      row.Refuse(line, source->row(), source->cut());
+    }
+    result.row.push_back(source->row());
+  }
+  if (result.row.empty()) {
+    throw InputError(path, "", "", "the file has a header and no rows");
+  }
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
+                                       Eigen::RowMajor>>
+      table(values.data(), result.row.size(), row.width());
+  result.q = table.middleCols(places.q, joint_names.size());
+  for (const int place : places.targets) {
+    result.targets.push_back(table.middleCols(place, 3));
+  }
+  if (places.pose >= 0) result.poses = table.middleCols(places.pose, 7);
+  if (places.length >= 0) result.lengths = table.col(places.length);
+  if (places.num_u95 > 0) {
+    result.u95 = table.middleCols(places.u95, places.num_u95);
+  }
+  CheckValues(path, result);
+  return result;
+}
+
+}  // namespace armcal

@@ -1,0 +1,134 @@
+#include "model/log_files/torque_columns.h"
+
+#include <cmath>
+
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+
+namespace armcal {
+namespace {
+
+// "14.87 13.26 9.3"
+std::string FormatAll(const std::vector<double>& values) {
+  std::string text;
+  for (double value : values)
+    text += (text.empty() ? "" : " ") + NumberText(value);
+  return text;
+}
+
+void CheckFactors(const std::string& flag, const std::vector<double>& factors,
+                  const std::vector<std::string>& joints) {
+  if (factors.empty()) return;
+  if (factors.size() != joints.size()) {
+    throw InputError("", flag, FormatAll(factors),
+                     "expected one value per joint, the robot has " +
+                         std::to_string(joints.size()));
+  }
+  for (size_t i = 0; i < factors.size(); ++i) {
+    if (std::isfinite(factors[i]) && factors[i] != 0) continue;
+    throw InputError("", flag + ", joint " + joints[i], NumberText(factors[i]),
+                     "expected a finite number other than 0");
+  }
+}
+
+void MultiplyBy(const std::vector<double>& factors,
+                std::vector<LogColumn>* columns) {
+  for (size_t i = 0; i < factors.size(); ++i) (*columns)[i].scale *= factors[i];
+}
+
+TorqueColumns FromCurrents(const LogColumns& columns,
+                           const LogReaderOptions& options) {
+  const bool efforts = columns.HasAny(Signal::kEffort);
+  TorqueColumns torque;
+  torque.columns = columns.Find(
+      Signal::kCurrent,
+      efforts ? "; where effort columns hold currents, say so with [A]" : "");
+  MultiplyBy(options.torque_constants, &torque.columns);
+  MultiplyBy(options.gear_ratios, &torque.columns);
+  torque.source =
+      "currents times " + FormatAll(options.torque_constants) + " N m/A";
+  if (!options.gear_ratios.empty()) {
+    torque.source += " times gear ratios " + FormatAll(options.gear_ratios);
+  }
+  return torque;
+}
+
+TorqueColumns FromMotorTorques(const LogColumns& columns,
+                               const LogReaderOptions& options) {
+  TorqueColumns torque{columns.Find(Signal::kEffort), "motor-side tau columns"};
+  MultiplyBy(options.gear_ratios, &torque.columns);
+  torque.source += options.gear_ratios.empty()
+                       ? " (gear ratio 1)"
+                       : " times gear ratios " + FormatAll(options.gear_ratios);
+  return torque;
+}
+
+// The kind that kAuto stands for.
+TorqueKind ChooseKind(const std::string& file, const LogColumns& columns,
+                      const LogReaderOptions& options) {
+  if (columns.HasAll(Signal::kEffort)) return TorqueKind::kLink;
+  if (columns.HasAll(Signal::kCurrent)) return TorqueKind::kCurrent;
+  // Incomplete columns: Find() will say which are missing.
+  if (columns.HasAny(Signal::kEffort)) return TorqueKind::kLink;
+  if (columns.HasAny(Signal::kCurrent)) return TorqueKind::kCurrent;
+  std::string instead = "; or currents (i1 or " + options.joint_names[0] +
+                        "/current, ..) with --torque_constants";
+  if (columns.HasAll(Signal::kReference)) {
+    instead +=
+        "; or --controller, under which calibrate and verify simulate how the "
+        "log's commands (qref) are followed";
+  }
+  throw InputError(file, "row 1", "",
+                   "no torque: missing " + columns.Missing(Signal::kEffort) +
+                       instead + columns.Unrecognised());
+}
+
+// Says so where constants are given that currents would need.
+TorqueColumns FromTorques(const LogColumns& columns,
+                          const LogReaderOptions& options) {
+  return {columns.Find(Signal::kEffort),
+          options.torque_constants.empty()
+              ? "tau columns"
+              : "tau columns (the torque constants are not used)"};
+}
+
+}  // namespace
+
+void CheckTorqueFactors(const LogReaderOptions& options) {
+  CheckFactors("--torque_constants", options.torque_constants,
+               options.joint_names);
+  CheckFactors("--gear_ratios", options.gear_ratios, options.joint_names);
+}
+
+bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options) {
+  if (columns.HasAny(Signal::kEffort)) return false;
+  return !columns.HasAny(Signal::kCurrent) || options.torque_constants.empty();
+}
+
+TorqueColumns FindTorqueColumns(const std::string& file,
+                                const LogColumns& columns,
+                                const LogReaderOptions& options) {
+  const TorqueKind kind = options.torque_kind == TorqueKind::kAuto
+                              ? ChooseKind(file, columns, options)
+                              : options.torque_kind;
+  switch (kind) {
+    case TorqueKind::kMotor:
+      return FromMotorTorques(columns, options);
+    case TorqueKind::kCommand:
+      return {columns.Find(Signal::kEffort), "commanded tau columns"};
+    case TorqueKind::kCurrent:
+      if (options.torque_constants.empty()) {
+        throw InputError(
+            file, "", "",
+            "the torque comes from currents, its scale is not observable "
+            "from them alone: expected --torque_constants=K1,.. in N m/A, "
+            "one per joint, or --payload_mass and --payload_log to estimate "
+            "them");
+      }
+      return FromCurrents(columns, options);
+    default:
+      return FromTorques(columns, options);
+  }
+}
+
+}  // namespace armcal

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/log_files/log_columns.h"
+#include "model/log_files/log_reader_options.h"
+
+namespace armcal {
+
+// The columns that give the joint torque once multiplied by their scale, which
+// holds unit, torque constant and gear ratio.
+struct TorqueColumns {
+  std::vector<LogColumn> columns;
+  std::string source;  // what LogReader::torque_source() says
+};
+
+// Chooses them as `options` ask; `file` is for messages. Throws InputError that
+// says which columns or which flag is missing.
+TorqueColumns FindTorqueColumns(const std::string& file,
+                                const LogColumns& columns,
+                                const LogReaderOptions& options);
+
+// Whether there is nothing in the log to make a torque of: no torques, and no
+// currents or no constants for them. A part of the joints is no nothing.
+bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options);
+
+// Throws InputError where torque constants or gear ratios are given and are not
+// one non-zero finite number per joint.
+void CheckTorqueFactors(const LogReaderOptions& options);
+
+}  // namespace armcal

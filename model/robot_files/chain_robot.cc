@@ -1,0 +1,155 @@
+#include "model/robot_files/chain_robot.h"
+
+#include <utility>
+
+#include "model/robot/axis_rotation.h"
+#include "model/robot_files/robot_chain.h"
+#include "model/text/input_text.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// The link that `j` moves: joint frames and the lumped inertia of its group.
+Link MakeLink(const RobotTree& tree, int j, const RigidGroup& before,
+              const RigidGroup& group) {
+  const TreeJoint& joint = tree.joints[j];
+  const Matrix3d R = RotationOntoAxis(joint.axis);
+  Link link;
+  link.name = tree.links[joint.child].name;
+  link.joint = joint.joint;
+  link.X_PF = PoseInGroup(before, joint.parent) * joint.X_PJ * Isometry3d(R);
+  link.X_ML = Isometry3d(R.transpose()) * joint.X_JL;
+  for (size_t i = 0; i < group.links.size(); ++i) {
+    const TreeLink& part = tree.links[group.links[i]];
+    if (part.inertial_error) throw InputError(*part.inertial_error);
+    if (!part.has_inertial) continue;
+    link.inertial += part.inertial.ReexpressIn(group.X_HLs[i]);
+    link.has_inertial = true;
+  }
+  return link;
+}
+
+void NoteGroup(const RobotTree& tree, const RigidGroup& group, bool is_base,
+               std::vector<std::string>* notes) {
+  std::vector<std::string> fixed, massive;
+  for (size_t i = 0; i < group.links.size(); ++i) {
+    const TreeLink& part = tree.links[group.links[i]];
+    if (i > 0) fixed.push_back(part.name);
+    if (part.has_inertial) massive.push_back(part.name);
+    if (is_base) continue;
+    notes->insert(notes->end(), part.notes.begin(), part.notes.end());
+  }
+  const std::string head = Quoted(tree.links[group.links[0]].name);
+  if (is_base && !massive.empty()) {
+    notes->push_back("not used, as they do not move: the inertia of " +
+                     JoinNames(massive));
+  }
+  if (!is_base && !fixed.empty()) {
+    notes->push_back("lumped into link " + head +
+                     " by fixed joints: " + JoinNames(fixed));
+  }
+}
+
+// Names the links that move beside the chain; `next` is the chain's own joint.
+void NoteDropped(const RobotTree& tree, const RigidGroup& group, int next,
+                 std::vector<std::string>* notes) {
+  for (const int j : group.joints) {
+    if (j == next) continue;
+    const int head = tree.joints[j].child;
+    std::vector<std::string> names;
+    const auto add = [&](const RigidGroup& dropped) {
+      for (const int link : dropped.links) {
+        names.push_back(tree.links[link].name);
+      }
+    };
+    add(FindGroup(tree, head));
+    VisitMovedGroups(tree, head,
+                     [&](int, const RigidGroup& beyond) { add(beyond); });
+    notes->push_back("dropped, as joint " + Quoted(tree.joints[j].joint.name) +
+                     " moves them beside the chain: " + JoinNames(names));
+  }
+}
+
+// The tool frame: the tip the user names, else the only fixed leaf there is.
+void SetTool(const RobotTree& tree, const RigidGroup& last,
+             const std::optional<int>& named_tip, Robot* robot) {
+  std::vector<int> leaves;
+  for (const int link : last.links) {
+    if (tree.links[link].child_joints.empty()) leaves.push_back(link);
+  }
+  int tool = last.links.front();
+  if (named_tip) {
+    tool = *named_tip;
+  } else if (leaves.size() == 1) {
+    tool = leaves.front();
+  }
+  if (tool == last.links.front()) return;
+  robot->tool_name = tree.links[tool].name;
+  robot->X_LT = PoseInGroup(last, tool);
+}
+
+std::string GravityText(const Vector3d& g) {
+  return NumberText(g[0]) + " " + NumberText(g[1]) + " " + NumberText(g[2]) +
+         " m/s^2";
+}
+
+// Gravity of the root's frame, turned into the base link's. A joint above the
+// base may turn it anywhere; then the base link's axes are taken as the root's.
+void TurnGravity(const RobotTree& tree, int base, Robot* robot) {
+  Matrix3d R_RootBase = Matrix3d::Identity();
+  for (int link = base; tree.links[link].parent_joint >= 0;) {
+    const TreeJoint& joint = tree.joints[tree.links[link].parent_joint];
+    if (!joint.is_fixed) {
+      robot->notes.push_back("gravity is taken as " +
+                             GravityText(robot->gravity) +
+                             " in the base link's frame, which joint " +
+                             Quoted(joint.joint.name) + " moves");
+      return;
+    }
+    R_RootBase = joint.X_PJ.linear() * joint.X_JL.linear() * R_RootBase;
+    link = joint.parent;
+  }
+  const Vector3d turned = R_RootBase.transpose() * robot->gravity;
+  if ((turned - robot->gravity).norm() < 1e-9) return;
+  robot->gravity = turned;
+  robot->notes.push_back("gravity in the base link's frame is " +
+                         GravityText(turned) + ", as fixed joints turn it");
+}
+
+}  // namespace
+
+Robot MakeChainRobot(const std::string& path, const RobotTree& tree,
+                     const RobotReaderOptions& options) {
+  const RobotChain chain = ChooseChain(path, tree, options.base, options.tip);
+  Robot robot;
+  robot.name = tree.name;
+  robot.notes = tree.notes;
+  robot.gravity = tree.gravity;
+  RigidGroup group = FindGroup(tree, chain.base);
+  NoteGroup(tree, group, true, &robot.notes);
+  for (const int j : chain.joints) {
+    const RigidGroup before = std::move(group);
+    NoteDropped(tree, before, j, &robot.notes);
+    group = FindGroup(tree, tree.joints[j].child);
+    const auto& notes = tree.joints[j].notes;
+    robot.notes.insert(robot.notes.end(), notes.begin(), notes.end());
+    NoteGroup(tree, group, false, &robot.notes);
+    robot.links.push_back(MakeLink(tree, j, before, group));
+  }
+  NoteDropped(tree, group, -1, &robot.notes);
+  SetTool(tree, group,
+          options.tip.empty() ? std::nullopt : std::make_optional(chain.tip),
+          &robot);
+  if (options.gravity) {
+    robot.gravity = *options.gravity;
+  } else {
+    TurnGravity(tree, chain.base, &robot);
+  }
+  return robot;
+}
+
+}  // namespace armcal

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "model/robot_files/robot_tree.h"
+
+namespace armcal {
+
+// Reads the bodies and joints of an MJCF file as a tree whose root is "world".
+// Bodies without joints are fixed to their parents; a body with several has a
+// massless link for each but the last. Names that are missing are made up:
+// "body2", "joint3". Throws InputError.
+RobotTree ReadMjcfTree(const std::string& path);
+
+}  // namespace armcal

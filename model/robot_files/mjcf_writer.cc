@@ -1,0 +1,203 @@
+#include "model/robot_files/mjcf_writer.h"
+
+#include <tinyxml2.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "model/robot_files/mjcf_drive.h"
+#include "model/robot_files/urdf_values.h"
+#include "model/text/exact_text.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using tinyxml2::XMLElement;
+
+constexpr double kTurn = 6.28318530717958648;  // rad, or m
+constexpr double kThin = .02;                  // m, of what is drawn
+// MuJoCo takes no smaller moment of a body that moves, kg m^2.
+constexpr double kLeastMoment = 1e-14;
+
+std::string Text(const Vector3d& v) {
+  return ExactText(v.x()) + " " + ExactText(v.y()) + " " + ExactText(v.z());
+}
+
+void Set(const char* name, double value, XMLElement* element) {
+  element->SetAttribute(name, ExactText(value).c_str());
+}
+
+void SetRange(const char* limited, const char* range, double lower,
+              double upper, XMLElement* element) {
+  element->SetAttribute(limited, "true");
+  element->SetAttribute(range,
+                        (ExactText(lower) + " " + ExactText(upper)).c_str());
+}
+
+void SetPose(const Isometry3d& X, XMLElement* element) {
+  const Quaterniond q(X.linear());
+  element->SetAttribute("pos", Text(X.translation()).c_str());
+  element->SetAttribute(
+      "quat", (ExactText(q.w()) + " " + Text(Vector3d(q.vec()))).c_str());
+}
+
+// MuJoCo refuses the rounding of what lies on the edge of what can exist.
+Vector3d PossibleMoments(Vector3d moments) {
+  moments = moments.cwiseMax(kLeastMoment);
+  moments[2] = std::min(moments[2], (moments[0] + moments[1]) * (1 - 1e-15));
+  return moments;
+}
+
+void AddInertial(const InertialParameters& V, XMLElement* body) {
+  const Vector3d com = V.first_moment / V.mass;
+  const Matrix3d I =
+      V.inertia - V.mass * (com.squaredNorm() * Matrix3d::Identity() -
+                            com * com.transpose());
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(I);
+  Isometry3d X_LI = Isometry3d::Identity();
+  X_LI.translation() = com;
+  X_LI.linear() = principal.eigenvectors();
+  if (X_LI.linear().determinant() < 0) X_LI.linear().col(0) *= -1;
+  XMLElement* inertial = body->InsertNewChildElement("inertial");
+  SetPose(X_LI, inertial);
+  Set("mass", V.mass, inertial);
+  inertial->SetAttribute(
+      "diaginertia", Text(PossibleMoments(principal.eigenvalues())).c_str());
+}
+
+void SetIfAny(const char* name, double value, XMLElement* element) {
+  if (value != 0) Set(name, value, element);
+}
+
+// X_LM: the joint's frame in the body's, at q = 0.
+void AddJoint(const Joint& joint, const JointDrive& drive,
+              const Isometry3d& X_LM, XMLElement* body) {
+  XMLElement* element = body->InsertNewChildElement("joint");
+  element->SetAttribute("name", joint.name.c_str());
+  element->SetAttribute("type", IsRotational(joint.type) ? "hinge" : "slide");
+  element->SetAttribute("pos", Text(X_LM.translation()).c_str());
+  element->SetAttribute("axis", Text(X_LM.linear().col(2)).c_str());
+  if (std::isfinite(joint.lower) || std::isfinite(joint.upper)) {
+    SetRange("limited", "range",
+             std::isfinite(joint.lower) ? joint.lower : joint.upper - kTurn,
+             std::isfinite(joint.upper) ? joint.upper : joint.lower + kTurn,
+             element);
+  }
+  SetIfAny("armature", joint.armature, element);
+  SetIfAny("damping", joint.viscous, element);
+  SetIfAny("frictionloss", joint.coulomb, element);
+  SetIfAny("stiffness", drive.stiffness, element);
+  if (drive.stiffness != 0) SetIfAny("springref", drive.rest, element);
+}
+
+// The force on the joint is gain ctrl - offset.
+void AddMotor(const Joint& joint, const JointDrive& drive,
+              XMLElement* actuators) {
+  const bool plain = joint.offset == 0 && drive.gain == 1;
+  XMLElement* motor =
+      actuators->InsertNewChildElement(plain ? "motor" : "general");
+  motor->SetAttribute("name", joint.name.c_str());
+  motor->SetAttribute("joint", joint.name.c_str());
+  if (std::isfinite(joint.effort)) {
+    SetRange("ctrllimited", "ctrlrange", -joint.effort, joint.effort, motor);
+  }
+  if (drive.gain != 1) Set("gainprm", drive.gain, motor);
+  if (joint.offset == 0) return;
+  motor->SetAttribute("biastype", "affine");
+  motor->SetAttribute("biasprm", (ExactText(-joint.offset) + " 0 0").c_str());
+}
+
+// For the eye, from the link's origin to what it carries.
+void AddCapsule(const Vector3d& to, XMLElement* body) {
+  if (to.norm() < kThin) return;
+  XMLElement* geom = body->InsertNewChildElement("geom");
+  geom->SetAttribute("type", "capsule");
+  geom->SetAttribute("fromto", ("0 0 0 " + Text(to)).c_str());
+  Set("size", kThin, geom);
+  geom->SetAttribute("mass", "0");
+  geom->SetAttribute("contype", "0");
+  geom->SetAttribute("conaffinity", "0");
+}
+
+// Adds the body of the links first..last, of which only `last` may have mass.
+XMLElement* AddBody(const RobotDescription& description, int first, int last,
+                    XMLElement* parent) {
+  const std::vector<Link>& links = description.robot.links;
+  Isometry3d X_PL = Isometry3d::Identity();
+  for (int i = first; i <= last; ++i) X_PL = X_PL * links[i].X_PL(0);
+  XMLElement* body = parent->InsertNewChildElement("body");
+  body->SetAttribute("name", links[last].name.c_str());
+  SetPose(X_PL, body);
+  if (links[last].inertial.mass > 0) AddInertial(links[last].inertial, body);
+  Isometry3d X_PM = Isometry3d::Identity();
+  for (int i = first; i <= last; ++i) {
+    X_PM = X_PM * links[i].X_PF;
+    // Of a body with one joint exactly what the link says.
+    const Isometry3d X_LM =
+        first == last ? links[i].X_ML.inverse() : X_PL.inverse() * X_PM;
+    AddJoint(links[i].joint, description.DriveOf(i), X_LM, body);
+    X_PM = X_PM * links[i].X_ML;
+  }
+  const bool is_last = last + 1 == description.robot.num_joints();
+  AddCapsule(is_last ? description.robot.X_LT.translation()
+                     : links[last + 1].X_PF.translation(),
+             body);
+  return body;
+}
+
+std::vector<std::string> MoreLosses(const RobotDescription& description) {
+  std::vector<std::string> losses = MjcfDriveLosses(description);
+  const Link& last = description.robot.links.back();
+  if (last.inertial.mass > 0) return losses;
+  losses.push_back("MuJoCo refuses link " + last.name +
+                   ", which moves without mass");
+  return losses;
+}
+
+}  // namespace
+
+std::string MakeMjcf(const RobotDescription& description) {
+  const Robot& robot = description.robot;
+  tinyxml2::XMLDocument document;
+  XMLElement* root = document.NewElement("mujoco");
+  document.InsertEndChild(root);
+  root->SetAttribute("model", robot.name.c_str());
+  root->InsertNewChildElement("compiler")->SetAttribute("angle", "radian");
+  XMLElement* option = root->InsertNewChildElement("option");
+  option->SetAttribute("gravity", Text(robot.gravity).c_str());
+  const auto& controller = description.controller;
+  if (controller) {
+    Set("timestep", 1 / controller->rate_hz, option);
+    option->SetAttribute("integrator", "implicit");
+  }
+  XMLElement* parent = root->InsertNewChildElement("worldbody");
+  for (int first = 0, last = 0; last < robot.num_joints(); ++last) {
+    const bool is_last = last + 1 == robot.num_joints();
+    if (robot.links[last].inertial.mass <= 0 && !is_last) continue;
+    parent = AddBody(description, first, last, parent);
+    first = last + 1;
+  }
+  if (!robot.tool_name.empty()) {
+    XMLElement* tool = parent->InsertNewChildElement("body");
+    tool->SetAttribute("name", robot.tool_name.c_str());
+    SetPose(robot.X_LT, tool);
+  }
+  XMLElement* actuators = root->InsertNewChildElement("actuator");
+  if (controller) AddMjcfDrives(description, actuators);
+  for (int j = 0; !controller && j < robot.num_joints(); ++j) {
+    AddMotor(robot.links[j].joint, description.DriveOf(j), actuators);
+  }
+  return XmlText(document);
+}
+
+RobotFormat MjcfFormat() {
+  return {"mjcf",    "MJCF",     "robot.xml", {RobotField::kVelocityLimit},
+          &MakeMjcf, &MoreLosses};
+}
+
+}  // namespace armcal

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/dynamics/joint_controller.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// What acts on a joint beside what a Joint has.
+struct JointDrive {
+  // A spring pushes with -stiffness (q - rest); N m/rad or N/m, rad or m.
+  double stiffness = 0;
+  double rest = 0;
+  // Torque that the motor gives per torque that is asked of it.
+  double gain = 1;
+};
+
+// A robot as files describe it to simulators.
+struct RobotDescription {
+  Robot robot;
+  std::vector<JointDrive> drives;  // per joint; empty: nothing beside
+  // What moves it where commands are positions; none: torques are given.
+  std::optional<ControllerOptions> controller = std::nullopt;
+
+  JointDrive DriveOf(int joint) const {
+    return drives.empty() ? JointDrive() : drives[joint];
+  }
+};
+
+// What some formats have no field for.
+enum class RobotField {
+  kArmature,
+  kOffset,
+  kSpring,
+  kGain,
+  kVelocityLimit,
+  kGravity,
+  kController
+};
+
+struct RobotFormat {
+  const char* name;   // as --export takes it: "mjcf"
+  const char* title;  // for people: "MJCF"
+  const char* file;   // "robot.xml"
+  std::vector<RobotField> lacks;
+  std::string (*write)(const RobotDescription&);
+  // Further losses, a sentence each; may be null.
+  std::vector<std::string> (*more_losses)(const RobotDescription&);
+
+  bool Holds(RobotField field) const;
+};
+
+// What a file of this format cannot say of the robot, a sentence for each kind
+// with the joints' values.
+std::vector<std::string> Losses(const RobotFormat& format,
+                                const RobotDescription& description);
+
+}  // namespace armcal

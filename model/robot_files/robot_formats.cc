@@ -1,0 +1,16 @@
+#include "model/robot_files/robot_formats.h"
+
+#include "model/robot_files/mjcf_writer.h"
+#include "model/robot_files/sdf_writer.h"
+#include "model/robot_files/urdf_writer.h"
+#include "model/robot_files/yaml_writer.h"
+
+namespace armcal {
+
+const std::vector<RobotFormat>& RobotFormats() {
+  static const std::vector<RobotFormat> formats = {UrdfFormat(), MjcfFormat(),
+                                                   SdfFormat(), YamlFormat()};
+  return formats;
+}
+
+}  // namespace armcal

@@ -1,0 +1,70 @@
+#include "model/robot_files/robot_reader.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "model/robot_files/mjcf_reader.h"
+#include "model/robot_files/urdf_reader.h"
+#include "model/robot_files/yaml_reader.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+#include "model/text/xml_element.h"
+
+namespace armcal {
+namespace {
+
+// Finite numbers of a file can still have products that are not.
+void RefuseOverflow(const std::string& path, const Robot& robot) {
+  for (const Link& link : robot.links) {
+    if (link.inertial.ToVector().allFinite() &&
+        link.X_PF.matrix().allFinite() && link.X_ML.matrix().allFinite()) {
+      continue;
+    }
+    throw InputError(path, "", "",
+                     "the numbers of link " + Quoted(link.name) +
+                         " are too large to calculate with");
+  }
+  if (robot.X_LT.matrix().allFinite()) return;
+  throw InputError(path, "", "",
+                   "the numbers of the tool are too large to calculate with");
+}
+
+RobotFileKind KindOfXml(const std::string& path) {
+  const XmlFile file(path);
+  const std::string tag = file.root().tag();
+  if (tag == "robot") return RobotFileKind::kUrdf;
+  if (tag == "mujoco") return RobotFileKind::kMjcf;
+  file.root().Refuse("", tag,
+                     "expected the root element <robot> (URDF) or <mujoco> "
+                     "(MJCF)");
+}
+
+}  // namespace
+
+RobotFileKind KindOfRobotFile(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (ending == ".urdf" || ending == ".xml" || ending == ".mjcf") {
+    return KindOfXml(path);
+  }
+  if (ending == ".yaml" || ending == ".yml") return RobotFileKind::kYaml;
+  if (ending == ".xacro") {
+    throw InputError(path, "", "", "expected a plain URDF: run xacro first");
+  }
+  throw InputError(path, "", ending,
+                   "expected a robot file that ends in .urdf, .xml or .mjcf "
+                   "(URDF or MJCF) or .yaml or .yml (DH table or poses)");
+}
+
+Robot ReadRobot(const std::string& path, const RobotReaderOptions& options) {
+  const RobotFileKind kind = KindOfRobotFile(path);
+  const Robot robot = kind == RobotFileKind::kUrdf   ? ReadUrdf(path, options)
+                      : kind == RobotFileKind::kMjcf ? ReadMjcf(path, options)
+                                                     : ReadYaml(path, options);
+  RefuseOverflow(path, robot);
+  return robot;
+}
+
+}  // namespace armcal

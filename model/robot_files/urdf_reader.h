@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "model/robot/robot.h"
+#include "model/robot_files/robot_reader_options.h"
+
+namespace armcal {
+
+// Reads the chain base..tip of a URDF file, see MakeChainRobot. Strict: every
+// number must be one ("2kg", "nan", "1,5" are refused with line and attribute);
+// DOCTYPE, loops, two parents, unknown joint types, non-finite or negative
+// masses, zero axes, swapped limits, unexpanded xacro, duplicate names are
+// refused. Accepted with a note: mass 0 (no inertia given), inertia that no
+// rigid body has (a start value), limits that are missing or 0 (none). No
+// entity, mesh or other file is ever opened. Throws InputError.
+Robot ReadUrdf(const std::string& path, const RobotReaderOptions& options);
+
+}  // namespace armcal

@@ -1,0 +1,109 @@
+#include "model/robot_files/urdf_tree.h"
+
+#include <unordered_map>
+#include <utility>
+
+#include "model/robot_files/urdf_elements.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+#include "model/text/xml_element.h"
+
+namespace armcal {
+namespace {
+
+void ReadLinks(const XmlElement& root, RobotTree* tree, LinkIndex* index) {
+  for (const XmlElement& element : root.Children("link")) {
+    TreeLink link = ReadUrdfLink(element);
+    const int number = static_cast<int>(tree->links.size());
+    const auto [at, is_new] = index->emplace(link.name, number);
+    if (!is_new) {
+      element.RefuseUsedName(link.name, tree->links[at->second].line);
+    }
+    tree->links.push_back(std::move(link));
+  }
+}
+
+void ReadJoints(const XmlElement& root, const LinkIndex& links,
+                RobotTree* tree) {
+  std::unordered_map<std::string, int> index;
+  for (XmlElement element : root.Children("joint")) {
+    TreeJoint joint = ReadUrdfJoint(element, tree->links, links);
+    const int number = static_cast<int>(tree->joints.size());
+    const auto [at, is_new] = index.emplace(joint.joint.name, number);
+    if (!is_new) {
+      element.RefuseUsedName(joint.joint.name, tree->joints[at->second].line);
+    }
+    TreeLink& child = tree->links[joint.child];
+    if (child.parent_joint >= 0) {
+      element.SetOwner("joint " + Quoted(joint.joint.name));
+      const Joint& other = tree->joints[child.parent_joint].joint;
+      element.RequiredChild("child").Refuse(
+          "link", child.name,
+          "expected a link with one parent: joint " + Quoted(other.name) +
+              " has it as its child already");
+    }
+    child.parent_joint = number;
+    tree->links[joint.parent].child_joints.push_back(number);
+    tree->joints.push_back(std::move(joint));
+  }
+}
+
+// As no link has two parents, what cannot be reached from a root is or hangs on
+// a loop; walking up from there ends in it.
+void RefuseLoops(const std::string& path, const RobotTree& tree) {
+  std::vector<char> reached(tree.links.size(), 0);
+  std::vector<int> open = tree.roots;
+  while (!open.empty()) {
+    const int link = open.back();
+    open.pop_back();
+    reached[link] = 1;
+    for (const int j : tree.links[link].child_joints) {
+      open.push_back(tree.joints[j].child);
+    }
+  }
+  const auto parent = [&](int link) {
+    return tree.joints[tree.links[link].parent_joint].parent;
+  };
+  for (size_t i = 0; i < tree.links.size(); ++i) {
+    if (reached[i]) continue;
+    int link = static_cast<int>(i);
+    for (; !reached[link]; link = parent(link)) reached[link] = 1;
+    std::vector<std::string> names = {tree.links[link].name};
+    for (int k = parent(link); k != link; k = parent(k)) {
+      names.insert(names.begin(), tree.links[k].name);
+    }
+    const TreeJoint& joint = tree.joints[tree.links[link].parent_joint];
+    throw InputError(
+        path,
+        "line " + std::to_string(joint.line) + ", joint " +
+            Quoted(joint.joint.name),
+        "", "expected a tree: the links " + JoinNames(names) + " form a loop");
+  }
+}
+
+}  // namespace
+
+RobotTree ReadUrdfTree(const std::string& path) {
+  const XmlFile file(path);
+  const XmlElement root = file.root();
+  if (root.tag() != "robot") {
+    root.Refuse("", root.tag(), "expected the root element <robot>");
+  }
+  RobotTree tree;
+  tree.name = root.Has("name") ? root.Name("name") : "robot";
+  LinkIndex index;
+  ReadLinks(root, &tree, &index);
+  if (tree.links.empty()) {
+    root.Refuse("", "", "expected at least one <link>");
+  }
+  ReadJoints(root, index, &tree);
+  for (size_t i = 0; i < tree.links.size(); ++i) {
+    if (tree.links[i].parent_joint < 0) {
+      tree.roots.push_back(static_cast<int>(i));
+    }
+  }
+  RefuseLoops(path, tree);
+  return tree;
+}
+
+}  // namespace armcal

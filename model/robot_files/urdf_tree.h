@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "model/robot_files/robot_tree.h"
+
+namespace armcal {
+
+// Reads every link and joint of a URDF file and ties them to trees: each link
+// has at most one parent joint and there are no loops. Throws InputError.
+RobotTree ReadUrdfTree(const std::string& path);
+
+}  // namespace armcal

@@ -1,0 +1,142 @@
+#include "model/robot_files/urdf_update.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "model/robot_files/robot_chain.h"
+#include "model/robot_files/urdf_tree.h"
+#include "model/robot_files/urdf_values.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::Isometry3d;
+using tinyxml2::XMLDocument;
+using tinyxml2::XMLElement;
+
+XMLElement* Find(XMLElement* root, const char* tag, const std::string& name) {
+  for (XMLElement* e = root->FirstChildElement(tag); e != nullptr;
+       e = e->NextSiblingElement(tag)) {
+    const char* found = e->Attribute("name");
+    if (found != nullptr && name == found) return e;
+  }
+  return nullptr;
+}
+
+// The link gets what the links that are fixed to it do not have already.
+void DistributeInertia(const InertialParameters& total, const RobotTree& tree,
+                       int head, XMLElement* root) {
+  const RigidGroup group = FindGroup(tree, head);
+  XMLElement* link = Find(root, "link", tree.links[head].name);
+  Vector10d rest = total.ToVector();
+  for (size_t i = 1; i < group.links.size(); ++i) {
+    const InertialParameters& fixed = tree.links[group.links[i]].inertial;
+    rest -= fixed.ReexpressIn(group.X_HLs[i]).ToVector();
+  }
+  const InertialParameters remaining = InertialParameters::FromVector(rest);
+  if (WhyUnphysical(remaining).empty()) {
+    SetInertial(remaining, link);
+    return;
+  }
+  for (size_t i = 1; i < group.links.size(); ++i) {
+    XMLElement* fixed = Find(root, "link", tree.links[group.links[i]].name);
+    XMLElement* inertial = fixed->FirstChildElement("inertial");
+    if (inertial != nullptr) fixed->DeleteChild(inertial);
+  }
+  SetInertial(total, link);
+}
+
+int FindJoint(const std::string& path, const RobotTree& tree,
+              const Link& link) {
+  for (size_t j = 0; j < tree.joints.size(); ++j) {
+    const TreeJoint& joint = tree.joints[j];
+    if (joint.joint.name == link.joint.name && !joint.is_fixed &&
+        tree.links[joint.child].name == link.name) {
+      return static_cast<int>(j);
+    }
+  }
+  throw InputError(path, "", link.name,
+                   "expected a link of the robot, moved by its joint " +
+                       Quoted(link.joint.name));
+}
+
+// Sets the origin of joint `j` so that its frame has the pose X_HJ in `head`,
+// which fixed joints connect to its parent.
+void SetJointOrigin(const std::string& path, int head, int j,
+                    const Isometry3d& X_HJ, RobotTree* tree, XMLElement* root) {
+  TreeJoint& joint = tree->joints[j];
+  const RigidGroup group = FindGroup(*tree, head);
+  if (std::count(group.links.begin(), group.links.end(), joint.parent) == 0) {
+    throw InputError(
+        path, "", tree->links[head].name,
+        "expected the link that carries joint " + Quoted(joint.joint.name));
+  }
+  joint.X_PJ = PoseInGroup(group, joint.parent).inverse() * X_HJ;
+  SetOrigin(joint.X_PJ, Find(root, "joint", joint.joint.name));
+}
+
+int FindBase(const std::string& path, const RobotTree& tree,
+             const std::string& base, int first_joint) {
+  int link = tree.joints[first_joint].parent;
+  if (base.empty()) {
+    while (tree.links[link].parent_joint >= 0) {
+      link = tree.joints[tree.links[link].parent_joint].parent;
+    }
+    return link;
+  }
+  const std::optional<int> found = tree.FindLink(base);
+  if (!found) {
+    throw InputError(path, "", base, "expected a link of the URDF file");
+  }
+  return *found;
+}
+
+void SetGeometry(const std::string& path, const Robot& robot,
+                 const std::vector<int>& joints, const std::string& base,
+                 RobotTree* tree, XMLElement* root) {
+  int head = FindBase(path, *tree, base, joints.front());
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const Link& link = robot.links[i];
+    SetJointOrigin(path, head, joints[i], link.X_PF * link.X_ML, tree, root);
+    head = tree->joints[joints[i]].child;
+  }
+  const std::optional<int> tool = tree->FindLink(robot.tool_name);
+  if (!tool) return;
+  SetJointOrigin(path, head, tree->links[*tool].parent_joint, robot.X_LT, tree,
+                 root);
+}
+
+}  // namespace
+
+std::string UpdateUrdf(const std::string& path, const Robot& robot,
+                       bool geometry, const std::string& base) {
+  RobotTree tree = ReadUrdfTree(path);
+  std::vector<int> joints;
+  for (const Link& link : robot.links) {
+    joints.push_back(FindJoint(path, tree, link));
+  }
+  XMLDocument document;
+  document.Parse(ReadTextFile(path, 32L << 20).c_str());
+  XMLElement* root = document.FirstChildElement("robot");
+  if (root == nullptr) {
+    throw InputError(path, "", "", "expected the robot's URDF file");
+  }
+  if (geometry && !joints.empty()) {
+    SetGeometry(path, robot, joints, base, &tree, root);
+  }
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const Link& link = robot.links[i];
+    if (link.inertial.mass > 0) {
+      DistributeInertia(link.inertial, tree, tree.joints[joints[i]].child,
+                        root);
+    }
+    SetDynamics(link.joint, Find(root, "joint", link.joint.name));
+  }
+  return XmlText(document);
+}
+
+}  // namespace armcal

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "model/simd/lanes/lanes.h"
+
+namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
+
+// Weights of InterpolateColumns (model/dynamics/motion_track.h) at a stage.
+struct StageWeights {
+  Lanes at, next, slope_at, slope_next;
+};
+
+ARMCAL_INLINE StageWeights WeightsAt(const Lanes& share) {
+  const Lanes s = share, r = 1 - share;
+  return {r * r * (1 + 2 * s), s * s * (1 + 2 * r), s * r * r, -s * s * r};
+}
+
+// A signal from one sample to the next, and its slopes at both.
+struct SignalPiece {
+  Lanes at, next, slope_at, slope_next;
+  ARMCAL_INLINE Lanes operator()(const StageWeights& w) const {
+    return w.at * at + w.next * next + w.slope_at * slope_at +
+           w.slope_next * slope_next;
+  }
+};
+
+ARMCAL_INLINE Lanes Gather(const double* const* from, long sample) {
+  Lanes x;
+  for (int k = 0; k < kLanes; ++k) x[k] = from[k][sample];
+  return x;
+}
+
+ARMCAL_INLINE SignalPiece PieceAt(const double* const* signal, long k,
+                                  long last) {
+  const bool first = k == 0, ends = k + 1 == last;
+  const Lanes at = Gather(signal, k), next = Gather(signal, k + 1);
+  const Lanes before = first ? at : Gather(signal, k - 1);
+  const Lanes after = ends ? next : Gather(signal, k + 2);
+  return {at, next, (next - before) * (first ? 1 : .5),
+          (after - at) * (ends ? 1 : .5)};
+}
+
+}  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

@@ -1,0 +1,158 @@
+#include "calib/closed_loop/output_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/fixtures/commanded_arm.h"
+
+namespace armcal {
+namespace {
+
+constexpr double kNoise = 1e-4;  // rad
+
+// Armature, damping, friction and delay of Simbody's arms, from positions with
+// an encoder's noise: within their deviations, which are small.
+TEST(OutputErrorTest, FindsWhatPositionsTell) {
+  for (const int n : {1, 3}) {
+    const Robot truth = CommandedTruth(n);
+    const ControllerOptions controller = CommandedController(truth);
+    OutputErrorOptions options;
+    options.trust.inertia = 0;
+    const CommandedLog log =
+        RecordCommands(truth, controller, 6, {kNoise, kNoise});
+    const OutputErrorCalibration result =
+        CalibrateOutputError(FileOf(truth), controller, options, {log}, {log});
+    ASSERT_TRUE(result.arm.converged()) << result.arm.reason;
+    const auto expected = TrueValues(truth);
+    size_t found = 0;
+    for (const PhysicalParameter& p : result.arm.parameters) {
+      const auto value = expected.find(p.name);
+      if (value == expected.end()) continue;
+      ++found;
+      EXPECT_TRUE(p.identifiable) << p.name;
+      EXPECT_LT(p.stddev, .25 * value->second) << p.name;
+      EXPECT_NEAR(p.value, value->second, 3.5 * p.stddev) << p.name;
+    }
+    EXPECT_EQ(found, expected.size());
+    EXPECT_NEAR(result.model_error, .97, .1);
+    for (int j = 0; j < n; ++j) {
+      EXPECT_GT(result.positions.nominal[j], 5 * kNoise);
+      EXPECT_LT(result.positions.calibrated[j], 1.2 * kNoise);
+      EXPECT_LT(result.positions.validation[j], 1.2 * kNoise);
+    }
+    // An integral part takes any constant torque.
+    EXPECT_EQ(result.arm.unseen.size(), static_cast<size_t>(n));
+  }
+}
+
+// What is drawn of a log that was held out: how far the arm was from its
+// command, and that the estimate follows it to the noise where the file does
+// not.
+TEST(OutputErrorTest, TracesWhatIsHeldOut) {
+  const Robot truth = CommandedTruth(1);
+  const ControllerOptions controller = CommandedController(truth);
+  const auto record = [&](int seed) {
+    return RecordCommands(truth, controller, 6, {kNoise, kNoise}, seed);
+  };
+  OutputErrorOptions options;
+  options.trace_bins = 10000;
+  const CommandedLog held_out = record(2);
+  const OutputErrorCalibration result = CalibrateOutputError(
+      FileOf(truth), controller, options, {record(1)}, {held_out});
+  ASSERT_EQ(result.traces.size(), 1u);
+  EXPECT_EQ(result.traces[0].log, held_out.path);
+  const auto& bins = result.traces[0].follows.bins();
+  ASSERT_GT(bins.size(), 500u);
+  EXPECT_GE(bins[0].begin, 1);  // the first second is the simulation's own
+  double by_file = 0, by_estimate = 0;
+  for (const SeriesEnvelope::Bin& bin : bins) {
+    ASSERT_EQ(bin.low.size(), 5);
+    long row = 0;
+    while (held_out.log.t[row] < bin.begin) ++row;
+    EXPECT_EQ(bin.low[0], held_out.log.q(row, 0) - held_out.log.qref(row, 0));
+    // Simulated minus commanded and measured minus simulated.
+    EXPECT_NEAR(bin.low[1] + bin.low[3], bin.low[0], 1e-12);
+    EXPECT_NEAR(bin.low[2] + bin.low[4], bin.low[0], 1e-12);
+    by_file += bin.low[3] * bin.low[3];
+    by_estimate += bin.low[4] * bin.low[4];
+  }
+  const auto size = static_cast<double>(bins.size());
+  EXPECT_NEAR(std::sqrt(by_estimate / size), result.positions.validation[0],
+              1e-9);
+  EXPECT_LT(std::sqrt(by_estimate / size), 1.5 * kNoise);
+  EXPECT_GT(std::sqrt(by_file / size), 10 * kNoise);
+}
+
+// Without gravity no position tells how large torques are: with gains that are
+// not known, all of them could be twice as large.
+TEST(OutputErrorTest, ScaleOfTorqueNeedsGainsOrGravity) {
+  Robot truth = CommandedTruth(1);
+  truth.gravity.setZero();
+  const ControllerOptions controller = CommandedController(truth);
+  const CommandedLog log =
+      RecordCommands(truth, controller, 6, {kNoise, kNoise});
+  const auto identifiable = [&](double gains, const std::string& name) {
+    OutputErrorOptions options;
+    options.trust.gains = gains;
+    const OutputErrorCalibration result =
+        CalibrateOutputError(FileOf(truth), controller, options, {log}, {});
+    EXPECT_TRUE(result.arm.converged()) << result.arm.reason;
+    for (const PhysicalParameter& p : result.arm.parameters) {
+      if (p.name == name) return p.identifiable;
+    }
+    ADD_FAILURE() << name;
+    return false;
+  };
+  EXPECT_TRUE(identifiable(0, "joint1.coulomb"));
+  EXPECT_FALSE(identifiable(1, "joint1.coulomb"));
+  EXPECT_FALSE(identifiable(1, "joint1.kp"));
+}
+
+// ... or another log with torques, which also finds what they find alone.
+TEST(OutputErrorTest, TorquesOfAnotherLogTellTheScale) {
+  Robot truth = CommandedTruth(1);
+  truth.gravity.setZero();
+  const ControllerOptions controller = CommandedController(truth);
+  ControllerOptions file = controller;
+  file.drives[0].kp *= 1.4;
+  file.drives[0].kd *= .7;
+  const TorqueInformation torques =
+      TorquesOf(RecordCommands(truth, controller, 6, {kNoise, kNoise}, 2),
+                FileOf(truth), .05, 3);
+  ASSERT_EQ(torques.reason, "");
+  OutputErrorOptions options;
+  options.trust.inertia = 0;
+  options.trust.gains = 1;
+  const OutputErrorCalibration result = CalibrateOutputError(
+      FileOf(truth), file, options,
+      {RecordCommands(truth, controller, 6, {kNoise, kNoise})}, {}, &torques);
+  ASSERT_TRUE(result.arm.converged()) << result.arm.reason;
+  auto expected = TrueValues(truth);
+  expected["joint1.kp"] = controller.drives[0].kp;
+  expected["joint1.kd"] = controller.drives[0].kd;
+  for (const PhysicalParameter& p : result.arm.parameters) {
+    const auto value = expected.find(p.name);
+    if (value == expected.end()) continue;
+    EXPECT_TRUE(p.identifiable) << p.name;
+    EXPECT_LT(std::abs(p.value - value->second), 3.5 * p.stddev) << p.name;
+    EXPECT_LT(p.stddev, .06 * value->second) << p.name;
+  }
+}
+
+// Logs whose torques tell nothing are named.
+TEST(OutputErrorTest, RefusesWithTheTorquesReason) {
+  const Robot truth = CommandedTruth(1);
+  const ControllerOptions controller = CommandedController(truth);
+  TorqueInformation torques;
+  torques.reason = "nothing moves";
+  const OutputErrorCalibration result = CalibrateOutputError(
+      FileOf(truth), controller, {},
+      {RecordCommands(truth, controller, 6, {kNoise, kNoise})}, {}, &torques);
+  EXPECT_FALSE(result.arm.solved);
+  EXPECT_EQ(result.arm.reason, "the logs with torques: nothing moves");
+}
+
+}  // namespace
+}  // namespace armcal

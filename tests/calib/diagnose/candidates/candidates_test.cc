@@ -1,0 +1,110 @@
+#include "calib/diagnose/candidates/candidates.h"
+
+#include <gmock/gmock.h>
+
+namespace armcal {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using testing::ElementsAre;
+
+// An effect of a size and a grid.
+Effect MakeEffect(const std::vector<double>& larger) {
+  Effect effect;
+  effect.name = "any";
+  effect.parameters.resize(2);
+  effect.larger_sizes = larger;
+  return effect;
+}
+
+GapCandidate MakeCandidate(const Effect& effect, int joint) {
+  GapCandidate candidate;
+  candidate.effect = &effect;
+  candidate.joint = joint;
+  candidate.p = Vector2d(0, 5);
+  candidate.linear = {0};
+  candidate.size = VectorXd::Constant(1, .1);
+  candidate.tried = 3;
+  candidate.torque = {JointRows(1, VectorXd::Ones(4))};
+  return candidate;
+}
+
+TEST(GapCandidates, LargerOnesAreMultiplesAndAllWereTried) {
+  const Effect effect = MakeEffect({2, 4, 8});
+  const auto larger = LargerOnes(MakeCandidate(effect, 0));
+  ASSERT_EQ(larger.size(), 3u);
+  EXPECT_DOUBLE_EQ(larger[0].size[0], .2);
+  EXPECT_DOUBLE_EQ(larger[2].size[0], .8);
+  for (const GapCandidate& one : larger) {
+    EXPECT_EQ(one.tried, 3 * (1 + 3));
+    EXPECT_TRUE(one.is_larger);
+    EXPECT_TRUE(one.torque.empty());  // another size's
+    EXPECT_EQ(one.p[1], 5);
+  }
+  EXPECT_EQ(LargerOnes(MakeCandidate(MakeEffect({}), 0)).size(), 0u);
+}
+
+// From all over the range.
+TEST(GapCandidates, AFewOfManyAreSpread) {
+  std::vector<double> sizes;
+  for (int k = 1; k <= 20; ++k) sizes.push_back(k);
+  const Effect effect = MakeEffect(sizes);
+  const auto few = FewLargerOnes(MakeCandidate(effect, 0));
+  ASSERT_EQ(few.size(), 5u);
+  EXPECT_DOUBLE_EQ(few[0].size[0], .3);
+  EXPECT_DOUBLE_EQ(few[2].size[0], 1.1);
+  EXPECT_DOUBLE_EQ(few[4].size[0], 1.9);
+  EXPECT_EQ(few[0].tried, 3 * 21);
+}
+
+TEST(GapCandidates, FirstShapesAreOneOfEachPlace) {
+  const Effect grows = MakeEffect({2}), linear = MakeEffect({});
+  EXPECT_THAT(FirstShapes({MakeCandidate(linear, 0), MakeCandidate(grows, 0),
+                           MakeCandidate(grows, 0), MakeCandidate(grows, 1)}),
+              ElementsAre(1, 3));
+}
+
+// Events are taken out, and all candidates listed again.
+TEST(GapCandidates, TorquesAreThoseOfTheSameCandidate) {
+  const Effect effect = MakeEffect({2});
+  std::vector<GapCandidate> evaluated = {MakeCandidate(effect, 0),
+                                         MakeCandidate(effect, 1)};
+  evaluated[0].torque[0][0].setConstant(7);
+  std::vector<GapCandidate> again = evaluated;
+  for (GapCandidate& one : again) one.torque.clear();
+  again.push_back(again[0]);
+  again.back().size *= 2;
+  again.push_back(again[1]);
+  again.back().p[1] = 6;
+  std::swap(again[0], again[1]);
+  ReuseTorques(&evaluated, &again);
+  EXPECT_EQ(again[1].torque[0][0], VectorXd::Constant(4, 7));
+  EXPECT_EQ(again[0].torque[0][0], VectorXd::Ones(4));
+  EXPECT_TRUE(again[2].torque.empty());
+  EXPECT_TRUE(again[3].torque.empty());
+  EXPECT_TRUE(evaluated[0].torque.empty());
+}
+
+// With the shape that was fitted, and the size where that matters.
+TEST(GapCandidates, SharperOnesAreAtTheFit) {
+  const Effect grows = MakeEffect({2}), shaped = MakeEffect({});
+  Effect linear = MakeEffect({});
+  linear.parameters.resize(1);
+  std::vector<GapCandidate> fitted = {MakeCandidate(grows, 0),
+                                      MakeCandidate(shaped, 1),
+                                      MakeCandidate(linear, 2)};
+  for (GapCandidate& one : fitted) one.p = Vector2d(.37, 6);
+  const auto sharper = Sharper(fitted);
+  ASSERT_EQ(sharper.size(), 2u);
+  EXPECT_DOUBLE_EQ(sharper[0].size[0], .37);
+  EXPECT_DOUBLE_EQ(sharper[1].size[0], .1);
+  for (const GapCandidate& one : sharper) {
+    EXPECT_EQ(one.p, Vector2d(0, 6));
+    EXPECT_TRUE(one.torque.empty());
+    EXPECT_EQ(one.tried, 3);
+  }
+}
+
+}  // namespace
+}  // namespace armcal

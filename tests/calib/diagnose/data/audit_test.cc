@@ -1,0 +1,38 @@
+#include "calib/diagnose/data/audit.h"
+
+#include "model/dynamics/inverse_dynamics.h"
+#include "tests/fixtures/diagnosed_arm.h"
+
+namespace armcal {
+namespace {
+
+class GapAuditTest : public DiagnosedArm<32> {
+ protected:
+  std::vector<DataFinding> Audit(const Log& log) {
+    LogReaderOptions reader;
+    reader.joint_names = File().JointNames();
+    LogSet logs({WriteFile(LogCsv(log), "audited.csv")}, reader, {});
+    const std::vector<GapSegment> segments = ReadSegments(6, {}, &logs);
+    GapRows rows(segments, 6);
+    return AuditTorque(File(), rows);
+  }
+};
+
+TEST_F(GapAuditTest, MeasuredTorqueIsNoLawOfPosition) {
+  EXPECT_TRUE(Audit(plant_->Run(truth_)).empty());
+}
+
+// As a gravity compensation logs its own command.
+TEST_F(GapAuditTest, TorqueComputedFromPositionIsFound) {
+  Log log = plant_->Run(truth_);
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(2);
+  for (int k = 0; k < log.size(); ++k) {
+    log.tau.row(k) = InverseDynamics(File(), log.q.row(k), rest, rest);
+  }
+  const std::vector<DataFinding> findings = Audit(log);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_THAT(findings[0].finding, testing::HasSubstr("positions"));
+}
+
+}  // namespace
+}  // namespace armcal

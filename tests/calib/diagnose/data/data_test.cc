@@ -1,0 +1,51 @@
+#include "calib/diagnose/data/data.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/fixtures/gap_segment.h"
+#include "tests/fixtures/sample_motion.h"
+#include "tests/fixtures/sample_robots.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Friction that changes sign is doubted; of torques that were made of commands
+// by five thirds of that, and from four samples before to four after.
+TEST(GapData, DoubtsReversalsMoreOfMadeTorques) {
+  std::mt19937_64 random(1);
+  Robot robot = SampleRobot("3R elbow");
+  for (Link& link : robot.links) link.joint.coulomb = 1.5;
+  Log log = RecordMotion(RandomMultisine(&random, 3), 20, .004);
+  log.tau = MatrixXd::Zero(log.size(), 3);
+  const GapBaseline baseline(robot, {}, VectorXd::Constant(3, 10));
+  const auto doubt = [&](bool made) {
+    GapSegment segment = MakeSegment(log);
+    segment.made_torque = made;
+    GapData data({segment}, baseline, 8);
+    data.SetNoise(std::vector<Autoregression>(3));
+    MatrixXd doubt(data.rows().num_thin(), 3);
+    for (int k = 0; k < doubt.rows(); ++k) {
+      for (int j = 0; j < 3; ++j) {
+        doubt(k, j) = std::sqrt(data.rows().variance(j, k) - 1);
+      }
+    }
+    return doubt;
+  };
+  const MatrixXd recorded = doubt(false), made = doubt(true);
+  EXPECT_GT(recorded.maxCoeff(), .01);
+  for (int k = 4; k + 4 < made.rows(); ++k) {
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_NEAR(made(k, j),
+                  5. / 3 * recorded.col(j).segment(k - 4, 9).maxCoeff(), 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace armcal

@@ -1,0 +1,48 @@
+#include "calib/diagnose/judge/confirmation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace armcal {
+namespace {
+
+using Eigen::VectorXd;
+
+class GapConfirmationTest : public testing::Test {
+ protected:
+  GapConfirmationTest() : noise_(4000), effect_(4000) {
+    std::mt19937_64 random(2);
+    std::normal_distribution<double> normal;
+    for (double& x : noise_) x = normal(random);
+    effect_ = .5 * VectorXd::LinSpaced(4000, 0, 300).array().sin();
+  }
+
+  VectorXd noise_, effect_;
+};
+
+// Squares of .5 sin are 500, those of twice it 2000.
+TEST_F(GapConfirmationTest, OfWhatIsThere) {
+  const Confirmation found = Confirm({noise_ + effect_, {}}, {noise_, {}});
+  EXPECT_NEAR(found.expected, 500, 10);
+  EXPECT_NEAR(found.Share(), 1, .25);
+}
+
+TEST_F(GapConfirmationTest, OfWhatIsNotThere) {
+  const Confirmation none = Confirm({noise_}, {noise_ - effect_});
+  EXPECT_NEAR(none.Share(), -1, .15);
+  // Half of what the effect says: nothing is gained.
+  const Confirmation half =
+      Confirm({noise_ + .5 * effect_}, {noise_ - .5 * effect_});
+  EXPECT_NEAR(half.Share(), 0, .15);
+}
+
+TEST_F(GapConfirmationTest, WhatIsTooSmallTellsNothing) {
+  const VectorXd small = .02 * effect_;
+  const Confirmation found = Confirm({noise_ + small}, {noise_});
+  EXPECT_LT(std::abs(found.Share()), .3);
+}
+
+}  // namespace
+}  // namespace armcal

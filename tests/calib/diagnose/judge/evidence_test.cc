@@ -1,0 +1,65 @@
+#include "calib/diagnose/judge/evidence.h"
+
+#include <gtest/gtest.h>
+
+namespace armcal {
+namespace {
+
+// For torques that were recorded, or made of commands.
+class ProbabilityOfTest : public testing::TestWithParam<bool> {
+ protected:
+  static EffectEvidence Clear();
+};
+
+EffectEvidence ProbabilityOfTest::Clear() {
+  EffectEvidence evidence;
+  evidence.made_torque = GetParam();
+  evidence.odds = 8;
+  evidence.strength = 7;
+  evidence.confirmation = {500, 500};
+  return evidence;
+}
+
+TEST_P(ProbabilityOfTest, IsHighForWhatIsClear) {
+  EXPECT_GT(ProbabilityOf(Clear()), .95);
+}
+
+TEST_P(ProbabilityOfTest, FallsWithAllThatSpeaksAgainst) {
+  const double clear = ProbabilityOf(Clear());
+  const auto expect_less = [&](const char* what, auto change) {
+    EffectEvidence evidence = Clear();
+    change(&evidence);
+    EXPECT_LT(ProbabilityOf(evidence), clear) << what;
+  };
+  expect_less("a near rival", [](EffectEvidence* e) { e->odds = 0; });
+  expect_less("little explained", [](EffectEvidence* e) { e->strength = 3; });
+  expect_less("more to come", [](EffectEvidence* e) { e->next = 60; });
+  expect_less("others were needed", [](EffectEvidence* e) { e->chosen = 3; });
+  expect_less("others on its joint", [](EffectEvidence* e) { e->beside = 1; });
+  expect_less("it is easily imitated",
+              [](EffectEvidence* e) { e->imitated = true; });
+  expect_less("held-out data do not care",
+              [](EffectEvidence* e) { e->confirmation.explained = 0; });
+  expect_less("held-out data hardly see it", [](EffectEvidence* e) {
+    e->confirmation = {5, 5};
+  });
+  expect_less("much is left on its joint",
+              [](EffectEvidence* e) { e->left = .5; });
+}
+
+TEST_P(ProbabilityOfTest, AContactFeltByOneJointManyTimesIsNone) {
+  EffectEvidence once = Clear();
+  once.events = 1;
+  once.one_joint = .3;
+  EffectEvidence often = once;
+  often.events = 8;
+  EffectEvidence one_joint = once;
+  one_joint.one_joint = 1;
+  EXPECT_LT(ProbabilityOf(often), ProbabilityOf(once));
+  EXPECT_LT(ProbabilityOf(one_joint), ProbabilityOf(once));
+}
+
+INSTANTIATE_TEST_SUITE_P(Torques, ProbabilityOfTest, testing::Bool());
+
+}  // namespace
+}  // namespace armcal

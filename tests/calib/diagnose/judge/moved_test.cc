@@ -1,0 +1,95 @@
+#include "calib/diagnose/judge/moved.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "calib/diagnose/judge/testability.h"
+#include "tests/fixtures/effect_arm.h"
+#include "tests/fixtures/gap_segment.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kBandwidth = 6;  // Hz
+
+// A fit to a 2R arm's exact motion, whose joint 2 may stand still.
+class GapFitTest : public testing::Test {
+ protected:
+  GapFitTest()
+      : arm_("2R planar (vertical plane)", 30, .005),
+        baseline_(arm_.robot, {}, VectorXd::Constant(2, 10)) {}
+
+  void Fit(const Robot& truth, double noise) {
+    GapSegment segment;
+    segment.motion = arm_.motion;
+    segment.tau =
+        RecordedTorque(truth, baseline_.transitions(), arm_.motion).nominal();
+    AddNoise(&random_, VectorXd::Constant(2, noise), &segment.tau);
+    segment.still.setConstant(segment.size(), 2, false);
+    segment.still.col(1).setConstant(stands_);
+    segment.motion.torque = {segment.tau, .5 / segment.motion.dt};
+    GapFitOptions options;
+    options.bandwidth_hz = kBandwidth;
+    fit_.emplace(baseline_, options, std::vector<GapSegment>{segment},
+                 LogPart::kAll, std::vector<GapSegment>());
+    fit_->Choose();
+  }
+  std::string WhyNot(const std::string& effect,
+                     const std::string& joint) const {
+    for (const UntestableEffect& one : ListUntestable(*fit_)) {
+      if (one.effect == effect && one.joint == joint) return one.why;
+    }
+    return "";
+  }
+
+  EffectArm arm_;
+  GapBaseline baseline_;
+  std::mt19937_64 random_{2};
+  bool stands_ = false;
+  std::optional<GapFit> fit_;
+};
+
+// Three standard deviations of the file's 5 %.
+TEST_F(GapFitTest, WhatIsFarFromTheFileIsListed) {
+  Robot truth = arm_.robot;
+  truth.links[1].joint.viscous *= 1.15;
+  Fit(truth, .05);
+  const auto moved = ListMoved(*fit_, fit_->refined().baseline);
+  ASSERT_FALSE(moved.empty());
+  EXPECT_EQ(moved[0].name, "joint2.viscous");
+  EXPECT_EQ(moved[0].unit, "N m s/rad");
+  EXPECT_DOUBLE_EQ(moved[0].nominal, .8);
+  EXPECT_NEAR(moved[0].value, .92, 4 * moved[0].stddev);
+  EXPECT_LT(moved[0].stddev, .02);
+  EXPECT_NEAR(moved[0].deviations, 3, .6);
+}
+
+TEST_F(GapFitTest, WhatIsAsTheFileSaysIsNot) {
+  Fit(arm_.robot, .05);
+  EXPECT_THAT(ListMoved(*fit_, fit_->refined().baseline), testing::IsEmpty());
+}
+
+TEST_F(GapFitTest, AJointThatStandsShowsNothing) {
+  stands_ = true;
+  Fit(arm_.robot, .05);
+  EXPECT_EQ(WhyNot("stribeck", "joint2"), "the joint does not move");
+  EXPECT_EQ(WhyNot("stribeck", "joint1"), "");
+}
+
+// Noise of less than a hundredth of the torque of a light joint, and of more
+// than that torque.
+TEST_F(GapFitTest, NoiseHidesEffects) {
+  Fit(arm_.robot, .05);
+  EXPECT_EQ(WhyNot("torque_ripple", "joint2"), "");
+  EXPECT_EQ(WhyNot("load_friction", "joint2"), "");
+  Fit(arm_.robot, 20);
+  EXPECT_THAT(WhyNot("torque_ripple", "joint2"), testing::HasSubstr("noise"));
+  EXPECT_THAT(WhyNot("load_friction", "joint2"), testing::HasSubstr("noise"));
+}
+
+}  // namespace
+}  // namespace armcal

@@ -1,0 +1,131 @@
+#include "calib/diagnose/select/excess.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kStep = .01, kCoulomb = 10, kNoise = .5;
+
+// One joint that rests for 10 s and then moves at 1 rad/s for 10 s.
+class ExcessOfAJoint : public testing::Test {
+ protected:
+  ExcessOfAJoint() {
+    GapSegment segment;
+    segment.motion.dt = kStep;
+    segment.motion.q.setZero(2000, 1);
+    segment.motion.qd.setZero(2000, 1);
+    segment.motion.qd.bottomRows(1000).setOnes();
+    segment.tau.setZero(2000, 1);
+    segment.still = segment.motion.qd.array() == 0;
+    segments_ = {segment};
+    rows_.emplace(segments_, 10);
+    std::vector<Autoregression> noise(1);
+    noise[0].sigma = kNoise;
+    rows_->SetNoise(noise, MatrixXd::Zero(rows_->num_thin(), 1));
+  }
+  // At `time`, of a residual that is `rest` before 10 s and `moving` after.
+  double Deviations(double rest, double moving, double time) const {
+    Robot robot;
+    robot.links.resize(1);
+    robot.links[0].joint.coulomb = kCoulomb;
+    const GapBaseline baseline(robot, BaselineOptions(),
+                               VectorXd::Constant(1, 10));
+    MatrixXd residual(rows_->num_thin(), 1);
+    int at = 0;
+    for (int k = 0; k < residual.rows(); ++k) {
+      residual(k, 0) = rows_->thin_time(0, k) < 10 ? rest : moving;
+      if (rows_->thin_time(0, k) < time) at = k;
+    }
+    return ExcessOverFriction(baseline, VectorXd::Zero(baseline.size()), *rows_,
+                              residual)
+        .deviations(at, 0);
+  }
+
+  std::vector<GapSegment> segments_;
+  std::optional<GapRows> rows_;
+};
+
+// What friction holds at rest is unknown; in motion it is in the model, and a
+// push along the motion has to overcome all of it to be seen.
+TEST_F(ExcessOfAJoint, IsWhatIsBeyondItsFriction) {
+  EXPECT_NEAR(Deviations(9, 0, 5), (9 - kCoulomb) / kNoise, 1e-9);
+  EXPECT_NEAR(Deviations(-14, 0, 5), (14 - kCoulomb) / kNoise, 1e-9);
+  EXPECT_NEAR(Deviations(0, 0, 15), 0, 1e-3);
+  EXPECT_NEAR(Deviations(0, -25, 15), (25 - 2 * kCoulomb) / kNoise, 1e-3);
+}
+
+// All of the motion against more friction than the model's is friction.
+TEST_F(ExcessOfAJoint, AllowsForTheFrictionOfTheDay) {
+  EXPECT_NEAR(Deviations(0, 3, 15), 0, 1e-3);
+  EXPECT_NEAR(Deviations(14, 3, 5), (14 - kCoulomb - 3) / kNoise, 1e-3);
+}
+
+TEST_F(ExcessOfAJoint, HasMaximaOfBlocks) {
+  // 20 s without .4 s at both ends.
+  EXPECT_NEAR(BlockTime(*rows_), 1.92, .01);
+  const int size = rows_->num_thin();
+  const std::vector<double> maxima =
+      BlockMaxima(*rows_, 2, VectorXd::LinSpaced(size, 0, size - 1));
+  ASSERT_EQ(maxima.size(), 10u);
+  EXPECT_EQ(maxima.back(), size - 1);
+  for (size_t k = 0; k + 1 < maxima.size(); ++k) {
+    const int last = static_cast<int>(maxima[k]);
+    EXPECT_LT(rows_->thin_time(0, last), 2. * (k + 1));
+    EXPECT_GE(rows_->thin_time(0, last + 1), 2. * (k + 1));
+  }
+}
+
+// Of exponential maxima as many further ones pass it as it says.
+class PredictedMaxima : public testing::Test {
+ protected:
+  std::vector<double> Draw(int size) {
+    std::vector<double> maxima(size);
+    for (double& x : maxima) x = maximum_(random_);
+    return maxima;
+  }
+  template <typename Limit>
+  double ShareAbove(Limit limit) {
+    int passed = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      const std::vector<double> further = Draw(kFurther);
+      passed += *std::max_element(further.begin(), further.end()) > limit();
+    }
+    return passed / double(kDraws);
+  }
+  static constexpr int kDraws = 20000, kFurther = 14;
+  std::mt19937_64 random_{1};
+  std::exponential_distribution<double> maximum_{.7};
+};
+
+// What is held is the expected number of passes, and the median is not known
+// exactly either.
+TEST_F(PredictedMaxima, ArePassedAsOftenAsTheySay) {
+  for (const double p : {.01, .05}) {
+    EXPECT_NEAR(
+        ShareAbove([&] { return PredictedMaximum(Draw(29), kFurther, p); }), p,
+        p / 2);
+    EXPECT_LT(ShareAbove(
+                  [&] { return PredictedUsualMaximum(Draw(29), kFurther, p); }),
+              1.5 * p);
+  }
+}
+
+// A fifth of them is something else.
+TEST_F(PredictedMaxima, OfTheUsualDoNotHeedAFew) {
+  std::vector<double> maxima = Draw(100);
+  const double limit = PredictedUsualMaximum(maxima, 100, .01);
+  EXPECT_LT(limit, 40);
+  std::fill(maxima.begin(), maxima.begin() + 20, 1000.);
+  EXPECT_LT(PredictedUsualMaximum(maxima, 100, .01), 3 * limit);
+  EXPECT_GT(PredictedMaximum(maxima, 100, .01), 1000);
+}
+
+}  // namespace
+}  // namespace armcal

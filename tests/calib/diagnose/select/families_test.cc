@@ -1,0 +1,63 @@
+#include "calib/diagnose/select/families.h"
+
+#include "tests/fixtures/diagnosed_arm.h"
+
+namespace armcal {
+namespace {
+
+using GapFamiliesTest = DiagnosedArm<32>;
+
+Robot WithoutFriction(Robot robot) {
+  for (Link& link : robot.links) link.joint.viscous = link.joint.coulomb = 0;
+  return robot;
+}
+
+TEST_F(GapFamiliesTest, AFrictionlessFileLacksFrictionOnAllJoints) {
+  const GapDiagnosis diagnosis = Diagnose(WithoutFriction(File()));
+  for (const auto& [effect, name, truth] :
+       {std::make_tuple("viscous_friction", ".viscous", .8),
+        std::make_tuple("coulomb_friction", ".coulomb", 1.5)}) {
+    SCOPED_TRACE(effect);
+    const auto found =
+        std::find_if(diagnosis.effects.begin(), diagnosis.effects.end(),
+                     [wanted = effect](const FoundEffect& f) {
+                       return f.effect->name == wanted;
+                     });
+    ASSERT_NE(found, diagnosis.effects.end());
+    EXPECT_EQ(found->joint, -1);
+    ASSERT_EQ(found->estimates.size(), 2u);
+    for (const Link& link : File().links) {
+      ExpectEstimate(*found, link.joint.name + name, truth, .05);
+    }
+  }
+  // Every step of the ladder leaves less, the last little.
+  const LackedFamilies& ladder = diagnosis.ladder;
+  ASSERT_GE(ladder.families.size(), 2u);
+  EXPECT_LT(ladder.families[0].left.norm(), .8 * ladder.without.norm());
+  EXPECT_LT(ladder.families[1].left.norm(),
+            .3 * ladder.families[0].left.norm());
+}
+
+TEST_F(GapFamiliesTest, AFileWithFrictionLacksNone) {
+  EXPECT_TRUE(Diagnose(File()).ladder.families.empty());
+}
+
+// Not all that a file leaves out is there: this arm has no offsets, and the
+// armature that its file has.
+TEST_F(GapFamiliesTest, WhatTheRobotDoesNotHaveEitherIsNotLacked) {
+  Robot file = WithoutFriction(File());
+  for (const LackedFamily& family : Diagnose(file).ladder.families) {
+    EXPECT_THAT(family.effect->name,
+                testing::AnyOf("viscous_friction", "coulomb_friction"));
+  }
+}
+
+// With a log from before, it is no news that the file had none.
+TEST_F(GapFamiliesTest, AreNoEffectBesideAReference) {
+  const GapDiagnosis diagnosis = Diagnose(WithoutFriction(File()), true);
+  EXPECT_GE(diagnosis.ladder.families.size(), 2u);
+  EXPECT_TRUE(diagnosis.effects.empty());
+}
+
+}  // namespace
+}  // namespace armcal

@@ -1,0 +1,106 @@
+#include "calib/diagnose/select/reference.h"
+
+#include "tests/fixtures/diagnosed_arm.h"
+
+namespace armcal {
+namespace {
+
+using testing::Contains;
+using testing::Field;
+
+class GapReferenceTest : public DiagnosedArm<32> {
+ protected:
+  // A log of what the arm was before, read and fitted.
+  ReferenceModel Fit(double hz) {
+    LogReaderOptions reader;
+    reader.joint_names = File().JointNames();
+    LogSet logs({Record(before_, "reference.csv")}, reader, {});
+    segments_ = ReadSegments(hz, {}, &logs);
+    BaselineOptions options;
+    options.timing_s = .05;
+    const GapBaseline file(File(), options, UsualTorque(segments_));
+    return FitReference(file, hz, &segments_);
+  }
+
+  static constexpr double kQuadratic = .8;  // N m s^2/rad^2
+  static constexpr double kLate = .018;     // s
+  std::vector<GapSegment> segments_;
+};
+
+TEST_F(GapReferenceTest, KnowsWhatTheReferenceShows) {
+  constexpr double kBandwidth = 6, kHalfRate = EffectPlant::kLogRate / 2;
+  AddAlways("quadratic_friction", 1, {kQuadratic});
+  const ReferenceModel model = Fit(kBandwidth);
+  EXPECT_NEAR(model.delay, 0, .001);
+  const std::vector<KnownEffect> known = model.baseline.known().At(
+      Eigen::VectorXd::Ones(model.baseline.known().parameters().size()));
+  ASSERT_EQ(known.size(), 1u);
+  EXPECT_EQ(known[0].effect->name, "quadratic_friction");
+  EXPECT_EQ(known[0].joint, 1);
+  EXPECT_NEAR(known[0].p[0], kQuadratic, .1 * kQuadratic);
+  // As large as what torques were given, of which the bandwidth leaves a part.
+  const double white = kNoise * std::sqrt(kBandwidth / kHalfRate);
+  const GapNoise noise = ReferenceNoise(model.baseline, kBandwidth, segments_);
+  for (const Autoregression& joint : noise.joints) {
+    EXPECT_NEAR(joint.stddev() / white, 1, .35);
+  }
+}
+
+TEST_F(GapReferenceTest, KnowsHowLateTorqueIs) {
+  AddAlways("delay", -1, {-kLate});
+  EXPECT_NEAR(Fit(6).delay, kLate, .001);
+}
+
+TEST_F(GapReferenceTest, WhatItsLogShowedIsNoChange) {
+  AddAlways("quadratic_friction", 1, {kQuadratic});
+  AddAlways("delay", -1, {-kLate});
+  std::vector<double> p(FindEffect("payload")->parameters.size(), 0);
+  p[0] = .3;  // kg
+  Add("payload", -1, p);
+  const GapDiagnosis diagnosis = Diagnose(File(), true);
+  ExpectFirst(diagnosis, "payload", -1);
+  ExpectEstimate(diagnosis.effects[0], "mass", .3, .02);
+  EXPECT_EQ(diagnosis.effects.size(), 1u);
+  EXPECT_NEAR(diagnosis.corrected.delay, kLate, .001);
+  ASSERT_FALSE(diagnosis.shown.empty());
+  EXPECT_EQ(diagnosis.shown[0].effect->name, "quadratic_friction");
+}
+
+// Friction is never the same on another day: that is said, and is no effect.
+TEST_F(GapReferenceTest, FrictionOfTheDayIsSaidNotBlamed) {
+  const double change = .08;  // of 1.5 N m
+  Add("coulomb_friction", 0, {change});
+  Add("coulomb_friction", 1, {-change});
+  const GapDiagnosis diagnosis = Diagnose(File(), true);
+  EXPECT_TRUE(diagnosis.effects.empty());
+  for (const int j : {0, 1}) {
+    const std::string name = File().links[j].joint.name + ".coulomb";
+    ASSERT_THAT(diagnosis.moved, Contains(Field(&MovedParameter::name, name)));
+    for (const MovedParameter& moved : diagnosis.moved) {
+      if (moved.name != name) continue;
+      EXPECT_NEAR(moved.value - moved.nominal, j == 0 ? change : -change,
+                  .2 * change + 3 * moved.stddev);
+    }
+  }
+}
+
+// The day is the same for all joints.
+TEST_F(GapReferenceTest, FrictionOfOneJointIsAChange) {
+  Add("coulomb_friction", 1, {.12});  // of 1.5 N m
+  const GapDiagnosis diagnosis = Diagnose(File(), true);
+  ASSERT_EQ(diagnosis.effects.size(), 1u);
+  EXPECT_EQ(diagnosis.effects[0].effect->name, "coulomb_friction");
+  EXPECT_EQ(diagnosis.effects[0].joint, 1);
+  ExpectEstimate(diagnosis.effects[0], "coulomb", .12, .2);
+}
+
+// A brake that drags is more than a day.
+TEST_F(GapReferenceTest, MoreThanADayIsAnEffect) {
+  Add("coulomb_friction", 1, {.9});
+  const GapDiagnosis diagnosis = Diagnose(File(), true);
+  ExpectFirst(diagnosis, "coulomb_friction", 1);
+  ExpectEstimate(diagnosis.effects[0], "coulomb", .9, .1);
+}
+
+}  // namespace
+}  // namespace armcal

@@ -1,0 +1,134 @@
+#include "calib/inspect/inspection.h"
+
+#include <gtest/gtest.h>
+
+#include "calib/inspect/inspection_report.h"
+#include "model/log_files/log_reader.h"
+#include "model/log_files/log_writer.h"
+#include "tests/fixtures/inspected_arm.h"
+#include "tests/fixtures/temp_file.h"
+
+namespace armcal {
+namespace {
+
+using testing::Test;
+
+class InspectionTest : public Test {
+ protected:
+  InspectionTest() : arm_("3R elbow") {
+    options_.joint_names = arm_.robot.JointNames();
+  }
+
+  LogInspection Inspect(const Log& log) {
+    path_ = WriteFile(LogCsv(log), "inspected.csv");
+    return InspectLog(arm_.robot, path_, options_);
+  }
+
+  InspectedArm arm_;
+  LogReaderOptions options_;
+  std::string path_;
+};
+
+TEST_F(InspectionTest, ACleanLogIsClean) {
+  const LogInspection inspection = Inspect(arm_.log);
+  EXPECT_TRUE(inspection.findings.empty());
+  EXPECT_TRUE(inspection.as_it_is);
+  EXPECT_LT(inspection.residual_percent, 5);
+  const LogCoverage coverage = CoverageOf(arm_.robot, path_, options_);
+  EXPECT_TRUE(coverage.known) << coverage.reason;
+  EXPECT_EQ(coverage.rank, coverage.total);
+  EXPECT_TRUE(coverage.findings.empty());
+}
+
+TEST_F(InspectionTest, AWrongSignIsNamedAndMended) {
+  Log wrong = arm_.log;
+  wrong.tau.col(1) *= -1;
+  const LogInspection inspection = Inspect(wrong);
+  ASSERT_EQ(inspection.findings.size(), 1u);
+  EXPECT_EQ(inspection.findings[0].finding, "torque_sign");
+  EXPECT_EQ(inspection.findings[0].joint, 1);
+  EXPECT_FALSE(inspection.as_it_is);
+  const Log mended = Mended(arm_.robot, wrong, inspection);
+  EXPECT_LT((mended.tau - arm_.log.tau).cwiseAbs().maxCoeff(), 1e-12);
+  const std::string text = FullReport(arm_.robot, {}, {inspection});
+  EXPECT_NE(text.find("the torque of joint2 has the wrong sign"),
+            std::string::npos)
+      << text;
+  const nlohmann::json json = ToJson(arm_.robot, {}, {inspection});
+  EXPECT_EQ(json["logs"][0]["findings"][0]["joint_index"], 2);
+  EXPECT_EQ(json["logs"][0]["coverage"]["known"], false);
+}
+
+TEST_F(InspectionTest, TimeInMillisecondsIsNamed) {
+  Log wrong = arm_.log;
+  wrong.t *= 1000;
+  const LogInspection inspection = Inspect(wrong);
+  ASSERT_FALSE(inspection.findings.empty());
+  EXPECT_EQ(inspection.findings[0].finding, "time_unit");
+  EXPECT_NEAR(inspection.duration, 20, .1);
+}
+
+// A tenth of a second of one joint's torque, every other second, is off.
+TEST_F(InspectionTest, GrossErrorsAreNamedWithTheirJoint) {
+  Log wrong = arm_.log;
+  const double size = 20 * ColumnRms(wrong.tau)[2];
+  for (int s = 100; s < wrong.size(); s += 40) wrong.tau(s, 2) += size;
+  const LogInspection inspection = Inspect(wrong);
+  const LogCoverage coverage = CoverageOf(arm_.robot, path_, options_);
+  ASSERT_TRUE(coverage.known) << coverage.reason;
+  ASSERT_EQ(coverage.findings.size(), 1u);
+  EXPECT_EQ(coverage.findings[0].finding, "outliers");
+  EXPECT_EQ(coverage.findings[0].joint, 2);
+}
+
+TEST_F(InspectionTest, AJointAtRestIsMissed) {
+  Log still = RecordMotion(
+      [] {
+        std::mt19937_64 random(2);
+        Multisine motion = RandomMultisine(&random, 3);
+        motion.amplitude.row(2).setZero();
+        return motion;
+      }(),
+      20, .01);
+  AddTorque(arm_.robot, &still);
+  std::mt19937_64 random(4);
+  AddNoise(&random, .01 * ColumnRms(still.tau), &still.tau);
+  Inspect(still);
+  const LogCoverage coverage = CoverageOf(arm_.robot, path_, options_);
+  ASSERT_TRUE(coverage.known) << coverage.reason;
+  EXPECT_LT(coverage.rank, coverage.total);
+  EXPECT_EQ(coverage.unseen.size(),
+            static_cast<size_t>(coverage.total - coverage.rank));
+  EXPECT_NE(coverage.advice.find("joint3"), std::string::npos)
+      << coverage.advice;
+}
+
+// A log of commands and positions: what can be told without a torque.
+TEST_F(InspectionTest, CommandsAloneAreDescribed) {
+  Log commanded = arm_.log;
+  commanded.tau.resize(0, 0);
+  commanded.qd.resize(0, 0);
+  commanded.qref = commanded.q.array() + .01;
+  path_ = WriteFile(LogText(commanded), "commanded.csv");
+  const LogInspection inspection = InspectLog(arm_.robot, path_, options_);
+  EXPECT_TRUE(inspection.findings.empty());
+  EXPECT_TRUE(inspection.torque_source.empty());
+  EXPECT_NEAR(inspection.tracking_rms[1], .01, 1e-9);
+  EXPECT_GT(inspection.top_speed[1], 0);
+  EXPECT_FALSE(inspection.as_it_is);
+  const auto text = FullReport(arm_.robot, {}, {inspection});
+  EXPECT_NE(text.find("torque: none; commands (qref)"), std::string::npos);
+  EXPECT_NE(text.find("0.01 rad rms off its command"), std::string::npos);
+  // Time in ms is mended without a torque, too.
+  commanded.t *= 1000;
+  path_ = WriteFile(LogText(commanded), "commanded.csv");
+  const LogInspection slow = InspectLog(arm_.robot, path_, options_);
+  ASSERT_EQ(slow.findings.size(), 1u);
+  EXPECT_EQ(slow.findings[0].finding, "time_unit");
+  const Log mended = Mended(arm_.robot, commanded, slow);
+  EXPECT_NEAR(mended.t[100], arm_.log.t[100], 1e-9);
+  EXPECT_EQ(mended.qref, commanded.qref);
+}
+
+}  // namespace
+}  // namespace armcal

@@ -1,0 +1,114 @@
+#include "calib/inspect/log_reading.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "tests/fixtures/inspected_arm.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::Vector3d;
+using Kind = ReadingChange::Kind;
+
+class LogReadingTest : public testing::Test {
+ protected:
+  ReadingFinding Read() const {
+    return FindReading(robot_, UniformSeries(log_, .01, .05, 8));
+  }
+  // One change, of this kind and joint.
+  void ExpectOne(Kind kind, int joint = -1, int other = -1) const {
+    const ReadingFinding found = Read();
+    ASSERT_EQ(found.changes.size(), 1u);
+    EXPECT_EQ(found.changes[0].kind, kind);
+    EXPECT_EQ(found.changes[0].joint, joint);
+    EXPECT_EQ(found.changes[0].other, other);
+    EXPECT_LT(found.residual_percent, .5 * found.residual_percent_as_is);
+  }
+
+  InspectedArm arm_;
+  Robot robot_ = arm_.robot;
+  Log log_ = arm_.log;
+};
+
+TEST_F(LogReadingTest, AsItIs) {
+  const ReadingFinding found = Read();
+  EXPECT_TRUE(found.changes.empty());
+  EXPECT_LT(found.residual_percent, 5);
+}
+
+TEST_F(LogReadingTest, ExchangedJoints) {
+  log_.q.col(1).swap(log_.q.col(2));
+  log_.tau.col(1).swap(log_.tau.col(2));
+  ExpectOne(Kind::kExchanged, 1, 2);
+}
+
+TEST_F(LogReadingTest, SignOfThePosition) {
+  log_.q.col(2) *= -1;
+  ExpectOne(Kind::kPositionSign, 2);
+}
+
+TEST_F(LogReadingTest, SignOfTheTorque) {
+  log_.tau.col(5) *= -1;
+  ExpectOne(Kind::kTorqueSign, 5);
+}
+
+TEST_F(LogReadingTest, SignOfBoth) {
+  log_.q.col(1) *= -1;
+  log_.tau.col(1) *= -1;
+  ExpectOne(Kind::kJointSign, 1);
+}
+
+TEST_F(LogReadingTest, TwoFaults) {
+  log_.q.col(0) *= -1;
+  log_.tau.col(3) *= -1;
+  const ReadingFinding found = Read();
+  ASSERT_EQ(found.changes.size(), 2u);
+  EXPECT_EQ(found.reading.wiring.position_sign[0], -1);
+  EXPECT_EQ(found.reading.wiring.torque_sign[3], -1);
+}
+
+TEST_F(LogReadingTest, Degrees) {
+  log_.q *= 180 / M_PI;
+  ExpectOne(Kind::kDegrees);
+}
+
+TEST_F(LogReadingTest, GravityElsewhere) {
+  const Vector3d truth = robot_.gravity;
+  robot_.gravity = Eigen::AngleAxisd(.5, Vector3d::UnitX()) * robot_.gravity;
+  const ReadingFinding found = Read();
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes[0].kind, Kind::kGravity);
+  EXPECT_LT((found.reading.gravity - truth).norm(), .05 * truth.norm());
+}
+
+TEST_F(LogReadingTest, TorquesWithoutGravity) {
+  Robot weightless = robot_;
+  weightless.gravity.setZero();
+  Log other = log_;
+  other.tau.setZero();
+  AddTorque(robot_, &other);
+  log_.tau -= other.tau;
+  other.tau.setZero();
+  AddTorque(weightless, &other);
+  log_.tau += other.tau;
+  const ReadingFinding found = Read();
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes[0].kind, Kind::kGravity);
+  EXPECT_EQ(found.reading.gravity.norm(), 0);
+}
+
+// Rows are 10 ms apart: the torque of two rows before.
+TEST_F(LogReadingTest, LateTorques) {
+  const Eigen::Index size = log_.tau.rows() - 2;
+  log_.tau.bottomRows(size) = arm_.log.tau.topRows(size);
+  const ReadingFinding found = Read();
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes[0].kind, Kind::kDelay);
+  EXPECT_NEAR(found.reading.delay, .02, .003);
+}
+
+}  // namespace
+}  // namespace armcal

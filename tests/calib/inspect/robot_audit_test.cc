@@ -1,0 +1,68 @@
+#include "calib/inspect/robot_audit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/inspected_arm.h"
+
+namespace armcal {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+
+std::vector<std::string> Names(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const InspectionFinding& finding : AuditRobot(robot)) {
+    names.push_back(finding.finding);
+  }
+  return names;
+}
+
+class RobotAuditTest : public testing::Test {
+ protected:
+  RobotAuditTest() {
+    for (Link& link : robot_.links) {
+      link.joint.lower = -2;
+      link.joint.upper = 2;
+      link.inertial = InertialParameters::FromCenterOfMass(
+          2 + .1 * static_cast<double>(&link - &robot_.links[0]),
+          {.05, .02, .01}, Eigen::Vector3d(.01, .012, .015).asDiagonal());
+    }
+    robot_.links[1].inertial.inertia *= 1.2;
+  }
+  Robot robot_ = InspectedArm().robot;
+};
+
+TEST_F(RobotAuditTest, NothingIsWrong) {
+  EXPECT_THAT(Names(robot_), testing::IsEmpty());
+}
+
+TEST_F(RobotAuditTest, MissingThings) {
+  robot_.links[2].has_inertial = false;
+  EXPECT_THAT(Names(robot_), ElementsAre("no_inertia"));
+  robot_.links[2].joint.upper = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(Names(robot_), ElementsAre("no_inertia", "no_limits"));
+}
+
+TEST_F(RobotAuditTest, WhatCannotExist) {
+  robot_.links[0].inertial.inertia(0, 0) *= 10;
+  EXPECT_THAT(Names(robot_), ElementsAre("unphysical"));
+}
+
+TEST_F(RobotAuditTest, MeshesInMillimetres) {
+  robot_.links[3].inertial = InertialParameters::FromCenterOfMass(
+      2, {50, 20, 10}, 1e6 * Eigen::Matrix3d::Identity());
+  EXPECT_THAT(Names(robot_), Contains("suspicious_inertia"));
+}
+
+TEST_F(RobotAuditTest, Placeholders) {
+  for (Link& link : robot_.links) {
+    link.inertial = InertialParameters::FromCenterOfMass(
+        1, Eigen::Vector3d::Zero(), .01 * Eigen::Matrix3d::Identity());
+  }
+  EXPECT_THAT(Names(robot_), ElementsAre("default_inertia", "default_inertia"));
+}
+
+}  // namespace
+}  // namespace armcal

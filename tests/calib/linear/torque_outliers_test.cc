@@ -1,0 +1,89 @@
+#include "calib/linear/torque_outliers.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/calib/linear/spoiled_torque.h"
+
+namespace armcal {
+namespace {
+
+class TorqueOutliers : public testing::TestWithParam<const char*> {};
+
+TEST_P(TorqueOutliers, MoveLittleAndAreListed) {
+  const Outcome o = Compare(Record(GetParam(), 1));
+  std::printf(
+      "%s: moves %.3f rms, %.3f largest, squared %.1f; recall %.4f, precision "
+      "%.4f\n",
+      GetParam(), o.rms, o.largest, o.squared_rms, o.recall, o.precision);
+  EXPECT_LE(o.rms, .35);
+  EXPECT_LE(o.largest, 1);
+  EXPECT_GE(o.squared_rms, 4);
+  EXPECT_GE(o.recall, .99);
+  EXPECT_GE(o.precision, .99);
+  EXPECT_EQ(o.listed_of_clean, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Arms, TorqueOutliers,
+                         testing::Values("UR5 6R", "PUMA560 6R"));
+
+// The share of planted samples that are listed, and of listed ones that were
+// planted; of a log whose rows stand in the file as they are.
+void ExpectListed(const Recording& run, const Log& log, const Samples& planted,
+                  double bandwidth_hz) {
+  LinearCalibrationOptions options;
+  options.transition = kTransition;
+  options.bandwidth_hz = bandwidth_hz;
+  const Calibrated c = CalibrateAndList(run.robot, log, options);
+  double right = 0;
+  for (const auto& sample : c.listed) {
+    right += static_cast<double>(planted.count(sample));
+  }
+  EXPECT_GE(right, .99 * static_cast<double>(planted.size()));
+  EXPECT_GE(right, .99 * static_cast<double>(c.listed.size()));
+}
+
+// Rows at uneven times: what is judged is the row, not the grid it is put on.
+TEST(OutlierRows, AreRowsOfUnevenLogs) {
+  const Recording run = Record("UR5 6R", 3);
+  std::mt19937_64 random(3);
+  Log uneven;
+  Samples planted;
+  std::vector<int> rows;
+  for (int k = 0; k < run.spoiled.size(); ++k) {
+    if (Uniform(&random, 0, 1) < .1) continue;  // dropped
+    for (int j = 0; j < 6; ++j) {
+      if (run.planted.count({k + 2, j}) == 0) continue;
+      planted.insert({static_cast<long>(rows.size()) + 2, j});
+    }
+    rows.push_back(k);
+  }
+  uneven.t = run.spoiled.t(rows);
+  uneven.q = run.spoiled.q(rows, Eigen::all);
+  uneven.tau = run.spoiled.tau(rows, Eigen::all);
+  ExpectListed(run, uneven, planted, 8);
+}
+
+// Every third of 400 Hz is left at a bandwidth of 8 Hz; rows are judged before.
+TEST(OutlierRows, AreFoundBeforeTheLogIsThinned) {
+  const Recording run = Record("UR5 6R", 4, 1);
+  std::mt19937_64 random(4);
+  const Robot& robot = run.robot;
+  Log motion = RecordMotion(RandomMultisine(&random, 6, 1.2), 15, .0025);
+  AddTorque(robot, &motion);
+  const Eigen::VectorXd sigma = kNoiseShare * ColumnRms(motion.tau);
+  AddNoise(&random, sigma, &motion.tau);
+  Samples planted;
+  for (int k = 0; k < motion.size(); ++k) {
+    for (int j = 0; j < 6; ++j) {
+      if (Uniform(&random, 0, 1) >= kOutlierShare) continue;
+      motion.tau(k, j) += kOutlierSize * sigma[j];
+      planted.insert({k + 2, j});
+    }
+  }
+  ExpectListed(run, motion, planted, 8);
+}
+
+}  // namespace
+}  // namespace armcal

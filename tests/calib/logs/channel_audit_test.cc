@@ -1,0 +1,110 @@
+#include "calib/logs/channel_audit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/fixtures/inspected_arm.h"
+
+namespace armcal {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+class ChannelAuditTest : public testing::Test {
+ protected:
+  std::vector<std::string> Names() const {
+    std::vector<std::string> names;
+    for (const InspectionFinding& finding :
+         AuditChannels(arm_.robot, arm_.log, AuditStamps(arm_.log))) {
+      names.push_back(finding.finding);
+    }
+    return names;
+  }
+  void Keep(const std::vector<int>& rows) {
+    Log& log = arm_.log;
+    log.t = Eigen::VectorXd(log.t(rows));
+    for (Eigen::MatrixXd* x : {&log.q, &log.qd, &log.qdd, &log.tau}) {
+      *x = Eigen::MatrixXd((*x)(rows, Eigen::all));
+    }
+  }
+
+  InspectedArm arm_{"2R planar (vertical plane)", 10};
+};
+
+TEST_F(ChannelAuditTest, NothingIsWrong) {
+  EXPECT_THAT(Names(), IsEmpty());
+  const StampFigures stamps = AuditStamps(arm_.log);
+  EXPECT_NEAR(stamps.step, .01, 1e-9);
+  EXPECT_EQ(stamps.unit, 1);
+  EXPECT_EQ(stamps.lost_share, 0);
+}
+
+TEST_F(ChannelAuditTest, TimeInOtherUnits) {
+  for (const double factor : {1e3, 1e6, 1e9}) {
+    InspectedArm arm("2R planar (vertical plane)", 10);
+    arm.log.t *= factor;
+    const StampFigures stamps = AuditStamps(arm.log);
+    EXPECT_DOUBLE_EQ(stamps.unit, 1 / factor);
+    EXPECT_NEAR(stamps.step, .01, 1e-9);
+  }
+  Log log = arm_.log;
+  log.t *= 1e3;
+  const auto findings = AuditChannels(arm_.robot, arm_.log, AuditStamps(log));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].finding, "time_unit");
+}
+
+TEST_F(ChannelAuditTest, EveryThirdSampleIsLost) {
+  std::vector<int> rows;
+  for (int k = 0; k < arm_.log.size(); ++k) {
+    if (k % 3 != 0) rows.push_back(k);
+  }
+  Keep(rows);
+  EXPECT_THAT(Names(), ElementsAre("lost_samples"));
+  EXPECT_NEAR(AuditStamps(arm_.log).lost_share, 1. / 3, .01);
+}
+
+// Steps that vary are no losses.
+TEST_F(ChannelAuditTest, JitterIsNoLoss) {
+  std::mt19937_64 random(1);
+  for (int k = 1; k + 1 < arm_.log.size(); ++k) {
+    arm_.log.t[k] += Uniform(&random, -.001, .001);
+  }
+  EXPECT_THAT(Names(), IsEmpty());
+}
+
+TEST_F(ChannelAuditTest, StuckColumns) {
+  arm_.log.tau.col(1).segment(300, 250).setConstant(arm_.log.tau(300, 1));
+  EXPECT_THAT(Names(), ElementsAre("stuck"));
+}
+
+TEST_F(ChannelAuditTest, StuckPosition) {
+  arm_.log.q.col(0).setConstant(.3);
+  const auto names = Names();
+  EXPECT_THAT(names, testing::Contains("stuck"));
+}
+
+TEST_F(ChannelAuditTest, VelocityOfOtherSignOrUnit) {
+  arm_.log.qd.col(0) *= -1;
+  EXPECT_THAT(Names(), ElementsAre("velocity"));
+  arm_.log.qd.col(0) *= -180 / M_PI;
+  EXPECT_THAT(Names(), ElementsAre("velocity"));
+}
+
+TEST_F(ChannelAuditTest, TorqueAtItsLimit) {
+  const double limit = .7 * arm_.log.tau.col(0).maxCoeff();
+  arm_.log.tau.col(0) = arm_.log.tau.col(0).cwiseMin(limit).eval();
+  EXPECT_THAT(Names(), ElementsAre("saturated"));
+}
+
+TEST_F(ChannelAuditTest, CoarseTorque) {
+  const double step = arm_.log.tau.col(0).cwiseAbs().maxCoeff() / 15;
+  arm_.log.tau.col(0) = step * (arm_.log.tau.col(0) / step).array().round();
+  EXPECT_THAT(Names(), testing::Contains("quantised"));
+}
+
+}  // namespace
+}  // namespace armcal

@@ -1,0 +1,55 @@
+#include "model/dynamics/joint_warmth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace armcal {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kStep = .05;  // s
+constexpr int kSamples = 1200;
+
+// 4 W for 20 s, then nothing, of a joint of 3 J/K and 5 K/W: in closed form.
+struct WarmedJoint {
+  WarmedJoint() : power(kSamples), warmth(kSamples) {
+    const double end = 20, T = 15;
+    for (int k = 0; k < kSamples; ++k) {
+      const double t = k * kStep;
+      power[k] = t <= end ? 4 : 0;
+      warmth[k] = t <= end
+                      ? -20 * std::expm1(-t / T)
+                      : -20 * std::expm1(-end / T) * std::exp(-(t - end) / T);
+    }
+  }
+  VectorXd power, warmth;
+};
+
+TEST(FitThermal, FindsCapacityAndResistance) {
+  const WarmedJoint joint;
+  const JointThermal fitted = FitThermal(joint.power, joint.warmth, kStep);
+  EXPECT_NEAR(fitted.capacity * fitted.resistance, 15, .1 * 15);
+  EXPECT_NEAR(fitted.resistance, 5, .1 * 5);
+}
+
+TEST(FitThermal, ZeroAndNoiseOfTheThermometerDoNotMatter) {
+  WarmedJoint joint;
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, .3);
+  for (double& T : joint.warmth) T += 25 + noise(random);
+  EXPECT_NEAR(FitThermal(joint.power, joint.warmth, kStep).resistance, 5, .5);
+}
+
+// A joint that cools while it works tells nothing of itself.
+TEST(FitThermal, WarmthFromElsewhereGivesTheUsualJoint) {
+  const WarmedJoint joint;
+  const JointThermal fitted = FitThermal(joint.power, -joint.warmth, kStep);
+  EXPECT_EQ(fitted.capacity, JointThermal().capacity);
+  EXPECT_EQ(fitted.resistance, JointThermal().resistance);
+}
+
+}  // namespace
+}  // namespace armcal

@@ -1,0 +1,21 @@
+// Every effect on every joint, against the plant.
+
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/effect_plant.h"
+
+namespace armcal {
+namespace {
+
+TEST(RecordedTorqueLong, IsThatOfThePlant) {
+  const EffectPlant plant(10);
+  for (const Effect& effect : Effects()) {
+    for (const int joint : plant.arm().Joints(effect)) {
+      EXPECT_LT(plant.Disagreement(effect, joint), .05)
+          << effect.name << joint + 1;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace armcal

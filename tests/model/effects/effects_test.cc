@@ -1,0 +1,227 @@
+#include "model/effects/effects.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "model/dynamics/recorded_torque.h"
+#include "model/signals/low_pass.h"
+#include "tests/fixtures/effect_arm.h"
+
+namespace armcal {
+inline namespace effects {
+void PrintTo(const Effect& effect, std::ostream* out) { *out << effect.name; }
+}  // namespace effects
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Search = EffectParameter::Search;
+
+TEST(Effects, AreThoseOfTheDesignInItsOrder) {
+  std::vector<std::string> names;
+  for (const Effect& effect : Effects()) names.push_back(effect.name);
+  EXPECT_THAT(
+      names, testing::ElementsAre(
+                 "viscous_friction", "coulomb_friction", "torque_offset",
+                 "asymmetric_friction", "quadratic_friction", "stribeck",
+                 "load_friction", "position_friction", "coupled_friction",
+                 "presliding", "armature", "elasticity", "backlash", "spring",
+                 "cable", "torque_ripple", "torque_gain", "torque_nonlinearity",
+                 "torque_saturation", "torque_deadband", "torque_crosstalk",
+                 "delay", "encoder_offset", "link_length", "base_tilt",
+                 "payload", "link_inertia", "thermal_friction", "time_drift",
+                 "external_contact", "vibration", "time_base"));
+  EXPECT_EQ(FindEffect("payload")->name, "payload");
+  EXPECT_EQ(FindEffect("gremlins"), nullptr);
+}
+
+class EffectOf : public testing::TestWithParam<Effect> {
+ protected:
+  static const EffectArm& Arm(bool prismatic) {
+    static const auto* const kPuma = new EffectArm("PUMA560 6R");
+    static const auto* const kScara = new EffectArm("SCARA RRPR");
+    return prismatic ? *kScara : *kPuma;
+  }
+
+  // Calls f(arm, joint, sizes, recorded torque) wherever the effect can be.
+  template <typename F>
+  void Everywhere(const F& f) const {
+    for (const bool prismatic : {false, true}) {
+      const EffectArm& arm = Arm(prismatic);
+      RecordedTorque recorded = arm.Recorded();
+      for (const int joint : arm.Joints(GetParam())) {
+        SCOPED_TRACE(testing::Message() << arm.robot.name << joint + 1);
+        f(arm, joint, arm.Sizes(GetParam(), joint), &recorded);
+      }
+    }
+  }
+};
+
+TEST_P(EffectOf, ParametersSayWhatTheyAre) {
+  const Effect& effect = GetParam();
+  for (const std::string& text :
+       {effect.law, effect.shows, effect.experiment}) {
+    EXPECT_FALSE(text.empty());
+  }
+  ASSERT_FALSE(effect.parameters.empty());
+  EXPECT_EQ(effect.parameters[0].search, Search::kLinear);
+  std::set<std::string> names;
+  for (const EffectParameter& parameter : effect.parameters) {
+    EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
+    EXPECT_FALSE(parameter.unit.empty());
+    EXPECT_EQ(static_cast<bool>(parameter.grid),
+              parameter.search == Search::kGrid ||
+                  parameter.search == Search::kRefined)
+        << parameter.name;
+  }
+}
+
+TEST_P(EffectOf, SizesAndGridsAreOfUse) {
+  Everywhere([&](const EffectArm& arm, int joint, const VectorXd& sizes,
+                 RecordedTorque*) {
+    EXPECT_TRUE(sizes.allFinite());
+    for (int k = 0; k < sizes.size(); ++k) {
+      const EffectParameter& parameter = GetParam().parameters[k];
+      if (parameter.search == Search::kLinear) {
+        EXPECT_GT(sizes[k], 0);
+      }
+      if (!parameter.grid) continue;
+      const std::vector<double> grid = parameter.grid(arm.Site(joint));
+      EXPECT_THAT(grid.size(),
+                  testing::AllOf(testing::Ge(1u), testing::Le(8u)));
+      EXPECT_TRUE(std::is_sorted(grid.begin(), grid.end(), std::less_equal<>()))
+          << parameter.name;
+      EXPECT_THAT(grid, testing::Contains(sizes[k]));
+    }
+    for (const EffectEstimate& estimate :
+         EstimatesOf(GetParam(), arm.Site(joint), sizes)) {
+      EXPECT_TRUE(std::isfinite(estimate.value)) << estimate.name;
+      EXPECT_THAT(estimate.unit, testing::Not(testing::HasSubstr("E")));
+    }
+  });
+}
+
+// At every corner of the grids the torque that the effect adds is finite, some,
+// and none where its linear parameters are 0.
+TEST_P(EffectOf, AddsTorqueAndNoneAtZero) {
+  Everywhere([&](const EffectArm& arm, int joint, const VectorXd& sizes,
+                 RecordedTorque* recorded) {
+    for (const bool last : {false, true}) {
+      VectorXd p = sizes, zero = sizes;
+      for (int k = 0; k < p.size(); ++k) {
+        const EffectParameter& parameter = GetParam().parameters[k];
+        if (parameter.search == Search::kLinear) zero[k] = 0;
+        if (!parameter.grid) continue;
+        const std::vector<double> grid = parameter.grid(arm.Site(joint));
+        p[k] = zero[k] = last ? grid.back() : grid.front();
+      }
+      const MatrixXd change = arm.Change(GetParam(), joint, p, recorded);
+      EXPECT_TRUE(change.allFinite());
+      EXPECT_GT(change.norm(), 1e-6 * recorded->nominal().norm());
+      EXPECT_LT(arm.Change(GetParam(), joint, zero, recorded).norm(),
+                1e-9 * change.norm());
+    }
+  });
+}
+
+// As far as a diagnosis looks: to 6 Hz, half a second after the start.
+TEST_P(EffectOf, IsLinearInItsLinearParameters) {
+  // Of which only a share near 1 is a limit.
+  if (GetParam().name == "torque_saturation") return;
+  // A wider gap takes longer to cross.
+  if (GetParam().name == "backlash") return;
+  // The mode of a softer gear rings slower.
+  const double tolerance = GetParam().name == "elasticity" ? .1 : .03;
+  Everywhere([&](const EffectArm& arm, int joint, const VectorXd& sizes,
+                 RecordedTorque* recorded) {
+    const auto slow = [&](const VectorXd& p) {
+      const MatrixXd change = ZeroPhaseLowPass(
+          arm.Change(GetParam(), joint, p, recorded), 1 / arm.motion.dt, 6);
+      return MatrixXd(change.middleRows(50, change.rows() - 100));
+    };
+    for (int k = 0; k < sizes.size(); ++k) {
+      if (GetParam().parameters[k].search != Search::kLinear) continue;
+      VectorXd once = sizes;
+      for (int i = 0; i < sizes.size(); ++i) {
+        const bool linear = GetParam().parameters[i].search == Search::kLinear;
+        if (linear && i != k) once[i] = 0;
+      }
+      VectorXd twice = once;
+      twice[k] *= 2;
+      const MatrixXd doubled = slow(twice);
+      EXPECT_LE((doubled - 2 * slow(once)).norm(), tolerance * doubled.norm())
+          << GetParam().parameters[k].name;
+    }
+  });
+}
+
+// Its own joint, where it would be felt, tells nothing while it is held.
+TEST(WhatALinkCarries, IsNotFeltBeyondJointsThatStand) {
+  EffectArm arm("SCARA RRPR");
+  arm.motion.qd.col(0).setZero();
+  arm.motion.qdd.col(0).setZero();
+  arm.motion.q.col(0).setConstant(.3);
+  arm.SetScale();
+  RecordedTorque recorded = arm.Recorded();
+  for (const char* name : {"link_length", "link_inertia"}) {
+    const Effect& effect = *FindEffect(name);
+    const MatrixXd first =
+        arm.Change(effect, 0, arm.Sizes(effect, 0), &recorded);
+    EXPECT_LT(first.rightCols(3).cwiseAbs().maxCoeff(), 1e-9) << name;
+    EXPECT_NE(effect.unfit(arm.Site(0)), "") << name;
+    const MatrixXd second =
+        arm.Change(effect, 1, arm.Sizes(effect, 1), &recorded);
+    EXPECT_GT(second.col(1).cwiseAbs().maxCoeff(), 1e-3) << name;
+    EXPECT_EQ(effect.unfit(arm.Site(1)), "") << name;
+  }
+}
+
+// tau = m c^2 qdd + m g c sin q of a point mass m at c below the axis, whose
+// weight on the axis nothing shows.
+TEST(PayloadOfAPendulum, IsAPointMass) {
+  constexpr double kMass = .4, kLever = .5;
+  Robot robot;
+  robot.links.resize(1);
+  Link& link = robot.links[0];
+  // The axis along y of a link that hangs along -z.
+  link.X_PF.linear() =
+      Eigen::AngleAxisd(-M_PI / 2, Eigen::Vector3d::UnitX()).matrix();
+  link.X_ML = link.X_PF.inverse();
+  link.inertial = InertialParameters::FromVector(
+      (Vector10d() << .5, 0, 0, -.2, .09, 0, .09, 0, 0, .01).finished());
+  std::mt19937_64 random(1);
+  const Log log = RecordMotion(RandomMultisine(&random, 1, 2), 8, .01);
+  Motion motion;
+  motion.dt = .01;
+  motion.q = log.q;
+  motion.qd = log.qd;
+  motion.qdd = log.qdd;
+  const Effect& payload = *FindEffect("payload");
+  const EffectSite site = {&robot, -1, nullptr};
+  const VectorXd p =
+      (VectorXd(4) << kMass * kLever * kLever, .0, 0, -kMass * kLever)
+          .finished();
+  SimulatedRobot changed;
+  changed.robot = robot;
+  payload.apply(site, p, &changed);
+  const VectorXd tau =
+      RecordedTorque(robot, std::vector<CoulombTransition>(1), motion)
+          .Change(changed);
+  const VectorXd truth =
+      kMass * kLever *
+      (kLever * log.qdd.array() + 9.81 * log.q.array().sin()).matrix();
+  EXPECT_LT((tau - truth).norm(), 1e-4 * truth.norm());
+  const auto estimates = EstimatesOf(payload, site, p);
+  EXPECT_NEAR(estimates[0].value, kMass, 1e-12);
+  EXPECT_NEAR(estimates[3].value, -kLever, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, EffectOf, testing::ValuesIn(Effects()),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace armcal

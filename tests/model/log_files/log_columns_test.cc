@@ -1,0 +1,168 @@
+#include "model/log_files/log_columns.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/text/input_error.h"
+#include "tests/fixtures/temp_file.h"
+
+namespace armcal {
+namespace {
+
+const std::vector<std::string> kJoints = {"shoulder", "elbow"};
+
+// "3 1*0.001": index and scale of each joint's column, or why there is none.
+std::string Find(const std::string& header, Signal signal = Signal::kPosition,
+                 const std::vector<std::string>& joints = kJoints) {
+  std::string found;
+  const std::string refusal = MessageOf<InputError>("log.csv", [&] {
+    for (const LogColumn& column :
+         LogColumns("log.csv", header, joints).Find(signal)) {
+      found += (found.empty() ? "" : " ") + std::to_string(column.index);
+      if (column.scale != 1) found += "*" + std::to_string(column.scale);
+    }
+  });
+  return found + refusal;
+}
+
+std::string FindTime(const std::string& header) {
+  std::string found;
+  const std::string refusal = MessageOf<InputError>("log.csv", [&] {
+    int decimals = -1;
+    const int index =
+        LogColumns("log.csv", header, kJoints).FindTime(&decimals);
+    found = std::to_string(index) + " 1e-" + std::to_string(decimals) + " s";
+  });
+  return found + refusal;
+}
+
+TEST(LogColumns, MatchesByNumberAndByName) {
+  EXPECT_EQ(Find("t,q1,q2"), "1 2");
+  EXPECT_EQ(Find("q2,x,t,qd1,q1"), "4 0");
+  EXPECT_EQ(Find("t,elbow/position,shoulder/position"), "2 1");
+  EXPECT_EQ(Find("t,/joint_states/shoulder/position,/a/b/elbow/position"),
+            "1 2");
+  EXPECT_EQ(Find("t,q1,elbow/position"), "1 2");
+  EXPECT_EQ(Find("t,left_shoulder/position,q1,q2"), "2 3");
+  EXPECT_EQ(Find("t,position[1],position[2],q1,q2"), "3 4");
+  EXPECT_EQ(Find("t,qd1,qd2", Signal::kVelocity), "1 2");
+  EXPECT_EQ(Find("t,qdd1,qdd2", Signal::kAcceleration), "1 2");
+  EXPECT_EQ(Find("t,tau1,tau2", Signal::kEffort), "1 2");
+  EXPECT_EQ(Find("t,i1,i2", Signal::kCurrent), "1 2");
+  EXPECT_EQ(Find("t,shoulder/velocity,elbow/velocity", Signal::kVelocity),
+            "1 2");
+  EXPECT_EQ(Find("t,shoulder/current,elbow/effort [A]", Signal::kCurrent),
+            "1 2");
+}
+
+TEST(LogColumns, ALongerJointNameWins) {
+  EXPECT_EQ(Find("t,right/elbow/position,left/elbow/position",
+                 Signal::kPosition, {"elbow", "left/elbow"}),
+            "1 2");
+}
+
+TEST(LogColumns, TakesTheUsualSeparatorsAndDress) {
+  EXPECT_EQ(Find("t;q1;q2"), "1 2");
+  EXPECT_EQ(Find("t\tq1\tq2"), "1 2");
+  EXPECT_EQ(Find("t;q1;q2;note, of the day"), "1 2");
+  EXPECT_EQ(Find(" t , q1 , q2 [rad] "), "1 2");
+  EXPECT_EQ(Find("\"t\",\"q1\",\"q2\""), "1 2");
+  EXPECT_EQ(Find("# t,q1,q2"), "1 2");
+  EXPECT_EQ(FindTime("# t,q1,q2"), "0 1e-0 s");
+  EXPECT_EQ(Find("t,q1,q2,"), "1 2");
+}
+
+TEST(LogColumns, ConvertsUnits) {
+  EXPECT_EQ(Find("t,q1[deg],q2 [ mm ]"), "1*0.017453 2*0.001000");
+  EXPECT_EQ(Find("t,qd1 [deg/s],qd2 [m/s]", Signal::kVelocity), "1*0.017453 2");
+  EXPECT_EQ(Find("t,shoulder/effort[mNm],tau2[kNm]", Signal::kEffort),
+            "1*0.001000 2*1000.000000");
+  EXPECT_EQ(Find("t,i1 [mA],i2 [A]", Signal::kCurrent), "1*0.001000 2");
+  EXPECT_EQ(FindTime("q1,q2,time"), "2 1e-0 s");
+  EXPECT_EQ(FindTime("timestamp [ns],q1,q2"), "0 1e-9 s");
+  EXPECT_EQ(FindTime("__time[us],q1,q2"), "0 1e-6 s");
+  EXPECT_EQ(FindTime("t [ms],q1,q2"), "0 1e-3 s");
+}
+
+TEST(LogColumns, SaysWhatTheLogHolds) {
+  const LogColumns columns("log.csv", "t,q1,q2,qd1,tau2", kJoints);
+  EXPECT_TRUE(columns.HasAll(Signal::kPosition));
+  EXPECT_TRUE(columns.HasAny(Signal::kVelocity));
+  EXPECT_FALSE(columns.HasAll(Signal::kVelocity));
+  EXPECT_FALSE(columns.HasAny(Signal::kCurrent));
+  EXPECT_EQ(columns.Missing(Signal::kEffort), "tau1 or shoulder/effort");
+  EXPECT_EQ(columns.size(), 5);
+  EXPECT_EQ(columns.separator(), ',');
+}
+
+struct BadHeader {
+  const char* header;
+  const char* message;
+};
+
+TEST(LogColumns, RefusesWrongColumns) {
+  const BadHeader cases[] = {
+      {"t,q1,qd1,Q2,pos 2",
+       "missing q2 or elbow/position; the robot has 2 joints, the log holds "
+       "q1; not recognised: 'Q2', 'pos 2'"},
+      {"t,a,b,c,d,e,f,g,h",
+       "missing q1 or shoulder/position, q2 or elbow/position; the robot has 2 "
+       "joints, the log holds 0 such columns; not recognised: 'a', 'b', 'c', "
+       "'d', 'e', 'f', 2 more"},
+      {"t,shoulder/position",
+       "missing q2 or elbow/position; the robot has 2 joints, the log holds 1 "
+       "such columns"},
+      {"t,q1,q2,q3",
+       "wrong number of joints: the robot has 2 joints, the log holds q1..q3"},
+      {"t,q1,q5",
+       "wrong number of joints: the robot has 2 joints, the log holds q1, q5"},
+      {"t,q0,q1",
+       "joints are numbered from 1; the robot has 2 joints, the log holds "
+       "q0..q1"},
+      {"t,q1,q2,q1",
+       "two columns for the position of joint shoulder, 'q1' and 'q1'; rename "
+       "one"},
+      {"t,q1,q2,elbow/position",
+       "two columns for the position of joint elbow, 'q2' and "
+       "'elbow/position'; rename one"},
+      {"t,q1,/is/elbow/position,/should/elbow/position",
+       "two columns for the position of joint elbow, '/is/elbow/position' and "
+       "'/should/elbow/position'; rename one"},
+      {"t,q1 [grad],q2",
+       "column 'q1 [grad]': expected a unit of rad, deg, m, mm"},
+      {"0.0,1.5,-2e3",
+       "expected a header that names the columns, as in t,q1,tau1"},
+      {"t q1 q2",
+       "expected several columns separated by , ; or TAB, found 't q1 q2'"},
+      {"t,q1,q2\r0,0,0\r",
+       "the lines end in CR alone; save the file with LF or CRLF"},
+  };
+  for (const BadHeader& bad : cases) {
+    EXPECT_EQ(Find(bad.header), std::string("FILE: row 1: ") + bad.message);
+  }
+}
+
+TEST(LogColumns, RefusesWrongTime) {
+  EXPECT_EQ(FindTime("Time,q1,q2"),
+            "FILE: row 1: no time column: expected t, time, timestamp or "
+            "__time; not recognised: 'Time'");
+  EXPECT_EQ(FindTime("t,time,q1,q2"),
+            "FILE: row 1: two time columns, 't' and 'time'; rename one");
+  EXPECT_EQ(FindTime("t [h],q1,q2"),
+            "FILE: row 1: column 't [h]': expected a unit of s, ms, us or ns");
+}
+
+TEST(LogColumns, NamesAllMissingOfASevenJointRobot) {
+  EXPECT_EQ(Find("t,q1,q2,q3,q4,q5,q6", Signal::kPosition,
+                 {"a", "b", "c", "d", "e", "f", "g"}),
+            "FILE: row 1: missing q7 or g/position; the robot has 7 joints, "
+            "the log holds q1..q6");
+}
+
+TEST(LogColumns, WhatIsNotAskedForMayBeWrong) {
+  EXPECT_EQ(Find("t,q1,q2,qd1,qd1,tau7,i1 [V],,"), "1 2");
+}
+
+}  // namespace
+}  // namespace armcal

@@ -1,0 +1,130 @@
+#include "model/log_files/pose_reader.h"
+
+#include <gtest/gtest.h>
+
+#include "model/text/input_error.h"
+#include "tests/fixtures/temp_file.h"
+
+namespace armcal {
+namespace {
+
+PoseMeasurements Read(const std::string& text) {
+  return ReadPoses(WriteFile(text, "poses.csv"), {"shoulder", "elbow"});
+}
+
+struct BadPoses {
+  const char* text;
+  const char* message;
+};
+
+constexpr char kKinds[] =
+    "FILE: row 1: expected one kind of measurement: x1 y1 z1 [x2 ..] "
+    "(targets), x y z qw qx qy qz (poses) or length1 (a wire)";
+
+const BadPoses kBad[] = {
+    {"", "FILE: the file is empty"},
+    {"q1,q2,x1,y1,z1\n", "FILE: the file has a header and no rows"},
+    {"q1,q2,x1,y1,z1\n\n", "FILE: the file has a header and no rows"},
+    {"q1,q2,x1,z1\n0,0,1,2\n", "FILE: row 1: the column y1 is missing"},
+    {"q1,q2,z1\n0,0,1\n", "FILE: row 1: the column x1, y1 is missing"},
+    {"q1,q2,x1,y1,z1,x2,y2\n0,0,1,2,3,4,5\n",
+     "FILE: row 1: the column z2 is missing"},
+    {"q1,q2,x,y,z\n0,0,1,2,3\n",
+     "FILE: row 1: the column qw, qx, qy, qz is missing"},
+    {"q1,q2,x,y,z,qw,qx,qy\n0,0,1,2,3,1,0,0\n",
+     "FILE: row 1: the column qz is missing"},
+    {"q1,q2\n0,0\n", kKinds},
+    {"q1,q2,x1,y1,z1,length1\n0,0,1,2,3,4\n", kKinds},
+    {"q1,q2,x,y,z,qw,qx,qy,qz,length1\n0,0,1,2,3,1,0,0,0,1\n", kKinds},
+    {"q1,x1,y1,z1\n0,1,2,3\n",
+     "FILE: row 1: missing q2 or elbow/position; the robot has 2 joints, the "
+     "log holds q1; not recognised: 'x1', 'y1', 'z1'"},
+    {"q1,q2,q3,length1\n0,0,0,1\n",
+     "FILE: row 1: wrong number of joints: the robot has 2 joints, the log "
+     "holds q1..q3"},
+    {"q1,q2,x1[cm],y1,z1\n0,0,1,2,3\n",
+     "FILE: row 1, column x1[cm]: found 'cm': expected the unit m or mm"},
+    {"q1,q2,length1[in]\n0,0,1\n",
+     "FILE: row 1, column length1[in]: found 'in': expected the unit m or mm"},
+    {"q1,q2,x,y,z,qw[mm],qx,qy,qz\n0,0,1,2,3,1,0,0,0\n",
+     "FILE: row 1, column qw[mm]: found 'mm': expected no unit"},
+    {"q1[grad],q2,length1\n0,0,1\n",
+     "FILE: row 1: column 'q1[grad]': expected a unit of rad, deg, m, mm"},
+    {"q1,q2,x1,y1,z1,x1[mm]\n0,0,1,2,3,4\n",
+     "FILE: row 1: found 'x1': the column is there twice"},
+    {"q1,q2,q1,length1\n0,0,0,1\n",
+     "FILE: row 1: two columns for the position of joint shoulder, 'q1' and "
+     "'q1'; rename one"},
+    {"q1,q2,length1\n0,0,nan\n",
+     "FILE: row 2, column length1: found 'nan': expected a finite number"},
+    {"q1,q2,length1\n0,0,1\n0,inf,1\n",
+     "FILE: row 3, column q2: found 'inf': expected a finite number"},
+    {"q1,q2,length1\n0,,1\n",
+     "FILE: row 2, column q2: the field is empty, expected a number"},
+    {"q1,q2,length1\n0,0\n",
+     "FILE: row 2: found '2 fields': expected 3 as in the header"},
+    {"q1,q2,length1\n0,0,1\n0,0",
+     "FILE: row 3: found '2 fields': expected 3 as in the header; the file "
+     "ends inside this row, delete it"},
+    {"q1;q2;length1\n0;0;1,5\n",
+     "FILE: row 2, column length1: found '1,5': expected a finite number with "
+     "a decimal point, not a comma"},
+    {"q1,q2,length1\n0,0,-1\n",
+     "FILE: row 2, column length1: found '-1': expected a length above 0"},
+    {"q1,q2,x,y,z,qw,qx,qy,qz\n0,0,1,2,3,1,0,0,0\n0,0,1,2,3,0,0,0,0\n",
+     "FILE: row 3, column qw: found '0 0 0 0': expected a unit quaternion"},
+    {"q1,q2,x,y,z,qw,qx,qy,qz\n0,0,1,2,3,30,0,90,0\n",
+     "FILE: row 2, column qw: found '30 0 90 0': expected a unit quaternion"},
+    {"0,0,1\n0,0,1\n",
+     "FILE: row 1: expected a header that names the columns, as in t,q1,tau1"},
+};
+
+TEST(PoseReader, RefusesMalformedFiles) {
+  for (const BadPoses& bad : kBad) {
+    const std::string path = WriteFile(bad.text, "poses.csv");
+    EXPECT_EQ(MessageOf<InputError>(path,
+                                    [&] {
+                                      ReadPoses(path, {"shoulder", "elbow"});
+                                    }),
+              bad.message)
+        << bad.text;
+  }
+  EXPECT_EQ(MessageOf<InputError>("/no/such",
+                                  [] { ReadPoses("/no/such", {"shoulder"}); }),
+            "FILE: cannot be opened: No such file or directory");
+}
+
+TEST(PoseReader, ReadsTargets) {
+  const PoseMeasurements m = Read(
+      "pose,q1[deg],x2[mm],y2,z2,elbow/position,z1,y1,x1,u95_1,u95_2[mm]\n"
+      "1,90,1000,2,3,.5,6,5,4,.01,20\n\n2,-90,-1000,-2,-3,-.5,-6,-5,-4,0,0\n");
+  ASSERT_EQ(m.size(), 2);
+  EXPECT_NEAR(m.q(0, 0), M_PI / 2, 1e-15);
+  EXPECT_EQ(m.q(1, 1), -.5);
+  ASSERT_EQ(m.targets.size(), 2);
+  EXPECT_EQ(m.targets[0].row(0), Eigen::RowVector3d(4, 5, 6));
+  EXPECT_EQ(m.targets[1].row(0), Eigen::RowVector3d(1, 2, 3));
+  EXPECT_EQ(m.targets[1].row(1), Eigen::RowVector3d(-1, -2, -3));
+  EXPECT_EQ(m.u95.row(0), Eigen::RowVector2d(.01, .02));
+  EXPECT_EQ(m.row, (std::vector<long>{2, 4}));
+  EXPECT_EQ(m.poses.size() + m.lengths.size(), 0);
+}
+
+TEST(PoseReader, ReadsPosesAndWires) {
+  const PoseMeasurements poses =
+      Read("q1;q2;qx;qy;qz;qw;x;y;z\r\n0;0;.1;.1;.1;.985;1;2;3\r\n");
+  ASSERT_EQ(poses.poses.rows(), 1);
+  Eigen::RowVectorXd pose(7);
+  pose << 1, 2, 3, .985, .1, .1, .1;
+  EXPECT_EQ(poses.poses.row(0), pose);
+  EXPECT_TRUE(poses.targets.empty());
+  const PoseMeasurements wire =
+      Read(Gzip("q1,q2,length1 [mm],x_ctrl\n1,2,500,n/a\n1,2,250,\n"));
+  ASSERT_EQ(wire.lengths.size(), 2);
+  EXPECT_EQ(wire.lengths[0], .5);
+  EXPECT_EQ(wire.lengths[1], .25);
+  EXPECT_EQ(wire.u95.size(), 0);
+}
+
+}  // namespace
+}  // namespace armcal
