@@ -28,12 +28,11 @@ DEFINE_string(poses, "",
 namespace armcal {
 namespace {
 
-using Refine = RefineGeometry;
 // Those of --geometry that need no log.
-const FlagChoices<Refine> kGeometries("geometry",
-                                      {{"known", Refine::kNothing},
-                                       {"offsets", Refine::kOffsets},
-                                       {"refine", Refine::kAll}});
+const FlagChoices<RefineGeometry> kPoseGeometries(
+    "geometry", {{"known", RefineGeometry::kNothing},
+                 {"offsets", RefineGeometry::kOffsets},
+                 {"refine", RefineGeometry::kAll}});
 
 }  // namespace
 
@@ -42,7 +41,7 @@ bool PosesAloneFromFlags() { return !FLAGS_poses.empty() && FLAGS_log.empty(); }
 CommandOutcome CalibratePosesFromFlags(const CommandInput& input) {
   const Robot robot = RobotFromFlags(input);
   PoseCalibrationOptions options;
-  options.refine = kGeometries.Parse(FLAGS_geometry);
+  options.refine = kPoseGeometries.Parse(FLAGS_geometry);
   const auto formats = ExportBesideUrdfFromFlags();
   options.loss = LossFromFlags().value_or(options.loss);
   const ArmTrust trust = TrustFromFlags();

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<std::string> FilesRead() {
+std::vector<std::string> FilesOfCalibration() {
   std::vector<std::string> files = LogsFromFlags();
   for (const std::vector<std::string>& more :
        {ValidationLogsFromFlags(), SplitAtCommas(FLAGS_payload_log),
@@ -96,7 +96,7 @@ void AddCalibrationReport(const Robot& robot, const json& result,
         refined->robot, poses ? refined->poses->before : std::vector<double>(),
         poses ? refined->poses->after : std::vector<double>());
   };
-  AddReport("calibrate", robot, result, FilesRead(), complete, out);
+  AddReport("calibrate", robot, result, FilesOfCalibration(), complete, out);
 }
 
 }  // namespace armcal

@@ -59,7 +59,7 @@ end
 complete -c armcal -f -a '(__armcal)'
 )";
 
-bool BeginsWith(const std::string& text, const std::string& begin) {
+bool Begins(const std::string& text, const std::string& begin) {
   return text.compare(0, begin.size(), begin) == 0;
 }
 
@@ -74,7 +74,7 @@ Words Files(const std::string& begin, bool folders_only) {
   for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end;
        !error && entry != end; entry.increment(error)) {
     const std::string found = entry->path().filename().string();
-    if (!BeginsWith(found, name) || (name.empty() && found[0] == '.')) continue;
+    if (!Begins(found, name) || (name.empty() && found[0] == '.')) continue;
     std::error_code unknown;
     const bool is_folder = entry->is_directory(unknown);
     if (folders_only && !is_folder) continue;
@@ -94,12 +94,12 @@ Words Values(const FlagText& flag, const std::string& value) {
       comma == std::string::npos ? "" : value.substr(0, comma + 1);
   const std::string last = value.substr(before.size());
   const bool folder = flag.value == "DIR";
-  if (words.words.empty() && (folder || BeginsWith(flag.value, "FILE"))) {
+  if (words.words.empty() && (folder || Begins(flag.value, "FILE"))) {
     words.words = Files(last, folder);
   }
   Words values;
   for (const std::string& word : words.words) {
-    if (BeginsWith(word, last)) values.push_back(before + word);
+    if (Begins(word, last)) values.push_back(before + word);
   }
   return values;
 }
@@ -111,7 +111,7 @@ std::string OfFlags(const Command& command, const std::string& word,
     const FlagText flag(name);
     const std::string begin = "--" + name + (flag.value.empty() ? "" : "=");
     const bool given = line.find(" --" + name + "=") != std::string::npos;
-    if (!given && BeginsWith(begin, word)) {
+    if (!given && Begins(begin, word)) {
       text += begin + "\t" + flag.description + "\n";
     }
   }
@@ -121,7 +121,7 @@ std::string OfFlags(const Command& command, const std::string& word,
 std::string Beginning(const Words& words, const std::string& word) {
   std::string text;
   for (const std::string& one : words) {
-    if (BeginsWith(one, word)) text += one + "\n";
+    if (Begins(one, word)) text += one + "\n";
   }
   return text;
 }
@@ -135,7 +135,7 @@ std::string Candidates(const std::string& line) {
   before >> program >> name;
   if (name.empty() || name == "help") {
     for (const Command& command : Commands()) {
-      if (!BeginsWith(command.name, word)) continue;
+      if (!Begins(command.name, word)) continue;
       text += command.name + ("\t" + std::string(command.summary)) + "\n";
     }
   }

@@ -5,12 +5,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 tools/setup.sh
-if ! { cmake -S . -B build -G Ninja &&
-       cmake --build build -j "$(nproc)" --target armcal; } >build.log 2>&1; then
-  cat build.log >&2
-  exit 1
-fi
-rm build.log
+source tools/build.sh
+build build armcal
 
 say() { printf '\n\033[1m%s\033[0m\n' "$*" | fold -s -w 80; }
 run() { echo "\$ $*"; echo; "$@"; }

@@ -114,7 +114,7 @@ nlohmann::json MotionJson(const Robot& robot, const Log& motion) {
           {"joints", joints}};
 }
 
-std::vector<std::string> FilesRead() {
+std::vector<std::string> FilesOfDesign() {
   const Given given = GivenFromFlags();
   std::vector<std::string> files = given.logs;
   if (!given.calibration.empty()) files.push_back(given.calibration);
@@ -135,7 +135,7 @@ CommandOutcome RunPostures(const Robot& robot, const PostureOptions& options,
   const auto draw = [&](ReportContent* content) {
     content->extra["postures"] = PosturesJson(robot, design.q);
   };
-  AddReport("excite", robot, json, FilesRead(), draw, &out);
+  AddReport("excite", robot, json, FilesOfDesign(), draw, &out);
   outcome.output = {text, FullReport(summary), "", true, {}};
   return outcome;
 }
@@ -156,7 +156,7 @@ CommandOutcome Finish(const ExcitationSummary& summary) {
   const auto draw = [&](ReportContent* content) {
     content->extra["motion"] = MotionJson(summary.robot, motion);
   };
-  AddReport("excite", summary.robot, json, FilesRead(), draw, &out);
+  AddReport("excite", summary.robot, json, FilesOfDesign(), draw, &out);
   outcome.output = {text, FullReport(summary), "", found, {}};
   return outcome;
 }

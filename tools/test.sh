@@ -15,14 +15,14 @@ for argument in "$@"; do
   esac
 done
 
+source tools/build.sh
 cores=$(nproc)
-options=(-G Ninja -DBUILD_TESTING=ON)
+mapfile -t options < <(fast_options)
+options+=(-G Ninja -DBUILD_TESTING=ON)
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-else
-  # The second: GCC collects no garbage, which takes a tenth of its time.
-  options+=(-DPRECOMPILE=ON
-            -DCMAKE_CXX_FLAGS=--param=ggc-min-heapsize=1000000)
+  # Else it finds nothing again of what has a precompiled header.
+  export CCACHE_SLOPPINESS=pch_defines,time_macros
 fi
 # Configures, builds and tests in folder $1 with the CMake options that follow.
 run_tests() {
@@ -42,8 +42,6 @@ run_instrumented() {
   options=(--preset instrumented) selection=()
   if command -v ccache >/dev/null; then
     options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  else
-    options+=(-DPRECOMPILE=ON)
   fi
   rm -rf "$folder/profiles"
   # Ceres' and Simbody's static data are not freed at the end.

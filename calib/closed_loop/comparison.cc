@@ -5,13 +5,13 @@
 
 #include "calib/closed_loop/replay.h"
 #include "calib/logs/joint_term_laws.h"
+#include "calib/numerics/undefined.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 ClosedLoopReplay Follow(const Robot& robot, const Robot& file,

@@ -177,7 +177,7 @@ DriveGains EstimateDriveGains(const Robot& robot,
   bare->Prepare(rows.bandwidth_hz, RowReach(rows));
   if (payload != nullptr) payload->Prepare(rows.bandwidth_hz, RowReach(rows));
   const Transitions transitions =
-      FindTransitions(arm, weak, rows, bare, TorqueScale::kPerJoint);
+      FindTransitions(arm, weak, rows, bare, TorqueUnits::kPerJoint);
   DriveGains result =
       Estimate(arm, weak, rows, payload_mass,
                MakeParameters(arm, weak, transitions), bare, payload);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "calib/fleet/factor_calibration.h"
+#include "calib/numerics/median.h"
 
 namespace armcal {
 namespace {
@@ -23,12 +24,6 @@ Reduction OfUnit(const Reduction& all, const std::string& unit) {
     if (log.unit == unit) own.logs.push_back(log);
   }
   return own;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Each unit's variances, drawn to the median of all as if that were an estimate

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/inspect/torque_scale.h"
+#include "model/robot/axis_rotation.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
 
@@ -17,7 +18,6 @@ constexpr int kMostRows = 1 << 20;
 constexpr int kSamples = 400;
 constexpr int kLeastSamples = 60;
 constexpr double kBandwidth = 8;  // Hz, of what torques are compared with
-constexpr double kDegree = M_PI / 180;
 
 class Inspector {
  public:

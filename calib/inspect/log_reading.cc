@@ -5,18 +5,19 @@
 #include <cmath>
 #include <functional>
 
+#include "model/robot/axis_rotation.h"
+
 namespace armcal {
 namespace {
 
 using Eigen::Vector3d;
 
 // Of 7 joints or fewer; the work grows with the joints' fifth power.
-constexpr int kSamples = 250;
+constexpr int kSamplesOfReading = 250;
 constexpr double kLeastGain = 15;      // nats
 constexpr double kLeastDelay = .0125;  // s; filters and drives have less
 constexpr double kLeastTilt = 5;       // degrees
 constexpr int kMostChanges = 4;
-constexpr double kDegree = M_PI / 180;
 
 using Kind = ReadingChange::Kind;
 
@@ -67,7 +68,7 @@ class Reader {
   Reader(const Robot& robot, const UniformSeries& series)
       : robot_(robot),
         series_(series),
-        samples_(kSamples * 7 / std::max(7, robot.num_joints())),
+        samples_(kSamplesOfReading * 7 / std::max(7, robot.num_joints())),
         best_(robot) {}
 
   ReadingFinding Run() {

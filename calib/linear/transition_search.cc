@@ -24,10 +24,10 @@ struct Screening {
 
 // What `choose` makes of the equations, all at once or joint by joint.
 template <class Choose>
-auto ChooseFrom(const Screening& screening, TorqueScale scale, Choose choose) {
+auto ChooseFrom(const Screening& screening, TorqueUnits scale, Choose choose) {
   const Eigen::VectorXd noise = RightSideRms(screening.factor);
   auto all = choose(screening.factor, screening.parameters, noise);
-  if (scale == TorqueScale::kCommon) return all;
+  if (scale == TorqueUnits::kCommon) return all;
   for (Eigen::Index i = 0; i < noise.size(); ++i) {
     Eigen::VectorXd alone = Eigen::VectorXd::Zero(noise.size());
     alone[i] = noise[i];
@@ -40,7 +40,7 @@ auto ChooseFrom(const Screening& screening, TorqueScale scale, Choose choose) {
 Transitions Refine(const Robot& robot, const LinearCalibrationOptions& options,
                    const RowOptions& rows,
                    const std::vector<CoulombTransition>& about,
-                   TorqueScale scale, LogSet* training) {
+                   TorqueUnits scale, LogSet* training) {
   Transitions finer;
   for (const CoulombTransition& t : about) finer.push_back(FinerTransitions(t));
   const Screening fine(robot, options, rows, finer, training);
@@ -57,7 +57,7 @@ Transitions Refine(const Robot& robot, const LinearCalibrationOptions& options,
 Transitions FindTransitions(const Robot& robot,
                             const LinearCalibrationOptions& options,
                             const RowOptions& rows, LogSet* training,
-                            TorqueScale scale) {
+                            TorqueUnits scale) {
   const size_t n = robot.links.size();
   if (std::count(options.joint_terms.begin(), options.joint_terms.end(),
                  JointTerm::kCoulomb) == 0) {
@@ -80,7 +80,7 @@ Transitions FollowTransitions(const Robot& robot,
                               LogSet* training) {
   if (found.empty()) return {};
   if (const auto given = GivenTransitions(robot, options)) return *given;
-  return Refine(robot, options, rows, found, TorqueScale::kCommon, training);
+  return Refine(robot, options, rows, found, TorqueUnits::kCommon, training);
 }
 
 }  // namespace armcal

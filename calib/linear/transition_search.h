@@ -6,7 +6,7 @@ namespace armcal {
 
 // Whether the joints' torques are in one unit, or each joint's currents in one
 // of its own, so that equations of different joints do not share parameters.
-enum class TorqueScale { kCommon, kPerJoint };
+enum class TorqueUnits { kCommon, kPerJoint };
 
 // One transition of Coulomb friction per joint, fitted on the training logs in
 // two passes (a coarse grid, a finer one about its best); none where the model
@@ -14,7 +14,7 @@ enum class TorqueScale { kCommon, kPerJoint };
 Transitions FindTransitions(const Robot& robot,
                             const LinearCalibrationOptions& options,
                             const RowOptions& rows, LogSet* training,
-                            TorqueScale scale = TorqueScale::kCommon);
+                            TorqueUnits scale = TorqueUnits::kCommon);
 
 // The widths anew, each joint's law as found before: for logs some of whose
 // torque samples have been replaced since. One pass.

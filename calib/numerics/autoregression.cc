@@ -5,20 +5,17 @@
 #include <cmath>
 #include <complex>
 
+#include "calib/numerics/median.h"
+
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kWindow = 64;     // samples
-constexpr int kNeighbours = 5;  // frequencies of a running median
-constexpr double kLeastSamples = 40;
-
-double Median(std::vector<double> x) {
-  std::nth_element(x.begin(), x.begin() + x.size() / 2, x.end());
-  return x[x.size() / 2];
-}
+constexpr int kWindow = 64;         // samples
+constexpr int kNeighbours = 5;      // frequencies of a running median
+constexpr double kLeastOfAll = 40;  // samples
 
 // The mean of what Median() takes of `count` exponential variables, per their
 // mean: of an order statistic (Allen et al. 2012, appendix B, for odd counts).
@@ -139,7 +136,7 @@ Autoregression FitAutoregression(const std::vector<VectorXd>& stretches,
     power += (x.array() - (remove_mean ? x.mean() : 0)).square().sum();
   }
   Autoregression noise;
-  if (samples < kLeastSamples || longest < kWindow / 2) {
+  if (samples < kLeastOfAll || longest < kWindow / 2) {
     if (samples > 1 && power > 0) noise.sigma = std::sqrt(power / samples);
     return noise;
   }

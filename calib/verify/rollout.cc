@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "calib/numerics/block_bootstrap.h"
+#include "calib/numerics/undefined.h"
 
 namespace armcal {
 namespace {
@@ -15,7 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Of each length, model and stretch of a log as many are repeated by referees,
 // where that is no matter of more steps than these.
@@ -123,7 +123,7 @@ class Roller {
   std::vector<Rollouts> rollouts_;
 };
 
-double Median(std::vector<double> values) {
+double InterpolatedMedian(std::vector<double> values) {
   if (values.empty()) return kNaN;
   const size_t half = values.size() / 2;
   std::nth_element(values.begin(), values.begin() + half, values.end());
@@ -167,7 +167,7 @@ double MedianOf(const std::vector<double>& errors,
                 const std::vector<int>& chosen) {
   std::vector<double> values;
   for (const int k : chosen) values.push_back(errors[k]);
-  return Median(std::move(values));
+  return InterpolatedMedian(std::move(values));
 }
 
 }  // namespace
@@ -228,7 +228,7 @@ double MedianVelocityError(const Rollouts& rollouts, int model,
   for (const RolloutWindow& window : rollouts.windows) {
     errors.push_back(window.VelocityError(model, joints));
   }
-  return Median(std::move(errors));
+  return InterpolatedMedian(std::move(errors));
 }
 
 RolloutFigure MedianRatio(const Rollouts& rollouts, int a, int b,

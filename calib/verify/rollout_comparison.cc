@@ -4,13 +4,13 @@
 #include <limits>
 #include <memory>
 
+#include "calib/numerics/undefined.h"
 #include "calib/verify/arm_engine.h"
 
 namespace armcal {
 namespace {
 
 constexpr double kIntegrated = 1e-5;  // rad, m: of RolloutOptions::tolerance
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A robot, and in Simbody what is simulated there too.
 struct Model {

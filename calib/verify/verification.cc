@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "calib/numerics/undefined.h"
 #include "calib/verify/arm_states.h"
 #include "model/dynamics/forward_dynamics.h"
 #include "model/dynamics/inverse_dynamics.h"
@@ -17,7 +18,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Of two independent double-precision engines (issue 4).
 constexpr double kSame = 1e-10;
 constexpr double kDrift = 1e-6;

@@ -21,8 +21,8 @@ using Eigen::VectorXd;
 constexpr double kPhasePerStep = .5;
 constexpr int kMostSubsteps = 10;  // faster ones no filter lets through
 // The link rests on its transmission at first: implicit steps of this length.
-constexpr int kSettlingSteps = 20;
-constexpr double kSettlingStep = 1;  // s
+constexpr int kDeflectionSteps = 20;
+constexpr double kDeflectionStep = 1;  // s
 
 // `Size`: of the state, or Eigen::Dynamic.
 template <int Size>
@@ -88,8 +88,8 @@ class DeflectionRun {
       Rate(signal, x, dx);
       std::fill(dx + 2, dx + x_.size(), 0);
     };
-    for (int i = 0; i < kSettlingSteps; ++i) {
-      step_.Advance(rate, 0, kSettlingStep, &x_);
+    for (int i = 0; i < kDeflectionSteps; ++i) {
+      step_.Advance(rate, 0, kDeflectionStep, &x_);
     }
   }
 

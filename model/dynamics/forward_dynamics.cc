@@ -34,23 +34,23 @@ InertialParameters InMovedFrame(const Link& link) {
 }
 
 // Force and moment about Mo, in M.
-struct Wrench {
+struct BodyWrench {
   Vector3d force;
   Vector3d moment;
 };
 
 // What a unit acceleration of its joint takes of a body at rest.
-Wrench UnitWrench(const InertialParameters& body, JointType type) {
+BodyWrench UnitWrench(const InertialParameters& body, JointType type) {
   const Vector3d z = Vector3d::UnitZ();
   if (IsRotational(type)) return {z.cross(body.first_moment), body.inertia * z};
   return {body.mass * z, body.first_moment.cross(z)};
 }
 
-double AlongJoint(const Wrench& wrench, JointType type) {
+double AlongJoint(const BodyWrench& wrench, JointType type) {
   return IsRotational(type) ? wrench.moment.z() : wrench.force.z();
 }
 
-Wrench InParent(const Wrench& wrench, const Isometry3d& X_PM) {
+BodyWrench InParent(const BodyWrench& wrench, const Isometry3d& X_PM) {
   const Vector3d force = X_PM.linear() * wrench.force;
   return {force,
           X_PM.linear() * wrench.moment + X_PM.translation().cross(force)};
@@ -70,7 +70,7 @@ Eigen::MatrixXd MassMatrix(const Robot& robot, const VectorXd& q) {
   }
   Eigen::MatrixXd M(n, n);
   for (int i = 0; i < n; ++i) {
-    Wrench wrench = UnitWrench(composite[i], robot.links[i].joint.type);
+    BodyWrench wrench = UnitWrench(composite[i], robot.links[i].joint.type);
     for (int j = i; j >= 0; --j) {
       M(i, j) = M(j, i) = AlongJoint(wrench, robot.links[j].joint.type);
       wrench = InParent(wrench, X_PM[j]);

@@ -13,23 +13,23 @@ using Eigen::Vector3d;
 
 // Motion of a moved joint frame M and the wrench its link needs, all expressed
 // in M; the acceleration is that of Mo relative to free fall.
-struct Motion {
+struct LinkMotion {
   Vector3d omega = Vector3d::Zero();
   Vector3d alpha = Vector3d::Zero();
   Vector3d acceleration = Vector3d::Zero();
 };
-struct Wrench {
+struct JointWrench {
   Vector3d force;
   Vector3d moment;  // about Mo
 };
 
 // The child's motion; X_PM is the pose of its M in the parent's M at q.
-Motion Propagate(const Motion& parent, const Isometry3d& X_PM, JointType type,
-                 double qd, double qdd) {
+LinkMotion Propagate(const LinkMotion& parent, const Isometry3d& X_PM,
+                     JointType type, double qd, double qdd) {
   const Matrix3d R_MP = X_PM.linear().transpose();
   const Vector3d z = Vector3d::UnitZ();
   const Vector3d p_PM_M = R_MP * X_PM.translation();
-  Motion m;
+  LinkMotion m;
   m.omega = R_MP * parent.omega;
   m.alpha = R_MP * parent.alpha;
   m.acceleration = R_MP * parent.acceleration + m.alpha.cross(p_PM_M) +
@@ -43,9 +43,9 @@ Motion Propagate(const Motion& parent, const Isometry3d& X_PM, JointType type,
   return m;
 }
 
-Wrench LinkWrench(const InertialParameters& V, const Motion& m) {
+JointWrench LinkWrench(const InertialParameters& V, const LinkMotion& m) {
   const Vector3d& h = V.first_moment;
-  Wrench w;
+  JointWrench w;
   w.force = V.mass * m.acceleration + m.alpha.cross(h) +
             m.omega.cross(m.omega.cross(h));
   w.moment = V.inertia * m.alpha + m.omega.cross(V.inertia * m.omega) +
@@ -61,8 +61,8 @@ Eigen::VectorXd InverseDynamics(const Robot& robot, const Eigen::VectorXd& q,
   const int n = robot.num_joints();
   CHECK(q.size() == n && qd.size() == n && qdd.size() == n);
   std::vector<Isometry3d> X_PM(n);
-  std::vector<Wrench> wrench(n);
-  Motion motion;
+  std::vector<JointWrench> wrench(n);
+  LinkMotion motion;
   motion.acceleration = -robot.gravity;
   Isometry3d X_ML = Isometry3d::Identity();  // of the parent; W for the first
   for (int i = 0; i < n; ++i) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "model/robot/axis_rotation.h"
+
 namespace armcal {
 namespace {
 
@@ -12,7 +14,6 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = 3.14159265358979323846 / 180;  // rad
 constexpr double kShortest = 1e-10;  // below, a direction is none
 
 Vector3d Direction(const XmlElement& element, const char* attribute,

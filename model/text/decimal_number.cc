@@ -12,8 +12,6 @@ constexpr double kPowers[kMostExponent + 1] = {
     1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
 // Eight digits at once (Lemire, "Number parsing at a gigabyte per second"); of
 // a machine that has the lowest byte first.
 inline bool EightDigits(const char* p, std::uint64_t* number) {

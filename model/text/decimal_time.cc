@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "model/text/decimal_number.h"
+
 namespace armcal {
 namespace {
 
@@ -24,8 +26,6 @@ constexpr auto kIntegerPowers = PowersOfTen<int64_t, 19>();
 constexpr auto kExactPowers = PowersOfTen<double, 23>();
 constexpr int kMaxShift = static_cast<int>(kIntegerPowers.size()) - 1;
 constexpr int kMaxExactPower = static_cast<int>(kExactPowers.size()) - 1;
-
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 // Appends a digit; false where the sum no longer fits.
 bool Append(char digit, int64_t* digits) {

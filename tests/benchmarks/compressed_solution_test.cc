@@ -9,8 +9,7 @@
 #include "tests/benchmarks/six_axis_blocks.h"
 #include "tests/fixtures/random_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::compressed_solution_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -133,5 +132,4 @@ TEST(CompressedSolution, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::compressed_solution_test

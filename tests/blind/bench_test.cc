@@ -9,8 +9,7 @@
 #include "tests/blind/blind_case.h"
 #include "tests/blind/residual_noise.h"
 
-namespace armcal {
-namespace {
+namespace armcal::bench_test {
 
 TEST(BlindBench, SetsShareNoSeed) {
   std::set<uint64_t> seeds;
@@ -91,5 +90,4 @@ TEST(RandomStream, DiffersByRobotRunAndPurpose) {
   EXPECT_EQ(static_cast<int>(first.size()), count);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::bench_test

@@ -2,8 +2,7 @@
 
 #include "tests/blind/sized_case.h"
 
-namespace armcal {
-namespace {
+namespace armcal::cases_long_test {
 
 // Calibration cases of two kinds of arm: their effects have the planned
 // visibility, by runs that the search had no part in, or a reason why not.
@@ -46,5 +45,4 @@ TEST(SizedCase, OfTwoEffects) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::cases_long_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armcal {
-namespace {
+namespace armcal::day_changes_test {
 
 BlindAnswer::Effect Claim(const std::string& effect, int joint, double value) {
   return {{effect, joint}, .9, {{"coulomb", "N m", value}}, {}};
@@ -53,5 +52,4 @@ TEST(WithoutDayChanges, TheTruthHasToMove) {
       << "the other way";
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::day_changes_test

@@ -6,8 +6,7 @@
 
 #include "tests/blind/oracle_gap.h"
 
-namespace armcal {
-namespace {
+namespace armcal::effect_size_test {
 
 BlindCase RichCase(const std::string& arm) {
   for (uint64_t seed = 0;; ++seed) {
@@ -109,5 +108,4 @@ TEST(OracleGap, OfARippleIsItsMeanSquare) {
   EXPECT_LE(gap->RemovedPercent(), 100);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::effect_size_test

@@ -6,8 +6,7 @@
 #include "tests/blind/effect_likeness.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::equivalents_test {
 
 BlindCase Scara() {
   for (uint64_t seed = 0;; ++seed) {
@@ -101,5 +100,4 @@ TEST(Equivalents, OfTheBenchAreOfItsArms) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::equivalents_test

@@ -8,8 +8,7 @@
 #include "tests/blind/score_table.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::figures_test {
 
 // Published: no event in 30 has the upper bound 1 - 0.025^(1/30) = 11.57 %
 // (the "rule of three" exactly); 81 of 263 has [25.27 %, 36.77 %] (Newcombe,
@@ -87,5 +86,4 @@ TEST(BlindLabel, AsWritten) {
       std::string::npos);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::figures_test

@@ -7,8 +7,7 @@
 #include "tests/blind/case_plan.h"
 #include "tests/blind/size_search.h"
 
-namespace armcal {
-namespace {
+namespace armcal::plan_test {
 
 // What issue 5 asks for: 150 rich and 60 poor without effect, 250 with one, 60
 // with two, 60 out of catalogue; every effect 6 times at ENR 0.32 or more and
@@ -123,5 +122,4 @@ TEST(SizeSearch, StaysWhereTheArmFollows) {
   EXPECT_EQ(law.Find("stribeck", {.5, .32, 1}).limit, "nothing");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::plan_test

@@ -8,8 +8,7 @@
 #include "tests/blind/blind_runner.h"
 #include "tests/blind/isolated_process.h"
 
-namespace armcal {
-namespace {
+namespace armcal::runner_test {
 
 namespace fs = std::filesystem;
 
@@ -138,5 +137,4 @@ TEST_F(BlindRunner, KillsWhatTakesTooLong) {
   EXPECT_NE(text.str().find("\"timed_out\": true"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::runner_test

@@ -3,8 +3,7 @@
 #include "tests/blind/blind_score.h"
 #include "tests/blind/true_share.h"
 
-namespace armcal {
-namespace {
+namespace armcal::score_test {
 
 using Effect = BlindLabel::Effect;
 using Named = BlindAnswer::Effect;
@@ -224,5 +223,4 @@ TEST(TrueShare, IsOfTheSameClaimsOnMotionWithoutNoise) {
   EXPECT_EQ(TrueRemovedPercent(answer, BlindAnswer()), std::nullopt);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::score_test

@@ -9,8 +9,7 @@
 #include "tests/blind/withheld_size.h"
 #include "tests/fixtures/two_link_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::withheld_effect_test {
 
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -140,5 +139,4 @@ TEST(WithheldEffect, IsDrawnWithinItsRange) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::withheld_effect_test

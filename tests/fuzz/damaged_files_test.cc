@@ -6,8 +6,7 @@
 
 #include "tests/fuzz/fuzzed_readers.h"
 
-namespace armcal {
-namespace {
+namespace armcal::damaged_files_test {
 
 namespace fs = std::filesystem;
 
@@ -41,5 +40,4 @@ INSTANTIATE_TEST_SUITE_P(All, FuzzedReadersTest,
                          testing::ValuesIn(FuzzedReaders()),
                          [](const auto& info) { return info.param.name; });
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::damaged_files_test

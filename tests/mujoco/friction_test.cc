@@ -18,8 +18,7 @@
 #include "tests/mujoco/calibrated_robot.h"
 #include "tests/mujoco/mujoco_model.h"
 
-namespace armcal {
-namespace {
+namespace armcal::friction_test {
 
 using Eigen::VectorXd;
 
@@ -212,5 +211,4 @@ TEST_F(MujocoFriction, CalibratedUr10e) {
   ExpectMostSaturated();
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::friction_test

@@ -14,8 +14,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/mujoco/mujoco_model.h"
 
-namespace armcal {
-namespace {
+namespace armcal::mjcf_test {
 
 using Eigen::VectorXd;
 
@@ -321,5 +320,4 @@ TEST(MujocoMjcf, DrivesPushAsOurLawSays) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::mjcf_test

@@ -10,8 +10,7 @@
 #include "tests/mujoco/calibrated_robot.h"
 #include "tests/mujoco/mujoco_model.h"
 
-namespace armcal {
-namespace {
+namespace armcal::mujoco_test {
 
 using Eigen::VectorXd;
 
@@ -86,5 +85,4 @@ TEST(Mujoco, LinksAtTheBoundaryLoad) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::mujoco_test

@@ -15,8 +15,7 @@
 #include "problems/dense_solver.h"
 #include "tests/nist/nist_set.h"
 
-namespace armcal {
-namespace {
+namespace armcal::nist_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -143,5 +142,4 @@ TEST(Nist, CertifiedValuesAndDeviations) {
   EXPECT_GE(solvers[0].stddevs, 25);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::nist_test

@@ -3,8 +3,7 @@
 #include <ceres/normal_prior.h>
 #include <gtest/gtest.h>
 
-namespace armcal {
-namespace {
+namespace armcal::dense_solver_test {
 
 // Data tell x + y a million times better than the prior tells x and y apart,
 // and do not agree among themselves: what the prior can gain is nothing beside
@@ -29,5 +28,4 @@ TEST(SolveDense, FollowsDirectionsThatOnlyThePriorKnows) {
   EXPECT_NEAR(x[1], .5, 1e-3);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::dense_solver_test

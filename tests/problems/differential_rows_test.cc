@@ -9,8 +9,7 @@
 #include "tests/fixtures/two_link_arm.h"
 #include "tests/problems/row_tiles.h"
 
-namespace armcal {
-namespace {
+namespace armcal::differential_rows_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -115,5 +114,4 @@ TEST(DifferentialRows, HoldJointTerms) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::differential_rows_test

@@ -4,8 +4,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::drive_gain_residual_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -102,5 +101,4 @@ TEST(DriveGainResidual, JacobiansAreThoseOfDifferences) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::drive_gain_residual_test

@@ -5,8 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::excitation_criterion_test {
 
 using Eigen::Matrix2d;
 using Eigen::MatrixXd;
@@ -101,5 +100,4 @@ TEST(ExcitationCriterion, GradientIsItsDerivative) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::excitation_criterion_test

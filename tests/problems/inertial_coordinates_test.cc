@@ -9,8 +9,7 @@
 #include "problems/inertial_prior.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::inertial_coordinates_test {
 
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
@@ -143,7 +142,7 @@ TEST(InertialCoordinates, UnphysicalParametersAreMovedInside) {
   }
 }
 
-TEST(InertialPrior, IsZeroAtTheFileAndIndependentOfFramesAndUnits) {
+TEST(InertialCoordinates, IsZeroAtTheFileAndIndependentOfFramesAndUnits) {
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 50; ++trial) {
     const Vector10d V_0 = RandomInertial(&random), V = RandomInertial(&random);
@@ -164,7 +163,7 @@ TEST(InertialPrior, IsZeroAtTheFileAndIndependentOfFramesAndUnits) {
 }
 
 // tr(P_0^-1 P) - log det(P_0^-1 P) - 4, whose rest is of third order.
-TEST(InertialPrior, IsTheLogDetDivergenceToSecondOrder) {
+TEST(InertialCoordinates, IsTheLogDetDivergenceToSecondOrder) {
   std::mt19937_64 random(6);
   for (int trial = 0; trial < 20; ++trial) {
     const Vector10d V_0 = RandomInertial(&random);
@@ -183,7 +182,7 @@ TEST(InertialPrior, IsTheLogDetDivergenceToSecondOrder) {
   }
 }
 
-TEST(InertialPrior, GradientIsRight) {
+TEST(InertialCoordinates, GradientIsRight) {
   std::mt19937_64 random(7);
   const std::vector<const ceres::Manifold*>* no_manifolds = nullptr;
   for (int trial = 0; trial < 10; ++trial) {
@@ -198,5 +197,4 @@ TEST(InertialPrior, GradientIsRight) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::inertial_coordinates_test

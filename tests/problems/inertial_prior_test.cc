@@ -9,8 +9,7 @@
 #include "problems/inertial_manifold.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::inertial_prior_test {
 
 using Eigen::Matrix4d;
 using RowMajor10d = Eigen::Matrix<double, 10, 10, Eigen::RowMajor>;
@@ -125,5 +124,4 @@ TEST(InertialManifold, NeverLeavesWhatCanExist) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::inertial_prior_test

@@ -8,8 +8,7 @@
 #include "tests/fixtures/two_link_arm.h"
 #include "tests/problems/row_tiles.h"
 
-namespace armcal {
-namespace {
+namespace armcal::integral_rows_test {
 
 using Eigen::VectorXd;
 
@@ -151,5 +150,4 @@ TEST(RowReach, CoversTheRows) {
   EXPECT_NEAR(RowReach(options), 20.7 / (std::sin(kPi / 8) * 10 * kPi), 1e-12);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::integral_rows_test

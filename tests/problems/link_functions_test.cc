@@ -11,8 +11,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::link_functions_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -233,5 +232,4 @@ TEST(LinkFunctions, StandstillIsUselessOnlyWithCoulombFriction) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::link_functions_test

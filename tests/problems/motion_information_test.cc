@@ -5,8 +5,7 @@
 #include "model/dynamics/inverse_dynamics.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::motion_information_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -83,5 +82,4 @@ TEST_F(MotionInformationTest, GradientIsThatOfAAndTheTorque) {
   check(&Motion::qdd, gradient.qdd);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::motion_information_test

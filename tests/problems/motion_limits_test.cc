@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::motion_limits_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -91,5 +90,4 @@ TEST(LimitBarrier, GradientIsItsDerivative) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::motion_limits_test

@@ -9,8 +9,7 @@
 #include "problems/wire_residual.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::pose_residuals_test {
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
@@ -159,5 +158,4 @@ TEST(PoseResidual, HalfATurnIsFinite) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::pose_residuals_test

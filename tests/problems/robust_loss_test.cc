@@ -8,8 +8,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robust_loss_test {
 
 constexpr RobustLoss kRobust[] = {RobustLoss::kHuber, RobustLoss::kCauchy,
                                   RobustLoss::kTukey};
@@ -112,5 +111,4 @@ TEST(RobustLoss, CostsLittleOnNormalErrorsAndResistsOutliers) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robust_loss_test

@@ -6,8 +6,7 @@
 #include "problems/inertial_coordinates.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_factor_residual_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -84,5 +83,4 @@ TEST(TorqueFactorResidual, OverflowIsRefused) {
   EXPECT_FALSE(cost.Evaluate(p.parameters.data(), r.data(), nullptr));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_factor_residual_test

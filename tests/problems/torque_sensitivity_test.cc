@@ -8,8 +8,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_sensitivity_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -110,5 +109,4 @@ TEST_F(Puma, FrictionByDisplacementKeepsItsState) {
   EXPECT_LT((with - without).norm(), 1e-6 * without.norm());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_sensitivity_test

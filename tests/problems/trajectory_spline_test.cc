@@ -5,8 +5,7 @@
 #include <cmath>
 #include <functional>
 
-namespace armcal {
-namespace {
+namespace armcal::trajectory_spline_test {
 
 using Eigen::MatrixXd;
 
@@ -73,5 +72,4 @@ TEST(TrajectorySpline, ConvergesWithOrderSix) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::trajectory_spline_test

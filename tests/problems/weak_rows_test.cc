@@ -8,8 +8,7 @@
 #include "tests/fixtures/two_link_arm.h"
 #include "tests/problems/row_tiles.h"
 
-namespace armcal {
-namespace {
+namespace armcal::weak_rows_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -137,5 +136,4 @@ TEST(WeakRows, ShortStretchesHaveNone) {
   EXPECT_TRUE(Rows(arm.Record(.01, 3), RowOptions(), &regressor).empty());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::weak_rows_test

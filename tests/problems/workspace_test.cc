@@ -8,8 +8,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::workspace_test {
 
 using Eigen::MatrixXd;
 using Eigen::RowVector2d;
@@ -127,5 +126,4 @@ TEST(Workspace, TheBarrierEndsAtItsMargin) {
   EXPECT_TRUE(std::isinf(room.Barrier(kLevel, .06, 1, &gradient)));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::workspace_test

@@ -12,8 +12,7 @@
 #include "model/log_files/log_reader.h"
 #include "model/robot_files/robot_reader.h"
 
-namespace armcal {
-namespace {
+namespace armcal::gap_long_test {
 
 using Eigen::VectorXd;
 using nlohmann::json;
@@ -195,5 +194,4 @@ TEST(Panda, DISABLED_HasNotChangedWithinTenSeconds) {
       << diagnosis.at("effects").dump(1);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::gap_long_test

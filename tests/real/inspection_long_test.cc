@@ -14,8 +14,7 @@
 #include "tests/fixtures/inspected_arm.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::inspection_long_test {
 
 const std::vector<double> kUr10eConstants = {14.87, 13.26, 11.13,
                                              10.62, 11.03, 11.47};
@@ -232,5 +231,4 @@ TEST(RealInspection, CleanLogsAreClean) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::inspection_long_test

@@ -12,8 +12,7 @@
 #include "calib/linear/calibration_report.h"
 #include "model/robot_files/robot_reader.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robots_test {
 
 const std::string kData = SHARED_DIR "/data/";
 
@@ -182,5 +181,4 @@ TEST(Pendubot, PassiveJointKeepsItsParameters) {
   EXPECT_TRUE(std::isnan(a.validation->moving().percent[1]));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robots_test

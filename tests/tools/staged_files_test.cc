@@ -6,8 +6,7 @@
 #include <fstream>
 #include <map>
 
-namespace armcal {
-namespace {
+namespace armcal::staged_files_test {
 
 namespace fs = std::filesystem;
 
@@ -109,5 +108,4 @@ TEST_F(StagedFilesTest, DoNotReplaceFolders) {
   ExpectPlain({"a"});
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::staged_files_test

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calib/logs/position_noise.h"
+#include "calib/numerics/undefined.h"
 #include "model/log_files/time_base.h"
 #include "model/text/input_error.h"
 
@@ -18,7 +19,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Deviations of a loop are averaged over this: a bootstrap of every sample
 // would say the same, later.
 constexpr double kBin = .02;  // s

@@ -11,7 +11,7 @@ using Eigen::VectorXd;
 
 // Of what the baseline and the chosen leave of a column, less than this share
 // is rounding and errors of form.
-constexpr double kVisible = 1e-6;
+constexpr double kVisibleShare = 1e-6;
 
 bool IsPositive(const GapCandidate& candidate, int k) {
   return candidate.effect->parameters[candidate.linear[k]].sign ==
@@ -65,7 +65,7 @@ DropsBeside::Own DropsBeside::OwnOf(const GapCandidate& candidate) const {
       own.G(k, l) = screen_.G()(a, b);
       if (half_.size() > 0) own.G(k, l) -= half_.col(a).dot(half_.col(b));
     }
-    own.used[k] = own.G(k, k) > kVisible * screen_.raw(a);
+    own.used[k] = own.G(k, k) > kVisibleShare * screen_.raw(a);
     own.G(k, k) += screen_.ridge(a);
   }
   return own;

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/commanded_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::commanded_torque_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -146,5 +145,4 @@ TEST(CommandedTorque, LagsBehind) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::commanded_torque_test

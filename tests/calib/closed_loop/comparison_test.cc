@@ -11,8 +11,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::comparison_test {
 
 using testing::HasSubstr;
 
@@ -136,5 +135,4 @@ TEST_F(CommandedArm, WithoutACommandItIsRefused) {
               HasSubstr("FILE: header: expected a column qref1.."));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::comparison_test

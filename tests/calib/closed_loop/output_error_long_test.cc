@@ -10,8 +10,7 @@
 #include "calib/closed_loop/output_error.h"
 #include "tests/fixtures/commanded_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::output_error_long_test {
 
 // Of arms of Simbody with one, three and six joints in position loops, logs of
 // 30 s: how often intervals of 95 % hold the truth, and how far off estimates
@@ -99,5 +98,4 @@ TEST_P(OutputErrorStudy, IntervalsHoldTheTruth) {
   EXPECT_NEAR(share, .95, .02 + chance);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::output_error_long_test

@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/commanded_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::output_error_test {
 
 constexpr double kNoise = 1e-4;  // rad
 
@@ -154,5 +153,4 @@ TEST(OutputErrorTest, RefusesWithTheTorquesReason) {
   EXPECT_EQ(result.arm.reason, "the logs with torques: nothing moves");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::output_error_test

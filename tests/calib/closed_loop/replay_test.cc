@@ -4,8 +4,7 @@
 
 #include "tests/fixtures/corrected_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::replay_test {
 
 using Eigen::VectorXd;
 
@@ -78,5 +77,4 @@ TEST(ReplayClosedLoop, DrivesLag) {
   EXPECT_GT(Replay(arm, arm.Truth(true), 0, log).position, 20 * told.position);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::replay_test

@@ -9,8 +9,7 @@
 #include "tests/fixtures/exact_rollout.h"
 #include "tests/fixtures/random_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::tangent_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -201,5 +200,4 @@ TEST(LoopTangentTest, NoiseGoesRoundTheLoop) {
   EXPECT_GT((found - alone).norm(), .05 * alone.norm());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::tangent_test

@@ -3,8 +3,7 @@
 #include "calib/diagnose/diagnosis.h"
 #include "tests/fixtures/diagnosed_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::diagnosis_long_test {
 
 using Eigen::VectorXd;
 using testing::IsEmpty;
@@ -101,5 +100,4 @@ TEST_F(GapDiagnosisLongTest, WhatHasNoNameIsUnknown) {
   EXPECT_GT(diagnosis.unexplained.share, .3);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::diagnosis_long_test

@@ -4,8 +4,7 @@
 
 #include "tests/fixtures/diagnosed_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::diagnosis_test {
 
 using GapDiagnosisTest = DiagnosedArm<32>;
 
@@ -79,5 +78,4 @@ TEST_F(GapDiagnosisTest, AnOffsetOfManyDegreesIsOneEffect) {
   EXPECT_EQ(diagnosis.candidates.size(), 1u);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::diagnosis_test

@@ -6,8 +6,7 @@
 
 #include "model/effects/effects.h"
 
-namespace armcal {
-namespace {
+namespace armcal::report_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -255,5 +254,4 @@ TEST(GapVerdict, HasTheDesignsNames) {
                                           "unknown", "not_testable"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::report_test

@@ -12,8 +12,7 @@
 #include "tests/fixtures/corrected_arm.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robot_export_test {
 
 using Eigen::VectorXd;
 using testing::AllOf;
@@ -197,5 +196,4 @@ TEST_F(Export, FrictionDoesNotPush) {
   EXPECT_THAT(out.losses, Contains(HasSubstr("which cannot push")));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robot_export_test

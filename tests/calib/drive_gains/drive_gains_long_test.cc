@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/drive_gain_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::drive_gains_long_test {
 
 using Eigen::VectorXd;
 
@@ -68,5 +67,4 @@ TEST_P(Intervals, AreTrue) {
 INSTANTIATE_TEST_SUITE_P(, Intervals,
                          testing::Values("SCARA RRPR", "UR5 6R", "Panda 7R"));
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::drive_gains_long_test

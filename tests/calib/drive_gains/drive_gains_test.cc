@@ -6,8 +6,7 @@
 #include "calib/drive_gains/report.h"
 #include "tests/fixtures/drive_gain_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::drive_gains_test {
 
 using Eigen::VectorXd;
 using testing::HasSubstr;
@@ -157,5 +156,4 @@ TEST(DriveGains, DisturbancesDoNotPull) {
   EXPECT_LT(worst[0], worst[1] / 2);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::drive_gains_test

@@ -5,8 +5,7 @@
 
 #include "tests/fixtures/drive_gain_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::refusals_test {
 
 using testing::HasSubstr;
 
@@ -82,5 +81,4 @@ TEST(DriveGainRefusals, ShortLogsAreRefused) {
   EXPECT_THAT(result.reason, HasSubstr("longer logs are needed"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::refusals_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::design_target_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -84,5 +83,4 @@ TEST_F(DesignTargetTest, PriorsAndWishes) {
             static_cast<long>(geometry.design.wanted.size()));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::design_target_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::effect_separation_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -84,5 +83,4 @@ TEST_F(EffectSeparationTest, RefusesWhatHasNoSize) {
   EXPECT_THROW(Ask({"base_tilt"}), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::effect_separation_test

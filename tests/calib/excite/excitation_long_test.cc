@@ -6,8 +6,7 @@
 
 #include "tests/calib/excite/rated_design.h"
 
-namespace armcal {
-namespace {
+namespace armcal::excitation_long_test {
 
 class RatedArms : public testing::TestWithParam<const char*> {};
 
@@ -48,5 +47,4 @@ TEST_P(RatedArms, DesignsBeatTheBestOfAThousandRandomMotions) {
   EXPECT_LT(worst, std::max(.6, 1.8 * least));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::excitation_long_test

@@ -11,8 +11,7 @@
 #include "tests/fixtures/calibrate_logs.h"
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::excitation_stddev_long_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -172,5 +171,4 @@ TEST(Sequential, TakesLessThanHalfOfAFreshDesign) {
   EXPECT_LE(after, fresh / 2);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::excitation_stddev_long_test

@@ -7,8 +7,7 @@
 #include "problems/motion_information.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::excitation_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -115,5 +114,4 @@ TEST_F(ExcitationTest, ImpossibleLimitsAreAResult) {
   EXPECT_NE(designed.reason, "");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::excitation_test

@@ -11,8 +11,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::given_information_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -77,5 +76,4 @@ TEST_F(GivenInformationTest, SegmentsAddUp) {
   EXPECT_LT((sum - whole).norm(), 1e-9 * whole.norm());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::given_information_test

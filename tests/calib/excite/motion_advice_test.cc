@@ -9,8 +9,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::motion_advice_test {
 
 using Eigen::VectorXd;
 using testing::HasSubstr;
@@ -85,5 +84,4 @@ TEST_F(MotionAdviceTest, ReadsLikeASentence) {
               HasSubstr("move all joints together"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::motion_advice_test

@@ -9,8 +9,7 @@
 #include "tests/calib/excite/rated_arms.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::posture_design_long_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -108,5 +107,4 @@ TEST_P(RatedPostures, AreNearWhatIsPossible) {
   EXPECT_LT(at_most, 60);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::posture_design_long_test

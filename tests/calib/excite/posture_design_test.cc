@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::posture_design_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -68,5 +67,4 @@ TEST_P(PostureDesignTest, WithinTheLimitsAndTheSameAgain) {
 INSTANTIATE_TEST_SUITE_P(Arms, PostureDesignTest,
                          testing::Values("UR5 6R", "PUMA560 6R", "Panda 7R"));
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::posture_design_test

@@ -7,8 +7,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::segment_selection_test {
 
 // 30 s of which joint 1 alone moves but for five seconds from 20 s on, where
 // all do, and a second log in which joint 2 moves.
@@ -108,5 +107,4 @@ TEST_F(SegmentSelectionTest, PiecesAreInOrderAndTouchingOnesAreOne) {
   EXPECT_EQ(stretches[1][0].end, 10);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::segment_selection_test

@@ -16,8 +16,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::factor_file_test {
 
 using Eigen::MatrixXd;
 using testing::HasSubstr;
@@ -200,5 +199,4 @@ TEST_F(FactorFile, RefusesWhatDoesNotBelongTogether) {
       HasSubstr("FILE: key model.parameters: expected those of UR5"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::factor_file_test

@@ -8,8 +8,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::model_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -188,5 +187,4 @@ TEST(FleetModel, SaysWhatNoUnitShows) {
   EXPECT_TRUE(fit.unit.allFinite());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::model_test

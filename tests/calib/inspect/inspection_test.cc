@@ -8,8 +8,7 @@
 #include "tests/fixtures/inspected_arm.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::inspection_test {
 
 using testing::Test;
 
@@ -130,5 +129,4 @@ TEST_F(InspectionTest, CommandsAloneAreDescribed) {
   EXPECT_EQ(mended.qref, commanded.qref);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::inspection_test

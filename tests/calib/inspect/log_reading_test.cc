@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/inspected_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::log_reading_test {
 
 using Eigen::Vector3d;
 using Kind = ReadingChange::Kind;
@@ -110,5 +109,4 @@ TEST_F(LogReadingTest, LateTorques) {
   EXPECT_NEAR(found.reading.delay, .02, .003);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::log_reading_test

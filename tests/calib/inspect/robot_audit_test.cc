@@ -5,8 +5,7 @@
 
 #include "tests/fixtures/inspected_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robot_audit_test {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -64,5 +63,4 @@ TEST_F(RobotAuditTest, Placeholders) {
   EXPECT_THAT(Names(robot_), ElementsAre("default_inertia", "default_inertia"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robot_audit_test

@@ -7,8 +7,7 @@
 #include "calib/logs/uniform_series.h"
 #include "tests/fixtures/inspected_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_scale_test {
 
 TEST(TorqueScale, IsThatOfTheTorque) {
   InspectedArm arm;
@@ -39,5 +38,4 @@ TEST(TorqueScale, IsNothingWhereTorquesAreNotAlike) {
   EXPECT_TRUE(scale.array().isNaN().all());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_scale_test

@@ -7,8 +7,7 @@
 #include "tests/fixtures/monte_carlo.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::calibration_long_test {
 
 using Eigen::VectorXd;
 
@@ -138,5 +137,4 @@ TEST(SeveralLogs, IntervalsCover) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::calibration_long_test

@@ -7,8 +7,7 @@
 #include "tests/fixtures/calibrate_logs.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::calibration_test {
 
 using Eigen::VectorXd;
 using Law = CoulombTransition::Law;
@@ -175,5 +174,4 @@ TEST_F(Ur5, WeakFormResistsScatteredSamples) {
   EXPECT_GT(Normalised(CalibrateLogs(robot_, {log_}, options_), clean), 100);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::calibration_test

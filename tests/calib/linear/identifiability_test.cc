@@ -9,8 +9,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::identifiability_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -305,5 +304,4 @@ TEST(Identifiability, NamesTheParametersOfAJointAtRest) {
   EXPECT_THAT(texts, testing::ElementsAre("viscous[2]", "armature[2]"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::identifiability_test

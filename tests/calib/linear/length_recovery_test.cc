@@ -11,8 +11,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::length_recovery_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -224,5 +223,4 @@ TEST(LengthRecovery, IntervalsCover) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::length_recovery_test

@@ -9,8 +9,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::log_factors_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -128,5 +127,4 @@ TEST_F(Factors, ReportsProgress) {
   EXPECT_EQ(last, 1);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::log_factors_test

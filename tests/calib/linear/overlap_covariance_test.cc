@@ -8,8 +8,7 @@
 #include "model/text/uniform_draw.h"
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::overlap_covariance_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -153,5 +152,4 @@ TEST(RaiseTo, ScalesRowsAndColumnsAndNeverDown) {
   EXPECT_EQ(raised, (MatrixXd(2, 2) << 16, 2, 2, 9).finished());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::overlap_covariance_test

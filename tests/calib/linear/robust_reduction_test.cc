@@ -11,8 +11,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robust_reduction_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -105,5 +104,4 @@ TEST(RobustReduction, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robust_reduction_test

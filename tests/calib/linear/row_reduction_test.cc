@@ -12,8 +12,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::row_reduction_test {
 
 using Eigen::MatrixXd;
 
@@ -127,5 +126,4 @@ TEST_F(Reduction, ThreadsVisitRowsInOrder) {
   EXPECT_EQ(next, expected.size());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::row_reduction_test

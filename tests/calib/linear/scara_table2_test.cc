@@ -21,8 +21,7 @@
 #include "calib/linear/calibration_report.h"
 #include "model/robot_files/robot_reader.h"
 
-namespace armcal {
-namespace {
+namespace armcal::scara_table2_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -196,5 +195,4 @@ TEST(ScaraRobotFile, HasThePapersParameters) {
   for (int k = 0; k < 6; ++k) EXPECT_NEAR(x[k], kTruth[k], 1e-14) << k;
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::scara_table2_test

@@ -10,8 +10,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::score_covariance_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -171,5 +170,4 @@ TEST(BartlettWindow, StaysWithinItsBounds) {
   EXPECT_EQ(BartlettWindow(1, 1 << 30, 6), BartlettWindow(.97, 1 << 30, 6));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::score_covariance_test

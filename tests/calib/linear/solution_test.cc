@@ -8,8 +8,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::solution_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -216,5 +215,4 @@ TEST(LinearSolution, ExcludedJointsKeepTheirNoise) {
   EXPECT_GT(solution.weight[1], 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::solution_test

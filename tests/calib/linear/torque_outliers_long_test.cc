@@ -7,8 +7,7 @@
 
 #include "tests/calib/linear/spoiled_torque.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_outliers_long_test {
 
 // The first of the seeds: ARMCAL_SEED, or 1.
 int FirstSeed() {
@@ -46,5 +45,4 @@ TEST(TorqueOutliers, OverManyLogs) {
   EXPECT_EQ(beyond, 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_outliers_long_test

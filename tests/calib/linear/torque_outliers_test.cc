@@ -6,8 +6,7 @@
 
 #include "tests/calib/linear/spoiled_torque.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_outliers_test {
 
 class TorqueOutliers : public testing::TestWithParam<const char*> {};
 
@@ -85,5 +84,4 @@ TEST(OutlierRows, AreFoundBeforeTheLogIsThinned) {
   ExpectListed(run, motion, planted, 8);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_outliers_test

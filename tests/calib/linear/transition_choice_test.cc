@@ -9,8 +9,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::transition_choice_test {
 
 using Eigen::VectorXd;
 using Law = CoulombTransition::Law;
@@ -128,5 +127,4 @@ TEST(TransitionChoice, TheFirstCandidateMayBeSharper) {
   EXPECT_DOUBLE_EQ(FinerTransitions(grid[17]).back().width, grid[17].width);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::transition_choice_test

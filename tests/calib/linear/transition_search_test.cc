@@ -6,8 +6,7 @@
 #include "tests/fixtures/drive_gain_runs.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::transition_search_test {
 
 Transitions Find(const Robot& robot, const Log& log) {
   LogReaderOptions reader;
@@ -16,7 +15,7 @@ Transitions Find(const Robot& robot, const Log& log) {
   const LinearCalibrationOptions options;
   const RowOptions rows = MakeRowOptions(options, set);
   set.Prepare(rows.bandwidth_hz, RowReach(rows));
-  return FindTransitions(robot, options, rows, &set, TorqueScale::kPerJoint);
+  return FindTransitions(robot, options, rows, &set, TorqueUnits::kPerJoint);
 }
 
 // Joint by joint, what unit each joint's torque is in does not matter: currents
@@ -39,5 +38,4 @@ TEST(TransitionSearch, PerJointKnowsNoScale) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::transition_search_test

@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/inspected_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::channel_audit_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -106,5 +105,4 @@ TEST_F(ChannelAuditTest, CoarseTorque) {
   EXPECT_THAT(Names(), testing::Contains("quantised"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::channel_audit_test

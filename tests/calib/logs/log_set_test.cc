@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/cut_log.h"
 
-namespace armcal {
-namespace {
+namespace armcal::log_set_test {
 
 LogSet Open(const std::vector<std::string>& paths, std::size_t memory) {
   LogReaderOptions options;
@@ -108,5 +107,4 @@ TEST(LogSet, ReadsFilesOnceWhereMemoryAllows) {
   EXPECT_GT(Passes(&logs).size(), 3);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::log_set_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::position_noise_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -57,5 +56,4 @@ TEST(PositionNoise, IsZeroWhereNothingChanges) {
   EXPECT_EQ(PositionNoise(MatrixXd::Ones(1, 1))[0], 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::position_noise_test

@@ -8,8 +8,7 @@
 #include "tests/fixtures/calibrate_logs.h"
 #include "tests/fixtures/nonlinear_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::sample_noise_test {
 
 using Eigen::VectorXd;
 using Source = SampleNoise::Source;
@@ -138,5 +137,4 @@ TEST(FindRepeat, IsNotFooledByOtherMotionOrRest) {
   EXPECT_FALSE(FindRepeat(home, home, .5));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::sample_noise_test

@@ -11,8 +11,7 @@
 #include "calib/linear/calibration.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::streaming_long_test {
 
 // 7 joints at 1 kHz: sines, and a torque that has to do with them.
 std::string WriteLog(const std::string& name, int minutes) {
@@ -66,5 +65,4 @@ TEST(Streaming, MemoryDoesNotGrowWithTheLog) {
   std::remove(long_log.c_str());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::streaming_long_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::torque_drift_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -79,5 +78,4 @@ TEST(TorqueDrift, OfNothing) {
   EXPECT_EQ(still, Times());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_drift_test

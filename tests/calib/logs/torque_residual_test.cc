@@ -7,8 +7,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_residual_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -133,5 +132,4 @@ TEST_F(Residual, NothingAdded) {
   EXPECT_TRUE(std::isnan(residual.moving().percent[0]));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_residual_test

@@ -6,8 +6,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_trace_test {
 
 // Recorded, two models and what each leaves: the true one leaves nothing but a
 // spike, the other one (without gravity's lever) much.
@@ -61,5 +60,4 @@ TEST(TorqueTrace, HoldsRecordedPredictedAndTheirDifference) {
   EXPECT_EQ(traces[0].residual.Density().cols(), 6);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_trace_test

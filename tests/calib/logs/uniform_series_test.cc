@@ -4,8 +4,7 @@
 
 #include "tests/fixtures/inspected_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::uniform_series_test {
 
 TEST(UniformSeries, IsTheMotionAndItsDerivatives) {
   const InspectedArm arm("2R planar (vertical plane)", 10);
@@ -41,5 +40,4 @@ TEST(UniformSeries, LeavesOutGapsAndStandstill) {
   EXPECT_LT(UniformSeries(still.log, .01, .05, 10).num_moving(), .6 * whole);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::uniform_series_test

@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::autoregression_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -160,5 +159,4 @@ TEST(Autoregression, OfAFewSamplesOnlyTheVarianceIsKnown) {
   EXPECT_EQ(FitAutoregression({}, false).sigma, 1);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::autoregression_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace armcal {
-namespace {
+namespace armcal::binned_profile_test {
 
 std::vector<double> RandomPlaces() {
   std::mt19937_64 random(3);
@@ -72,5 +71,4 @@ TEST(BinnedProfile, StandsWhatHardlyVaries) {
   EXPECT_LE(profile.size(), 40);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::binned_profile_test

@@ -6,8 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace armcal {
-namespace {
+namespace armcal::block_bootstrap_test {
 
 // `size` normal values in runs of `run`, the first of which is cut anywhere.
 std::vector<double> Runs(int size, int run, std::mt19937_64* random) {
@@ -77,5 +76,4 @@ TEST(BlockBootstrap, MeanByStudent) {
   EXPECT_NEAR(width, 2 * 2.064 / 10, .07 * .41);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::block_bootstrap_test

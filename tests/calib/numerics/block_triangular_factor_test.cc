@@ -9,8 +9,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::block_triangular_factor_test {
 
 using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
@@ -176,5 +175,4 @@ TEST_F(Factor, KeepsTheAccuracyOfIllConditionedEquations) {
   EXPECT_LT((solved - x).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::block_triangular_factor_test

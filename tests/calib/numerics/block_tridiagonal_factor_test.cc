@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::block_tridiagonal_factor_test {
 
 using Eigen::MatrixXd;
 using Blocks = BlockTridiagonalFactor::Blocks;
@@ -55,5 +54,4 @@ TEST_F(Chain, SaysWhatIsNotPositive) {
   EXPECT_FALSE(BlockTridiagonalFactor(blocks_).positive());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::block_tridiagonal_factor_test

@@ -10,8 +10,7 @@
 
 #include "calib/numerics/thread_limit.h"
 
-namespace armcal {
-namespace {
+namespace armcal::ordered_work_test {
 
 TEST(ThreadLimit, HoldsAsLongAsItLives) {
   const int all = ThreadLimit::Active();
@@ -69,5 +68,4 @@ TEST(OrderedWork, PassesOnWhatATaskThrows) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::ordered_work_test

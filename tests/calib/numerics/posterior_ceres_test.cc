@@ -8,8 +8,7 @@
 #include "calib/poses/fit.h"
 #include "tests/fixtures/sample_poses.h"
 
-namespace armcal {
-namespace {
+namespace armcal::posterior_ceres_test {
 
 using Eigen::MatrixXd;
 using RowMajor =
@@ -17,7 +16,7 @@ using RowMajor =
 
 // Poses of a tool with a prior on all of the geometry: everything has a
 // variance, though only the prior tells some directions apart.
-TEST(Posterior, IsCeresCovarianceOfAProblemOfFullRank) {
+TEST(PosteriorCeres, IsCeresCovarianceOfAProblemOfFullRank) {
   Plant plant("UR5 6R", 5);
   const PoseMeasurements measured = plant.Measure(Instrument::kPoses, 40, 1e-4);
   PoseCalibrationOptions options;
@@ -57,5 +56,4 @@ TEST(Posterior, IsCeresCovarianceOfAProblemOfFullRank) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::posterior_ceres_test

@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::posterior_test {
 
 using Eigen::MatrixXd;
 
@@ -86,5 +85,4 @@ TEST(Sandwich, IsACovarianceWhateverCancels) {
   EXPECT_GT((written - written.transpose()).norm(), 1e-6);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::posterior_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::power_spectrum_test {
 
 constexpr double kStep = .004;
 
@@ -51,5 +50,4 @@ TEST(PowerSpectrum, WindowsDoNotReachOverGaps) {
   EXPECT_TRUE(spectrum.empty());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::power_spectrum_test

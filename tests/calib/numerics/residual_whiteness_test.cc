@@ -4,8 +4,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::residual_whiteness_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -51,5 +50,4 @@ TEST(ResidualWhiteness, JointsWithoutSamplesDoNotCount) {
   EXPECT_EQ(whiteness.ratio(), 1);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::residual_whiteness_test

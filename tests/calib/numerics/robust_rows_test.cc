@@ -8,8 +8,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robust_rows_test {
 
 TEST(ResidualStatistics, SpreadIsThatOfNormalErrors) {
   for (const double sigma : {1e-9, 1., 1e9}) {
@@ -79,5 +78,4 @@ TEST(ResidualStatistics, AutocorrelationDoesNotReachAcrossBreaks) {
   EXPECT_NEAR(together.Autocorrelation(), .99, 1e-12);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robust_rows_test

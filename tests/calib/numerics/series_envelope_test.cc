@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::series_envelope_test {
 
 using Eigen::Vector2d;
 
@@ -81,5 +80,4 @@ TEST(SeriesEnvelope, GapsOutliveManySamples) {
   EXPECT_LE(many.bins().size(), 20u);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::series_envelope_test

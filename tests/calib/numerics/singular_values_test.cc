@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace armcal {
-namespace {
+namespace armcal::singular_values_test {
 
 using Eigen::MatrixXd;
 
@@ -47,5 +46,4 @@ TEST(SingularValues, DecomposesWhatIsGraded) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::singular_values_test

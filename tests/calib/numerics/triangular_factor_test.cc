@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::triangular_factor_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -168,5 +167,4 @@ TEST(TriangularFactor, SolvesIllConditionedEquations) {
   EXPECT_LT(std::abs(R(3, 3)), 1e-12);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::triangular_factor_test

@@ -8,8 +8,7 @@
 #include "calib/poses/calibration.h"
 #include "tests/fixtures/sample_poses.h"
 
-namespace armcal {
-namespace {
+namespace armcal::calibration_long_test {
 
 // The truth in the terms of the parameters that are not held: what the same
 // fit gives without noise and prior.
@@ -58,5 +57,4 @@ TEST(PoseCalibrationLong, IntervalsCoverTheTruth) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::calibration_long_test

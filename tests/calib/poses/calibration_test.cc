@@ -12,8 +12,7 @@
 #include "calib/poses/calibrate_poses.h"
 #include "tests/fixtures/sample_poses.h"
 
-namespace armcal {
-namespace {
+namespace armcal::calibration_test {
 
 using Eigen::VectorXd;
 using Refine = RefineGeometry;
@@ -161,5 +160,4 @@ TEST(PoseCalibration, RealRobots) {
   EXPECT_LE(cable.median, .54e-3);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::calibration_test

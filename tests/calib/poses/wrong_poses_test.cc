@@ -12,8 +12,7 @@
 #include "calib/poses/calibration.h"
 #include "tests/fixtures/sample_poses.h"
 
-namespace armcal {
-namespace {
+namespace armcal::wrong_poses_test {
 
 constexpr int kPoses = 100;
 
@@ -104,5 +103,4 @@ TEST(WrongPoses, MoveLittleAndAreListed) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::wrong_poses_test

@@ -14,8 +14,7 @@
 #include "tests/fixtures/same_robot.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::calibration_reader_test {
 
 using nlohmann::json;
 using testing::AllOf;
@@ -219,5 +218,4 @@ TEST(ReadCalibration, TextThatIsNoJson) {
   EXPECT_THROW(ReadCalibration("no_such_file.json", robot), InputError);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::calibration_reader_test

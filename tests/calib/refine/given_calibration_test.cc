@@ -15,8 +15,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::given_calibration_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -117,5 +116,4 @@ TEST_F(GivenCalibrationTest, DamagedFilesAreRefused) {
   ExpectRefused(model, "row 2, column 1: found 'x");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::given_calibration_test

@@ -6,8 +6,7 @@
 #include "tests/calib/refine/bent_arm.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::link_equations_test {
 
 using Eigen::VectorXd;
 
@@ -92,5 +91,4 @@ TEST(LinkEquations, InformationIsThatOfTheEquations) {
   EXPECT_LT((Q.transpose() * Q - H).norm(), 1e-9 * H.norm());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::link_equations_test

@@ -5,8 +5,7 @@
 
 #include "tests/fixtures/nonlinear_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::nonlinear_calibration_long_test {
 
 struct Scores {
   double sum = 0;
@@ -80,5 +79,4 @@ TEST_P(Robots, AlwaysEnd) {
 INSTANTIATE_TEST_SUITE_P(, Robots,
                          testing::Values("3R elbow", "UR5 6R", "Panda 7R"));
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::nonlinear_calibration_long_test

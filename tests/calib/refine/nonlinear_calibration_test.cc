@@ -9,8 +9,7 @@
 #include "tests/fixtures/nonlinear_runs.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::nonlinear_calibration_test {
 
 using Eigen::VectorXd;
 
@@ -190,5 +189,4 @@ TEST(NonlinearCalibration, Panda) {
                   {1.05, 1.05, 1.05, 1.17, 1.05});
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::nonlinear_calibration_test

@@ -15,8 +15,7 @@
 #include "tests/fixtures/nonlinear_runs.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::nonlinear_lengths_test {
 
 using Eigen::VectorXd;
 
@@ -183,5 +182,4 @@ TEST(NonlinearLengths, StayInTheGeometryOfTheJson) {
   EXPECT_EQ(with_tool["geometry"][1]["name"], "tool.x");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::nonlinear_lengths_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/nonlinear_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::nonlinear_report_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -173,5 +172,4 @@ TEST(ParametersCovarianceCsv, LeavesOutWhatTheLogsDoNotTell) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::nonlinear_report_test

@@ -13,8 +13,7 @@
 
 #include "tests/fixtures/nonlinear_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::nonlinear_starts_long_test {
 
 enum class Start { kNear, kFar, kLight, kHeavy };
 
@@ -153,5 +152,4 @@ TEST_P(Starts, HighNoise) {
 INSTANTIATE_TEST_SUITE_P(, Starts,
                          testing::Values("3R elbow", "UR5 6R", "Panda 7R"));
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::nonlinear_starts_long_test

@@ -12,8 +12,7 @@
 #include "tests/fixtures/nonlinear_runs.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::physical_intervals_long_test {
 
 constexpr double kTrust = .2;
 
@@ -106,5 +105,4 @@ INSTANTIATE_TEST_SUITE_P(, PhysicalIntervals,
                          testing::Values("SCARA RRPR", "PUMA560 6R",
                                          "Panda 7R"));
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::physical_intervals_long_test

@@ -13,8 +13,7 @@
 #include "calib/poses/calibration.h"
 #include "tests/calib/refine/bent_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_and_poses_long_test {
 
 struct Rms {
   void Add(double x) { sum += x * x, ++count; }
@@ -125,5 +124,4 @@ TEST(TorqueAndPosesLong, BeatEitherAlone) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_and_poses_long_test

@@ -6,8 +6,7 @@
 #include "calib/poses/calibration.h"
 #include "tests/calib/refine/bent_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_and_poses_test {
 
 NonlinearCalibrationOptions Options(RefineGeometry refine) {
   NonlinearCalibrationOptions options;
@@ -99,5 +98,4 @@ TEST(TorqueAndPoses, TorquesAloneRefineTheGeometry) {
   EXPECT_TRUE(seen);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_and_poses_test

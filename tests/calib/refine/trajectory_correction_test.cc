@@ -8,8 +8,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::trajectory_correction_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -180,5 +179,4 @@ TEST_F(Scara, StretchesThatAreTooShortAreLeftOut) {
   EXPECT_FALSE(correction.Enter(motion));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::trajectory_correction_test

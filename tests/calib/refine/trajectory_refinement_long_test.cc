@@ -15,8 +15,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::trajectory_refinement_long_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -207,5 +206,4 @@ TEST(PumaLengths, UpperArmToAThirdOfAMillimetre) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::trajectory_refinement_long_test

@@ -9,8 +9,7 @@
 #include "tests/fixtures/calibrate_logs.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::trajectory_refinement_test {
 
 using Eigen::VectorXd;
 using Law = CoulombTransition::Law;
@@ -139,5 +138,4 @@ TEST_F(NoisyScara, LeavesAnUnsolvedStartAsItIs) {
   EXPECT_EQ(result.calibration.encoder_noise.size(), 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::trajectory_refinement_test

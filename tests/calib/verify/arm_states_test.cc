@@ -6,8 +6,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::arm_states_test {
 
 TEST(RandomStates, FillTheLimitsAndStayWithin) {
   Robot robot = SampleRobot("SCARA RRPR");
@@ -65,5 +64,4 @@ TEST(LoggedStates, SpreadEvenly) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::arm_states_test

@@ -9,8 +9,7 @@
 
 #include "calib/verify/rollout.h"
 
-namespace armcal {
-namespace {
+namespace armcal::rollout_long_test {
 
 constexpr int kTrials = 400;
 
@@ -80,5 +79,4 @@ TEST_P(RolloutIntervals, HoldTheTruthWhereTheyJudge) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::rollout_long_test

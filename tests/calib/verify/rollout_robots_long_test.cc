@@ -15,8 +15,7 @@
 #include "model/robot_files/robot_reader.h"
 #include "tests/calib/verify/rollout_rivals.h"
 
-namespace armcal {
-namespace {
+namespace armcal::rollout_robots_long_test {
 
 const std::string kData = SHARED_DIR "/data/";
 
@@ -152,5 +151,4 @@ TEST(Panda, RolloutsAreNearerTheLog) {
   contest.Run();
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::rollout_robots_long_test

@@ -12,8 +12,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::rollout_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -165,5 +164,4 @@ TEST(RolloutFigures, CorrelatedWindowsAreNotJudged) {
   EXPECT_FALSE(MedianError(WithErrors({}, 1), 0, {0}, 1).can_judge());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::rollout_test

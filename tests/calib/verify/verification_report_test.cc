@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace armcal {
-namespace {
+namespace armcal::verification_report_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -99,5 +98,4 @@ TEST(VerificationReport, TellsOfACalibrationThatDidNotConverge) {
   EXPECT_EQ(ToJson(report)["calibration_converged"], false);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::verification_report_test

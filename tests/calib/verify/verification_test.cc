@@ -11,8 +11,7 @@
 #include "tests/fixtures/temp_file.h"
 #include "tests/fixtures/urdf_text.h"
 
-namespace armcal {
-namespace {
+namespace armcal::verification_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -187,5 +186,4 @@ TEST(Verify, SameSeedSameFigures) {
   EXPECT_NE(figures(1), figures(2));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::verification_test

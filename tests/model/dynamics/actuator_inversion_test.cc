@@ -7,8 +7,7 @@
 
 #include "model/dynamics/motor_map.h"
 
-namespace armcal {
-namespace {
+namespace armcal::actuator_inversion_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -126,5 +125,4 @@ TEST(ActuatorInversion, GivenTorqueLags) {
   EXPECT_LT((given - asked).tail(kSamples - 40).cwiseAbs().maxCoeff(), .02);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::actuator_inversion_test

@@ -6,8 +6,7 @@
 #include "model/dynamics/link_regressor.h"
 #include "tests/fixtures/random_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::base_inertials_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -106,5 +105,4 @@ TEST(BaseInertials, HoldWhereAxesAreNearlyParallel) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::base_inertials_test

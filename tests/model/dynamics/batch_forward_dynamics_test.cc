@@ -9,8 +9,7 @@
 #include "model/plant/simbody_arm.h"
 #include "tests/fixtures/random_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::batch_forward_dynamics_test {
 
 using Eigen::Map;
 using Eigen::MatrixXd;
@@ -127,5 +126,4 @@ TEST(BatchForwardDynamics, NothingToMoveIsNotANumber) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::batch_forward_dynamics_test

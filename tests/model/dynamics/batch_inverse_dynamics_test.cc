@@ -5,8 +5,7 @@
 #include "model/dynamics/inverse_dynamics.h"
 #include "tests/fixtures/random_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::batch_inverse_dynamics_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -36,5 +35,4 @@ TEST(BatchInverseDynamics, IsInverseDynamics) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::batch_inverse_dynamics_test

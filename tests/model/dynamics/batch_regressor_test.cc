@@ -8,8 +8,7 @@
 #include "model/dynamics/link_regressor.h"
 #include "tests/model/dynamics/dual_regressor.h"
 
-namespace armcal {
-namespace {
+namespace armcal::batch_regressor_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -199,5 +198,4 @@ TEST(BatchRegressor, CuttingMakesNoDifference) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::batch_regressor_test

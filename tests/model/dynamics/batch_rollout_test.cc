@@ -7,8 +7,7 @@
 #include "model/dynamics/arm_stepper.h"
 #include "tests/fixtures/random_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::batch_rollout_test {
 
 using Eigen::VectorXd;
 
@@ -92,5 +91,4 @@ TEST_P(BatchRolloutTest, WindowsDoNotSeeEachOther) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::batch_rollout_test

@@ -8,8 +8,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::batch_torque_replay_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -114,5 +113,4 @@ TEST(BatchTorqueReplay, LightJointsAreNotDear) {
   EXPECT_NEAR(window.q(99, 0), v, 2e-5);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::batch_torque_replay_test

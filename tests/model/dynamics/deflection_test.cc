@@ -8,8 +8,7 @@
 
 #include "model/dynamics/flanked_spring.h"
 
-namespace armcal {
-namespace {
+namespace armcal::deflection_test {
 
 using Eigen::VectorXd;
 
@@ -202,5 +201,4 @@ TEST(Deflection, SpringsInLanesGoAsTheirLaws) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::deflection_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace armcal {
-namespace {
+namespace armcal::drive_law_test {
 
 constexpr double kInertia = 2;    // kg m^2
 constexpr double kPeriod = 1e-5;  // s
@@ -111,5 +110,4 @@ TEST(Drive, IntegralOfTheVelocityLoopStopsAtTheLimit) {
                    -.1 * law.position_gain * law.velocity_ki);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::drive_law_test

@@ -10,8 +10,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/two_link_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::forward_dynamics_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -165,5 +164,4 @@ TEST(RigidArm, TermsAreTheArms) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::forward_dynamics_test

@@ -7,8 +7,7 @@
 #include "tests/fixtures/random_motion.h"
 #include "tests/model/dynamics/particle_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::geometry_jacobian_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -149,5 +148,4 @@ TEST(GeometryJacobian, ColumnsAndSamplesDoNotDependOnOthers) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::geometry_jacobian_test

@@ -8,8 +8,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/two_link_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::inverse_dynamics_test {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
@@ -185,5 +184,4 @@ TEST(InverseDynamics, WorkIsTheChangeOfEnergy) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::inverse_dynamics_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/two_link_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::joint_controller_test {
 
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -85,5 +84,4 @@ TEST(JointController, DefaultGainsPlaceTheLoop) {
   EXPECT_NEAR(options.drives[1].kd, 2 * omega * inertia, 1e-9);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::joint_controller_test

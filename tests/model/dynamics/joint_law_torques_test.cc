@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armcal {
-namespace {
+namespace armcal::joint_law_torques_test {
 
 using Eigen::VectorXd;
 
@@ -52,5 +51,4 @@ TEST(JointLawTorques, StatesFollowTheMotionTogetherAsAlone) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::joint_law_torques_test

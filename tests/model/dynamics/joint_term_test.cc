@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::joint_term_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -153,5 +152,4 @@ TEST(CoulombStates, TakesEmptyStretchesAndModelsWithout) {
   EXPECT_EQ(states.Follow(Stretch({})).rows(), 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::joint_term_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace armcal {
-namespace {
+namespace armcal::joint_warmth_test {
 
 using Eigen::VectorXd;
 
@@ -51,5 +50,4 @@ TEST(FitThermal, WarmthFromElsewhereGivesTheUsualJoint) {
   EXPECT_EQ(fitted.resistance, JointThermal().resistance);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::joint_warmth_test

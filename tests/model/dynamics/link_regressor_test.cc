@@ -5,8 +5,7 @@
 #include "model/dynamics/inverse_dynamics.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::link_regressor_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -48,5 +47,4 @@ TEST(LinkRegressor, GivesNewtonEulerTorques) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::link_regressor_test

@@ -9,8 +9,7 @@
 #include "model/signals/dense_solvers.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::model_parameters_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -259,5 +258,4 @@ TEST(ModelParameters, JointTermsAddTheirTorque) {
   EXPECT_LT((U * parameters.Values(robot) - tau).cwiseAbs().maxCoeff(), 1e-11);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::model_parameters_test

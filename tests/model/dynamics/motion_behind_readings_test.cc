@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::motion_behind_readings_test {
 
 using Eigen::VectorXd;
 
@@ -48,5 +47,4 @@ TEST(MotionBehindReadings, UnevenStampsAreThoseOfTheClock) {
   EXPECT_LT((true_times - times).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::motion_behind_readings_test

@@ -7,8 +7,7 @@
 #include "model/dynamics/batch_rollout.h"
 #include "tests/fixtures/random_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::motion_tangent_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -188,5 +187,4 @@ TEST_P(MotionTangentTest, SlidingBlock) {
               -F / (d * d) * (1 - decay) - (v0 - F / d) * decay * T / m, 1e-6);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::motion_tangent_test

@@ -8,8 +8,7 @@
 #include "model/dynamics/model_parameters.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::proximal_chain_test {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
@@ -216,5 +215,4 @@ TEST(ProximalChain, OtherLengthsHaveTheSameStructure) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::proximal_chain_test

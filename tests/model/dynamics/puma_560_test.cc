@@ -8,8 +8,7 @@
 #include "model/dynamics/inverse_dynamics.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::puma_560_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -132,5 +131,4 @@ TEST_F(Puma560, Accelerations) {
                 V({-7.4102, -9.8432, -10.9694, -4.4314, -.9881, 21.0228}));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::puma_560_test

@@ -4,8 +4,7 @@
 
 #include "tests/fixtures/effect_plant.h"
 
-namespace armcal {
-namespace {
+namespace armcal::recorded_torque_plant_long_test {
 
 TEST(RecordedTorqueLong, IsThatOfThePlant) {
   const EffectPlant plant(10);
@@ -17,5 +16,4 @@ TEST(RecordedTorqueLong, IsThatOfThePlant) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::recorded_torque_plant_long_test

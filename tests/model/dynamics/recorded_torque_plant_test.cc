@@ -5,8 +5,7 @@
 
 #include "tests/fixtures/effect_plant.h"
 
-namespace armcal {
-namespace {
+namespace armcal::recorded_torque_plant_test {
 
 using Eigen::VectorXd;
 
@@ -46,5 +45,4 @@ TEST(RecordedTorquePlant, OfASoftJointOfAnArmThatStretches) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::recorded_torque_plant_test

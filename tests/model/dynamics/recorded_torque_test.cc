@@ -9,8 +9,7 @@
 #include "tests/fixtures/effect_arm.h"
 #include "tests/fixtures/two_link_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::recorded_torque_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -224,5 +223,4 @@ TEST(RecordedTorque, RemembersNothingOfOtherQuestions) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::recorded_torque_test

@@ -5,8 +5,7 @@
 #include "model/dynamics/model_parameters.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::regressor_gradient_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -67,5 +66,4 @@ TEST(RegressorGradient, OfAnyArm) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::regressor_gradient_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/two_link_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::rigid_torque_test {
 
 // By hand from the textbook's equations: of the first joint's torque
 //   d/dq1 = -(m1 lc1 + m2 l1) g sin q1 - m2 lc2 g sin(q1 + q2),
@@ -49,5 +48,4 @@ TEST(SlopesOfLinkTorque, AreTheTextbooks) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::rigid_torque_test

@@ -10,8 +10,7 @@
 #include "tests/fixtures/urdf_skeleton.h"
 #include "tests/fixtures/urdf_text.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robot_lengths_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -192,5 +191,4 @@ TEST(RobotLengths, TorquesFollowTheLinearModel) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robot_lengths_test

@@ -11,8 +11,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_replay_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -131,5 +130,4 @@ TEST(TorqueReplay, ReturnsTheMotionOfItsTorque) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_replay_test

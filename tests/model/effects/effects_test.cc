@@ -14,8 +14,9 @@ namespace armcal {
 inline namespace effects {
 void PrintTo(const Effect& effect, std::ostream* out) { *out << effect.name; }
 }  // namespace effects
+}  // namespace armcal
 
-namespace {
+namespace armcal::effects_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -223,5 +224,4 @@ TEST(PayloadOfAPendulum, IsAPointMass) {
 INSTANTIATE_TEST_SUITE_P(Catalogue, EffectOf, testing::ValuesIn(Effects()),
                          [](const auto& info) { return info.param.name; });
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::effects_test

@@ -9,8 +9,7 @@
 
 #include "model/effects/effects.h"
 
-namespace armcal {
-namespace {
+namespace armcal::pages_test {
 
 const std::filesystem::path kPages = DATA_DIR "/../docs/effects";
 
@@ -99,5 +98,4 @@ TEST(EffectPages, AreOfEffects) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::pages_test

@@ -10,8 +10,7 @@
 #include "tests/fixtures/effect_plant.h"
 #include "tests/model/effects/hidden_truth.h"
 
-namespace armcal {
-namespace {
+namespace armcal::truth_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -103,5 +102,4 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"time_base", {"rate"}}),
     [](const auto& info) { return info.param.effect; });
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::truth_test

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace armcal {
-namespace {
+namespace armcal::array_source_test {
 
 LogArray Doubles(const std::string& name, long columns,
                  const std::vector<double>& numbers) {
@@ -34,5 +33,4 @@ TEST(ArraySource, TakesTheNamesOfOtherToolsLogs) {
   EXPECT_EQ(line, "1,3,4,7,8");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::array_source_test

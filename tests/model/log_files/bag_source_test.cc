@@ -10,8 +10,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::bag_source_test {
 
 // Files by other programs, all of the log in data/log_formats (README.md).
 const std::string kFolder = FORMATS_DIR "/";
@@ -210,5 +209,4 @@ TEST(JointSeries, LiesOnTheLineBetweenMessages) {
   EXPECT_FALSE(at.Find(100));  // 140 > 3 x 200/7
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::bag_source_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::kept_log_test {
 
 LogReaderOptions OneJoint() {
   LogReaderOptions options;
@@ -90,5 +89,4 @@ TEST(KeptLog, GivesItsMemoryBack) {
   EXPECT_TRUE(budget->Take(kEnough));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::kept_log_test

@@ -7,8 +7,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::log_columns_test {
 
 const std::vector<std::string> kJoints = {"shoulder", "elbow"};
 
@@ -164,5 +163,4 @@ TEST(LogColumns, WhatIsNotAskedForMayBeWrong) {
   EXPECT_EQ(Find("t,q1,q2,qd1,qd1,tau7,i1 [V],,"), "1 2");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::log_columns_test

@@ -8,8 +8,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::log_reader_test {
 
 LogReaderOptions TwoJoints() {
   LogReaderOptions options;
@@ -236,5 +235,4 @@ TEST(LogReader, ANumberAfterTheDamageIsNeverDelivered) {
   EXPECT_LE(rows, 2);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::log_reader_test

@@ -7,8 +7,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::log_row_test {
 
 struct BadRows {
   const char* rows;  // after the header t;q1;q2;note
@@ -136,5 +135,4 @@ TEST(LogRow, TheFirstOfManyBadRowsIsNamed) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::log_row_test

@@ -5,8 +5,7 @@
 #include "model/log_files/log_reader.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::log_writer_test {
 
 Log TwoJoints() {
   Log log;
@@ -54,5 +53,4 @@ TEST(LogWriter, CurrentsTimesTheirConstantsAreTheTorques) {
   EXPECT_TRUE(ReadBack(text, read).tau.isApprox(log.tau, 1e-8));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::log_writer_test

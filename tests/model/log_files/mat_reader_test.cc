@@ -12,8 +12,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::mat_reader_test {
 
 LogReaderOptions Options() {
   LogReaderOptions options;
@@ -200,5 +199,4 @@ TEST(MatReader, SaysWhichArraysThereAre) {
             "timestamp or __time; not recognised: 'x'");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::mat_reader_test

@@ -5,8 +5,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::pose_reader_test {
 
 PoseMeasurements Read(const std::string& text) {
   return ReadPoses(WriteFile(text, "poses.csv"), {"shoulder", "elbow"});
@@ -126,5 +125,4 @@ TEST(PoseReader, ReadsPosesAndWires) {
   EXPECT_EQ(wire.u95.size(), 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::pose_reader_test

@@ -9,8 +9,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::text_source_test {
 
 // All lines, each with its number, as "1:t,q1|2:0,1|".
 std::string Lines(TextSource* source) {
@@ -189,5 +188,4 @@ TEST(TextSource, RefusesALineLongerThanABlock) {
   EXPECT_NE(Refusal(WriteFile(Gzip(long_line))), "");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::text_source_test

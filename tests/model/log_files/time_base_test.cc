@@ -9,8 +9,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::time_base_test {
 
 using testing::HasSubstr;
 
@@ -224,5 +223,4 @@ TEST(AuditTimeBase, RealLog) {
               base.range.end - base.range.begin, .2 * base.range.end);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::time_base_test

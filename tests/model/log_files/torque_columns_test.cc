@@ -8,8 +8,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_columns_test {
 
 LogReaderOptions Options(TorqueKind kind, std::vector<double> constants = {},
                          std::vector<double> gears = {}) {
@@ -125,5 +124,4 @@ TEST(TorqueColumns, RefuseFactorsThatDoNotFit) {
             "finite number other than 0");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_columns_test

@@ -9,8 +9,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::arm_simulator_test {
 
 using Eigen::VectorXd;
 
@@ -214,5 +213,4 @@ TEST(ArmSimulator, RefusesWhatItCannotIntegrate) {
                   testing::HasSubstr("joint axle: a transmission")));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::arm_simulator_test

@@ -11,8 +11,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::closed_loop_test {
 
 using Eigen::VectorXd;
 
@@ -208,5 +207,4 @@ TEST(ClosedLoop, RefusesALogRateThatDoesNotDivide) {
                   "expected Hz that divide the controller's")));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::closed_loop_test

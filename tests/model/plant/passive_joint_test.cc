@@ -7,8 +7,7 @@
 #include "tests/fixtures/calibrate_logs.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::passive_joint_test {
 
 using Eigen::VectorXd;
 
@@ -140,5 +139,4 @@ TEST(PassiveJoint, NoTorqueAtAllIsAResult) {
   EXPECT_EQ(result.reason, "the torque in the logs is zero throughout");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::passive_joint_test

@@ -10,8 +10,7 @@
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::reference_motion_test {
 
 Robot LimitedPanda() {
   Robot robot = SampleRobot("Panda 7R");
@@ -164,5 +163,4 @@ TEST(ReadReferenceMotion, RefusesTimesThatStand) {
                   "row 4: its time is that of the row before")));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::reference_motion_test

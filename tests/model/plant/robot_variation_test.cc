@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robot_variation_test {
 
 TEST(RobotVariation, LinksStayPhysicalAndErrorsHaveTheirSize) {
   std::mt19937_64 random(1);
@@ -46,5 +45,4 @@ TEST(RobotVariation, NoErrorChangesNothing) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robot_variation_test

@@ -6,8 +6,7 @@
 #include <set>
 #include <vector>
 
-namespace armcal {
-namespace {
+namespace armcal::sensors_test {
 
 using Eigen::VectorXd;
 
@@ -95,5 +94,4 @@ TEST(SamplingClock, JitterMovesSamplesAndTimeRises) {
   EXPECT_NEAR(std::sqrt(squares / ticks.size()), 2, .1);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::sensors_test

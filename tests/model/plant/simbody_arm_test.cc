@@ -9,8 +9,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::simbody_arm_test {
 
 // That this runs at all in a Release build is the regression test of Debian's
 // Simbody with NDEBUG, which ends in a segmentation fault (CMakeLists.txt).
@@ -116,5 +115,4 @@ TEST(SimbodyArm, RefusalNamesTheLink) {
                   testing::HasSubstr("link rod: Simbody cannot simulate it")));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::simbody_arm_test

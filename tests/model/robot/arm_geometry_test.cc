@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::arm_geometry_test {
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
@@ -209,5 +208,4 @@ TEST(ArmGeometry, AddsBetaForNearlyParallelAxes) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::arm_geometry_test

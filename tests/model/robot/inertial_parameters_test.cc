@@ -5,8 +5,7 @@
 #include <random>
 #include <vector>
 
-namespace armcal {
-namespace {
+namespace armcal::inertial_parameters_test {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
@@ -142,5 +141,4 @@ TEST(WhyUnphysical, SaysWhichRuleIsBroken) {
   EXPECT_EQ(why(1, {1, 2, 3 + 1e-8}).substr(0, 17), "principal moments");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::inertial_parameters_test

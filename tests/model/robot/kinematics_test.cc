@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::kinematics_test {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix4d;
@@ -112,5 +111,4 @@ TEST(ToolPose, FollowsTheLastLink) {
   EXPECT_LT((X.linear().col(0) - Vector3d(-1, 0, 0)).norm(), 1e-14);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::kinematics_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::robot_test {
 
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
@@ -84,5 +83,4 @@ TEST(Robot, JointNamesRunFromBaseToTip) {
   EXPECT_EQ(robot.num_joints(), 2);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robot_test

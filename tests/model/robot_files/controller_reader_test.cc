@@ -6,8 +6,7 @@
 #include "tests/fixtures/temp_file.h"
 #include "tests/fixtures/two_link_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::controller_reader_test {
 
 using Eigen::Vector2d;
 
@@ -86,5 +85,4 @@ TEST(ReadController, RefusesWhatIsWrong) {
   EXPECT_THAT(refusal("lag: [0, 2]\n"), HasSubstr("in milliseconds?"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::controller_reader_test

@@ -13,8 +13,7 @@
 #include "tests/fixtures/temp_file.h"
 #include "tests/fixtures/two_link_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::mjcf_drive_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -128,5 +127,4 @@ TEST(MjcfDrive, SaysWhatMujocoLacks) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::mjcf_drive_test

@@ -10,8 +10,7 @@
 #include "tests/fixtures/refusal.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::mjcf_reader_test {
 
 using Eigen::Vector3d;
 using testing::Contains;
@@ -208,5 +207,4 @@ TEST(MjcfReader, CoupledJoints) {
               HasSubstr("expected joints that move on their own"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::mjcf_reader_test

@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/urdf_text.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robot_chain_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -153,5 +152,4 @@ TEST(RobotChain, LongChains) {
             "chain");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robot_chain_test

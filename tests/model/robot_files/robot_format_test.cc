@@ -18,8 +18,7 @@
 #include "tests/fixtures/temp_file.h"
 #include "tests/fixtures/urdf_skeleton.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robot_format_test {
 
 using Eigen::VectorXd;
 using testing::Contains;
@@ -158,5 +157,4 @@ TEST(RobotFormat, LossesAreWhatTheFormatHasNoFieldFor) {
               Contains("YAML has no field for springs (rail 50)"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robot_format_test

@@ -9,8 +9,7 @@
 
 #include "model/text/input_error.h"
 
-namespace armcal {
-namespace {
+namespace armcal::robot_reader_test {
 
 std::string Refusal(const std::string& path) {
   try {
@@ -74,5 +73,4 @@ TEST(RobotReader, RefusesNumbersWhoseProductsOverflow) {
                                   "large to calculate with");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::robot_reader_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/urdf_text.h"
 
-namespace armcal {
-namespace {
+namespace armcal::urdf_elements_test {
 
 class UrdfElement : public testing::TestWithParam<Case> {};
 
@@ -115,5 +114,4 @@ INSTANTIATE_TEST_SUITE_P(
              "line 11, joint 'shoulder': expected a tree: the links upper form "
              "a loop"}));
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::urdf_elements_test

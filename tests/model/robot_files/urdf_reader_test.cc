@@ -11,8 +11,7 @@
 #include "model/robot_files/robot_reader.h"
 #include "tests/fixtures/urdf_text.h"
 
-namespace armcal {
-namespace {
+namespace armcal::urdf_reader_test {
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
@@ -224,5 +223,4 @@ TEST(UrdfReader, Ur10eWithFixedLinksAtBothEnds) {
   EXPECT_NEAR(p.z(), 0.181 - 0.12, 1e-9);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::urdf_reader_test

@@ -7,8 +7,7 @@
 #include "tests/fixtures/same_robot.h"
 #include "tests/fixtures/urdf_skeleton.h"
 
-namespace armcal {
-namespace {
+namespace armcal::urdf_update_test {
 
 using Eigen::VectorXd;
 
@@ -103,5 +102,4 @@ TEST(UpdateUrdf, RefusesAnotherRobotsFile) {
                InputError);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::urdf_update_test

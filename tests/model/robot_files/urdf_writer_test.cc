@@ -5,8 +5,7 @@
 #include "model/robot_files/yaml_reader.h"
 #include "tests/fixtures/same_robot.h"
 
-namespace armcal {
-namespace {
+namespace armcal::urdf_writer_test {
 
 using Eigen::VectorXd;
 
@@ -93,5 +92,4 @@ TEST(UrdfLosses, AreOneSentencePerKind) {
                 "0.3333)"}));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::urdf_writer_test

@@ -8,8 +8,7 @@
 
 #include "tests/fixtures/yaml_text.h"
 
-namespace armcal {
-namespace {
+namespace armcal::yaml_reader_test {
 
 using Eigen::Vector3d;
 using testing::ElementsAre;
@@ -171,5 +170,4 @@ TEST(YamlReader, RefusesTooFewOrTooManyLinks) {
             "line 3, links: found 'a list of 65': expected at most 64 links");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::yaml_reader_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::column_basis_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -86,5 +85,4 @@ TEST(ExpressInColumns, ProjectsOtherColumns) {
   EXPECT_LT((ExpressInColumns(A, 2, {0, 1}) - Vector2d(3, 2)).norm(), 1e-14);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::column_basis_test

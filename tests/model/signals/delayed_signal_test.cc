@@ -6,8 +6,7 @@
 #include "model/effects/effects.h"
 #include "tests/fixtures/two_link_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::delayed_signal_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -57,5 +56,4 @@ TEST(Delay, EitherSignIsTheTorqueOfAnotherTime) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::delayed_signal_test

@@ -5,8 +5,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::harmonic_basis_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -64,5 +63,4 @@ TEST(HarmonicBasis, FourierCoefficientsAreTheMotion) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::harmonic_basis_test

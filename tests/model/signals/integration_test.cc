@@ -9,8 +9,7 @@
 #include "model/dynamics/forward_dynamics.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::integration_test {
 
 using Eigen::VectorXd;
 using testing::HasSubstr;
@@ -137,5 +136,4 @@ TEST(Integrate, StopsAfterTooManySteps) {
   EXPECT_THAT(run.reason, HasSubstr("more than 100 steps"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::integration_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <complex>
 
-namespace armcal {
-namespace {
+namespace armcal::low_pass_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -192,5 +191,4 @@ TEST(Differentiate, TakesShortStretches) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::low_pass_test

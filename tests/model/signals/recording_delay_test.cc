@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::recording_delay_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -62,5 +61,4 @@ TEST(RecordingDelay, SlopeIsThatOfASmallDelay) {
       .01 * most);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::recording_delay_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::resampler_test {
 
 double Cubic(double t) { return 1 - 2 * t + .5 * t * t + 3 * t * t * t; }
 
@@ -195,5 +194,4 @@ TEST(Resampler, NearlyEqualStampsMakeNoSpikes) {
   EXPECT_LE(out.q.col(0).cwiseAbs().maxCoeff(), 10);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::resampler_test

@@ -7,8 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace armcal {
-namespace {
+namespace armcal::spikes_test {
 
 using Eigen::MatrixXd;
 
@@ -123,5 +122,4 @@ TEST(FindOutlying, LevelsAreMediansOfTheUnmarked) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::spikes_test

@@ -9,8 +9,7 @@
 #include "model/plant/hidden/scenario.h"
 #include "tests/blind/blind_case.h"
 
-namespace armcal {
-namespace {
+namespace armcal::step_size_test {
 
 // An arm of the bench, a joint and sizes drawn for each effect, `draw` of them.
 BlindCase CaseFor(const HiddenEffect& kind, uint32_t draw) {
@@ -80,5 +79,4 @@ TEST_P(StepSize, MattersLessThanNoise) {
 INSTANTIATE_TEST_SUITE_P(Effects, StepSize, testing::ValuesIn(HiddenEffects()),
                          [](const auto& info) { return info.param.name; });
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::step_size_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::stiff_step_test {
 
 // x' = -k (x - cos t): the solution without its transient.
 double Follower(double k, double t) {
@@ -51,5 +50,4 @@ TEST(StiffStep, FollowsAnOscillation) {
   EXPECT_NEAR(x[1], -1e-3 * omega * std::sin(omega * .1), 5e-6);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::stiff_step_test

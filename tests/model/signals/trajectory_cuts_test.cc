@@ -4,11 +4,10 @@
 #include "model/signals/trajectory.h"
 #include "tests/fixtures/cut_log.h"
 
-namespace armcal {
-namespace {
+namespace armcal::trajectory_cuts_test {
 
 // Still from 4.0 to 4.6 s and from 10.0 to 10.4 s (too short), at 100 Hz.
-TEST(TrajectoryReader, MarksStandstill) {
+TEST(TrajectoryCuts, MarksStandstill) {
   const auto q = [](double t) {
     const double s = t < 4      ? t
                      : t < 4.6  ? 4
@@ -30,7 +29,7 @@ TEST(TrajectoryReader, MarksStandstill) {
   }
 }
 
-TEST(TrajectoryReader, StandstillAcrossCores) {
+TEST(TrajectoryCuts, StandstillAcrossCores) {
   const auto q = [](double t) {
     return t < 15.8 || t > 16.4 ? std::sin(t) : 1.;
   };
@@ -47,7 +46,7 @@ TEST(TrajectoryReader, StandstillAcrossCores) {
 
 // A hole of 0.24 s ends a segment at 5 Hz (0.05 s) and 1.1 Hz, and is bridged
 // at 1 Hz (0.25 s); without a bandwidth three steps decide.
-TEST(TrajectoryReader, SplitsAtGaps) {
+TEST(TrajectoryCuts, SplitsAtGaps) {
   const LogFile log = MakeLog(12, .01, Position, 0, {{500, 523}, {900, 902}});
   for (const double bandwidth : {0.0, 1.1, 5.0}) {
     const auto parts = Cut(log.path, Bandwidth(bandwidth));
@@ -64,7 +63,7 @@ TEST(TrajectoryReader, SplitsAtGaps) {
   EXPECT_NEAR(bridged[0].time(bridged[0].size() - 1), 11.99, .06);
 }
 
-TEST(TrajectoryReader, LeavesOutSegmentsOfTwoSamples) {
+TEST(TrajectoryCuts, LeavesOutSegmentsOfTwoSamples) {
   const LogFile log =
       MakeLog(6, .01, Position, 0, {{200, 250}, {252, 300}, {303, 400}});
   const auto parts = Cut(log.path, Bandwidth(5));
@@ -75,7 +74,7 @@ TEST(TrajectoryReader, LeavesOutSegmentsOfTwoSamples) {
   EXPECT_NEAR(parts[2].t0, 4, 1e-9);
 }
 
-TEST(TrajectoryReader, Crops) {
+TEST(TrajectoryCuts, Crops) {
   TrajectoryOptions options = Bandwidth(0);
   options.crop = {2, 7.5};
   const auto parts = Cut(MakeLog(10, .01, Position).path, options);
@@ -85,5 +84,4 @@ TEST(TrajectoryReader, Crops) {
   EXPECT_NEAR(parts[0].q(0, 0), Position(2), 1e-12);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::trajectory_cuts_test

@@ -7,8 +7,7 @@
 #include "model/signals/low_pass.h"
 #include "tests/fixtures/cut_log.h"
 
-namespace armcal {
-namespace {
+namespace armcal::trajectory_test {
 
 using Eigen::MatrixXd;
 
@@ -121,5 +120,4 @@ TEST(DefaultBandwidth, FollowsTheMotionAndTheRate) {
   EXPECT_EQ(bandwidth({{0, .1}}), 2);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::trajectory_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace armcal {
-namespace {
+namespace armcal::uneven_differences_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -59,5 +58,4 @@ TEST(DifferentiateUneven, OfFewRows) {
   EXPECT_NEAR(rate(1, 0), 2, 1e-12);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::uneven_differences_test

@@ -9,8 +9,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::householder_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -130,5 +129,4 @@ TEST_P(Householder, InnerProductsAreEigens) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::householder_test

@@ -21,8 +21,7 @@
 // the clock's rate and other programs leave alone, since the least of many runs
 // of some 50 us counts.
 
-namespace armcal {
-namespace {
+namespace armcal::kernel_speed_test {
 
 constexpr long kRows = 256, kStride = kRows + 8;
 // A quarter above what was measured when they were set, on an EPYC of Zen 4,
@@ -153,5 +152,4 @@ INSTANTIATE_TEST_SUITE_P(InstructionSets, KernelSpeed,
                            return std::string(info.param->instruction_set);
                          });
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::kernel_speed_test

@@ -8,8 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace armcal::simd {
-namespace {
+namespace armcal::simd::kernels_test {
 
 // Against the library's functions, which are right to half a unit in the last
 // place; near multiples of pi / 2 the smaller of the two is, too.
@@ -194,5 +193,4 @@ TEST(Kernels, BaselineIsEverywhere) {
   EXPECT_STREQ(AvailableKernels().front()->instruction_set, "baseline");
 }
 
-}  // namespace
-}  // namespace armcal::simd
+}  // namespace armcal::simd::kernels_test

@@ -14,8 +14,7 @@
 #include "tests/fixtures/exact_rollout.h"
 #include "tests/fixtures/random_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::rollout_kernel_test {
 
 using Eigen::VectorXd;
 using Law = CoulombTransition::Law;
@@ -192,5 +191,4 @@ TEST_P(RolloutKernel, TorqueIsLinearWithinAStep) {
   EXPECT_EQ(block.q()[0], 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::rollout_kernel_test

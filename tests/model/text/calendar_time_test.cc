@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armcal {
-namespace {
+namespace armcal::calendar_time_test {
 
 // Seconds by `date -u -d TEXT +%s`.
 TEST(CalendarTime, IsUnixTime) {
@@ -22,5 +21,4 @@ TEST(CalendarTime, RefusesWhatIsNone) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::calendar_time_test

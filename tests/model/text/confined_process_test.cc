@@ -14,8 +14,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::confined_process_test {
 
 constexpr std::uint64_t kMemory = 64 << 20;
 
@@ -80,5 +79,4 @@ TEST(ConfinedProcess, ReadsButCannotWriteRunOrConnect) {
             "signal denied\n");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::confined_process_test

@@ -7,8 +7,7 @@
 #include <random>
 #include <string>
 
-namespace armcal {
-namespace {
+namespace armcal::decimal_number_test {
 
 // The same value to the bit, the same end and the same verdict as the standard
 // library's.
@@ -89,5 +88,4 @@ TEST(ParseDecimalNumber, RandomNumbersAsPrintfWritesThem) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::decimal_number_test

@@ -5,8 +5,7 @@
 #include <random>
 #include <string>
 
-namespace armcal {
-namespace {
+namespace armcal::decimal_time_test {
 
 DecimalTime Parse(const std::string& text, int unit_decimals = 0) {
   DecimalTime time;
@@ -89,5 +88,4 @@ TEST(DecimalTime, RefusesWhatIsNoTime) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::decimal_time_test

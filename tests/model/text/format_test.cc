@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armcal {
-namespace {
+namespace armcal::format_test {
 
 TEST(Format, OfAnyLength) {
   EXPECT_EQ(Format("%.2f %s %d", 1.5, "m", 3), "1.50 m 3");
@@ -12,5 +11,4 @@ TEST(Format, OfAnyLength) {
   EXPECT_EQ(Format("%s!", text.c_str()), text + "!");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::format_test

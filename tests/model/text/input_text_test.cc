@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::input_text_test {
 
 TEST(ParseNumber, TakesAllOfTheTextOrNothing) {
   EXPECT_EQ(ParseNumber("0.1"), 0.1);
@@ -39,5 +38,4 @@ TEST(SplitWords, SplitsAtAnyBlanks) {
             (std::vector<std::string_view>{"1", "2", "3"}));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::input_text_test

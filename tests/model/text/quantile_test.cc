@@ -8,8 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace armcal {
-namespace {
+namespace armcal::quantile_test {
 
 TEST(NonnegativeAtRank, IsThatOfTheSortedNumbers) {
   std::mt19937_64 random(2);
@@ -29,5 +28,4 @@ TEST(NonnegativeAtRank, IsThatOfTheSortedNumbers) {
   EXPECT_EQ(NonnegativeAtRank(x.data(), 1, 0), 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::quantile_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/urdf_text.h"
 
-namespace armcal {
-namespace {
+namespace armcal::xml_element_test {
 
 class XmlFileRefusal : public testing::TestWithParam<Case> {};
 
@@ -76,5 +75,4 @@ TEST(XmlFileTest, FilesThatCannotBeRead) {
   EXPECT_EQ(refusal("/tmp"), "/tmp: is a folder: expected a file");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::xml_element_test

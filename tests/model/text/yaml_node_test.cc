@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/yaml_text.h"
 
-namespace armcal {
-namespace {
+namespace armcal::yaml_node_test {
 
 class YamlNodeRefusal : public testing::TestWithParam<Case> {};
 
@@ -80,5 +79,4 @@ TEST(YamlNodeTest, WholeFiles) {
             "line 1: lists and maps are nested too deeply");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::yaml_node_test

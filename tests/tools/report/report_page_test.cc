@@ -6,8 +6,7 @@
 #include "tests/fixtures/temp_file.h"
 #include "tools/report/assets.h"
 
-namespace armcal {
-namespace {
+namespace armcal::report_page_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -59,5 +58,4 @@ TEST(HashFile, IsSha256) {
   EXPECT_THROW(HashFile("/nowhere/at/all"), InputError);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::report_page_test

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace armcal {
-namespace {
+namespace armcal::candidates_test {
 
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -106,5 +105,4 @@ TEST(GapCandidates, SharperOnesAreAtTheFit) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::candidates_test

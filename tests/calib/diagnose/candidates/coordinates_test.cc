@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/effect_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::coordinates_test {
 
 using Eigen::VectorXd;
 
@@ -80,5 +79,4 @@ TEST_F(GapCoordinatesTest, StartsAtTheValueAndKnowsItsBounds) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::coordinates_test

@@ -9,8 +9,7 @@
 #include "tests/fixtures/corrected_arm.h"
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::corrected_robot_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -183,5 +182,4 @@ TEST(CorrectedRobot, GivesAYieldingJointAMotorAndSaysSo) {
               testing::HasSubstr("yields but has no armature: simulated with"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::corrected_robot_test

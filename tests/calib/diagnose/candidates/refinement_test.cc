@@ -7,8 +7,7 @@
 #include "tests/fixtures/effect_arm.h"
 #include "tests/fixtures/gap_segment.h"
 
-namespace armcal {
-namespace {
+namespace armcal::refinement_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -128,5 +127,4 @@ TEST_F(GapRefinementTest, CovarianceIsThatOfManyRuns) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::refinement_test

@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::search_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -136,5 +135,4 @@ TEST_F(StrongWindowsTest, AreHalfADurationApart) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::search_test

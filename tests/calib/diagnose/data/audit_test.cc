@@ -3,8 +3,7 @@
 #include "model/dynamics/inverse_dynamics.h"
 #include "tests/fixtures/diagnosed_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::audit_test {
 
 class GapAuditTest : public DiagnosedArm<32> {
  protected:
@@ -34,5 +33,4 @@ TEST_F(GapAuditTest, TorqueComputedFromPositionIsFound) {
   EXPECT_THAT(findings[0].finding, testing::HasSubstr("positions"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::audit_test

@@ -9,8 +9,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::baseline_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -215,5 +214,4 @@ TEST_P(GapBaselineTest, CoulombFrictionAtItsValuesIsSplitInWidths) {
 INSTANTIATE_TEST_SUITE_P(Arms, GapBaselineTest,
                          testing::Values("3R elbow", "SCARA RRPR"));
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::baseline_test

@@ -9,8 +9,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::data_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -47,5 +46,4 @@ TEST(GapData, DoubtsReversalsMoreOfMadeTorques) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::data_test

@@ -4,8 +4,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::days_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -47,5 +46,4 @@ TEST_F(GapDaysTest, OneOrTwoJointsAreNoOtherDay) {
   EXPECT_TRUE(IsAnother(3));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::days_test

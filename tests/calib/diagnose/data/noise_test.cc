@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::noise_test {
 
 using Eigen::ArrayXd;
 using Eigen::MatrixXd;
@@ -144,5 +143,4 @@ TEST(NoiseFloor, HasTheNamesOfTheReport) {
   EXPECT_STREQ(NoiseFloorName(NoiseFloor::kAssumed), "assumed");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::noise_test

@@ -11,8 +11,7 @@
 #include "tests/fixtures/commanded_arm.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::position_noise_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -95,5 +94,4 @@ TEST_F(GapPositionNoiseTest, RecordedTorquesHaveNone) {
   EXPECT_FALSE(HaveNoiseOfPositions(segments));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::position_noise_test

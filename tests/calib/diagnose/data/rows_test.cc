@@ -8,15 +8,15 @@
 #include "tests/fixtures/sample_motion.h"
 
 namespace armcal {
-
 bool operator==(const GapRows::Run& a, const GapRows::Run& b) {
   return a.segment == b.segment && a.begin == b.begin && a.size == b.size;
 }
 void PrintTo(const GapRows::Run& run, std::ostream* out) {
   *out << run.segment << ": " << run.begin << " + " << run.size;
 }
+}  // namespace armcal
 
-namespace {
+namespace armcal::rows_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -186,5 +186,4 @@ TEST(GapRows, OfALogTooShortAreNone) {
   EXPECT_EQ(rows.num_rows(), 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::rows_test

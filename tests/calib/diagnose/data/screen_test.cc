@@ -8,8 +8,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::screen_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -237,5 +236,4 @@ TEST_F(GapScreenTest, VisibleIsWhatTheBaselineCannotTake) {
   EXPECT_LT(screen.Solve({0}).coefficients.norm(), 1);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::screen_test

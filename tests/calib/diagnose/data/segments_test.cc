@@ -8,8 +8,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::segments_test {
 
 constexpr double kStep = .004;     // s
 constexpr double kBandwidth = 10;  // Hz
@@ -146,5 +145,4 @@ TEST(GapSegments, EndAtGapsAndLogsAndAreLongEnough) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::segments_test

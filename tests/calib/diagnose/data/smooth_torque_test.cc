@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace armcal {
-namespace {
+namespace armcal::smooth_torque_test {
 
 using Eigen::MatrixXd;
 
@@ -70,5 +69,4 @@ TEST(SmoothTorque, OfRecordedTorquesIsSlow) {
   EXPECT_NEAR(smooth.tau(1525, 0), 20 * Sine(1, 1525), 3);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::smooth_torque_test

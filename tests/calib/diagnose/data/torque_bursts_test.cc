@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_bursts_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -122,5 +121,4 @@ TEST(TorqueBursts, AreTold) {
   EXPECT_THAT(told[0].evidence, HasSubstr(robot.links[1].joint.name));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_bursts_test

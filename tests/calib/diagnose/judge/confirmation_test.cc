@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace armcal {
-namespace {
+namespace armcal::confirmation_test {
 
 using Eigen::VectorXd;
 
@@ -44,5 +43,4 @@ TEST_F(GapConfirmationTest, WhatIsTooSmallTellsNothing) {
   EXPECT_LT(std::abs(found.Share()), .3);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::confirmation_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace armcal {
-namespace {
+namespace armcal::evidence_test {
 
 // For torques that were recorded, or made of commands.
 class ProbabilityOfTest : public testing::TestWithParam<bool> {
@@ -61,5 +60,4 @@ TEST_P(ProbabilityOfTest, AContactFeltByOneJointManyTimesIsNone) {
 
 INSTANTIATE_TEST_SUITE_P(Torques, ProbabilityOfTest, testing::Bool());
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::evidence_test

@@ -4,8 +4,7 @@
 
 #include "model/effects/effects.h"
 
-namespace armcal {
-namespace {
+namespace armcal::findings_test {
 
 using testing::ElementsAre;
 
@@ -166,5 +165,4 @@ TEST(JoinMeans, WhatComesBeforeOrIsElsewhereIsItsOwnEffect) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::findings_test

@@ -7,8 +7,7 @@
 #include "model/signals/low_pass.h"
 #include "tests/fixtures/corrected_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::forward_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -175,5 +174,4 @@ TEST_F(ForwardGapTest, ADivergingRobotIsAResult) {
   EXPECT_TRUE(std::isfinite(gap.figures.refit));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::forward_test

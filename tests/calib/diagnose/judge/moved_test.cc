@@ -8,8 +8,7 @@
 #include "tests/fixtures/effect_arm.h"
 #include "tests/fixtures/gap_segment.h"
 
-namespace armcal {
-namespace {
+namespace armcal::moved_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -91,5 +90,4 @@ TEST_F(GapFitTest, NoiseHidesEffects) {
   EXPECT_THAT(WhyNot("load_friction", "joint2"), testing::HasSubstr("noise"));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::moved_test

@@ -8,8 +8,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::removed_share_test {
 
 using Eigen::MatrixXd;
 
@@ -130,5 +129,4 @@ TEST(GapShrink, IntervalsHoldTheTruthAsOftenAsTheySay) {
   EXPECT_LE(covered, 99);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::removed_share_test

@@ -4,8 +4,7 @@
 #include "calib/diagnose/judge/runs.h"
 #include "tests/fixtures/diagnosed_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::runs_long_test {
 
 class GapRunsTest : public DiagnosedArm<25> {
  protected:
@@ -44,5 +43,4 @@ TEST_F(GapRunsTest, NothingDriftsWhereNothingChangesOrChangesBack) {
   EXPECT_TRUE(Drifts({0, .9}).empty());  // two logs make no line
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::runs_long_test

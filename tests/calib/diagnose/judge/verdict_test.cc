@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace armcal {
-namespace {
+namespace armcal::verdict_test {
 
 // Held-out mean squares in units of the floor.
 GapFacts Facts(double nominal, double refit, double after) {
@@ -74,5 +73,4 @@ TEST(JudgeGap, ThirtyPercentMayBeLeft) {
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kPartlyExplained);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::verdict_test

@@ -9,8 +9,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::where_test {
 
 constexpr int kSamples = 3000;
 
@@ -110,5 +109,4 @@ TEST(ResidualUnordered, EvenWhereItIsLouder) {
   EXPECT_LE(ordered, 1);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::where_test

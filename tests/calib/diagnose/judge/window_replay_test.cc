@@ -7,8 +7,7 @@
 #include "model/signals/low_pass.h"
 #include "tests/fixtures/corrected_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::window_replay_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -165,5 +164,4 @@ TEST(CutWindows, LeavesOutStandstill) {
   EXPECT_THAT(windows.begin, testing::ElementsAre(100, 150, 300, 350));
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::window_replay_test

@@ -6,8 +6,7 @@
 #include "tests/fixtures/effect_plant.h"
 #include "tests/fixtures/temp_file.h"
 
-namespace armcal {
-namespace {
+namespace armcal::contacts_long_test {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -101,5 +100,4 @@ TEST_F(PushedArm, LeftAloneHasNoContact) {
   EXPECT_THAT(Diagnose().effects, IsEmpty());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::contacts_long_test

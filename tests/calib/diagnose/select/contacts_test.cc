@@ -11,8 +11,7 @@
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::contacts_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -213,5 +212,4 @@ TEST_F(GapContacts, MoreFrictionIsNoContact) {
   EXPECT_THAT(Find(ContactSearch::kOfTwoJoints), IsEmpty());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::contacts_test

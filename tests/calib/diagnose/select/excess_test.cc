@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <random>
 
-namespace armcal {
-namespace {
+namespace armcal::excess_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -127,5 +126,4 @@ TEST_F(PredictedMaxima, OfTheUsualDoNotHeedAFew) {
   EXPECT_GT(PredictedMaximum(maxima, 100, .01), 1000);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::excess_test

@@ -2,8 +2,7 @@
 
 #include "tests/fixtures/diagnosed_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::families_test {
 
 using GapFamiliesTest = DiagnosedArm<32>;
 
@@ -59,5 +58,4 @@ TEST_F(GapFamiliesTest, AreNoEffectBesideAReference) {
   EXPECT_TRUE(diagnosis.effects.empty());
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::families_test

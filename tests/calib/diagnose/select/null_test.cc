@@ -8,8 +8,7 @@
 #include "tests/fixtures/effect_arm.h"
 #include "tests/fixtures/gap_segment.h"
 
-namespace armcal {
-namespace {
+namespace armcal::null_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -130,5 +129,4 @@ TEST_F(GapNullTest, ErrorsOfOneJointAreNotThoseOfAnother) {
   EXPECT_GT(ScoreByChance(screen, *rows_, candidates_, {}, {}, 1, 1), 1000);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::null_test

@@ -2,8 +2,7 @@
 
 #include "tests/fixtures/diagnosed_arm.h"
 
-namespace armcal {
-namespace {
+namespace armcal::reference_test {
 
 using testing::Contains;
 using testing::Field;
@@ -102,5 +101,4 @@ TEST_F(GapReferenceTest, MoreThanADayIsAnEffect) {
   ExpectEstimate(diagnosis.effects[0], "coulomb", .9, .1);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::reference_test

@@ -7,8 +7,7 @@
 
 #include "tests/fixtures/sample_motion.h"
 
-namespace armcal {
-namespace {
+namespace armcal::selection_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -264,5 +263,4 @@ TEST_F(GapSelectionTest, ScoresOfWhatCouldStandInAPlace) {
   EXPECT_LT(beside[3], 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::selection_test

@@ -9,8 +9,7 @@
 #include "model/plant/hidden/scenario.h"
 #include "tests/blind/blind_case.h"
 
-namespace armcal {
-namespace {
+namespace armcal::arms_long_test {
 
 // False where this arm cannot show the effect.
 bool DrawOn(const BlindCase& blind, const HiddenEffect& kind,
@@ -55,5 +54,4 @@ TEST(HiddenArms, EveryEffectRunsOnTheArmsOfTheBench) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::arms_long_test

@@ -5,8 +5,7 @@
 #include "model/dynamics/inverse_dynamics.h"
 #include "tests/model/plant/hidden/hidden_plant.h"
 
-namespace armcal {
-namespace {
+namespace armcal::bodies_test {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -135,5 +134,4 @@ TEST(HiddenBodies, MountMovesAllIndicesUp) {
   EXPECT_LT(plant.Torque(2), 0);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::bodies_test

@@ -9,8 +9,7 @@
 
 #include "tests/model/plant/hidden/hidden_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::body_physics_long_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -149,7 +148,8 @@ TEST(HiddenPhysics, TablesHaveEveryEffect) {
   for (const std::string family :
        {"friction_physics", "drive_physics", "torque_physics_long",
         "body_physics_long"}) {
-    std::ifstream file(std::string(TESTS_DIR) + "/" + family + "_test.cc");
+    std::ifstream file(std::string(TESTS_DIR) + "/model/plant/hidden/" +
+                       family + "_test.cc");
     ASSERT_TRUE(file) << family;
     std::stringstream text;
     text << file.rdbuf();
@@ -162,5 +162,4 @@ TEST(HiddenPhysics, TablesHaveEveryEffect) {
   }
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::body_physics_long_test

@@ -7,13 +7,12 @@
 #include "tests/model/plant/hidden/form_misfit.h"
 #include "tests/model/plant/hidden/hidden_plant.h"
 
-namespace armcal {
-namespace {
+namespace armcal::drive_forms_long_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-TEST(HiddenForms, PositionAndTime) {
+TEST(HiddenDriveForms, PositionAndTime) {
   const VectorXd q = VectorXd::LinSpaced(801, -1.2, 1.2);
   const VectorXd one = VectorXd::Ones(801);
   const auto along = [&q](HiddenPlant plant) {
@@ -47,7 +46,7 @@ TEST(HiddenForms, PositionAndTime) {
                     .02, .3, "drift");
 }
 
-TEST(HiddenForms, Contact) {
+TEST(HiddenDriveForms, Contact) {
   const VectorXd q = VectorXd::LinSpaced(801, -1.2, 1.2);
   HiddenPlant push("external_contact", -1, {.05, .5, .4});
   const VectorXd force = Along(q, [&](double t) {
@@ -65,7 +64,7 @@ TEST(HiddenForms, Contact) {
       .02, .3, "contact");
 }
 
-TEST(HiddenForms, Drives) {
+TEST(HiddenDriveForms, Drives) {
   const VectorXd tau = VectorXd::LinSpaced(801, -25, 25);
   const auto lost = [&tau](const HiddenPlant& plant) {
     return Along(tau, [&](double u) {
@@ -94,5 +93,4 @@ TEST(HiddenForms, Drives) {
       .02, .3, "elasticity");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::drive_forms_long_test

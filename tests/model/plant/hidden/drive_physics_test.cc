@@ -6,8 +6,7 @@
 
 #include "tests/model/plant/hidden/hidden_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::drive_physics_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -174,5 +173,4 @@ TEST(HiddenSensorPhysics, VelocitiesAndTimeThatAreWrong) {
               1 / (1 + .01 * .7), 2e-4);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::drive_physics_test

@@ -5,8 +5,7 @@
 
 #include "tests/model/plant/hidden/hidden_plant.h"
 
-namespace armcal {
-namespace {
+namespace armcal::drives_test {
 
 using Eigen::VectorXd;
 
@@ -128,5 +127,4 @@ TEST(HiddenDrives, MagnetsWeakenAsTheyWarm) {
   EXPECT_NEAR(rate, 0, 1e-12);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::drives_test

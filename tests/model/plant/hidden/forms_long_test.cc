@@ -6,8 +6,7 @@
 #include "tests/model/plant/hidden/form_misfit.h"
 #include "tests/model/plant/hidden/hidden_plant.h"
 
-namespace armcal {
-namespace {
+namespace armcal::forms_long_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -110,5 +109,4 @@ TEST(HiddenForms, Presliding) {
       .01, .2, "Dahl");
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::forms_long_test

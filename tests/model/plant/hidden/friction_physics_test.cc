@@ -7,8 +7,7 @@
 #include "model/plant/hidden/scenario.h"
 #include "tests/model/plant/hidden/hidden_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::friction_physics_test {
 
 using Eigen::VectorXd;
 
@@ -162,5 +161,4 @@ TEST(HiddenFrictionPhysics, Warms) {
               at(run.log.temperature, 4.5) - 25, T, .2);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::friction_physics_test

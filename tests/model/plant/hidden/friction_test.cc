@@ -5,8 +5,7 @@
 #include "model/plant/hidden/joint_friction.h"
 #include "tests/model/plant/hidden/hidden_plant.h"
 
-namespace armcal {
-namespace {
+namespace armcal::friction_test {
 
 using Eigen::VectorXd;
 
@@ -201,5 +200,4 @@ TEST(HiddenFriction, ApproachFrictionFadesWithTheWay) {
   EXPECT_NEAR(plant.Torque(0, &state, &rate), -std::exp(-1), 1e-4);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::friction_test

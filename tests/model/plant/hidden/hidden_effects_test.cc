@@ -12,8 +12,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::hidden_effects_test {
 
 using Eigen::VectorXd;
 using Scope = HiddenEffect::Scope;
@@ -218,5 +217,4 @@ TEST(HiddenEffectsDeathTest, RefuseWhatIsOutOfRange) {
   EXPECT_EQ(FindHiddenEffect("viscosity"), nullptr);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::hidden_effects_test

@@ -6,8 +6,7 @@
 
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal {
-namespace {
+namespace armcal::scenario_test {
 
 using Eigen::VectorXd;
 
@@ -129,5 +128,4 @@ TEST(Scenario, BothEnginesWriteTheSameLog) {
   EXPECT_GT(simbody.tau.cwiseAbs().maxCoeff(), 1);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::scenario_test

@@ -5,8 +5,7 @@
 
 #include "tests/model/plant/hidden/hidden_plant.h"
 
-namespace armcal {
-namespace {
+namespace armcal::signals_test {
 
 using Eigen::VectorXd;
 
@@ -124,5 +123,4 @@ TEST(HiddenTimeTorques, BrakeDragsForItsShareOfTheTime) {
   EXPECT_GT(full, .15 * 4000);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::signals_test

@@ -7,8 +7,7 @@
 
 #include "tests/model/plant/hidden/hidden_runs.h"
 
-namespace armcal {
-namespace {
+namespace armcal::torque_physics_long_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -156,5 +155,4 @@ TEST(HiddenTorquePhysics, OfTime) {
   EXPECT_LT(std::abs(one.dot(other)) / (one.norm() * other.norm()), .5);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::torque_physics_long_test

@@ -4,8 +4,7 @@
 
 #include "tests/model/plant/hidden/hidden_plant.h"
 
-namespace armcal {
-namespace {
+namespace armcal::transmissions_test {
 
 // Work of the transmission on its two sides over a closed cycle of deflection
 // A sin(w t), from its second on; negative: it takes energy.
@@ -162,5 +161,4 @@ TEST(HiddenPositionTorques, RippleComesBackEveryTooth) {
   EXPECT_GT(std::abs(Around(&plant, 0, M_PI / 20)), .04);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::transmissions_test

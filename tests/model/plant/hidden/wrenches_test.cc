@@ -4,8 +4,7 @@
 
 #include "tests/model/plant/hidden/hidden_plant.h"
 
-namespace armcal {
-namespace {
+namespace armcal::wrenches_test {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -19,7 +18,7 @@ PointInstant Somewhere() {
   return at;
 }
 
-TEST(HiddenBodies, APushSwellsAndFades) {
+TEST(HiddenWrenches, APushSwellsAndFades) {
   const HiddenPlant plant("external_contact", -1, {.05, .5, .4});
   const WrenchLaw& law = plant.robot.wrenches[0];
   EXPECT_EQ(law.attachment.link, 5);
@@ -40,7 +39,7 @@ TEST(HiddenBodies, APushSwellsAndFades) {
 
 // At rest the load hangs in its spring and only weighs; its own swing has its
 // frequency; on a shaken tool it takes power from nowhere.
-TEST(HiddenBodies, SloshHangsAndSwings) {
+TEST(HiddenWrenches, SloshHangsAndSwings) {
   const HiddenPlant plant("slosh", -1, {.05, 2, .05});
   const WrenchLaw& law = plant.robot.wrenches[0];
   const double m = plant.Value("mass"), omega = 2 * M_PI * 2;
@@ -62,7 +61,7 @@ TEST(HiddenBodies, SloshHangsAndSwings) {
   EXPECT_LT((m * rate.tail<3>() - (weight - force)).norm(), 1e-9);
 }
 
-TEST(HiddenBodies, GyroscopePushesAcrossWithoutPower) {
+TEST(HiddenWrenches, GyroscopePushesAcrossWithoutPower) {
   const HiddenPlant plant("gyroscope", 2, {.1});
   const WrenchLaw& law = plant.robot.wrenches[0];
   EXPECT_EQ(law.attachment.link, 2);
@@ -81,7 +80,7 @@ TEST(HiddenBodies, GyroscopePushesAcrossWithoutPower) {
 
 // Turning the link over turns the moment of a weight that slid across: it keeps
 // pulling to the same side of the world, where a fixed weight would reverse.
-TEST(HiddenBodies, LooseWeightSlidesToTheLowSide) {
+TEST(HiddenWrenches, LooseWeightSlidesToTheLowSide) {
   const HiddenPlant plant("loose_bolt", 2, {.1});
   const WrenchLaw& law = plant.robot.wrenches[0];
   std::mt19937_64 random(5);
@@ -107,5 +106,4 @@ TEST(HiddenBodies, LooseWeightSlidesToTheLowSide) {
   EXPECT_NEAR(largest, 1 / (.1 + std::sqrt(1.01)), .001);
 }
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::wrenches_test
