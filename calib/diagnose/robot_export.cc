@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
 #include "calib/diagnose/candidates/friction_share.h"
 #include "calib/numerics/json_figures.h"
 #include "calib/refine/possible_links.h"
+#include "model/dynamics/joint_term.h"
 #include "model/robot_files/robot_formats.h"
 #include "model/robot_files/urdf_update.h"
 #include "model/robot_files/urdf_writer.h"
@@ -24,56 +24,23 @@ std::string Short(double x) {
   return text;
 }
 
-using Add = void (*)(const GapCandidate& found, Joint* joint,
-                     JointDrive* drive);
-
-// An effect that formats have fields for: how it adds to them, and the field
-// that some formats lack.
-struct HeldEffect {
-  const char* effect;
-  std::optional<RobotField> field;
-  Add add;
-};
-
-// As the effects' own `apply` has it, with the sign of a robot file's fields.
-const HeldEffect kHeldEffects[] = {
-    {"viscous_friction", std::nullopt,
-     [](const GapCandidate& found, Joint* joint, JointDrive*) {
-       joint->viscous += found.p[0];
-     }},
-    {"coulomb_friction", std::nullopt,
-     [](const GapCandidate& found, Joint* joint, JointDrive*) {
-       joint->coulomb += found.p[0];
-     }},
-    {"torque_offset", RobotField::kOffset,
-     [](const GapCandidate& found, Joint* joint, JointDrive*) {
-       joint->offset += found.p[0];
-     }},
-    {"torque_gain", RobotField::kGain,
-     [](const GapCandidate& found, Joint*, JointDrive* drive) {
-       drive->gain /= 1 + found.p[0];
-     }},
-    {"spring", RobotField::kSpring,
-     [](const GapCandidate& found, Joint*, JointDrive* drive) {
-       drive->rest = found.p[1] / found.p[0];
-       drive->stiffness = found.p[0];
-     }}};
-
-const HeldEffect* FindHeld(const CarriedEffect& effect) {
-  if (effect.found.joint < 0) return nullptr;
-  for (const HeldEffect& held : kHeldEffects) {
-    if (effect.found.effect->name != held.effect) continue;
-    const bool no_spring =
-        held.field == RobotField::kSpring && effect.found.p[0] <= 0;
-    return no_spring ? nullptr : &held;
+// Adds the effect to what a robot file says of its joint; whether there is a
+// field for it.
+bool AddToFile(const GapCandidate& found, Joint* joint, JointDrive* drive) {
+  if (found.joint < 0) return false;
+  const Effect& effect = *found.effect;
+  if (effect.joint_term) {
+    *TermOf(*effect.joint_term, joint) += found.p[0];
+    return true;
   }
-  return nullptr;
+  return effect.set_drive && effect.set_drive(found.p, drive);
 }
 
 bool IsIn(const RobotFormat& format, const CarriedEffect& effect) {
-  const HeldEffect* held = FindHeld(effect);
-  return effect.in_robot ||
-         (held != nullptr && (!held->field || format.Holds(*held->field)));
+  Joint joint;
+  JointDrive drive;
+  return effect.in_robot || (AddToFile(effect.found, &joint, &drive) &&
+                             format.Holds(joint, drive));
 }
 
 // Friction that brakes: URDF readers refuse any other.
@@ -147,11 +114,11 @@ RobotDescription Describe(const CorrectedRobot& corrected, const Robot& file,
   Robot& robot = description.robot;
   description.drives.resize(robot.num_joints());
   for (const CarriedEffect& effect : corrected.effects) {
-    const HeldEffect* held = FindHeld(effect);
     const int j = effect.found.joint;
-    if (held != nullptr && IsIn(format, effect)) {
-      held->add(effect.found, &robot.links[j].joint, &description.drives[j]);
-    } else if (j >= 0) {
+    if (j < 0 || effect.in_robot) continue;
+    if (IsIn(format, effect)) {
+      AddToFile(effect.found, &robot.links[j].joint, &description.drives[j]);
+    } else {
       const FrictionShare share =
           ShareOfFriction(effect, corrected.plant.robot, corrected.scale);
       robot.links[j].joint.viscous += share.viscous;

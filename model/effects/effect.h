@@ -2,44 +2,17 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "model/dynamics/joint_term.h"
 #include "model/dynamics/simulated_robot.h"
-#include "model/robot/robot.h"
+#include "model/effects/effect_site.h"
+#include "model/robot/joint_drive.h"
 
 namespace armcal {
-// Inline, because the truth of blind tests (model/plant/hidden/) has classes of
-// the same names: linked into one program as one name they would be one class.
 inline namespace effects {
-
-// What the joints do on a log: what sizes, ranges and grids of effects are
-// relative to. One entry per joint.
-struct MotionScale {
-  Eigen::VectorXd torque;        // rms, N m or N
-  Eigen::VectorXd load;          // rms of what moves the links, N m or N
-  Eigen::VectorXd speed;         // rms while moving, rad/s or m/s
-  Eigen::VectorXd top_speed;     // rad/s or m/s
-  Eigen::VectorXd acceleration;  // rms, rad/s^2 or m/s^2
-  Eigen::VectorXd low, high;     // positions, rad or m
-  // As recorded, its largest, N m or N; empty: not known.
-  Eigen::VectorXd top_torque;
-  // The speed within which the joint's Coulomb friction changes sign, rad/s or
-  // m/s: tanh(qd / width).
-  Eigen::VectorXd width;
-  // As recorded temperatures say; empty: not recorded.
-  std::vector<JointThermal> thermal;
-  double begin = 0, end = 0;  // s
-};
-
-// Where an effect acts, on which robot and in which motion.
-struct EffectSite {
-  const Robot* robot;  // without the effect
-  int joint;           // from 0; -1: the whole robot
-  const MotionScale* scale;
-
-  const Joint& at() const { return robot->links[joint].joint; }
-};
 
 struct EffectParameter {
   // How a diagnosis finds it. Torque is linear in kLinear parameters, and the
@@ -79,9 +52,19 @@ struct EffectEstimate {
 // `apply`), forward simulation and export.
 struct Effect {
   enum class Scope { kJoint, kRobot };
+  // What it is a change of, and so in which other logs it is found again.
+  enum class Nature {
+    kParameter,  // of a number that any rigid-body model has (mass, length,
+                 // joint friction), which is fitted anyway: in all logs
+    kLaw,        // of the robot, by a term that such a model lacks: in all logs
+    kRecording,  // of one log: its clock, its signals' zeros and scales
+    kDay,        // of one day: load, temperature, mounting, surroundings
+    kEvent       // of a span of time within a log
+  };
 
   std::string name;  // DESIGN.md's
   Scope scope = Scope::kJoint;
+  Nature nature = Nature::kLaw;
   std::string law;    // in symbols, a line
   std::string shows;  // which motion makes it visible, a phrase
   std::vector<EffectParameter> parameters;
@@ -103,9 +86,32 @@ struct Effect {
   // Multiples of its linear parameters' sizes that are tried as well, where
   // torques are far from being in proportion to them.
   std::vector<double> larger_sizes;
+  // Whether torque is in proportion to the linear parameters at all sizes. If
+  // not (a spring that yields, a limit), a model of a reference log, which is
+  // linear in them, cannot have it.
+  bool proportional = true;
   // Effects that a model without this law would show in its stead, as its mean:
   // beside it on the same joint they are a part of it.
   std::vector<std::string> means;
+  // Mechanisms that no effect describes and that are often taken for this one,
+  // a phrase: then finding it says less. Empty: none is known.
+  std::string imitated_by;
+  // Whether it is friction that in steady motion depends on the joint's own
+  // velocity alone: then the nearest viscous and Coulomb friction stand for it
+  // in files that have no other.
+  bool velocity_friction = false;
+  // The joint's own term (N m s/rad, N m or kg m^2 as JointTermUnit says) that
+  // its only parameter adds to: a number of robot files. None: no such term.
+  std::optional<JointTerm> joint_term;
+  // Sets what a robot file with drives has for it; whether there is a field for
+  // these p. Empty: there is none.
+  std::function<bool(const Eigen::VectorXd& p, JointDrive* drive)> set_drive;
+  // Whether the estimates can be of a real arm; empty: always. Those that
+  // cannot are not reported.
+  std::function<bool(const std::vector<EffectEstimate>& estimates)> plausible;
+  // Whether it is a push of the surroundings on the arm: what the search for
+  // contacts finds is reported as this effect. Exactly one is.
+  bool is_contact = false;
   // How it is made visible: the experiment a report proposes.
   std::string experiment;
 };

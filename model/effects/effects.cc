@@ -1,5 +1,7 @@
 #include "model/effects/effects.h"
 
+#include <algorithm>
+
 #include "model/effects/effect_list.h"
 
 namespace armcal {
@@ -22,6 +24,11 @@ const Effect* FindEffect(const std::string& name) {
     if (effect.name == name) return &effect;
   }
   return nullptr;
+}
+
+const Effect& ContactEffect() {
+  return *std::find_if(Effects().begin(), Effects().end(),
+                       [](const Effect& effect) { return effect.is_contact; });
 }
 
 }  // namespace effects

@@ -13,6 +13,8 @@ inline namespace effects {
 const std::vector<Effect>& Effects();
 // nullptr where there is none of that name.
 const Effect* FindEffect(const std::string& name);
+// What contacts are reported as.
+const Effect& ContactEffect();
 
 }  // namespace effects
 }  // namespace armcal

@@ -26,26 +26,31 @@ std::string JointValues(
   return values;
 }
 
+// What the joint would have in the field; 0: it needs none.
+double ValueOf(RobotField field, const Joint& joint, const JointDrive& drive) {
+  switch (field) {
+    case RobotField::kArmature:
+      return joint.armature;
+    case RobotField::kOffset:
+      return joint.offset;
+    case RobotField::kSpring:
+      return drive.stiffness;
+    case RobotField::kGain:
+      return drive.gain == 1 ? 0 : drive.gain;
+    case RobotField::kVelocityLimit:
+      return std::isfinite(joint.velocity) ? joint.velocity : 0;
+    case RobotField::kGravity:
+    case RobotField::kController:
+      break;
+  }
+  return 0;
+}
+
 std::string ValuesOf(RobotField field, const RobotDescription& description) {
-  return JointValues(
-      description, [field](const Joint& joint, const JointDrive& drive) {
-        switch (field) {
-          case RobotField::kArmature:
-            return joint.armature;
-          case RobotField::kOffset:
-            return joint.offset;
-          case RobotField::kSpring:
-            return drive.stiffness;
-          case RobotField::kGain:
-            return drive.gain == 1 ? 0 : drive.gain;
-          case RobotField::kVelocityLimit:
-            return std::isfinite(joint.velocity) ? joint.velocity : 0;
-          case RobotField::kGravity:
-          case RobotField::kController:
-            break;
-        }
-        return 0.;
-      });
+  return JointValues(description,
+                     [field](const Joint& joint, const JointDrive& drive) {
+                       return ValueOf(field, joint, drive);
+                     });
 }
 
 std::string NameOf(RobotField field) {
@@ -80,6 +85,12 @@ std::string GravityLoss(const RobotFormat& format, const Vector3d& g) {
 
 bool RobotFormat::Holds(RobotField field) const {
   return std::find(lacks.begin(), lacks.end(), field) == lacks.end();
+}
+
+bool RobotFormat::Holds(const Joint& joint, const JointDrive& drive) const {
+  return std::all_of(lacks.begin(), lacks.end(), [&](RobotField field) {
+    return ValueOf(field, joint, drive) == 0;
+  });
 }
 
 std::vector<std::string> Losses(const RobotFormat& format,

@@ -5,18 +5,10 @@
 #include <vector>
 
 #include "model/dynamics/joint_controller.h"
+#include "model/robot/joint_drive.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
-
-// What acts on a joint beside what a Joint has.
-struct JointDrive {
-  // A spring pushes with -stiffness (q - rest); N m/rad or N/m, rad or m.
-  double stiffness = 0;
-  double rest = 0;
-  // Torque that the motor gives per torque that is asked of it.
-  double gain = 1;
-};
 
 // A robot as files describe it to simulators.
 struct RobotDescription {
@@ -51,6 +43,8 @@ struct RobotFormat {
   std::vector<std::string> (*more_losses)(const RobotDescription&);
 
   bool Holds(RobotField field) const;
+  // All that the joint and its drive have.
+  bool Holds(const Joint& joint, const JointDrive& drive) const;
 };
 
 // What a file of this format cannot say of the robot, a sentence for each kind

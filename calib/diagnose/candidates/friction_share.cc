@@ -1,9 +1,7 @@
 #include "calib/diagnose/candidates/friction_share.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace armcal {
 namespace {
@@ -14,12 +12,6 @@ constexpr int kSpeeds = 12;     // in each direction
 constexpr double kFastest = 2;  // of the rms
 constexpr int kSteps = 2000;
 constexpr double kTravel = .1;  // rad or m, after which friction is steady
-
-bool IsLawOfFriction(const std::string& name) {
-  static const char* const kLaws[] = {
-      "presliding", "stribeck", "quadratic_friction", "asymmetric_friction"};
-  return std::find(std::begin(kLaws), std::end(kLaws), name) != std::end(kLaws);
-}
 
 // Against the motion, at velocity v after some way.
 double SteadyTorque(const JointLaw& law, const MotionScale& scale, double v) {
@@ -47,7 +39,7 @@ double SteadyTorque(const JointLaw& law, const MotionScale& scale, double v) {
 FrictionShare ShareOfFriction(const CarriedEffect& effect, const Robot& robot,
                               const MotionScale& scale) {
   const int j = effect.found.joint;
-  if (j < 0 || !IsLawOfFriction(effect.found.effect->name)) return {};
+  if (j < 0 || !effect.found.effect->velocity_friction) return {};
   SimulatedRobot plant;
   plant.robot = robot;
   effect.found.effect->apply({&robot, j, &scale}, effect.found.p, &plant);

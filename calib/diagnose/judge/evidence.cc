@@ -34,17 +34,6 @@ constexpr double kMostOdds = 12;
 
 double Logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
-// Springs, masses and gains are what loose bolts, sloshing loads and warming
-// motors look like.
-bool IsImitated(const Effect& effect) {
-  for (const char* name :
-       {"elasticity", "backlash", "vibration", "cable", "spring", "torque_gain",
-        "link_inertia", "armature"}) {
-    if (effect.name == name) return true;
-  }
-  return false;
-}
-
 // Of mean squares beyond the noise's: after the effects, over before.
 double LeftOf(const GapFigures& figures, int joint) {
   constexpr double kNoise = 1.1, kLeast = .1, kMost = 1.5;
@@ -100,7 +89,7 @@ EffectEvidence GapEvidence::ForEffect(
       std::clamp((own - others) / (2 * kTemperature), -kMostOdds, kMostOdds);
   evidence.strength = std::log(std::max(1., fit_.selection().drops[k]));
   evidence.beside = Beside(k);
-  evidence.imitated = IsImitated(*effect.effect);
+  evidence.imitated = !effect.effect->imitated_by.empty();
   const HeldOut::Merit merit = held_out_.MeritOf(k, figures_.after);
   evidence.gain = merit.gain;
   evidence.confirmation = merit.confirmation;

@@ -104,7 +104,7 @@ FoundEffect Findings::Contacts() const {
   if (strongest.fitted) {
     found = Describe(strongest.fitted->effect, strongest.fitted->covariance);
   } else {
-    found.effect = FindEffect("external_contact");
+    found.effect = &ContactEffect();
     found.estimates =
         ContactEstimates(robot_, strongest.contact, &found.stddev);
   }
@@ -201,15 +201,7 @@ bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
 }
 
 bool IsPossible(const FoundEffect& found) {
-  constexpr double kFarthest = 1;  // m, of a load from the last link's frame
-  if (found.effect->name != "payload") return true;
-  double squared = 0;
-  for (const EffectEstimate& estimate : found.estimates) {
-    if (estimate.name.rfind("com_", 0) == 0 && std::isfinite(estimate.value)) {
-      squared += estimate.value * estimate.value;
-    }
-  }
-  return squared <= kFarthest * kFarthest;
+  return !found.effect->plausible || found.effect->plausible(found.estimates);
 }
 
 bool IsContradicted(const FoundEffect& found) {

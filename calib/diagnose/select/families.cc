@@ -13,6 +13,7 @@
 #include "calib/diagnose/data/screen.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/selection.h"
+#include "model/dynamics/joint_term.h"
 
 namespace armcal {
 namespace {
@@ -20,32 +21,34 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-struct Term {
-  const char* effect;
-  JointTerm term;
-  double Joint::*value;
-};
-
-const std::vector<Term> kTerms = {
-    {"viscous_friction", JointTerm::kViscous, &Joint::viscous},
-    {"coulomb_friction", JointTerm::kCoulomb, &Joint::coulomb},
-    {"armature", JointTerm::kArmature, &Joint::armature},
-    {"torque_offset", JointTerm::kOffset, &Joint::offset}};
-
-bool IsLacked(const Robot& robot, const Term& term) {
-  return std::all_of(
-      robot.links.begin(), robot.links.end(),
-      [&](const Link& link) { return link.joint.*term.value == 0; });
+// Effects that are a joint term which the robot gives no joint. Those of a
+// recording, which are in no robot file, are last, and only beside others.
+std::vector<const Effect*> LackedTerms(const Robot& robot) {
+  std::vector<const Effect*> terms;
+  for (const bool of_recording : {false, true}) {
+    if (of_recording && terms.empty()) break;
+    for (const Effect& effect : Effects()) {
+      if (!effect.joint_term ||
+          (effect.nature == Effect::Nature::kRecording) != of_recording) {
+        continue;
+      }
+      const bool lacked = std::all_of(
+          robot.links.begin(), robot.links.end(), [&](const Link& link) {
+            return TermOf(*effect.joint_term, link.joint) == 0;
+          });
+      if (lacked) terms.push_back(&effect);
+    }
+  }
+  return terms;
 }
 
 // A candidate per joint and lacked term, family after family.
 std::vector<GapCandidate> Candidates(const Robot& robot,
-                                     const std::vector<Term>& terms,
+                                     const std::vector<const Effect*>& terms,
                                      const MotionScale& scale) {
   std::vector<GapCandidate> candidates;
-  for (const Term& term : terms) {
-    const Effect* effect = FindEffect(term.effect);
-    CHECK(effect != nullptr && effect->parameters.size() == 1) << term.effect;
+  for (const Effect* effect : terms) {
+    CHECK_EQ(effect->parameters.size(), 1u) << effect->name;
     for (int j = 0; j < robot.num_joints(); ++j) {
       GapCandidate candidate;
       candidate.effect = effect;
@@ -64,7 +67,7 @@ class FamilyFit {
  public:
   FamilyFit(const Robot& robot, const BaselineOptions& options,
             double bandwidth_hz, const std::vector<GapSegment>& segments,
-            const std::vector<Term>& terms)
+            const std::vector<const Effect*>& terms)
       : robot_(robot),
         terms_(terms),
         baseline_(robot, options, UsualTorque(segments)),
@@ -95,7 +98,7 @@ class FamilyFit {
       const bool lacked = family.drop > LeastDrop(family);
       for (int j = 0; j < robot_.num_joints(); ++j) {
         const double least = 1e-6 * candidates_[CandidateOf(f, j)].size[0];
-        result.robot.links[j].joint.*terms_[f].value =
+        *TermOf(family.term, &result.robot.links[j].joint) =
             lacked && family.value[j] != 0 ? family.value[j] : least;
       }
       if (lacked) result.families.push_back(family);
@@ -114,6 +117,9 @@ class FamilyFit {
     return family * robot_.num_joints() + joint;
   }
   int FamilyOf(int candidate) const { return candidate / robot_.num_joints(); }
+  JointTerm TermOfCandidate(int candidate) const {
+    return *terms_[FamilyOf(candidate)]->joint_term;
+  }
 
   // Joints whose friction or armature would be negative have none: what asks
   // for it is something else.
@@ -124,7 +130,7 @@ class FamilyFit {
       int most = -1;
       double depth = 0;
       for (size_t k = 0; k < all.size(); ++k) {
-        if (terms_[FamilyOf(all[k])].term == JointTerm::kOffset) continue;
+        if (TermOfCandidate(all[k]) == JointTerm::kOffset) continue;
         const double deviations =
             fit.coefficients[k] / std::sqrt(fit.covariance(k, k));
         if (deviations < depth) depth = deviations, most = all[k];
@@ -144,8 +150,8 @@ class FamilyFit {
   LackedFamily Family(int f) const {
     const int n = robot_.num_joints(), count = static_cast<int>(terms_.size());
     LackedFamily family;
-    family.effect = candidates_[CandidateOf(f, 0)].effect;
-    family.term = terms_[f].term;
+    family.effect = terms_[f];
+    family.term = *terms_[f]->joint_term;
     family.value = family.stddev = VectorXd::Zero(n);
     const GapScreen::Fit all = Solve(count);
     std::vector<int> others;
@@ -190,7 +196,7 @@ class FamilyFit {
   }
 
   const Robot& robot_;
-  std::vector<Term> terms_;
+  std::vector<const Effect*> terms_;
   GapBaseline baseline_;
   GapData data_;
   MotionScale scale_;
@@ -206,12 +212,7 @@ LackedFamilies FitLackedFamilies(const Robot& robot,
                                  const BaselineOptions& options,
                                  double bandwidth_hz,
                                  const std::vector<GapSegment>& segments) {
-  std::vector<Term> lacked;
-  // Offsets are in no robot file: they are only fitted beside others.
-  for (const Term& term : kTerms) {
-    const bool alone = term.term == JointTerm::kOffset && lacked.empty();
-    if (!alone && IsLacked(robot, term)) lacked.push_back(term);
-  }
+  const std::vector<const Effect*> lacked = LackedTerms(robot);
   LackedFamilies none;
   none.robot = robot;
   if (lacked.empty()) return none;

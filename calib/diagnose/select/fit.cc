@@ -73,7 +73,7 @@ double GapFit::UsualExcess(const FrictionExcess& excess, bool of_itself) const {
 bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
                              ContactSearch search) {
   const bool of_itself = search == ContactSearch::kInMotion;
-  if (IsLeftOut(*FindEffect("external_contact"))) return false;
+  if (IsLeftOut(ContactEffect())) return false;
   if (HaveNoiseOfPositions(rows().segments())) return false;
   if (of_itself ? rows().num_joints() > 1 : !regression_.reference())
     return false;

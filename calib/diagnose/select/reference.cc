@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <string>
 
 #include "calib/diagnose/candidates/candidates.h"
 #include "calib/diagnose/data/data.h"
@@ -28,18 +26,9 @@ constexpr int kMostMoves = 8;
 constexpr double kSettled = 1e-4;  // s
 
 // Not what a log says of itself or of its day; nor what the baseline varies
-// anyway; nor a transmission that yields, whose torque is in no proportion to
-// its size.
-bool IsLawOfTheRobot(const Effect& effect) {
-  static const std::set<std::string> kOthers = {
-      "external_contact", "vibration",         "time_drift",
-      "time_base",        "thermal_friction",  "delay",
-      "payload",          "encoder_offset",    "torque_gain",
-      "torque_offset",    "viscous_friction",  "coulomb_friction",
-      "armature",         "link_inertia",      "link_length",
-      "base_tilt",        "torque_saturation", "elasticity",
-      "backlash"};
-  return kOthers.count(effect.name) == 0;
+// anyway; nor a law that a linear model cannot have.
+bool CanBeInReference(const Effect& effect) {
+  return effect.nature == Effect::Nature::kLaw && effect.proportional;
 }
 
 VectorXd Refit(const GapData& data) {
@@ -80,7 +69,7 @@ class LawSearch {
     scale_ = ScaleOf(baseline, data_.rows(), data_.torques());
     for (GapCandidate& candidate :
          ListCandidates(baseline, data_.rows(), scale_, left, {})) {
-      if (IsLawOfTheRobot(*candidate.effect)) {
+      if (CanBeInReference(*candidate.effect)) {
         candidates_.push_back(std::move(candidate));
       }
     }

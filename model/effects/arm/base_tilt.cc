@@ -50,6 +50,7 @@ Effect BaseTilt() {
   Effect effect;
   effect.name = "base_tilt";
   effect.scope = Effect::Scope::kRobot;
+  effect.nature = Effect::Nature::kDay;
   effect.law = "tau = ID(gravity turned) - ID(gravity)";
   effect.shows = "gravity in many poses, the first joint's included";
   const auto size = [](const EffectSite& site) {

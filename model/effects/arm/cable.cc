@@ -10,6 +10,7 @@ inline namespace effects {
 Effect Cable() {
   Effect effect;
   effect.name = "cable";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = cable tanh((q - centre)/softness)";
   effect.shows = "motion over the joint's whole range";
   effect.parameters = {
@@ -40,6 +41,7 @@ Effect Cable() {
         robot);
   };
   effect.means = {"torque_offset"};
+  effect.imitated_by = "a weight on a loose bolt";
   effect.experiment = "slow sweeps over the whole range, both ways";
   return effect;
 }

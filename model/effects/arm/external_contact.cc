@@ -25,6 +25,7 @@ Effect ExternalContact() {
   Effect effect;
   effect.name = "external_contact";
   effect.scope = Effect::Scope::kRobot;
+  effect.nature = Effect::Nature::kEvent;
   effect.law = "tau = -J' force exp(-((t - time)/width)^2)";
   effect.shows = "a span of time that does not repeat";
   const auto size = [](const EffectSite& site) {
@@ -56,6 +57,7 @@ Effect ExternalContact() {
     robot->wrenches.push_back(law);
   };
   effect.estimates = ContactEstimates;
+  effect.is_contact = true;
   effect.experiment = "the same motion again";
   return effect;
 }

@@ -8,6 +8,7 @@ inline namespace effects {
 Effect LinkInertia() {
   Effect effect;
   effect.name = "link_inertia";
+  effect.nature = Effect::Nature::kParameter;
   effect.law = "tau = share ID(this link alone)";
   effect.shows = "gravity on the joints before, and their accelerations";
   effect.parameters = {
@@ -27,6 +28,7 @@ Effect LinkInertia() {
                ? "the link has no mass"
                : WhyNotCarried(site);
   };
+  effect.imitated_by = "a load that sloshes";
   effect.experiment = "poses of the joints before, held, and swung";
   return effect;
 }

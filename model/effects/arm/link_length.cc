@@ -21,6 +21,7 @@ Eigen::Vector3d LengthDirection(const Link& link, const Link& next) {
 Effect LinkLength() {
   Effect effect;
   effect.name = "link_length";
+  effect.nature = Effect::Nature::kParameter;
   effect.law = "tau = ID(l + length) - ID(l)";
   effect.shows = "motion of this joint and those beyond, gravity included";
   effect.parameters = {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "model/effects/effect_parts.h"
 
 namespace armcal {
@@ -35,6 +37,18 @@ std::vector<EffectEstimate> PayloadEstimates(const EffectSite& site,
           {"com_z", "m", com.z()}};
 }
 
+// A centre of mass far from the last link is of no load.
+bool IsWithinReach(const std::vector<EffectEstimate>& estimates) {
+  constexpr double kFarthest = 1;  // m, from the last link's frame
+  double squared = 0;
+  for (const EffectEstimate& estimate : estimates) {
+    if (estimate.name.rfind("com_", 0) == 0 && std::isfinite(estimate.value)) {
+      squared += estimate.value * estimate.value;
+    }
+  }
+  return squared <= kFarthest * kFarthest;
+}
+
 }  // namespace
 
 // A body on the tool: its mass, its first moments hx hy hz about the tool
@@ -45,6 +59,7 @@ Effect Payload() {
   Effect effect;
   effect.name = "payload";
   effect.scope = Effect::Scope::kRobot;
+  effect.nature = Effect::Nature::kDay;
   effect.law = "tau = ID(last link + payload) - ID(last link)";
   effect.shows = "gravity in many poses of the wrist";
   const auto mass = [](const EffectSite& site) {
@@ -70,6 +85,7 @@ Effect Payload() {
     robot->robot.links.back().inertial += payload.ReexpressIn(X_LP);
   };
   effect.estimates = PayloadEstimates;
+  effect.plausible = IsWithinReach;
   effect.experiment = "poses of the wrist, held, and the arm swung";
   return effect;
 }

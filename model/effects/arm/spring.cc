@@ -8,6 +8,7 @@ inline namespace effects {
 Effect Spring() {
   Effect effect;
   effect.name = "spring";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = stiffness (q - neutral)";
   effect.shows = "slow motion over the joint's whole range";
   effect.parameters = {Linear(
@@ -34,6 +35,13 @@ Effect Spring() {
         {"neutral", UnitAt(site, "P"), p[1] / p[0]}};
   };
   effect.means = {"torque_offset"};
+  effect.set_drive = [](const Eigen::VectorXd& p, JointDrive* drive) {
+    if (p[0] <= 0) return false;
+    drive->rest = p[1] / p[0];
+    drive->stiffness = p[0];
+    return true;
+  };
+  effect.imitated_by = "a weight on a loose bolt";
   effect.experiment = "slow sweeps over the whole range, both ways";
   return effect;
 }

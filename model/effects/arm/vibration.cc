@@ -10,6 +10,7 @@ inline namespace effects {
 Effect Vibration() {
   Effect effect;
   effect.name = "vibration";
+  effect.nature = Effect::Nature::kDay;
   effect.law = "tau = -sine sin(2 pi f t) - cosine cos(2 pi f t)";
   effect.shows = "any recording of many periods, at rest too";
   effect.parameters = {
@@ -33,6 +34,7 @@ Effect Vibration() {
         {"frequency", "Hz", p[2]},
         {"phase", "rad", Phase(p[0], p[1])}};
   };
+  effect.imitated_by = "a torque that wanders at random";
   effect.experiment = "the arm at rest";
   return effect;
 }

@@ -7,6 +7,7 @@ inline namespace effects {
 Effect Armature() {
   Effect effect;
   effect.name = "armature";
+  effect.nature = Effect::Nature::kParameter;
   effect.law = "tau = armature qdd";
   effect.shows = "large accelerations of the joint";
   effect.parameters = {
@@ -21,6 +22,8 @@ Effect Armature() {
     return std::vector<EffectEstimate>{
         {"armature", IsRotational(site.at().type) ? "kg m^2" : "kg", p[0]}};
   };
+  effect.joint_term = JointTerm::kArmature;
+  effect.imitated_by = "a load that sloshes";
   effect.experiment = "fast motion of small amplitude";
   return effect;
 }

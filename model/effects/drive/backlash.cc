@@ -37,6 +37,7 @@ Transmission DeadZone(int joint, const FlankedSpring& spring) {
 Effect Backlash() {
   Effect effect;
   effect.name = "backlash";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = ID(q - backlash/2 sign(load)) - ID(q)";
   effect.shows = "loads that change sign";
   effect.parameters = {
@@ -63,7 +64,9 @@ Effect Backlash() {
         {"backlash", UnitAt(site, "P"), p[0]},
         {"contact_stiffness", UnitAt(site, "E/P"), ContactStiffness(site, p)}};
   };
+  effect.proportional = false;
   effect.means = {"armature"};
+  effect.imitated_by = "a weight on a loose bolt";
   effect.experiment =
       "slow motion through poses in which the load changes sign, at 100 Hz or "
       "more; an encoder at the link";

@@ -31,6 +31,7 @@ double Stiffening(const EffectSite& site, const Eigen::VectorXd& p) {
 Effect Elasticity() {
   Effect effect;
   effect.name = "elasticity";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = ID(q - compliance load) - ID(q)";
   effect.shows = "fast motion and reversals";
   effect.parameters = {
@@ -63,7 +64,9 @@ Effect Elasticity() {
         {"damping", UnitAt(site, "E s/P"), Damping(site, p)},
         {"stiffening", UnitAt(site, "1/P^2"), Stiffening(site, p)}};
   };
+  effect.proportional = false;
   effect.means = {"armature"};
+  effect.imitated_by = "a belt that creeps, a weight on a loose bolt";
   effect.experiment = "fast motion and stops; an encoder at the link";
   return effect;
 }

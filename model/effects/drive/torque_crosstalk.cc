@@ -10,6 +10,7 @@ inline namespace effects {
 Effect TorqueCrosstalk() {
   Effect effect;
   effect.name = "torque_crosstalk";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = gain tau_neighbour";
   effect.shows = "neighbours whose torques differ in time";
   effect.parameters = {Linear("gain", "1",

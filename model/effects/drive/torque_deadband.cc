@@ -29,6 +29,7 @@ double Given(double y, double d, double s) {
 Effect TorqueDeadband() {
   Effect effect;
   effect.name = "torque_deadband";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = deadband tanh(tau_given/softness)";
   effect.shows = "torques that change sign";
   effect.parameters = {Linear("deadband", "E", ShareOfTorque(.03),

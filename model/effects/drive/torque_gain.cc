@@ -7,6 +7,7 @@ inline namespace effects {
 Effect TorqueGain() {
   Effect effect;
   effect.name = "torque_gain";
+  effect.nature = Effect::Nature::kRecording;
   effect.law = "tau = gain tau_given";
   effect.shows = "any motion, against a robot whose masses are known";
   effect.parameters = {
@@ -17,6 +18,11 @@ Effect TorqueGain() {
     AddActuator(
         site, [=](double commanded) { return commanded / (1 + gain); }, robot);
   };
+  effect.set_drive = [](const Eigen::VectorXd& p, JointDrive* drive) {
+    drive->gain /= 1 + p[0];
+    return true;
+  };
+  effect.imitated_by = "a motor that warms up";
   effect.experiment = "a known payload, held and moved";
   return effect;
 }

@@ -16,6 +16,7 @@ double FallTorque(const EffectSite& site) { return 2 * TorqueScale(site); }
 Effect TorqueNonlinearity() {
   Effect effect;
   effect.name = "torque_nonlinearity";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = fall tau_given^3/fall_torque^2";
   effect.shows = "large torques, in motion or at rest";
   effect.parameters = {Linear(

@@ -7,6 +7,7 @@ inline namespace effects {
 Effect TorqueOffset() {
   Effect effect;
   effect.name = "torque_offset";
+  effect.nature = Effect::Nature::kRecording;
   effect.law = "tau = offset";
   effect.shows = "any motion, beside gravity that changes sign";
   effect.parameters = {Linear("offset", "E", ShareOfTorque(.05))};
@@ -16,6 +17,7 @@ Effect TorqueOffset() {
     AddActuator(
         site, [=](double commanded) { return commanded - offset; }, robot);
   };
+  effect.joint_term = JointTerm::kOffset;
   effect.experiment = "poses in which gravity does not load the joint";
   return effect;
 }

@@ -9,6 +9,7 @@ inline namespace effects {
 Effect TorqueRipple() {
   Effect effect;
   effect.name = "torque_ripple";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = sine sin(n q) + cosine cos(n q)";
   effect.shows = "slow motion over many periods of the ripple";
   effect.parameters = {

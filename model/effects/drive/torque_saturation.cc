@@ -29,6 +29,7 @@ struct SoftClip {
 Effect TorqueSaturation() {
   Effect effect;
   effect.name = "torque_saturation";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = share (tau_logged - clip(tau_logged, limit))";
   effect.shows = "torques beyond the limit";
   effect.parameters = {
@@ -62,6 +63,7 @@ Effect TorqueSaturation() {
                                        {"share", "1", p[0]},
                                        {"knee", "1", p[2]}};
   };
+  effect.proportional = false;
   effect.experiment = "slow and fast accelerations of the same motion";
   return effect;
 }

@@ -10,6 +10,7 @@ inline namespace effects {
 Effect AsymmetricFriction() {
   Effect effect;
   effect.name = "asymmetric_friction";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = asymmetric |v|";
   effect.shows = "motion both ways at several speeds";
   effect.parameters = {Linear("asymmetric", "E s/P", ShareOfDrag(.05))};
@@ -24,6 +25,7 @@ Effect AsymmetricFriction() {
         },
         robot);
   };
+  effect.velocity_friction = true;
   effect.means = {"viscous_friction"};
   effect.experiment = "the same constant velocities both ways, slow and fast";
   return effect;

@@ -10,6 +10,7 @@ inline namespace effects {
 Effect CoulombFriction() {
   Effect effect;
   effect.name = "coulomb_friction";
+  effect.nature = Effect::Nature::kParameter;
   effect.law = "tau = coulomb sign(v)";
   effect.shows = "motion both ways";
   effect.parameters = {Linear("coulomb", "E", ShareOfTorque(.05))};
@@ -24,6 +25,8 @@ Effect CoulombFriction() {
         },
         robot);
   };
+  effect.joint_term = JointTerm::kCoulomb;
+  effect.velocity_friction = true;
   effect.experiment = "slow constant velocities, both ways";
   return effect;
 }

@@ -51,6 +51,7 @@ void ApplyCoupled(const EffectSite& site, const Eigen::VectorXd& p,
 Effect CoupledFriction() {
   Effect effect;
   effect.name = "coupled_friction";
+  effect.nature = Effect::Nature::kLaw;
   effect.law =
       "tau = friction sign(v + ratio v_neighbour), here and ratio "
       "times there";

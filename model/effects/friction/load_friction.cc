@@ -10,6 +10,7 @@ inline namespace effects {
 Effect LoadFriction() {
   Effect effect;
   effect.name = "load_friction";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = load_friction |load| sign(v)";
   effect.shows = "motion both ways under large and small loads";
   effect.parameters = {Linear(

@@ -10,6 +10,7 @@ inline namespace effects {
 Effect PositionFriction() {
   Effect effect;
   effect.name = "position_friction";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = (sine sin(n q) + cosine cos(n q)) sign(v)";
   effect.shows = "slow motion both ways over the joint's whole range";
   effect.parameters = {Linear("sine", "E", ShareOfTorque(.05)),

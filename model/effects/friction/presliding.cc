@@ -10,6 +10,7 @@ inline namespace effects {
 Effect Presliding() {
   Effect effect;
   effect.name = "presliding";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = coulomb z, z' = v/displacement (1 - z sign(v))";
   effect.shows = "reversals and small motions";
   effect.parameters = {Linear("coulomb", "E", ShareOfTorque(.05),
@@ -31,6 +32,7 @@ Effect Presliding() {
          }});
   };
   effect.near_zero = true;
+  effect.velocity_friction = true;
   effect.means = {"coulomb_friction"};
   effect.experiment = "small motions to and fro, from 0.01 to 10 degrees";
   return effect;

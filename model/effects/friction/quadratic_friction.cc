@@ -9,6 +9,7 @@ inline namespace effects {
 Effect QuadraticFriction() {
   Effect effect;
   effect.name = "quadratic_friction";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = quadratic v |v|";
   effect.shows = "motion at several speeds, the highest included";
   effect.parameters = {Linear(
@@ -30,6 +31,7 @@ Effect QuadraticFriction() {
         },
         robot);
   };
+  effect.velocity_friction = true;
   effect.means = {"viscous_friction"};
   effect.experiment = "constant velocities up to the joint's limit";
   return effect;

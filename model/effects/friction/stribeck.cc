@@ -12,6 +12,7 @@ inline namespace effects {
 Effect Stribeck() {
   Effect effect;
   effect.name = "stribeck";
+  effect.nature = Effect::Nature::kLaw;
   effect.law = "tau = stribeck exp(-(v/stribeck_velocity)^2) sign(v)";
   effect.shows = "slow motion, reversals and starts";
   effect.parameters = {
@@ -36,6 +37,7 @@ Effect Stribeck() {
         robot);
   };
   effect.near_zero = true;
+  effect.velocity_friction = true;
   effect.means = {"coulomb_friction", "viscous_friction"};
   effect.experiment = "constant velocities from creeping to usual, both ways";
   return effect;

@@ -47,6 +47,7 @@ std::string WhyNoFriction(const EffectSite& site) {
 Effect ThermalFriction() {
   Effect effect;
   effect.name = "thermal_friction";
+  effect.nature = Effect::Nature::kDay;
   effect.law = "tau = -(beta viscous v + coulomb_beta coulomb sign(v)) warmth";
   effect.shows = "minutes of motion from cold";
   const auto size = [](const EffectSite&) { return .005; };

@@ -8,6 +8,7 @@ inline namespace effects {
 Effect ViscousFriction() {
   Effect effect;
   effect.name = "viscous_friction";
+  effect.nature = Effect::Nature::kParameter;
   effect.law = "tau = viscous v";
   effect.shows = "motion at several speeds";
   effect.parameters = {Linear("viscous", "E s/P", ShareOfDrag(.05))};
@@ -19,6 +20,8 @@ Effect ViscousFriction() {
         site, [=](const ArmInstant& at) { return -viscous * at.velocity[j]; },
         robot);
   };
+  effect.joint_term = JointTerm::kViscous;
+  effect.velocity_friction = true;
   effect.experiment = "constant velocities, slow and fast, both ways";
   return effect;
 }

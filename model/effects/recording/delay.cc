@@ -10,6 +10,7 @@ Effect Delay() {
   Effect effect;
   effect.name = "delay";
   effect.scope = Effect::Scope::kRobot;
+  effect.nature = Effect::Nature::kRecording;
   effect.law = "tau = tau_given(t + delay) - tau_given(t)";
   effect.shows = "torques that change fast";
   effect.parameters = {

@@ -29,6 +29,7 @@ bool IsFelt(const Robot& robot, int joint) {
 Effect EncoderOffset() {
   Effect effect;
   effect.name = "encoder_offset";
+  effect.nature = Effect::Nature::kRecording;
   effect.law = "tau = ID(q - offset) - ID(q)";
   effect.shows = "gravity on this joint and those beyond, in many poses";
   effect.parameters = {Linear("offset", "P", [](const EffectSite& site) {

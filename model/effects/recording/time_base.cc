@@ -9,6 +9,7 @@ Effect TimeBase() {
   Effect effect;
   effect.name = "time_base";
   effect.scope = Effect::Scope::kRobot;
+  effect.nature = Effect::Nature::kRecording;
   effect.law = "tau = ID((1 + rate) qd, (1 + rate)^2 qdd) - ID(qd, qdd)";
   effect.shows = "fast motion, against a robot whose masses are known";
   effect.parameters = {

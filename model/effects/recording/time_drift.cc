@@ -10,6 +10,7 @@ inline namespace effects {
 Effect TimeDrift() {
   Effect effect;
   effect.name = "time_drift";
+  effect.nature = Effect::Nature::kRecording;
   effect.law = "tau = drift (1 - exp(-t/T)), drift at the end of the log";
   effect.shows = "minutes of recording";
   effect.parameters = {
