@@ -1,6 +1,6 @@
 # The rooms of the house, one folder each, in the order in which data flows: a
 # room may include itself and those above it. CMakeLists.txt builds each layer
-# from its rooms and tests/layering_test.cmake holds the includes to the order.
+# from its rooms and tests/layering_test.py holds the includes to the order.
 set(rooms
     model/text          # numbers, times, archives and XML out of bytes
     model/robot         # the arm as a value: links, joints, frames, inertias
