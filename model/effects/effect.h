@@ -55,7 +55,7 @@ struct EffectParameter {
   };
   enum class Sign { kFree, kPositive };
 
-  std::string name;  // as in DESIGN.md
+  std::string name;  // as in diagnosis.json: "stribeck_velocity"
   std::string unit;  // with E for the joint's effort (N m or N), P for its
                      // position (rad or m): "E s/P"
   Search search = Search::kLinear;
@@ -80,7 +80,7 @@ struct EffectEstimate {
 struct Effect {
   enum class Scope { kJoint, kRobot };
 
-  std::string name;  // DESIGN.md's
+  std::string name;  // as in diagnosis.json and docs/effects
   Scope scope = Scope::kJoint;
   std::string law;    // in symbols, a line
   std::string shows;  // which motion makes it visible, a phrase

@@ -17,9 +17,8 @@ WHOLE_TEXTS = (".md", ".py", ".sh", ".cmake", ".txt", ".toml", ".ipynb", ".in")
 # They speak of the past, and of a tree that is not this one.
 OTHER_TREES = {"CHANGELOG.md", "tests/blind/EVALUATIONS.md",
                "tests/layering/bad_tree.py", "tests/layering/rules_of_names.py"}
-# Of another program, and of the folder that a build writes.
-ELSEWHERE = {("docs/comparison.md", "tools/_report_common.py"),
-             ("tools/fuzz.sh", "tests/fuzz/corpus")}
+# Of another program.
+ELSEWHERE = {("docs/comparison.md", "tools/_report_common.py")}
 
 NOT_SHIPPED = re.compile(r"\b(?:DESIGN|GAP|MATH|HOUSE|REAL)\.md")
 

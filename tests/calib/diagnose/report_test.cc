@@ -184,7 +184,7 @@ TEST(FullReport, GathersWhatIsNotTestable) {
                         "  spring: it rests (hand)\n"));
 }
 
-// Type by type, DESIGN.md's keys of diagnosis.json.
+// Type by type, the keys of diagnosis.json (docs/diagnose.md).
 void ExpectKeys(const json& object, const std::string& numbers,
                 const std::string& strings, const std::string& arrays) {
   const auto expect = [&](const std::string& keys, auto is) {
