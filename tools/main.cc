@@ -16,6 +16,7 @@
 
 #include "calib/numerics/thread_limit.h"
 #include "model/text/input_error.h"
+#include "model/text/option_name.h"
 #include "tools/command.h"
 #include "tools/completion.h"
 #include "tools/console.h"
@@ -178,6 +179,7 @@ int TellError() {
 
 int main(int argc, char** argv) {
   armcal::PrepareProcess();
+  armcal::SetOptionPrefix("--");
   armcal::PrepareHeap();
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);

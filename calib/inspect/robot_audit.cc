@@ -6,6 +6,7 @@
 
 #include "model/robot/kinematics.h"
 #include "model/text/format.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -103,12 +104,13 @@ class RobotAudit {
     if (same == bodies) {
       Add("default_inertia", "all links have the same inertia: a placeholder",
           Number(CentralInertia(first->inertial)(0, 0)) + " kg m^2",
-          "trust it little: --trust=1");
+          "trust it little: " + OptionName("trust") + "=1");
     }
     if (centred == bodies) {
       Add("default_inertia",
           "all links have their mass at their frame's origin",
-          std::to_string(bodies) + " links", "trust it little: --trust=1");
+          std::to_string(bodies) + " links",
+          "trust it little: " + OptionName("trust") + "=1");
     }
   }
 
@@ -143,7 +145,7 @@ class RobotAudit {
     });
     if (names.empty()) return;
     Add("no_limits", "joints have no position limits", names,
-        "armcal excite --position_limits=..");
+        "armcal excite " + OptionName("position_limits") + "=..");
   }
 
   const Robot& robot_;

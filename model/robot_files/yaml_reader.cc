@@ -10,6 +10,7 @@
 #include "model/robot_files/yaml_pose.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 #include "model/text/yaml_node.h"
 
 namespace armcal {
@@ -268,10 +269,10 @@ void ReadTool(const YamlNode& tool, Robot* robot) {
 }  // namespace
 
 Robot ReadYaml(const std::string& path, const RobotReaderOptions& options) {
-  for (const auto& [flag, value] : {std::make_pair("--base", options.base),
-                                    std::make_pair("--tip", options.tip)}) {
+  for (const auto& [option, value] : {std::make_pair("base", options.base),
+                                      std::make_pair("tip", options.tip)}) {
     if (value.empty()) continue;
-    throw InputError(path, flag, OneLine(value),
+    throw InputError(path, OptionName(option), OneLine(value),
                      "expected no such flag with a YAML robot, which is one "
                      "chain");
   }

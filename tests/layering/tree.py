@@ -8,7 +8,7 @@ import subprocess
 CODE = (".h", ".cc", ".inc")
 LAYERS = ("model", "problems", "calib", "tools")
 LIBRARIES = ("model", "problems", "calib")
-FOLDERS = LAYERS + ("tests", "data", "docs", "cmake")
+FOLDERS = LAYERS + ("tests", "data", "docs", "cmake", "examples")
 
 # Comments, raw strings, strings and characters of C++; what stands in none of
 # them can begin none of them either.
