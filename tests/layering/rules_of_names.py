@@ -10,7 +10,7 @@ SAYS_NOTHING = re.compile(r"(utils?|common|misc|helpers?|types)$")
 NAMED = ("model", "problems", "calib", "tools", "tests", "data", "docs")
 
 # A path from the root, at the beginning of a word; ${X} and <x> stand for anything.
-PATH = re.compile(r"(?<![\w/.}\-$>*+^)])(?:model|problems|calib|tools|tests|docs|data|examples)"
+PATH = re.compile(r"(?<![\w/.}\-$>*+^)])(?:model|problems|calib|tools|tests|docs|data)"
                   r"/(?:[\w./*+-]|\$\{\w+\}|<\w+>)*(?:[\w*/]|\$\{\w+\}|<\w+>)")
 ANYTHING = re.compile(r"\$\{\w+\}|<\w+>")
 WHOLE_TEXTS = (".md", ".py", ".sh", ".cmake", ".txt", ".toml", ".ipynb", ".in")
