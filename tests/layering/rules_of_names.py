@@ -20,7 +20,19 @@ OTHER_TREES = {"CHANGELOG.md", "tests/blind/EVALUATIONS.md",
 # Of another program.
 ELSEWHERE = {("docs/comparison.md", "tools/_report_common.py")}
 
-NOT_SHIPPED = re.compile(r"\b(?:DESIGN|GAP|MATH|HOUSE|REAL)\.md")
+# Files that readers of docs/extending.md make; extending_test.py does.
+EXAMPLE = re.compile(r"^```(?:cpp|diff) .*?^```$", re.M | re.S)
+
+# A file without its folder, which may be anywhere.
+BARE = re.compile(r"(?<![\w*{}<>/.])[a-z]\w*\.(?:h|cc)\b")
+BARE_ELSEWHERE = {"nist.cc"}  # of Ceres
+
+NOT_SHIPPED = re.compile(r"\b(?:DESIGN|ECOSYSTEM|GAP|HOUSE|INFERENCE|MATH|PERFORMANCE|REAL"
+                         r"|STYLE|USERS)\.md")
+
+TEST = re.compile(r"(?<![\w/.<{}*-])[a-z][a-z0-9_]*_test\b(?!\.\w)")
+CTEST = re.compile(r"ctest[^`\n]* -R[ =]*[\"']?([^`\"'\n A-Z]+)")
+ADDED = re.compile(r"add_test\(NAME (\w+)")
 
 
 def names_say_something(tree):
@@ -35,7 +47,8 @@ def _prose(tree, path):
     """What of a file may name other files."""
     if path.endswith(CODE):
         return "\n".join(tree.comments(path))
-    return tree.text(path) if path.endswith(WHOLE_TEXTS) else ""
+    text = tree.text(path) if path.endswith(WHOLE_TEXTS) else ""
+    return EXAMPLE.sub("", text) if path.endswith(".md") else text
 
 
 def _exists(tree, folder, named):
@@ -58,6 +71,46 @@ def paths_lead_somewhere(tree):
                 yield f"{path}: {named} does not exist"
 
 
+def files_are_there(tree):
+    """A file that is named without its folder is in one."""
+    names = {os.path.basename(path) for path in tree.files} | BARE_ELSEWHERE
+    for path in tree.files:
+        if path in OTHER_TREES or not path.endswith(CODE + (".md",)):
+            continue
+        for name in sorted(set(BARE.findall(_prose(tree, path))) - names):
+            yield f"{path}: {name} does not exist"
+
+
+def test_names(tree):
+    """As test_name() in tests/CMakeLists.txt makes them of paths, and as they stand there."""
+    yield from ADDED.findall(tree.text("tests/CMakeLists.txt"))
+    for path in tree.files:
+        room, file = os.path.split(path[len("tests/"):])
+        name, ending = os.path.splitext(file)
+        if path.startswith("tests/tools/") and ending == ".cmake":
+            yield f"tools_{name}"
+        if not path.startswith("tests/") or not file.endswith("_test.cc"):
+            continue
+        room = re.sub(r"^(model/plant|model|calib)/", "", room + "/").strip("/")
+        if name.startswith(os.path.basename(room) + "_"):
+            room = os.path.dirname(room)
+        yield f"{room}/{name}".strip("/").replace("/", "_")
+
+
+def tests_are_there(tree):
+    """A test that is named can be run by that name."""
+    names = set(test_names(tree))
+    for path in tree.files:
+        if path in OTHER_TREES or not path.endswith(CODE + (".md",)):
+            continue
+        prose = _prose(tree, path)
+        for name in sorted(set(TEST.findall(prose)) - names):
+            yield f"{path}: there is no test {name}"
+        for pattern in {part for found in CTEST.findall(prose) for part in found.split("|")}:
+            if not any(re.search(pattern, name) for name in names):
+                yield f"{path}: ctest -R {pattern} finds no test"
+
+
 def sources_are_shipped(tree):
     """What a reader is sent to is in this repository."""
     for path in tree.files:
@@ -67,4 +120,5 @@ def sources_are_shipped(tree):
             yield f"{path}: cites {name}, which is not shipped: say what it says"
 
 
-RULES = (names_say_something, paths_lead_somewhere, sources_are_shipped)
+RULES = (names_say_something, paths_lead_somewhere, files_are_there, tests_are_there,
+         sources_are_shipped)

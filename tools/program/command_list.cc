@@ -13,10 +13,11 @@ namespace armcal {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> kCommands = [] {
-    std::vector<Command> commands = {CalibrateCommand(), VerifyCommand(),
-                                     DiagnoseCommand(),  SimulateCommand(),
-                                     ExciteCommand(),    InspectCommand(),
-                                     ReduceCommand(),    MergeCommand()};
+    std::vector<Command> commands = {
+        CalibrateCommand(), VerifyCommand(), DiagnoseCommand(),
+        SimulateCommand(),  ExciteCommand(), InspectCommand(),
+        ReduceCommand(),    MergeCommand(),
+    };
     for (Command& command : commands) {
       command.groups.push_back(
           {"output", {"out", "json", "quiet", "flagfile"}});
