@@ -14,6 +14,7 @@ FILES = {
     "model/plant/e.h": '#include "problems/b.h"\n',
     "model/effects/arm/f.cc": '#include <Simbody.h>\neffect.name = "spring";\n'
                               'effect.name = "delay";\n',
+    "model/effects/drive/g.cc": "Effect Delay() {}\n",
     "model/plant/hidden/g.h": '#include "model/effects/arm/f.cc"\n',
     "calib/verify/h.cc": '#include "model/plant/hidden/g.h"\n',
     "calib/verify/i.cc": '#include "tools/j.h"\n',
@@ -73,6 +74,7 @@ EXPECTED = {
     "libraries_print_nothing": ["problems/b.h: prints", "calib/logs/l.cc: prints"],
     "commands_print_by_the_console": ["tools/n.cc: prints"],
     "effects_are_named_by_themselves": [
+        "model/effects/drive/g.cc: names no effect",
         "calib/diagnose/judge/o.cc: names the effect delay",
         "calib/refine/o.cc: names the effect spring"],
     "libraries_know_no_flags": [f"calib/fleet/r.cc: {FLAG} in a string"],

@@ -41,8 +41,13 @@ def commands_print_by_the_console(tree):
 
 def effects_are_named_by_themselves(tree):
     """What a diagnosis does about an effect follows from its description."""
-    names = {name for path in tree.code() if path.startswith("model/effects/")
-             for name in EFFECT_NAME.findall(tree.text(path))}
+    names = set()
+    for path in tree.code():
+        if re.match(r"model/effects/\w+/\w+\.cc", path):
+            named = EFFECT_NAME.findall(tree.text(path))
+            names.update(named)
+            if not named:
+                yield f"{path}: names no effect by a line effect.name = .."
     for path in tree.code():
         if path.startswith(("model/effects/", "model/plant/hidden/")):
             continue
