@@ -45,7 +45,8 @@ FILES = {
     "calib/linear/u.cc": '// As in model/lost.\nconst char* k = "model/lost";\n',
     "CHANGELOG.md": "calib/gone.h\n",
     "tests/CMakeLists.txt": "add_test(NAME format COMMAND x)\n",
-    "tests/calib/linear/q_test.cc": "// lost.h, q_test.cc; lost_test, linear_q_test\n",
+    "tests/calib/linear/q_test.cc": "// lost.h, q_test.cc; lost_test, linear_q_test\n"
+                                    "}  // namespace q_test\n",
     "docs/q.md": "`ctest -R 'linear_q|format'`, `ctest -R lost_long`\n",
     "calib/linear/v.h": f"// {GUIDE}, A.1.\n",
     # Sizes.

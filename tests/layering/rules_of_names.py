@@ -82,7 +82,7 @@ def files_are_there(tree):
 
 
 def test_names(tree):
-    """As test_name() in tests/CMakeLists.txt makes them of paths, and as they stand there."""
+    """As test_name() in tests/room_tests.cmake makes them, and as they are added by name."""
     yield from ADDED.findall(tree.text("tests/CMakeLists.txt"))
     for path in tree.files:
         room, file = os.path.split(path[len("tests/"):])

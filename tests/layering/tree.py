@@ -85,8 +85,9 @@ class Tree:
 
     @functools.lru_cache(maxsize=None)
     def comments(self, path):
-        return [match["comment"] for match in TOKEN.finditer(self.text(path))
-                if match["comment"]]
+        """But for the names of namespaces at their ends."""
+        found = [match["comment"] for match in TOKEN.finditer(self.text(path))]
+        return [text for text in found if text and not text.startswith("// namespace")]
 
     @functools.lru_cache(maxsize=None)
     def bare(self, path):
