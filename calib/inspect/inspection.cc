@@ -17,7 +17,7 @@ using Kind = ReadingChange::Kind;
 
 constexpr int kMostRows = 1 << 20;
 constexpr int kSamples = 400;
-constexpr int kLeastSamples = 60;
+constexpr int kLeastMoving = 60;
 constexpr double kBandwidth = 8;  // Hz, of what torques are compared with
 
 class Inspector {
@@ -69,7 +69,7 @@ class Inspector {
     result_.top_speed = series.motion().qd.cwiseAbs().colwise().maxCoeff();
     result_.moving_share = static_cast<double>(series.num_moving()) /
                            static_cast<double>(series.motion().size());
-    if (series.num_moving() < kLeastSamples) {
+    if (series.num_moving() < kLeastMoving) {
       result_.findings.push_back(
           {"no_motion", "the arm hardly moves",
            Format("%.2g s of motion", series.num_moving() * dt),

@@ -38,7 +38,7 @@ double LongestLink(const Robot& robot) {
   return longest;
 }
 
-std::string Number(double x) { return Format("%.3g", x); }
+std::string ThreeDigits(double x) { return Format("%.3g", x); }
 
 std::string NamesWhere(const Robot& robot,
                        const std::function<bool(const Link&)>& holds) {
@@ -103,7 +103,7 @@ class RobotAudit {
     if (bodies < 2) return;
     if (same == bodies) {
       Add("default_inertia", "all links have the same inertia: a placeholder",
-          Number(CentralInertia(first->inertial)(0, 0)) + " kg m^2",
+          ThreeDigits(CentralInertia(first->inertial)(0, 0)) + " kg m^2",
           "trust it little: " + OptionName("trust") + "=1");
     }
     if (centred == bodies) {
@@ -125,15 +125,15 @@ class RobotAudit {
     if (radius > kLarge * length || (radius > 0 && radius < kSmall * length)) {
       Add("suspicious_inertia",
           "the inertia of " + link.name + " does not suit the arm's size",
-          "radius of gyration " + Number(radius) + " m, longest link " +
-              Number(length) + " m",
+          "radius of gyration " + ThreeDigits(radius) + " m, longest link " +
+              ThreeDigits(length) + " m",
           "was it computed from a mesh in mm?");
     }
     if (com > kLarge * length) {
       Add("suspicious_inertia",
           "the centre of mass of " + link.name + " lies far outside the arm",
-          Number(com) + " m from the link's origin, longest link " +
-              Number(length) + " m",
+          ThreeDigits(com) + " m from the link's origin, longest link " +
+              ThreeDigits(length) + " m",
           "is it in mm?");
     }
   }

@@ -19,8 +19,8 @@
 namespace armcal {
 namespace {
 
-constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
-                                JointTerm::kOffset, JointTerm::kArmature};
+constexpr JointTerm kReadTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
+                                    JointTerm::kOffset, JointTerm::kArmature};
 
 // A number of the robot that a file may set.
 struct Slot {
@@ -55,7 +55,7 @@ void AddDynamics(Links* links, Robot* robot, Slots* slots) {
       (*slots)[link.name + "." + InertialName(k)] = {
           InertialUnit(k), *value, [value](double x) { *value = x; }};
     }
-    for (const JointTerm term : kTerms) {
+    for (const JointTerm term : kReadTerms) {
       double* value = TermOf(term, &link.joint);
       (*slots)[link.joint.name + "." + JointTermName(term)] = {
           JointTermUnit(term, link.joint.type), *value,

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr size_t kMaxJoints = 64;
+constexpr size_t kMaxLinks = 64;
 
 double NumberOr(const YamlNode& map, const std::string& key,
                 const std::string& unit, double absent) {
@@ -225,8 +225,8 @@ Link ReadLink(const YamlNode& entry,
 void ReadLinks(const YamlNode& links, Robot* robot) {
   const std::vector<YamlNode> entries = links.Entries();
   if (entries.empty()) links.Refuse("expected at least one link");
-  if (entries.size() > kMaxJoints) {
-    links.Refuse("expected at most " + std::to_string(kMaxJoints) + " links");
+  if (entries.size() > kMaxLinks) {
+    links.Refuse("expected at most " + std::to_string(kMaxLinks) + " links");
   }
   std::set<std::string> link_names, joint_names;
   for (size_t i = 0; i < entries.size(); ++i) {
