@@ -13,7 +13,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kNeighbours = 15;
+constexpr int kMedianReach = 15;
 // A jump of the residual is an error of the sample only where the torque makes
 // it, not the prediction.
 constexpr double kLeastJump = 0.5;
@@ -27,7 +27,7 @@ void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
   const double rms = tau.norm() / std::sqrt(std::max<double>(1, tau.size()));
   const VectorXd residual = residuals.col(joint);
   const double least = kLeastOfRms * rms;
-  const Outlying found = FindOutlying(residual, kNeighbours, least);
+  const Outlying found = FindOutlying(residual, kMedianReach, least);
   for (int k = 0; k < s.size(); ++k) {
     const bool in_core = s.place[k] >= t.core_begin && s.place[k] < t.core_end;
     if (!in_core || !found.marked[k]) continue;
