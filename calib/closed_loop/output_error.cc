@@ -18,7 +18,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostMoves = 50;
+constexpr int kMostDescents = 50;
 constexpr int kMostHalvings = 8;
 // A step of this many deviations (white noise's), rms over parameters, is the
 // last: those after it are several times smaller each.
@@ -162,7 +162,7 @@ void Calibrator::Iterate(bool far, LoopWindows* windows) {
   const double size = std::sqrt(static_cast<double>(unknowns_->size()));
   result_.arm.solved = false;
   result_.arm.reason = "NO_CONVERGENCE";
-  for (int k = 0; k < kMostMoves; ++k) {
+  for (int k = 0; k < kMostDescents; ++k) {
     Tell("simulating", -1);
     excess_ = far ? std::max(1., run_.Excess()) : 1;
     equations_ = windows->Linearise(unknowns_->At(x_), *columns_, run_);

@@ -49,6 +49,12 @@ FILES = {
                                     "}  // namespace q_test\n",
     "docs/q.md": "`ctest -R 'linear_q|format'`, `ctest -R lost_long`\n",
     "calib/linear/v.h": f"// {GUIDE}, A.1.\n",
+    "calib/linear/a.cc": "namespace {\nconstexpr double kFar = 1;\nint H(int a) {\n}\n}  \n"
+                         "int G() {\n}\n",
+    "calib/fleet/a.cc": "namespace {\nint H(double a) {\n}\nconstexpr int kFar = 2;\n}  \n"
+                        "int G() {\n}\n",
+    "calib/verify/a.cc": "namespace {\nint H(int b) {\n}\n}  // namespace\n",
+    "problems/a.cc": "namespace {\nint H(int b) {\n}\n}  // namespace\n",
     # Sizes.
     "calib/linear/w.h": "\n" * 211,
     "calib/linear/x.h": "\n" * 141,
@@ -85,6 +91,9 @@ EXPECTED = {
     "files_are_there": ["tests/calib/linear/q_test.cc: lost.h does not exist"],
     "tests_are_there": ["tests/calib/linear/q_test.cc: there is no test lost_test",
                         "docs/q.md: ctest -R lost_long finds no test"],
+    "sources_share_no_names": [
+        "calib/linear/a.cc: kFar is in calib/fleet/a.cc",
+        "calib/verify/a.cc: H(int) is in calib/linear/a.cc"],
     "sources_are_shipped": [f"calib/linear/v.h: cites {GUIDE}"],
     "files_keep_their_budget": ["calib/linear/w.h: 211 lines",
                                 "tests/y_test.cc: 331 lines"],

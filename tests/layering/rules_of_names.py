@@ -14,6 +14,10 @@ PATH = re.compile(r"(?<![\w/.}\-$>*+^)])(?:model|problems|calib|tools|tests|docs
                   r"/(?:[\w./*+-]|\$\{\w+\}|<\w+>)*(?:[\w*/]|\$\{\w+\}|<\w+>)")
 ANYTHING = re.compile(r"\$\{\w+\}|<\w+>")
 WHOLE_TEXTS = (".md", ".py", ".sh", ".cmake", ".txt", ".toml", ".ipynb", ".in")
+# Those that are libraries of their own (CMakeLists.txt).
+LIBRARIES_WITHIN = ("model/effects", "model/plant/hidden", "model/plant", "tools/report",
+                    "tools/python")
+
 # They speak of the past, and of a tree that is not this one.
 OTHER_TREES = {"CHANGELOG.md", "tests/blind/EVALUATIONS.md",
                "tests/layering/bad_tree.py", "tests/layering/rules_of_names.py"}
@@ -29,6 +33,12 @@ BARE_ELSEWHERE = {"nist.cc"}  # of Ceres
 
 NOT_SHIPPED = re.compile(r"\b(?:DESIGN|ECOSYSTEM|GAP|HOUSE|INFERENCE|MATH|PERFORMANCE|REAL"
                          r"|STYLE|USERS)\.md")
+# Constants, types and functions that stand in a source by themselves, which
+# clang-format has at the beginning of a line.
+CONSTANT = re.compile(r"^(?:static |constexpr |const )+[\w:<>, *&]*\b(k[A-Z]\w*)", re.M)
+TYPE = re.compile(r"^(?:class|struct|enum class) (\w+)(?: final)?[^;{]*\{", re.M)
+FUNCTION = re.compile(r"^\w[\w:<>,*& ]*[ *&](\w+)\(([^;{}()]*)\)(?: const)? \{", re.M)
+
 
 TEST = re.compile(r"(?<![\w/.<{}*-])[a-z][a-z0-9_]*_test\b(?!\.\w)")
 CTEST = re.compile(r"ctest[^`\n]* -R[ =]*[\"']?([^`\"'\n A-Z]+)")
@@ -111,6 +121,28 @@ def tests_are_there(tree):
                 yield f"{path}: ctest -R {pattern} finds no test"
 
 
+def _own_names(code):
+    """What a source names for itself alone, functions with their parameters' types."""
+    yield from CONSTANT.findall(code)
+    yield from TYPE.findall(code)
+    for name, parameters in FUNCTION.findall(code):
+        types = re.sub(r"\w+(?=,|$)", "", " ".join(parameters.split()))
+        yield f"{name}({types.replace(' ', '')})"
+
+
+def sources_share_no_names(tree):
+    """Sources of a library are compiled together, in batches that any new file shifts."""
+    first = {}
+    for path in (path for path in tree.code() if path.endswith(".cc")):
+        library = next((name for name in LIBRARIES_WITHIN if path.startswith(name + "/")),
+                       path.split("/")[0])
+        hidden = tree.bare(path).partition("namespace {\n")[2].partition("\n}  \n")[0]
+        for name in sorted(set(_own_names(hidden))):
+            other = first.setdefault((library, name), path)
+            if other != path:
+                yield f"{path}: {name} is in {other}, too, of the same library"
+
+
 def sources_are_shipped(tree):
     """What a reader is sent to is in this repository."""
     for path in tree.files:
@@ -121,4 +153,5 @@ def sources_are_shipped(tree):
 
 
 RULES = (names_say_something, paths_lead_somewhere, files_are_there, tests_are_there,
+         sources_share_no_names,
          sources_are_shipped)
