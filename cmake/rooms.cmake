@@ -1,6 +1,6 @@
 # The rooms of the house, one folder each, in the order in which data flows: a
 # room may include itself and those above it. CMakeLists.txt builds each layer
-# from its rooms and tests/layering_test.cmake holds the includes to the order.
+# from its rooms and tests/layering_test.py holds the includes to the order.
 set(rooms
     model/text          # numbers, times, archives and XML out of bytes
     model/robot         # the arm as a value: links, joints, frames, inertias
@@ -39,7 +39,9 @@ set(rooms
     calib/inspect       # what a log or robot file holds and what is wrong
     calib               # the doors: one header for each command
     tools/report        # the page report.html
-    tools               # the command line
+    tools               # what commands share: flags, help, what is printed
+    tools/commands      # one command a file, with its flags
+    tools/program       # armcal: the list of commands, main()
     tools/python)       # the Python module
 
 # Rooms above a room that it may not use all the same.
@@ -51,7 +53,7 @@ foreach(room ${rooms})
 endforeach()
 set(not_from_tools/python "")
 # The truth of blind tests, which only the simulation may know.
-set(sees_hidden "^tools/simulate")
+set(sees_hidden "^tools/commands/simulate")
 
 # The layers, each a library: `rooms_LAYER` are the folders it is made of.
 set(layers model effects plant hidden problems calib)

@@ -8,7 +8,7 @@
 namespace armcal {
 namespace {
 
-constexpr int kBatch = 256;  // samples evaluated together
+constexpr int kTogether = 256;  // samples evaluated together
 
 // Weight (in steps) of sample k of 0..steps. Simpson's rule of an odd number of
 // steps takes three eighths for the last three; one step is a trapezoid.
@@ -84,8 +84,8 @@ double IntegralRows::time(long row) const {
 void IntegralRows::Evaluate(long begin, long count, double* const* out,
                             long stride, RowScratch* scratch) const {
   const std::vector<int> sizes = RowSizes(functions_, 1);
-  scratch->P.Resize(sizes, kBatch);
-  scratch->D.Resize(sizes, kBatch);
+  scratch->P.Resize(sizes, kTogether);
+  scratch->D.Resize(sizes, kTogether);
   std::vector<double*> at(sizes.size());
   for (long r = 0; r < count; ++r) {
     for (size_t i = 0; i < sizes.size(); ++i) {
@@ -101,9 +101,9 @@ void IntegralRows::EvaluateRow(const Interval& interval, double* const* out,
   const std::vector<int> sizes = RowSizes(functions_, 1);
   const JointColumns &P = scratch->P, &D = scratch->D;
   const int steps = interval.end - interval.begin;
-  double weights[kBatch];
-  for (int done = 0; done <= steps; done += kBatch) {
-    const int count = std::min(kBatch, steps + 1 - done);
+  double weights[kTogether];
+  for (int done = 0; done <= steps; done += kTogether) {
+    const int count = std::min(kTogether, steps + 1 - done);
     const int whole = (count + 7) / 8 * 8;
     for (int k = 0; k < whole; ++k) {
       weights[k] = k < count ? QuadratureWeight(quadrature_, done + k, steps) *
@@ -117,7 +117,7 @@ void IntegralRows::EvaluateRow(const Interval& interval, double* const* out,
       std::copy_n(trajectory_.tau.col(i).data() + first, count,
                   D.column(i, last));
       scratch->products.resize(sizes[i]);
-      simd::BestKernels().inner_products(weights, kBatch, 1, D.column(i, 0),
+      simd::BestKernels().inner_products(weights, kTogether, 1, D.column(i, 0),
                                          D.stride(), sizes[i], whole,
                                          scratch->products.data());
       for (int c = 0; c < last; ++c) {

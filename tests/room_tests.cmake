@@ -1,7 +1,8 @@
 # add_room_tests(SOURCES): programs of tests, one for each folder of them, and
 # for each file a test of ctest that runs its suites.
 
-# The room that a test is of: "diagnose_select" of calib/diagnose/select/x.cc.
+# The room that a test is of: "diagnose_select" of
+# calib/diagnose/select/null_test.cc.
 function(room_of source variable)
   get_filename_component(room ${source} DIRECTORY)
   string(REGEX REPLACE "^(model/plant|model|calib)/" "" room ${room})

@@ -59,10 +59,10 @@ struct CommandOutcome {
   ExitCode code() const { return output.positive ? kExitOk : kExitNegative; }
 };
 
-// A command of armcal: flags -> library call -> outcome. To add one,
-// write its file and its line in command.cc. Help, the manual page and the
-// shells' completion follow from this table and from the flags' definitions,
-// whose descriptions hold the value's form in backquotes: "robot `FILE`: ...".
+// A command of armcal: flags -> library call -> outcome. What help, the manual
+// page and the shells' completion say of it follows from this and from the
+// flags' definitions, whose descriptions hold the value's form in backquotes:
+// "robot `FILE`: ...".
 struct Command {
   const char* name;
   const char* summary;             // one line
@@ -72,10 +72,5 @@ struct Command {
 
   std::vector<std::string> FlagNames() const;
 };
-
-// With what all of them share: where results go, and how they are said.
-const std::vector<Command>& Commands();
-// nullptr where there is none of that name.
-const Command* FindCommand(const std::string& name);
 
 }  // namespace armcal

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <sstream>
 
-#include "tools/command.h"
 #include "tools/flag_choices.h"
 #include "tools/flag_text.h"
 
@@ -126,7 +125,8 @@ std::string Beginning(const Words& words, const std::string& word) {
   return text;
 }
 
-std::string Candidates(const std::string& line) {
+std::string Candidates(const std::vector<Command>& commands,
+                       const std::string& line) {
   const size_t blank = line.find_last_of(" \t");
   const std::string word =
       blank == std::string::npos ? "" : line.substr(blank + 1);
@@ -134,15 +134,17 @@ std::string Candidates(const std::string& line) {
   std::string program, name, text;
   before >> program >> name;
   if (name.empty() || name == "help") {
-    for (const Command& command : Commands()) {
+    for (const Command& command : commands) {
       if (!Begins(command.name, word)) continue;
       text += command.name + ("\t" + std::string(command.summary)) + "\n";
     }
   }
   if (name.empty()) text += Beginning({"completion", "help"}, word);
   if (name == "completion") text += Beginning({"bash", "zsh", "fish"}, word);
-  const Command* command = FindCommand(name);
-  if (command == nullptr) return text;
+  const auto command =
+      std::find_if(commands.begin(), commands.end(),
+                   [&](const Command& one) { return name == one.name; });
+  if (command == commands.end()) return text;
   const size_t equals = word.find('=');
   if (equals == std::string::npos) {
     return OfFlags(*command, word, line.substr(0, line.size() - word.size()));
@@ -160,8 +162,10 @@ std::string Candidates(const std::string& line) {
 
 }  // namespace
 
-std::string Completion(const Words& words) {
-  if (words.size() == 2 && words[0] == "--line") return Candidates(words[1]);
+std::string Completion(const std::vector<Command>& commands,
+                       const Words& words) {
+  if (words.size() == 2 && words[0] == "--line")
+    return Candidates(commands, words[1]);
   const std::string shell = words.size() == 1 ? words[0] : "";
   if (shell == "bash") return kBash;
   if (shell == "zsh") return kZsh;

@@ -53,7 +53,7 @@ printf '%-12s %12s %10s %8s\n' reader inputs kept found
 for target in "${targets[@]}"; do
   corpus=$build/corpus/$target crashes=$build/found/$target log=$build/$target.log
   mkdir -p "$corpus" "$crashes"
-  earlier=tests/fuzz/corpus/$target
+  earlier=$build/tests/damaged_files/$target
   FUZZ_CPU_SECONDS=$seconds \
     "$build/tests/fuzz/${target}_fuzz" -timeout=20 -rss_limit_mb=2560 -max_len=65536 \
     -print_final_stats=1 -artifact_prefix="$crashes/" "$corpus" \

@@ -41,9 +41,9 @@ std::string Examples(const Command& command) {
   return text + ".EE\n";
 }
 
-std::string AllCommands() {
+std::string AllCommands(const std::vector<Command>& commands) {
   std::string text;
-  for (const Command& command : Commands()) {
+  for (const Command& command : commands) {
     text += ".SS armcal " + std::string(command.name) + "\n" +
             Plain(command.summary) + ".\n";
     // What all of them share stands last in each, and here once, at the end.
@@ -53,7 +53,7 @@ std::string AllCommands() {
     text += Examples(command);
   }
   return text + ".SS Flags of every command\n" +
-         Flags(Commands().front().groups.back());
+         Flags(commands.front().groups.back());
 }
 
 constexpr char kExitStatus[] =
@@ -68,7 +68,7 @@ constexpr char kEnvironment[] =
 
 }  // namespace
 
-std::string ManualPage() {
+std::string ManualPage(const std::vector<Command>& commands) {
   return ".TH ARMCAL 1 \"\" \"armcal " ARMCAL_VERSION "\" \"User Commands\"\n" +
          Section("NAME",
                  "armcal \\- calibrates a robot arm from its logs and says why "
@@ -85,7 +85,7 @@ std::string ManualPage() {
                  "lacks. Text for people goes to standard output, progress to "
                  "standard error, results for programs to the files in "
                  "\\-\\-out. Units are SI and radians.") +
-         Section("COMMANDS", AllCommands()) +
+         Section("COMMANDS", AllCommands(commands)) +
          Section("EXIT STATUS", kExitStatus) +
          Section("ENVIRONMENT", kEnvironment);
 }

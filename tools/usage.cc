@@ -59,12 +59,12 @@ std::string Wrapped(const std::string& text, size_t column, size_t width) {
   return result + "\n";
 }
 
-std::string GeneralHelp() {
+std::string GeneralHelp(const std::vector<Command>& commands) {
   constexpr size_t kColumn = 14;
   std::string text =
       "armcal calibrates a robot arm from its logs.\n\n"
       "usage: armcal COMMAND --flags\n\n";
-  for (const Command& command : Commands()) {
+  for (const Command& command : commands) {
     text += Entry(command.name, command.summary, kColumn);
   }
   text += Entry("completion",

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 ClosedLoopReplay Follow(const Robot& robot, const Robot& file,
                         const std::vector<CoulombTransition>& transitions,
@@ -32,7 +32,7 @@ struct Deviation {
 
 Deviation RmsOf(const ClosedLoopReplay& replay, int n) {
   if (!replay.finite) {
-    const VectorXd infinite = VectorXd::Constant(n, kInfinity);
+    const VectorXd infinite = VectorXd::Constant(n, kNoLimit);
     return {infinite, infinite};
   }
   const double rows = std::sqrt(replay.position.rows());

@@ -29,7 +29,7 @@ struct ClosedLoopComparison {
 };
 
 // Lets the controller move the robot file's robot and, unless null, the
-// calibrated one along the command of the log (closed_loop_replay.h). The
+// calibrated one along the command of the log (calib/closed_loop/replay.h). The
 // controller knows the robot file.
 ClosedLoopComparison CompareClosedLoop(const Robot& file,
                                        const CalibratedRobot* calibrated,

@@ -18,11 +18,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostIterations = 50;
+constexpr int kMostDescents = 50;
 constexpr int kMostHalvings = 8;
 // A step of this many deviations (white noise's), rms over parameters, is the
 // last: those after it are several times smaller each.
-constexpr double kSettled = .1;
+constexpr double kNearer = .1;
 // Where the file is far from the truth a few short windows show the way as well
 // as all of them, until they have got as near as they tell. What they do not
 // explain yet counts as noise: against a thousand deviations of the encoders
@@ -158,11 +158,11 @@ bool Calibrator::Step(const VectorXd& x, LoopWindows* windows) {
 }
 
 void Calibrator::Iterate(bool far, LoopWindows* windows) {
-  const double last = far ? kNear : kSettled;
+  const double last = far ? kNear : kNearer;
   const double size = std::sqrt(static_cast<double>(unknowns_->size()));
   result_.arm.solved = false;
   result_.arm.reason = "NO_CONVERGENCE";
-  for (int k = 0; k < kMostIterations; ++k) {
+  for (int k = 0; k < kMostDescents; ++k) {
     Tell("simulating", -1);
     excess_ = far ? std::max(1., run_.Excess()) : 1;
     equations_ = windows->Linearise(unknowns_->At(x_), *columns_, run_);

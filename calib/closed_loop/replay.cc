@@ -9,6 +9,7 @@
 #include "model/plant/motion_reader.h"
 #include "model/signals/uneven_differences.h"
 #include "model/text/input_error.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -73,7 +74,8 @@ CommandedLog CommandedRows(const std::string& path, const Log& all,
   if (all.qref.size() == 0) {
     throw InputError(path, "header", "",
                      "expected a column qref1.. for every joint, the command "
-                     "that --controller is to follow");
+                     "that " +
+                         OptionName("controller") + " is to follow");
   }
   std::vector<int> rows;
   for (int k = 0; k < all.size(); ++k) {

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr long kPeriodsPerBlock = 64;  // linearised at once
+constexpr long kPeriodsAtOnce = 64;  // linearised at once
 
 class Linearisation {
  public:
@@ -49,8 +49,8 @@ class Linearisation {
     LoopTangent result;
     result.by_columns.resize(n_ * stretch_.num_rows(), columns_.size());
     const long periods = stretch_.num_periods();
-    for (long first = 0; first < periods; first += kPeriodsPerBlock) {
-      const long count = std::min(kPeriodsPerBlock, periods - first);
+    for (long first = 0; first < periods; first += kPeriodsAtOnce) {
+      const long count = std::min(kPeriodsAtOnce, periods - first);
       tangent_.Linearise(track_.q, track_.qd, first, count, period_);
       for (long k = first; k < first + count; ++k) {
         Advance(k, k - first, &result.by_columns);

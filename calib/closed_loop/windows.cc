@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 // (m and m/s), and the integral from 0, in torques of an error of that many
 // rad: next to nothing, but finite.
 constexpr double kStartPosition = .01, kStartVelocity = 1, kStartIntegral = 1;
-constexpr double kCatchUp = 1;  // s
+constexpr double kLeadIn = 1;  // s
 // Of a loop that resonates a few tell little.
 constexpr int kProbes = 16;
 constexpr double kScoreBlock = 1;  // s, longer than errors of friction last
@@ -269,7 +269,7 @@ void LoopWindows::ForEachRow(const VisitRow& visit) const {
     const VectorXd& t = log.log.t;
     const long first = stretch.first_row();
     for (long k = 0; k < stretch.num_rows(); ++k) {
-      visit(log, first + k, w, k, t[first + k] >= t[first] + kCatchUp);
+      visit(log, first + k, w, k, t[first + k] >= t[first] + kLeadIn);
     }
   }
 }

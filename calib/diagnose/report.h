@@ -11,7 +11,7 @@ namespace armcal {
 std::string BriefReport(const GapDiagnosis& diagnosis);
 // Verdict, where, which, how far; for a terminal.
 std::string FullReport(const GapDiagnosis& diagnosis);
-// diagnosis.json (DESIGN.md).
+// diagnosis.json (docs/diagnose.md).
 nlohmann::json ToJson(const GapDiagnosis& diagnosis);
 
 }  // namespace armcal

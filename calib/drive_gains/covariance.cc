@@ -79,7 +79,7 @@ FittedRow MakeFittedRow(const CurrentRow& row, const GainFit& fit,
   return fitted;
 }
 
-Score MakeScore(const FittedRow& row) {
+Score GainScore(const FittedRow& row) {
   return {row.U.transpose() * row.r, row.U, row.slope.asDiagonal() * row.U};
 }
 
@@ -104,7 +104,7 @@ CovarianceEstimate EstimateGainCovariance(const GainFit& fit, RobustLoss loss,
   pass->Run("covariance", fit.estimate, fit.noise, [&](const CurrentRow& row) {
     if (!row.follows) scores.Break(), overlap.Break();
     const FittedRow fitted = MakeFittedRow(row, fit, loss, pass->B());
-    const Score score = MakeScore(fitted);
+    const Score score = GainScore(fitted);
     scores.Add(score);
     overlap.Add(fitted);
     sums.col(row.log) += score.value;

@@ -22,7 +22,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // 1 / K is this many standard deviations clear of 0, or K counts as unknown.
-constexpr double kClear = 3;
+constexpr double kClearDeviations = 3;
 
 // What the inertial parameters of a body on the last link add to the model
 // parameters, which are linear in them: m x 10.
@@ -88,7 +88,7 @@ void ReportGains(const GainFit& fit, const GainSensitivity& sensitivity,
         MassTimesInverseGain(fit.estimate, j) / result->payload_mass;
     const double stddev = std::sqrt(covariance(j, j));
     out.identifiable = fit.noise[j] > 0 && sensitivity.Sees(D.col(j)) &&
-                       std::abs(inverse) > kClear * stddev;
+                       std::abs(inverse) > kClearDeviations * stddev;
     reasons.Add(fit.noise[j] > 0, D.col(j), out.identifiable);
     if (!out.identifiable) continue;
     slope[j] = -1 / (inverse * inverse);
@@ -105,7 +105,8 @@ void ReportCentre(const GainFit& fit, const GainSensitivity& sensitivity,
                   DriveGains* result) {
   const Index mass = fit.noise.size();
   const VectorXd& p = fit.estimate.p;
-  if (!(std::abs(p[0]) > kClear * std::sqrt(covariance(mass, mass)))) return;
+  if (!(std::abs(p[0]) > kClearDeviations * std::sqrt(covariance(mass, mass))))
+    return;
   for (int k = 1; k <= 3; ++k) {
     if (!sensitivity.Sees(D.col(mass + k))) continue;
     result->com[k - 1] = {p[k] / p[0],

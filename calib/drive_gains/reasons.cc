@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/text/option_name.h"
+
 namespace armcal {
 namespace {
 
@@ -42,8 +44,9 @@ std::string GainReasons::Text(Eigen::Index index) const {
   }
   if (!has_payload_) {
     return "currents of a bare arm show only products of torque constant and "
-           "inertia; a log with a known payload (--payload_mass, "
-           "--payload_log) shows their scale";
+           "inertia; a log with a known payload (" +
+           OptionName("payload_mass") + ", " + OptionName("payload_log") +
+           ") shows their scale";
   }
   if (MomentsHide(joint)) {
     return "in the motion with the payload its mass cannot be told from its "

@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 using RowMajor =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kExcited = 1e-8;  // relative to the direction seen best
+constexpr double kSeenRelative = 1e-8;  // relative to the direction seen best
 
 // The factor's triangle of joint i, its columns those of all parameters.
 CurrentEquations Expand(const BlockTriangularFactor& factor, int i,
@@ -153,7 +153,7 @@ void GainSensitivity::Decompose() {
       DecomposeSingular(J_ * inverse_norms_.asDiagonal());
   s_ = svd.s;
   V_ = svd.V.leftCols(s_.size());
-  rank_ = static_cast<int>((s_.array() > kExcited * s_[0]).count());
+  rank_ = static_cast<int>((s_.array() > kSeenRelative * s_[0]).count());
 }
 
 bool GainSensitivity::Sees(const VectorXd& d) const {

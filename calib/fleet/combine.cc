@@ -5,6 +5,7 @@
 
 #include "calib/fleet/reduction_json.h"
 #include "model/text/input_error.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -23,7 +24,8 @@ void ExpectSameModel(const std::string& file, const json& found,
     }
     throw InputError(file, "key model." + key, found.at(key).dump(),
                      "expected " + value.dump() + " as in " + first +
-                         "; reduce the log with --like=" + first);
+                         "; reduce the log with " + OptionName("like") + "=" +
+                         first);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "calib/linear/row_covariance.h"
 #include "calib/linear/used_equations.h"
 #include "model/text/input_error.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -101,8 +102,9 @@ ModelParameters ParametersOf(const Robot& robot, const ReductionModel& model,
     if (names == model.parameters) return parameters;
   }
   throw InputError(file, "key model.parameters", "",
-                   "expected those of " + robot.name +
-                       ", with the same --base, --tip and --gravity");
+                   "expected those of " + robot.name + ", with the same " +
+                       OptionName("base") + ", " + OptionName("tip") + " and " +
+                       OptionName("gravity"));
 }
 
 BlockTriangularFactor FactorOf(const ModelParameters& parameters,

@@ -34,9 +34,9 @@ std::uint64_t Bits(const char* at) {
 }
 
 // Goes through what lies between the first line and the digest.
-class Reader {
+class FactorReader {
  public:
-  Reader(const std::string& path, std::string_view body)
+  FactorReader(const std::string& path, std::string_view body)
       : path_(path), body_(body) {}
 
   void Expect(std::uint64_t size) const {
@@ -127,7 +127,7 @@ Reduction ParseFactorFile(const std::string& path, std::string_view bytes) {
                      "does not fit the content: the file is damaged or not "
                      "whole; reduce the log again");
   }
-  Reader reader(path, rest.substr(0, rest.size() - kDigest));
+  FactorReader reader(path, rest.substr(0, rest.size() - kDigest));
   const std::string_view text = reader.Take(reader.Whole());
   const json header = ParseJson(path, text);
   const JsonValue root(path, "", header);

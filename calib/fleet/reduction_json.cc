@@ -30,8 +30,8 @@ constexpr Name<RobustLoss> kLosses[] = {{"squared", RobustLoss::kSquared},
 constexpr Name<CoulombTransition::Law> kLaws[] = {
     {"velocity", CoulombTransition::Law::kVelocity},
     {"displacement", CoulombTransition::Law::kDisplacement}};
-constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
-                                JointTerm::kOffset, JointTerm::kArmature};
+constexpr JointTerm kNamedTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
+                                     JointTerm::kOffset, JointTerm::kArmature};
 
 template <class T, size_t N>
 const char* NameOf(const Name<T> (&names)[N], T value) {
@@ -50,7 +50,7 @@ T Read(const Name<T> (&names)[N], const JsonValue& value) {
 }
 
 JointTerm ReadTerm(const JsonValue& value) {
-  for (const JointTerm term : kTerms) {
+  for (const JointTerm term : kNamedTerms) {
     if (value.Text() == JointTermName(term)) return term;
   }
   value.Refuse("expected a word that this armcal knows");

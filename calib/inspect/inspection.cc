@@ -7,6 +7,7 @@
 #include "model/robot/axis_rotation.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -16,7 +17,7 @@ using Kind = ReadingChange::Kind;
 
 constexpr int kMostRows = 1 << 20;
 constexpr int kSamples = 400;
-constexpr int kLeastSamples = 60;
+constexpr int kLeastMoving = 60;
 constexpr double kBandwidth = 8;  // Hz, of what torques are compared with
 
 class Inspector {
@@ -68,7 +69,7 @@ class Inspector {
     result_.top_speed = series.motion().qd.cwiseAbs().colwise().maxCoeff();
     result_.moving_share = static_cast<double>(series.num_moving()) /
                            static_cast<double>(series.motion().size());
-    if (series.num_moving() < kLeastSamples) {
+    if (series.num_moving() < kLeastMoving) {
       result_.findings.push_back(
           {"no_motion", "the arm hardly moves",
            Format("%.2g s of motion", series.num_moving() * dt),
@@ -97,7 +98,7 @@ class Inspector {
         "torques fit the arm to %.3g %% as logged and to %.3g %% so (%.0f "
         "nats)",
         found.residual_percent_as_is, found.residual_percent, change.gain);
-    finding.remedy = "--fix writes the log so";
+    finding.remedy = OptionName("fix") + " writes the log so";
     switch (change.kind) {
       case Kind::kExchanged:
         finding.finding = "joint_order";
@@ -124,7 +125,8 @@ class Inspector {
       case Kind::kDegrees:
         finding.finding = "position_unit";
         finding.sentence = "positions are in degrees, not in rad";
-        finding.remedy = "name the columns q1[deg] ..., or --fix";
+        finding.remedy =
+            "name the columns q1[deg] ..., or " + OptionName("fix");
         break;
       case Kind::kGravity:
         AddGravity(found.reading.gravity, &finding);
@@ -144,7 +146,8 @@ class Inspector {
     if (gravity.norm() == 0) {
       finding->finding = "gravity_compensated";
       finding->sentence = "the torques hold no gravity";
-      finding->remedy = "--gravity=0,0,0, or log torques that hold it";
+      finding->remedy =
+          OptionName("gravity") + "=0,0,0, or log torques that hold it";
       return;
     }
     const double angle =
@@ -157,7 +160,8 @@ class Inspector {
         "has it",
         angle);
     finding->remedy =
-        Format("--gravity=%.3g,%.3g,%.3g", gravity[0], gravity[1], gravity[2]);
+        OptionName("gravity") +
+        Format("=%.3g,%.3g,%.3g", gravity[0], gravity[1], gravity[2]);
   }
 
   // What is far from 1 for all joints that tell is a matter of units.
@@ -181,8 +185,10 @@ class Inspector {
            "the torques are motor currents, or of the motors' side of gears",
            Format("%.3g to %.3g of what the robot file's links need", low,
                   high),
-           "--torque_kind=current --torque_constants=.., or "
-           "--torque_kind=motor --gear_ratios=.."});
+           OptionName("torque_kind") + "=current " +
+               OptionName("torque_constants") + "=.., or " +
+               OptionName("torque_kind") + "=motor " +
+               OptionName("gear_ratios") + "=.."});
     } else if (low > kFar) {
       result_.findings.push_back(
           {"torque_unit", "the torques are in another unit than N m",

@@ -2,6 +2,7 @@
 
 #include "calib/numerics/json_figures.h"
 #include "model/text/format.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -37,8 +38,8 @@ std::string CoverageText(const LogCoverage& coverage) {
     text += "    not seen: " + unseen + "\n";
   }
   if (!coverage.advice.empty()) {
-    text +=
-        "    to see more: " + coverage.advice + ", or armcal excite --given\n";
+    text += "    to see more: " + coverage.advice + ", or armcal excite " +
+            OptionName("given") + "\n";
   }
   return text;
 }
@@ -70,10 +71,11 @@ std::string LogText(const Robot& robot, const LogInspection& log) {
     text +=
         Format("  the longest step is %.4g ms\n", 1e3 * log.stamps.longest_gap);
   }
-  text += "  torque: " + (log.torque_source.empty()
-                              ? "none; commands (qref) that --controller lets "
-                                "a simulated robot follow"
-                              : log.torque_source);
+  text += "  torque: " +
+          (log.torque_source.empty()
+               ? "none; commands (qref) that " + OptionName("controller") +
+                     " lets a simulated robot follow"
+               : log.torque_source);
   if (log.residual_percent > 0) {
     text += Format("; the best fit of this arm leaves %.3g %%",
                    log.residual_percent);

@@ -6,6 +6,7 @@
 
 #include "model/robot/kinematics.h"
 #include "model/text/format.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -37,7 +38,7 @@ double LongestLink(const Robot& robot) {
   return longest;
 }
 
-std::string Number(double x) { return Format("%.3g", x); }
+std::string ThreeDigits(double x) { return Format("%.3g", x); }
 
 std::string NamesWhere(const Robot& robot,
                        const std::function<bool(const Link&)>& holds) {
@@ -102,13 +103,14 @@ class RobotAudit {
     if (bodies < 2) return;
     if (same == bodies) {
       Add("default_inertia", "all links have the same inertia: a placeholder",
-          Number(CentralInertia(first->inertial)(0, 0)) + " kg m^2",
-          "trust it little: --trust=1");
+          ThreeDigits(CentralInertia(first->inertial)(0, 0)) + " kg m^2",
+          "trust it little: " + OptionName("trust") + "=1");
     }
     if (centred == bodies) {
       Add("default_inertia",
           "all links have their mass at their frame's origin",
-          std::to_string(bodies) + " links", "trust it little: --trust=1");
+          std::to_string(bodies) + " links",
+          "trust it little: " + OptionName("trust") + "=1");
     }
   }
 
@@ -123,15 +125,15 @@ class RobotAudit {
     if (radius > kLarge * length || (radius > 0 && radius < kSmall * length)) {
       Add("suspicious_inertia",
           "the inertia of " + link.name + " does not suit the arm's size",
-          "radius of gyration " + Number(radius) + " m, longest link " +
-              Number(length) + " m",
+          "radius of gyration " + ThreeDigits(radius) + " m, longest link " +
+              ThreeDigits(length) + " m",
           "was it computed from a mesh in mm?");
     }
     if (com > kLarge * length) {
       Add("suspicious_inertia",
           "the centre of mass of " + link.name + " lies far outside the arm",
-          Number(com) + " m from the link's origin, longest link " +
-              Number(length) + " m",
+          ThreeDigits(com) + " m from the link's origin, longest link " +
+              ThreeDigits(length) + " m",
           "is it in mm?");
     }
   }
@@ -143,7 +145,7 @@ class RobotAudit {
     });
     if (names.empty()) return;
     Add("no_limits", "joints have no position limits", names,
-        "armcal excite --position_limits=..");
+        "armcal excite " + OptionName("position_limits") + "=..");
   }
 
   const Robot& robot_;

@@ -6,6 +6,7 @@
 #include "calib/linear/used_equations.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 
@@ -18,12 +19,12 @@ void CheckBandwidth(const std::optional<double>& given,
     slowest = std::max(slowest, base.dt);
   }
   if (*given >= 0.5 / slowest) {
-    throw InputError("", "--bandwidth", NumberText(*given),
+    throw InputError("", OptionName("bandwidth"), NumberText(*given),
                      "expected 0, or less than half the sample rate, " +
                          NumberText(0.5 / slowest) + " Hz");
   }
   if (*given * longest >= 1) return;
-  throw InputError("", "--bandwidth", NumberText(*given),
+  throw InputError("", OptionName("bandwidth"), NumberText(*given),
                    "expected 0, or a frequency in Hz whose period is shorter "
                    "than the log, " +
                        NumberText(longest) + " s");
@@ -36,7 +37,7 @@ void CheckIntervals(const RowOptions& rows, const LogSet& training,
       static_cast<long>(rows.intervals.size()) * training.size();
   if (equations >= expected) return;
   throw InputError(
-      training.path(0), "--intervals", "",
+      training.path(0), OptionName("intervals"), "",
       std::to_string(expected - equations) + " of " + std::to_string(expected) +
           " intervals cannot be used; expected each to lie within the log, "
           "clear of gaps and standstill");

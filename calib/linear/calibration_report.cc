@@ -6,6 +6,7 @@
 #include "calib/linear/outlier_report.h"
 #include "calib/linear/verdict.h"
 #include "model/text/format.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -105,7 +106,7 @@ std::string RankText(const Robot& robot, const LinearCalibration& result) {
   if (!id.advice.empty()) {
     text +=
         "           to see more: " + AdviceText(robot, id.advice, id.total) +
-        ", or armcal excite --given\n";
+        ", or armcal excite " + OptionName("given") + "\n";
   }
   if (id.directions.empty()) {
     for (const auto& d : id.block_directions) {

@@ -21,7 +21,7 @@ std::string FullReport(const Robot& robot, const LogSet& training,
 // Coulomb friction's transitions, parameters, shortcomings.
 std::string EstimateText(const Robot& robot, const LinearCalibration& result);
 
-// calibration.json (DESIGN.md, Files). Infinite and undefined numbers are null.
+// calibration.json (docs/files.md). Infinite and undefined numbers are null.
 nlohmann::json ToJson(const Robot& robot, const LogSet& training,
                       const LogSet* validation,
                       const LinearCalibration& result);

@@ -138,7 +138,7 @@ double Unseen(const Step& step, Eigen::Index k) {
   const Eigen::Index beyond = step.svd.matrixV().cols() - step.svd.rank();
   return step.svd.matrixV().row(k).tail(beyond).squaredNorm();
 }
-constexpr double kSeen = 1e-8;
+constexpr double kUnseenAbove = 1e-8;
 
 VectorXd GaussNewton(const Whitened& w, const Bilinear& model, VectorXd theta) {
   double cost = (w.matrix * model.Value(theta) - w.value).squaredNorm();
@@ -183,7 +183,7 @@ VectorXd UnseenChange(const Step& step, const VectorXd& theta,
   const Eigen::Index begin = theta.size() - nominal.size();
   std::vector<Eigen::Index> unseen;
   for (Eigen::Index k = begin; k < theta.size(); ++k) {
-    if (Unseen(step, k) >= kSeen) unseen.push_back(k);
+    if (Unseen(step, k) >= kUnseenAbove) unseen.push_back(k);
   }
   if (unseen.empty()) return VectorXd::Zero(theta.size());
   const MatrixXd N =
@@ -255,7 +255,7 @@ std::vector<RecoveredLength> RecoverLengths(const ModelParameters& parameters,
     for (Eigen::Index d = 0; d < rank; ++d) {
       gain += step.svd.matrixV()(k, d) / s[d] * step.svd.matrixU().col(d);
     }
-    const bool seen = Unseen(step, k) < kSeen;
+    const bool seen = Unseen(step, k) < kUnseenAbove;
     result.push_back({length.owner_name, length.name, length.value,
                       seen ? theta[k] : near[static_cast<int>(l)],
                       std::sqrt(gain.dot(w.noise * gain)) / step.scale[k],

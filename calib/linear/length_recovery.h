@@ -21,12 +21,12 @@ struct RecoveredLength {
 
 // The unknown lengths from estimated model parameters: every first moment
 // appears alone and times each length with the same lengths throughout (a
-// rank-one array, MATH.md C.1), so X = M X_full(moments, lengths) is fitted by
-// Gauss-Newton from a linear start that needs no nominal lengths. The weight is
-// `independent`, the covariance of X had the equations independent errors,
-// whose structure is known well; the standard deviations are those that the
-// fit makes of `covariance` (a sandwich), which as a matrix is too noisy to be
-// inverted. Parameters not `usable` are left out.
+// rank-one array: docs/theory.md, 1), so X = M X_full(moments, lengths) is
+// fitted by Gauss-Newton from a linear start that needs no nominal lengths. The
+// weight is `independent`, the covariance of X had the equations independent
+// errors, whose structure is known well; the standard deviations are those that
+// the fit makes of `covariance` (a sandwich), which as a matrix is too noisy to
+// be inverted. Parameters not `usable` are left out.
 std::vector<RecoveredLength> RecoverLengths(const ModelParameters& parameters,
                                             const Eigen::VectorXd& x,
                                             const Eigen::MatrixXd& independent,

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "calib/numerics/json_figures.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -42,8 +43,8 @@ std::string OutlierText(const Robot& robot, const LogSet& logs) {
   }
   if (text.empty()) return "";
   return "outliers  " + text +
-         ": torque samples beyond 8 noise deviations, left out of the fit; "
-         "--out lists them in outliers.csv\n";
+         ": torque samples beyond 8 noise deviations, left out of the fit; " +
+         OptionName("out") + " lists them in outliers.csv\n";
 }
 
 nlohmann::json OutlierJson(const Robot& robot, const LogSet& logs, int most) {

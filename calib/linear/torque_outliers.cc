@@ -13,11 +13,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kReach = 15;
+constexpr int kMedianReach = 15;
 // A jump of the residual is an error of the sample only where the torque makes
 // it, not the prediction.
 constexpr double kLeastJump = 0.5;
-constexpr double kLeastShare = 0.01;  // of the torque's rms
+constexpr double kLeastOfRms = 0.01;  // of the torque's rms
 
 // Adds those of one joint in the trajectory's core.
 void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
@@ -26,8 +26,8 @@ void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
   const VectorXd tau = s.tau.col(joint);
   const double rms = tau.norm() / std::sqrt(std::max<double>(1, tau.size()));
   const VectorXd residual = residuals.col(joint);
-  const double least = kLeastShare * rms;
-  const Outlying found = FindOutlying(residual, kReach, least);
+  const double least = kLeastOfRms * rms;
+  const Outlying found = FindOutlying(residual, kMedianReach, least);
   for (int k = 0; k < s.size(); ++k) {
     const bool in_core = s.place[k] >= t.core_begin && s.place[k] < t.core_end;
     if (!in_core || !found.marked[k]) continue;

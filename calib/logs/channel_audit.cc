@@ -5,6 +5,7 @@
 #include <set>
 
 #include "model/text/format.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -139,7 +140,8 @@ class ChannelAudit {
     findings_.push_back(
         {"stuck", Name(signal, j) + " is stuck",
          Format("the same number for %.3g s %s", time, although),
-         "leave that time out (--crop), or mend the sensor", j});
+         "leave that time out (" + OptionName("crop") + "), or mend the sensor",
+         j});
   }
 
   void AddVelocity(int j, const VectorXd& slope) {
@@ -172,7 +174,9 @@ class ChannelAudit {
       findings_.push_back(
           {"saturated", Name("torque", j) + " is cut off",
            Format("%.1f %% of samples are exactly %.6g", 100 * share, limit),
-           "drive within the limit, or leave that time out (--crop)", j});
+           "drive within the limit, or leave that time out (" +
+               OptionName("crop") + ")",
+           j});
     }
   }
 

@@ -9,7 +9,7 @@ struct InspectionFinding {
   std::string finding;   // one word, such as "torque_sign"
   std::string sentence;  // what is wrong
   std::string evidence;  // the figures that say so
-  std::string remedy;    // the flag or the header that mends it
+  std::string remedy;    // the option or the header that mends it
   int joint = -1;        // from 0; -1: none, or all
   double probability = 1;
 };

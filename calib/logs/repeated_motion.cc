@@ -12,10 +12,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kStep = 0.05;           // s, of the search
-constexpr double kShortest = 2;          // s
+constexpr double kSearchStep = 0.05;     // s, of the search
+constexpr double kShortestStretch = 2;   // s
 constexpr double kTolerance = 0.01;      // of a joint's rms motion
-constexpr double kNoise = 5e-4;          // rad or m: encoders, tracking
+constexpr double kPositionNoise = 5e-4;  // rad or m: encoders, tracking
 constexpr double kLeastMotion = 0.02;    // rad or m, rms
 constexpr double kLeastActivity = 0.25;  // of the mean square speed
 
@@ -23,10 +23,10 @@ constexpr double kLeastActivity = 0.25;  // of the mean square speed
 // the nearest sample differs by more than a repeat does.
 MatrixXd EverySteps(const RecordedMotion& motion) {
   const double length = motion.t[motion.t.size() - 1] - motion.t[0];
-  MatrixXd q(static_cast<Index>(length / kStep) + 1, motion.q.cols());
+  MatrixXd q(static_cast<Index>(length / kSearchStep) + 1, motion.q.cols());
   Index at = 0;
   for (Index k = 0; k < q.rows(); ++k) {
-    const double t = motion.t[0] + static_cast<double>(k) * kStep;
+    const double t = motion.t[0] + static_cast<double>(k) * kSearchStep;
     while (at + 2 < motion.t.size() && motion.t[at + 1] <= t) ++at;
     const double step = motion.t[at + 1] - motion.t[at];
     const double share = step > 0 ? (t - motion.t[at]) / step : 0;
@@ -56,22 +56,22 @@ class Comparison {
             .sqrt();
     moves_ = motion.maxCoeff() > kLeastMotion;
     activity_ = MeanSquareStep(a_);
-    tolerance_ = kTolerance * motion + kNoise;
+    tolerance_ = kTolerance * motion + kPositionNoise;
   }
   bool moves() const { return moves_; }
 
   std::optional<double> Find(double least_lag) const {
-    const Index shortest = static_cast<Index>(kShortest / kStep);
+    const Index shortest = static_cast<Index>(kShortestStretch / kSearchStep);
     const double offset = later_.t[0] - earlier_.t[0];
     const Index last = b_.rows() - shortest;
     // The least lag may be infinite.
     const double first =
-        std::max(std::min(std::ceil((least_lag - offset) / kStep),
+        std::max(std::min(std::ceil((least_lag - offset) / kSearchStep),
                           static_cast<double>(last + 1)),
                  static_cast<double>(shortest - a_.rows()));
     for (Index lag = static_cast<Index>(first); lag <= last; ++lag) {
       if (!MayRepeat(lag)) continue;
-      const auto fine = Refine(offset + static_cast<double>(lag) * kStep);
+      const auto fine = Refine(offset + static_cast<double>(lag) * kSearchStep);
       if (fine && *fine >= least_lag) return fine;
     }
     return std::nullopt;
@@ -98,7 +98,8 @@ class Comparison {
     const double dt = (earlier_.t[earlier_.t.size() - 1] - earlier_.t[0]) /
                       static_cast<double>(earlier_.t.size() - 1);
     double best = std::numeric_limits<double>::infinity(), at = about;
-    for (double lag = about - kStep; lag <= about + kStep; lag += dt / 2) {
+    for (double lag = about - kSearchStep; lag <= about + kSearchStep;
+         lag += dt / 2) {
       const double excess = (Difference(lag) / tolerance_).maxCoeff();
       if (excess < best) best = excess, at = lag;
     }
@@ -113,7 +114,7 @@ class Comparison {
     const Index stride = std::max<Index>(1, a_.rows() / 500);
     for (Index k = 0; k < a_.rows(); k += stride) {
       const Index from = NearestSample(
-          earlier_.t, earlier_.t[0] + static_cast<double>(k) * kStep);
+          earlier_.t, earlier_.t[0] + static_cast<double>(k) * kSearchStep);
       const double t = earlier_.t[from] + lag;
       if (t < later_.t[0] || t > later_.t[later_.t.size() - 1]) continue;
       const Index right = std::clamp<Index>(

@@ -16,30 +16,30 @@ using Eigen::VectorXd;
 
 constexpr double kTransition = .03;  // rad/s or m/s, of Coulomb friction
 constexpr double kLeastMass = 1e-3;  // kg, of a link whose file has none
-constexpr int kTerms = 4;            // viscous, Coulomb, offset, armature
+constexpr int kTermsOfJoint = 4;     // viscous, Coulomb, offset, armature
 constexpr double kLeastShare = .01;  // of the torque: no model is better
 
 // Torque of a unit of every link's inertial parameters and every joint's terms.
 std::vector<MatrixXd> Columns(const Robot& robot, const Motion& motion) {
   const int n = robot.num_joints();
   std::vector<MatrixXd> columns(
-      n, MatrixXd::Zero(motion.size(), 10 * n + kTerms * n));
+      n, MatrixXd::Zero(motion.size(), 10 * n + kTermsOfJoint * n));
   std::vector<double*> links;  // of which joint i's torque has i and beyond
   for (int i = 0; i < n; ++i) links.push_back(&columns[i](0, 10 * i));
   BatchRegressor(robot).Differential(
       {motion.q, motion.qd, motion.qdd, MatrixXd()}, motion.size(),
       links.data(), motion.size());
   for (int i = 0; i < n; ++i) {
-    MatrixXd own(motion.size(), kTerms);
+    MatrixXd own(motion.size(), kTermsOfJoint);
     own << motion.qd.col(i),
         (motion.qd.col(i).array() / kTransition).tanh().matrix(),
         VectorXd::Ones(motion.size()), motion.qdd.col(i);
-    columns[i].middleCols(10 * n + kTerms * i, kTerms) = own;
+    columns[i].middleCols(10 * n + kTermsOfJoint * i, kTermsOfJoint) = own;
   }
   return columns;
 }
 
-double Rms(const VectorXd& x) {
+double RootMeanSquare(const VectorXd& x) {
   return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
 }
 
@@ -68,7 +68,7 @@ WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring) {
 
 TorqueFit::TorqueFit(const Robot& robot, const Motion& motion)
     : columns_(Columns(robot, motion)) {
-  const int n = robot.num_joints(), size = 10 * n + kTerms * n;
+  const int n = robot.num_joints(), size = 10 * n + kTermsOfJoint * n;
   for (const MatrixXd& columns : columns_) {
     MatrixXd square = MatrixXd::Zero(size, size);
     square.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
@@ -97,8 +97,8 @@ VectorXd TorqueFit::Solve(const MatrixXd& tau, const VectorXd& variance,
     A += weight * squares_[j];
     b += weight * columns_[j].transpose() * tau.col(j);
     // Next to nothing, so that what does not move has a value.
-    const double rms = Rms(tau.col(j));
-    A.diagonal().segment(10 * n + kTerms * j, kTerms).array() +=
+    const double rms = RootMeanSquare(tau.col(j));
+    A.diagonal().segment(10 * n + kTermsOfJoint * j, kTermsOfJoint).array() +=
         1e-4 / (rms * rms + 1e-12);
   }
   for (size_t c = 0; c < held.size(); ++c) {
@@ -116,7 +116,7 @@ void TorqueFit::HoldNegative(const VectorXd& x, std::vector<bool>* held) const {
   const auto n = static_cast<int>(columns_.size());
   for (int j = 0; j < n; ++j) {
     for (const int k : {0, 1, 3}) {
-      const int c = 10 * n + kTerms * j + k;
+      const int c = 10 * n + kTermsOfJoint * j + k;
       if (x[c] < 0) (*held)[c] = true;
     }
   }
@@ -127,7 +127,8 @@ double TorqueFit::Misfit(const MatrixXd& tau, double* residual_percent) const {
   const auto n = static_cast<int>(columns_.size());
   const auto samples = static_cast<double>(tau.rows());
   VectorXd variance(n), rms(n);
-  for (int j = 0; j < n; ++j) variance[j] = std::pow(.1 * Rms(tau.col(j)), 2);
+  for (int j = 0; j < n; ++j)
+    variance[j] = std::pow(.1 * RootMeanSquare(tau.col(j)), 2);
   std::vector<bool> held(nominal_.size(), false);
   double misfit = 0;
   for (int round = 0; round < kRounds; ++round) {
@@ -136,8 +137,8 @@ double TorqueFit::Misfit(const MatrixXd& tau, double* residual_percent) const {
     const VectorXd off = x - nominal_;
     misfit = .5 * off.dot(prior_ * off);
     for (int j = 0; j < n; ++j) {
-      rms[j] = Rms(tau.col(j) - columns_[j] * x);
-      const double least = kLeastShare * Rms(tau.col(j)) + 1e-9;
+      rms[j] = RootMeanSquare(tau.col(j) - columns_[j] * x);
+      const double least = kLeastShare * RootMeanSquare(tau.col(j)) + 1e-9;
       variance[j] = rms[j] * rms[j] + least * least;
       misfit += .5 * samples * std::log(variance[j]);
     }

@@ -10,7 +10,7 @@
 namespace armcal {
 namespace {
 
-constexpr int kDraws = 2000;
+constexpr int kBootstrapDraws = 2000;
 constexpr double kCorrelationTimes = 2;  // per block
 
 // Midranks less their mean.
@@ -71,7 +71,7 @@ BootstrapInterval BlockBootstrap(
   std::mt19937_64 random(seed);
   std::vector<int> chosen(size);
   std::vector<double> draws;
-  for (int draw = 0; draw < kDraws; ++draw) {
+  for (int draw = 0; draw < kBootstrapDraws; ++draw) {
     for (int k = 0; k < size; ++k) {
       chosen[k] = k % block == 0 ? static_cast<int>(random() % size)
                                  : (chosen[k - 1] + 1) % size;
@@ -82,8 +82,8 @@ BootstrapInterval BlockBootstrap(
   }
   std::sort(draws.begin(), draws.end());
   const double blocks = std::max(2.0, static_cast<double>(size) / block);
-  const int tail = static_cast<int>(TailShare(blocks) * kDraws);
-  return {draws[tail], draws[kDraws - 1 - tail]};
+  const int tail = static_cast<int>(TailShare(blocks) * kBootstrapDraws);
+  return {draws[tail], draws[kBootstrapDraws - 1 - tail]};
 }
 
 }  // namespace armcal

@@ -13,26 +13,26 @@ namespace {
 // Bins of 0.5 % from 1e-12 to 1e12.
 constexpr double kLow = 1e-12;
 const double kLogStep = std::log(1.005);
-constexpr int kBins = 11100;
+constexpr int kEdges = 11100;
 
 // Where a number's bin is, without its logarithm: numbers that share their
 // exponent and the first bits of their mantissa are within half a bin, so that
 // one or two neighbours are left.
 class BinSearch {
  public:
-  BinSearch() : edge_(kBins + 1) {
-    for (int b = 0; b <= kBins; ++b) edge_[b] = kLow * std::exp(b * kLogStep);
+  BinSearch() : edge_(kEdges + 1) {
+    for (int b = 0; b <= kEdges; ++b) edge_[b] = kLow * std::exp(b * kLogStep);
     int bin = 0;
-    for (std::uint64_t bits = First(kLow); bits <= First(edge_[kBins]);
+    for (std::uint64_t bits = First(kLow); bits <= First(edge_[kEdges]);
          ++bits) {
       const double least = FromFirst(bits);
-      while (bin + 1 < kBins && edge_[bin + 1] <= least) ++bin;
+      while (bin + 1 < kEdges && edge_[bin + 1] <= least) ++bin;
       bin_.push_back(bin);
     }
   }
   int operator()(double size) const {
     if (size <= kLow) return 0;
-    if (!(size < edge_[kBins])) return kBins - 1;  // also NaN
+    if (!(size < edge_[kEdges])) return kEdges - 1;  // also NaN
     int bin = bin_[First(size) - First(kLow)];
     while (size >= edge_[bin + 1]) ++bin;
     return bin;
@@ -68,7 +68,7 @@ double Clipped(double r) {
   return std::clamp(r, -bend, bend);
 }
 
-ResidualSpread::ResidualSpread() : histogram_(kBins, 0) {}
+ResidualSpread::ResidualSpread() : histogram_(kEdges, 0) {}
 
 void ResidualSpread::Add(double r) {
   ++histogram_[BinOf(std::abs(r))];
@@ -77,7 +77,7 @@ void ResidualSpread::Add(double r) {
 
 double ResidualSpread::Value() const {
   long seen = 0;
-  for (int b = 0; b < kBins; ++b) {
+  for (int b = 0; b < kEdges; ++b) {
     seen += histogram_[b];
     if (2 * seen >= count_ && count_ > 0) {
       return 1.4826 * kLow * std::exp((b + 0.5) * kLogStep);

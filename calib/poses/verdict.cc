@@ -13,7 +13,7 @@ using Sentences = std::vector<std::string>;
 // Share of the poses' extent that the median deviation must not exceed.
 constexpr double kMostDeviation = 0.1;
 
-std::string Number(double x) { return Format("%.3g", x); }
+std::string Millimetres(double x) { return Format("%.3g", x); }
 
 }  // namespace
 
@@ -27,9 +27,9 @@ Sentences Shortcomings(const Robot& robot, const PoseCalibration& result) {
   const double deviation = std::max(result.median, result.held_out_median);
   if (deviation > kMostDeviation * result.extent) {
     sentences.push_back("the poses do not follow the joints: they deviate by " +
-                        Number(1e3 * deviation) +
+                        Millimetres(1e3 * deviation) +
                         " mm (median) of an extent of " +
-                        Number(1e3 * result.extent) + " mm");
+                        Millimetres(1e3 * result.extent) + " mm");
   }
   if (2 * static_cast<int>(result.outliers.size()) > result.count) {
     sentences.push_back(std::to_string(result.outliers.size()) + " of " +

@@ -14,8 +14,9 @@ using Eigen::VectorXd;
 constexpr int kBaseSize = 6;
 constexpr int kBasePitch = 4, kBaseRoll = 5;
 
-constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
-                                JointTerm::kOffset, JointTerm::kArmature};
+constexpr JointTerm kUnknownTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
+                                       JointTerm::kOffset,
+                                       JointTerm::kArmature};
 
 }  // namespace
 
@@ -69,7 +70,7 @@ void ArmUnknowns::AddTerms(const LinearCalibration& linear) {
   nominal_.terms.resize(4 * n);
   for (int j = 0; j < n; ++j) {
     Joint& joint = robot_.links[j].joint;
-    for (const JointTerm term : kTerms) {
+    for (const JointTerm term : kUnknownTerms) {
       JointTermColumn column{j, term, {}};
       if (!linear.transitions.empty()) {
         column.transition = linear.transitions[j];

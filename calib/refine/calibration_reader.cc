@@ -14,12 +14,13 @@
 #include "model/robot/arm_geometry.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
 
-constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
-                                JointTerm::kOffset, JointTerm::kArmature};
+constexpr JointTerm kReadTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
+                                    JointTerm::kOffset, JointTerm::kArmature};
 
 // A number of the robot that a file may set.
 struct Slot {
@@ -54,7 +55,7 @@ void AddDynamics(Links* links, Robot* robot, Slots* slots) {
       (*slots)[link.name + "." + InertialName(k)] = {
           InertialUnit(k), *value, [value](double x) { *value = x; }};
     }
-    for (const JointTerm term : kTerms) {
+    for (const JointTerm term : kReadTerms) {
       double* value = TermOf(term, &link.joint);
       (*slots)[link.joint.name + "." + JointTermName(term)] = {
           JointTermUnit(term, link.joint.type), *value,
@@ -85,8 +86,9 @@ void ExpectRefined(const JsonValue& root) {
   if (estimate.Text() != "refined") {
     estimate.Refuse(
         "expected 'refined': a simulation needs links that can exist; run "
-        "armcal calibrate --estimate=refined with a robot file that gives "
-        "every link a mass");
+        "armcal calibrate " +
+        OptionName("estimate") +
+        "=refined with a robot file that gives every link a mass");
   }
 }
 
@@ -158,7 +160,7 @@ void SetFrom(const JsonValue& entry, Slots* slots) {
   const auto slot = slots->find(name.Text());
   if (slot == slots->end()) {
     if (IsNotTheRobots(name.Text())) return;
-    name.Refuse("expected a parameter of the robot of --robot");
+    name.Refuse("expected a parameter of the robot of " + OptionName("robot"));
   }
   if (slot->second.was_set) name.Refuse("expected every parameter only once");
   entry.At("unit").Expect(slot->second.unit, ", the unit of " + name.Text());
@@ -220,14 +222,14 @@ std::string Canonical(const std::string& path) {
 void ExpectCalibrationOf(const Robot& robot, const JsonValue& root) {
   root.At("format").Expect("armcal calibration 1",
                            ", the format this version reads");
-  const std::string other =
-      ", the robot of --robot: this is a calibration of another robot";
+  const std::string other = ", the robot of " + OptionName("robot") +
+                            ": this is a calibration of another robot";
   root.At("robot").Expect(robot.name, other);
   const JsonValue joints = root.At("joints");
   const std::vector<JsonValue> entries = joints.Entries();
   if (static_cast<int>(entries.size()) != robot.num_joints()) {
     joints.Refuse("expected " + std::to_string(robot.num_joints()) +
-                  " joints, as the robot of --robot has");
+                  " joints, as the robot of " + OptionName("robot") + " has");
   }
   for (int j = 0; j < robot.num_joints(); ++j) {
     entries[j].At("name").Expect(robot.links[j].joint.name, other);

@@ -54,7 +54,7 @@ LinkInformation Spread(const LinkInformation& torques,
   return all;
 }
 
-Score MakeScore(const FittedRow& row) {
+Score LinkScore(const FittedRow& row) {
   Score score{row.U.transpose() * row.r, row.U, {}};
   for (int i = 0; i < row.r.size(); ++i) {
     if (!row.used[i]) score.C.row(i).setZero();
@@ -229,7 +229,7 @@ LinkInformation LinkPass::Inform(const ArmValues& at, const VectorXd& noise,
     ForEachResidual(
         stage, at, noise, columns.terms, [&](const Residual& residual) {
           const FittedRow row = MakeFittedRow(residual, columns, noise);
-          visit(residual, row, MakeScore(row));
+          visit(residual, row, LinkScore(row));
         });
   };
   TriangularFactor factor(static_cast<int>(size));

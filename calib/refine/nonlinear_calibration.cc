@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 
 // Rounds of taking the torques linearly in the geometry.
 constexpr int kMostRounds = 20;
-constexpr double kSettled = 0.05;  // noise deviations, rms over parameters
+constexpr double kConverged = 0.05;  // noise deviations, rms over parameters
 
 bool HasUnknownLengths(const LinearCalibration& linear) {
   return !linear.parameters.unknown_lengths().empty();
@@ -170,7 +170,7 @@ bool NonlinearCalibrator::Solve(LogSet* training, const ArmFit& fit,
     if (!unknowns_.refines_geometry()) return true;
     const VectorXd moved = equations.R * (values_.Stacked() - about.Stacked());
     about = values_;
-    if (moved.norm() < kSettled * std::sqrt(unknowns_.size())) return true;
+    if (moved.norm() < kConverged * std::sqrt(unknowns_.size())) return true;
   }
   result->reason = "NO_CONVERGENCE";
   return true;

@@ -9,7 +9,7 @@ namespace armcal {
 namespace {
 
 // Text in a column of this width; longer text makes the row longer.
-std::string Padded(std::string text, size_t width) {
+std::string PaddedCell(std::string text, size_t width) {
   if (text.size() < width) text.append(width - text.size(), ' ');
   return text;
 }
@@ -19,11 +19,11 @@ constexpr size_t kValueWidth = 22;
 // "12.3 +- 0.4", or "12.3 (prior)" where the logs do not tell.
 std::string Value(const PhysicalParameter& p) {
   const std::string value = Format("%9.4g ", p.value);
-  return Padded(value + (p.held           ? "(held)"
-                         : p.identifiable ? Format("+- %.2g", p.stddev)
-                         : p.at_bound     ? "(bound)"
-                                          : "(prior)"),
-                kValueWidth);
+  return PaddedCell(value + (p.held           ? "(held)"
+                             : p.identifiable ? Format("+- %.2g", p.stddev)
+                             : p.at_bound     ? "(bound)"
+                                              : "(prior)"),
+                    kValueWidth);
 }
 
 const PhysicalParameter* Find(const NonlinearCalibration& result,
@@ -46,12 +46,12 @@ std::string LinkTable(const Robot& nominal, const Robot& robot) {
   for (const Link& link : robot.links) {
     width = std::max(width, link.name.size() + 3);
   }
-  std::string text = "\n" + Padded(title, width) +
+  std::string text = "\n" + PaddedCell(title, width) +
                      "  mass kg    (file)   centre of mass x, y, z m\n";
   for (size_t i = 0; i < robot.links.size(); ++i) {
     const Link& link = robot.links[i];
     const Eigen::Vector3d com = link.inertial.first_moment / link.inertial.mass;
-    text += Padded("  " + link.name, width) +
+    text += PaddedCell("  " + link.name, width) +
             Format("%9.3f ", link.inertial.mass) +
             Format("%9s",
                    Format("(%.3f)", nominal.links[i].inertial.mass).c_str()) +
@@ -66,11 +66,11 @@ std::string JointTable(const NonlinearCalibration& result) {
     width = std::max(width, link.joint.name.size() + 3);
   }
   const std::vector<std::string> terms = {"viscous", "coulomb", "armature"};
-  std::string text = "\n" + Padded("  joint", width);
-  for (const auto& term : terms) text += Padded("  " + term, kValueWidth);
+  std::string text = "\n" + PaddedCell("  joint", width);
+  for (const auto& term : terms) text += PaddedCell("  " + term, kValueWidth);
   for (const Link& link : result.robot.links) {
     text.erase(text.find_last_not_of(' ') + 1);
-    text += "\n" + Padded("  " + link.joint.name, width);
+    text += "\n" + PaddedCell("  " + link.joint.name, width);
     for (const auto& term : terms) {
       text += Value(*Find(result, link.joint.name + "." + term));
     }
@@ -86,10 +86,11 @@ std::string GeometryTable(const NonlinearCalibration& result) {
     if (!p.geometry) continue;
     const bool angle = p.unit == "rad";
     const double scale = angle ? 180 / M_PI : 1e3;
-    text += Padded("  " + p.name, 24) + Format("%12.4f -> ", scale * p.prior) +
+    text += PaddedCell("  " + p.name, 24) +
+            Format("%12.4f -> ", scale * p.prior) +
             Format("%12.4f ", scale * p.value) +
             (p.identifiable ? Format("+- %-9.2g", scale * p.stddev)
-                            : Padded("(prior)", 12)) +
+                            : PaddedCell("(prior)", 12)) +
             (angle ? " deg\n" : " mm\n");
   }
   if (text.empty()) return text;

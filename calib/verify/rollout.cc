@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNeverLost = std::numeric_limits<double>::infinity();
 
 // Of each length, model and stretch of a log as many are repeated by referees,
 // where that is no matter of more steps than these.
@@ -38,7 +38,7 @@ class Roller {
       begins.push_back(Begins(trajectory, &rollouts));
       for (const int k : begins.back()) {
         const MatrixXd unknown = MatrixXd::Constant(
-            models_.size(), trajectory.num_joints(), kInfinity);
+            models_.size(), trajectory.num_joints(), kNeverLost);
         rollouts.windows.push_back({log, trajectory.time(k), unknown, unknown});
       }
     }

@@ -67,8 +67,8 @@ std::vector<int> JointsWithUnit(const Robot& robot, const std::string& unit);
 
 // A figure with its interval of 95 % (block_bootstrap.h): windows follow each
 // other in time and are not independent. Where there are ten blocks or more it
-// holds the truth in 9 of 10 cases (rollout_long_test); with fewer it says
-// little.
+// holds the truth in 9 of 10 cases (verify_rollout_long_test); with fewer it
+// says little.
 struct RolloutFigure {
   double value;  // NaN without windows
   double low, high;

@@ -38,7 +38,7 @@ struct VerificationReport {
 };
 
 std::string FullReport(const VerificationReport& report);
-// verification.json (DESIGN.md, Files).
+// verification.json (docs/verify.md).
 nlohmann::json ToJson(const VerificationReport& report);
 
 }  // namespace armcal

@@ -17,8 +17,8 @@ constexpr double kShortestStep = 1e-3 / 64;  // s
 // At these a window that does not stay in bounds is given up.
 constexpr double kShortStep = 1e-3 / 2;     // s
 constexpr double kVelocityTolerance = 100;  // 1/s
-constexpr double kLostAngle = 100;          // rad
-constexpr double kLostLength = 10;          // m
+constexpr double kGivenUpAngle = 100;       // rad
+constexpr double kGivenUpLength = 10;       // m
 
 // Whether two replays of a window say the same.
 bool Agree(const ReplayedWindow& a, const ReplayedWindow& b, double tolerance) {
@@ -46,8 +46,8 @@ BatchTorqueReplay::BatchTorqueReplay(const Robot& robot,
       coulomb_(CoulombColumns(transitions)),
       rollout_({{robot, std::move(transitions), {}}}, kernels) {
   for (int j = 0; j < robot.num_joints(); ++j) {
-    lost_[j] =
-        IsRotational(robot.links[j].joint.type) ? kLostAngle : kLostLength;
+    lost_[j] = IsRotational(robot.links[j].joint.type) ? kGivenUpAngle
+                                                       : kGivenUpLength;
   }
 }
 

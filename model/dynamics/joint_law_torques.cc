@@ -10,7 +10,7 @@ namespace {
 using Eigen::VectorXd;
 
 // Steps per sample of the states of joint laws.
-constexpr int kSubsteps = 2;
+constexpr int kStepsOfLaw = 2;
 
 // What laws see between sample k and the next, as stages of steps ask for it.
 class InstantsBetween {
@@ -34,7 +34,7 @@ class InstantsBetween {
   double step() const { return track_.t[k_ + 1] - track_.t[k_]; }
 
  private:
-  static constexpr int kMost = 2 * kSubsteps;  // stages
+  static constexpr int kMost = 2 * kStepsOfLaw;  // stages
 
   const MotionTrack& track_;
   int k_ = 0, count_ = 0;
@@ -65,8 +65,8 @@ class LawRun {
       law_->torque(*instant, state, dx);
       for (Eigen::Index i = 0; i < x_.size(); ++i) dx[i] *= step;
     };
-    const double share = 1. / kSubsteps;
-    for (int i = 0; i < kSubsteps; ++i) {
+    const double share = 1. / kStepsOfLaw;
+    for (int i = 0; i < kStepsOfLaw; ++i) {
       step_.Advance(rate, i * share, share, &x_);
     }
   }

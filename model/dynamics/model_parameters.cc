@@ -56,7 +56,8 @@ double MomentValue(const InertialParameters& K, Moment moment) {
 }
 
 // Uniform on (-2, 2): joint positions, velocities and accelerations rich enough
-// that dependence of columns is never a close decision (MATH.md C.2).
+// that dependence of columns is never a close decision: singular values
+// are above .6 or below 1e-15.
 class RandomStates {
  public:
   VectorXd Next(int n) {
@@ -195,7 +196,8 @@ MatrixXd ModelParameters::SampleRegressor() const {
 }
 
 // Within a block, as (2.15) asks; across blocks rigid columns are independent
-// whenever they are within (MATH.md A.1).
+// whenever they are within: in a relation let i be its lowest block and all
+// other links be massless, and block i's coefficients vanish.
 void ModelParameters::KeepMoments(const MatrixXd& U) {
   const int m = static_cast<int>(moments_.size());
   for (int i = 0; i < num_joints(); ++i) {

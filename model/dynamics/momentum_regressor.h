@@ -24,9 +24,9 @@ struct MomentColumn {
 // acceleration is needed.
 //
 // The unknown lengths are the columns' coefficients: the monomial 1 is the arm
-// with all unknown lengths 0, that of l the arm with only l = 1 minus it
-// (MATH.md C.1-C.2). T is a scalar that carries derivatives; numbers alone are
-// evaluated by Regressor.
+// with all unknown lengths 0, that of l the arm with only l = 1 minus it, as
+// both are affine in them (docs/theory.md, 1). T is a scalar that carries
+// derivatives; numbers alone are evaluated by Regressor.
 template <class T>
 class MomentumRegressor {
  public:

@@ -46,7 +46,7 @@ struct ProximalChain {
 ProximalChain MakeProximalChain(const Robot& robot);
 
 // Composite inertial parameters K_i of links i..n about Ji, expressed in J_i,
-// with what does not depend on q_{i+1} only (MATH.md C.1):
+// with what does not depend on q_{i+1} only (docs/theory.md, 1):
 // K_i = V_i + Sh(C_i) red(K_{i+1}).
 std::vector<InertialParameters> CompositeInertials(const Robot& robot,
                                                    const ProximalChain& chain);

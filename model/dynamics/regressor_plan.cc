@@ -12,10 +12,10 @@ using Eigen::Vector3d;
 using simd::LinkConstants;
 using simd::LinkMoment;
 
-void Copy(const Matrix3d& m, double* to) {  // by rows
+void CopyOut(const Matrix3d& m, double* to) {  // by rows
   for (int k = 0; k < 9; ++k) to[k] = m(k / 3, k % 3);
 }
-void Copy(const Vector3d& v, double* to) {
+void CopyOut(const Vector3d& v, double* to) {
   for (int k = 0; k < 3; ++k) to[k] = v[k];
 }
 
@@ -34,16 +34,16 @@ LinkConstants MakeLink(JointType type, Isometry3d X_PF, Isometry3d X_ML) {
   const Matrix3d R = R_LM * R_FP;
   const Matrix3d along = R_LM.col(2) * R_FP.row(2);
   const Matrix3d across = R_LM.col(0) * R_FP.row(1) - R_LM.col(1) * R_FP.row(0);
-  Copy(link.rotational ? along : R, link.R0);
+  CopyOut(link.rotational ? along : R, link.R0);
   if (link.rotational) {
-    Copy(Matrix3d(R - along), link.Rc);
-    Copy(across, link.Rs);
+    CopyOut(Matrix3d(R - along), link.Rc);
+    CopyOut(across, link.Rs);
   }
   const Vector3d axis = R_LM.col(2), p_ML = R_LM * X_ML.translation();
-  Copy(Vector3d(X_PF.translation()), link.p_PF);
-  Copy(p_ML, link.p_ML);
-  Copy(axis, link.axis);
-  Copy(axis, link.rotational ? link.angular : link.linear);
+  CopyOut(Vector3d(X_PF.translation()), link.p_PF);
+  CopyOut(p_ML, link.p_ML);
+  CopyOut(axis, link.axis);
+  CopyOut(axis, link.rotational ? link.angular : link.linear);
   link.has_offset = !link.rotational || !p_ML.isZero(0);
   link.axis_index = -1;
   for (int k = 0; k < 3 && !link.has_offset; ++k) {
@@ -235,7 +235,7 @@ void RegressorPlan::Connect(const Vector3d& gravity) {
   chain_.num_lengths = static_cast<int>(lengths_.size());
   chain_.lengths = lengths_.data();
   chain_.row_sizes = row_sizes_.data();
-  Copy(gravity, chain_.gravity);
+  CopyOut(gravity, chain_.gravity);
 }
 
 }  // namespace armcal

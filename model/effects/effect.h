@@ -28,7 +28,7 @@ struct EffectParameter {
   };
   enum class Sign { kFree, kPositive };
 
-  std::string name;  // as in DESIGN.md
+  std::string name;  // as in diagnosis.json: "stribeck_velocity"
   std::string unit;  // with E for the joint's effort (N m or N), P for its
                      // position (rad or m): "E s/P"
   Search search = Search::kLinear;
@@ -62,7 +62,7 @@ struct Effect {
     kEvent       // of a span of time within a log
   };
 
-  std::string name;  // DESIGN.md's
+  std::string name;  // as in diagnosis.json and docs/effects
   Scope scope = Scope::kJoint;
   Nature nature = Nature::kLaw;
   std::string law;    // in symbols, a line

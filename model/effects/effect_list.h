@@ -1,7 +1,7 @@
 #pragma once
 
-// A line per effect, in DESIGN.md's order: X(function), which is the one of its
-// file.
+// A line per effect, in the order of help and of docs/effects/README.md:
+// X(function), which is the one of its file.
 #define ARMCAL_EFFECTS(X) \
   X(ViscousFriction)      \
   X(CoulombFriction)      \

@@ -8,8 +8,8 @@
 namespace armcal {
 inline namespace effects {
 
-// Every effect that a diagnosis has a name for, in DESIGN.md's order. To add
-// one, write its file and its line in effect_list.h.
+// Every effect that a diagnosis has a name for, in the order of effect_list.h.
+// To add one, write its file and its line there.
 const std::vector<Effect>& Effects();
 // nullptr where there is none of that name.
 const Effect* FindEffect(const std::string& name);

@@ -8,6 +8,7 @@
 #include "model/ros_bags/open_bag.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 #include "model/text/unpack.h"
 
 namespace armcal {
@@ -87,9 +88,9 @@ void BagLog::CheckTopic(const Topic& topic) const {
     }
     if (!states && !role.signal) {
       throw InputError(path_, place, type,
-                       "expected what it holds before its name, as in "
-                       "--topics=effort:" +
-                           OneLine(topic.about.name));
+                       "expected what it holds before its name, as in " +
+                           OptionName("topics") +
+                           "=effort:" + OneLine(topic.about.name));
     }
   }
   if (topic.about.encoding == "cdr") return;

@@ -8,6 +8,7 @@
 #include "model/text/exact_digits.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 
@@ -85,7 +86,8 @@ void BagSource::ChooseColumn(Signal signal, int joint,
                    a == b ? what + "messages of different joints of topic " +
                                 OneLine(a) + ", expected one kind"
                           : what + OneLine(a) + " and in " + OneLine(b) +
-                                ": choose one by --topics=" + OneLine(a));
+                                ": choose one by " + OptionName("topics") +
+                                "=" + OneLine(a));
 }
 
 void BagSource::Join(const std::vector<JointSeries>& series) {

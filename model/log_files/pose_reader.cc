@@ -99,7 +99,7 @@ Places ChooseColumns(const std::string& path, const LogColumns& columns,
 }
 
 // A number as people write it.
-std::string Text(double value) {
+std::string TextOf(double value) {
   std::ostringstream text;
   text << value;
   return text.str();
@@ -116,13 +116,14 @@ void CheckValues(const std::string& path, const PoseMeasurements& measured) {
   for (Eigen::Index k = 0; k < measured.lengths.size(); ++k) {
     const double length = measured.lengths[k];
     if (length > 0) continue;
-    refuse(k, "length1", Text(length), "expected a length above 0");
+    refuse(k, "length1", TextOf(length), "expected a length above 0");
   }
   for (Eigen::Index k = 0; k < measured.poses.rows(); ++k) {
     const Eigen::Vector4d q = measured.poses.row(k).tail<4>();
     if (std::abs(q.norm() - 1) < kQuaternionNorm) continue;
     refuse(k, "qw",
-           Text(q[0]) + " " + Text(q[1]) + " " + Text(q[2]) + " " + Text(q[3]),
+           TextOf(q[0]) + " " + TextOf(q[1]) + " " + TextOf(q[2]) + " " +
+               TextOf(q[3]),
            "expected a unit quaternion");
   }
 }

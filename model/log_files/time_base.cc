@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "model/text/input_error.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -183,9 +184,10 @@ TimeBase AuditTimeBase(const TimeRange& crop, KeptLog* log) {
   }
   TimeBase& base = audit.base;
   if (base.samples < 3) {
-    throw InputError(log->path(), "", std::to_string(base.samples) + " samples",
-                     "expected at least 3 samples with different times in the "
-                     "log (--crop keeps a part of it)");
+    throw InputError(
+        log->path(), "", std::to_string(base.samples) + " samples",
+        "expected at least 3 samples with different times in the log (" +
+            OptionName("crop") + " keeps a part of it)");
   }
   base.median_step = audit.steps.Median();
   base.dt = audit.steps.MeanBelow(3 * base.median_step);

@@ -4,6 +4,7 @@
 
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -16,17 +17,18 @@ std::string FormatAll(const std::vector<double>& values) {
   return text;
 }
 
-void CheckFactors(const std::string& flag, const std::vector<double>& factors,
+void CheckFactors(const std::string& option, const std::vector<double>& factors,
                   const std::vector<std::string>& joints) {
   if (factors.empty()) return;
   if (factors.size() != joints.size()) {
-    throw InputError("", flag, FormatAll(factors),
+    throw InputError("", OptionName(option), FormatAll(factors),
                      "expected one value per joint, the robot has " +
                          std::to_string(joints.size()));
   }
   for (size_t i = 0; i < factors.size(); ++i) {
     if (std::isfinite(factors[i]) && factors[i] != 0) continue;
-    throw InputError("", flag + ", joint " + joints[i], NumberText(factors[i]),
+    throw InputError("", OptionName(option) + ", joint " + joints[i],
+                     NumberText(factors[i]),
                      "expected a finite number other than 0");
   }
 }
@@ -72,11 +74,11 @@ TorqueKind ChooseKind(const std::string& file, const LogColumns& columns,
   if (columns.HasAny(Signal::kEffort)) return TorqueKind::kLink;
   if (columns.HasAny(Signal::kCurrent)) return TorqueKind::kCurrent;
   std::string instead = "; or currents (i1 or " + options.joint_names[0] +
-                        "/current, ..) with --torque_constants";
+                        "/current, ..) with " + OptionName("torque_constants");
   if (columns.HasAll(Signal::kReference)) {
-    instead +=
-        "; or --controller, under which calibrate and verify simulate how the "
-        "log's commands (qref) are followed";
+    instead += "; or " + OptionName("controller") +
+               ", under which calibrate and verify simulate how the "
+               "log's commands (qref) are followed";
   }
   throw InputError(file, "row 1", "",
                    "no torque: missing " + columns.Missing(Signal::kEffort) +
@@ -95,9 +97,9 @@ TorqueColumns FromTorques(const LogColumns& columns,
 }  // namespace
 
 void CheckTorqueFactors(const LogReaderOptions& options) {
-  CheckFactors("--torque_constants", options.torque_constants,
+  CheckFactors("torque_constants", options.torque_constants,
                options.joint_names);
-  CheckFactors("--gear_ratios", options.gear_ratios, options.joint_names);
+  CheckFactors("gear_ratios", options.gear_ratios, options.joint_names);
 }
 
 bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options) {
@@ -121,9 +123,11 @@ TorqueColumns FindTorqueColumns(const std::string& file,
         throw InputError(
             file, "", "",
             "the torque comes from currents, its scale is not observable "
-            "from them alone: expected --torque_constants=K1,.. in N m/A, "
-            "one per joint, or --payload_mass and --payload_log to estimate "
-            "them");
+            "from them alone: expected " +
+                OptionName("torque_constants") +
+                "=K1,.. in N m/A, one per joint, or " +
+                OptionName("payload_mass") + " and " +
+                OptionName("payload_log") + " to estimate them");
       }
       return FromCurrents(columns, options);
     default:

@@ -16,7 +16,7 @@ struct TorqueColumns {
 };
 
 // Chooses them as `options` ask; `file` is for messages. Throws InputError that
-// says which columns or which flag is missing.
+// says which columns or which option is missing.
 TorqueColumns FindTorqueColumns(const std::string& file,
                                 const LogColumns& columns,
                                 const LogReaderOptions& options);

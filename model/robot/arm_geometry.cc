@@ -11,7 +11,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Kind = ElementaryTransform::Kind;
 
-constexpr double kNearlyParallel = 0.1;  // rad
+constexpr double kParallelWithin = 0.1;  // rad
 
 struct Row {
   double theta = 0, d = 0, a = 0, alpha = 0, beta = 0;
@@ -52,7 +52,7 @@ Row ModifiedRow(const Isometry3d& X_PF, const Isometry3d& X_ML) {
 bool NearlyParallel(const Robot& robot, int i) {
   if (i + 1 >= robot.num_joints()) return false;
   const Isometry3d X = robot.links[i].X_ML * robot.links[i + 1].X_PF;
-  return std::hypot(X.linear()(0, 2), X.linear()(1, 2)) < kNearlyParallel;
+  return std::hypot(X.linear()(0, 2), X.linear()(1, 2)) < kParallelWithin;
 }
 
 Isometry3d Product(const std::vector<ElementaryTransform>& steps, int begin,

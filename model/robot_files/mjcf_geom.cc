@@ -14,10 +14,8 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
-
 // Half sizes, or radius and half length along z.
-struct Shape {
+struct GeomShape {
   std::string type;
   Vector3d size = Vector3d::Zero();  // m
   Isometry3d X_BG = Isometry3d::Identity();
@@ -28,7 +26,7 @@ int NumSizes(const std::string& type) {
   return type == "box" || type == "ellipsoid" ? 3 : 2;
 }
 
-void ReadSize(const MjcfElement& geom, int count, Shape* shape) {
+void ReadSize(const MjcfElement& geom, int count, GeomShape* shape) {
   const XmlElement& holder = geom.HolderOf("size");
   if (!holder.Has("size"))
     holder.Refuse("", "", "expected an attribute 'size'");
@@ -42,7 +40,7 @@ void ReadSize(const MjcfElement& geom, int count, Shape* shape) {
 }
 
 // From one end to the other: the axis is z, and size has the radius only.
-void ReadEnds(const MjcfElement& geom, Shape* shape) {
+void ReadEnds(const MjcfElement& geom, GeomShape* shape) {
   const XmlElement& holder = geom.HolderOf("fromto");
   double v[6];
   holder.Numbers("fromto", 6, "m", v);
@@ -61,9 +59,9 @@ void ReadEnds(const MjcfElement& geom, Shape* shape) {
   shape->X_BG.linear() = RotationOfZ((to - from) / length);
 }
 
-double Volume(const Shape& shape) {
+double Volume(const GeomShape& shape) {
   const Vector3d& s = shape.size;
-  const double ball = 4 * kPi / 3, disc = kPi * s[0] * s[0];
+  const double ball = 4 * M_PI / 3, disc = M_PI * s[0] * s[0];
   if (shape.type == "sphere") return ball * s[0] * s[0] * s[0];
   if (shape.type == "capsule")
     return disc * 2 * s[1] + ball * std::pow(s[0], 3);
@@ -83,7 +81,7 @@ Vector3d CapsuleInertia(double mass, double r, double height) {
 }
 
 // Principal moments about the centre, kg m^2.
-Vector3d Inertia(const Shape& shape, double mass) {
+Vector3d Inertia(const GeomShape& shape, double mass) {
   const Vector3d& s = shape.size;
   const Vector3d squares = s.cwiseAbs2();
   const Vector3d others(squares[1] + squares[2], squares[0] + squares[2],
@@ -109,7 +107,7 @@ bool IsMassless(const MjcfElement& geom, const MjcfSettings& settings) {
 
 InertialParameters ReadMjcfGeom(const MjcfElement& geom,
                                 const MjcfSettings& settings) {
-  Shape shape;
+  GeomShape shape;
   shape.type =
       geom.Choice("type", {"sphere", "capsule", "cylinder", "box", "ellipsoid",
                            "plane", "mesh", "hfield", "sdf"});

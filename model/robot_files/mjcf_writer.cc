@@ -150,7 +150,7 @@ XMLElement* AddBody(const RobotDescription& description, int first, int last,
   return body;
 }
 
-std::vector<std::string> MoreLosses(const RobotDescription& description) {
+std::vector<std::string> MjcfLosses(const RobotDescription& description) {
   std::vector<std::string> losses = MjcfDriveLosses(description);
   const Link& last = description.robot.links.back();
   if (last.inertial.mass > 0) return losses;
@@ -197,7 +197,7 @@ std::string MakeMjcf(const RobotDescription& description) {
 
 RobotFormat MjcfFormat() {
   return {"mjcf",    "MJCF",     "robot.xml", {RobotField::kVelocityLimit},
-          &MakeMjcf, &MoreLosses};
+          &MakeMjcf, &MjcfLosses};
 }
 
 }  // namespace armcal

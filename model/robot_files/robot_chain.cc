@@ -4,6 +4,7 @@
 
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -13,26 +14,27 @@ using Eigen::Isometry3d;
 constexpr int kMaxJoints = 64;
 
 int RequireLink(const std::string& path, const RobotTree& tree,
-                const std::string& flag, const std::string& name) {
+                const std::string& option, const std::string& name) {
   const std::optional<int> link = tree.FindLink(name);
   if (link) return *link;
-  throw InputError(path, flag, OneLine(name),
+  throw InputError(path, OptionName(option), OneLine(name),
                    "expected one of the links " + LinkNames(tree.links));
 }
 
 int ChooseBase(const std::string& path, const RobotTree& tree,
                const std::string& base) {
-  if (!base.empty()) return RequireLink(path, tree, "--base", base);
+  if (!base.empty()) return RequireLink(path, tree, "base", base);
   if (tree.roots.size() == 1) return tree.roots.front();
   std::vector<std::string> names;
   for (const int root : tree.roots) names.push_back(tree.links[root].name);
-  throw InputError(path, "", JoinNames(names),
-                   "expected one root link: choose one with --base");
+  throw InputError(
+      path, "", JoinNames(names),
+      "expected one root link: choose one with " + OptionName("base"));
 }
 
 int ChooseTip(const std::string& path, const RobotTree& tree, int base,
               const std::string& tip) {
-  if (!tip.empty()) return RequireLink(path, tree, "--tip", tip);
+  if (!tip.empty()) return RequireLink(path, tree, "tip", tip);
   std::vector<int> leaves;
   std::vector<std::string> names;
   VisitMovedGroups(tree, base, [&](int head, const RigidGroup& group) {
@@ -46,8 +48,9 @@ int ChooseTip(const std::string& path, const RobotTree& tree, int base,
                          Quoted(tree.links[base].name));
   }
   if (leaves.size() > 1) {
-    throw InputError(path, "", JoinNames(names),
-                     "expected one chain: choose its last link with --tip");
+    throw InputError(
+        path, "", JoinNames(names),
+        "expected one chain: choose its last link with " + OptionName("tip"));
   }
   return leaves.front();
 }
@@ -58,14 +61,16 @@ void RequireUsable(const std::string& path, const RobotTree& tree,
                             Quoted(joint.joint.name);
   if (!joint.is_supported) {
     throw InputError(path, place, joint.type,
-                     "expected " + tree.joint_types + " in the chain; --base=" +
+                     "expected " + tree.joint_types + " in the chain; " +
+                         OptionName("base") + "=" +
                          OneLine(tree.links[joint.child].name) +
                          " starts behind it");
   }
   if (joint.is_mimic) {
     throw InputError(path, place, "mimic",
                      "expected joints that move on their own in the chain; end "
-                     "it before with --tip");
+                     "it before with " +
+                         OptionName("tip"));
   }
 }
 
@@ -76,7 +81,7 @@ std::vector<int> FindChain(const std::string& path, const RobotTree& tree,
   for (int link = tip; link != base;) {
     const int j = tree.links[link].parent_joint;
     if (j < 0) {
-      throw InputError(path, "--tip", OneLine(tree.links[tip].name),
+      throw InputError(path, OptionName("tip"), OneLine(tree.links[tip].name),
                        "expected a link that joints connect to the base link " +
                            Quoted(tree.links[base].name));
     }
@@ -85,7 +90,7 @@ std::vector<int> FindChain(const std::string& path, const RobotTree& tree,
   }
   std::reverse(chain.begin(), chain.end());
   if (chain.empty()) {
-    throw InputError(path, "--tip", OneLine(tree.links[tip].name),
+    throw InputError(path, OptionName("tip"), OneLine(tree.links[tip].name),
                      "expected a link that a joint moves relative to " +
                          Quoted(tree.links[base].name));
   }

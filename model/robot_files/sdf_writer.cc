@@ -16,7 +16,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using tinyxml2::XMLElement;
 
-std::string Text(const Vector3d& v) {
+std::string ThreeNumbers(const Vector3d& v) {
   return ExactText(v.x()) + " " + ExactText(v.y()) + " " + ExactText(v.z());
 }
 
@@ -34,10 +34,11 @@ void AddIf(bool wanted, const char* name, double value, XMLElement* parent) {
 void AddPose(const Isometry3d& X, const std::string& relative_to,
              XMLElement* parent) {
   const Quaterniond q(X.linear());
-  XMLElement* pose = Add("pose",
-                         Text(X.translation()) + " " + Text(Vector3d(q.vec())) +
-                             " " + ExactText(q.w()),
-                         parent);
+  XMLElement* pose =
+      Add("pose",
+          ThreeNumbers(X.translation()) + " " +
+              ThreeNumbers(Vector3d(q.vec())) + " " + ExactText(q.w()),
+          parent);
   pose->SetAttribute("rotation_format", "quat_xyzw");
   if (!relative_to.empty()) {
     pose->SetAttribute("relative_to", relative_to.c_str());
@@ -51,7 +52,7 @@ XMLElement* AddNamed(const char* tag, const std::string& name,
   return element;
 }
 
-void AddInertial(const InertialParameters& V, XMLElement* link) {
+void AddSdfInertial(const InertialParameters& V, XMLElement* link) {
   Isometry3d X_LI = Isometry3d::Identity();
   X_LI.translation() = V.first_moment / V.mass;
   const Matrix3d I = V.ReexpressIn(X_LI.inverse()).inertia;
@@ -100,7 +101,7 @@ void AddLink(const Link& link, const JointDrive& drive,
              const std::string& parent, XMLElement* model) {
   XMLElement* element = AddNamed("link", link.name, model);
   AddPose(link.X_PL(0), parent, element);
-  if (link.inertial.mass > 0) AddInertial(link.inertial, element);
+  if (link.inertial.mass > 0) AddSdfInertial(link.inertial, element);
   XMLElement* joint = AddJoint(link.joint.name, JointTypeName(link.joint.type),
                                parent, link.name, model);
   const Isometry3d X_LM = link.X_ML.inverse();
@@ -108,7 +109,7 @@ void AddLink(const Link& link, const JointDrive& drive,
   X_LJ.translation() = X_LM.translation();
   AddPose(X_LJ, "", joint);
   XMLElement* axis = joint->InsertNewChildElement("axis");
-  Add("xyz", Text(X_LM.linear().col(2)), axis);
+  Add("xyz", ThreeNumbers(X_LM.linear().col(2)), axis);
   AddLimits(link.joint, axis);
   AddDynamics(link.joint, drive, axis);
   if (link.joint.armature == 0) return;
@@ -126,10 +127,10 @@ std::string NewName(const Robot& robot, std::string name) {
   return name;
 }
 
-std::vector<std::string> MoreLosses(const RobotDescription& description) {
+std::vector<std::string> SdfLosses(const RobotDescription& description) {
   std::vector<std::string> losses = {
       "SDF leaves gravity to the world, which here is " +
-      Text(description.robot.gravity) +
+      ThreeNumbers(description.robot.gravity) +
       " m/s^2 (the format's default is -9.8)"};
   for (const Link& link : description.robot.links) {
     if (link.joint.armature == 0) continue;
@@ -171,7 +172,7 @@ RobotFormat SdfFormat() {
           "robot.sdf",
           {RobotField::kOffset, RobotField::kGain, RobotField::kController},
           &MakeSdf,
-          &MoreLosses};
+          &SdfLosses};
 }
 
 }  // namespace armcal

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-constexpr double kTurn = 6.28318530717958648;  // rad, or m
+constexpr double kWholeTurn = 6.28318530717958648;  // rad, or m
 
 // URDF wants limits of a revolute or prismatic joint; where the robot has none
 // they are wide.
@@ -24,8 +24,8 @@ void SetLimits(const Joint& joint, XMLElement* element) {
   };
   XMLElement* limit = Child(element, "limit");
   if (joint.type != JointType::kContinuous) {
-    limit->SetAttribute("lower", or_wide(joint.lower, -kTurn).c_str());
-    limit->SetAttribute("upper", or_wide(joint.upper, kTurn).c_str());
+    limit->SetAttribute("lower", or_wide(joint.lower, -kWholeTurn).c_str());
+    limit->SetAttribute("upper", or_wide(joint.upper, kWholeTurn).c_str());
   }
   limit->SetAttribute("effort", or_wide(joint.effort, 1e6).c_str());
   limit->SetAttribute("velocity", or_wide(joint.velocity, 1e3).c_str());

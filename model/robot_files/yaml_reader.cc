@@ -10,6 +10,7 @@
 #include "model/robot_files/yaml_pose.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 #include "model/text/yaml_node.h"
 
 namespace armcal {
@@ -18,7 +19,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr size_t kMaxJoints = 64;
+constexpr size_t kMaxLinks = 64;
 
 double NumberOr(const YamlNode& map, const std::string& key,
                 const std::string& unit, double absent) {
@@ -224,8 +225,8 @@ Link ReadLink(const YamlNode& entry,
 void ReadLinks(const YamlNode& links, Robot* robot) {
   const std::vector<YamlNode> entries = links.Entries();
   if (entries.empty()) links.Refuse("expected at least one link");
-  if (entries.size() > kMaxJoints) {
-    links.Refuse("expected at most " + std::to_string(kMaxJoints) + " links");
+  if (entries.size() > kMaxLinks) {
+    links.Refuse("expected at most " + std::to_string(kMaxLinks) + " links");
   }
   std::set<std::string> link_names, joint_names;
   for (size_t i = 0; i < entries.size(); ++i) {
@@ -268,10 +269,10 @@ void ReadTool(const YamlNode& tool, Robot* robot) {
 }  // namespace
 
 Robot ReadYaml(const std::string& path, const RobotReaderOptions& options) {
-  for (const auto& [flag, value] : {std::make_pair("--base", options.base),
-                                    std::make_pair("--tip", options.tip)}) {
+  for (const auto& [option, value] : {std::make_pair("base", options.base),
+                                      std::make_pair("tip", options.tip)}) {
     if (value.empty()) continue;
-    throw InputError(path, flag, OneLine(value),
+    throw InputError(path, OptionName(option), OneLine(value),
                      "expected no such flag with a YAML robot, which is one "
                      "chain");
   }

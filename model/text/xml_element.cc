@@ -12,7 +12,7 @@
 namespace armcal {
 namespace {
 
-constexpr long kMaxBytes = 32L << 20;
+constexpr long kMaxXmlBytes = 32L << 20;
 // The parser compares each of an element's attributes with all others.
 constexpr int kMostAttributes = 1000;
 
@@ -256,7 +256,7 @@ void XmlElement::Refuse(const std::string& attribute, const std::string& found,
 
 XmlFile::XmlFile(const std::string& path)
     : path_(path), document_(std::make_unique<tinyxml2::XMLDocument>()) {
-  const std::string text = ReadTextFile(path, kMaxBytes);
+  const std::string text = ReadTextFile(path, kMaxXmlBytes);
   RefuseDeclarations(path, text);
   RefuseManyAttributes(path, text);
   if (document_->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {

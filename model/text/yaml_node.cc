@@ -14,7 +14,7 @@
 namespace armcal {
 namespace {
 
-constexpr long kMaxBytes = 1L << 20;
+constexpr long kMaxYamlBytes = 1L << 20;
 
 int Line(const YAML::Mark& mark) { return mark.is_null() ? 0 : mark.line + 1; }
 
@@ -69,7 +69,7 @@ std::string ListText(const YAML::Node& list) {
 }  // namespace
 
 YamlNode YamlNode::ReadFile(const std::string& path) {
-  const std::string text = ReadTextFile(path, kMaxBytes);
+  const std::string text = ReadTextFile(path, kMaxYamlBytes);
   try {
     if (!HasOneDocument(text)) {
       throw InputError(path, "", "",

@@ -72,7 +72,8 @@ struct BlindAnswer {
   std::vector<NamedEffect> candidates;  // the 95 % set
   Gap torque, forward;
 };
-// No file is no answer. Throws InputError where it is not as DESIGN.md has it.
+// No file is no answer. Throws InputError where its keys are not those
+// of docs/diagnose.md.
 BlindAnswer ReadBlindAnswer(const std::string& path);
 
 }  // namespace armcal

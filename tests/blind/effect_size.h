@@ -15,9 +15,10 @@ namespace armcal {
 // How visible an effect is, apart from any diagnosis: the share of its torque
 // that re-estimating what the model has anyway (the robot's parameters within
 // their prior, the width of friction's zero velocity, timing) cannot absorb,
-// relative to the noise (ENR of shared/GAP.md B: sqrt(Delta / N), N samples of
-// each joint at 25 Hz after a low pass at 10 Hz). The noise is that of the
-// residual, from a run with noise and the same without, as an autoregression.
+// relative to the noise (the ENR of docs/theory.md, 4: sqrt(Delta / N), Delta
+// the fall of chi squared, N samples of each joint at 25 Hz after a low pass at
+// 10 Hz). The noise is that of the residual, from a run with noise and the same
+// without, as an autoregression.
 struct EffectSize {
   double enr = 0;
   Eigen::VectorXd joint_enr;  // its shares per joint, root sum square = enr

@@ -15,7 +15,7 @@ namespace armcal {
 // One effect to put into the signals of a log that a real robot left, in a
 // formula of its own. `size` is what an ENR is aimed with; its sign is drawn.
 struct WithheldEffect {
-  std::string name;       // DESIGN.md's
+  std::string name;       // as in model/effects
   int joint = -1;         // from 0; -1: the whole robot
   double size = 0;        // SI units
   Eigen::VectorXd shape;  // what else it needs, drawn once

@@ -20,7 +20,7 @@ set(of_program bin/armcal share/man/man1/armcal.1.gz
 
 set(prefix ${WORK_DIR}/prefix)
 do("install" ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
-expect_files(${prefix} ${of_program} include/armcal/model/robot.h)
+expect_files(${prefix} ${of_program} include/armcal/model/robot/robot.h)
 # Truth for blind tests is no part of the libraries.
 if(EXISTS ${prefix}/include/armcal/model/plant/hidden)
   fail("model/plant/hidden must not be installed")

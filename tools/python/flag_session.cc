@@ -5,6 +5,7 @@
 
 #include "model/text/input_text.h"
 #include "tools/flag_parser.h"
+#include "tools/program/command_list.h"
 #include "tools/python/samples.h"
 
 namespace armcal {

@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include "model/text/input_error.h"
+#include "model/text/option_name.h"
 #include "tools/command.h"
 #include "tools/python/command_binding.h"
 #include "tools/python/robot_binding.h"
@@ -12,7 +13,8 @@
 PYBIND11_MODULE(_armcal, module) {
   namespace py = pybind11;
   armcal::CheckLibraryVersions();
-  FLAGS_logtostderr = true;  // else glog writes to files in /tmp
+  armcal::SetOptionPrefix("--");  // the texts of commands are theirs
+  FLAGS_logtostderr = true;       // else glog writes to files in /tmp
   module.attr("__version__") = ARMCAL_VERSION;
   py::register_exception<armcal::InputError>(module, "InputError",
                                              PyExc_ValueError)

@@ -8,6 +8,7 @@
 #include "model/signals/low_pass.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -234,7 +235,8 @@ void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
   if (GapRows(segments, bandwidth_hz, part).num_rows() > 0) return;
   throw InputError(logs.path(0), "", "",
                    "no motion is left of it, expected a longer stretch without "
-                   "gap or standstill, or a higher --bandwidth than " +
+                   "gap or standstill, or a higher " +
+                       OptionName("bandwidth") + " than " +
                        NumberText(bandwidth_hz) + " Hz");
 }
 

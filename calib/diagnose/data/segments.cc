@@ -11,6 +11,7 @@
 #include "model/signals/standstill.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -113,7 +114,7 @@ void FindStillJoints(GapSegment* segment) {
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                                      const Progress& progress, LogSet* logs) {
   if (!(bandwidth_hz > 0)) {
-    throw InputError("", "--bandwidth", NumberText(bandwidth_hz),
+    throw InputError("", OptionName("bandwidth"), NumberText(bandwidth_hz),
                      "expected a frequency above 0 Hz: torques are compared "
                      "below it");
   }

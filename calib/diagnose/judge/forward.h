@@ -26,7 +26,7 @@ struct ForwardRobots {
 };
 
 // How far simulated positions are from recorded ones that nothing was chosen
-// on. E of DESIGN.md is the mean over samples and joints of squared deviations,
+// on. E is the mean over samples and joints of squared deviations,
 // each joint's in units of what measurement noise alone would leave, so that
 // the floor is 1 and radians and metres can be added.
 struct ForwardGap {

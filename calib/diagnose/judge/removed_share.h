@@ -15,8 +15,8 @@ struct HeldOutSquares {
   Eigen::MatrixXd after;    // with the effects
 };
 
-// Means over samples and joints: E of DESIGN.md. The floor is the noise: 1, or
-// what is left where that is less.
+// E, a mean over samples and joints of squares in units of the noise's. The
+// floor is the noise: 1, or what is left where that is less.
 struct GapFigures {
   double nominal = 0;
   double refit = 0;

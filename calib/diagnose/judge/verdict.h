@@ -5,7 +5,7 @@
 
 namespace armcal {
 
-// DESIGN.md, diagnosis.json.
+// The `verdict` of diagnosis.json (docs/diagnose.md).
 enum class GapVerdict {
   kNoiseFloor,
   kAbsorbed,

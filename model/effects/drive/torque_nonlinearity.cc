@@ -12,7 +12,8 @@ double FallTorque(const EffectSite& site) { return 2 * TorqueScale(site); }
 }  // namespace
 
 // logged = given (1 + fall (given / fall_torque)^2), the first odd term by
-// which iron that saturates takes more current than torque (GAP.md C2).
+// which iron that saturates takes more current than torque: of a constant that
+// falls with the current's square.
 Effect TorqueNonlinearity() {
   Effect effect;
   effect.name = "torque_nonlinearity";

@@ -96,11 +96,12 @@ inline double& FromTip(Eigen::VectorXd* x, int k) {
 }
 
 // A kind of effect whose law differs on purpose from the one that estimation
-// would use (GAP.md, "inverse crime").
+// would use: to estimate with the very law that made the data would be an
+// "inverse crime" and say nothing about real robots.
 struct HiddenEffect {
   enum class Scope { kJoint, kRobot };
   std::string name;
-  bool in_catalogue = true;  // one of DESIGN.md's effect names
+  bool in_catalogue = true;  // model/effects has the name, too
   Scope scope = Scope::kJoint;
   std::string sentence;  // what it is and when it shows
   std::vector<EffectParameter> parameters;

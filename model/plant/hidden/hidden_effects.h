@@ -8,7 +8,7 @@
 
 namespace armcal {
 
-// Every kind there is: DESIGN.md's effect names, then those outside the
+// Every kind there is: those of model/effects, then those outside the
 // catalogue.
 const std::vector<HiddenEffect>& HiddenEffects();
 // nullptr where there is none of that name.

@@ -69,7 +69,7 @@ TEST(CommandedTorque, OfLogsThatLoseRows) {
 }
 
 // Positions shake by what their encoders do, at even times or not; what torques
-// make of it is held against Simbody in gap_position_noise_test.
+// make of it is held against Simbody in diagnose_data_position_noise_test.
 TEST(CommandedTorque, KnowsTheNoiseOfPositions) {
   const Robot truth = CommandedTruth(3);
   const ControllerOptions controller = CommandedController(truth);

@@ -41,7 +41,7 @@ GapDiagnosis Diagnosis() {
   diagnosis.candidates = {{first.effect, 1, .9, 30}};
   diagnosis.moved = {{"forearm.mass", "kg", 2, 2.5, .1, 3}};
   diagnosis.untestable = {{"backlash", "elbow", "the load never reverses"}};
-  diagnosis.data = {{"currents", "no torque column", "--torque_constants"}};
+  diagnosis.data = {{"currents", "no torque column", "`torque_constants`"}};
   diagnosis.torque.removed_percent = 93.4;
   diagnosis.bandwidth_hz = 8;
   diagnosis.unexplained = {"elbow", "time", .1};
@@ -157,7 +157,7 @@ TEST(FullReport, HoldsEveryPart) {
        {"stribeck on elbow: size 1.25 +- 0.04 N m, share 0.5 +- 0.01\n",
         "or 8 % presliding on elbow", "told apart by: constant velocities",
         "forearm.mass", "backlash: the load never reverses (elbow)",
-        "currents: no torque column (--torque_constants)", "removed 93 %",
+        "currents: no torque column (`torque_constants`)", "removed 93 %",
         "noise told from: assumed"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
@@ -184,7 +184,7 @@ TEST(FullReport, GathersWhatIsNotTestable) {
                         "  spring: it rests (hand)\n"));
 }
 
-// Type by type, DESIGN.md's keys of diagnosis.json.
+// Type by type, the keys of diagnosis.json (docs/diagnose.md).
 void ExpectKeys(const json& object, const std::string& numbers,
                 const std::string& strings, const std::string& arrays) {
   const auto expect = [&](const std::string& keys, auto is) {

@@ -78,7 +78,7 @@ TEST(DriveGains, ScaleIsThePayloads) {
       driven.arm.file, 1, {currents.bare, currents.bare}, {}, ExactOptions());
   EXPECT_FALSE(bare.solved);
   EXPECT_THAT(bare.reason, HasSubstr("the torque scale is not observable"));
-  EXPECT_THAT(bare.reason, HasSubstr("--payload_mass"));
+  EXPECT_THAT(bare.reason, HasSubstr("`payload_mass`"));
   for (const DriveGain& gain : bare.gains) {
     EXPECT_FALSE(gain.identifiable);
     EXPECT_TRUE(std::isnan(gain.value) && std::isinf(gain.stddev));

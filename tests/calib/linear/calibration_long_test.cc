@@ -25,7 +25,7 @@ LinearCalibrationOptions PaperOptions() {
   return options;
 }
 
-// MATH.md D2: SCARA, 4 s at 2 ms, encoders with 1e-4 rad, torques with 1 %.
+// SCARA, 4 s at 2 ms, encoders with 1e-4 rad, torques with 1 %.
 MonteCarlo RunScara(const LinearCalibrationOptions& options, int runs) {
   const Robot robot = PaperScara();
   Log exact = RecordMotion(ScaraMultisine(), 4, .002);

@@ -78,7 +78,7 @@ RowOptions Simpson(const std::vector<TimeRange>& intervals) {
   return rows;
 }
 
-// MATH.md E3: a PUMA of which joints 2 and 3 only move.
+// A PUMA of which joints 2 and 3 only move.
 Log PumaLog(const std::vector<int>& active) {
   std::mt19937_64 random(5);
   Multisine motion = RandomMultisine(&random, 6);
@@ -236,7 +236,8 @@ Robot PaperScara() {
   return robot;
 }
 
-// MATH.md B, motion A (time-symmetric) and sets of intervals.
+// A motion that is symmetric in time, with which some sets of intervals leave
+// joint 2 without full rank.
 Log ScaraLog() {
   const VectorXd w = Eigen::Vector4d(.5, 1, .5, 1) * M_PI;
   const VectorXd a = Eigen::Vector4d(.8, .6, .05, .7);

@@ -181,8 +181,8 @@ TEST(LengthRecovery, RatioOfLengthsNearestToTheFile) {
   }
 }
 
-// MATH.md D3: 10 s at 500 Hz with 1 % torque noise; its bound for lengths from
-// a constrained fit is .28, .43, 1.21, .62 mm on another motion.
+// 10 s at 500 Hz with 1 % torque noise; the Cramer-Rao bound of lengths in a
+// fit of links is .28, .43, 1.21, .62 mm on another motion.
 TEST(LengthRecovery, PumaWithNoise) {
   const Lengths c("PUMA560 6R", GeometryKnowledge::kNonzeroLengths, .01);
   const auto lengths = c.Recover(c.solution.x);

@@ -127,7 +127,7 @@ TEST(LinearSolution, RecursionIsTheLiteralOne) {
 }
 
 // It is the limit of weights that fall steeply from the last joint to the
-// first (MATH.md D1: ratio 100 differs by 8e-6).
+// first (a prototype at ratio 100: 8e-6).
 TEST(LinearSolution, RecursionIsTheLimitOfWeights) {
   const Equations e("SCARA RRPR", 700, .01 * VectorXd::Ones(4));
   ExpectNear(SolveWeighted(e.Factor(), Eigen::Vector4d(1, 1e-2, 1e-4, 1e-6),
@@ -179,7 +179,7 @@ TEST(LinearSolution, CovarianceOfWeightedAndBatch) {
   });
 }
 
-// Weights found from the residuals cost a few percent at most (MATH.md D1).
+// Weights found from the residuals cost a few percent at most.
 TEST(LinearSolution, ReweightingReachesTheBoundAndTheNoise) {
   Equations e("PUMA560 6R", 400, UnequalNoise());
   const BlockTriangularFactor first = e.Factor();

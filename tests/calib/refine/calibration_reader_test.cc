@@ -164,7 +164,7 @@ TEST_F(ChangedCalibration, OfAnotherRobotOrKind) {
   EXPECT_THAT(RefusalAfter([](json* c) { (*c)["joints"].erase(2); }),
               HasSubstr("expected 3 joints"));
   EXPECT_THAT(RefusalOf("/estimate", "linear"),
-              HasSubstr("run armcal calibrate --estimate=refined"));
+              HasSubstr("run armcal calibrate `estimate`=refined"));
 }
 
 TEST_F(ChangedCalibration, ParametersAndFriction) {
@@ -181,7 +181,7 @@ TEST_F(ChangedCalibration, ParametersAndFriction) {
   EXPECT_THAT(RefusalOf("/parameters/0/value", -5),
               HasSubstr("expected a number of at least 0, as link1.mass is"));
   EXPECT_THAT(RefusalOf("/parameters/3/name", "link9.mass"),
-              HasSubstr("expected a parameter of the robot of --robot"));
+              HasSubstr("expected a parameter of the robot of `robot`"));
   EXPECT_THAT(RefusalOf("/parameters/3/name", "link1.mass"),
               HasSubstr("expected every parameter only once"));
   EXPECT_THAT(RefusalAfter([](json* c) { (*c)["parameters"].erase(3); }),

@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(
                             GeometryKnowledge::kNonzeroLengths, false, 25}),
     [](const auto& info) { return info.param.name; });
 
-// 10 s at 500 Hz with 1 % torque noise (MATH.md D3: a linear fit that knows
+// 10 s at 500 Hz with 1 % torque noise (a linear fit that knows
 // positions, velocities and accelerations exactly has .31 mm on its motion).
 TEST(PumaLengths, UpperArmToAThirdOfAMillimetre) {
   Robot robot = SampleRobot("PUMA560 6R");

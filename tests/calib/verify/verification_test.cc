@@ -98,7 +98,7 @@ TEST(Verify, StatesOfALog) {
   EXPECT_NEAR(result.log_states, 300, 5);
 }
 
-// The published third link of the PUMA 560 cannot exist (ECOSYSTEM.md 1.3).
+// The published third link of the PUMA 560 cannot exist: Iyy > Ixx + Izz.
 TEST(Verify, RefusedLinksAreNamedAndTheRestIsChecked) {
   std::mt19937_64 random(5);
   Robot robot = SampleRobot("PUMA560 6R");

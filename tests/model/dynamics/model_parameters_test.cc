@@ -214,7 +214,7 @@ TEST(ModelParameters, RandomChains) {
 }
 
 // Rotors of joint 1, and of joint 2 where its axis is perpendicular to joint
-// 1's, are Izz[1] and Izz[2] (MATH.md E1).
+// 1's, are Izz[1] and Izz[2]: their energies are of one form, qd^2.
 TEST(ModelParameters, ArmatureOfTheFirstJointsIsMerged) {
   for (const char* name : {"PUMA560 6R", "UR5 6R", "Panda 7R"}) {
     const ModelParameters parameters =

@@ -105,7 +105,7 @@ TEST(BagSource, SaysWhatIsWrong) {
   const std::string no_effort =
       "FILE: row 1: no torque: missing tau1 or joint1/effort, tau2 or "
       "joint2/effort; or currents (i1 or joint1/current, ..) with "
-      "--torque_constants; " +
+      "`torque_constants`; " +
       has + "; the effort of joint1, joint2 is empty or NaN in all messages";
   EXPECT_EQ(RefusalOf("nan_effort.mcap"), no_effort);
   EXPECT_EQ(RefusalOf("empty_effort.mcap"), no_effort);
@@ -129,7 +129,7 @@ TEST(BagSource, SaysWhatIsWrong) {
             "expected times");
   EXPECT_EQ(RefusalOf("two_arms.mcap"),
             "FILE: the position of joint joint1 is in /joint_states and in "
-            "/simulated/joint_states: choose one by --topics=/joint_states");
+            "/simulated/joint_states: choose one by `topics`=/joint_states");
   EXPECT_EQ(RefusalOf("two_arms.mcap", {{"/joint_states", std::nullopt}}), "");
   EXPECT_EQ(RefusalOf("two_arms.mcap", {{"/left", std::nullopt}}),
             "FILE: topic /left: is not in the bag; the bag has /joint_states "

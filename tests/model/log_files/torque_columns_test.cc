@@ -78,16 +78,16 @@ TEST(TorqueColumns, SayWhatIsMissing) {
   EXPECT_EQ(Find("t,q1,q2", Options(TorqueKind::kAuto)),
             "FILE: row 1: no torque: missing tau1 or shoulder/effort, tau2 or "
             "elbow/effort; or currents (i1 or shoulder/current, ..) with "
-            "--torque_constants");
+            "`torque_constants`");
   EXPECT_EQ(Find("t,q1,q2,qref1,qref2", Options(TorqueKind::kAuto)),
             "FILE: row 1: no torque: missing tau1 or shoulder/effort, tau2 or "
             "elbow/effort; or currents (i1 or shoulder/current, ..) with "
-            "--torque_constants; or --controller, under which calibrate and "
+            "`torque_constants`; or `controller`, under which calibrate and "
             "verify simulate how the log's commands (qref) are followed");
   EXPECT_EQ(Find("t,i1,i2", Options(TorqueKind::kAuto)),
             "FILE: the torque comes from currents, its scale is not observable "
-            "from them alone: expected --torque_constants=K1,.. in N m/A, one "
-            "per joint, or --payload_mass and --payload_log to estimate them");
+            "from them alone: expected `torque_constants`=K1,.. in N m/A, one "
+            "per joint, or `payload_mass` and `payload_log` to estimate them");
   EXPECT_EQ(Find("t,tau2,i1", Options(TorqueKind::kAuto)),
             "FILE: row 1: missing tau1 or shoulder/effort; the robot has 2 "
             "joints, the log holds tau2");
@@ -108,19 +108,19 @@ TEST(TorqueColumns, RefuseFactorsThatDoNotFit) {
   const std::string header = "t,i1,i2";
   const double inf = std::numeric_limits<double>::infinity();
   EXPECT_EQ(Find(header, Options(TorqueKind::kAuto, {1.5, 2, 3})),
-            "--torque_constants: found '1.5 2 3': expected one value per "
+            "`torque_constants`: found '1.5 2 3': expected one value per "
             "joint, the robot has 2");
   EXPECT_EQ(Find(header, Options(TorqueKind::kAuto, {1, 1}, {100})),
-            "--gear_ratios: found '100': expected one value per joint, the "
+            "`gear_ratios`: found '100': expected one value per joint, the "
             "robot has 2");
   EXPECT_EQ(Find(header, Options(TorqueKind::kAuto, {1, 0})),
-            "--torque_constants, joint elbow: found '0': expected a finite "
+            "`torque_constants`, joint elbow: found '0': expected a finite "
             "number other than 0");
   EXPECT_EQ(Find(header, Options(TorqueKind::kAuto, {1, 1}, {inf, 1})),
-            "--gear_ratios, joint shoulder: found 'inf': expected a finite "
+            "`gear_ratios`, joint shoulder: found 'inf': expected a finite "
             "number other than 0");
   EXPECT_EQ(Find(header, Options(TorqueKind::kAuto, {std::nan(""), 1})),
-            "--torque_constants, joint shoulder: found 'nan': expected a "
+            "`torque_constants`, joint shoulder: found 'nan': expected a "
             "finite number other than 0");
 }
 

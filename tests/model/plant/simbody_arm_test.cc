@@ -106,7 +106,7 @@ TEST(SimbodyArm, SwingHasThePendulumsPeriod) {
 
 TEST(SimbodyArm, RefusalNamesTheLink) {
   Robot robot = Pendulum(2, .7);
-  // The published third link of the PUMA 560 (ECOSYSTEM.md 1.3).
+  // The published third link of the PUMA 560, whose Iyy exceeds Ixx + Izz.
   robot.links[0].inertial = InertialParameters::FromCenterOfMass(
       4.8, Eigen::Vector3d(0, 0, .07),
       Eigen::Vector3d(.066, .086, .0125).asDiagonal().toDenseMatrix());

@@ -145,11 +145,11 @@ INSTANTIATE_TEST_SUITE_P(
              "expected an axis that is not zero"},
         Case{"joint name=\"shoulder\"", "joint name=\"shoulder\" type=\"ball\"",
              "line 16, joint 'shoulder': found 'ball': expected a hinge or "
-             "slide joint, or none, in the chain; --base=upper starts behind "
+             "slide joint, or none, in the chain; `base`=upper starts behind "
              "it"},
         Case{"<joint name=\"shoulder\"/>", "<freejoint name=\"shoulder\"/>",
              "line 16, joint 'shoulder': found 'free': expected a hinge or "
-             "slide joint, or none, in the chain; --base=upper starts behind "
+             "slide joint, or none, in the chain; `base`=upper starts behind "
              "it"},
         Case{"<light pos=\"0 0 1\"/>", "<include file=\"x.xml\"/>",
              "line 12, <include file>: found 'x.xml': expected a file without "
@@ -189,7 +189,7 @@ TEST(MjcfReader, BaseAndTip) {
   options.tip = "nowhere";
   EXPECT_EQ(MessageOf<InputError>(WriteFile(kArm, "arm.xml"),
                                   [&] { Read(kArm, options); }),
-            "FILE: --tip: found 'nowhere': expected one of the links world, "
+            "FILE: `tip`: found 'nowhere': expected one of the links world, "
             "base, upper, lower, flange");
   options.tip = "upper";
   EXPECT_THAT(Read(kArm, options).JointNames(), ElementsAre("shoulder"));

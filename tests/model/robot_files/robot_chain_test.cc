@@ -94,24 +94,24 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"<link name=\"fore\"/>",
              "<link name=\"fore\"/><link name=\"box\"/>",
              "found 'base, box': expected one root link: choose one with "
-             "--base"},
+             "`base`"},
         Case{"revolute", "floating",
              "line 11, joint 'shoulder': found 'floating': expected a "
              "revolute, continuous, prismatic or fixed joint in the chain; "
-             "--base=upper starts behind it"},
+             "`base`=upper starts behind it"},
         Case{"continuous", "planar",
              "line 20, joint 'elbow': found 'planar': expected a revolute, "
-             "continuous, prismatic or fixed joint in the chain; --base=fore "
+             "continuous, prismatic or fixed joint in the chain; `base`=fore "
              "starts behind it"},
         Case{"<origin xyz=\"0.4 0 0\"/>", "<mimic joint=\"shoulder\"/>",
              "line 20, joint 'elbow': found 'mimic': expected joints that move "
-             "on their own in the chain; end it before with --tip"},
+             "on their own in the chain; end it before with `tip`"},
         Case{"<link name=\"fore\"/>",
              "<link name=\"fore\"/><link name=\"finger\"/>"
              "<joint name=\"grip\" type=\"prismatic\"><parent link=\"upper\"/>"
              "<child link=\"finger\"/></joint>",
              "found 'finger, fore': expected one chain: choose its last link "
-             "with --tip"}));
+             "with `tip`"}));
 
 TEST(RobotChain, BaseAndTip) {
   const auto refusal = [](const std::string& base, const std::string& tip) {
@@ -120,15 +120,15 @@ TEST(RobotChain, BaseAndTip) {
     options.tip = tip;
     return Refusal(kArm, options);
   };
-  EXPECT_EQ(refusal("world", ""), "--base: found 'world': " NAMES);
-  EXPECT_EQ(refusal("", "hand"), "--tip: found 'hand': " NAMES);
+  EXPECT_EQ(refusal("world", ""), "`base`: found 'world': " NAMES);
+  EXPECT_EQ(refusal("", "hand"), "`tip`: found 'hand': " NAMES);
   EXPECT_EQ(refusal("fore", ""),
             "expected a joint that moves a link of base link 'fore'");
   EXPECT_EQ(refusal("fore", "upper"),
-            "--tip: found 'upper': expected a link that joints connect to the "
+            "`tip`: found 'upper': expected a link that joints connect to the "
             "base link 'fore'");
   EXPECT_EQ(refusal("", "base"),
-            "--tip: found 'base': expected a link that a joint moves relative "
+            "`tip`: found 'base': expected a link that a joint moves relative "
             "to 'base'");
 }
 

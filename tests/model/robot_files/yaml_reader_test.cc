@@ -100,7 +100,7 @@ TEST(YamlReader, NotesAndOptions) {
           "inequality); it serves as a start value only"));
   options.tip = "tool";
   EXPECT_EQ(Refusal(kScara, options),
-            "--tip: found 'tool': expected no such flag with a YAML robot, "
+            "`tip`: found 'tool': expected no such flag with a YAML robot, "
             "which is one chain");
 }
 

@@ -58,7 +58,7 @@ TEST(JudgeGap, WhatHasNoNameIsUnknown) {
   EXPECT_NE(JudgeGap(facts), GapVerdict::kUnknown);
 }
 
-// DESIGN.md: explained brings the gap to within 30 % of what is removable.
+// Explained brings the gap to within 30 % of what is removable.
 TEST(JudgeGap, ThirtyPercentMayBeLeft) {
   GapFacts facts = Facts(12, 11, 3.9);
   facts.effects = true;

@@ -1,4 +1,4 @@
-// As hidden_forms_long_test.cc, for torques of position and time, contacts,
+// As forms_long_test.cc, for torques of position and time, contacts,
 // drives and gears.
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
-// The hidden laws are not those of estimation, "inverse crime" of GAP.md: the
-// best fit of each textbook form leaves a misfit. Nor are they something else:
-// the form explains most of them.
+// The hidden laws are not those of estimation, or tests would only show that
+// the same law fits itself (an "inverse crime"): the best fit of each textbook
+// form leaves a misfit. Nor are they something else: the form explains most of
+// them.
 #include <gtest/gtest.h>
 
 #include "tests/model/plant/hidden/form_misfit.h"

@@ -17,7 +17,7 @@ namespace armcal::hidden_effects_test {
 using Eigen::VectorXd;
 using Scope = HiddenEffect::Scope;
 
-// DESIGN.md, "Effect names".
+// As a diagnosis names them, in the order of model/effects/effect_list.h.
 const char* const kCatalogue[] = {"viscous_friction",
                                   "coulomb_friction",
                                   "torque_offset",

@@ -1,4 +1,4 @@
-#include "tools/excite_flags.h"
+#include "tools/commands/excite_flags.h"
 
 #include <gflags/gflags.h>
 

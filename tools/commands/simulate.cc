@@ -1,4 +1,4 @@
-#include "tools/simulate.h"
+#include "tools/commands/simulate.h"
 
 #include <gflags/gflags.h>
 
@@ -6,10 +6,10 @@
 #include "model/plant/hidden/truth_json.h"
 #include "model/text/input_text.h"
 #include "tools/command.h"
+#include "tools/commands/simulate_effects.h"
+#include "tools/commands/simulate_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
-#include "tools/simulate_effects.h"
-#include "tools/simulate_flags.h"
 #include "tools/simulation_flags.h"
 
 DECLARE_string(torque_constants);

@@ -1,4 +1,4 @@
-#include "tools/calibrate_commanded.h"
+#include "tools/commands/calibrate_commanded.h"
 
 #include <gflags/gflags.h>
 
@@ -12,9 +12,9 @@
 #include "calib/closed_loop/output_error_report.h"
 #include "calib/linear/calibrate_linear.h"
 #include "model/text/input_text.h"
-#include "tools/calibrate_flags.h"
-#include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
+#include "tools/commands/calibrate_flags.h"
+#include "tools/commands/calibrate_refined.h"
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"

@@ -1,4 +1,4 @@
-#include "tools/commanded_torques.h"
+#include "tools/commands/commanded_torques.h"
 
 #include <gflags/gflags.h>
 

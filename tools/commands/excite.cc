@@ -1,4 +1,4 @@
-#include "tools/excite.h"
+#include "tools/commands/excite.h"
 
 #include <gflags/gflags.h>
 
@@ -12,9 +12,9 @@
 #include "calib/refine/given_calibration.h"
 #include "model/log_files/log_writer.h"
 #include "model/text/input_error.h"
-#include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
-#include "tools/excite_flags.h"
+#include "tools/commands/calibrate_refined.h"
+#include "tools/commands/excite_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/report/report_data.h"

@@ -1,4 +1,4 @@
-#include "tools/verify.h"
+#include "tools/commands/verify.h"
 
 #include <gflags/gflags.h>
 

@@ -1,4 +1,4 @@
-#include "tools/correct_trajectories.h"
+#include "tools/commands/correct_trajectories.h"
 
 #include <gflags/gflags.h>
 

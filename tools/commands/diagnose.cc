@@ -1,4 +1,4 @@
-#include "tools/diagnose.h"
+#include "tools/commands/diagnose.h"
 
 #include <gflags/gflags.h>
 
@@ -9,9 +9,9 @@
 #include "calib/diagnose/robot_export.h"
 #include "model/effects/effects.h"
 #include "model/robot_files/robot_reader.h"
-#include "tools/calibrate_refined.h"
 #include "tools/command_report.h"
-#include "tools/commanded_torques.h"
+#include "tools/commands/calibrate_refined.h"
+#include "tools/commands/commanded_torques.h"
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"

@@ -1,4 +1,4 @@
-#include "tools/inspect.h"
+#include "tools/commands/inspect.h"
 
 #include <gflags/gflags.h>
 

@@ -1,4 +1,4 @@
-#include "tools/calibrate_poses.h"
+#include "tools/commands/calibrate_poses.h"
 
 #include <gflags/gflags.h>
 
@@ -10,10 +10,10 @@
 #include "model/robot_files/robot_reader.h"
 #include "model/robot_files/urdf_update.h"
 #include "model/robot_files/urdf_writer.h"
-#include "tools/calibrate_refined.h"
-#include "tools/calibrate_report.h"
 #include "tools/command.h"
 #include "tools/command_report.h"
+#include "tools/commands/calibrate_refined.h"
+#include "tools/commands/calibrate_report.h"
 #include "tools/export_flags.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"

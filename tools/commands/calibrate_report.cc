@@ -1,4 +1,4 @@
-#include "tools/calibrate_report.h"
+#include "tools/commands/calibrate_report.h"
 
 #include <gflags/gflags.h>
 

@@ -1,4 +1,4 @@
-#include "tools/calibrate_refined.h"
+#include "tools/commands/calibrate_refined.h"
 
 #include <gflags/gflags.h>
 

@@ -1,4 +1,4 @@
-#include "tools/simulate_flags.h"
+#include "tools/commands/simulate_flags.h"
 
 #include <gflags/gflags.h>
 
@@ -7,8 +7,8 @@
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 #include "tools/command.h"
+#include "tools/commands/simulate_effects.h"
 #include "tools/input_flags.h"
-#include "tools/simulate_effects.h"
 #include "tools/simulation_flags.h"
 
 DEFINE_string(effects, "",

@@ -1,4 +1,4 @@
-#include "tools/merge.h"
+#include "tools/commands/merge.h"
 
 #include <gflags/gflags.h>
 

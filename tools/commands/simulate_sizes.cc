@@ -1,4 +1,4 @@
-#include "tools/simulate_sizes.h"
+#include "tools/commands/simulate_sizes.h"
 
 #include <algorithm>
 #include <array>

@@ -16,7 +16,7 @@
 
 #include "calib/numerics/thread_limit.h"
 #include "model/text/input_error.h"
-#include "tools/command.h"
+#include "model/text/option_name.h"
 #include "tools/completion.h"
 #include "tools/console.h"
 #include "tools/flag_parser.h"
@@ -25,6 +25,7 @@
 #include "tools/interruption.h"
 #include "tools/manual.h"
 #include "tools/nearest_name.h"
+#include "tools/program/command_list.h"
 #include "tools/progress_bar.h"
 #include "tools/usage.h"
 #include "tools/version.h"
@@ -55,9 +56,9 @@ const Command& CommandNamed(const std::string& name) {
 // "help", "help COMMAND", "help COMMAND --all"; "help --man" is for packages.
 int Help(const Words& words) {
   if (words.empty()) {
-    PrintText(GeneralHelp());
+    PrintText(GeneralHelp(Commands()));
   } else if (words[0] == "--man") {
-    PrintText(ManualPage());
+    PrintText(ManualPage(Commands()));
   } else {
     const bool all = words.size() > 1 && IsOneOf(words[1], kFullHelp);
     PrintText(CommandHelp(CommandNamed(words[0]), all));
@@ -97,7 +98,7 @@ int Run(const Command& command, int argc, char** argv) {
 
 int Main(int argc, char** argv) {
   if (argc < 2) {
-    std::cerr << GeneralHelp();
+    std::cerr << GeneralHelp(Commands());
     return kExitUsage;
   }
   const Words words(argv + 1, argv + argc);
@@ -108,7 +109,7 @@ int Main(int argc, char** argv) {
     return kExitOk;
   }
   if (words[0] == "completion") {
-    PrintText(Completion(rest));
+    PrintText(Completion(Commands(), rest));
     return kExitOk;
   }
   CheckLibraryVersions();
@@ -178,6 +179,7 @@ int TellError() {
 
 int main(int argc, char** argv) {
   armcal::PrepareProcess();
+  armcal::SetOptionPrefix("--");
   armcal::PrepareHeap();
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);

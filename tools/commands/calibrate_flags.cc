@@ -1,4 +1,4 @@
-#include "tools/calibrate_flags.h"
+#include "tools/commands/calibrate_flags.h"
 
 #include <gflags/gflags.h>
 

@@ -1,4 +1,4 @@
-#include "tools/simulate_effects.h"
+#include "tools/commands/simulate_effects.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 
 #include "model/text/input_text.h"
 #include "tools/command.h"
+#include "tools/commands/simulate_sizes.h"
 #include "tools/flag_choices.h"
 #include "tools/nearest_name.h"
-#include "tools/simulate_sizes.h"
 #include "tools/usage.h"
 
 namespace armcal {

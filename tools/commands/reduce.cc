@@ -1,4 +1,4 @@
-#include "tools/reduce.h"
+#include "tools/commands/reduce.h"
 
 #include <gflags/gflags.h>
 
@@ -13,7 +13,7 @@
 #include "calib/numerics/sha256.h"
 #include "model/text/calendar_time.h"
 #include "model/text/input_error.h"
-#include "tools/calibrate_flags.h"
+#include "tools/commands/calibrate_flags.h"
 #include "tools/input_flags.h"
 #include "tools/report/report_page.h"
 

@@ -1,4 +1,4 @@
-#include "tools/calibrate_payload.h"
+#include "tools/commands/calibrate_payload.h"
 
 #include <gflags/gflags.h>
 

@@ -1,4 +1,4 @@
-#include "tools/calibrate.h"
+#include "tools/commands/calibrate.h"
 
 #include <gflags/gflags.h>
 
@@ -13,13 +13,13 @@
 #include "calib/linear/outlier_report.h"
 #include "calib/linear/verdict.h"
 #include "model/text/input_text.h"
-#include "tools/calibrate_commanded.h"
-#include "tools/calibrate_flags.h"
-#include "tools/calibrate_payload.h"
-#include "tools/calibrate_poses.h"
-#include "tools/calibrate_refined.h"
-#include "tools/calibrate_report.h"
-#include "tools/correct_trajectories.h"
+#include "tools/commands/calibrate_commanded.h"
+#include "tools/commands/calibrate_flags.h"
+#include "tools/commands/calibrate_payload.h"
+#include "tools/commands/calibrate_poses.h"
+#include "tools/commands/calibrate_refined.h"
+#include "tools/commands/calibrate_report.h"
+#include "tools/commands/correct_trajectories.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/report/report_data.h"
