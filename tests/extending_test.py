@@ -72,8 +72,12 @@ def apply_page(page, tree):
 def copied(root, tree):
     """The sources, with their times, so that a second run builds little."""
     shutil.rmtree(tree, ignore_errors=True)
-    shutil.copytree(root, tree, symlinks=True, ignore=shutil.ignore_patterns(
-        ".git", "build*", "armcal-out", "__pycache__"))
+    tree.mkdir(parents=True)
+    for path in root.iterdir():
+        if path.is_file():
+            shutil.copy2(path, tree)
+        elif not path.name.startswith((".git", "build", "armcal-out")):
+            shutil.copytree(path, tree / path.name, symlinks=True)
     return tree
 
 
