@@ -40,7 +40,7 @@ TYPE = re.compile(r"^(?:class|struct|enum class) (\w+)(?: final)?[^;{]*\{", re.M
 FUNCTION = re.compile(r"^\w[\w:<>,*& ]*[ *&](\w+)\(([^;{}()]*)\)(?: const)? \{", re.M)
 
 
-TEST = re.compile(r"(?<![\w/.<{}*-])[a-z][a-z0-9_]*_test\b(?!\.\w)")
+TEST = re.compile(r"(?<![\w/.:<{}*-])[a-z][a-z0-9_]*_test\b(?!\.\w)")
 CTEST = re.compile(r"ctest[^`\n]* -R[ =]*[\"']?([^`\"'\n A-Z]+)")
 ADDED = re.compile(r"add_test\(NAME (\w+)")
 
