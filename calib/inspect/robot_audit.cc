@@ -68,7 +68,7 @@ class RobotAudit {
 
  private:
   void Add(const char* finding, const std::string& sentence,
-           const std::string& evidence, const char* remedy) {
+           const std::string& evidence, const std::string& remedy) {
     findings_.push_back({finding, sentence, evidence, remedy});
   }
 
