@@ -1,27 +1,10 @@
 #include "tools/command_report.h"
 
-#include <gflags/gflags.h>
-
-#include "tools/command.h"
+#include "tools/flag_parser.h"
 #include "tools/input_flags.h"
 #include "tools/report/report_data.h"
 
 namespace armcal {
-namespace {
-
-// As they would be typed, in the order of --help.
-std::vector<std::string> GivenFlags(const std::string& command) {
-  std::vector<std::string> given;
-  for (const std::string& flag : FindCommand(command)->FlagNames()) {
-    const auto info = gflags::GetCommandLineFlagInfoOrDie(flag.c_str());
-    if (info.is_default) continue;
-    given.push_back("--" + flag + "=" + info.current_value);
-  }
-  return given;
-}
-
-}  // namespace
-
 void AddReport(const std::string& command, const Robot& robot,
                const nlohmann::json& result,
                const std::vector<std::string>& files,
@@ -34,7 +17,7 @@ void AddReport(const std::string& command, const Robot& robot,
   content.result = result;
   content.skeleton = SkeletonJson(robot, BentPosture(robot));
   content.arguments = {"armcal", command};
-  for (const std::string& flag : GivenFlags(command)) {
+  for (const std::string& flag : FlagsAsTyped()) {
     content.arguments.push_back(flag);
   }
   content.files.push_back(HashFile(RobotPathFromFlags()));

@@ -96,6 +96,13 @@ GivenFlags OfFile(const Command& command, const std::string& path) {
   return flags;
 }
 
+// Of the command that was parsed last, in the order of --help. Of the process,
+// as the values of gflags are.
+std::vector<std::string>& ParsedFlags() {
+  static std::vector<std::string> names;
+  return names;
+}
+
 void Set(const GivenFlag& flag) {
   const auto info = gflags::GetCommandLineFlagInfoOrDie(flag.name.c_str());
   if (!gflags::SetCommandLineOption(flag.name.c_str(), flag.value.c_str())
@@ -111,6 +118,7 @@ void Set(const GivenFlag& flag) {
 std::map<std::string, std::string> ParseFlags(const Command& command, int argc,
                                               char** argv) {
   const GivenFlags given = OfCommandLine(command, argc, argv);
+  ParsedFlags() = command.FlagNames();
   std::map<std::string, std::string> places;
   for (const GivenFlag& flag : given) {
     if (flag.name != "flagfile") continue;
@@ -126,6 +134,16 @@ std::map<std::string, std::string> ParseFlags(const Command& command, int argc,
     places.erase(flag.name);
   }
   return places;
+}
+
+std::vector<std::string> FlagsAsTyped() {
+  std::vector<std::string> typed;
+  for (const std::string& flag : ParsedFlags()) {
+    const auto info = gflags::GetCommandLineFlagInfoOrDie(flag.c_str());
+    if (info.is_default) continue;
+    typed.push_back("--" + flag + "=" + info.current_value);
+  }
+  return typed;
 }
 
 }  // namespace armcal

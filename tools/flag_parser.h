@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "tools/command.h"
 
@@ -18,5 +19,9 @@ namespace armcal {
 // is found wrong with their values later.
 std::map<std::string, std::string> ParseFlags(const Command& command, int argc,
                                               char** argv);
+
+// The flags of the command parsed last that are not at their defaults, as they
+// would be typed, in the order of --help.
+std::vector<std::string> FlagsAsTyped();
 
 }  // namespace armcal
