@@ -5,6 +5,7 @@
 #include "tools/report/report_data.h"
 
 namespace armcal {
+
 void AddReport(const std::string& command, const Robot& robot,
                const nlohmann::json& result,
                const std::vector<std::string>& files,
