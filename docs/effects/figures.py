@@ -139,7 +139,8 @@ RESIDUALS = {  # name: (residual of joint 1, N m; what orders it; its label)
                       LOAD[0], "load, N m"),
     "position_friction": (each(lambda k: math.sin(4 * Q[k]) * sign(V[k])), Q,
                           "q, rad"),
-    "coupled_friction": (each(lambda k: sign(V[k] - MOTION.v[1][k])),
+    "coupled_friction": (each(lambda k: .7 * sign(V[k] - MOTION.v[1][k]) +
+                              .3 * (V[k] - MOTION.v[1][k])),
                          [a - b for a, b in zip(V, MOTION.v[1])],
                          "v - neighbour's"),
     "presliding": ([z - sign(v) for z, v in zip(bristles(.08), V)], V,

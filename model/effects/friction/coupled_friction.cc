@@ -11,6 +11,8 @@ namespace {
 std::vector<EffectParameter> CoupledParameters() {
   return {Linear("friction", "E", ShareOfTorque(.05),
                  EffectParameter::Sign::kPositive),
+          Linear("viscous", "E s/P", ShareOfDrag(.05),
+                 EffectParameter::Sign::kPositive),
           NeighbourParameter(),
           Gridded("ratio", "1",
                   [](const EffectSite& site) {
@@ -31,10 +33,11 @@ std::vector<EffectParameter> CoupledParameters() {
 
 void ApplyCoupled(const EffectSite& site, const Eigen::VectorXd& p,
                   SimulatedRobot* robot) {
-  const int j = site.joint, k = static_cast<int>(std::lround(p[1])) - 1;
-  const double friction = p[0], ratio = p[2], w = p[3];
+  const int j = site.joint, k = static_cast<int>(std::lround(p[2])) - 1;
+  const double friction = p[0], viscous = p[1], ratio = p[3], w = p[4];
   const InstantTorque torque = [=](const ArmInstant& at) {
-    return -friction * std::tanh((at.velocity[j] + ratio * at.velocity[k]) / w);
+    const double u = at.velocity[j] + ratio * at.velocity[k];
+    return -(friction * std::tanh(u / w) + viscous * u);
   };
   AddFriction(site, torque, robot);
   EffectSite other = site;
@@ -45,23 +48,25 @@ void ApplyCoupled(const EffectSite& site, const Eigen::VectorXd& p,
 
 }  // namespace
 
-// tau = -friction tanh(u / width) on the joint and ratio times that on its
-// neighbour, u = v + ratio v_neighbour: a bearing between two shafts of a wrist
-// turns with u, and its torque's power is never positive.
+// tau = -(friction tanh(u / width) + viscous u) on the joint and ratio times
+// that on its neighbour, u = v + ratio v_neighbour: a bearing between two
+// shafts of a wrist turns with u, and its torque's power is never positive. The
+// wrist of a Staubli TX40 has both parts (shared/data/tx40/TRUTH.md).
 Effect CoupledFriction() {
   Effect effect;
   effect.name = "coupled_friction";
   effect.nature = Effect::Nature::kLaw;
   effect.law =
-      "tau = friction sign(v + ratio v_neighbour), here and ratio "
-      "times there";
+      "tau = friction sign(u) + viscous u, u = v + ratio v_neighbour, here and "
+      "ratio times there";
   effect.shows = "neighbours that move one without the other and together";
   effect.parameters = CoupledParameters();
   effect.apply = ApplyCoupled;
   effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return std::vector<EffectEstimate>{{"friction", UnitAt(site, "E"), p[0]},
-                                       {"ratio", "1", p[2]},
-                                       {"neighbour", "1", p[1]}};
+                                       {"viscous", UnitAt(site, "E s/P"), p[1]},
+                                       {"ratio", "1", p[3]},
+                                       {"neighbour", "1", p[2]}};
   };
   effect.unfit = WhyNoNeighbour;
   effect.experiment =

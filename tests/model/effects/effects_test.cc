@@ -10,12 +10,6 @@
 #include "model/signals/low_pass.h"
 #include "tests/fixtures/effect_arm.h"
 
-namespace armcal {
-inline namespace effects {
-void PrintTo(const Effect& effect, std::ostream* out) { *out << effect.name; }
-}  // namespace effects
-}  // namespace armcal
-
 namespace armcal::effects_test {
 
 using Eigen::MatrixXd;

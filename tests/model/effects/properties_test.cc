@@ -9,12 +9,7 @@
 #include "model/effects/effects.h"
 #include "tests/fixtures/effect_arm.h"
 
-namespace armcal {
-inline namespace effects {
-void PrintTo(const Effect& effect, std::ostream* out) { *out << effect.name; }
-}  // namespace effects
-
-namespace {
+namespace armcal::properties_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -108,5 +103,4 @@ TEST_P(PropertiesOf, DependsOnItsVelocityAlone) {
 INSTANTIATE_TEST_SUITE_P(Catalogue, PropertiesOf, testing::ValuesIn(Effects()),
                          [](const auto& info) { return info.param.name; });
 
-}  // namespace
-}  // namespace armcal
+}  // namespace armcal::properties_test

@@ -36,7 +36,7 @@ class GapCoordinatesTest : public testing::Test {
 TEST_F(GapCoordinatesTest, WhatIsVaried) {
   EXPECT_EQ(Of("viscous_friction").size(), 1u);
   EXPECT_EQ(Of("cable").size(), 3u);
-  EXPECT_EQ(Of("coupled_friction").size(), 3u);
+  EXPECT_EQ(Of("coupled_friction").size(), 4u);
 }
 
 // Where stamps are even, unevenness says nothing.
