@@ -67,9 +67,9 @@ endfunction()
 
 function(add_room_tests)
   if(PRECOMPILE)
-    # What makes the precompiled header of all.
+    # A program without tests makes the precompiled header of all.
     file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cc "")
-    add_library(test_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cc)
+    add_executable(test_headers ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cc)
     target_link_libraries(test_headers PRIVATE tested)
     target_precompile_headers(test_headers PRIVATE <Eigen/Dense>
       <Eigen/Geometry> <functional> <gmock/gmock.h> <gtest/gtest.h> <string>

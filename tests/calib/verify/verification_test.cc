@@ -13,6 +13,8 @@
 
 namespace armcal::verification_test {
 
+using namespace urdf_text;
+
 using testing::ElementsAre;
 using testing::HasSubstr;
 

@@ -122,7 +122,8 @@ TEST(InverseDynamics, GyroscopicMoment) {
 
 // Kinetic and potential energy from poses alone; velocities of the links by
 // central differences of order 4.
-double Energy(const Robot& robot, const VectorXd& q, const VectorXd& qd) {
+double SumOfEnergies(const Robot& robot, const VectorXd& q,
+                     const VectorXd& qd) {
   const double h = 1e-3;
   const auto X = LinkPoses(robot, q);
   std::vector<std::vector<Isometry3d>> near;
@@ -178,8 +179,8 @@ TEST(InverseDynamics, WorkIsTheChangeOfEnergy) {
       work += weight * dt / 3 *
               InverseDynamics(robot, q(t), qd(t), qdd(t)).dot(qd(t));
     }
-    const double change =
-        Energy(robot, q(end), qd(end)) - Energy(robot, q(0), qd(0));
+    const double change = SumOfEnergies(robot, q(end), qd(end)) -
+                          SumOfEnergies(robot, q(0), qd(0));
     EXPECT_NEAR(work, change, 1e-7 * (1 + std::abs(change))) << trial;
   }
 }

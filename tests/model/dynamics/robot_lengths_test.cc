@@ -12,6 +12,8 @@
 
 namespace armcal::robot_lengths_test {
 
+using namespace urdf_text;
+
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;

@@ -9,6 +9,8 @@
 
 namespace armcal::robot_chain_test {
 
+using namespace urdf_text;
+
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using testing::ElementsAre;

@@ -8,6 +8,8 @@
 
 namespace armcal::urdf_elements_test {
 
+using namespace urdf_text;
+
 class UrdfElement : public testing::TestWithParam<Case> {};
 
 TEST_P(UrdfElement, SaysWhereAndWhy) {

@@ -13,6 +13,8 @@
 
 namespace armcal::urdf_reader_test {
 
+using namespace urdf_text;
+
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Translation3d;

@@ -10,6 +10,8 @@
 
 namespace armcal::yaml_reader_test {
 
+using namespace yaml_text;
+
 using Eigen::Vector3d;
 using testing::ElementsAre;
 using testing::IsEmpty;

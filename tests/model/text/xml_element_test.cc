@@ -8,6 +8,8 @@
 
 namespace armcal::xml_element_test {
 
+using namespace urdf_text;
+
 class XmlFileRefusal : public testing::TestWithParam<Case> {};
 
 TEST_P(XmlFileRefusal, SaysWhereAndWhy) {

@@ -9,6 +9,8 @@
 
 namespace armcal::yaml_node_test {
 
+using namespace yaml_text;
+
 class YamlNodeRefusal : public testing::TestWithParam<Case> {};
 
 TEST_P(YamlNodeRefusal, SaysWhereAndWhy) {

@@ -1,5 +1,6 @@
 #include "calib/diagnose/data/audit.h"
 
+#include "calib/diagnose/data/segments.h"
 #include "model/dynamics/inverse_dynamics.h"
 #include "tests/fixtures/diagnosed_arm.h"
 

@@ -7,6 +7,7 @@
 
 #include "calib/closed_loop/commanded_torque.h"
 #include "calib/diagnose/data/data.h"
+#include "calib/diagnose/data/segments.h"
 #include "model/log_files/log_writer.h"
 #include "tests/fixtures/commanded_arm.h"
 #include "tests/fixtures/temp_file.h"

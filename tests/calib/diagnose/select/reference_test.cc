@@ -1,5 +1,6 @@
 #include "calib/diagnose/select/reference.h"
 
+#include "calib/diagnose/data/segments.h"
 #include "tests/fixtures/diagnosed_arm.h"
 
 namespace armcal::reference_test {
