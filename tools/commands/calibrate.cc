@@ -9,6 +9,7 @@
 #include "calib/excite/segment_selection.h"
 #include "calib/linear/calibrate_linear.h"
 #include "calib/linear/calibration.h"
+#include "calib/linear/calibration_model.h"
 #include "calib/linear/calibration_report.h"
 #include "calib/linear/outlier_report.h"
 #include "calib/linear/verdict.h"
@@ -55,9 +56,10 @@ Task TaskFromFlags(const CommandInput& input) {
 
 // Adds the robot for simulators to the outputs. False where one was asked for
 // and there is none.
-bool Refine(const Task& task, const LinearCalibration& linear, LogSet* training,
-            LogSet* held_out, std::optional<NonlinearCalibration>* refined,
-            nlohmann::json* json, CommandOutcome* outcome) {
+bool Refine(const Task& task, const LinearCalibration& linear,
+            const LogSet& training, const LogSet* held_out,
+            std::optional<NonlinearCalibration>* refined, nlohmann::json* json,
+            CommandOutcome* outcome) {
   if (!task.refinement || !linear.solved) return true;
   const Refinement& refinement = *task.refinement;
   if (!refinement.why_not.empty()) {
@@ -77,7 +79,7 @@ bool Refine(const Task& task, const LinearCalibration& linear, LogSet* training,
 
 // With --select the segments to calibrate on take the place of all logs.
 std::optional<SegmentSelection> SelectFromFlags(const Task& task,
-                                                LogSet* training) {
+                                                const LogSet& training) {
   constexpr double kMostRatio = 1.25;  // of standard deviations
   if (!FLAGS_select) return {};
   if (task.linear.identification != Identification::kWeak) {
@@ -104,26 +106,26 @@ CommandOutcome RunCalibrate(const CommandInput& input) {
   input.Begin("opening the logs");
   const auto gains = DriveGainsFromFlags(robot, task.linear, &task.logs);
   if (gains && !gains->solved) return UnsolvedGains(robot, *gains);
-  LogSet training(LogsFromFlags(), task.logs, CropFromFlags());
-  LogSet validation(ValidationLogsFromFlags(), task.logs,
-                    ValidationCropFromFlags());
-  LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
+  LogSet training(LogFiles(LogsFromFlags()), task.logs, CropFromFlags());
+  const LogSet validation(LogFiles(ValidationLogsFromFlags()), task.logs,
+                          ValidationCropFromFlags());
+  const LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
 
   const std::optional<SegmentSelection> selection =
-      SelectFromFlags(task, &training);
+      SelectFromFlags(task, training);
   CommandOutcome outcome;
   std::string& report = outcome.output.text;
   if (gains) report = DriveGainsReport(*gains);
   if (selection) {
     report += SelectionText(*selection, training);
-    training.Keep(selection->Stretches(training));
+    training = training.Within(selection->Stretches(training));
   }
   LinearCalibration result =
-      CalibrateLinear(robot, task.linear, &training, held_out);
+      CalibrateLinear(robot, task.linear, training, held_out);
   result.identifiability.advice =
-      AdviseMotions(robot, result, task.linear, &training);
+      AdviseMotions(robot, result, task.linear, training);
   const std::string corrected =
-      CorrectTrajectories(robot, task.linear, &training, held_out, &result);
+      CorrectTrajectories(robot, task.linear, training, held_out, &result);
   if (result.solved) {
     outcome.model = std::make_shared<TracedModel>(
         TracedModel{"calibrated", result.parameters, result.x});
@@ -136,15 +138,17 @@ CommandOutcome RunCalibrate(const CommandInput& input) {
   OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   std::optional<NonlinearCalibration> arm;
   const bool refined =
-      Refine(task, result, &training, held_out, &arm, &json, &outcome);
+      Refine(task, result, training, held_out, &arm, &json, &outcome);
   outcome.output.json = json.dump(2) + "\n";
   out.Add("calibration.json", outcome.output.json);
   out.Add("covariance.csv", CovarianceCsv(result));
-  out.Add("outliers.csv", OutlierCsv(robot, training));
+  out.Add("outliers.csv", OutlierCsv(robot, training, result));
   AddCalibrationReport(
       robot, json,
       {result, arm ? &*arm : nullptr,
-       held_out != nullptr ? held_out : &training, input.progress},
+       held_out != nullptr ? Prepare(*held_out, PreparationForRows(result.rows))
+                           : Prepare(training, result.preparation),
+       input.progress},
       &out);
   outcome.output.verdict = robot.name + ": ";
   outcome.output.positive = refined && Shortcomings(robot, result).empty();

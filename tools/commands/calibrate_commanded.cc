@@ -106,9 +106,9 @@ std::optional<TorqueInformation> TorquesFromFlags(const Robot& robot,
   NonlinearCalibrationOptions options;
   options.trust = TrustFromFlags();
   options.progress = input.progress;
-  LogSet logs(paths, LogOptionsFromFlags(robot), TimeRange());
-  return InformByTorques(robot, CalibrateLinear(robot, linear, &logs, nullptr),
-                         options, &logs);
+  const LogSet logs(LogFiles(paths), LogOptionsFromFlags(robot), TimeRange());
+  return InformByTorques(robot, CalibrateLinear(robot, linear, logs, nullptr),
+                         options, logs);
 }
 
 void ExpectMasses(const Robot& robot) {

@@ -67,10 +67,10 @@ std::optional<DriveGains> DriveGainsFromFlags(
   CheckOtherFlags(options, *log_options);
   log_options->torque_kind = TorqueKind::kCurrent;
   log_options->torque_constants.assign(robot.num_joints(), 1);
-  LogSet bare(LogsFromFlags(), *log_options, CropFromFlags());
-  LogSet payload(payload_logs, *log_options, TimeRange());
+  const LogSet bare(LogFiles(LogsFromFlags()), *log_options, CropFromFlags());
+  const LogSet payload(LogFiles(payload_logs), *log_options, TimeRange());
   const DriveGains gains =
-      EstimateDriveGains(robot, options, mass, &bare, &payload);
+      EstimateDriveGains(robot, options, mass, bare, &payload);
   if (gains.solved) log_options->torque_constants = gains.TorqueConstants();
   return gains;
 }

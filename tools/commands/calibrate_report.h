@@ -15,7 +15,7 @@ namespace armcal {
 struct CalibrationDrawing {
   const LinearCalibration& linear;
   const NonlinearCalibration* refined;  // null: there is none
-  LogSet* logs;                         // whose torques are drawn
+  PreparedLogs logs;                    // whose torques are drawn
   Progress progress;
 };
 

@@ -45,7 +45,8 @@ void CheckTrajectoryFlag(const LinearCalibrationOptions& options) {
 
 std::string CorrectTrajectories(const Robot& robot,
                                 const LinearCalibrationOptions& options,
-                                LogSet* training, LogSet* validation,
+                                const LogSet& training,
+                                const LogSet* validation,
                                 LinearCalibration* result) {
   if (!IsAskedFor() || !result->solved) return "";
   const TrajectoryRefinement refinement =

@@ -15,7 +15,8 @@ void CheckTrajectoryFlag(const LinearCalibrationOptions& options);
 // what a person reads about it; else nothing.
 std::string CorrectTrajectories(const Robot& robot,
                                 const LinearCalibrationOptions& options,
-                                LogSet* training, LogSet* validation,
+                                const LogSet& training,
+                                const LogSet* validation,
                                 LinearCalibration* result);
 
 }  // namespace armcal

@@ -3,7 +3,7 @@
 #include <gflags/gflags.h>
 
 #include <cmath>
-#include <memory>
+#include <optional>
 
 #include "calib/diagnose/report.h"
 #include "calib/diagnose/robot_export.h"
@@ -121,26 +121,28 @@ CommandOutcome RunDiagnose(const CommandInput& input) {
   log_options.want_temperature = true;
   input.Begin("opening the logs");
   MakeTorquesOfCommands(robot, FilesRead(), &log_options);
-  LogSet training(LogsFromFlags(), log_options, CropFromFlags());
+  const LogSet training(LogFiles(LogsFromFlags()), log_options,
+                        CropFromFlags());
   options.progress = input.progress;
   options.baseline.trust = TrustInFile();
   options.bandwidth_hz =
       BandwidthFromFlags().value_or(DiagnosisBandwidth(training.time_bases()));
-  std::unique_ptr<LogSet> reference, validation;
+  std::optional<LogSet> reference, validation;
   if (!FLAGS_reference.empty()) {
-    reference = std::make_unique<LogSet>(SplitAtCommas(FLAGS_reference),
-                                         log_options, TimeRange());
+    reference.emplace(LogFiles(SplitAtCommas(FLAGS_reference)), log_options,
+                      TimeRange());
   }
   const std::vector<std::string> held_out = ValidationLogsFromFlags();
   if (!held_out.empty()) {
-    validation = std::make_unique<LogSet>(held_out, log_options,
-                                          ValidationCropFromFlags());
+    validation.emplace(LogFiles(held_out), log_options,
+                       ValidationCropFromFlags());
   }
   SetController(robot, log_options, &options);
   options.forward = FLAGS_forward;
   options.seed = SeedFromFlags();
   const GapDiagnosis diagnosis =
-      DiagnoseGap(robot, options, &training, validation.get(), reference.get());
+      DiagnoseGap(robot, options, training, validation ? &*validation : nullptr,
+                  reference ? &*reference : nullptr);
   return Finish(robot, diagnosis, validation ? *validation : training);
 }
 

@@ -53,18 +53,20 @@ GivenCalibration LearnFromLogs(const Robot& robot,
                                const std::vector<std::string>& paths,
                                const ModelParameters& model,
                                const Progress& progress) {
-  LogSet logs(paths, LogOptionsFromFlags(robot), CropFromFlags());
+  const LogSet logs(LogFiles(paths), LogOptionsFromFlags(robot),
+                    CropFromFlags());
   LinearCalibrationOptions options;
   options.joint_terms = kTerms;
   options.bandwidth_hz = BandwidthFromFlags();
   options.progress = progress;
   const LinearCalibration linear =
-      CalibrateLinear(robot, options, &logs, nullptr);
+      CalibrateLinear(robot, options, logs, nullptr);
   if (!linear.solved) {
     throw InputError(paths[0], "", "", "--given: " + linear.reason);
   }
   const Eigen::VectorXd density = ErrorDensity(linear);
-  return {density, GivenInformation(robot, model, density, progress, &logs)};
+  return {density, GivenInformation(robot, model, density, progress,
+                                    Prepare(logs, linear.preparation))};
 }
 
 // How large errors of the torque are, and what is known already.

@@ -58,8 +58,9 @@ ReductionModel ModelFromFlags(const Robot& robot, const CommandInput& input) {
   if (FLAGS_like.empty()) {
     LinearCalibrationOptions options = LinearOptionsFromFlags(robot);
     options.progress = input.progress;
-    LogSet logs(LogsFromFlags(), LogOptionsFromFlags(robot), CropFromFlags());
-    return ChooseReductionModel(robot, sha256, options, &logs);
+    const LogSet logs(LogFiles(LogsFromFlags()), LogOptionsFromFlags(robot),
+                      CropFromFlags());
+    return ChooseReductionModel(robot, sha256, options, logs);
   }
   for (const char* flag :
        {"geometry", "identification", "joint_terms", "coulomb_width", "window",
@@ -97,8 +98,8 @@ CommandOutcome RunReduce(const CommandInput& input) {
   OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
   Reduction all{model, {}};
   for (const std::string& path : LogsFromFlags()) {
-    LogSet log({path}, LogOptionsFromFlags(robot), CropFromFlags());
-    ReducedLog reduced = ReduceLog(robot, model, input.progress, &log);
+    const LogSet log({path}, LogOptionsFromFlags(robot), CropFromFlags());
+    ReducedLog reduced = ReduceLog(robot, model, input.progress, log);
     reduced.sha256 = HashLog(path);
     reduced.unit = FLAGS_unit;
     reduced.time = time;

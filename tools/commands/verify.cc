@@ -75,7 +75,7 @@ CommandOutcome Finish(const Robot& file, const VerificationReport& report,
 
 // The torques of the file's robot, and of the calibrated one.
 nlohmann::json Traces(const Robot& file, const CalibratedRobot* calibrated,
-                      const Progress& progress, LogSet* logs) {
+                      const Progress& progress, const PreparedLogs& logs) {
   if (OutFromFlags().empty()) return nlohmann::json::array();
   std::vector<TracedModel> models = {TraceRobot("the robot file", file, {})};
   if (calibrated != nullptr) {
@@ -96,7 +96,7 @@ nlohmann::json VerifyOnLogs(const Robot& file,
     report->closed_loop = CloseLoop(file, calibrated, *commanded);
     if (commanded->log.tau.size() == 0) {
       // Positions alone: the robot is verified on random states.
-      report->verification = Verify(report->robot, options, nullptr);
+      report->verification = VerifyDynamics(report->robot, options, nullptr);
       if (calibrated != nullptr &&
           calibrated->Saw(commanded->path, CropFromFlags())) {
         report->seen_logs = report->logs;
@@ -104,15 +104,19 @@ nlohmann::json VerifyOnLogs(const Robot& file,
       return nlohmann::json::array();
     }
   }
-  LogSet logs(report->logs, LogOptionsFromFlags(file), CropFromFlags());
+  const LogSet logs(LogFiles(report->logs), LogOptionsFromFlags(file),
+                    CropFromFlags());
   if (calibrated != nullptr) report->seen_logs = SeenLogs(*calibrated, logs);
-  logs.Prepare(BandwidthFor(calibrated, logs), 0);
-  report->verification = Verify(report->robot, options, &logs);
+  PreparationOptions prepared;
+  prepared.bandwidth_hz = BandwidthFor(calibrated, logs);
+  const PreparedLogs states = Prepare(logs, prepared);
+  report->verification = VerifyDynamics(report->robot, options, &states);
   RolloutOptions rollouts;
   rollouts.progress = options.progress;
   report->rollouts = CompareRollouts(file, calibrated, rollouts,
-                                     logs.bandwidth_hz(), report->seed, &logs);
-  return Traces(file, calibrated, options.progress, &logs);
+                                     prepared.bandwidth_hz, report->seed, logs);
+  return Traces(file, calibrated, options.progress,
+                Prepare(logs, PreparationFor(rollouts, prepared.bandwidth_hz)));
 }
 
 CommandOutcome RunVerify(const CommandInput& input) {
@@ -134,7 +138,7 @@ CommandOutcome RunVerify(const CommandInput& input) {
   options.progress = input.progress;
   nlohmann::json torques = nlohmann::json::array();
   if (FLAGS_log.empty()) {
-    report.verification = Verify(report.robot, options, nullptr);
+    report.verification = VerifyDynamics(report.robot, options, nullptr);
   } else {
     torques = VerifyOnLogs(file, calibrated ? &*calibrated : nullptr, options,
                            &report);

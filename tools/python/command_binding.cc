@@ -156,15 +156,17 @@ std::vector<PredictedLog> Trace(const Outcome& outcome,
   const py::gil_scoped_release release;
   const auto logs = [&] {
     const FlagSession session(CommandNamed("calibrate"), flags);
-    return std::make_unique<LogSet>(
-        LogsFromFlags(), LogOptionsFromFlags(robot.robot), CropFromFlags());
+    return LogSet(LogFiles(LogsFromFlags()), LogOptionsFromFlags(robot.robot),
+                  CropFromFlags());
   }();
-  logs->Prepare(bandwidth_hz, 0);
+  PreparationOptions prepared;
+  prepared.bandwidth_hz = bandwidth_hz;
   std::vector<PredictedLog> predicted;
-  for (const TorqueTrace& trace : TraceTorques(
-           {*outcome.model}, kMostSamples, reporter.AsProgress(), logs.get())) {
+  for (const TorqueTrace& trace :
+       TraceTorques({*outcome.model}, kMostSamples, reporter.AsProgress(),
+                    Prepare(logs, prepared))) {
     predicted.push_back(
-        FromTrace(trace, logs->path(trace.log), robot.robot.num_joints()));
+        FromTrace(trace, logs.path(trace.log), robot.robot.num_joints()));
   }
   return predicted;
 }

@@ -155,13 +155,13 @@ json TracesJson(const Robot& robot, const std::vector<std::string>& labels,
 }
 
 json TracesJson(const Robot& robot, const std::vector<TracedModel>& models,
-                LogSet* logs, const Progress& progress) {
+                const PreparedLogs& logs, const Progress& progress) {
   const int count = static_cast<int>(models.size());
-  const int bins = MostTraceBins(logs->size(), robot.num_joints(), count);
+  const int bins = MostTraceBins(logs.size(), robot.num_joints(), count);
   std::vector<std::string> labels;
   for (const TracedModel& model : models) labels.push_back(model.label);
   return TracesJson(robot, labels, TraceTorques(models, bins, progress, logs),
-                    *logs);
+                    logs.logs());
 }
 
 json RoundedJson(const VectorXd& values) {

@@ -26,8 +26,8 @@ nlohmann::json TracesJson(const Robot& robot,
                           const LogSet& logs);
 // Of the logs' torques.
 nlohmann::json TracesJson(const Robot& robot,
-                          const std::vector<TracedModel>& models, LogSet* logs,
-                          const Progress& progress);
+                          const std::vector<TracedModel>& models,
+                          const PreparedLogs& logs, const Progress& progress);
 
 // The same of positions: {log, logs, labels, t, joints}.
 nlohmann::json PositionsJson(const Robot& robot,
