@@ -1,27 +1,26 @@
 #include "tools/command_report.h"
 
-#include "tools/flag_parser.h"
 #include "tools/input_flags.h"
 #include "tools/report/report_data.h"
 
 namespace armcal {
 
-void AddReport(const std::string& command, const Robot& robot,
-               const nlohmann::json& result,
+void AddReport(const CommandInput& input, const std::string& command,
+               const Robot& robot, const nlohmann::json& result,
                const std::vector<std::string>& files,
                const std::function<void(ReportContent*)>& complete,
                OutputFolder* out) {
-  if (OutFromFlags().empty()) return;
+  if (!input.WantsReport()) return;
   ReportContent content;
   content.command = command;
   content.robot = robot.name;
   content.result = result;
   content.skeleton = SkeletonJson(robot, BentPosture(robot));
   content.arguments = {"armcal", command};
-  for (const std::string& flag : FlagsAsTyped()) {
+  for (const std::string& flag : input.flags.AsTyped()) {
     content.arguments.push_back(flag);
   }
-  content.files.push_back(HashFile(RobotPathFromFlags()));
+  content.files.push_back(HashFile(RobotPathFromFlags(input)));
   for (const std::string& file : files) content.files.push_back(HashFile(file));
   if (complete) complete(&content);
   out->Add("report.html", ReportPage(content));

@@ -12,9 +12,6 @@
 #include "tools/report/report_data.h"
 #include "tools/simulation_flags.h"
 
-DECLARE_string(controller);
-DECLARE_string(log);
-
 DEFINE_string(
     calibration, "",
     "`FILE` calibration.json of armcal calibrate for --robot: its refined "
@@ -23,8 +20,9 @@ DEFINE_string(
 namespace armcal {
 namespace {
 
-double BandwidthFor(const CalibratedRobot* calibrated, const LogSet& logs) {
-  const std::optional<double> given = BandwidthFromFlags();
+double BandwidthFor(const FlagValues& flags, const CalibratedRobot* calibrated,
+                    const LogSet& logs) {
+  const std::optional<double> given = BandwidthFromFlags(flags);
   if (given) return *given;
   return calibrated ? calibrated->bandwidth_hz
                     : DefaultBandwidth(logs.time_bases());
@@ -42,31 +40,35 @@ std::vector<std::string> SeenLogs(const CalibratedRobot& calibrated,
 }
 
 // The log that --controller is to follow, if it is given.
-std::optional<CommandedLog> CommandsFromFlags(const Robot& file) {
-  if (FLAGS_controller.empty()) return std::nullopt;
-  return ReadCommandedLog(LogsFromFlags()[0], LogOptionsFromFlags(file),
-                          CropFromFlags());
+std::optional<CommandedLog> CommandsFromFlags(const CommandInput& input,
+                                              const Robot& file) {
+  const FlagValues& flags = input.flags;
+  if (flags.Text("controller").empty()) return std::nullopt;
+  return ReadCommandedLog(LogsFromFlags(input)[0],
+                          LogOptionsFromFlags(flags, file),
+                          CropFromFlags(flags));
 }
 
-ClosedLoopComparison CloseLoop(const Robot& file,
+ClosedLoopComparison CloseLoop(const FlagValues& flags, const Robot& file,
                                const CalibratedRobot* calibrated,
                                const CommandedLog& log) {
   const ControllerOptions controller =
-      ControllerFromFlags(file, log.log.qref.row(0));
+      ControllerFromFlags(flags, file, log.log.qref.row(0));
   return CompareClosedLoop(file, calibrated, controller, log);
 }
 
-CommandOutcome Finish(const Robot& file, const VerificationReport& report,
+CommandOutcome Finish(const CommandInput& input, const Robot& file,
+                      const VerificationReport& report,
                       const nlohmann::json& torques) {
   CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
   const nlohmann::json json = ToJson(report);
   const std::string text = json.dump(2) + "\n";
   out.Add("verification.json", text);
   std::vector<std::string> files = report.logs;
-  if (!FLAGS_calibration.empty()) files.push_back(FLAGS_calibration);
+  if (!report.calibration.empty()) files.push_back(report.calibration);
   AddReport(
-      "verify", file, json, files,
+      input, "verify", file, json, files,
       [&](ReportContent* content) { content->torques = torques; }, &out);
   outcome.output = {text, FullReport(report), file.name + ": ", report.passed(),
                     file.notes};
@@ -74,72 +76,76 @@ CommandOutcome Finish(const Robot& file, const VerificationReport& report,
 }
 
 // The torques of the file's robot, and of the calibrated one.
-nlohmann::json Traces(const Robot& file, const CalibratedRobot* calibrated,
-                      const Progress& progress, LogSet* logs) {
-  if (OutFromFlags().empty()) return nlohmann::json::array();
+nlohmann::json Traces(const CommandInput& input, const Robot& file,
+                      const CalibratedRobot* calibrated, LogSet* logs) {
+  if (!input.WantsReport()) return nlohmann::json::array();
   std::vector<TracedModel> models = {TraceRobot("the robot file", file, {})};
   if (calibrated != nullptr) {
     models.push_back(
         TraceRobot("calibrated", calibrated->robot, calibrated->transitions));
   }
-  return TracesJson(file, models, logs, progress);
+  return TracesJson(file, models, logs, input.progress);
 }
 
 // What logs say, where there are any; returns their torques.
-nlohmann::json VerifyOnLogs(const Robot& file,
+nlohmann::json VerifyOnLogs(const CommandInput& input, const Robot& file,
                             const CalibratedRobot* calibrated,
                             const VerificationOptions& options,
                             VerificationReport* report) {
-  report->logs = LogsFromFlags();
-  const std::optional<CommandedLog> commanded = CommandsFromFlags(file);
+  const FlagValues& flags = input.flags;
+  report->logs = LogsFromFlags(input);
+  const std::optional<CommandedLog> commanded = CommandsFromFlags(input, file);
   if (commanded) {
-    report->closed_loop = CloseLoop(file, calibrated, *commanded);
+    report->closed_loop = CloseLoop(flags, file, calibrated, *commanded);
     if (commanded->log.tau.size() == 0) {
       // Positions alone: the robot is verified on random states.
       report->verification = Verify(report->robot, options, nullptr);
       if (calibrated != nullptr &&
-          calibrated->Saw(commanded->path, CropFromFlags())) {
+          calibrated->Saw(commanded->path, CropFromFlags(flags))) {
         report->seen_logs = report->logs;
       }
       return nlohmann::json::array();
     }
   }
-  LogSet logs(report->logs, LogOptionsFromFlags(file), CropFromFlags());
+  LogSet logs(report->logs, LogOptionsFromFlags(flags, file),
+              CropFromFlags(flags));
   if (calibrated != nullptr) report->seen_logs = SeenLogs(*calibrated, logs);
-  logs.Prepare(BandwidthFor(calibrated, logs), 0);
+  logs.Prepare(BandwidthFor(flags, calibrated, logs), 0);
   report->verification = Verify(report->robot, options, &logs);
   RolloutOptions rollouts;
   rollouts.progress = options.progress;
   report->rollouts = CompareRollouts(file, calibrated, rollouts,
                                      logs.bandwidth_hz(), report->seed, &logs);
-  return Traces(file, calibrated, options.progress, &logs);
+  return Traces(input, file, calibrated, &logs);
 }
 
 CommandOutcome RunVerify(const CommandInput& input) {
-  if (!FLAGS_controller.empty() && LogsFromFlags().size() != 1) {
+  const FlagValues& flags = input.flags;
+  if (!flags.Text("controller").empty() && LogsFromFlags(input).size() != 1) {
     throw UsageError("--controller follows the command of one log: --log=FILE");
   }
   const Robot file = RobotFromFlags(input);
   std::optional<CalibratedRobot> calibrated;
-  if (!FLAGS_calibration.empty()) {
-    calibrated = ReadCalibration(FLAGS_calibration, file);
+  const std::string calibration = flags.Text("calibration");
+  if (!calibration.empty()) {
+    calibrated = ReadCalibration(calibration, file);
   }
   VerificationReport report;
   report.robot = calibrated ? calibrated->robot : file;
-  report.calibration = FLAGS_calibration;
+  report.calibration = calibration;
   report.calibration_converged = !calibrated || calibrated->converged;
   VerificationOptions options;
-  options.seed = report.seed = SeedFromFlags();
+  options.seed = report.seed = SeedFromFlags(flags);
   input.Begin("verifying");
   options.progress = input.progress;
   nlohmann::json torques = nlohmann::json::array();
-  if (FLAGS_log.empty()) {
+  if (flags.Text("log").empty()) {
     report.verification = Verify(report.robot, options, nullptr);
   } else {
-    torques = VerifyOnLogs(file, calibrated ? &*calibrated : nullptr, options,
-                           &report);
+    torques = VerifyOnLogs(input, file, calibrated ? &*calibrated : nullptr,
+                           options, &report);
   }
-  return Finish(file, report, torques);
+  return Finish(input, file, report, torques);
 }
 
 }  // namespace

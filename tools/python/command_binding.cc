@@ -13,7 +13,7 @@
 #include "model/text/decimal_point.h"
 #include "tools/flag_text.h"
 #include "tools/input_flags.h"
-#include "tools/python/flag_session.h"
+#include "tools/python/command_flags.h"
 #include "tools/python/loaded_robot.h"
 #include "tools/python/samples.h"
 
@@ -69,26 +69,28 @@ struct Outcome {
   std::shared_ptr<const TracedModel> model;
 };
 
-// Holds no GIL.
-CommandOutcome RunWithFlags(const std::string& name, const FlagTexts& flags,
-                            const CommandInput& input, bool write) {
-  const Command& command = CommandNamed(name);
-  const FlagSession session(command, flags);
-  const ThreadLimit limit(ThreadsFromFlags());
-  CommandOutcome outcome = command.run(input);
+// Holds no GIL. Several may run at once, each with the threads it asks for.
+CommandOutcome RunWithInput(const Command& command, const CommandInput& input,
+                            bool write) {
+  CommandOutcome outcome;
+  WithThreads(ThreadsFromFlags(input.flags),
+              [&] { outcome = command.run(input); });
   if (write) OutputFolder::WriteTogether(&outcome.folders);
   return outcome;
 }
 
-Outcome Run(const std::string& command, const FlagTexts& flags,
+Outcome Run(const std::string& name, const FlagTexts& flags,
             const std::optional<LoadedRobot>& robot, const py::object& progress,
             bool write) {
   Reporter reporter(progress);
   const py::gil_scoped_release release;
+  const Command& command = CommandNamed(name);
   CommandInput input;
+  input.flags = FlagsOf(command, flags);
   if (robot) input.robot = robot->robot;
   input.progress = reporter.AsProgress();
-  const CommandOutcome found = RunWithFlags(command, flags, input, write);
+  input.report = true;
+  const CommandOutcome found = RunWithInput(command, input, write);
   Outcome outcome{found.code(), TextWithNotes(found.output),
                   found.brief,  {},
                   {},           found.model};
@@ -154,28 +156,25 @@ std::vector<PredictedLog> Trace(const Outcome& outcome,
   }
   Reporter reporter(progress);
   const py::gil_scoped_release release;
-  const auto logs = [&] {
-    const FlagSession session(CommandNamed("calibrate"), flags);
-    return std::make_unique<LogSet>(
-        LogsFromFlags(), LogOptionsFromFlags(robot.robot), CropFromFlags());
-  }();
-  logs->Prepare(bandwidth_hz, 0);
+  CommandInput input;
+  input.flags = FlagsOf(CommandNamed("calibrate"), flags);
+  LogSet logs(LogsFromFlags(input),
+              LogOptionsFromFlags(input.flags, robot.robot),
+              CropFromFlags(input.flags));
+  logs.Prepare(bandwidth_hz, 0);
   std::vector<PredictedLog> predicted;
-  for (const TorqueTrace& trace : TraceTorques(
-           {*outcome.model}, kMostSamples, reporter.AsProgress(), logs.get())) {
+  for (const TorqueTrace& trace : TraceTorques({*outcome.model}, kMostSamples,
+                                               reporter.AsProgress(), &logs)) {
     predicted.push_back(
-        FromTrace(trace, logs->path(trace.log), robot.robot.num_joints()));
+        FromTrace(trace, logs.path(trace.log), robot.robot.num_joints()));
   }
   return predicted;
 }
 
 Log ReadLog(const std::string& path, const LoadedRobot& robot,
             const FlagTexts& flags, bool torque) {
-  LogReaderOptions options;
-  {
-    const FlagSession session(CommandNamed("inspect"), flags);
-    options = LogOptionsFromFlags(robot.robot);
-  }
+  LogReaderOptions options =
+      LogOptionsFromFlags(FlagsOf(CommandNamed("inspect"), flags), robot.robot);
   options.need_torque = torque;
   options.want_velocity = options.want_acceleration = true;
   options.want_reference = options.want_temperature = true;
