@@ -11,7 +11,6 @@
 #include "model/log_files/log_reader.h"
 #include "model/signals/trajectory.h"
 #include "model/text/decimal_point.h"
-#include "tools/flag_text.h"
 #include "tools/input_flags.h"
 #include "tools/python/command_flags.h"
 #include "tools/python/loaded_robot.h"
@@ -113,17 +112,6 @@ py::dict FilesOf(const Outcome& outcome) {
   return files;
 }
 
-// {name: (default, description)}, in the order of --help.
-py::dict OptionsOf(const std::string& command) {
-  py::dict options;
-  for (const std::string& flag : CommandNamed(command).FlagNames()) {
-    const FlagText text(flag);
-    options[py::str(flag)] =
-        py::make_tuple(text.default_value, text.description);
-  }
-  return options;
-}
-
 // A log with `model`'s prediction.
 struct PredictedLog {
   std::string path;
@@ -209,8 +197,6 @@ void AddCommands(py::module_* module) {
               py::arg("write") = false, py::call_guard<DecimalPoint>(),
               "Runs a command of the armcal binary; with write its files go to "
               "the folders that the flags name.");
-  module->def("options", &OptionsOf, py::arg("command"),
-              "{name: (default, description)} of a command's flags.");
   module->def("trace", &Trace, py::arg("outcome"), py::arg("robot"),
               py::arg("flags"), py::arg("bandwidth_hz"),
               py::arg("progress") = py::none(), py::call_guard<DecimalPoint>(),

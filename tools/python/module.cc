@@ -7,6 +7,7 @@
 #include "model/text/option_name.h"
 #include "tools/command.h"
 #include "tools/python/command_binding.h"
+#include "tools/python/option_binding.h"
 #include "tools/python/robot_binding.h"
 #include "tools/version.h"
 
@@ -26,4 +27,5 @@ PYBIND11_MODULE(_armcal, module) {
       .attr("__doc__") = "An option that is not known, or its value.";
   armcal::AddRobot(&module);
   armcal::AddCommands(&module);
+  armcal::AddOptions(&module);
 }

@@ -101,6 +101,9 @@ def _run(command: str, robot: _armcal.Robot, options: Dict[str, Any],
             options[name] = _paths(name, options[name])
     with _Staging() as staging:
         flags = staging.texts(options)
+        for name in ("base", "tip"):
+            if getattr(robot, name):
+                flags[name] = getattr(robot, name)
         flags["robot"] = robot.path
         try:
             outcome = _armcal.run(command, flags, robot, progress,
