@@ -9,6 +9,7 @@ import unittest
 
 import armcal
 import numpy as np
+from armcal import option_kinds
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from arm_folder import InFolder
@@ -136,8 +137,44 @@ class Calibrate(InFolder):
                 (dict(t=[[0]], q=[[1]]), r"t: found shape \(1, 1\)")):
             with self.assertRaisesRegex(ValueError, text):
                 armcal.Log(**arrays)
-        with self.assertRaises(TypeError):
-            armcal.calibrate(self.robot, log, trust=object())
+
+    def test_refuses_other_types(self):
+        for option, value, expected in (
+                ("trust", object(), "a number"), ("trust", True, "a number"),
+                ("trust", [1], "a number"), ("bandwidth", (1, 2), "a number"),
+                ("threads", 1.5, "a whole number"),
+                ("select", 1, "True or False"), ("geometry", 3, "'known'"),
+                ("crop", 3, "a pair of numbers"), ("poses", 3, "a path"),
+                ("joint_terms", ["viscous", 1], "'viscous'"),
+                ("torque_constants", [1, None], "a list of numbers"),
+                ("validate", [3], "a path, a Log")):
+            with self.assertRaisesRegex(
+                    TypeError, f"^{option}: found .*, expected .*{expected}"):
+                armcal.calibrate(self.robot, "run1/log.csv",
+                                 **{option: value})
+        for option, value, text in (
+                ("trust", "much", "--trust: found 'much', expected a number"),
+                ("threads", -1, "--threads: found '-1'"),
+                ("intervals", [(0, 1, 2)], "intervals: found 3 numbers")):
+            with self.assertRaisesRegex(ValueError, text):
+                armcal.calibrate(self.robot, "run1/log.csv",
+                                 **{option: value})
+
+    def test_takes_numpy_and_pairs(self):
+        text = option_kinds.option_text
+        for name, value, expected in (
+                ("trust", np.float32(.5), "0.5"), ("trust", 1, "1"),
+                ("threads", np.int64(2), "2"), ("select", np.bool_(1), "true"),
+                ("torque_constants", np.array([11., .5]), "11.0,0.5"),
+                ("crop", (2, None), "2:"), ("crop", [None, 3.5], ":3.5"),
+                ("position_limits", (-1, 1), "-1:1"),
+                ("position_limits", [(-1, 1), (0, 2)], "-1:1,0:2"),
+                ("tool_box", ((0, 1), (0, 1), (0, 2)), "0:1,0:1,0:2"),
+                ("obstacles", [((0, 1), (0, 1), (0, 2))] * 2,
+                 "0:1,0:1,0:2;0:1,0:1,0:2"),
+                ("without", ("backlash", "delay"), "backlash,delay"),
+                ("validate", [pathlib.Path("a"), "b"], "a,b")):
+            self.assertEqual(text(name, value), expected)
 
 
 class OtherCommands(InFolder):
