@@ -2,14 +2,15 @@
 
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "calib/logs/log_set.h"
 #include "model/robot/robot.h"
 #include "tools/console.h"
+#include "tools/flag_values.h"
 #include "tools/output_folder.h"
+#include "tools/usage_error.h"
 
 namespace armcal {
 
@@ -23,12 +24,6 @@ enum ExitCode {
   kExitInternal = 4,
 };
 
-// A wrong command line: printed with a pointer to --help, exit code 2.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 // Flags that stand together in help, under a heading.
 struct FlagGroup {
   std::string heading;
@@ -36,10 +31,14 @@ struct FlagGroup {
   bool usual = true;  // others are only named by --help; --helpfull has them
 };
 
-// What a command is given beside its flags.
+// What a command is given.
 struct CommandInput {
+  FlagValues flags;
   std::optional<Robot> robot;  // instead of that in the file of --robot
   Progress progress;           // a fraction below 0: nobody knows
+  bool report = false;         // make report.html even without --out
+
+  bool WantsReport() const { return report || !flags.Text("out").empty(); }
 
   void Begin(const std::string& stage) const {
     if (progress) progress(stage, -1);

@@ -1,27 +1,38 @@
 #include "tools/command_report.h"
 
-#include "tools/flag_parser.h"
 #include "tools/input_flags.h"
 #include "tools/report/report_data.h"
 
 namespace armcal {
 
-void AddReport(const std::string& command, const Robot& robot,
-               const nlohmann::json& result,
+CommandOutcome OutcomeOf(const CommandInput& input, const Robot& robot,
+                         const Summary& summary,
+                         const std::vector<std::string>& notes) {
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
+  for (const ResultFile& file : summary.files) out.Add(file.name, file.content);
+  outcome.output = {summary.json, summary.report, robot.name + ": ",
+                    summary.positive, notes};
+  outcome.brief = summary.brief;
+  return outcome;
+}
+
+void AddReport(const CommandInput& input, const std::string& command,
+               const Robot& robot, const std::string& json,
                const std::vector<std::string>& files,
                const std::function<void(ReportContent*)>& complete,
                OutputFolder* out) {
-  if (OutFromFlags().empty()) return;
+  if (!input.WantsReport()) return;
   ReportContent content;
   content.command = command;
   content.robot = robot.name;
-  content.result = result;
+  content.result = nlohmann::json::parse(json);
   content.skeleton = SkeletonJson(robot, BentPosture(robot));
   content.arguments = {"armcal", command};
-  for (const std::string& flag : FlagsAsTyped()) {
+  for (const std::string& flag : input.flags.AsTyped()) {
     content.arguments.push_back(flag);
   }
-  content.files.push_back(HashFile(RobotPathFromFlags()));
+  content.files.push_back(HashFile(RobotPathFromFlags(input)));
   for (const std::string& file : files) content.files.push_back(HashFile(file));
   if (complete) complete(&content);
   out->Add("report.html", ReportPage(content));

@@ -65,14 +65,14 @@ std::string TextWithNotes(const Output& output) {
   return text + output.text;
 }
 
-void Print(const Output& output) {
+void Print(const Output& output, const FlagValues& flags) {
   EndProgress();
-  if (FLAGS_json || FLAGS_quiet) {
+  if (flags.Switch("json") || flags.Switch("quiet")) {
     for (const std::string& note : output.notes) PrintError("note: " + note);
   }
-  if (FLAGS_json) {
+  if (flags.Switch("json")) {
     PrintText(output.json);
-  } else if (!FLAGS_quiet) {
+  } else if (!flags.Switch("quiet")) {
     const std::string text = TextWithNotes(output);
     PrintText(TakesColour(STDOUT_FILENO) ? Coloured(text, output) : text);
   }

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/flag_values.h"
+
 namespace armcal {
 
 // The result of a command, for those who run it.
@@ -21,7 +23,7 @@ std::string TextWithNotes(const Output& output);
 // with --quiet nothing; --json and --quiet tell the notes on stderr. Colours
 // only on terminals. Throws InputError where stdout does not take it: what was
 // not said is no success.
-void Print(const Output& output);
+void Print(const Output& output, const FlagValues& flags);
 
 // Text that was asked for as such, help or a list.
 void PrintText(const std::string& text);

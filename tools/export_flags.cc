@@ -26,9 +26,9 @@ const FlagChoices<const RobotFormat*> kFormats("export", Formats(), true);
 
 }  // namespace
 
-std::vector<const RobotFormat*> ExportFromFlags() {
+std::vector<const RobotFormat*> ExportFromFlags(const FlagValues& flags) {
   std::vector<const RobotFormat*> formats;
-  for (const std::string& name : SplitAtCommas(FLAGS_export)) {
+  for (const std::string& name : SplitAtCommas(flags.Text("export"))) {
     const RobotFormat* format = kFormats.Parse(name);
     if (std::count(formats.begin(), formats.end(), format) == 0) {
       formats.push_back(format);
@@ -37,9 +37,10 @@ std::vector<const RobotFormat*> ExportFromFlags() {
   return formats;
 }
 
-std::vector<const RobotFormat*> ExportBesideUrdfFromFlags() {
+std::vector<const RobotFormat*> ExportBesideUrdfFromFlags(
+    const FlagValues& flags) {
   std::vector<const RobotFormat*> formats;
-  for (const RobotFormat* format : ExportFromFlags()) {
+  for (const RobotFormat* format : ExportFromFlags(flags)) {
     if (std::string(format->name) != "urdf") formats.push_back(format);
   }
   return formats;

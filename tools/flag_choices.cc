@@ -4,8 +4,8 @@
 #include <map>
 
 #include "model/text/input_text.h"
-#include "tools/command.h"
 #include "tools/nearest_name.h"
+#include "tools/usage_error.h"
 
 namespace armcal {
 namespace {

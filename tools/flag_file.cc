@@ -7,7 +7,7 @@
 
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
-#include "tools/command.h"
+#include "tools/usage_error.h"
 
 namespace armcal {
 namespace {

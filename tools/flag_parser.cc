@@ -12,13 +12,6 @@ namespace {
 
 using GivenFlags = std::vector<GivenFlag>;
 
-// What a wrong flag type is called in a message.
-std::string TypeText(const std::string& gflags_type) {
-  if (gflags_type == "double") return "a number";
-  if (gflags_type == "bool") return "true or false";
-  return gflags_type == "string" ? "a valid value" : "a whole number";
-}
-
 bool Holds(const std::vector<std::string>& names, const std::string& name) {
   return std::count(names.begin(), names.end(), name) > 0;
 }
@@ -96,54 +89,26 @@ GivenFlags OfFile(const Command& command, const std::string& path) {
   return flags;
 }
 
-// Of the command that was parsed last, in the order of --help. Of the process,
-// as the values of gflags are.
-std::vector<std::string>& ParsedFlags() {
-  static std::vector<std::string> names;
-  return names;
-}
-
-void Set(const GivenFlag& flag) {
-  const auto info = gflags::GetCommandLineFlagInfoOrDie(flag.name.c_str());
-  if (!gflags::SetCommandLineOption(flag.name.c_str(), flag.value.c_str())
-           .empty()) {
-    return;
-  }
-  throw UsageError(flag.place + "--" + flag.name + ": found '" + flag.value +
-                   "', expected " + TypeText(info.type));
-}
-
 }  // namespace
 
-std::map<std::string, std::string> ParseFlags(const Command& command, int argc,
-                                              char** argv) {
-  const GivenFlags given = OfCommandLine(command, argc, argv);
-  ParsedFlags() = command.FlagNames();
-  std::map<std::string, std::string> places;
-  for (const GivenFlag& flag : given) {
+ParsedFlags ParseFlags(const Command& command, int argc, char** argv) {
+  const GivenFlags typed = OfCommandLine(command, argc, argv);
+  GivenFlags given;
+  ParsedFlags parsed;
+  for (const GivenFlag& flag : typed) {
     if (flag.name != "flagfile") continue;
-    for (const GivenFlag& of_file : OfFile(command, flag.value)) {
-      Set(of_file);
-      places[of_file.name] = of_file.place;
+    given = OfFile(command, flag.value);
+    for (const GivenFlag& of_file : given) {
+      parsed.places[of_file.name] = of_file.place;
     }
   }
-  for (const GivenFlag& flag : given) {
-    // gflags would read the file itself.
-    if (flag.name == "flagfile") continue;
-    Set(flag);
-    places.erase(flag.name);
+  for (const GivenFlag& flag : typed) {
+    if (flag.name == "flagfile") continue;  // it has no value of its own
+    given.push_back(flag);
+    parsed.places.erase(flag.name);
   }
-  return places;
-}
-
-std::vector<std::string> FlagsAsTyped() {
-  std::vector<std::string> typed;
-  for (const std::string& flag : ParsedFlags()) {
-    const auto info = gflags::GetCommandLineFlagInfoOrDie(flag.c_str());
-    if (info.is_default) continue;
-    typed.push_back("--" + flag + "=" + info.current_value);
-  }
-  return typed;
+  parsed.values = FlagValues(command.FlagNames(), given);
+  return parsed;
 }
 
 }  // namespace armcal

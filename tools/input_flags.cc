@@ -172,36 +172,41 @@ std::vector<const Effect*> ParseEffects(const std::string& flag,
 }
 
 Robot RobotFromFlags(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
   if (input.robot) return *input.robot;
-  if (FLAGS_robot.empty()) throw UsageError("--robot=FILE is needed");
+  if (flags.Text("robot").empty()) throw UsageError("--robot=FILE is needed");
   RobotReaderOptions options;
-  options.base = FLAGS_base;
-  options.tip = FLAGS_tip;
-  if (!FLAGS_gravity.empty()) {
-    const std::vector<double> g = ParseNumbers("gravity", FLAGS_gravity);
+  options.base = flags.Text("base");
+  options.tip = flags.Text("tip");
+  if (!flags.Text("gravity").empty()) {
+    const std::vector<double> g =
+        ParseNumbers("gravity", flags.Text("gravity"));
     if (g.size() != 3) {
-      throw UsageError("--gravity: found '" + FLAGS_gravity +
+      throw UsageError("--gravity: found '" + flags.Text("gravity") +
                        "', expected three numbers, x,y,z in m/s^2");
     }
     options.gravity = Eigen::Vector3d(g[0], g[1], g[2]);
   }
-  return ReadRobot(FLAGS_robot, options);
+  return ReadRobot(flags.Text("robot"), options);
 }
 
-LogReaderOptions LogOptionsFromFlags(const Robot& robot) {
+LogReaderOptions LogOptionsFromFlags(const FlagValues& flags,
+                                     const Robot& robot) {
   LogReaderOptions options;
   options.joint_names = robot.JointNames();
-  options.torque_kind = kTorqueKinds.Parse(FLAGS_torque_kind);
+  options.torque_kind = kTorqueKinds.Parse(flags.Text("torque_kind"));
   options.torque_constants =
-      ParseNumbers("torque_constants", FLAGS_torque_constants);
-  options.gear_ratios = ParseNumbers("gear_ratios", FLAGS_gear_ratios);
-  for (const std::string& topic : SplitAtCommas(FLAGS_topics)) {
+      ParseNumbers("torque_constants", flags.Text("torque_constants"));
+  options.gear_ratios = ParseNumbers("gear_ratios", flags.Text("gear_ratios"));
+  for (const std::string& topic : SplitAtCommas(flags.Text("topics"))) {
     options.topics.push_back(ParseTopic(topic));
   }
   return options;
 }
 
-std::string RobotPathFromFlags() { return FLAGS_robot; }
+std::string RobotPathFromFlags(const CommandInput& input) {
+  return input.flags.Text("robot");
+}
 
 std::vector<std::string> FileNames(const std::string& flag,
                                    const std::string& value) {
@@ -214,13 +219,14 @@ std::vector<std::string> FileNames(const std::string& flag,
   return names;
 }
 
-std::vector<std::string> LogsFromFlags() {
-  if (FLAGS_log.empty()) throw UsageError("--log=FILE is needed");
-  return FileNames("log", FLAGS_log);
+std::vector<std::string> LogsFromFlags(const CommandInput& input) {
+  const std::string logs = input.flags.Text("log");
+  if (logs.empty()) throw UsageError("--log=FILE is needed");
+  return FileNames("log", logs);
 }
 
-std::vector<std::string> ValidationLogsFromFlags() {
-  return FileNames("validate", FLAGS_validate);
+std::vector<std::string> ValidationLogsFromFlags(const CommandInput& input) {
+  return FileNames("validate", input.flags.Text("validate"));
 }
 
 namespace {
@@ -243,17 +249,21 @@ void RefuseTwice(const std::string& flag, std::vector<std::string> logs) {
 
 }  // namespace
 
-TimeRange CropFromFlags() { return OneRange("crop", FLAGS_crop); }
-TimeRange ValidationCropFromFlags() {
-  return OneRange("validate_crop", FLAGS_validate_crop);
+TimeRange CropFromFlags(const FlagValues& flags) {
+  return OneRange("crop", flags.Text("crop"));
+}
+TimeRange ValidationCropFromFlags(const FlagValues& flags) {
+  return OneRange("validate_crop", flags.Text("validate_crop"));
 }
 
-void CheckLogsApart() {
-  const std::vector<std::string> logs = LogsFromFlags();
+void CheckLogsApart(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
+  const std::vector<std::string> logs = LogsFromFlags(input);
   RefuseTwice("log", logs);
-  RefuseTwice("validate", ValidationLogsFromFlags());
-  if (!FLAGS_crop.empty() && !FLAGS_validate_crop.empty()) return;
-  for (const std::string& log : ValidationLogsFromFlags()) {
+  RefuseTwice("validate", ValidationLogsFromFlags(input));
+  if (!flags.Text("crop").empty() && !flags.Text("validate_crop").empty())
+    return;
+  for (const std::string& log : ValidationLogsFromFlags(input)) {
     if (std::count(logs.begin(), logs.end(), log) == 0) continue;
     throw UsageError("--validate names " + log +
                      ", which --log calibrates on; give --crop and "
@@ -261,9 +271,11 @@ void CheckLogsApart() {
   }
 }
 
-std::string NamedBefore(const std::vector<std::string>& logs) {
-  std::vector<std::string> all = LogsFromFlags();
-  for (const std::string& log : ValidationLogsFromFlags()) all.push_back(log);
+std::string NamedBefore(const CommandInput& input,
+                        const std::vector<std::string>& logs) {
+  std::vector<std::string> all = LogsFromFlags(input);
+  for (const std::string& log : ValidationLogsFromFlags(input))
+    all.push_back(log);
   for (const std::string& log : logs) {
     if (std::count(all.begin(), all.end(), log) > 0) return log;
     all.push_back(log);
@@ -271,25 +283,30 @@ std::string NamedBefore(const std::vector<std::string>& logs) {
   return "";
 }
 
-std::optional<double> BandwidthFromFlags() {
-  if (FLAGS_bandwidth.empty()) return std::nullopt;
-  const double hz = ParseOne("bandwidth", FLAGS_bandwidth);
+std::optional<double> BandwidthFromFlags(const FlagValues& flags) {
+  if (flags.Text("bandwidth").empty()) return std::nullopt;
+  const double hz = ParseOne("bandwidth", flags.Text("bandwidth"));
   if (hz < 0) {
-    throw UsageError("--bandwidth: found '" + FLAGS_bandwidth +
+    throw UsageError("--bandwidth: found '" + flags.Text("bandwidth") +
                      "', expected a frequency in Hz, or 0");
   }
   return hz;
 }
 
-std::optional<RobustLoss> LossFromFlags() { return kLosses.Parse(FLAGS_loss); }
+std::optional<RobustLoss> LossFromFlags(const FlagValues& flags) {
+  return kLosses.Parse(flags.Text("loss"));
+}
 
-int ThreadsFromFlags() {
-  if (FLAGS_threads >= 0) return FLAGS_threads;
-  throw UsageError("--threads: found '" + std::to_string(FLAGS_threads) +
+int ThreadsFromFlags(const FlagValues& flags) {
+  const int threads = flags.Whole("threads");
+  if (threads >= 0) return threads;
+  throw UsageError("--threads: found '" + std::to_string(threads) +
                    "', expected a number of threads, or 0 for all cores");
 }
 
-std::string OutFromFlags() { return FLAGS_out; }
-std::string BaseFromFlags() { return FLAGS_base; }
+std::string OutFromFlags(const FlagValues& flags) { return flags.Text("out"); }
+std::string BaseFromFlags(const FlagValues& flags) {
+  return flags.Text("base");
+}
 
 }  // namespace armcal

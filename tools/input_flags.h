@@ -21,24 +21,29 @@ FlagGroup ChainFlags();   // which chain of the robot file, and how it hangs
 
 // --robot --base --tip --gravity, unless the input has a robot.
 Robot RobotFromFlags(const CommandInput& input);
-LogReaderOptions LogOptionsFromFlags(const Robot& robot);
-std::string RobotPathFromFlags();
-std::vector<std::string> LogsFromFlags();            // --log
-std::vector<std::string> ValidationLogsFromFlags();  // --validate
-TimeRange CropFromFlags();                           // --crop
-TimeRange ValidationCropFromFlags();                 // --validate_crop
+LogReaderOptions LogOptionsFromFlags(const FlagValues& flags,
+                                     const Robot& robot);
+std::string RobotPathFromFlags(const CommandInput& input);
+std::vector<std::string> LogsFromFlags(const CommandInput& input);  // --log
+// --validate
+std::vector<std::string> ValidationLogsFromFlags(const CommandInput& input);
+TimeRange CropFromFlags(const FlagValues& flags);  // --crop
+// --validate_crop
+TimeRange ValidationCropFromFlags(const FlagValues& flags);
 // Refuses a log that is named twice, or held out whole from what it is
 // calibrated on.
-void CheckLogsApart();
+void CheckLogsApart(const CommandInput& input);
 // Of the logs of a further flag the first that is named twice or is one of
 // --log or --validate; empty: none.
-std::string NamedBefore(const std::vector<std::string>& logs);
-std::optional<double> BandwidthFromFlags();  // --bandwidth
-std::string OutFromFlags();                  // --out
-std::string BaseFromFlags();                 // --base
-int ThreadsFromFlags();                      // --threads; 0: all cores
+std::string NamedBefore(const CommandInput& input,
+                        const std::vector<std::string>& logs);
+std::optional<double> BandwidthFromFlags(
+    const FlagValues& flags);                        // --bandwidth
+std::string OutFromFlags(const FlagValues& flags);   // --out
+std::string BaseFromFlags(const FlagValues& flags);  // --base
+int ThreadsFromFlags(const FlagValues& flags);       // --threads; 0: all cores
 // --loss; nothing: what suits the measurement.
-std::optional<RobustLoss> LossFromFlags();
+std::optional<RobustLoss> LossFromFlags(const FlagValues& flags);
 
 // "1,2.5" and "0:0.5,1:1.5"; `flag` names the flag in the message.
 std::vector<double> ParseNumbers(const std::string& flag,
@@ -59,11 +64,12 @@ std::vector<const Effect*> ParseEffects(const std::string& flag,
 // calib/ throws it), InputError that names the robot file. `where` precedes the
 // reason.
 template <class Make>
-auto MakeForRobot(const std::string& where, Make make) {
+auto MakeForRobot(const CommandInput& input, const std::string& where,
+                  Make make) {
   try {
     return make();
   } catch (const std::invalid_argument& error) {
-    throw InputError(RobotPathFromFlags(), "", "", where + error.what());
+    throw InputError(RobotPathFromFlags(input), "", "", where + error.what());
   }
 }
 

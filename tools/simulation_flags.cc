@@ -3,8 +3,8 @@
 #include <gflags/gflags.h>
 
 #include "model/robot_files/controller_reader.h"
-#include "tools/command.h"
 #include "tools/input_flags.h"
+#include "tools/usage_error.h"
 
 DEFINE_uint64(seed, 0, "of everything that is drawn at random");
 DEFINE_string(
@@ -14,12 +14,15 @@ DEFINE_string(
 
 namespace armcal {
 
-uint64_t SeedFromFlags() { return FLAGS_seed; }
+uint64_t SeedFromFlags(const FlagValues& flags) {
+  return flags.Natural("seed");
+}
 
-ControllerOptions ControllerFromFlags(const Robot& robot,
+ControllerOptions ControllerFromFlags(const FlagValues& flags,
+                                      const Robot& robot,
                                       const Eigen::VectorXd& q) {
-  if (!FLAGS_controller.empty()) {
-    return ReadController(FLAGS_controller, robot, q);
+  if (!flags.Text("controller").empty()) {
+    return ReadController(flags.Text("controller"), robot, q);
   }
   return DefaultController(robot, q, kUsualBandwidthHz);
 }

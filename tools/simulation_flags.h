@@ -6,14 +6,16 @@
 
 #include "model/dynamics/joint_controller.h"
 #include "model/robot/robot.h"
+#include "tools/flag_values.h"
 
 namespace armcal {
 
 // The flags that commands which simulate share. Throw UsageError for a value
 // that is not what the flag takes.
-uint64_t SeedFromFlags();  // --seed
+uint64_t SeedFromFlags(const FlagValues& flags);  // --seed
 // --controller, or one that suits the robot at q.
-ControllerOptions ControllerFromFlags(const Robot& robot,
+ControllerOptions ControllerFromFlags(const FlagValues& flags,
+                                      const Robot& robot,
                                       const Eigen::VectorXd& q);
 
 // One number for all of n joints, or one for each; none of them negative.

@@ -4,57 +4,17 @@ import gzip
 import json
 import os
 import pathlib
-import signal
-import subprocess
-import tempfile
-import threading
-import time
+import sys
 import unittest
 
 import armcal
 import numpy as np
+from armcal import option_kinds
 
-ARMCAL = os.environ["ARMCAL"]
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from arm_folder import InFolder
+
 SCARA = pathlib.Path(os.environ["DATA_DIR"]) / "scara"
-# Two links that swing, with masses to refine.
-ARM = (pathlib.Path(__file__).resolve().parent.parent /
-       "swinging_arm.yaml").read_text()
-
-
-class InFolder(unittest.TestCase):
-    """Works in a folder with an arm and two logs of it, of one simulation."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.before = os.getcwd()
-        cls.folder = tempfile.TemporaryDirectory()
-        os.chdir(cls.folder.name)
-        pathlib.Path("arm.yaml").write_text(ARM)
-        for run in (1, 2):
-            cls.armcal("simulate", "--robot=arm.yaml", "--duration=10",
-                       "--log_rate=100", "--robot_error=0.02", f"--run={run}",
-                       f"--out=run{run}")
-        cls.robot = armcal.read_robot("arm.yaml")
-
-    @classmethod
-    def tearDownClass(cls):
-        os.chdir(cls.before)
-        cls.folder.cleanup()
-
-    @staticmethod
-    def armcal(*arguments):
-        found = subprocess.run([ARMCAL, *arguments], check=False, text=True,
-                               capture_output=True)
-        if found.returncode > 1:
-            raise RuntimeError(found.stderr)
-        return found.stdout
-
-    def expect_files(self, result, folder):
-        names = {path.name for path in pathlib.Path(folder).iterdir()}
-        self.assertEqual(names, set(result.files) | {"report.html"})
-        for name, content in result.files.items():
-            self.assertEqual(content, pathlib.Path(folder, name).read_bytes(),
-                             name)
 
 
 class Calibrate(InFolder):
@@ -177,8 +137,44 @@ class Calibrate(InFolder):
                 (dict(t=[[0]], q=[[1]]), r"t: found shape \(1, 1\)")):
             with self.assertRaisesRegex(ValueError, text):
                 armcal.Log(**arrays)
-        with self.assertRaises(TypeError):
-            armcal.calibrate(self.robot, log, trust=object())
+
+    def test_refuses_other_types(self):
+        for option, value, expected in (
+                ("trust", object(), "a number"), ("trust", True, "a number"),
+                ("trust", [1], "a number"), ("bandwidth", (1, 2), "a number"),
+                ("threads", 1.5, "a whole number"),
+                ("select", 1, "True or False"), ("geometry", 3, "'known'"),
+                ("crop", 3, "a pair of numbers"), ("poses", 3, "a path"),
+                ("joint_terms", ["viscous", 1], "'viscous'"),
+                ("torque_constants", [1, None], "a list of numbers"),
+                ("validate", [3], "a path, a Log")):
+            with self.assertRaisesRegex(
+                    TypeError, f"^{option}: found .*, expected .*{expected}"):
+                armcal.calibrate(self.robot, "run1/log.csv",
+                                 **{option: value})
+        for option, value, text in (
+                ("trust", "much", "--trust: found 'much', expected a number"),
+                ("threads", -1, "--threads: found '-1'"),
+                ("intervals", [(0, 1, 2)], "intervals: found 3 numbers")):
+            with self.assertRaisesRegex(ValueError, text):
+                armcal.calibrate(self.robot, "run1/log.csv",
+                                 **{option: value})
+
+    def test_takes_numpy_and_pairs(self):
+        text = option_kinds.option_text
+        for name, value, expected in (
+                ("trust", np.float32(.5), "0.5"), ("trust", 1, "1"),
+                ("threads", np.int64(2), "2"), ("select", np.bool_(1), "true"),
+                ("torque_constants", np.array([11., .5]), "11.0,0.5"),
+                ("crop", (2, None), "2:"), ("crop", [None, 3.5], ":3.5"),
+                ("position_limits", (-1, 1), "-1:1"),
+                ("position_limits", [(-1, 1), (0, 2)], "-1:1,0:2"),
+                ("tool_box", ((0, 1), (0, 1), (0, 2)), "0:1,0:1,0:2"),
+                ("obstacles", [((0, 1), (0, 1), (0, 2))] * 2,
+                 "0:1,0:1,0:2;0:1,0:1,0:2"),
+                ("without", ("backlash", "delay"), "backlash,delay"),
+                ("validate", [pathlib.Path("a"), "b"], "a,b")):
+            self.assertEqual(text(name, value), expected)
 
 
 class OtherCommands(InFolder):
@@ -229,73 +225,6 @@ class OtherCommands(InFolder):
                                    coloured_noise=0).log.tau).max(), 60)
         found = armcal.calibrate(gone, "run1/log.csv").robot
         self.assertEqual(list(found.gravity), [0, 0, -9.81])
-
-
-class Running(InFolder):
-
-    def test_progress_while_other_threads_run(self):
-        count, seen = [0], []
-
-        def spin():
-            while not seen or seen[-1][1] < 2:
-                count[0] += 1
-                time.sleep(1e-4)
-
-        thread = threading.Thread(target=spin, daemon=True)
-        thread.start()
-        stages = []
-
-        def progress(stage, share):
-            stages.append((stage, share))
-            seen.append((count[0], 0))
-
-        armcal.calibrate(self.robot, "run1/log.csv", progress=progress)
-        seen.append((count[0], 2))
-        thread.join()
-        self.assertGreater(seen[-1][0], seen[0][0])
-        self.assertTrue(all(share <= 1 for _, share in stages))
-        self.assertIn("opening the logs", [stage for stage, _ in stages])
-
-    def test_threads_take_turns(self):
-        found = [None, None]
-
-        def run(k):
-            found[k] = armcal.calibrate(self.robot, f"run{k + 1}/log.csv",
-                                        joint_terms=["viscous", "coulomb"][:k]
-                                        or None)
-
-        threads = [threading.Thread(target=run, args=(k,)) for k in (0, 1)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(
-            found[0].to_dict(),
-            armcal.calibrate(self.robot, "run1/log.csv").to_dict())
-        self.assertIn("run2", found[1].to_dict()["logs"][0]["file"])
-
-    def test_exceptions_of_progress_end_it(self):
-        def stop(stage, share):
-            raise KeyError(stage)
-
-        with self.assertRaises(KeyError):
-            armcal.calibrate(self.robot, "run1/log.csv", progress=stop)
-
-        def again(stage, share):
-            armcal.inspect(self.robot)
-
-        with self.assertRaisesRegex(armcal.UsageError, "already"):
-            armcal.calibrate(self.robot, "run1/log.csv", progress=again)
-        armcal.calibrate(self.robot, "run1/log.csv")  # all is as before
-
-    def test_ctrl_c(self):
-        timer = threading.Timer(.05, os.kill, (os.getpid(), signal.SIGINT))
-        self.addCleanup(timer.join)  # or it would end another test
-        with self.assertRaises(KeyboardInterrupt):
-            timer.start()
-            # Takes a second; had it gone on to its end, it would have written.
-            armcal.excite(self.robot, duration=60, out="design")
-        self.assertFalse(os.path.exists("design"))
 
 
 if __name__ == "__main__":

@@ -4,10 +4,14 @@ import ast
 import inspect
 import pathlib
 import re
+import sys
 import unittest
 
 import armcal
-from armcal import _armcal
+from armcal import _armcal, commands, option_kinds
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import write_stubs
 
 
 def stub():
@@ -75,6 +79,32 @@ class Stub(unittest.TestCase):
         for name, member in vars(armcal.Robot).items():
             if not name.startswith("_"):
                 self.assertTrue(inspect.getdoc(member), name)
+
+    def test_functions_are_those_of_the_flags(self):
+        written = write_stubs.PACKAGE / "__init__.pyi"
+        self.assertEqual(written.read_text(encoding="utf-8"),
+                         write_stubs.stub(),
+                         "tests/python/write_stubs.py writes it anew")
+
+    def test_signatures_have_the_flags_defaults(self):
+        left_out = {"json", "quiet", "robot", "base", "tip", "gravity"}
+        for function in commands.FUNCTIONS:
+            parameters = inspect.signature(function).parameters
+            options = option_kinds.options_of(function.__name__)
+            self.assertLessEqual({option.name for option in options} -
+                                 left_out, set(parameters))
+            for parameter in parameters.values():
+                self.assertIsNot(parameter.annotation, parameter.empty)
+        found = inspect.signature(armcal.calibrate).parameters
+        self.assertEqual(found["trust"].default, .5)
+        self.assertEqual(found["select"].default, False)
+        self.assertIsNone(found["bandwidth"].default)
+        self.assertEqual(found["bandwidth"].annotation, "Optional[float]")
+        self.assertIn("'lengths'", found["geometry"].annotation)
+        found = inspect.signature(armcal.excite).parameters
+        self.assertEqual(found["pose_noise"].default, (1e-4, 1e-4))
+        self.assertRegex(armcal.calibrate.__doc__,
+                         r"(?m)^ +window +float, s: length of the weak")
 
     def test_options_are_in_the_docstring(self):
         for command in ("calibrate", "diagnose", "verify", "inspect",

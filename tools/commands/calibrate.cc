@@ -44,20 +44,21 @@ struct Task {
 Task TaskFromFlags(const CommandInput& input) {
   Task task;
   task.robot = RobotFromFlags(input);
-  task.linear = LinearOptionsFromFlags(task.robot);
+  task.linear = LinearOptionsFromFlags(input.flags, task.robot);
   task.linear.progress = input.progress;
-  CheckTrajectoryFlag(task.linear);
-  task.refinement = RefinementFromFlags(task.robot, task.linear);
+  CheckTrajectoryFlag(input.flags, task.linear);
+  task.refinement = RefinementFromFlags(input.flags, task.robot, task.linear);
   if (task.refinement) task.refinement->options.progress = input.progress;
-  task.logs = LogOptionsFromFlags(task.robot);
-  CheckLogsApart();
+  task.logs = LogOptionsFromFlags(input.flags, task.robot);
+  CheckLogsApart(input);
   return task;
 }
 
 // Adds the robot for simulators to the outputs. False where one was asked for
 // and there is none.
-bool Refine(const Task& task, const LinearCalibration& linear,
-            const LogSet& training, const LogSet* held_out,
+bool Refine(const CommandInput& input, const Task& task,
+            const LinearCalibration& linear, const LogSet& training,
+            const LogSet* held_out,
             std::optional<NonlinearCalibration>* refined, nlohmann::json* json,
             CommandOutcome* outcome) {
   if (!task.refinement || !linear.solved) return true;
@@ -69,7 +70,7 @@ bool Refine(const Task& task, const LinearCalibration& linear,
   *refined = CalibrateNonlinear(
       task.robot, linear, refinement.options, training, held_out,
       refinement.poses ? &*refinement.poses : nullptr);
-  AddRefinedOutputs(task.robot, **refined, json, outcome);
+  AddRefinedOutputs(input, task.robot, **refined, json, outcome);
   if ((*refined)->solved) {
     outcome->model = std::make_shared<TracedModel>(
         TraceRobot("calibrated", (*refined)->robot, linear.transitions));
@@ -78,41 +79,45 @@ bool Refine(const Task& task, const LinearCalibration& linear,
 }
 
 // With --select the segments to calibrate on take the place of all logs.
-std::optional<SegmentSelection> SelectFromFlags(const Task& task,
+std::optional<SegmentSelection> SelectFromFlags(const FlagValues& flags,
+                                                const Task& task,
                                                 const LogSet& training) {
   constexpr double kMostRatio = 1.25;  // of standard deviations
-  if (!FLAGS_select) return {};
+  if (!flags.Switch("select")) return {};
   if (task.linear.identification != Identification::kWeak) {
     throw UsageError(
         "--select: expected --identification=weak with it, whose noise tells "
         "what segments are worth");
   }
-  if (!(FLAGS_segment >= 1) || !std::isfinite(FLAGS_segment)) {
-    throw UsageError("--segment: found '" + NumberText(FLAGS_segment) +
+  const double segment = flags.Number("segment");
+  if (!(segment >= 1) || !std::isfinite(segment)) {
+    throw UsageError("--segment: found '" + NumberText(segment) +
                      "', expected a length of at least 1 s");
   }
   const LinearCalibration all =
       CalibrateLinear(task.robot, task.linear, training, nullptr);
   if (!all.solved) return {};
-  return SelectSegments(task.robot, all, task.linear, FLAGS_segment, kMostRatio,
+  return SelectSegments(task.robot, all, task.linear, segment, kMostRatio,
                         training);
 }
 
 CommandOutcome RunCalibrate(const CommandInput& input) {
-  if (PosesAloneFromFlags()) return CalibratePosesFromFlags(input);
-  if (CommandedFromFlags()) return CalibrateCommandedFromFlags(input);
+  if (PosesAloneFromFlags(input.flags)) return CalibratePosesFromFlags(input);
+  if (CommandedFromFlags(input.flags))
+    return CalibrateCommandedFromFlags(input);
   Task task = TaskFromFlags(input);
   const Robot& robot = task.robot;
   input.Begin("opening the logs");
-  const auto gains = DriveGainsFromFlags(robot, task.linear, &task.logs);
-  if (gains && !gains->solved) return UnsolvedGains(robot, *gains);
-  LogSet training(LogFiles(LogsFromFlags()), task.logs, CropFromFlags());
-  const LogSet validation(LogFiles(ValidationLogsFromFlags()), task.logs,
-                          ValidationCropFromFlags());
+  const auto gains = DriveGainsFromFlags(input, robot, task.linear, &task.logs);
+  if (gains && !gains->solved) return UnsolvedGains(input, robot, *gains);
+  LogSet training(LogFiles(LogsFromFlags(input)), task.logs,
+                  CropFromFlags(input.flags));
+  const LogSet validation(LogFiles(ValidationLogsFromFlags(input)), task.logs,
+                          ValidationCropFromFlags(input.flags));
   const LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
 
   const std::optional<SegmentSelection> selection =
-      SelectFromFlags(task, training);
+      SelectFromFlags(input.flags, task, training);
   CommandOutcome outcome;
   std::string& report = outcome.output.text;
   if (gains) report = DriveGainsReport(*gains);
@@ -124,8 +129,8 @@ CommandOutcome RunCalibrate(const CommandInput& input) {
       CalibrateLinear(robot, task.linear, training, held_out);
   result.identifiability.advice =
       AdviseMotions(robot, result, task.linear, training);
-  const std::string corrected =
-      CorrectTrajectories(robot, task.linear, training, held_out, &result);
+  const std::string corrected = CorrectTrajectories(
+      input.flags, robot, task.linear, training, held_out, &result);
   if (result.solved) {
     outcome.model = std::make_shared<TracedModel>(
         TracedModel{"calibrated", result.parameters, result.x});
@@ -135,20 +140,19 @@ CommandOutcome RunCalibrate(const CommandInput& input) {
   report += FullReport(robot, training, result) + corrected;
   if (gains) AddDriveGains(*gains, &json);
   if (selection) json["selection"] = ToJson(*selection, training);
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
   std::optional<NonlinearCalibration> arm;
   const bool refined =
-      Refine(task, result, training, held_out, &arm, &json, &outcome);
+      Refine(input, task, result, training, held_out, &arm, &json, &outcome);
   outcome.output.json = json.dump(2) + "\n";
   out.Add("calibration.json", outcome.output.json);
   out.Add("covariance.csv", CovarianceCsv(result));
   out.Add("outliers.csv", OutlierCsv(robot, training, result));
   AddCalibrationReport(
-      robot, json,
+      input, robot, outcome.output.json,
       {result, arm ? &*arm : nullptr,
        held_out != nullptr ? Prepare(*held_out, PreparationForRows(result.rows))
-                           : Prepare(training, result.preparation),
-       input.progress},
+                           : Prepare(training, result.preparation)},
       &out);
   outcome.output.verdict = robot.name + ": ";
   outcome.output.positive = refined && Shortcomings(robot, result).empty();

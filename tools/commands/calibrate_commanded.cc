@@ -21,10 +21,6 @@
 #include "tools/report/report_data.h"
 #include "tools/simulation_flags.h"
 
-DECLARE_string(controller);
-DECLARE_string(geometry);
-DECLARE_string(poses);
-
 DEFINE_double(gains_trust, 0,
               "with --controller: relative standard deviation of its gains, "
               "which are then estimated; 0: exact");
@@ -45,17 +41,18 @@ double NotNegative(const std::string& flag, double value) {
                    "', expected a standard deviation of at least 0");
 }
 
-OutputErrorOptions OptionsFromFlags(const Robot& robot) {
-  const LinearCalibrationOptions linear = LinearOptionsFromFlags(robot);
-  if (FLAGS_geometry != "known" || !FLAGS_poses.empty()) {
+OutputErrorOptions OptionsFromFlags(const FlagValues& flags,
+                                    const Robot& robot) {
+  const LinearCalibrationOptions linear = LinearOptionsFromFlags(flags, robot);
+  if (flags.Text("geometry") != "known" || !flags.Text("poses").empty()) {
     throw UsageError(
         "--controller: found --geometry or --poses beside it, expected none: "
         "commands are followed by an arm of known geometry");
   }
   OutputErrorOptions options;
-  options.trust.inertia = TrustFromFlags().inertia;
-  options.trust.gains = NotNegative("gains_trust", FLAGS_gains_trust);
-  options.trust.delay = NotNegative("delay_trust", FLAGS_delay_trust);
+  options.trust.inertia = TrustFromFlags(flags).inertia;
+  options.trust.gains = NotNegative("gains_trust", flags.Number("gains_trust"));
+  options.trust.delay = NotNegative("delay_trust", flags.Number("delay_trust"));
   options.joint_terms = linear.joint_terms;
   if (linear.transition) {
     if (linear.transition->law != CoulombTransition::Law::kVelocity) {
@@ -79,11 +76,12 @@ std::vector<CommandedLog> Read(const std::vector<std::string>& paths,
   return logs;
 }
 
-std::vector<std::string> TorqueLogsFromFlags() {
-  const std::vector<std::string> paths = SplitAtCommas(FLAGS_torque_log);
+std::vector<std::string> TorqueLogsFromFlags(const CommandInput& input) {
+  const std::string given = input.flags.Text("torque_log");
+  const std::vector<std::string> paths = SplitAtCommas(given);
   const bool gap = std::count(paths.begin(), paths.end(), "") > 0;
-  if (gap || !NamedBefore(paths).empty()) {
-    throw UsageError("--torque_log: found '" + FLAGS_torque_log +
+  if (gap || !NamedBefore(input, paths).empty()) {
+    throw UsageError("--torque_log: found '" + given +
                      "', expected names of logs that are named once, with "
                      "commas between them");
   }
@@ -91,11 +89,12 @@ std::vector<std::string> TorqueLogsFromFlags() {
 }
 
 // Nothing without --torque_log.
-std::optional<TorqueInformation> TorquesFromFlags(const Robot& robot,
-                                                  const CommandInput& input) {
-  const std::vector<std::string> paths = TorqueLogsFromFlags();
+std::optional<TorqueInformation> TorquesFromFlags(const CommandInput& input,
+                                                  const Robot& robot) {
+  const FlagValues& flags = input.flags;
+  const std::vector<std::string> paths = TorqueLogsFromFlags(input);
   if (paths.empty()) return std::nullopt;
-  LinearCalibrationOptions linear = LinearOptionsFromFlags(robot);
+  LinearCalibrationOptions linear = LinearOptionsFromFlags(flags, robot);
   if (linear.identification != Identification::kWeak ||
       linear.solver != LinearSolver::kWeighted) {
     throw UsageError(
@@ -104,17 +103,18 @@ std::optional<TorqueInformation> TorquesFromFlags(const Robot& robot,
   }
   linear.progress = input.progress;
   NonlinearCalibrationOptions options;
-  options.trust = TrustFromFlags();
+  options.trust = TrustFromFlags(flags);
   options.progress = input.progress;
-  const LogSet logs(LogFiles(paths), LogOptionsFromFlags(robot), TimeRange());
+  const LogSet logs(LogFiles(paths), LogOptionsFromFlags(flags, robot),
+                    TimeRange());
   return InformByTorques(robot, CalibrateLinear(robot, linear, logs, nullptr),
                          options, logs);
 }
 
-void ExpectMasses(const Robot& robot) {
+void ExpectMasses(const CommandInput& input, const Robot& robot) {
   for (const Link& link : robot.links) {
     if (link.inertial.mass > 0) continue;
-    throw InputError(RobotPathFromFlags(), "link " + link.name, "",
+    throw InputError(RobotPathFromFlags(input), "link " + link.name, "",
                      "expected a mass: a simulation starts from it");
   }
 }
@@ -136,44 +136,45 @@ void AddDrawings(const Robot& robot, const OutputErrorCalibration& result,
 
 }  // namespace
 
-bool CommandedFromFlags() {
-  if (FLAGS_controller.empty() && !FLAGS_torque_log.empty()) {
+bool CommandedFromFlags(const FlagValues& flags) {
+  if (flags.Text("controller").empty() && !flags.Text("torque_log").empty()) {
     throw UsageError(
         "--torque_log: found no --controller beside it, expected logs of "
         "commands in --log; logs with torques alone are --log's");
   }
-  return !FLAGS_controller.empty();
+  return !flags.Text("controller").empty();
 }
 
 CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
   const Robot robot = RobotFromFlags(input);
-  OutputErrorOptions options = OptionsFromFlags(robot);
+  OutputErrorOptions options = OptionsFromFlags(flags, robot);
   options.progress = input.progress;
-  ExpectMasses(robot);
-  CheckLogsApart();
-  LogReaderOptions reading = LogOptionsFromFlags(robot);
+  ExpectMasses(input, robot);
+  CheckLogsApart(input);
+  LogReaderOptions reading = LogOptionsFromFlags(flags, robot);
   reading.need_torque = false;
   input.Begin("opening the logs");
   const std::vector<CommandedLog> training =
-      Read(LogsFromFlags(), reading, CropFromFlags());
-  const std::vector<CommandedLog> validation =
-      Read(ValidationLogsFromFlags(), reading, ValidationCropFromFlags());
+      Read(LogsFromFlags(input), reading, CropFromFlags(flags));
+  const std::vector<CommandedLog> validation = Read(
+      ValidationLogsFromFlags(input), reading, ValidationCropFromFlags(flags));
   const ControllerOptions controller =
-      ControllerFromFlags(robot, training.at(0).log.qref.row(0));
-  if (!OutFromFlags().empty()) {
+      ControllerFromFlags(flags, robot, training.at(0).log.qref.row(0));
+  if (input.WantsReport()) {
     const auto logs = validation.empty() ? training.size() : validation.size();
     options.trace_bins =
         MostTraceBins(static_cast<int>(logs), robot.num_joints(), 2);
   }
   const std::optional<TorqueInformation> torques =
-      TorquesFromFlags(robot, input);
+      TorquesFromFlags(input, robot);
   const OutputErrorCalibration result =
       CalibrateOutputError(robot, controller, options, training, validation,
                            torques ? &*torques : nullptr);
   CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(flags));
   nlohmann::json json = OutputErrorJson(robot, training, validation, result);
-  const std::vector<std::string> torque_logs = TorqueLogsFromFlags();
+  const std::vector<std::string> torque_logs = TorqueLogsFromFlags(input);
   if (torques) {
     json["torque_logs"] = torque_logs;
     outcome.output.text =
@@ -184,17 +185,17 @@ CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
     ControllerOptions drives = controller;
     drives.drives = result.values.drives;
     drives.delay = result.values.delay;
-    AddRobotOutputs(result.arm, drives, &json, &outcome);
+    AddRobotOutputs(input, result.arm, drives, &json, &outcome);
   }
   outcome.output.json = json.dump(2) + "\n";
   out.Add("calibration.json", outcome.output.json);
-  std::vector<std::string> files = LogsFromFlags();
-  for (const std::string& path : ValidationLogsFromFlags()) {
+  std::vector<std::string> files = LogsFromFlags(input);
+  for (const std::string& path : ValidationLogsFromFlags(input)) {
     files.push_back(path);
   }
   files.insert(files.end(), torque_logs.begin(), torque_logs.end());
   AddReport(
-      "calibrate", robot, json, files,
+      input, "calibrate", robot, outcome.output.json, files,
       [&](ReportContent* content) {
         AddDrawings(robot, result, &content->extra);
       },

@@ -64,8 +64,9 @@ const FlagChoices<Quadrature> kQuadratures(
     "quadrature",
     {{"trapezoid", Quadrature::kTrapezoid}, {"simpson", Quadrature::kSimpson}});
 
-GeometryKnowledge GeometryFromFlags(const Robot& robot) {
-  const GeometryKnowledge knowledge = kGeometries.Parse(FLAGS_geometry);
+GeometryKnowledge GeometryFromFlags(const FlagValues& flags,
+                                    const Robot& robot) {
+  const GeometryKnowledge knowledge = kGeometries.Parse(flags.Text("geometry"));
   if (knowledge != GeometryKnowledge::kNonzeroLengths) return knowledge;
   for (const Link& link : robot.links) {
     if (!link.unknown_lengths.empty()) {
@@ -75,13 +76,13 @@ GeometryKnowledge GeometryFromFlags(const Robot& robot) {
   return GeometryKnowledge::kNonzeroLengths;
 }
 
-std::vector<JointTerm> JointTermsFromFlags() {
+std::vector<JointTerm> JointTermsFromFlags(const FlagValues& flags) {
   std::vector<JointTerm> terms;
-  if (FLAGS_joint_terms == "none") return terms;
-  for (const std::string& name : SplitAtCommas(FLAGS_joint_terms)) {
+  if (flags.Text("joint_terms") == "none") return terms;
+  for (const std::string& name : SplitAtCommas(flags.Text("joint_terms"))) {
     const JointTerm term = kJointTerms.Parse(name);
     if (std::count(terms.begin(), terms.end(), term) > 0) {
-      throw UsageError("--joint_terms: found '" + FLAGS_joint_terms +
+      throw UsageError("--joint_terms: found '" + flags.Text("joint_terms") +
                        "', expected " + name + " only once");
     }
     terms.push_back(term);
@@ -89,9 +90,9 @@ std::vector<JointTerm> JointTermsFromFlags() {
   return terms;
 }
 
-std::optional<CoulombTransition> TransitionFromFlags() {
+std::optional<CoulombTransition> TransitionFromFlags(const FlagValues& flags) {
   using Law = CoulombTransition::Law;
-  const std::string& text = FLAGS_coulomb_width;
+  const std::string text = flags.Text("coulomb_width");
   if (text == "auto") return std::nullopt;
   for (const auto& [unit, law] :
        std::vector<std::pair<std::string, Law>>{{"rad/s", Law::kVelocity},
@@ -115,31 +116,32 @@ std::optional<CoulombTransition> TransitionFromFlags() {
 
 }  // namespace
 
-LinearCalibrationOptions LinearOptionsFromFlags(const Robot& robot) {
+LinearCalibrationOptions LinearOptionsFromFlags(const FlagValues& flags,
+                                                const Robot& robot) {
   LinearCalibrationOptions options;
-  options.geometry = GeometryFromFlags(robot);
-  options.joint_terms = JointTermsFromFlags();
-  options.transition = TransitionFromFlags();
-  options.identification = kIdentifications.Parse(FLAGS_identification);
-  options.solver = kSolvers.Parse(FLAGS_solver);
-  options.loss = LossFromFlags();
-  options.quadrature = kQuadratures.Parse(FLAGS_quadrature);
-  if (!FLAGS_window.empty()) {
-    options.window_s = PositiveNumber("window", FLAGS_window);
+  options.geometry = GeometryFromFlags(flags, robot);
+  options.joint_terms = JointTermsFromFlags(flags);
+  options.transition = TransitionFromFlags(flags);
+  options.identification = kIdentifications.Parse(flags.Text("identification"));
+  options.solver = kSolvers.Parse(flags.Text("solver"));
+  options.loss = LossFromFlags(flags);
+  options.quadrature = kQuadratures.Parse(flags.Text("quadrature"));
+  if (!flags.Text("window").empty()) {
+    options.window_s = PositiveNumber("window", flags.Text("window"));
   }
-  options.intervals = ParseRanges("intervals", FLAGS_intervals);
+  options.intervals = ParseRanges("intervals", flags.Text("intervals"));
   for (const TimeRange& range : options.intervals) {
     if (!std::isfinite(range.begin) || !std::isfinite(range.end)) {
-      throw UsageError("--intervals: found '" + FLAGS_intervals +
+      throw UsageError("--intervals: found '" + flags.Text("intervals") +
                        "', expected t1:t2 with both ends");
     }
   }
-  if (!(FLAGS_interval > 0) || !std::isfinite(FLAGS_interval)) {
-    throw UsageError("--interval: found '" + NumberText(FLAGS_interval) +
+  options.interval_s = flags.Number("interval");
+  if (!(options.interval_s > 0) || !std::isfinite(options.interval_s)) {
+    throw UsageError("--interval: found '" + NumberText(options.interval_s) +
                      "', expected a length in s above 0");
   }
-  options.interval_s = FLAGS_interval;
-  options.bandwidth_hz = BandwidthFromFlags();
+  options.bandwidth_hz = BandwidthFromFlags(flags);
   return options;
 }
 

@@ -22,10 +22,10 @@ DEFINE_string(payload_log, "",
 namespace armcal {
 namespace {
 
-std::vector<std::string> PayloadLogs() {
+std::vector<std::string> PayloadLogs(const CommandInput& input) {
   const std::vector<std::string> logs =
-      FileNames("payload_log", FLAGS_payload_log);
-  const std::string twice = NamedBefore(logs);
+      FileNames("payload_log", input.flags.Text("payload_log"));
+  const std::string twice = NamedBefore(input, logs);
   if (!twice.empty()) {
     throw UsageError("--payload_log names " + twice +
                      ", which is named before; logs of the bare arm (--log, "
@@ -54,20 +54,21 @@ void CheckOtherFlags(const LinearCalibrationOptions& options,
 }  // namespace
 
 std::optional<DriveGains> DriveGainsFromFlags(
-    const Robot& robot, const LinearCalibrationOptions& options,
-    LogReaderOptions* log_options) {
-  if (FLAGS_payload_mass.empty() && FLAGS_payload_log.empty()) {
-    return std::nullopt;
-  }
-  if (FLAGS_payload_mass.empty() || FLAGS_payload_log.empty()) {
+    const CommandInput& input, const Robot& robot,
+    const LinearCalibrationOptions& options, LogReaderOptions* log_options) {
+  const std::string weighed = input.flags.Text("payload_mass");
+  const std::string logs = input.flags.Text("payload_log");
+  if (weighed.empty() && logs.empty()) return std::nullopt;
+  if (weighed.empty() || logs.empty()) {
     throw UsageError("--payload_mass=KG and --payload_log=FILE go together");
   }
-  const double mass = PositiveNumber("payload_mass", FLAGS_payload_mass);
-  const std::vector<std::string> payload_logs = PayloadLogs();
+  const double mass = PositiveNumber("payload_mass", weighed);
+  const std::vector<std::string> payload_logs = PayloadLogs(input);
   CheckOtherFlags(options, *log_options);
   log_options->torque_kind = TorqueKind::kCurrent;
   log_options->torque_constants.assign(robot.num_joints(), 1);
-  const LogSet bare(LogFiles(LogsFromFlags()), *log_options, CropFromFlags());
+  const LogSet bare(LogFiles(LogsFromFlags(input)), *log_options,
+                    CropFromFlags(input.flags));
   const LogSet payload(LogFiles(payload_logs), *log_options, TimeRange());
   const DriveGains gains =
       EstimateDriveGains(robot, options, mass, bare, &payload);
@@ -75,18 +76,19 @@ std::optional<DriveGains> DriveGainsFromFlags(
   return gains;
 }
 
-CommandOutcome UnsolvedGains(const Robot& robot, const DriveGains& gains) {
+CommandOutcome UnsolvedGains(const CommandInput& input, const Robot& robot,
+                             const DriveGains& gains) {
   nlohmann::json json = {{"format", "armcal calibration 1"},
                          {"robot", robot.name}};
   AddDriveGains(gains, &json);
   CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
   const std::string text = json.dump(2) + "\n";
   out.Add("calibration.json", text);
   out.Add("covariance.csv", "\n");  // no older matrix beside a refusal
-  std::vector<std::string> files = LogsFromFlags();
-  for (const std::string& log : PayloadLogs()) files.push_back(log);
-  AddReport("calibrate", robot, json, files, nullptr, &out);
+  std::vector<std::string> files = LogsFromFlags(input);
+  for (const std::string& log : PayloadLogs(input)) files.push_back(log);
+  AddReport(input, "calibrate", robot, text, files, nullptr, &out);
   outcome.output = {
       text, DriveGainsReport(gains), robot.name + ": ", false, {}};
   return outcome;

@@ -14,10 +14,11 @@ namespace armcal {
 // from the logs' currents; nothing where neither flag is given. Solved, they
 // become those of `log_options`.
 std::optional<DriveGains> DriveGainsFromFlags(
-    const Robot& robot, const LinearCalibrationOptions& options,
-    LogReaderOptions* log_options);
+    const CommandInput& input, const Robot& robot,
+    const LinearCalibrationOptions& options, LogReaderOptions* log_options);
 
 // What there is to tell of gains that are not solved.
-CommandOutcome UnsolvedGains(const Robot& robot, const DriveGains& gains);
+CommandOutcome UnsolvedGains(const CommandInput& input, const Robot& robot,
+                             const DriveGains& gains);
 
 }  // namespace armcal

@@ -18,9 +18,6 @@
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 
-DECLARE_string(geometry);
-DECLARE_string(log);
-
 DEFINE_string(poses, "",
               "`FILE` CSV of measured poses: q1.. and x1 y1 z1 [x2 ..], "
               "x y z qw qx qy qz, or length1 (draw wire)");
@@ -36,30 +33,34 @@ const FlagChoices<RefineGeometry> kPoseGeometries(
 
 }  // namespace
 
-bool PosesAloneFromFlags() { return !FLAGS_poses.empty() && FLAGS_log.empty(); }
+bool PosesAloneFromFlags(const FlagValues& flags) {
+  return !flags.Text("poses").empty() && flags.Text("log").empty();
+}
 
 CommandOutcome CalibratePosesFromFlags(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
   const Robot robot = RobotFromFlags(input);
   PoseCalibrationOptions options;
-  options.refine = kPoseGeometries.Parse(FLAGS_geometry);
-  const auto formats = ExportBesideUrdfFromFlags();
-  options.loss = LossFromFlags().value_or(options.loss);
-  const ArmTrust trust = TrustFromFlags();
+  options.refine = kPoseGeometries.Parse(flags.Text("geometry"));
+  const auto formats = ExportBesideUrdfFromFlags(flags);
+  options.loss = LossFromFlags(flags).value_or(options.loss);
+  const ArmTrust trust = TrustFromFlags(flags);
   options.prior_length = trust.length;
   options.prior_angle = trust.angle;
-  const PoseMeasurements measured = ReadPoses(FLAGS_poses, robot.JointNames());
+  const PoseMeasurements measured =
+      ReadPoses(flags.Text("poses"), robot.JointNames());
   input.Begin("fitting the poses");
   const PoseCalibration result = CalibratePoses(robot, measured, options);
   CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(flags));
   nlohmann::json json = PoseJson(robot, measured, result);
   std::string report = PoseReport(robot, measured, result);
   if (result.solved) {
     outcome.robot = result.robot;
-    const std::string path = RobotPathFromFlags();
+    const std::string path = RobotPathFromFlags(input);
     out.Add("robot.urdf",
             KindOfRobotFile(path) == RobotFileKind::kUrdf
-                ? UpdateUrdf(path, result.robot, true, BaseFromFlags())
+                ? UpdateUrdf(path, result.robot, true, BaseFromFlags(flags))
                 : MakeUrdf(result.robot));
     report += AddExports({result.robot, {}}, formats, &json, &out);
   }
@@ -70,7 +71,7 @@ CommandOutcome CalibratePosesFromFlags(const CommandInput& input) {
     content->extra["geometry"] =
         GeometryDrawing(result.robot, result.before, result.after);
   };
-  AddReport("calibrate", robot, json, {FLAGS_poses}, draw, &out);
+  AddReport(input, "calibrate", robot, text, {flags.Text("poses")}, draw, &out);
   const bool good = Shortcomings(robot, result).empty();
   outcome.output = {text, report, robot.name + ": ", good, {}};
   return outcome;

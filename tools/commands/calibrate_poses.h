@@ -5,7 +5,7 @@
 namespace armcal {
 
 // Whether there are measured poses (--poses) and no log.
-bool PosesAloneFromFlags();
+bool PosesAloneFromFlags(const FlagValues& flags);
 
 // Calibrates the geometry alone.
 CommandOutcome CalibratePosesFromFlags(const CommandInput& input);

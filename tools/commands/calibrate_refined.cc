@@ -14,9 +14,6 @@
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 
-DECLARE_string(geometry);
-DECLARE_string(poses);
-
 DEFINE_string(
     estimate, "auto",
     "refined (model parameters and a physically consistent robot for "
@@ -62,43 +59,46 @@ std::string WhyNotRefined(const Robot& robot,
   return "";
 }
 
-void AddRobotFiles(const std::string& robot_path, const Robot& robot,
-                   bool geometry, OutputFolder* out) {
+void AddRobotFiles(const CommandInput& input, const Robot& robot, bool geometry,
+                   OutputFolder* out) {
+  const std::string robot_path = RobotPathFromFlags(input);
   if (KindOfRobotFile(robot_path) != RobotFileKind::kUrdf) {
     out->Add("robot.urdf", MakeUrdf(robot));
     return;
   }
   out->Add("robot.urdf",
-           UpdateUrdf(robot_path, robot, geometry, BaseFromFlags()));
+           UpdateUrdf(robot_path, robot, geometry, BaseFromFlags(input.flags)));
   out->Add("robot_without_meshes.urdf", MakeUrdf(robot));
 }
 
 }  // namespace
 
-ArmTrust TrustFromFlags() {
-  return {PositiveFlag("trust", FLAGS_trust, "a relative standard deviation"),
-          PositiveFlag("length_trust", FLAGS_length_trust,
+ArmTrust TrustFromFlags(const FlagValues& flags) {
+  return {PositiveFlag("trust", flags.Number("trust"),
+                       "a relative standard deviation"),
+          PositiveFlag("length_trust", flags.Number("length_trust"),
                        "a standard deviation in m"),
-          PositiveFlag("angle_trust", FLAGS_angle_trust,
+          PositiveFlag("angle_trust", flags.Number("angle_trust"),
                        "a standard deviation in rad")};
 }
 
-std::optional<RefineGeometry> RefineGeometryFromFlags() {
-  if (FLAGS_geometry == "offsets") return RefineGeometry::kOffsets;
-  if (FLAGS_geometry == "refine") return RefineGeometry::kAll;
+std::optional<RefineGeometry> RefineGeometryFromFlags(const FlagValues& flags) {
+  if (flags.Text("geometry") == "offsets") return RefineGeometry::kOffsets;
+  if (flags.Text("geometry") == "refine") return RefineGeometry::kAll;
   return std::nullopt;
 }
 
 std::optional<Refinement> RefinementFromFlags(
-    const Robot& robot, const LinearCalibrationOptions& options) {
-  const Estimate estimate = kEstimates.Parse(FLAGS_estimate);
-  const auto geometry = RefineGeometryFromFlags();
-  const bool poses = !FLAGS_poses.empty();
-  ExportFromFlags();  // refused before anything is calculated
+    const FlagValues& flags, const Robot& robot,
+    const LinearCalibrationOptions& options) {
+  const Estimate estimate = kEstimates.Parse(flags.Text("estimate"));
+  const auto geometry = RefineGeometryFromFlags(flags);
+  const bool poses = !flags.Text("poses").empty();
+  ExportFromFlags(flags);  // refused before anything is calculated
   Refinement refinement;
-  refinement.options.trust = TrustFromFlags();
+  refinement.options.trust = TrustFromFlags(flags);
   refinement.options.pose_loss =
-      LossFromFlags().value_or(refinement.options.pose_loss);
+      LossFromFlags(flags).value_or(refinement.options.pose_loss);
   if (estimate == Estimate::kLinear) {
     if (geometry || poses) {
       throw UsageError(
@@ -110,31 +110,33 @@ std::optional<Refinement> RefinementFromFlags(
   refinement.asked_for = estimate == Estimate::kRefined || geometry || poses;
   refinement.why_not = WhyNotRefined(robot, options);
   if (geometry) refinement.options.refine = *geometry;
-  if (poses) refinement.poses = ReadPoses(FLAGS_poses, robot.JointNames());
+  if (poses)
+    refinement.poses = ReadPoses(flags.Text("poses"), robot.JointNames());
   return refinement;
 }
 
-void AddRobotOutputs(const NonlinearCalibration& refined,
+void AddRobotOutputs(const CommandInput& input,
+                     const NonlinearCalibration& refined,
                      const std::optional<ControllerOptions>& controller,
                      nlohmann::json* json, CommandOutcome* outcome) {
   std::string& report = outcome->output.text;
   outcome->robot = refined.robot;
   OutputFolder* const out = &outcome->folders[0];
-  AddRobotFiles(RobotPathFromFlags(), refined.robot, refined.refined_geometry,
-                out);
+  AddRobotFiles(input, refined.robot, refined.refined_geometry, out);
   out->Add("parameters_covariance.csv", ParametersCovarianceCsv(refined));
   for (const std::string& loss : UrdfLosses(refined.robot)) {
     report += "robot.urdf  " + loss + "\n";
   }
   report += AddExports({refined.robot, {}, controller},
-                       ExportBesideUrdfFromFlags(), json, out);
+                       ExportBesideUrdfFromFlags(input.flags), json, out);
 }
 
-void AddRefinedOutputs(const Robot& robot, const NonlinearCalibration& refined,
+void AddRefinedOutputs(const CommandInput& input, const Robot& robot,
+                       const NonlinearCalibration& refined,
                        nlohmann::json* json, CommandOutcome* outcome) {
   AddRefined(refined, json);
   outcome->output.text += NonlinearReport(robot, refined);
-  if (refined.solved) AddRobotOutputs(refined, {}, json, outcome);
+  if (refined.solved) AddRobotOutputs(input, refined, {}, json, outcome);
 }
 
 }  // namespace armcal

@@ -14,7 +14,8 @@
 
 namespace armcal {
 
-ArmTrust TrustFromFlags();  // --trust --length_trust --angle_trust
+// --trust --length_trust --angle_trust
+ArmTrust TrustFromFlags(const FlagValues& flags);
 
 // What the flags ask of a robot for simulators.
 struct Refinement {
@@ -27,20 +28,23 @@ struct Refinement {
 // Nothing where --estimate=linear. UsageError where what is asked for cannot
 // be: flags that exclude each other.
 std::optional<Refinement> RefinementFromFlags(
-    const Robot& robot, const LinearCalibrationOptions& options);
+    const FlagValues& flags, const Robot& robot,
+    const LinearCalibrationOptions& options);
 
 // Whether --geometry asks for the arm's parameters to be refined, and which.
-std::optional<RefineGeometry> RefineGeometryFromFlags();
+std::optional<RefineGeometry> RefineGeometryFromFlags(const FlagValues& flags);
 
 // Adds the robot's files and the covariance of its parameters, and says what
 // the files lose. `controller`: what moves it where commands are positions.
-void AddRobotOutputs(const NonlinearCalibration& refined,
+void AddRobotOutputs(const CommandInput& input,
+                     const NonlinearCalibration& refined,
                      const std::optional<ControllerOptions>& controller,
                      nlohmann::json* json, CommandOutcome* outcome);
 
 // Adds what a refined calibration says, its figures, robot and files; these to
 // the first folder.
-void AddRefinedOutputs(const Robot& robot, const NonlinearCalibration& refined,
+void AddRefinedOutputs(const CommandInput& input, const Robot& robot,
+                       const NonlinearCalibration& refined,
                        nlohmann::json* json, CommandOutcome* outcome);
 
 }  // namespace armcal

@@ -8,19 +8,18 @@
 #include "tools/input_flags.h"
 #include "tools/report/report_data.h"
 
-DECLARE_string(payload_log);
-DECLARE_string(poses);
-
 namespace armcal {
 namespace {
 
 using nlohmann::json;
 
-std::vector<std::string> FilesOfCalibration() {
-  std::vector<std::string> files = LogsFromFlags();
+std::vector<std::string> FilesOfCalibration(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
+  std::vector<std::string> files = LogsFromFlags(input);
   for (const std::vector<std::string>& more :
-       {ValidationLogsFromFlags(), SplitAtCommas(FLAGS_payload_log),
-        SplitAtCommas(FLAGS_poses)}) {
+       {ValidationLogsFromFlags(input),
+        SplitAtCommas(flags.Text("payload_log")),
+        SplitAtCommas(flags.Text("poses"))}) {
     files.insert(files.end(), more.begin(), more.end());
   }
   return files;
@@ -79,13 +78,15 @@ json GeometryDrawing(const Robot& calibrated, const std::vector<double>& before,
           {"poses", poses}};
 }
 
-void AddCalibrationReport(const Robot& robot, const json& result,
+void AddCalibrationReport(const CommandInput& input, const Robot& robot,
+                          const std::string& result,
                           const CalibrationDrawing& drawing,
                           OutputFolder* out) {
   const auto complete = [&](ReportContent* content) {
     if (!drawing.linear.solved) return;
-    content->torques = TracesJson(robot, Models(robot, drawing), drawing.logs,
-                                  drawing.progress);
+    content->torques = TracesJson(
+        robot,
+        DrawTorques(Models(robot, drawing), input.progress, drawing.logs));
     content->extra["correlations"] = Correlations(drawing);
     const NonlinearCalibration* refined = drawing.refined;
     if (refined == nullptr || !refined->solved || !refined->refined_geometry) {
@@ -96,7 +97,8 @@ void AddCalibrationReport(const Robot& robot, const json& result,
         refined->robot, poses ? refined->poses->before : std::vector<double>(),
         poses ? refined->poses->after : std::vector<double>());
   };
-  AddReport("calibrate", robot, result, FilesOfCalibration(), complete, out);
+  AddReport(input, "calibrate", robot, result, FilesOfCalibration(input),
+            complete, out);
 }
 
 }  // namespace armcal

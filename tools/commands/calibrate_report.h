@@ -7,6 +7,7 @@
 #include "calib/logs/log_set.h"
 #include "calib/refine/nonlinear_calibration.h"
 #include "model/robot/robot.h"
+#include "tools/command.h"
 #include "tools/output_folder.h"
 
 namespace armcal {
@@ -16,10 +17,10 @@ struct CalibrationDrawing {
   const LinearCalibration& linear;
   const NonlinearCalibration* refined;  // null: there is none
   PreparedLogs logs;                    // whose torques are drawn
-  Progress progress;
 };
 
-void AddCalibrationReport(const Robot& robot, const nlohmann::json& json,
+void AddCalibrationReport(const CommandInput& input, const Robot& robot,
+                          const std::string& json,
                           const CalibrationDrawing& drawing, OutputFolder* out);
 
 // {skeleton, poses}: a calibrated geometry, and distances of poses before and

@@ -8,8 +8,6 @@
 #include "calib/closed_loop/commanded_torque.h"
 #include "tools/simulation_flags.h"
 
-DECLARE_string(controller);
-
 namespace armcal {
 namespace {
 
@@ -17,10 +15,10 @@ constexpr unsigned kSeed = 1;  // the same answer to the same logs
 
 }  // namespace
 
-void MakeTorquesOfCommands(const Robot& robot,
+void MakeTorquesOfCommands(const FlagValues& flags, const Robot& robot,
                            const std::vector<std::string>& logs,
                            LogReaderOptions* options) {
-  if (FLAGS_controller.empty()) return;
+  if (flags.Text("controller").empty()) return;
   LogReaderOptions reading = *options;
   reading.commands_do = true;
   for (const std::string& path : logs) {
@@ -28,9 +26,9 @@ void MakeTorquesOfCommands(const Robot& robot,
     const Log all = ReadWholeLog(path, reading);
     const CommandedLog log = CommandedRows(path, all, {});
     const ControllerOptions controller =
-        ControllerFromFlags(robot, log.log.qref.row(0));
+        ControllerFromFlags(flags, robot, log.log.qref.row(0));
     MadeTorque made = MakeTorque(robot, controller, log, all.t, kSeed);
-    made.source = "commands and positions, by " + FLAGS_controller;
+    made.source = "commands and positions, by " + flags.Text("controller");
     options->made_torque[path] =
         std::make_shared<const MadeTorque>(std::move(made));
   }

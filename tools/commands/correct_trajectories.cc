@@ -9,8 +9,6 @@
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 
-DECLARE_string(estimate);
-
 DEFINE_string(trajectory, "measured",
               "measured (recorded positions as they are, in weak rows), "
               "corrected (maximum likelihood: splines through all motions, "
@@ -23,12 +21,15 @@ namespace {
 const FlagChoices<bool> kTrajectories("trajectory", {{"measured", false},
                                                      {"corrected", true}});
 
-bool IsAskedFor() { return kTrajectories.Parse(FLAGS_trajectory); }
+bool IsAskedFor(const FlagValues& flags) {
+  return kTrajectories.Parse(flags.Text("trajectory"));
+}
 
 }  // namespace
 
-void CheckTrajectoryFlag(const LinearCalibrationOptions& options) {
-  if (!IsAskedFor()) return;
+void CheckTrajectoryFlag(const FlagValues& flags,
+                         const LinearCalibrationOptions& options) {
+  if (!IsAskedFor(flags)) return;
   const auto expect = [](bool fits, const std::string& flag) {
     if (fits) return;
     throw UsageError("--trajectory: found 'corrected', expected " + flag +
@@ -40,15 +41,15 @@ void CheckTrajectoryFlag(const LinearCalibrationOptions& options) {
   const RobustLoss loss = options.loss.value_or(RobustLoss::kHuber);
   expect(loss == RobustLoss::kHuber || loss == RobustLoss::kSquared,
          "--loss=huber or squared");
-  expect(FLAGS_estimate != "refined", "--estimate=linear or auto");
+  expect(flags.Text("estimate") != "refined", "--estimate=linear or auto");
 }
 
-std::string CorrectTrajectories(const Robot& robot,
+std::string CorrectTrajectories(const FlagValues& flags, const Robot& robot,
                                 const LinearCalibrationOptions& options,
                                 const LogSet& training,
                                 const LogSet* validation,
                                 LinearCalibration* result) {
-  if (!IsAskedFor() || !result->solved) return "";
+  if (!IsAskedFor(flags) || !result->solved) return "";
   const TrajectoryRefinement refinement =
       RefineTrajectories(robot, options, *result, training, validation);
   *result = refinement.calibration;

@@ -18,8 +18,6 @@
 #include "tools/report/report_data.h"
 #include "tools/simulation_flags.h"
 
-DECLARE_string(controller);
-
 DEFINE_bool(forward, true,
             "simulate the held-out logs as well: along their commands with "
             "--controller, else over windows of 0.5 s");
@@ -34,63 +32,70 @@ namespace {
 
 // Unless given: a file is good to 5 %, and counts for little beside a
 // reference.
-double TrustInFile() {
-  const bool given = !gflags::GetCommandLineFlagInfoOrDie("trust").is_default;
-  if (given) return TrustFromFlags().inertia;
-  return FLAGS_reference.empty() ? .05 : .5;
+double TrustInFile(const FlagValues& flags) {
+  if (!flags.IsDefault("trust")) return TrustFromFlags(flags).inertia;
+  return flags.Text("reference").empty() ? .05 : .5;
 }
 
-std::vector<std::string> LeftOutEffects() {
+std::vector<std::string> LeftOutEffects(const FlagValues& flags) {
   std::vector<std::string> names;
-  for (const Effect* effect : ParseEffects("without", FLAGS_without)) {
+  for (const Effect* effect : ParseEffects("without", flags.Text("without"))) {
     names.push_back(effect->name);
   }
   return names;
 }
 
 // The commands of what is held out, for a controller to follow.
-void SetController(const Robot& robot, const LogReaderOptions& log_options,
+void SetController(const CommandInput& input, const Robot& robot,
+                   const LogReaderOptions& log_options,
                    DiagnosisOptions* options) {
-  if (FLAGS_controller.empty()) return;
-  const bool held_out = !ValidationLogsFromFlags().empty();
+  const FlagValues& flags = input.flags;
+  if (flags.Text("controller").empty()) return;
+  const bool held_out = !ValidationLogsFromFlags(input).empty();
   for (const std::string& path :
-       held_out ? ValidationLogsFromFlags() : LogsFromFlags()) {
+       held_out ? ValidationLogsFromFlags(input) : LogsFromFlags(input)) {
     options->commanded.push_back(ReadCommandedLog(
         path, log_options,
-        held_out ? ValidationCropFromFlags() : CropFromFlags()));
+        held_out ? ValidationCropFromFlags(flags) : CropFromFlags(flags)));
   }
   options->controller =
-      ControllerFromFlags(robot, options->commanded[0].log.qref.row(0));
+      ControllerFromFlags(flags, robot, options->commanded[0].log.qref.row(0));
 }
 
 // What is held out, by the models of the diagnosis.
-nlohmann::json Torques(const Robot& robot, const GapDiagnosis& diagnosis,
-                       const LogSet& logs) {
-  const bool reference = !FLAGS_reference.empty();
-  std::vector<std::string> labels = {
-      reference ? "as in the reference" : "the robot file", "fitted again"};
-  if (!diagnosis.effects.empty()) labels.push_back("with the effects");
-  return TracesJson(robot, labels, diagnosis.traces, logs);
+nlohmann::json Torques(const FlagValues& flags, const Robot& robot,
+                       const GapDiagnosis& diagnosis, const LogSet& logs) {
+  const bool reference = !flags.Text("reference").empty();
+  DrawnTorques drawn;
+  drawn.labels = {reference ? "as in the reference" : "the robot file",
+                  "fitted again"};
+  if (!diagnosis.effects.empty()) drawn.labels.push_back("with the effects");
+  for (int log = 0; log < logs.size(); ++log) {
+    drawn.logs.push_back(logs.path(log));
+  }
+  drawn.traces = diagnosis.traces;
+  return TracesJson(robot, drawn);
 }
 
-std::vector<std::string> FilesRead() {
-  std::vector<std::string> files = LogsFromFlags();
+std::vector<std::string> FilesRead(const CommandInput& input) {
+  std::vector<std::string> files = LogsFromFlags(input);
   for (const std::vector<std::string>& more :
-       {ValidationLogsFromFlags(), SplitAtCommas(FLAGS_reference)}) {
+       {ValidationLogsFromFlags(input),
+        SplitAtCommas(input.flags.Text("reference"))}) {
     files.insert(files.end(), more.begin(), more.end());
   }
   return files;
 }
 
-CommandOutcome Finish(const Robot& robot, const GapDiagnosis& diagnosis,
-                      const LogSet& logs) {
+CommandOutcome Finish(const CommandInput& input, const Robot& robot,
+                      const GapDiagnosis& diagnosis, const LogSet& logs) {
   CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
-  const std::string path = RobotPathFromFlags();
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
+  const std::string path = RobotPathFromFlags(input);
   const RobotExport corrected = ExportCorrectedRobot(
       diagnosis.corrected, robot,
       KindOfRobotFile(path) == RobotFileKind::kUrdf ? path : "",
-      BaseFromFlags(), ExportBesideUrdfFromFlags());
+      BaseFromFlags(input.flags), ExportBesideUrdfFromFlags(input.flags));
   nlohmann::json json = ToJson(diagnosis);
   json["not_in_urdf"] = corrected.losses;
   const std::string losses = AddFiles(corrected.files, &json, &out);
@@ -99,9 +104,9 @@ CommandOutcome Finish(const Robot& robot, const GapDiagnosis& diagnosis,
   out.Add("robot.urdf", corrected.urdf);
   out.Add("effects.json", corrected.effects.dump(2) + "\n");
   const auto draw = [&](ReportContent* content) {
-    content->torques = Torques(robot, diagnosis, logs);
+    content->torques = Torques(input.flags, robot, diagnosis, logs);
   };
-  AddReport("diagnose", robot, json, FilesRead(), draw, &out);
+  AddReport(input, "diagnose", robot, text, FilesRead(input), draw, &out);
   const bool tested = diagnosis.verdict != GapVerdict::kNotTestable;
   const std::string report = FullReport(diagnosis) + losses;
   outcome.output = {
@@ -112,38 +117,39 @@ CommandOutcome Finish(const Robot& robot, const GapDiagnosis& diagnosis,
 }
 
 CommandOutcome RunDiagnose(const CommandInput& input) {
-  CheckLogsApart();
-  ExportFromFlags();  // refused before anything is calculated
+  const FlagValues& flags = input.flags;
+  CheckLogsApart(input);
+  ExportFromFlags(flags);  // refused before anything is calculated
   DiagnosisOptions options;
-  options.without = LeftOutEffects();
+  options.without = LeftOutEffects(flags);
   const Robot robot = RobotFromFlags(input);
-  LogReaderOptions log_options = LogOptionsFromFlags(robot);
+  LogReaderOptions log_options = LogOptionsFromFlags(flags, robot);
   log_options.want_temperature = true;
   input.Begin("opening the logs");
-  MakeTorquesOfCommands(robot, FilesRead(), &log_options);
-  const LogSet training(LogFiles(LogsFromFlags()), log_options,
-                        CropFromFlags());
+  MakeTorquesOfCommands(flags, robot, FilesRead(input), &log_options);
+  const LogSet training(LogFiles(LogsFromFlags(input)), log_options,
+                        CropFromFlags(flags));
   options.progress = input.progress;
-  options.baseline.trust = TrustInFile();
-  options.bandwidth_hz =
-      BandwidthFromFlags().value_or(DiagnosisBandwidth(training.time_bases()));
+  options.baseline.trust = TrustInFile(flags);
+  options.bandwidth_hz = BandwidthFromFlags(flags).value_or(
+      DiagnosisBandwidth(training.time_bases()));
   std::optional<LogSet> reference, validation;
-  if (!FLAGS_reference.empty()) {
-    reference.emplace(LogFiles(SplitAtCommas(FLAGS_reference)), log_options,
-                      TimeRange());
+  if (!flags.Text("reference").empty()) {
+    reference.emplace(LogFiles(SplitAtCommas(flags.Text("reference"))),
+                      log_options, TimeRange());
   }
-  const std::vector<std::string> held_out = ValidationLogsFromFlags();
+  const std::vector<std::string> held_out = ValidationLogsFromFlags(input);
   if (!held_out.empty()) {
     validation.emplace(LogFiles(held_out), log_options,
-                       ValidationCropFromFlags());
+                       ValidationCropFromFlags(flags));
   }
-  SetController(robot, log_options, &options);
-  options.forward = FLAGS_forward;
-  options.seed = SeedFromFlags();
+  SetController(input, robot, log_options, &options);
+  options.forward = flags.Switch("forward");
+  options.seed = SeedFromFlags(flags);
   const GapDiagnosis diagnosis =
       DiagnoseGap(robot, options, training, validation ? &*validation : nullptr,
                   reference ? &*reference : nullptr);
-  return Finish(robot, diagnosis, validation ? *validation : training);
+  return Finish(input, robot, diagnosis, validation ? *validation : training);
 }
 
 }  // namespace

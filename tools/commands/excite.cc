@@ -49,51 +49,52 @@ ModelParameters ModelFor(const Robot& robot, DesignTarget target) {
   return {robot, options};
 }
 
-GivenCalibration LearnFromLogs(const Robot& robot,
+GivenCalibration LearnFromLogs(const CommandInput& input, const Robot& robot,
                                const std::vector<std::string>& paths,
-                               const ModelParameters& model,
-                               const Progress& progress) {
-  const LogSet logs(LogFiles(paths), LogOptionsFromFlags(robot),
-                    CropFromFlags());
+                               const ModelParameters& model) {
+  const LogSet logs(LogFiles(paths), LogOptionsFromFlags(input.flags, robot),
+                    CropFromFlags(input.flags));
   LinearCalibrationOptions options;
   options.joint_terms = kTerms;
-  options.bandwidth_hz = BandwidthFromFlags();
-  options.progress = progress;
+  options.bandwidth_hz = BandwidthFromFlags(input.flags);
+  options.progress = input.progress;
   const LinearCalibration linear =
       CalibrateLinear(robot, options, logs, nullptr);
   if (!linear.solved) {
     throw InputError(paths[0], "", "", "--given: " + linear.reason);
   }
   const Eigen::VectorXd density = ErrorDensity(linear);
-  return {density, GivenInformation(robot, model, density, progress,
+  return {density, GivenInformation(robot, model, density, input.progress,
                                     Prepare(logs, linear.preparation))};
 }
 
 // How large errors of the torque are, and what is known already.
-void LearnFromGiven(const Robot& robot, double rate_hz,
-                    const Progress& progress, Design* design) {
-  const Given given = GivenFromFlags();
+void LearnFromGiven(const CommandInput& input, const Robot& robot,
+                    double rate_hz, Design* design) {
+  const Given given = GivenFromFlags(input.flags);
   if (given.empty()) return;
   const GivenCalibration known =
       given.calibration.empty()
-          ? LearnFromLogs(robot, given.logs, design->model, progress)
+          ? LearnFromLogs(input, robot, given.logs, design->model)
           : ReadGivenCalibration(given.calibration, robot, design->model);
   design->known = known.A;
   design->noise = (known.density * rate_hz).cwiseSqrt();
 }
 
-Design MakeDesign(const Robot& robot, const ExcitationOptions& options,
+Design MakeDesign(const CommandInput& input, const Robot& robot,
+                  const ExcitationOptions& options,
                   std::vector<std::string>* assumed) {
-  Design design{ModelFor(robot, TargetFromFlags()), {}, {}, {}};
+  Design design{ModelFor(robot, TargetFromFlags(input.flags)), {}, {}, {}};
   const int m = design.model.size();
   design.known = Eigen::MatrixXd::Zero(m, m);
   const Eigen::VectorXd& speed = options.limits.velocity;
   design.reference = MakeReferenceScale(
       design.model, speed.mean() / 2, .5, 1,
       Eigen::VectorXd::Zero(robot.num_joints()), design.model.Values(robot));
-  const Eigen::VectorXd shares = NoiseSharesFromFlags(robot.num_joints());
+  const Eigen::VectorXd shares =
+      NoiseSharesFromFlags(input.flags, robot.num_joints());
   design.noise = shares.cwiseProduct(design.reference.torque);
-  LearnFromGiven(robot, options.rate_hz, options.progress, &design);
+  LearnFromGiven(input, robot, options.rate_hz, &design);
   for (const Link& link : robot.links) {
     if (!link.has_inertial) {
       assumed->push_back("nothing weighs link " + link.name);
@@ -116,20 +117,21 @@ nlohmann::json MotionJson(const Robot& robot, const Log& motion) {
           {"joints", joints}};
 }
 
-std::vector<std::string> FilesOfDesign() {
-  const Given given = GivenFromFlags();
+std::vector<std::string> FilesOfDesign(const FlagValues& flags) {
+  const Given given = GivenFromFlags(flags);
   std::vector<std::string> files = given.logs;
   if (!given.calibration.empty()) files.push_back(given.calibration);
   return files;
 }
 
-CommandOutcome RunPostures(const Robot& robot, const PostureOptions& options,
+CommandOutcome RunPostures(const CommandInput& input, const Robot& robot,
+                           const PostureOptions& options,
                            const std::vector<std::string>& assumed) {
   const PostureDesign design =
-      MakeForRobot("", [&] { return DesignPostures(robot, options); });
+      MakeForRobot(input, "", [&] { return DesignPostures(robot, options); });
   const PostureSummary summary{robot, options, design, assumed};
   CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
   out.Add("postures.csv", PostureText(design));
   const nlohmann::json json = ToJson(summary);
   const std::string text = json.dump(2) + "\n";
@@ -137,14 +139,16 @@ CommandOutcome RunPostures(const Robot& robot, const PostureOptions& options,
   const auto draw = [&](ReportContent* content) {
     content->extra["postures"] = PosturesJson(robot, design.q);
   };
-  AddReport("excite", robot, json, FilesOfDesign(), draw, &out);
+  AddReport(input, "excite", robot, text, FilesOfDesign(input.flags), draw,
+            &out);
   outcome.output = {text, FullReport(summary), "", true, {}};
   return outcome;
 }
 
-CommandOutcome Finish(const ExcitationSummary& summary) {
+CommandOutcome Finish(const CommandInput& input,
+                      const ExcitationSummary& summary) {
   CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
   const nlohmann::json json = ToJson(summary);
   Log motion;
   const bool found = summary.excitation.numbers.size() > 0;
@@ -158,34 +162,37 @@ CommandOutcome Finish(const ExcitationSummary& summary) {
   const auto draw = [&](ReportContent* content) {
     content->extra["motion"] = MotionJson(summary.robot, motion);
   };
-  AddReport("excite", summary.robot, json, FilesOfDesign(), draw, &out);
+  AddReport(input, "excite", summary.robot, text, FilesOfDesign(input.flags),
+            draw, &out);
   outcome.output = {text, FullReport(summary), "", found, {}};
   return outcome;
 }
 
-CommandOutcome RunParameters(const Robot& robot, const Design& design,
+CommandOutcome RunParameters(const CommandInput& input, const Robot& robot,
+                             const Design& design,
                              const ExcitationOptions& options,
                              const std::vector<std::string>& assumed) {
-  const NamedQuantities quantities =
-      MakeDesignQuantities(robot, design.model, kTerms, TargetFromFlags(),
-                           TrustFromFlags(), design.reference, design.known);
+  const NamedQuantities quantities = MakeDesignQuantities(
+      robot, design.model, kTerms, TargetFromFlags(input.flags),
+      TrustFromFlags(input.flags), design.reference, design.known);
   const Excitation excitation =
       DesignExcitation(robot, design.model, quantities.design, options);
   ExcitationSummary summary{robot, options, quantities, excitation,
                             {},    assumed, {}};
-  if (!GivenFromFlags().empty()) {
+  if (!GivenFromFlags(input.flags).empty()) {
     summary.given_stddev = PredictedStddev(
         quantities.design,
         Eigen::MatrixXd::Zero(design.model.size(), design.model.size()));
   }
-  return Finish(summary);
+  return Finish(input, summary);
 }
 
-CommandOutcome RunSeparation(const Robot& robot, const Design& design,
+CommandOutcome RunSeparation(const CommandInput& input, const Robot& robot,
+                             const Design& design,
                              const std::vector<const Effect*>& effects,
                              const ExcitationOptions& options,
                              const std::vector<std::string>& assumed) {
-  const auto question = MakeForRobot("--separate: ", [&] {
+  const auto question = MakeForRobot(input, "--separate: ", [&] {
     return SeparationQuestion(robot, effects, design.model, options.limits);
   });
   const EffectSeparation separation =
@@ -197,30 +204,32 @@ CommandOutcome RunSeparation(const Robot& robot, const Design& design,
   for (size_t k = 0; k < separation.sizes.size(); ++k) {
     summary.alone_stddev[static_cast<long>(k)] = separation.sizes[k].alone;
   }
-  return Finish(summary);
+  return Finish(input, summary);
 }
 
-CommandOutcome RunMotion(const Robot& robot, const CommandInput& input) {
+CommandOutcome RunMotion(const CommandInput& input, const Robot& robot) {
   std::vector<std::string> assumed;
-  ExcitationOptions options = ExcitationOptionsFromFlags(robot, &assumed);
-  const std::vector<const Effect*> effects = SeparatedEffectsFromFlags();
+  ExcitationOptions options =
+      ExcitationOptionsFromFlags(input, robot, &assumed);
+  const std::vector<const Effect*> effects =
+      SeparatedEffectsFromFlags(input.flags);
   input.Begin("preparing the design");
   options.progress = input.progress;
-  const Design design = MakeDesign(robot, options, &assumed);
+  const Design design = MakeDesign(input, robot, options, &assumed);
   options.torque_noise = design.noise;
   return effects.empty()
-             ? RunParameters(robot, design, options, assumed)
-             : RunSeparation(robot, design, effects, options, assumed);
+             ? RunParameters(input, robot, design, options, assumed)
+             : RunSeparation(input, robot, design, effects, options, assumed);
 }
 
 CommandOutcome RunExcite(const CommandInput& input) {
   const Robot robot = RobotFromFlags(input);
   std::vector<std::string> assumed;
   const std::optional<PostureOptions> postures =
-      PostureOptionsFromFlags(robot, &assumed);
-  if (!postures) return RunMotion(robot, input);
+      PostureOptionsFromFlags(input, robot, &assumed);
+  if (!postures) return RunMotion(input, robot);
   input.Begin("designing postures");
-  return RunPostures(robot, *postures, assumed);
+  return RunPostures(input, robot, *postures, assumed);
 }
 
 }  // namespace

@@ -13,10 +13,6 @@
 #include "tools/input_flags.h"
 #include "tools/simulation_flags.h"
 
-DECLARE_double(duration);
-DECLARE_double(log_rate);
-DECLARE_string(torque_noise);
-
 DEFINE_string(target, "model",
               "what the motion is to tell: model (parameters), physical "
               "(inertias, friction), geometry (lengths)");
@@ -92,10 +88,9 @@ void SetPositive(const char* flag, const std::string& text,
                    "', expected numbers above 0");
 }
 
-void SetPositions(MotionLimits* limits) {
-  if (FLAGS_position_limits.empty()) return;
-  std::vector<TimeRange> ranges =
-      ParseRanges("position_limits", FLAGS_position_limits);
+void SetPositions(const std::string& text, MotionLimits* limits) {
+  if (text.empty()) return;
+  std::vector<TimeRange> ranges = ParseRanges("position_limits", text);
   const auto n = static_cast<size_t>(limits->lower.size());
   if (ranges.size() == 1) ranges.assign(n, ranges[0]);
   for (size_t j = 0; j < n; ++j) {
@@ -105,38 +100,40 @@ void SetPositions(MotionLimits* limits) {
       limits->upper[j] = ranges[j].end;
       continue;
     }
-    throw UsageError("--position_limits: found '" + FLAGS_position_limits +
+    throw UsageError("--position_limits: found '" + text +
                      "', expected one lower:upper or " + std::to_string(n) +
                      ", with both ends");
   }
 }
 
-MotionLimits LimitsFromFlags(const Robot& robot,
+MotionLimits LimitsFromFlags(const FlagValues& flags, const Robot& robot,
                              std::vector<std::string>* assumed) {
   std::vector<std::string> of_file;
   MotionLimits limits = LimitsOf(robot, &of_file);
-  SetPositions(&limits);
-  SetPositive("velocity_limits", FLAGS_velocity_limits, &limits.velocity);
-  if (!FLAGS_velocity_limits.empty()) {
+  SetPositions(flags.Text("position_limits"), &limits);
+  SetPositive("velocity_limits", flags.Text("velocity_limits"),
+              &limits.velocity);
+  if (!flags.Text("velocity_limits").empty()) {
     limits.acceleration = 3 * limits.velocity;
   }
-  SetPositive("acceleration_limits", FLAGS_acceleration_limits,
+  SetPositive("acceleration_limits", flags.Text("acceleration_limits"),
               &limits.acceleration);
-  SetPositive("effort_limits", FLAGS_effort_limits, &limits.effort);
-  const std::pair<const char*, const std::string&> given[] = {
-      {"positions", FLAGS_position_limits},
-      {"velocities", FLAGS_velocity_limits},
-      {"accelerations", FLAGS_acceleration_limits},
-      {"any torque", FLAGS_effort_limits}};
+  SetPositive("effort_limits", flags.Text("effort_limits"), &limits.effort);
+  const std::pair<const char*, std::string> given[] = {
+      {"positions", flags.Text("position_limits")},
+      {"velocities", flags.Text("velocity_limits")},
+      {"accelerations", flags.Text("acceleration_limits")},
+      {"any torque", flags.Text("effort_limits")}};
   for (const std::string& sentence : of_file) {
     bool set = false;
-    for (const auto& [word, flag] : given) {
-      set = set || (sentence.rfind(word, 0) == 0 && !flag.empty());
+    for (const auto& [word, text] : given) {
+      set = set || (sentence.rfind(word, 0) == 0 && !text.empty());
     }
     if (!set) assumed->push_back(sentence);
   }
-  CheckWithin("use", FLAGS_use, .05, 1);
-  return limits.Within(FLAGS_use);
+  const double use = flags.Number("use");
+  CheckWithin("use", use, .05, 1);
+  return limits.Within(use);
 }
 
 Box ParseBox(const char* flag, const std::string& text) {
@@ -153,32 +150,35 @@ Box ParseBox(const char* flag, const std::string& text) {
           {ranges[0].end, ranges[1].end, ranges[2].end}};
 }
 
-Workspace WorkspaceFromFlags(const Robot& robot, const MotionLimits& limits) {
+Workspace WorkspaceFromFlags(const CommandInput& input, const Robot& robot,
+                             const MotionLimits& limits) {
+  const FlagValues& flags = input.flags;
   WorkspaceOptions options;
-  CheckWithin("link_radius", FLAGS_link_radius, .005, 1);
-  options.link_radius = FLAGS_link_radius;
-  if (!FLAGS_tool_box.empty()) {
-    options.tool_box = ParseBox("tool_box", FLAGS_tool_box);
+  options.link_radius = flags.Number("link_radius");
+  CheckWithin("link_radius", options.link_radius, .005, 1);
+  if (!flags.Text("tool_box").empty()) {
+    options.tool_box = ParseBox("tool_box", flags.Text("tool_box"));
   }
-  if (!FLAGS_floor.empty()) {
-    const std::vector<double> height = ParseNumbers("floor", FLAGS_floor);
+  if (!flags.Text("floor").empty()) {
+    const std::vector<double> height =
+        ParseNumbers("floor", flags.Text("floor"));
     if (height.size() != 1) {
-      throw UsageError("--floor: found '" + FLAGS_floor +
+      throw UsageError("--floor: found '" + flags.Text("floor") +
                        "', expected one height, m");
     }
     options.floor = height[0];
   }
-  std::istringstream boxes(FLAGS_obstacles);
+  std::istringstream boxes(flags.Text("obstacles"));
   for (std::string box; std::getline(boxes, box, ';');) {
     options.obstacles.push_back(ParseBox("obstacles", box));
   }
-  return MakeForRobot("within the limits ", [&] {
+  return MakeForRobot(input, "within the limits ", [&] {
     return Workspace(robot, options, limits.lower, limits.upper);
   });
 }
 
-ExcitationCriterion CriterionFromFlags() {
-  return kCriteria.Parse(FLAGS_criterion);
+ExcitationCriterion CriterionFromFlags(const FlagValues& flags) {
+  return kCriteria.Parse(flags.Text("criterion"));
 }
 
 }  // namespace
@@ -198,76 +198,82 @@ std::vector<FlagGroup> ExcitationFlagGroups() {
 }
 
 ExcitationOptions ExcitationOptionsFromFlags(
-    const Robot& robot, std::vector<std::string>* assumed) {
+    const CommandInput& input, const Robot& robot,
+    std::vector<std::string>* assumed) {
+  const FlagValues& flags = input.flags;
   // Hz, unless asked for: effects show in what is quick.
-  const double highest = FLAGS_separate.empty() ? .5 : 1;
+  const double highest = flags.Text("separate").empty() ? .5 : 1;
   ExcitationOptions options;
-  CheckWithin("duration", FLAGS_duration, .5, 1000);
-  CheckWithin("periods", FLAGS_periods, 1, 100);
-  options.duration_s = FLAGS_duration;
-  options.periods = FLAGS_periods;
-  const double period = FLAGS_duration / FLAGS_periods;
+  CheckWithin("duration", flags.Number("duration"), .5, 1000);
+  CheckWithin("periods", flags.Whole("periods"), 1, 100);
+  options.duration_s = flags.Number("duration");
+  options.periods = flags.Whole("periods");
+  const double period = flags.Number("duration") / flags.Whole("periods");
   options.harmonics =
       std::max(5, static_cast<int>(std::lround(highest * period)));
-  if (FLAGS_harmonics != 0) {
-    CheckWithin("harmonics", FLAGS_harmonics, 2, 100);
-    options.harmonics = FLAGS_harmonics;
+  if (flags.Whole("harmonics") != 0) {
+    CheckWithin("harmonics", flags.Whole("harmonics"), 2, 100);
+    options.harmonics = flags.Whole("harmonics");
   }
-  CheckWithin("log_rate", FLAGS_log_rate, 1, 1e5);
-  options.rate_hz = FLAGS_log_rate;
-  options.criterion = CriterionFromFlags();
-  options.limits = LimitsFromFlags(robot, assumed);
-  options.workspace = WorkspaceFromFlags(robot, options.limits);
+  CheckWithin("log_rate", flags.Number("log_rate"), 1, 1e5);
+  options.rate_hz = flags.Number("log_rate");
+  options.criterion = CriterionFromFlags(flags);
+  options.limits = LimitsFromFlags(flags, robot, assumed);
+  options.workspace = WorkspaceFromFlags(input, robot, options.limits);
   if (options.workspace.empty()) {
     assumed->push_back("nothing is in the way (--floor, --obstacles)");
   }
-  options.seed = SeedFromFlags();
+  options.seed = SeedFromFlags(flags);
   return options;
 }
 
 std::optional<PostureOptions> PostureOptionsFromFlags(
-    const Robot& robot, std::vector<std::string>* assumed) {
-  if (FLAGS_static_poses == 0) return {};
-  CheckWithin("static_poses", FLAGS_static_poses, 1, 1000);
+    const CommandInput& input, const Robot& robot,
+    std::vector<std::string>* assumed) {
+  const FlagValues& flags = input.flags;
+  if (flags.Whole("static_poses") == 0) return {};
+  CheckWithin("static_poses", flags.Whole("static_poses"), 1, 1000);
   PostureOptions options;
-  options.count = FLAGS_static_poses;
-  options.instrument = kInstruments.Parse(FLAGS_instrument);
-  options.criterion = CriterionFromFlags();
+  options.count = flags.Whole("static_poses");
+  options.instrument = kInstruments.Parse(flags.Text("instrument"));
+  options.criterion = CriterionFromFlags(flags);
   const std::vector<double> noise =
-      ParseNumbers("pose_noise", FLAGS_pose_noise);
+      ParseNumbers("pose_noise", flags.Text("pose_noise"));
   if (noise.size() != 2 || !(noise[0] > 0) || !(noise[1] > 0)) {
-    throw UsageError("--pose_noise: found '" + FLAGS_pose_noise +
+    throw UsageError("--pose_noise: found '" + flags.Text("pose_noise") +
                      "', expected two numbers above 0, m and rad");
   }
   options.noise = {noise[0], noise[1]};
   std::vector<std::string> sentences;
-  const MotionLimits limits = LimitsFromFlags(robot, &sentences);
+  const MotionLimits limits = LimitsFromFlags(flags, robot, &sentences);
   for (const std::string& sentence : sentences) {
     if (sentence.rfind("positions", 0) == 0) assumed->push_back(sentence);
   }
   options.lower = limits.lower;
   options.upper = limits.upper;
-  options.workspace = WorkspaceFromFlags(robot, limits);
-  options.seed = SeedFromFlags();
+  options.workspace = WorkspaceFromFlags(input, robot, limits);
+  options.seed = SeedFromFlags(flags);
   return options;
 }
 
-std::vector<const Effect*> SeparatedEffectsFromFlags() {
-  return ParseEffects("separate", FLAGS_separate);
+std::vector<const Effect*> SeparatedEffectsFromFlags(const FlagValues& flags) {
+  return ParseEffects("separate", flags.Text("separate"));
 }
 
-DesignTarget TargetFromFlags() { return kTargets.Parse(FLAGS_target); }
+DesignTarget TargetFromFlags(const FlagValues& flags) {
+  return kTargets.Parse(flags.Text("target"));
+}
 
-Eigen::VectorXd NoiseSharesFromFlags(int num_joints) {
+Eigen::VectorXd NoiseSharesFromFlags(const FlagValues& flags, int num_joints) {
   const Eigen::VectorXd shares =
-      ParsePerJoint("torque_noise", FLAGS_torque_noise, num_joints);
+      ParsePerJoint("torque_noise", flags.Text("torque_noise"), num_joints);
   if (shares.minCoeff() > 0) return shares;
-  throw UsageError("--torque_noise: found '" + FLAGS_torque_noise +
+  throw UsageError("--torque_noise: found '" + flags.Text("torque_noise") +
                    "', expected numbers above 0");
 }
 
-Given GivenFromFlags() {
-  const std::vector<std::string> paths = SplitAtCommas(FLAGS_given);
+Given GivenFromFlags(const FlagValues& flags) {
+  const std::vector<std::string> paths = SplitAtCommas(flags.Text("given"));
   const auto is_calibration = [](const std::string& path) {
     return std::filesystem::path(path).extension() == ".json";
   };
@@ -275,7 +281,7 @@ Given GivenFromFlags() {
     return {paths, ""};
   }
   if (paths.size() > 1) {
-    throw UsageError("--given=" + FLAGS_given +
+    throw UsageError("--given=" + flags.Text("given") +
                      ": expected one calibration.json alone, or logs: a "
                      "calibration holds what its own logs tell");
   }

@@ -18,24 +18,26 @@ std::vector<FlagGroup> ExcitationFlagGroups();
 // What the flags of armcal excite ask of a motion, but for the noise; where
 // neither they nor the robot file say, `assumed` gets a sentence. Throws
 // UsageError.
-ExcitationOptions ExcitationOptionsFromFlags(const Robot& robot,
+ExcitationOptions ExcitationOptionsFromFlags(const CommandInput& input,
+                                             const Robot& robot,
                                              std::vector<std::string>* assumed);
 
 // Nothing unless --static_poses asks for postures.
 std::optional<PostureOptions> PostureOptionsFromFlags(
-    const Robot& robot, std::vector<std::string>* assumed);
+    const CommandInput& input, const Robot& robot,
+    std::vector<std::string>* assumed);
 
-DesignTarget TargetFromFlags();  // --target
+DesignTarget TargetFromFlags(const FlagValues& flags);  // --target
 // Of --separate; empty: none are asked for.
-std::vector<const Effect*> SeparatedEffectsFromFlags();
+std::vector<const Effect*> SeparatedEffectsFromFlags(const FlagValues& flags);
 // Shares of usual torques, per joint: --torque_noise.
-Eigen::VectorXd NoiseSharesFromFlags(int num_joints);
+Eigen::VectorXd NoiseSharesFromFlags(const FlagValues& flags, int num_joints);
 // --given: logs, the path of a calibration, or nothing.
 struct Given {
   std::vector<std::string> logs;
   std::string calibration;
   bool empty() const { return logs.empty() && calibration.empty(); }
 };
-Given GivenFromFlags();  // throws UsageError
+Given GivenFromFlags(const FlagValues& flags);  // throws UsageError
 
 }  // namespace armcal

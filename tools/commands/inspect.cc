@@ -10,9 +10,6 @@
 #include "tools/output_folder.h"
 #include "tools/simulation_flags.h"
 
-DECLARE_string(controller);
-DECLARE_string(log);
-
 DEFINE_bool(fix, false,
             "write the logs as they are understood: order, signs and units");
 
@@ -33,30 +30,32 @@ void AddMended(const Robot& robot, const LogReaderOptions& options,
 
 // With the drives of --controller; gains that it leaves open are those of the
 // posture of zeros.
-RobotDescription DescriptionFromFlags(const Robot& robot) {
-  if (FLAGS_controller.empty()) return {robot, {}};
+RobotDescription DescriptionFromFlags(const FlagValues& flags,
+                                      const Robot& robot) {
+  if (flags.Text("controller").empty()) return {robot, {}};
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(robot.num_joints());
-  return {robot, {}, ControllerFromFlags(robot, zero)};
+  return {robot, {}, ControllerFromFlags(flags, robot, zero)};
 }
 
 CommandOutcome RunInspect(const CommandInput& input) {
-  if (FLAGS_fix && OutFromFlags().empty()) {
+  const FlagValues& flags = input.flags;
+  if (flags.Switch("fix") && OutFromFlags(flags).empty()) {
     throw UsageError("--fix needs --out=FOLDER to write to");
   }
-  const auto formats = ExportFromFlags();
-  if (!formats.empty() && OutFromFlags().empty()) {
+  const auto formats = ExportFromFlags(flags);
+  if (!formats.empty() && OutFromFlags(flags).empty()) {
     throw UsageError("--export needs --out=FOLDER to write to");
   }
-  if (!FLAGS_controller.empty() && formats.empty()) {
+  if (!flags.Text("controller").empty() && formats.empty()) {
     throw UsageError("--controller is for --export=mjcf, which writes drives");
   }
   const Robot robot = RobotFromFlags(input);
   input.Begin("inspecting");
   const std::vector<InspectionFinding> of_robot = AuditRobot(robot);
   std::vector<LogInspection> logs;
-  const LogReaderOptions options = LogOptionsFromFlags(robot);
-  if (!FLAGS_log.empty()) {
-    for (const std::string& path : LogsFromFlags()) {
+  const LogReaderOptions options = LogOptionsFromFlags(flags, robot);
+  if (!flags.Text("log").empty()) {
+    for (const std::string& path : LogsFromFlags(input)) {
       input.Begin("inspecting " + path);
       LogInspection log = InspectLog(robot, path, options);
       if (log.as_it_is) {
@@ -68,13 +67,13 @@ CommandOutcome RunInspect(const CommandInput& input) {
     }
   }
   CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(flags));
   nlohmann::json json = ToJson(robot, of_robot, logs);
   const std::string losses =
-      AddExports(DescriptionFromFlags(robot), formats, &json, &out);
+      AddExports(DescriptionFromFlags(flags, robot), formats, &json, &out);
   const std::string text = json.dump(2) + "\n";
   out.Add("inspect.json", text);
-  if (FLAGS_fix) AddMended(robot, options, logs, &out);
+  if (flags.Switch("fix")) AddMended(robot, options, logs, &out);
   bool clean = of_robot.empty();
   for (const LogInspection& log : logs) clean = clean && log.findings.empty();
   outcome.output = {

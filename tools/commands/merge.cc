@@ -26,10 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // Folders stand for the factor files in them.
-std::vector<std::string> FactorsFromFlags() {
-  if (FLAGS_factors.empty()) throw UsageError("--factors=FILES is needed");
+std::vector<std::string> FactorsFromFlags(const FlagValues& flags) {
+  if (flags.Text("factors").empty())
+    throw UsageError("--factors=FILES is needed");
   std::vector<std::string> files;
-  for (const std::string& path : SplitAtCommas(FLAGS_factors)) {
+  for (const std::string& path : SplitAtCommas(flags.Text("factors"))) {
     std::error_code error;
     if (!fs::is_directory(path, error)) {
       files.push_back(path);
@@ -49,9 +50,10 @@ std::vector<std::string> FactorsFromFlags() {
   return files;
 }
 
-Reduction ReadFactors(const Robot& robot, const Progress& progress) {
+Reduction ReadFactors(const CommandInput& input, const Robot& robot) {
+  const Progress& progress = input.progress;
   std::vector<std::pair<std::string, Reduction>> parts;
-  const std::vector<std::string> files = FactorsFromFlags();
+  const std::vector<std::string> files = FactorsFromFlags(input.flags);
   for (const std::string& file : files) {
     if (progress) {
       progress("reading factors", static_cast<double>(parts.size()) /
@@ -60,11 +62,11 @@ Reduction ReadFactors(const Robot& robot, const Progress& progress) {
     parts.emplace_back(file, ReadFactorFile(file));
   }
   Reduction all = Combine(parts);
-  const std::string sha256 = HashFile(RobotPathFromFlags()).sha256;
+  const std::string sha256 = HashFile(RobotPathFromFlags(input)).sha256;
   if (all.model.robot_sha256 != sha256) {
     throw InputError(
         files[0], "key model.robot_sha256", all.model.robot_sha256,
-        "expected " + sha256 + ", that of " + RobotPathFromFlags());
+        "expected " + sha256 + ", that of " + RobotPathFromFlags(input));
   }
   ParametersOf(robot, all.model, files[0]);
   return all;
@@ -93,14 +95,14 @@ void AddFleet(const Robot& robot, const Reduction& reduction,
 
 CommandOutcome RunMerge(const CommandInput& input) {
   const Robot robot = RobotFromFlags(input);
-  const Reduction reduction = ReadFactors(robot, input.progress);
+  const Reduction reduction = ReadFactors(input, robot);
   input.Begin("solving");
   const LinearCalibration result = CalibrateFromFactors(robot, reduction);
   CommandOutcome outcome;
   outcome.brief = BriefReport(robot, reduction, result);
   outcome.output.json = ToJson(robot, reduction, result).dump(2) + "\n";
   outcome.output.text = FullReport(robot, reduction, result);
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
   out.Add("calibration.json", outcome.output.json);
   out.Add("covariance.csv", CovarianceCsv(result));
   out.Add("merged.factor", FactorFileBytes(reduction));

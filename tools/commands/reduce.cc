@@ -17,8 +17,6 @@
 #include "tools/input_flags.h"
 #include "tools/report/report_page.h"
 
-DECLARE_string(log);
-
 DEFINE_string(like, "",
               "`FILE` factor file whose model these logs are reduced by, so "
               "that they can be merged with it");
@@ -44,40 +42,43 @@ std::string HashLog(const std::string& path) {
   return HexText(hash.Value());
 }
 
-std::optional<double> TimeFromFlags() {
-  if (FLAGS_date.empty()) return std::nullopt;
-  const std::optional<double> time = ParseCalendarTime(FLAGS_date);
+std::optional<double> TimeFromFlags(const FlagValues& flags) {
+  const std::string date = flags.Text("date");
+  if (date.empty()) return std::nullopt;
+  const std::optional<double> time = ParseCalendarTime(date);
   if (time) return time;
-  throw UsageError("--date: found '" + FLAGS_date +
+  throw UsageError("--date: found '" + date +
                    "', expected a date such as 2026-11-21 or 2026-11-21T10:30");
 }
 
 // Of --like, or chosen for all logs of --log together.
-ReductionModel ModelFromFlags(const Robot& robot, const CommandInput& input) {
-  const std::string sha256 = HashFile(RobotPathFromFlags()).sha256;
-  if (FLAGS_like.empty()) {
-    LinearCalibrationOptions options = LinearOptionsFromFlags(robot);
+ReductionModel ModelFromFlags(const CommandInput& input, const Robot& robot) {
+  const FlagValues& flags = input.flags;
+  const std::string sha256 = HashFile(RobotPathFromFlags(input)).sha256;
+  if (flags.Text("like").empty()) {
+    LinearCalibrationOptions options = LinearOptionsFromFlags(flags, robot);
     options.progress = input.progress;
-    const LogSet logs(LogFiles(LogsFromFlags()), LogOptionsFromFlags(robot),
-                      CropFromFlags());
+    const LogSet logs(LogFiles(LogsFromFlags(input)),
+                      LogOptionsFromFlags(flags, robot), CropFromFlags(flags));
     return ChooseReductionModel(robot, sha256, options, logs);
   }
   for (const char* flag :
        {"geometry", "identification", "joint_terms", "coulomb_width", "window",
         "interval", "quadrature", "loss", "bandwidth"}) {
-    if (!gflags::GetCommandLineFlagInfoOrDie(flag).is_default) {
+    if (!flags.IsDefault(flag)) {
       throw UsageError("--" + std::string(flag) +
                        ": expected no such flag beside --like, whose file "
                        "says it");
     }
   }
-  const ReductionModel model = ReadFactorFile(FLAGS_like).model;
+  const std::string like = flags.Text("like");
+  const ReductionModel model = ReadFactorFile(like).model;
   if (model.robot_sha256 != sha256) {
     throw InputError(
-        FLAGS_like, "key model.robot_sha256", model.robot_sha256,
-        "expected " + sha256 + ", that of " + RobotPathFromFlags());
+        like, "key model.robot_sha256", model.robot_sha256,
+        "expected " + sha256 + ", that of " + RobotPathFromFlags(input));
   }
-  ParametersOf(robot, model, FLAGS_like);
+  ParametersOf(robot, model, like);
   return model;
 }
 
@@ -89,19 +90,21 @@ std::string FactorName(const ReducedLog& log) {
 }
 
 CommandOutcome RunReduce(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
   const Robot robot = RobotFromFlags(input);
-  const std::optional<double> time = TimeFromFlags();
-  CheckLogsApart();
+  const std::optional<double> time = TimeFromFlags(flags);
+  CheckLogsApart(input);
   input.Begin("opening the logs");
-  const ReductionModel model = ModelFromFlags(robot, input);
+  const ReductionModel model = ModelFromFlags(input, robot);
   CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags());
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(flags));
   Reduction all{model, {}};
-  for (const std::string& path : LogsFromFlags()) {
-    const LogSet log({path}, LogOptionsFromFlags(robot), CropFromFlags());
+  for (const std::string& path : LogsFromFlags(input)) {
+    const LogSet log({path}, LogOptionsFromFlags(flags, robot),
+                     CropFromFlags(flags));
     ReducedLog reduced = ReduceLog(robot, model, input.progress, log);
     reduced.sha256 = HashLog(path);
-    reduced.unit = FLAGS_unit;
+    reduced.unit = flags.Text("unit");
     reduced.time = time;
     out.Add(FactorName(reduced), FactorFileBytes({model, {reduced}}));
     all.logs.push_back(reduced);

@@ -12,8 +12,6 @@
 #include "tools/output_folder.h"
 #include "tools/simulation_flags.h"
 
-DECLARE_string(torque_constants);
-
 DEFINE_bool(list_effects, false, "print the effects and their parameters");
 DEFINE_bool(temperature, false, "log the joints' temperatures too");
 DEFINE_string(truth, "", "`DIR` for truth.json; default: --out");
@@ -68,13 +66,14 @@ std::string Report(const Scenario& scenario, const ScenarioRun& run) {
   return text;
 }
 
-LogWriterOptions WriterFromFlags(int num_joints) {
+LogWriterOptions WriterFromFlags(const FlagValues& flags, int num_joints) {
   LogWriterOptions writer;
-  if (FLAGS_torque_constants.empty()) return writer;
-  const Eigen::VectorXd constants =
-      ParsePerJoint("torque_constants", FLAGS_torque_constants, num_joints);
+  if (flags.Text("torque_constants").empty()) return writer;
+  const Eigen::VectorXd constants = ParsePerJoint(
+      "torque_constants", flags.Text("torque_constants"), num_joints);
   if (constants.minCoeff() == 0) {
-    throw UsageError("--torque_constants: found '" + FLAGS_torque_constants +
+    throw UsageError("--torque_constants: found '" +
+                     flags.Text("torque_constants") +
                      "', expected numbers above 0");
   }
   writer.torque_constants.assign(constants.begin(), constants.end());
@@ -82,8 +81,9 @@ LogWriterOptions WriterFromFlags(int num_joints) {
 }
 
 CommandOutcome Simulate(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
   CommandOutcome outcome;
-  if (FLAGS_list_effects) {
+  if (flags.Switch("list_effects")) {
     outcome.output = {EffectListJson(), EffectList(), "", true, {}};
     return outcome;
   }
@@ -94,18 +94,19 @@ CommandOutcome Simulate(const CommandInput& input) {
                      "', expected Hz that divide the controller's rate of " +
                      NumberText(scenario.loop.controller.rate_hz));
   }
-  if (OutFromFlags().empty()) throw UsageError("--out=DIR is needed");
-  const LogWriterOptions writer = WriterFromFlags(scenario.model.num_joints());
+  if (OutFromFlags(flags).empty()) throw UsageError("--out=DIR is needed");
+  const LogWriterOptions writer =
+      WriterFromFlags(flags, scenario.model.num_joints());
   input.Begin("simulating");
   scenario.loop.progress = [&input](double share) {
     if (input.progress) input.progress("simulating", share);
   };
   ScenarioRun run = RunScenario(scenario);
-  if (!FLAGS_temperature) run.run.log.temperature.resize(0, 0);
-  OutputFolder out(OutFromFlags()), secret(FLAGS_truth, "--truth");
+  if (!flags.Switch("temperature")) run.run.log.temperature.resize(0, 0);
+  OutputFolder out(OutFromFlags(flags)), secret(flags.Text("truth"), "--truth");
   out.Add("log.csv", LogText(run.run.log, writer));
   const std::string truth = TruthJson(scenario, run).dump(2) + "\n";
-  (FLAGS_truth.empty() ? out : secret).Add("truth.json", truth);
+  (flags.Text("truth").empty() ? out : secret).Add("truth.json", truth);
   outcome.folders = {secret, out};
   outcome.output = {truth, Report(scenario, run), "", run.run.finite, {}};
   return outcome;

@@ -52,19 +52,21 @@ namespace {
 
 constexpr double kLongest = 1e4;  // s, of a motion or a rest
 
-double Within(const char* flag, double value, double low, double high) {
+double Within(const FlagValues& flags, const char* flag, double low,
+              double high) {
+  const double value = flags.Number(flag);
   if (value >= low && value <= high) return value;
   throw UsageError("--" + std::string(flag) + ": found '" + NumberText(value) +
                    "', expected a number from " + NumberText(low) + " to " +
                    NumberText(high));
 }
 
-std::vector<int> MovingJoints(int n) {
+std::vector<int> MovingJoints(const FlagValues& flags, int n) {
   std::vector<int> joints;
-  for (const double number : ParseNumbers("joints", FLAGS_joints)) {
+  for (const double number : ParseNumbers("joints", flags.Text("joints"))) {
     const int joint = static_cast<int>(number);
     if (joint != number || joint < 1 || joint > n) {
-      throw UsageError("--joints: found '" + FLAGS_joints +
+      throw UsageError("--joints: found '" + flags.Text("joints") +
                        "', expected numbers from 1 to " + std::to_string(n));
     }
     joints.push_back(joint - 1);
@@ -72,58 +74,61 @@ std::vector<int> MovingJoints(int n) {
   return joints;
 }
 
-ReferenceMotion MotionFromFlags(const Robot& robot) {
+ReferenceMotion MotionFromFlags(const FlagValues& flags, const Robot& robot) {
   MotionOptions options;
-  options.duration = Within("duration", FLAGS_duration, .1, kLongest);
-  options.size = Within("size", FLAGS_size, 0, 1);
-  options.speed = Within("speed", FLAGS_speed, 0, 1);
-  options.joints = MovingJoints(robot.num_joints());
-  options.seed = SeedFromFlags();
-  options.run = FLAGS_run;
-  const double rest = Within("standstill", FLAGS_standstill, 0, kLongest);
-  if (FLAGS_motion == "fourier") {
+  options.duration = Within(flags, "duration", .1, kLongest);
+  options.size = Within(flags, "size", 0, 1);
+  options.speed = Within(flags, "speed", 0, 1);
+  options.joints = MovingJoints(flags, robot.num_joints());
+  options.seed = SeedFromFlags(flags);
+  options.run = flags.Natural("run");
+  const double rest = Within(flags, "standstill", 0, kLongest);
+  if (flags.Text("motion") == "fourier") {
     return WithStandstill(FourierMotion(robot, options), rest, rest);
   }
-  if (FLAGS_motion == "points") {
+  if (flags.Text("motion") == "points") {
     return WithStandstill(PointToPointMotion(robot, options), rest, rest);
   }
-  const ReferenceMotion motion = ReadReferenceMotion(FLAGS_motion, robot);
+  const ReferenceMotion motion =
+      ReadReferenceMotion(flags.Text("motion"), robot);
   if (motion.duration > kLongest) {
-    throw InputError(FLAGS_motion, "", NumberText(motion.duration) + " s",
+    throw InputError(flags.Text("motion"), "",
+                     NumberText(motion.duration) + " s",
                      "expected a motion of at most " + NumberText(kLongest) +
                          " s; is its time in ms?");
   }
   return WithStandstill(motion, rest, rest);
 }
 
-SensorOptions SensorsFromFlags(const Robot& robot) {
+SensorOptions SensorsFromFlags(const FlagValues& flags, const Robot& robot) {
   const int n = robot.num_joints();
-  const Eigen::VectorXd usual = TypicalContext(robot, SeedFromFlags()).torque;
+  const Eigen::VectorXd usual =
+      TypicalContext(robot, SeedFromFlags(flags)).torque;
   SensorOptions options;
   options.encoder_resolution =
-      ParsePerJoint("encoder_resolution", FLAGS_encoder_resolution, n);
+      ParsePerJoint("encoder_resolution", flags.Text("encoder_resolution"), n);
   options.encoder_noise =
-      ParsePerJoint("encoder_noise", FLAGS_encoder_noise, n);
+      ParsePerJoint("encoder_noise", flags.Text("encoder_noise"), n);
   options.torque_noise =
-      ParsePerJoint("torque_noise", FLAGS_torque_noise, n).cwiseProduct(usual);
-  options.coloured_noise =
-      ParsePerJoint("coloured_noise", FLAGS_coloured_noise, n)
+      ParsePerJoint("torque_noise", flags.Text("torque_noise"), n)
           .cwiseProduct(usual);
-  options.noise_correlation =
-      Within("noise_correlation", FLAGS_noise_correlation, 1e-4, 1e4);
-  options.torque_delay = Within("torque_delay", FLAGS_torque_delay, 0, 1);
-  options.log_rate_hz = Within("log_rate", FLAGS_log_rate, 1, kFastestHz);
-  options.jitter = Within("jitter", FLAGS_jitter, 0, 1);
-  options.lost_share = Within("lost", FLAGS_lost, 0, .5);
-  options.seed = SeedFromFlags();
-  options.run = FLAGS_run;
+  options.coloured_noise =
+      ParsePerJoint("coloured_noise", flags.Text("coloured_noise"), n)
+          .cwiseProduct(usual);
+  options.noise_correlation = Within(flags, "noise_correlation", 1e-4, 1e4);
+  options.torque_delay = Within(flags, "torque_delay", 0, 1);
+  options.log_rate_hz = Within(flags, "log_rate", 1, kFastestHz);
+  options.jitter = Within(flags, "jitter", 0, 1);
+  options.lost_share = Within(flags, "lost", 0, .5);
+  options.seed = SeedFromFlags(flags);
+  options.run = flags.Natural("run");
   return options;
 }
 
-void RequireMasses(const Robot& robot) {
+void RequireMasses(const CommandInput& input, const Robot& robot) {
   for (const Link& link : robot.links) {
     if (link.has_inertial) continue;
-    throw InputError(RobotPathFromFlags(), "link " + link.name, "",
+    throw InputError(RobotPathFromFlags(input), "link " + link.name, "",
                      "it has no mass; expected a robot file whose links have "
                      "inertias, to simulate");
   }
@@ -132,20 +137,20 @@ void RequireMasses(const Robot& robot) {
 }  // namespace
 
 Scenario ScenarioFromFlags(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
   Scenario scenario;
   scenario.model = RobotFromFlags(input);
-  RequireMasses(scenario.model);
-  scenario.robot_error = Within("robot_error", FLAGS_robot_error, 0, .5);
-  scenario.zero_velocity =
-      Within("friction_width", FLAGS_friction_width, 1e-4, 1);
-  scenario.motion = MotionFromFlags(scenario.model);
+  RequireMasses(input, scenario.model);
+  scenario.robot_error = Within(flags, "robot_error", 0, .5);
+  scenario.zero_velocity = Within(flags, "friction_width", 1e-4, 1);
+  scenario.motion = MotionFromFlags(flags, scenario.model);
   scenario.loop.controller =
-      ControllerFromFlags(scenario.model, scenario.motion.at(0).q);
-  scenario.loop.sensors = SensorsFromFlags(scenario.model);
-  scenario.loop.step = Within("step", FLAGS_step, 1e-5, .01);
-  scenario.seed = SeedFromFlags();
-  scenario.run = FLAGS_run;
-  scenario.effects = ParseEffects(FLAGS_effects, scenario);
+      ControllerFromFlags(flags, scenario.model, scenario.motion.at(0).q);
+  scenario.loop.sensors = SensorsFromFlags(flags, scenario.model);
+  scenario.loop.step = Within(flags, "step", 1e-5, .01);
+  scenario.seed = SeedFromFlags(flags);
+  scenario.run = flags.Natural("run");
+  scenario.effects = ParseEffects(flags.Text("effects"), scenario);
   return scenario;
 }
 

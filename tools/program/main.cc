@@ -66,12 +66,12 @@ int Help(const Words& words) {
   return kExitOk;
 }
 
-int RunAndTell(const Command& command) {
-  const ThreadLimit limit(ThreadsFromFlags());
+int RunAndTell(const Command& command, const FlagValues& flags) {
+  const ThreadLimit limit(ThreadsFromFlags(flags));
   ProgressBar bar("reading the input");
-  CommandOutcome outcome = command.run({std::nullopt, bar.Callback()});
+  CommandOutcome outcome = command.run({flags, std::nullopt, bar.Callback()});
   OutputFolder::WriteTogether(&outcome.folders);
-  Print(outcome.output);
+  Print(outcome.output, flags);
   return outcome.code();
 }
 
@@ -82,16 +82,16 @@ int Run(const Command& command, int argc, char** argv) {
     PrintText(CommandHelp(command, all));
     return kExitOk;
   }
-  const auto places = ParseFlags(command, argc, argv);
+  const ParsedFlags parsed = ParseFlags(command, argc, argv);
   try {
-    return RunAndTell(command);
-  } catch (const UsageError& error) {
+    return RunAndTell(command, parsed.values);
+  } catch (const OptionError& error) {
     // "--bandwidth: found .." of a flag file's line.
     const std::string text = error.what();
     const std::string name = text.substr(0, text.find_first_of(": ="));
     const auto place =
-        places.find(name.substr(std::min<size_t>(2, name.size())));
-    if (place == places.end()) throw;
+        parsed.places.find(name.substr(std::min<size_t>(2, name.size())));
+    if (place == parsed.places.end()) throw;
     throw UsageError(place->second + text);
   }
 }
@@ -145,7 +145,7 @@ std::string MemoryLimitText() {
 int TellError() {
   try {
     throw;
-  } catch (const UsageError& error) {
+  } catch (const OptionError& error) {
     PrintError(error.what());
     return kExitUsage;
   } catch (const InputError& error) {

@@ -11,9 +11,8 @@
 #include "model/log_files/log_reader.h"
 #include "model/signals/trajectory.h"
 #include "model/text/decimal_point.h"
-#include "tools/flag_text.h"
 #include "tools/input_flags.h"
-#include "tools/python/flag_session.h"
+#include "tools/python/command_flags.h"
 #include "tools/python/loaded_robot.h"
 #include "tools/python/samples.h"
 
@@ -69,26 +68,28 @@ struct Outcome {
   std::shared_ptr<const TracedModel> model;
 };
 
-// Holds no GIL.
-CommandOutcome RunWithFlags(const std::string& name, const FlagTexts& flags,
-                            const CommandInput& input, bool write) {
-  const Command& command = CommandNamed(name);
-  const FlagSession session(command, flags);
-  const ThreadLimit limit(ThreadsFromFlags());
-  CommandOutcome outcome = command.run(input);
+// Holds no GIL. Several may run at once, each with the threads it asks for.
+CommandOutcome RunWithInput(const Command& command, const CommandInput& input,
+                            bool write) {
+  CommandOutcome outcome;
+  WithThreads(ThreadsFromFlags(input.flags),
+              [&] { outcome = command.run(input); });
   if (write) OutputFolder::WriteTogether(&outcome.folders);
   return outcome;
 }
 
-Outcome Run(const std::string& command, const FlagTexts& flags,
+Outcome Run(const std::string& name, const FlagTexts& flags,
             const std::optional<LoadedRobot>& robot, const py::object& progress,
             bool write) {
   Reporter reporter(progress);
   const py::gil_scoped_release release;
+  const Command& command = CommandNamed(name);
   CommandInput input;
+  input.flags = FlagsOf(command, flags);
   if (robot) input.robot = robot->robot;
   input.progress = reporter.AsProgress();
-  const CommandOutcome found = RunWithFlags(command, flags, input, write);
+  input.report = true;
+  const CommandOutcome found = RunWithInput(command, input, write);
   Outcome outcome{found.code(), TextWithNotes(found.output),
                   found.brief,  {},
                   {},           found.model};
@@ -109,17 +110,6 @@ py::dict FilesOf(const Outcome& outcome) {
     files[py::str(name)] = py::bytes(content);
   }
   return files;
-}
-
-// {name: (default, description)}, in the order of --help.
-py::dict OptionsOf(const std::string& command) {
-  py::dict options;
-  for (const std::string& flag : CommandNamed(command).FlagNames()) {
-    const FlagText text(flag);
-    options[py::str(flag)] =
-        py::make_tuple(text.default_value, text.description);
-  }
-  return options;
 }
 
 // A log with `model`'s prediction.
@@ -154,11 +144,11 @@ std::vector<PredictedLog> Trace(const Outcome& outcome,
   }
   Reporter reporter(progress);
   const py::gil_scoped_release release;
-  const auto logs = [&] {
-    const FlagSession session(CommandNamed("calibrate"), flags);
-    return LogSet(LogFiles(LogsFromFlags()), LogOptionsFromFlags(robot.robot),
-                  CropFromFlags());
-  }();
+  CommandInput input;
+  input.flags = FlagsOf(CommandNamed("calibrate"), flags);
+  const LogSet logs(LogFiles(LogsFromFlags(input)),
+                    LogOptionsFromFlags(input.flags, robot.robot),
+                    CropFromFlags(input.flags));
   PreparationOptions prepared;
   prepared.bandwidth_hz = bandwidth_hz;
   std::vector<PredictedLog> predicted;
@@ -173,11 +163,8 @@ std::vector<PredictedLog> Trace(const Outcome& outcome,
 
 Log ReadLog(const std::string& path, const LoadedRobot& robot,
             const FlagTexts& flags, bool torque) {
-  LogReaderOptions options;
-  {
-    const FlagSession session(CommandNamed("inspect"), flags);
-    options = LogOptionsFromFlags(robot.robot);
-  }
+  LogReaderOptions options =
+      LogOptionsFromFlags(FlagsOf(CommandNamed("inspect"), flags), robot.robot);
   options.need_torque = torque;
   options.want_velocity = options.want_acceleration = true;
   options.want_reference = options.want_temperature = true;
@@ -212,8 +199,6 @@ void AddCommands(py::module_* module) {
               py::arg("write") = false, py::call_guard<DecimalPoint>(),
               "Runs a command of the armcal binary; with write its files go to "
               "the folders that the flags name.");
-  module->def("options", &OptionsOf, py::arg("command"),
-              "{name: (default, description)} of a command's flags.");
   module->def("trace", &Trace, py::arg("outcome"), py::arg("robot"),
               py::arg("flags"), py::arg("bandwidth_hz"),
               py::arg("progress") = py::none(), py::call_guard<DecimalPoint>(),

@@ -5,7 +5,7 @@
 namespace armcal {
 
 // Adds run and Outcome (a command of the armcal binary, its flags given as
-// texts), options, trace and read_log.
+// texts), trace and read_log.
 void AddCommands(pybind11::module_* module);
 
 }  // namespace armcal

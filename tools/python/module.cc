@@ -7,6 +7,7 @@
 #include "model/text/option_name.h"
 #include "tools/command.h"
 #include "tools/python/command_binding.h"
+#include "tools/python/option_binding.h"
 #include "tools/python/robot_binding.h"
 #include "tools/version.h"
 
@@ -21,9 +22,10 @@ PYBIND11_MODULE(_armcal, module) {
       .attr("__doc__") =
       "Bad input: the file, the place in it, the value "
       "found and what was expected.";
-  py::register_exception<armcal::UsageError>(module, "UsageError",
-                                             PyExc_ValueError)
+  py::register_exception<armcal::OptionError>(module, "UsageError",
+                                              PyExc_ValueError)
       .attr("__doc__") = "An option that is not known, or its value.";
   armcal::AddRobot(&module);
   armcal::AddCommands(&module);
+  armcal::AddOptions(&module);
 }

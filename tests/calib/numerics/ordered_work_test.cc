@@ -24,6 +24,36 @@ TEST(ThreadLimit, HoldsAsLongAsItLives) {
   EXPECT_EQ(ThreadLimit::Active(), all);
 }
 
+// Each thread has its own, whatever the others do meanwhile.
+TEST(WithThreads, HoldsForItsThreadAlone) {
+  const int all = ThreadLimit::Active();
+  WithThreads(1, [&] {
+    EXPECT_EQ(OrderedWork().num_slots(), 1);
+    std::thread other([&] {
+      EXPECT_EQ(ThreadLimit::Active(), all);
+      WithThreads(3, [&] {
+        EXPECT_EQ(ThreadLimit::Active(), 3);
+        WithThreads(0, [&] { EXPECT_EQ(ThreadLimit::Active(), all); });
+        EXPECT_EQ(ThreadLimit::Active(), 3);
+      });
+    });
+    other.join();
+    EXPECT_EQ(ThreadLimit::Active(), 1);
+  });
+  EXPECT_EQ(ThreadLimit::Active(), all);
+}
+
+TEST(WithThreads, DoesItsWorkInTheCallingThread) {
+  const std::thread::id here = std::this_thread::get_id();
+  for (int k = 0; k < 100; ++k) {
+    WithThreads(1 + k % 3,
+                [&] { EXPECT_EQ(std::this_thread::get_id(), here); });
+  }
+  EXPECT_THROW(WithThreads(2, [] { throw std::out_of_range("work"); }),
+               std::out_of_range);
+  EXPECT_GE(ThreadLimit::Active(), 1);
+}
+
 // Every other task takes long, so that its followers are done before it.
 TEST(OrderedWork, FinishesInOrderWhateverIsDoneFirst) {
   for (const int threads : {1, 2, 4}) {

@@ -5,16 +5,21 @@ from __future__ import annotations
 
 import os
 import tempfile
-from inspect import signature
+from inspect import Parameter, signature
+from textwrap import wrap
 from typing import Any, Callable, Dict, List, Optional, Tuple, Union
 
 from armcal import _armcal
 from armcal.log import Log, read_log
-from armcal.option_text import option_text
+from armcal.option_kinds import (default_of, kind_of, option_text, options_of,
+                                 unit_of)
 from armcal.results import (Calibration, Diagnosis, Excitation, Inspection,
                             Merger, Reduction, Result, Simulation,
                             Verification)
 
+Path = Union[str, "os.PathLike[str]"]
+# Two ends, s or as the option says; None: open.
+Range = Union[Tuple[Optional[float], Optional[float]], List[Optional[float]]]
 RobotLike = Union[_armcal.Robot, str, "os.PathLike[str]"]
 LogLike = Union[Log, str, "os.PathLike[str]"]
 Logs = Union[LogLike, List[LogLike], Tuple[LogLike, ...]]
@@ -80,27 +85,17 @@ class _Staging:
                 for name, value in options.items() if value is not None}
 
 
-def _paths(name: str, logs: Any) -> Any:
-    """Logs as a list; a path with a comma would be two."""
-    listed = list(logs) if isinstance(logs, (list, tuple)) else [logs]
-    for log in listed:
-        if isinstance(log, (str, os.PathLike)) and "," in os.fspath(log):
-            raise ValueError(f"{name}: found {os.fspath(log)!r}, expected a "
-                             "path without a comma; several go in a list")
-    return listed
-
-
 def _run(command: str, robot: _armcal.Robot, options: Dict[str, Any],
          progress: Progress
          ) -> Tuple[_armcal.Outcome, str, Dict[str, bytes]]:
     for name in _ROBOT_FLAGS:
         if name in options:
             raise _armcal.UsageError(f"{name}: give it to read_robot")
-    for name in ("log", "validate", "reference", "payload_log", "factors"):
-        if options.get(name) is not None:
-            options[name] = _paths(name, options[name])
     with _Staging() as staging:
         flags = staging.texts(options)
+        for name in ("base", "tip"):
+            if getattr(robot, name):
+                flags[name] = getattr(robot, name)
         flags["robot"] = robot.path
         try:
             outcome = _armcal.run(command, flags, robot, progress,
@@ -121,7 +116,7 @@ def _tracer(robot: _armcal.Robot, log: Optional[Logs],
     def trace(outcome: _armcal.Outcome, found: Dict[str, Any],
               other: Optional[Logs]) -> List[_armcal.PredictedLog]:
         shown = dict(reading)
-        shown["log"] = _paths("log", log if other is None else other)
+        shown["log"] = log if other is None else other
         if other is None:
             shown["crop"] = options.get("crop")
         if "drive_gains" in found:
@@ -199,14 +194,16 @@ def _log_of(name: str, files: Dict[str, bytes], robot: _armcal.Robot,
         return read_log(path, robot, torque=torque, **options)
 
 
-def excite(robot: RobotLike, *, progress: Progress = None,
-           **options: Any) -> Excitation:
+def excite(robot: RobotLike, *,
+           given: Union[Logs, Calibration, None] = None,
+           progress: Progress = None, **options: Any) -> Excitation:
     """A motion, or postures, that show an arm's parameters within its limits.
 
     given  logs or a Calibration that are there already
     """
     arm = _robot(robot)
-    outcome, text, files = _run("excite", arm, options, progress)
+    outcome, text, files = _run("excite", arm, {**options, "given": given},
+                                progress)
     name = "trajectory.csv"
     return Excitation(outcome, text, files, _log_of(
         name, files, arm, False) if name in files else None)
@@ -250,17 +247,41 @@ def merge(robot: RobotLike, factors: Any, *, progress: Progress = None,
                         {**options, "factors": factors}, progress))
 
 
-def _add_options(function: Callable[..., Any], command: str) -> None:
-    """Adds to a docstring what --help says."""
-    own = signature(function).parameters
-    lines = [f"{name:<20} {text}" + (f" (default {default})" if default else "")
-             for name, (default, text) in _armcal.options(command).items()
-             if name not in own and name not in _ROBOT_FLAGS + _PRINT_FLAGS]
+def _sentence(option: _armcal.Option, annotation: str) -> List[str]:
+    """Type, unit, meaning and default, in lines."""
+    text = "str" if annotation.startswith("Literal") else annotation
+    if unit_of(option):
+        text += f", {unit_of(option)}"
+    text += f": {option.description}"
+    if option.default:
+        text += f" (default {option.default})"
+    return wrap(text, 75, initial_indent=f"{option.name:<20} ",
+                subsequent_indent=" " * 21)
+
+
+def _say_options(function: Callable[..., Any]) -> None:
+    """Gives a function the signature and the sentences of its options."""
+    own = signature(function)
+    explicit = [p for p in own.parameters.values() if p.kind != p.VAR_KEYWORD]
+    hidden = {p.name for p in explicit} | set(_ROBOT_FLAGS + _PRINT_FLAGS)
+    said, parameters = [], []
+    for option in options_of(function.__name__):
+        if option.name in hidden:
+            continue
+        kind, default = kind_of(option), default_of(option)
+        annotation = (f"Optional[{kind.annotation}]" if default is None else
+                      kind.annotation)
+        parameters.append(Parameter(option.name, Parameter.KEYWORD_ONLY,
+                                    default=default, annotation=annotation))
+        said += _sentence(option, kind.annotation)
+    function.__signature__ = own.replace(  # type: ignore[attr-defined]
+        parameters=explicit + parameters)
     function.__doc__ = "\n    ".join(
-        [(function.__doc__ or "").rstrip(), "", "Options:", *lines, ""])
+        [(function.__doc__ or "").rstrip(), "", "Options:", *said, ""])
 
 
-_FUNCTIONS: List[Callable[..., Any]] = [calibrate, diagnose, verify, inspect,
-                                        excite, simulate, reduce, merge]
-for _function in _FUNCTIONS:
-    _add_options(_function, _function.__name__)
+#: In the order of armcal --help.
+FUNCTIONS: List[Callable[..., Any]] = [calibrate, verify, diagnose, simulate,
+                                       excite, inspect, reduce, merge]
+for _function in FUNCTIONS:
+    _say_options(_function)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armcal import _armcal
-from armcal.option_text import option_texts
+from armcal.option_kinds import option_texts
 
 Array = NDArray[np.float64]
 # Signals of a log, with their names in an .npz.

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armcal import _armcal
+from armcal.html import Table, page
 from armcal.log import Array, Log
 
 Path = Union[str, "os.PathLike[str]"]
@@ -49,8 +50,8 @@ class Result:
         return self._outcome.code == 0
 
     def write(self, folder: Path) -> None:
-        """Writes the result files; the command line's report.html needs the
-        option out instead."""
+        """Writes the result files as the command line's --out does: all of
+        `files`, report.html too where the command has one."""
         os.makedirs(folder, exist_ok=True)
         for name, content in self.files.items():
             temporary = os.path.join(folder, f"{name}.tmp{os.getpid()}")
@@ -60,6 +61,14 @@ class Result:
 
     def __repr__(self) -> str:
         return f"<armcal.{type(self).__name__}: {self._first_line()}>"
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the verdict and the result's main figures."""
+        return page(f"armcal {type(self).__name__.lower()}", self.passed,
+                    self._first_line(), self._tables())
+
+    def _tables(self) -> List[Table]:
+        return []
 
     def _first_line(self) -> str:
         text = self._outcome.brief or self._text
@@ -89,6 +98,26 @@ class Estimates:
     def __getitem__(self, name: str) -> float:
         """The value of a parameter, by its name."""
         return float(self.values[self.names.index(name)])
+
+    def _table(self, caption: str) -> Table:
+        rows = zip(self.names, self.values.tolist(), self.stddev.tolist(),
+                   self.prior.tolist(), self.units)
+        return Table(caption, ("", "value", "std. deviation", "robot file",
+                               "unit"), list(rows))
+
+    def _repr_html_(self) -> str:
+        return page("armcal estimates", True, f"{len(self)} parameters",
+                    [self._table("parameters")])
+
+
+def _joint_table(joints: List[Dict[str, Any]],
+                 columns: Dict[str, str]) -> Table:
+    """A row per joint, of those `columns` {key: heading} that any joint has."""
+    known = {key: heading for key, heading in columns.items()
+             if any(joint.get(key) is not None for joint in joints)}
+    return Table("joints", ("", *known.values(), "unit"),
+                 [(joint["name"], *(joint.get(key) for key in known),
+                   joint.get("unit")) for joint in joints])
 
 
 def _numbers(entries: List[Dict[str, Any]], key: str,
@@ -197,6 +226,15 @@ class Calibration(Result):
         joints: List[Dict[str, Any]] = self._dict.get("joints", [])
         return joints
 
+    def _tables(self) -> List[Table]:
+        columns = {"torque_rms": "torque, rms", "residual_rms": "residual, rms",
+                   "residual_percent": "%",
+                   "validation_residual_rms": "held out, rms",
+                   "validation_residual_percent": "held out, %"}
+        estimates = self._main
+        return [_joint_table(self.joints, columns),
+                estimates._table("parameters")]
+
     def torques(self, log: Any = None) -> List[_armcal.PredictedLog]:
         """Measured and predicted torques of the logs it was calibrated on, or
         of others, low-passed at four times its bandwidth as report.html draws
@@ -244,6 +282,14 @@ class Diagnosis(Result):
         """Per joint: nominal_rms, refit_rms, after_rms, floor_rms, ..."""
         joints: List[Dict[str, Any]] = self._dict["where"]["joints"]
         return joints
+
+    def _tables(self) -> List[Table]:
+        effects = [(effect["effect"], effect.get("joint"),
+                    effect.get("probability")) for effect in self.effects]
+        columns = {"nominal_rms": "robot file, rms", "refit_rms": "refitted",
+                   "after_rms": "with the effects", "floor_rms": "noise"}
+        return [Table("effects", ("", "joint", "probability"), effects),
+                _joint_table(self.joints, columns)]
 
 
 class Verification(Result):
@@ -307,6 +353,9 @@ class Merger(Result):
         """Of all logs as if they were of one robot."""
         return _estimates(self.to_dict()["model_parameters"],
                           _matrix(self.files.get("covariance.csv")))
+
+    def _tables(self) -> List[Table]:
+        return [self.model_parameters._table("model parameters")]
 
     @property
     def fleet(self) -> Optional[Dict[str, Any]]:
