@@ -6,18 +6,11 @@
 
 #include "model/log_files/time_base.h"
 #include "model/signals/trajectory.h"
+#include "problems/identification.h"
 #include "problems/joint_columns.h"
 #include "problems/motion_functions.h"
 
 namespace armcal {
-
-// Which identification model turns motion into linear equations U X = Y.
-enum class Identification {
-  kWeak,          // test functions over sliding windows: weak_rows.h
-  kDifferential,  // (2.19): differential_rows.h
-  kIntegral       // (2.27): integral_rows.h
-};
-enum class Quadrature { kTrapezoid, kSimpson };
 
 struct RowOptions {
   Identification identification = Identification::kWeak;

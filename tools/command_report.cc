@@ -5,8 +5,20 @@
 
 namespace armcal {
 
+CommandOutcome OutcomeOf(const CommandInput& input, const Robot& robot,
+                         const Summary& summary,
+                         const std::vector<std::string>& notes) {
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
+  for (const ResultFile& file : summary.files) out.Add(file.name, file.content);
+  outcome.output = {summary.json, summary.report, robot.name + ": ",
+                    summary.positive, notes};
+  outcome.brief = summary.brief;
+  return outcome;
+}
+
 void AddReport(const CommandInput& input, const std::string& command,
-               const Robot& robot, const nlohmann::json& result,
+               const Robot& robot, const std::string& json,
                const std::vector<std::string>& files,
                const std::function<void(ReportContent*)>& complete,
                OutputFolder* out) {
@@ -14,7 +26,7 @@ void AddReport(const CommandInput& input, const std::string& command,
   ReportContent content;
   content.command = command;
   content.robot = robot.name;
-  content.result = result;
+  content.result = nlohmann::json::parse(json);
   content.skeleton = SkeletonJson(robot, BentPosture(robot));
   content.arguments = {"armcal", command};
   for (const std::string& flag : input.flags.AsTyped()) {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "calib/summary.h"
 #include "model/robot/robot.h"
 #include "tools/command.h"
 #include "tools/output_folder.h"
@@ -12,11 +12,17 @@
 
 namespace armcal {
 
-// Adds report.html to the results, where the input wants it: `result`, the
-// command line, the robot at a bent posture, the hashes of the robot file and
-// of `files`, and what `complete` (or null) knows besides.
+// What a summary says, its files those of --out. `notes`: what the reader of
+// the robot file has to say, where the command tells it.
+CommandOutcome OutcomeOf(const CommandInput& input, const Robot& robot,
+                         const Summary& summary,
+                         const std::vector<std::string>& notes);
+
+// Adds report.html to the results, where the input wants it: the
+// summary's JSON, the command line, the robot at a bent posture, the hashes of
+// the robot file and of `files`, and what `complete` (or null) knows besides.
 void AddReport(const CommandInput& input, const std::string& command,
-               const Robot& robot, const nlohmann::json& result,
+               const Robot& robot, const std::string& json,
                const std::vector<std::string>& files,
                const std::function<void(ReportContent*)>& complete,
                OutputFolder* out);

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <stdexcept>
+#include "model/text/option_error.h"
 
 namespace armcal {
 
 // A wrong command line: printed with a pointer to --help, exit code 2.
-class UsageError : public std::runtime_error {
+class UsageError : public OptionError {
  public:
-  using std::runtime_error::runtime_error;
+  using OptionError::OptionError;
 };
 
 }  // namespace armcal

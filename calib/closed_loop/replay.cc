@@ -61,12 +61,12 @@ Eigen::RowVectorXd At(const MatrixXd& x, double rate_hz, double t) {
 
 }  // namespace
 
-CommandedLog ReadCommandedLog(const std::string& path,
+CommandedLog ReadCommandedLog(const LogSource& source,
                               const LogReaderOptions& given,
                               const TimeRange& crop) {
   LogReaderOptions options = given;
   options.commands_do = true;
-  return CommandedRows(path, ReadWholeLog(path, options), crop);
+  return CommandedRows(source.name, ReadWholeLog(source, options), crop);
 }
 
 CommandedLog CommandedRows(const std::string& path, const Log& all,

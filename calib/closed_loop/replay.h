@@ -22,7 +22,7 @@ struct CommandedLog {
 
 // The rows of a log within `crop`. Throws InputError where it has no qref
 // columns, more than 2^20 rows or nothing is left.
-CommandedLog ReadCommandedLog(const std::string& path,
+CommandedLog ReadCommandedLog(const LogSource& source,
                               const LogReaderOptions& options,
                               const TimeRange& crop);
 // The same of a log that has been read.

@@ -55,7 +55,7 @@ double Excess(const ArmUnknowns& unknowns, const LinkInformation& information,
 TorqueInformation InformByTorques(const Robot& robot,
                                   const LinearCalibration& linear,
                                   const NonlinearCalibrationOptions& options,
-                                  LogSet* logs) {
+                                  const LogSet& logs) {
   TorqueInformation result;
   const NonlinearCalibration alone =
       CalibrateNonlinear(robot, linear, options, logs, nullptr);
@@ -66,7 +66,8 @@ TorqueInformation InformByTorques(const Robot& robot,
   const int n = robot.num_joints(), size = 14 * n;
   const ArmValues& at = unknowns.nominal();
   const VectorXd noise = EquationNoise(linear);
-  LinkPass pass(unknowns, linear, options.progress, logs);
+  LinkPass pass(unknowns, linear, options.progress,
+                Prepare(logs, linear.preparation));
   const LinkEquations equations = pass.Reduce(at, noise);
   const ArmFit fit(unknowns, options.trust, nullptr);
   const MatrixXd prior = fit.PriorInformation(options.trust);

@@ -28,6 +28,6 @@ struct TorqueInformation {
 TorqueInformation InformByTorques(const Robot& robot,
                                   const LinearCalibration& linear,
                                   const NonlinearCalibrationOptions& options,
-                                  LogSet* logs);
+                                  const LogSet& logs);
 
 }  // namespace armcal

@@ -36,16 +36,16 @@ class Diagnoser {
   Diagnoser(const Robot& robot, const DiagnosisOptions& options)
       : robot_(robot), options_(options) {}
 
-  GapDiagnosis Run(LogSet* training, LogSet* validation, LogSet* reference);
+  GapDiagnosis Run(const LogSet& training, const LogSet* validation,
+                   const LogSet* reference);
 
  private:
-  std::vector<GapSegment> Read(LogSet* logs, LogPart part,
+  std::vector<GapSegment> Read(const LogSet& logs, LogPart part,
                                bool must_move = true) {
-    if (logs == nullptr) return {};
     const double hz = options_.bandwidth_hz;
     std::vector<GapSegment> segments =
         ReadSegments(hz, options_.progress, logs);
-    if (must_move || segments.empty()) CheckMotion(segments, hz, part, *logs);
+    if (must_move || segments.empty()) CheckMotion(segments, hz, part, logs);
     KnowUsualTemperature(&segments);
     AdvanceTorque(delay_, &segments);
     return segments;
@@ -60,7 +60,7 @@ class Diagnoser {
            const std::vector<GapSegment>& before, bool split);
   JointGap JointFigures(int joint) const;
   JointCourse CourseOf(int joint) const;
-  void Simulate(LogSet* held_out, bool split);
+  void Simulate(const LogSet& held_out, bool split);
   void TellUnexplained();
   void Judge();
 
@@ -86,14 +86,15 @@ void Diagnoser::KnowUsualTemperature(std::vector<GapSegment>* segments) {
   }
 }
 
-GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
-                            LogSet* reference) {
+GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
+                            const LogSet* reference) {
   const bool split = validation == nullptr;
   // What touches an arm that rests, a reference tells.
   std::vector<GapSegment> segments =
       Read(training, split ? LogPart::kHeldOut : LogPart::kAll,
            reference == nullptr);
-  std::vector<GapSegment> before = Read(reference, LogPart::kAll);
+  std::vector<GapSegment> before;
+  if (reference != nullptr) before = Read(*reference, LogPart::kAll);
   Tell("fitting the baseline");
   const LackedFamilies lacked =
       FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
@@ -120,7 +121,7 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   if (split) {
     held_out_.emplace(*fit_);
   } else {
-    held_out_.emplace(*fit_, Read(validation, LogPart::kAll));
+    held_out_.emplace(*fit_, Read(*validation, LogPart::kAll));
   }
   Tell("checking what was held out");
   result_.bandwidth_hz = options_.bandwidth_hz;
@@ -140,7 +141,7 @@ GapDiagnosis Diagnoser::Run(LogSet* training, LogSet* validation,
   found_without_name_ = findings.without_name;
   result_.traces =
       TraceHeldOut(held_out_->rows(), residuals, !result_.effects.empty());
-  Simulate(split ? training : validation, split);
+  Simulate(split ? training : *validation, split);
   result_.moved = ListMoved(*fit_, fit_->refined().baseline);
   result_.shown = ListShown(*fit_, fit_->refined().baseline);
   result_.drifts = ListRunDrifts(*fit_, fit_->refined().baseline);
@@ -213,7 +214,7 @@ JointCourse Diagnoser::CourseOf(int j) const {
 
 // The held-out motion by the file's robot, the refitted one and the one with
 // the effects; events are not repeated.
-void Diagnoser::Simulate(LogSet* held_out, bool split) {
+void Diagnoser::Simulate(const LogSet& held_out, bool split) {
   const RefinedEffects& refined = fit_->refined();
   const auto robot = [&](const VectorXd& x,
                          const std::vector<GapCandidate>& effects) {
@@ -290,8 +291,8 @@ void Diagnoser::Judge() {
 }  // namespace
 
 GapDiagnosis DiagnoseGap(const Robot& robot, const DiagnosisOptions& options,
-                         LogSet* training, LogSet* validation,
-                         LogSet* reference) {
+                         const LogSet& training, const LogSet* validation,
+                         const LogSet* reference) {
   return Diagnoser(robot, options).Run(training, validation, reference);
 }
 

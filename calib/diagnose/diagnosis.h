@@ -88,7 +88,7 @@ double DiagnosisBandwidth(const std::vector<TimeBase>& time_bases);
 // there are none. `reference`: logs of the robot before, which the baseline is
 // fitted to as well; null: none.
 GapDiagnosis DiagnoseGap(const Robot& robot, const DiagnosisOptions& options,
-                         LogSet* training, LogSet* validation,
-                         LogSet* reference);
+                         const LogSet& training, const LogSet* validation,
+                         const LogSet* reference);
 
 }  // namespace armcal

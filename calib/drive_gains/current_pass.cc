@@ -10,8 +10,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 ResidualPass MakePass(const ModelParameters& parameters, const RowOptions& rows,
-                      const Progress& progress, LogSet* logs) {
-  const EquationMask all(logs->size(),
+                      const Progress& progress, const PreparedLogs& logs) {
+  const EquationMask all(logs.size(),
                          std::vector<bool>(parameters.num_joints(), true));
   return ResidualPass(parameters, rows, all, progress, logs);
 }
@@ -20,14 +20,14 @@ ResidualPass MakePass(const ModelParameters& parameters, const RowOptions& rows,
 
 CurrentPass::CurrentPass(const ModelParameters& parameters,
                          const RowOptions& rows, const MatrixXd& B,
-                         const Progress& progress, LogSet* bare,
-                         LogSet* payload)
+                         const Progress& progress, const PreparedLogs& bare,
+                         const PreparedLogs* payload)
     : B_(B),
-      logs_bare_(bare->size()),
+      logs_bare_(bare.size()),
       logs_loaded_(payload == nullptr ? 0 : payload->size()),
       bare_(MakePass(parameters, rows, progress, bare)) {
   if (payload == nullptr) return;
-  loaded_.emplace(MakePass(parameters, rows, progress, payload));
+  loaded_.emplace(MakePass(parameters, rows, progress, *payload));
 }
 
 void CurrentPass::Run(const std::string& stage, const GainEstimate& estimate,

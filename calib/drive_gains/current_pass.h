@@ -7,7 +7,7 @@
 
 #include "calib/drive_gains/solution.h"
 #include "calib/linear/residual_pass.h"
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "model/dynamics/model_parameters.h"
 #include "problems/identification_rows.h"
 
@@ -29,8 +29,8 @@ class CurrentPass {
   // B: m x 10, what a body on the last link adds to the parameters; `payload`
   // may be null.
   CurrentPass(const ModelParameters& parameters, const RowOptions& rows,
-              const Eigen::MatrixXd& B, const Progress& progress, LogSet* bare,
-              LogSet* payload);
+              const Eigen::MatrixXd& B, const Progress& progress,
+              const PreparedLogs& bare, const PreparedLogs* payload);
 
   const ModelParameters& parameters() const { return bare_.parameters(); }
   const Eigen::MatrixXd& B() const { return B_; }

@@ -116,8 +116,8 @@ void ReportCentre(const GainFit& fit, const GainSensitivity& sensitivity,
 
 DriveGains Estimate(const Robot& robot, const LinearCalibrationOptions& options,
                     const RowOptions& rows, double payload_mass,
-                    const ModelParameters& parameters, LogSet* bare,
-                    LogSet* payload) {
+                    const ModelParameters& parameters, const PreparedLogs& bare,
+                    const PreparedLogs* payload) {
   DriveGains result = Unknown(robot, payload_mass);
   CurrentPass pass(parameters, rows, PayloadColumns(parameters, robot),
                    options.progress, bare, payload);
@@ -157,8 +157,8 @@ std::vector<double> DriveGains::TorqueConstants() const {
 
 DriveGains EstimateDriveGains(const Robot& robot,
                               const LinearCalibrationOptions& options,
-                              double payload_mass, LogSet* bare,
-                              LogSet* payload) {
+                              double payload_mass, const LogSet& bare,
+                              const LogSet* payload) {
   CHECK_GT(payload_mass, 0);
   LinearCalibrationOptions weak = options;
   weak.identification = Identification::kWeak;
@@ -166,22 +166,23 @@ DriveGains EstimateDriveGains(const Robot& robot,
   Robot arm = robot;
   // A payload need not be as symmetric as the arm.
   for (Link& link : arm.links) link.zero_inertials.clear();
-  std::vector<TimeBase> time_bases = bare->time_bases();
-  CheckBandwidth(options.bandwidth_hz, *bare);
+  std::vector<TimeBase> time_bases = bare.time_bases();
+  CheckBandwidth(options.bandwidth_hz, bare);
   if (payload != nullptr) {
     CheckBandwidth(options.bandwidth_hz, *payload);
     time_bases.insert(time_bases.end(), payload->time_bases().begin(),
                       payload->time_bases().end());
   }
   if (!weak.bandwidth_hz) weak.bandwidth_hz = DefaultBandwidth(time_bases);
-  const RowOptions rows = MakeRowOptions(weak, *bare);
-  bare->Prepare(rows.bandwidth_hz, RowReach(rows));
-  if (payload != nullptr) payload->Prepare(rows.bandwidth_hz, RowReach(rows));
+  const RowOptions rows = MakeRowOptions(weak, bare);
+  const PreparedLogs unloaded = Prepare(bare, PreparationForRows(rows));
+  std::optional<PreparedLogs> loaded;
+  if (payload != nullptr) loaded = Prepare(*payload, PreparationForRows(rows));
   const Transitions transitions =
-      FindTransitions(arm, weak, rows, bare, TorqueUnits::kPerJoint);
-  DriveGains result =
-      Estimate(arm, weak, rows, payload_mass,
-               MakeParameters(arm, weak, transitions), bare, payload);
+      FindTransitions(arm, weak, rows, unloaded, TorqueUnits::kPerJoint);
+  DriveGains result = Estimate(arm, weak, rows, payload_mass,
+                               MakeParameters(arm, weak, transitions), unloaded,
+                               loaded ? &*loaded : nullptr);
   if (!transitions.empty() && !weak.transition) result.passes += 2;
   return result;
 }

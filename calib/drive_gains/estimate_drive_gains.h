@@ -25,7 +25,7 @@ namespace armcal {
 // are those of the file. Bad input throws InputError.
 DriveGains EstimateDriveGains(const Robot& robot,
                               const LinearCalibrationOptions& options,
-                              double payload_mass, LogSet* bare,
-                              LogSet* payload);
+                              double payload_mass, const LogSet& bare,
+                              const LogSet* payload);
 
 }  // namespace armcal

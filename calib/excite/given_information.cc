@@ -39,7 +39,7 @@ Motion MotionAt(const Trajectory& trajectory, const std::vector<int>& samples) {
 // density times (2 / L) int phi^2 ds / (int phi ds)^2.
 std::vector<SegmentInformation> InformationBySegment(
     const Robot& robot, const ModelParameters& model, const VectorXd& density,
-    double segment_s, const Progress& progress, LogSet* logs) {
+    double segment_s, const Progress& progress, const PreparedLogs& logs) {
   MotionInformation information(robot, model);
   constexpr double kLeastShare = .1;  // a shorter rest is the one before's
   struct Sum {
@@ -47,7 +47,7 @@ std::vector<SegmentInformation> InformationBySegment(
     double seconds = 0;
   };
   std::map<std::pair<int, long>, Sum> sums;
-  logs->ForEach(
+  logs.ForEach(
       "what is known", progress, [&](int log, const Trajectory& trajectory) {
         for (const auto& [k, samples] : CountedSamples(trajectory, segment_s)) {
           const Motion motion = MotionAt(trajectory, samples);
@@ -75,7 +75,7 @@ std::vector<SegmentInformation> InformationBySegment(
 
 MatrixXd GivenInformation(const Robot& robot, const ModelParameters& model,
                           const VectorXd& density, const Progress& progress,
-                          LogSet* logs) {
+                          const PreparedLogs& logs) {
   constexpr double kAll = 1e9;  // s
   MatrixXd A = MatrixXd::Zero(model.size(), model.size());
   for (const SegmentInformation& segment :

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calib/linear/calibration.h"
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "model/dynamics/model_parameters.h"
 #include "model/robot/robot.h"
 
@@ -21,13 +21,14 @@ struct SegmentInformation {
 std::vector<SegmentInformation> InformationBySegment(
     const Robot& robot, const ModelParameters& model,
     const Eigen::VectorXd& density, double segment_s, const Progress& progress,
-    LogSet* logs);
+    const PreparedLogs& logs);
 
 // What the motions of logs tell about the parameters of `model` (m x m) where
 // torques have such errors; standstill tells nothing.
 Eigen::MatrixXd GivenInformation(const Robot& robot,
                                  const ModelParameters& model,
                                  const Eigen::VectorXd& density,
-                                 const Progress& progress, LogSet* logs);
+                                 const Progress& progress,
+                                 const PreparedLogs& logs);
 
 }  // namespace armcal

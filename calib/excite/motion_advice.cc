@@ -60,10 +60,10 @@ std::vector<std::vector<int>> Choices(int n) {
   return choices;
 }
 
-VectorXd MeanPosture(LogSet* logs) {
+VectorXd MeanPosture(const PreparedLogs& logs) {
   VectorXd sum;
   double count = 0;
-  logs->ForEach("postures", {}, [&](int, const Trajectory& trajectory) {
+  logs.ForEach("postures", {}, [&](int, const Trajectory& trajectory) {
     if (sum.size() == 0) sum = VectorXd::Zero(trajectory.q.cols());
     sum += trajectory.q.colwise().sum().transpose();
     count += static_cast<double>(trajectory.q.rows());
@@ -75,7 +75,7 @@ VectorXd MeanPosture(LogSet* logs) {
 
 std::vector<AdvisedMotion> AdviseMotions(
     const Robot& robot, const LinearCalibration& linear,
-    const LinearCalibrationOptions& options, LogSet* logs) {
+    const LinearCalibrationOptions& options, const LogSet& logs) {
   constexpr int kMostMotions = 8;
   std::vector<AdvisedMotion> advice;
   const Identifiability& id = linear.identifiability;
@@ -83,8 +83,10 @@ std::vector<AdvisedMotion> AdviseMotions(
   const InformationScale scale(robot, linear, options);
   std::vector<std::string> assumed;
   const MotionLimits limits = LimitsOf(robot, &assumed);
-  MatrixXd A = GivenInformation(robot, scale.model, scale.density, {}, logs);
-  const VectorXd posture = MeanPosture(logs);
+  const PreparedLogs prepared = Prepare(logs, linear.preparation);
+  MatrixXd A =
+      GivenInformation(robot, scale.model, scale.density, {}, prepared);
+  const VectorXd posture = MeanPosture(prepared);
   std::vector<MatrixXd> of_choice;
   const auto choices = Choices(robot.num_joints());
   MotionInformation information(robot, scale.model);

@@ -16,6 +16,6 @@ namespace armcal {
 // with fewer joints. Empty where nothing is missing or no motion helps.
 std::vector<AdvisedMotion> AdviseMotions(
     const Robot& robot, const LinearCalibration& linear,
-    const LinearCalibrationOptions& options, LogSet* logs);
+    const LinearCalibrationOptions& options, const LogSet& logs);
 
 }  // namespace armcal

@@ -44,10 +44,11 @@ SegmentSelection SelectSegments(const Robot& robot,
                                 const LinearCalibration& linear,
                                 const LinearCalibrationOptions& options,
                                 double segment_s, double most_ratio,
-                                LogSet* logs) {
+                                const LogSet& logs) {
   const InformationScale scale(robot, linear, options);
-  std::vector<SegmentInformation> segments = InformationBySegment(
-      robot, scale.model, scale.density, segment_s, options.progress, logs);
+  std::vector<SegmentInformation> segments =
+      InformationBySegment(robot, scale.model, scale.density, segment_s,
+                           options.progress, Prepare(logs, linear.preparation));
   const int m = scale.model.size();
   SegmentSelection result;
   result.segment_s = segment_s;

@@ -38,7 +38,7 @@ SegmentSelection SelectSegments(const Robot& robot,
                                 const LinearCalibration& linear,
                                 const LinearCalibrationOptions& options,
                                 double segment_s, double most_ratio,
-                                LogSet* logs);
+                                const LogSet& logs);
 
 std::string SelectionText(const SegmentSelection& selection,
                           const LogSet& logs);

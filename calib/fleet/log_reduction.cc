@@ -17,13 +17,13 @@ namespace {
 // All rows by the weights that they have in the log's own calibration.
 std::vector<TriangularFactor> WeighedFactors(const LinearCalibration& own,
                                              const Progress& progress,
-                                             LogSet* log) {
+                                             const LogSet& log) {
   const int n = own.parameters.num_joints();
   const RobustLoss loss = own.solved ? own.loss : RobustLoss::kSquared;
   const Eigen::VectorXd noise =
       own.solved ? own.noise : Eigen::VectorXd(Eigen::VectorXd::Ones(n));
   ResidualPass pass(own.parameters, own.rows, {std::vector<bool>(n, true)},
-                    progress, log);
+                    progress, Prepare(log, own.preparation));
   std::vector<TriangularFactor> factors = EmptyFactors(own.parameters);
   pass.RunBatches("reducing", own.x, noise, [&](const BatchResidual& batch) {
     Eigen::VectorXd weights(batch.rows.count);
@@ -56,7 +56,7 @@ std::optional<double> Inflation(const Robot& robot, const ReductionModel& model,
 ReductionModel ChooseReductionModel(const Robot& robot,
                                     const std::string& robot_sha256,
                                     const LinearCalibrationOptions& options,
-                                    LogSet* logs) {
+                                    const LogSet& logs) {
   ReductionModel model;
   model.robot = robot.name;
   model.robot_sha256 = robot_sha256;
@@ -64,12 +64,12 @@ ReductionModel ChooseReductionModel(const Robot& robot,
   model.geometry = options.geometry;
   model.joint_terms = options.joint_terms;
   model.loss = options.loss.value_or(RobustLoss::kHuber);
-  model.rows = MakeRowOptions(options, *logs);
-  CheckBandwidth(options.bandwidth_hz, *logs);
-  logs->Prepare(model.rows.bandwidth_hz, RowReach(model.rows),
-                model.loss != RobustLoss::kSquared);
+  model.rows = MakeRowOptions(options, logs);
+  CheckBandwidth(options.bandwidth_hz, logs);
+  const PreparedLogs prepared = Prepare(
+      logs, PreparationForRows(model.rows, model.loss != RobustLoss::kSquared));
   const Transitions transitions =
-      FindTransitions(robot, options, model.rows, logs);
+      FindTransitions(robot, options, model.rows, prepared);
   for (const auto& joint : transitions) {
     model.transitions.push_back(joint.front());
   }
@@ -83,14 +83,14 @@ ReductionModel ChooseReductionModel(const Robot& robot,
 }
 
 ReducedLog ReduceLog(const Robot& robot, const ReductionModel& model,
-                     const Progress& progress, LogSet* log) {
+                     const Progress& progress, const LogSet& log) {
   LinearCalibrationOptions options = model.Options();
   options.progress = progress;
   const LinearCalibration own = CalibrateLinear(robot, options, log, nullptr);
-  const TimeBase& base = log->time_bases()[0];
+  const TimeBase& base = log.time_bases()[0];
   ReducedLog reduced;
-  reduced.file = std::filesystem::path(log->path(0)).filename().string();
-  reduced.torque = log->torque_source();
+  reduced.file = std::filesystem::path(log.path(0)).filename().string();
+  reduced.torque = log.torque_source();
   reduced.samples = base.samples;
   reduced.range = base.range;
   reduced.resampled = !base.uniform;

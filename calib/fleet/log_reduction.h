@@ -14,7 +14,7 @@ namespace armcal {
 ReductionModel ChooseReductionModel(const Robot& robot,
                                     const std::string& robot_sha256,
                                     const LinearCalibrationOptions& options,
-                                    LogSet* logs);
+                                    const LogSet& logs);
 
 // Reduces a set of one log. The log is calibrated alone first, which takes
 // gross errors out of its torque, gives its rows their robust weights (but
@@ -22,6 +22,6 @@ ReductionModel ChooseReductionModel(const Robot& robot,
 // are than those of independent rows; the rows then go into the factor. No
 // hash, unit or time is set. Throws InputError.
 ReducedLog ReduceLog(const Robot& robot, const ReductionModel& model,
-                     const Progress& progress, LogSet* log);
+                     const Progress& progress, const LogSet& log);
 
 }  // namespace armcal

@@ -22,20 +22,20 @@ constexpr double kBandwidth = 8;  // Hz, of what torques are compared with
 
 class Inspector {
  public:
-  Inspector(const Robot& robot, const std::string& path,
+  Inspector(const Robot& robot, const LogSource& log,
             const LogReaderOptions& options)
       : robot_(robot), result_(robot) {
-    result_.path = path;
+    result_.path = log.name;
     LogReaderOptions wanted = options;
     wanted.want_velocity = wanted.commands_do = true;
-    LogReader reader(path, wanted);
+    LogReader reader(log, wanted);
     reader.Read(kMostRows, &log_);
     Log more;
     result_.whole = !reader.Read(1, &more);
     result_.torque_source = reader.torque_source();
     result_.rows = log_.size();
     if (log_.size() < 3) {
-      throw InputError(path, "", std::to_string(log_.size()) + " rows",
+      throw InputError(log.name, "", std::to_string(log_.size()) + " rows",
                        "expected at least 3");
     }
   }
@@ -205,9 +205,9 @@ class Inspector {
 
 }  // namespace
 
-LogInspection InspectLog(const Robot& robot, const std::string& path,
+LogInspection InspectLog(const Robot& robot, const LogSource& log,
                          const LogReaderOptions& options) {
-  return Inspector(robot, path, options).Run();
+  return Inspector(robot, log, options).Run();
 }
 
 Log Mended(const Robot& robot, const Log& log,

@@ -36,7 +36,7 @@ struct LogInspection {
 };
 
 // Throws InputError for what cannot be read at all.
-LogInspection InspectLog(const Robot& robot, const std::string& path,
+LogInspection InspectLog(const Robot& robot, const LogSource& log,
                          const LogReaderOptions& options);
 
 // The log as the reading has it, with its time in s.

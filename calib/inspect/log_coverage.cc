@@ -9,6 +9,7 @@
 #include "calib/linear/calibrate_linear.h"
 #include "calib/linear/calibration.h"
 #include "calib/linear/calibration_report.h"
+#include "calib/linear/outlier_report.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
 
@@ -25,8 +26,8 @@ double Wander(const TimeBase& base) {
 }
 
 // Torques that are a law of the positions.
-void AddAuditedTorque(const Robot& robot, double bandwidth_hz, LogSet* logs,
-                      LogCoverage* coverage) {
+void AddAuditedTorque(const Robot& robot, double bandwidth_hz,
+                      const LogSet& logs, LogCoverage* coverage) {
   const std::vector<GapSegment> segments = ReadSegments(bandwidth_hz, {}, logs);
   const GapRows rows(segments, bandwidth_hz);
   if (rows.num_thin() == 0) return;
@@ -53,16 +54,16 @@ void AddOutliers(const Robot& robot, long samples, LogCoverage* coverage) {
 
 }  // namespace
 
-LogCoverage CoverageOf(const Robot& robot, const std::string& path,
+LogCoverage CoverageOf(const Robot& robot, const LogSource& log,
                        const LogReaderOptions& options) {
   LogCoverage coverage;
   try {
-    LogSet logs({path}, options, TimeRange());
+    const LogSet logs({log}, options, TimeRange());
     coverage.time_base = logs.time_bases()[0].Describe();
     coverage.stamp_wander = Wander(logs.time_bases()[0]);
     const LinearCalibrationOptions linear;
     const LinearCalibration result =
-        CalibrateLinear(robot, linear, &logs, nullptr);
+        CalibrateLinear(robot, linear, logs, nullptr);
     coverage.reason = result.reason;
     if (!result.solved) return coverage;
     const Identifiability& id = result.identifiability;
@@ -72,16 +73,13 @@ LogCoverage CoverageOf(const Robot& robot, const std::string& path,
     for (const auto& d : id.directions) coverage.unseen.push_back(d.text);
     coverage.residual_percent = result.training->moving().stacked_percent;
     coverage.noise_source = NoiseSourceName(result.sample_noise[0].source);
-    coverage.outliers.assign(robot.num_joints(), 0);
-    for (const auto& list : logs.outliers()) {
-      for (const TorqueOutlier& outlier : list) {
-        ++coverage.outliers[outlier.joint];
-      }
+    for (int j = 0; j < robot.num_joints(); ++j) {
+      coverage.outliers.push_back(CountOutliers(result, j));
     }
     AddOutliers(robot, logs.time_bases()[0].samples, &coverage);
-    coverage.advice = AdviceText(
-        robot, AdviseMotions(robot, result, linear, &logs), id.total);
-    AddAuditedTorque(robot, logs.bandwidth_hz(), &logs, &coverage);
+    coverage.advice =
+        AdviceText(robot, AdviseMotions(robot, result, linear, logs), id.total);
+    AddAuditedTorque(robot, result.preparation.bandwidth_hz, logs, &coverage);
   } catch (const InputError& error) {
     coverage.reason = error.what();
   }

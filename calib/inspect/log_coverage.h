@@ -28,7 +28,7 @@ struct LogCoverage {
 };
 
 // Calibrates the model parameters on the log. Bad input is a reason.
-LogCoverage CoverageOf(const Robot& robot, const std::string& path,
+LogCoverage CoverageOf(const Robot& robot, const LogSource& log,
                        const LogReaderOptions& options);
 
 }  // namespace armcal

@@ -101,7 +101,7 @@ LinearCalibration CalibrateOnce(const Robot& robot,
                                 const LinearCalibrationOptions& options,
                                 const RowOptions& rows,
                                 const Transitions& transitions,
-                                LogSet* training) {
+                                const PreparedLogs& training) {
   LinearCalibration result(MakeParameters(robot, options, transitions));
   for (const auto& t : transitions) result.transitions.push_back(t.front());
   result.fitted_transitions =
@@ -116,11 +116,11 @@ LinearCalibration CalibrateOnce(const Robot& robot,
   for (int log = 0; log < factors.size(); ++log) {
     result.equations += factors.log(log).rows(0);
   }
-  CheckIntervals(rows, *training, result.equations);
+  CheckIntervals(rows, training.logs(), result.equations);
   result.reason = WhyNothingToSolve(factors, result.parameters);
   if (!result.reason.empty()) return result;
   double motion_hz = 0;
-  for (const TimeBase& base : training->time_bases()) {
+  for (const TimeBase& base : training.time_bases()) {
     motion_hz = std::max(motion_hz, base.motion_hz);
   }
   const ReferenceScale reference =
@@ -141,36 +141,41 @@ LinearCalibration CalibrateOnce(const Robot& robot,
 }
 
 // Calibrates, takes out the torque samples that the calibration shows to be
-// wrong, and again until these and the parameters stay the same. *samples has
-// looked at the result's residuals last, or is empty.
+// wrong, and again until these and the parameters stay the same; *training are
+// then the logs without these. *samples has looked at the result's residuals
+// last, or is empty.
 LinearCalibration CalibrateWithoutOutliers(
     const Robot& robot, const LinearCalibrationOptions& options,
-    const RowOptions& rows, LogSet* training,
+    const RowOptions& rows, PreparedLogs* training,
     std::optional<SamplePass>* samples) {
   constexpr int kMostRounds = 4;
   constexpr double kSettled = 0.1;  // standard deviations
-  LinearCalibration result =
-      CalibrateOnce(robot, options, rows,
-                    FindTransitions(robot, options, rows, training), training);
+  LinearCalibration result = CalibrateOnce(
+      robot, options, rows, FindTransitions(robot, options, rows, *training),
+      *training);
   result.passes += result.fitted_transitions ? 2 : 0;
   const bool as_is = options.loss == RobustLoss::kSquared;
   if (as_is || rows.bandwidth_hz <= 0) return result;
   double moved = 0;
   for (int round = 0; round < kMostRounds && result.solved; ++round) {
-    const OutlierLists last = training->spikes() > 0 || round > 0
-                                  ? training->outliers()
-                                  : OutlierLists(training->size());
-    samples->emplace(result.parameters, result.x, options.progress, training);
-    training->TakeOut(FindTorqueOutliers(&**samples));
+    // Spikes that the first round replaced count as other samples.
+    const bool as_recorded = round == 0 && training->spikes() == 0;
+    const OutlierLists last =
+        as_recorded ? OutlierLists(training->size())
+                    : training->options().outliers.value_or(OutlierLists());
+    samples->emplace(result.parameters, result.x, options.progress, *training);
+    PreparationOptions without = training->options();
+    without.outliers = FindTorqueOutliers(&**samples);
+    *training = Prepare(training->logs(), without);
     const int passes = ++result.passes;
-    const bool same = SameSamples(training->outliers(), last);
+    const bool same = SameSamples(*without.outliers, last);
     if (same && (round == 0 || moved < kSettled)) break;
     samples->reset();
     const VectorXd from = result.x;
     result = CalibrateOnce(
         robot, options, rows,
-        FollowTransitions(robot, options, rows, result.transitions, training),
-        training);
+        FollowTransitions(robot, options, rows, result.transitions, *training),
+        *training);
     result.passes += passes + (result.fitted_transitions ? 1 : 0);
     moved =
         (result.x - from).cwiseQuotient(result.stddev).cwiseAbs().maxCoeff();
@@ -182,34 +187,38 @@ LinearCalibration CalibrateWithoutOutliers(
 
 LinearCalibration CalibrateLinear(const Robot& robot,
                                   const LinearCalibrationOptions& options,
-                                  LogSet* training, LogSet* validation) {
-  const RowOptions rows = MakeRowOptions(options, *training);
-  CheckBandwidth(options.bandwidth_hz, *training);
-  training->Prepare(rows.bandwidth_hz, RowReach(rows),
-                    options.loss != RobustLoss::kSquared);
+                                  const LogSet& training,
+                                  const LogSet* validation) {
+  const RowOptions rows = MakeRowOptions(options, training);
+  CheckBandwidth(options.bandwidth_hz, training);
+  PreparedLogs prepared = Prepare(
+      training, PreparationForRows(rows, options.loss != RobustLoss::kSquared));
   std::optional<SamplePass> samples;
   LinearCalibration result =
-      CalibrateWithoutOutliers(robot, options, rows, training, &samples);
+      CalibrateWithoutOutliers(robot, options, rows, &prepared, &samples);
+  result.preparation = prepared.options();
   ++result.passes;  // the audit
   if (!result.solved) return result;
 
   result.lengths =
       RecoverLengths(result.parameters, result.x, result.independent_covariance,
                      result.covariance, result.identifiable);
-  const auto evaluate = [&](const std::string& stage, LogSet* logs) {
+  const auto evaluate = [&](const std::string& stage,
+                            const PreparedLogs& logs) {
     return EvaluateTorqueResidual(result.parameters, result.x,
                                   rows.bandwidth_hz, stage, options.progress,
                                   logs);
   };
-  result.training = evaluate("residuals", training);
+  result.training = evaluate("residuals", prepared);
   if (!samples) {
-    samples.emplace(result.parameters, result.x, options.progress, training);
+    samples.emplace(result.parameters, result.x, options.progress, prepared);
   }
-  result.sample_noise = EstimateSampleNoise(&*samples);
+  result.sample_noise = EstimateSampleNoise(
+      result.preparation.outliers.value_or(OutlierLists()), &*samples);
   result.passes += 2;
   if (validation != nullptr) {
-    validation->Prepare(rows.bandwidth_hz, RowReach(rows));
-    result.validation = evaluate("validation", validation);
+    result.validation =
+        evaluate("validation", Prepare(*validation, PreparationForRows(rows)));
     CheckNoOverflow(*result.validation, *validation);
   }
   return result;

@@ -12,6 +12,7 @@ namespace armcal {
 // throws InputError; a calibration that cannot be solved is a result.
 LinearCalibration CalibrateLinear(const Robot& robot,
                                   const LinearCalibrationOptions& options,
-                                  LogSet* training, LogSet* validation);
+                                  const LogSet& training,
+                                  const LogSet* validation);
 
 }  // namespace armcal

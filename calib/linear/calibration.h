@@ -7,9 +7,10 @@
 
 #include "calib/linear/identifiability.h"
 #include "calib/linear/length_recovery.h"
+#include "calib/linear/options.h"
 #include "calib/linear/solution.h"
 #include "calib/linear/used_equations.h"
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "calib/logs/sample_noise.h"
 #include "calib/logs/torque_residual.h"
 #include "model/dynamics/model_parameters.h"
@@ -18,33 +19,6 @@
 #include "problems/robust_loss.h"
 
 namespace armcal {
-
-struct LinearCalibrationOptions {
-  GeometryKnowledge geometry = GeometryKnowledge::kKnown;
-  std::vector<JointTerm> joint_terms = {JointTerm::kViscous,
-                                        JointTerm::kCoulomb, JointTerm::kOffset,
-                                        JointTerm::kArmature};
-  // Given: the same transition of Coulomb friction for all joints, or each
-  // joint's own; else each joint's is fitted.
-  std::optional<CoulombTransition> transition;
-  std::vector<CoulombTransition> joint_transitions;
-  Identification identification = Identification::kWeak;
-  // Length of the weak form's test functions, s. Not given: 1.5 periods of the
-  // bandwidth, at least 0.3 s (shorter ones are biased by encoder noise).
-  std::optional<double> window_s;
-  std::vector<TimeRange> intervals;  // of the integral model
-  double interval_s = 0.5;
-  Quadrature quadrature = Quadrature::kTrapezoid;
-  LinearSolver solver = LinearSolver::kWeighted;
-  // Of the weighted solver; squared in any case where a joint has fewer
-  // equations than twice the parameters. Not given: Huber's. Any but squared
-  // also takes gross errors out of the torque samples.
-  std::optional<RobustLoss> loss;
-  // Cutoff for positions, differential rows and residuals, Hz; 0: none.
-  // Not given: DefaultBandwidth.
-  std::optional<double> bandwidth_hz;
-  Progress progress;
-};
 
 // What a linear calibration found. Vectors have an entry per model parameter,
 // or per joint where said.
@@ -79,6 +53,9 @@ struct LinearCalibration {
   RobustLoss loss = RobustLoss::kSquared;  // that was used
   std::vector<JointTerm> joint_terms;      // asked for, merged or not
   RowOptions rows;
+  // What the result is of: the training logs prepared like this, without the
+  // torque samples that proved to be gross errors.
+  PreparationOptions preparation;
   EquationMask used;  // [log][joint]
   // Standard deviations over those of independent rows, median.
   double inflation = 1;

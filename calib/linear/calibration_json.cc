@@ -221,13 +221,13 @@ json ToJson(const Robot& robot, const LogSet& training,
             const LogSet* validation, const LinearCalibration& result) {
   json out = ToJson(robot, result);
   for (int i = 0; i < robot.num_joints(); ++i) {
-    out["joints"][i]["spikes"] = CountOutliers(training, i);
+    out["joints"][i]["spikes"] = CountOutliers(result, i);
   }
   out["logs"] = LogsJson(training);
   out["torque"] = training.torque_source();
   out["unpowered"] = UnpoweredJson(robot, training, result);
-  out["outliers"] = OutlierJson(robot, training, kListedOutliers);
-  out["outlier_count"] = CountOutliers(training);
+  out["outliers"] = OutlierJson(robot, training, result, kListedOutliers);
+  out["outlier_count"] = CountOutliers(result);
   AddResiduals(validation, result, &out);
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
+#include "problems/make_rows.h"
 
 namespace armcal {
 
@@ -19,6 +20,15 @@ RowOptions MakeRowOptions(const LinearCalibrationOptions& options,
   rows.interval_s = options.interval_s;
   rows.quadrature = options.quadrature;
   return rows;
+}
+
+PreparationOptions PreparationForRows(const RowOptions& rows,
+                                      bool remove_spikes) {
+  PreparationOptions prepared;
+  prepared.bandwidth_hz = rows.bandwidth_hz;
+  prepared.reach_s = RowReach(rows);
+  prepared.remove_spikes = remove_spikes;
+  return prepared;
 }
 
 ModelParameters MakeParameters(const Robot& robot,

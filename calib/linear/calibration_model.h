@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calib/linear/calibration.h"
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "model/dynamics/joint_term.h"
 #include "model/dynamics/model_parameters.h"
 #include "model/robot/robot.h"
@@ -19,6 +19,9 @@ using Transitions = std::vector<std::vector<CoulombTransition>>;
 // The rows and the parameters that calibration options ask for.
 RowOptions MakeRowOptions(const LinearCalibrationOptions& options,
                           const LogSet& training);
+// How logs are prepared for the rows.
+PreparationOptions PreparationForRows(const RowOptions& rows,
+                                      bool remove_spikes = true);
 ModelParameters MakeParameters(const Robot& robot,
                                const LinearCalibrationOptions& options,
                                const Transitions& transitions);

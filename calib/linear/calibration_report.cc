@@ -227,7 +227,7 @@ std::string EstimateText(const Robot& robot, const LinearCalibration& result) {
 std::string FullReport(const Robot& robot, const LogSet& training,
                        const LinearCalibration& result) {
   return DataText(training, result) + UnpoweredText(robot, training, result) +
-         OutlierText(robot, training) + ResidualTable(robot, result) +
+         OutlierText(robot, result) + ResidualTable(robot, result) +
          NoiseTable(robot, result) + EstimateText(robot, result) +
          BriefReport(robot, result) + "\n";
 }

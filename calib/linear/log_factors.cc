@@ -11,18 +11,18 @@ namespace armcal {
 
 LogFactors::LogFactors(const ModelParameters& parameters,
                        const RowOptions& options, const Progress& progress,
-                       LogSet* logs)
-    : factors_(logs->size(),
+                       const PreparedLogs& logs)
+    : factors_(logs.size(),
                BlockTriangularFactor(parameters, RowsPerLeaf(options))),
       mean_square_speed_(Eigen::ArrayXd::Zero(parameters.num_joints())),
       travel_(Eigen::VectorXd::Zero(parameters.num_joints())) {
-  std::vector<MotionRegressor> regressors(logs->size(),
+  std::vector<MotionRegressor> regressors(logs.size(),
                                           MotionRegressor(parameters));
   RowReduction reduction(parameters);
   double samples = 0;
   std::vector<Eigen::AlignedBox<double, Eigen::Dynamic>> met(
-      logs->size(), Eigen::AlignedBox<double, Eigen::Dynamic>(travel_.size()));
-  logs->ForEach("reading", progress, [&](int log, const Trajectory& t) {
+      logs.size(), Eigen::AlignedBox<double, Eigen::Dynamic>(travel_.size()));
+  logs.ForEach("reading", progress, [&](int log, const Trajectory& t) {
     const int count = t.core_end - t.core_begin;
     if (count == 0) return;
     for (int j = 0; j < t.num_joints(); ++j) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "calib/numerics/block_triangular_factor.h"
 #include "model/dynamics/model_parameters.h"
 #include "problems/identification_rows.h"
@@ -15,7 +15,7 @@ class LogFactors {
  public:
   // One pass over the logs.
   LogFactors(const ModelParameters& parameters, const RowOptions& options,
-             const Progress& progress, LogSet* logs);
+             const Progress& progress, const PreparedLogs& logs);
   // As they were once found.
   LogFactors(std::vector<BlockTriangularFactor> factors,
              const Eigen::ArrayXd& mean_square_speed,

@@ -8,35 +8,36 @@
 namespace armcal {
 namespace {
 
-// visit(log's path, outlier) for all of them, in order.
+// visit(log, outlier) for all of them, in order.
 template <class Visit>
-void ForEachOutlier(const LogSet& logs, const Visit& visit) {
-  for (size_t log = 0; log < logs.outliers().size(); ++log) {
-    for (const TorqueOutlier& o : logs.outliers()[log]) {
-      visit(logs.path(static_cast<int>(log)), o);
-    }
+void ForEachOutlier(const LinearCalibration& result, const Visit& visit) {
+  if (!result.preparation.outliers) return;
+  int log = 0;
+  for (const auto& list : *result.preparation.outliers) {
+    for (const TorqueOutlier& outlier : list) visit(log, outlier);
+    ++log;
   }
 }
 
 }  // namespace
 
-long CountOutliers(const LogSet& logs) {
+long CountOutliers(const LinearCalibration& result) {
   long count = 0;
-  ForEachOutlier(logs, [&](const auto&, const auto&) { ++count; });
+  ForEachOutlier(result, [&](int, const auto&) { ++count; });
   return count;
 }
 
-long CountOutliers(const LogSet& logs, int joint) {
+long CountOutliers(const LinearCalibration& result, int joint) {
   long count = 0;
-  ForEachOutlier(
-      logs, [&](const auto&, const auto& o) { count += o.joint == joint; });
+  ForEachOutlier(result,
+                 [&](int, const auto& o) { count += o.joint == joint; });
   return count;
 }
 
-std::string OutlierText(const Robot& robot, const LogSet& logs) {
+std::string OutlierText(const Robot& robot, const LinearCalibration& result) {
   std::string text;
   for (int i = 0; i < robot.num_joints(); ++i) {
-    const long count = CountOutliers(logs, i);
+    const long count = CountOutliers(result, i);
     if (count == 0) continue;
     text += (text.empty() ? " " : ", ") + std::to_string(count) + " of " +
             robot.links[i].joint.name;
@@ -47,11 +48,12 @@ std::string OutlierText(const Robot& robot, const LogSet& logs) {
          OptionName("out") + " lists them in outliers.csv\n";
 }
 
-nlohmann::json OutlierJson(const Robot& robot, const LogSet& logs, int most) {
+nlohmann::json OutlierJson(const Robot& robot, const LogSet& training,
+                           const LinearCalibration& result, int most) {
   nlohmann::json list = nlohmann::json::array();
-  ForEachOutlier(logs, [&](const std::string& path, const TorqueOutlier& o) {
+  ForEachOutlier(result, [&](int log, const TorqueOutlier& o) {
     if (static_cast<int>(list.size()) >= most) return;
-    list.push_back({{"log", path},
+    list.push_back({{"log", training.path(log)},
                     {"row", o.row},
                     {"time", o.time},
                     {"joint", robot.links[o.joint].joint.name},
@@ -61,12 +63,14 @@ nlohmann::json OutlierJson(const Robot& robot, const LogSet& logs, int most) {
   return list;
 }
 
-std::string OutlierCsv(const Robot& robot, const LogSet& logs) {
+std::string OutlierCsv(const Robot& robot, const LogSet& training,
+                       const LinearCalibration& result) {
   std::string text = "log,row,time,joint,value,residual\n";
-  ForEachOutlier(logs, [&](const std::string& path, const TorqueOutlier& o) {
+  ForEachOutlier(result, [&](int log, const TorqueOutlier& o) {
     char numbers[96];
     std::snprintf(numbers, sizeof(numbers), "\",%ld,%.9g,\"", o.row, o.time);
-    text += "\"" + path + numbers + robot.links[o.joint].joint.name;
+    text +=
+        "\"" + training.path(log) + numbers + robot.links[o.joint].joint.name;
     std::snprintf(numbers, sizeof(numbers), "\",%.9g,%.4g\n", o.recorded,
                   o.size);
     text += numbers;

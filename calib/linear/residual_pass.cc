@@ -44,13 +44,13 @@ std::vector<TriangularFactor> EmptyFactors(const ModelParameters& parameters) {
 
 ResidualPass::ResidualPass(const ModelParameters& parameters,
                            const RowOptions& rows, const EquationMask& used,
-                           const Progress& progress, LogSet* logs)
+                           const Progress& progress, const PreparedLogs& logs)
     : parameters_(parameters),
       rows_(rows),
       used_(used),
       progress_(progress),
       logs_(logs),
-      kept_(logs->memory()) {}
+      kept_(logs.logs().memory()) {}
 
 void ResidualPass::Run(const std::string& stage, const VectorXd& x,
                        const VectorXd& noise,
@@ -107,10 +107,10 @@ void ResidualPass::ForEachBatch(
     return;
   }
   kept_.Begin();
-  std::vector<MotionRegressor> regressors(logs_->size(),
+  std::vector<MotionRegressor> regressors(logs_.size(),
                                           MotionRegressor(parameters_));
   int last_log = -1, last_segment = -1;
-  logs_->ForEach(stage, progress_, [&](int log, const Trajectory& t) {
+  logs_.ForEach(stage, progress_, [&](int log, const Trajectory& t) {
     regressors[log].Enter(t);
     const auto rows = MakeRows(t, rows_, regressors[log]);
     ForEachBatchOnThreads(*rows, regressors[log], [&](RowBatch* batch) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "calib/numerics/triangular_factor.h"
 #include "model/dynamics/model_parameters.h"
 #include "problems/identification_rows.h"
@@ -44,14 +44,14 @@ class ResidualPass {
  public:
   ResidualPass(const ModelParameters& parameters, const RowOptions& rows,
                const EquationMask& used, const Progress& progress,
-               LogSet* logs);
+               const PreparedLogs& logs);
 
   // The same passes for another model, which must outlive them.
   ResidualPass WithParameters(const ModelParameters& parameters) const {
     return ResidualPass(parameters, rows_, used_, progress_, logs_);
   }
   const ModelParameters& parameters() const { return parameters_; }
-  int num_logs() const { return logs_->size(); }
+  int num_logs() const { return logs_.size(); }
   bool uses(int log, int joint) const { return used_[log][joint]; }
   int passes() const { return passes_; }
 
@@ -78,7 +78,7 @@ class ResidualPass {
   RowOptions rows_;
   EquationMask used_;
   Progress progress_;
-  LogSet* logs_;
+  PreparedLogs logs_;
   int passes_ = 0;
   KeptItems<KeptBatch> kept_;
 };

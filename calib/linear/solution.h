@@ -5,15 +5,10 @@
 #include <vector>
 
 #include "calib/linear/identifiability.h"
+#include "calib/linear/options.h"
 #include "calib/numerics/block_triangular_factor.h"
 
 namespace armcal {
-
-enum class LinearSolver {
-  kWeighted,  // all equations, each joint's divided by its noise
-  kBatch,     // (2.25): all equations as they are
-  kRecursive  // (2.28): joint by joint, from the last to the first
-};
 
 // A solution of the linear equations, and how errors of the equations reach
 // it: x - X = gain * sum over rows of their scores, where the score of a row is

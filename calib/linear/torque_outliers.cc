@@ -42,7 +42,7 @@ void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
 }  // namespace
 
 OutlierLists FindTorqueOutliers(SamplePass* pass) {
-  OutlierLists lists(pass->logs().size());
+  OutlierLists lists(pass->num_logs());
   pass->Run("outliers", [&](int log, const Trajectory& t,
                             const MatrixXd& residuals) {
     const int n = t.num_joints();

@@ -12,7 +12,7 @@ namespace {
 struct Screening {
   Screening(const Robot& robot, const LinearCalibrationOptions& options,
             const RowOptions& rows, const Transitions& transitions,
-            LogSet* training)
+            const PreparedLogs& training)
       : parameters(MakeParameters(robot, options, transitions)),
         factor(parameters) {
     const LogFactors factors(parameters, rows, options.progress, training);
@@ -40,7 +40,7 @@ auto ChooseFrom(const Screening& screening, TorqueUnits scale, Choose choose) {
 Transitions Refine(const Robot& robot, const LinearCalibrationOptions& options,
                    const RowOptions& rows,
                    const std::vector<CoulombTransition>& about,
-                   TorqueUnits scale, LogSet* training) {
+                   TorqueUnits scale, const PreparedLogs& training) {
   Transitions finer;
   for (const CoulombTransition& t : about) finer.push_back(FinerTransitions(t));
   const Screening fine(robot, options, rows, finer, training);
@@ -56,8 +56,8 @@ Transitions Refine(const Robot& robot, const LinearCalibrationOptions& options,
 
 Transitions FindTransitions(const Robot& robot,
                             const LinearCalibrationOptions& options,
-                            const RowOptions& rows, LogSet* training,
-                            TorqueUnits scale) {
+                            const RowOptions& rows,
+                            const PreparedLogs& training, TorqueUnits scale) {
   const size_t n = robot.links.size();
   if (std::count(options.joint_terms.begin(), options.joint_terms.end(),
                  JointTerm::kCoulomb) == 0) {
@@ -77,7 +77,7 @@ Transitions FollowTransitions(const Robot& robot,
                               const LinearCalibrationOptions& options,
                               const RowOptions& rows,
                               const std::vector<CoulombTransition>& found,
-                              LogSet* training) {
+                              const PreparedLogs& training) {
   if (found.empty()) return {};
   if (const auto given = GivenTransitions(robot, options)) return *given;
   return Refine(robot, options, rows, found, TorqueUnits::kCommon, training);

@@ -13,7 +13,8 @@ enum class TorqueUnits { kCommon, kPerJoint };
 // has no Coulomb friction; the options' own where they give one.
 Transitions FindTransitions(const Robot& robot,
                             const LinearCalibrationOptions& options,
-                            const RowOptions& rows, LogSet* training,
+                            const RowOptions& rows,
+                            const PreparedLogs& training,
                             TorqueUnits scale = TorqueUnits::kCommon);
 
 // The widths anew, each joint's law as found before: for logs some of whose
@@ -22,6 +23,6 @@ Transitions FollowTransitions(const Robot& robot,
                               const LinearCalibrationOptions& options,
                               const RowOptions& rows,
                               const std::vector<CoulombTransition>& found,
-                              LogSet* training);
+                              const PreparedLogs& training);
 
 }  // namespace armcal

@@ -36,10 +36,10 @@ VectorXd WithoutLine(const VectorXd& y) {
 
 class Collector {
  public:
-  Collector(int joints, const LogSet& logs)
-      : outliers_(logs.outliers()),
-        most_(kKept / logs.size()),
-        kept_(logs.size()),
+  Collector(int joints, int num_logs, const OutlierLists& outliers)
+      : outliers_(outliers),
+        most_(kKept / num_logs),
+        kept_(num_logs),
         residual_(joints),
         standstill_(joints),
         repeats_(joints) {}
@@ -192,8 +192,9 @@ const char* NoiseSourceName(SampleNoise::Source source) {
   return "";
 }
 
-std::vector<SampleNoise> EstimateSampleNoise(SamplePass* pass) {
-  Collector collector(pass->num_joints(), pass->logs());
+std::vector<SampleNoise> EstimateSampleNoise(const OutlierLists& outliers,
+                                             SamplePass* pass) {
+  Collector collector(pass->num_joints(), pass->num_logs(), outliers);
   pass->Run("noise",
             [&](int log, const Trajectory& t, const MatrixXd& residuals) {
               collector.Add(log, t, residuals);

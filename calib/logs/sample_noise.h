@@ -19,10 +19,12 @@ struct SampleNoise {
 
 const char* NoiseSourceName(SampleNoise::Source source);
 
-// Per joint, listed outliers left out. Repeats are looked for
-// in and across logs, in the first 60000 samples (a share for each log). One
-// pass at full rate. Estimates do not weigh by it: the scatter of equations,
-// which holds model errors and noise of the positions too, is what weighs them.
-std::vector<SampleNoise> EstimateSampleNoise(SamplePass* pass);
+// Per joint, `outliers` left out (none: an empty list of lists). Repeats are
+// looked for in and across logs, in the first 60000 samples (a share for each
+// log). One pass at full rate. Estimates do not weigh by it: the scatter of
+// equations, which holds model errors and noise of the positions too, is what
+// weighs them.
+std::vector<SampleNoise> EstimateSampleNoise(const OutlierLists& outliers,
+                                             SamplePass* pass);
 
 }  // namespace armcal

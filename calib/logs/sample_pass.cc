@@ -25,12 +25,12 @@ Trajectory SeenOf(const Trajectory& t) {
 
 SamplePass::SamplePass(const ModelParameters& parameters,
                        const Eigen::VectorXd& x, const Progress& progress,
-                       LogSet* logs)
+                       const PreparedLogs& logs)
     : parameters_(parameters),
       x_(x),
       progress_(progress),
       logs_(logs),
-      stretches_(logs->memory()) {}
+      stretches_(logs.logs().memory()) {}
 
 void SamplePass::Run(const std::string& stage, const Visit& visit) {
   if (stretches_.whole()) {
@@ -41,9 +41,9 @@ void SamplePass::Run(const std::string& stage, const Visit& visit) {
     return;
   }
   stretches_.Begin();
-  std::vector<MotionRegressor> regressors(logs_->size(),
+  std::vector<MotionRegressor> regressors(logs_.size(),
                                           MotionRegressor(parameters_));
-  logs_->ForEachAtFullRate(stage, progress_, [&](int log, const Trajectory& t) {
+  logs_.ForEachAtFullRate(stage, progress_, [&](int log, const Trajectory& t) {
     Stretch stretch{log, SeenOf(t), SampleResiduals(t, x_, &regressors[log])};
     const Stretch* const kept =
         stretches_.Add(&stretch, sizeof(Stretch) + BytesOf(stretch.trajectory) +

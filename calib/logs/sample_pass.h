@@ -4,14 +4,13 @@
 #include <functional>
 #include <string>
 
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "model/dynamics/model_parameters.h"
 
 namespace armcal {
 
 // Passes over the torque samples of logs that look at their residuals at some
-// parameters. All is kept from pass to pass as far as the logs' memory goes, so
-// the logs must stay as they are prepared.
+// parameters. All is kept from pass to pass as far as the logs' memory goes.
 class SamplePass {
  public:
   // `residuals` of each of t.samples (sample_residuals.h), samples in rows. Of
@@ -20,10 +19,10 @@ class SamplePass {
                                    const Eigen::MatrixXd& residuals)>;
 
   SamplePass(const ModelParameters& parameters, const Eigen::VectorXd& x,
-             const Progress& progress, LogSet* logs);
+             const Progress& progress, const PreparedLogs& logs);
 
   int num_joints() const { return parameters_.num_joints(); }
-  const LogSet& logs() const { return *logs_; }
+  int num_logs() const { return logs_.size(); }
 
   // At full rate, outliers of the logs not replaced.
   void Run(const std::string& stage, const Visit& visit);
@@ -32,7 +31,7 @@ class SamplePass {
   ModelParameters parameters_;
   Eigen::VectorXd x_;
   Progress progress_;
-  LogSet* logs_;
+  PreparedLogs logs_;
   struct Stretch {
     int log;
     Trajectory trajectory;

@@ -81,11 +81,12 @@ TorqueResidual::Figures TorqueResidual::MakeFigures(const Sums& sums) {
 TorqueResidual EvaluateTorqueResidual(const ModelParameters& parameters,
                                       const VectorXd& x, double bandwidth_hz,
                                       const std::string& stage,
-                                      const Progress& progress, LogSet* logs) {
+                                      const Progress& progress,
+                                      const PreparedLogs& logs) {
   TorqueResidual residual(parameters.num_joints());
-  std::vector<MotionRegressor> regressors(logs->size(),
+  std::vector<MotionRegressor> regressors(logs.size(),
                                           MotionRegressor(parameters));
-  logs->ForEach(stage, progress, [&](int log, const Trajectory& t) {
+  logs.ForEach(stage, progress, [&](int log, const Trajectory& t) {
     regressors[log].Enter(t);
     residual.Add(t, x, bandwidth_hz, regressors[log]);
   });

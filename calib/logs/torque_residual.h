@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "model/dynamics/model_parameters.h"
 #include "model/signals/trajectory.h"
 #include "problems/identification_rows.h"
@@ -58,6 +58,7 @@ TorqueResidual EvaluateTorqueResidual(const ModelParameters& parameters,
                                       const Eigen::VectorXd& x,
                                       double bandwidth_hz,
                                       const std::string& stage,
-                                      const Progress& progress, LogSet* logs);
+                                      const Progress& progress,
+                                      const PreparedLogs& logs);
 
 }  // namespace armcal

@@ -64,14 +64,14 @@ int MostTraceBins(int logs, int num_joints, int num_models) {
 
 std::vector<TorqueTrace> TraceTorques(const std::vector<TracedModel>& models,
                                       int most_bins, const Progress& progress,
-                                      LogSet* logs) {
+                                      const PreparedLogs& logs) {
   CHECK(!models.empty());
   const int n = models[0].parameters.num_joints();
   const int count = static_cast<int>(models.size());
   std::vector<TorqueTrace> traces;
   std::vector<MotionRegressor> regressors;
   int segment = -1;
-  logs->ForEach("torques", progress, [&](int log, const Trajectory& t) {
+  logs.ForEach("torques", progress, [&](int log, const Trajectory& t) {
     if (traces.empty() || traces.back().log != log) {
       traces.emplace_back(log, n, count, most_bins, t.dt);
       regressors.clear();

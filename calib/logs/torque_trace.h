@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "calib/logs/residual_map.h"
 #include "calib/numerics/power_spectrum.h"
 #include "calib/numerics/series_envelope.h"
@@ -49,6 +49,6 @@ int MostTraceBins(int logs, int num_joints, int num_models);
 // does not count for `where`.
 std::vector<TorqueTrace> TraceTorques(const std::vector<TracedModel>& models,
                                       int most_bins, const Progress& progress,
-                                      LogSet* logs);
+                                      const PreparedLogs& logs);
 
 }  // namespace armcal

@@ -6,25 +6,13 @@
 #include <vector>
 
 #include "calib/linear/calibration.h"
+#include "calib/refine/arm_trust.h"
 #include "model/log_files/pose_reader.h"
 #include "model/robot/arm_geometry.h"
 #include "model/robot/robot.h"
 #include "problems/pose_problem.h"
 
 namespace armcal {
-
-// How far the truth may reasonably be from the robot file: standard deviations
-// of the prior.
-struct ArmTrust {
-  // Relative, in every direction of the links' pseudo-inertias.
-  double inertia = 0.5;
-  double length = 0.01;  // m
-  double angle = 0.02;   // rad; also of the base's tilt
-  // Of friction, offset and armature, whose torque at 1 rad/s and 1 rad/s^2 is
-  // this many times what the joint's torque is: next to nothing, so that what
-  // no motion shows stays finite.
-  double joint_terms = 10;
-};
 
 // Values of all that a calibration of torques and poses can find.
 struct ArmValues {

@@ -117,7 +117,7 @@ VectorXd EquationNoise(const LinearCalibration& linear) {
 }
 
 LinkPass::LinkPass(const ArmUnknowns& unknowns, const LinearCalibration& linear,
-                   const Progress& progress, LogSet* logs)
+                   const Progress& progress, const PreparedLogs& logs)
     : unknowns_(unknowns), linear_(linear), progress_(progress), logs_(logs) {}
 
 void LinkPass::ForEachResidual(
@@ -125,13 +125,13 @@ void LinkPass::ForEachResidual(
     const std::vector<JointTermColumn>& terms,
     const std::function<void(const Residual&)>& visit) {
   std::vector<LinkFunctions> functions(
-      logs_->size(),
+      logs_.size(),
       LinkFunctions(unknowns_.WithInertia(at), terms, unknowns_.Geometry(at),
                     unknowns_.torque_geometry()));
   VectorXd x(unknowns_.tilt_begin());
   x << at.links, at.terms;
   int last_log = -1, last_segment = -1;
-  logs_->ForEach(stage, progress_, [&](int log, const Trajectory& t) {
+  logs_.ForEach(stage, progress_, [&](int log, const Trajectory& t) {
     functions[log].Enter(t);
     const WeakRows rows(t, linear_.rows, functions[log]);
     ForEachRowOnThreads(
@@ -155,8 +155,8 @@ LinkEquations LinkPass::Reduce(const ArmValues& at, const VectorXd& noise) {
   const ArmGeometry geometry = unknowns_.Geometry(at);
   const BaseInertials base(geometry.ApplyTo(robot));
   std::vector<LinkFunctions> functions(
-      logs_->size(), LinkFunctions(robot, unknowns_.terms(), geometry,
-                                   unknowns_.torque_geometry(), base.columns));
+      logs_.size(), LinkFunctions(robot, unknowns_.terms(), geometry,
+                                  unknowns_.torque_geometry(), base.columns));
   const std::vector<int> columns = unknowns_.TorqueColumns();
   const auto others =
       static_cast<Eigen::Index>(columns.size()) - base.combinations.cols();
@@ -167,7 +167,7 @@ LinkEquations LinkPass::Reduce(const ArmValues& at, const VectorXd& noise) {
   point.noise = noise;
   point.loss = linear_.loss;
   RobustReduction reduction(point, functions[0], RowsPerLeaf(linear_.rows));
-  logs_->ForEach("links", progress_, [&](int log, const Trajectory& t) {
+  logs_.ForEach("links", progress_, [&](int log, const Trajectory& t) {
     functions[log].Enter(t);
     reduction.Add(WeakRows(t, linear_.rows, functions[log]), linear_.used[log]);
   });
@@ -245,7 +245,7 @@ LinkInformation LinkPass::Inform(const ArmValues& at, const VectorXd& noise,
   ScoreCovariance scores(static_cast<int>(size), linear_.score_window, gain);
   const int n = unknowns_.num_links();
   OverlapCovariance overlap(n, static_cast<int>(size), linear_.rows_per_window);
-  information.log_sums = MatrixXd::Zero(size, logs_->size());
+  information.log_sums = MatrixXd::Zero(size, logs_.size());
   run("covariance",
       [&](const Residual& residual, const FittedRow& row, const Score& score) {
         if (!residual.follows) scores.Break(), overlap.Break();

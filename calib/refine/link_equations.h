@@ -6,7 +6,7 @@
 #include "calib/linear/calibration.h"
 #include "calib/linear/overlap_covariance.h"
 #include "calib/linear/score_covariance.h"
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "calib/refine/arm_unknowns.h"
 
 namespace armcal {
@@ -46,7 +46,7 @@ Eigen::VectorXd EquationNoise(const LinearCalibration& linear);
 class LinkPass {
  public:
   LinkPass(const ArmUnknowns& unknowns, const LinearCalibration& linear,
-           const Progress& progress, LogSet* logs);
+           const Progress& progress, const PreparedLogs& logs);
 
   LinkEquations Reduce(const ArmValues& at, const Eigen::VectorXd& noise);
   // With fitted widths of Coulomb friction, which friction and armature share,
@@ -72,7 +72,7 @@ class LinkPass {
   const ArmUnknowns& unknowns_;
   const LinearCalibration& linear_;
   Progress progress_;
-  LogSet* logs_;
+  PreparedLogs logs_;
 };
 
 }  // namespace armcal

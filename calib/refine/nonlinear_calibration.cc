@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/linear/calibration_model.h"
 #include "calib/numerics/median.h"
 #include "calib/poses/fit.h"
 #include "calib/refine/arm_covariance.h"
@@ -105,17 +106,18 @@ class NonlinearCalibrator {
     pose_fit_.emplace(robot, *poses, pose_options_);
   }
 
-  NonlinearCalibration Run(const PoseMeasurements* poses, LogSet* training,
-                           LogSet* validation);
+  NonlinearCalibration Run(const PoseMeasurements* poses,
+                           const LogSet& training, const LogSet* validation);
 
  private:
   // Empty, or why not.
   std::string StartPoses(const PoseMeasurements& measured,
                          NonlinearCalibration* result);
-  bool Solve(LogSet* training, const ArmFit& fit, NonlinearCalibration* result);
+  bool Solve(const PreparedLogs& training, const ArmFit& fit,
+             NonlinearCalibration* result);
   void Report(const ArmCovariance& covariance,
               NonlinearCalibration* result) const;
-  TorqueResidual Evaluate(const Robot& robot, LogSet* logs) const;
+  TorqueResidual Evaluate(const Robot& robot, const PreparedLogs& logs) const;
 
   const LinearCalibration& linear_;
   const NonlinearCalibrationOptions& options_;
@@ -139,7 +141,7 @@ std::string NonlinearCalibrator::StartPoses(const PoseMeasurements& measured,
 
 // Torques are linear in all but the geometry, in which they are taken so about
 // the last estimate, with the noise that it leaves.
-bool NonlinearCalibrator::Solve(LogSet* training, const ArmFit& fit,
+bool NonlinearCalibrator::Solve(const PreparedLogs& training, const ArmFit& fit,
                                 NonlinearCalibration* result) {
   LinkPass pass(unknowns_, linear_, options_.progress, training);
   // Weights of equations are then those at a robot that has the lengths.
@@ -205,7 +207,7 @@ void NonlinearCalibrator::Report(const ArmCovariance& covariance,
 }
 
 TorqueResidual NonlinearCalibrator::Evaluate(const Robot& robot,
-                                             LogSet* logs) const {
+                                             const PreparedLogs& logs) const {
   ModelParameters::Options options;
   options.joint_terms = {JointTerm::kViscous, JointTerm::kCoulomb,
                          JointTerm::kOffset, JointTerm::kArmature};
@@ -219,8 +221,8 @@ TorqueResidual NonlinearCalibrator::Evaluate(const Robot& robot,
 }
 
 NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
-                                              LogSet* training,
-                                              LogSet* validation) {
+                                              const LogSet& training,
+                                              const LogSet* validation) {
   NonlinearCalibration result;
   result.robot = unknowns_.robot();
   result.lengths = linear_.lengths;
@@ -232,9 +234,10 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
   }
   const ArmFit fit(unknowns_, options_.trust,
                    pose_fit_ ? &*pose_fit_ : nullptr);
-  result.solved = Solve(training, fit, &result);
+  const PreparedLogs prepared = Prepare(training, linear_.preparation);
+  result.solved = Solve(prepared, fit, &result);
   if (!result.solved) return result;
-  LinkPass pass(unknowns_, linear_, options_.progress, training);
+  LinkPass pass(unknowns_, linear_, options_.progress, prepared);
   Report(
       EstimateArmCovariance(unknowns_, fit, options_.trust, values_,
                             pass.Inform(values_, noise_, fit.PoseRows(values_),
@@ -246,9 +249,10 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
       std::any_of(
           result.lengths.begin(), result.lengths.end(),
           [](const RecoveredLength& l) { return l.value != l.nominal; });
-  result.training = Evaluate(result.robot, training);
+  result.training = Evaluate(result.robot, prepared);
   if (validation != nullptr) {
-    result.validation = Evaluate(result.robot, validation);
+    result.validation = Evaluate(
+        result.robot, Prepare(*validation, PreparationForRows(linear_.rows)));
   }
   if (poses != nullptr) {
     const auto& distances = result.poses->after =
@@ -263,8 +267,8 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
 
 NonlinearCalibration CalibrateNonlinear(
     const Robot& robot, const LinearCalibration& linear,
-    const NonlinearCalibrationOptions& options, LogSet* training,
-    LogSet* validation, const PoseMeasurements* poses) {
+    const NonlinearCalibrationOptions& options, const LogSet& training,
+    const LogSet* validation, const PoseMeasurements* poses) {
   return NonlinearCalibrator(WithRecoveredLengths(robot, linear), linear,
                              options, poses)
       .Run(poses, training, validation);

@@ -72,7 +72,7 @@ struct NonlinearCalibration {
 // the linear calibration recovered lengths, the arm has these.
 NonlinearCalibration CalibrateNonlinear(
     const Robot& robot, const LinearCalibration& linear,
-    const NonlinearCalibrationOptions& options, LogSet* training,
-    LogSet* validation, const PoseMeasurements* poses = nullptr);
+    const NonlinearCalibrationOptions& options, const LogSet& training,
+    const LogSet* validation, const PoseMeasurements* poses = nullptr);
 
 }  // namespace armcal

@@ -43,8 +43,8 @@ void TrajectoryPass::ForEach(const std::string& stage,
                              const ModelParameters& parameters,
                              const Visit& visit) {
   std::vector<TrajectoryCorrection> corrections(
-      logs_->size(), TrajectoryCorrection(parameters, knot_s_));
-  logs_->ForEach(stage, progress_, [&](int log, const Trajectory& t) {
+      logs_.size(), TrajectoryCorrection(parameters, knot_s_));
+  logs_.ForEach(stage, progress_, [&](int log, const Trajectory& t) {
     if (corrections[log].Enter(t)) visit(log, &corrections[log]);
   });
   ++passes_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calib/linear/residual_pass.h"
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "calib/refine/trajectory_correction.h"
 #include "model/dynamics/model_parameters.h"
 
@@ -43,7 +43,8 @@ class TrajectoryPass {
   using Visit = std::function<void(int log, TrajectoryCorrection* stretch)>;
 
   // Logs must have been prepared to be taken as they are.
-  TrajectoryPass(double knot_s, const Progress& progress, LogSet* logs)
+  TrajectoryPass(double knot_s, const Progress& progress,
+                 const PreparedLogs& logs)
       : knot_s_(knot_s), progress_(progress), logs_(logs) {}
 
   // Stretches with the splines that fit their positions alone.
@@ -54,13 +55,13 @@ class TrajectoryPass {
                              const TrajectoryEstimate& estimate,
                              TorqueWeighting weighting, const Visit& visit);
 
-  double step_s() const { return logs_->time_bases()[0].dt; }
+  double step_s() const { return logs_.time_bases()[0].dt; }
   int passes() const { return passes_; }
 
  private:
   double knot_s_;
   Progress progress_;
-  LogSet* logs_;
+  PreparedLogs logs_;
   int passes_ = 0;
 };
 

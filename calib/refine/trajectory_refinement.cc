@@ -53,7 +53,7 @@ std::vector<bool> Frozen(const LinearCalibration& start, int num_logs) {
 class Refinement {
  public:
   Refinement(const Robot& robot, const LinearCalibrationOptions& options,
-             LogSet* logs, TrajectoryRefinement* result)
+             const PreparedLogs& logs, TrajectoryRefinement* result)
       : robot_(robot),
         options_(options),
         start_(result->calibration),
@@ -65,7 +65,7 @@ class Refinement {
             VectorXd::Zero(options.transition ? 0 : start_.transitions.size()),
             {},
             start_.used,
-            Frozen(start_, logs->size())},
+            Frozen(start_, logs.size())},
         seen_(SeenDirections(start_.independent_covariance,
                              estimate_.log_width.size())) {
     estimate_.noise = GuessTrajectoryNoise(estimate_, &pass_);
@@ -182,27 +182,31 @@ bool Refinement::Report() {
 TrajectoryRefinement RefineTrajectories(const Robot& robot,
                                         const LinearCalibrationOptions& options,
                                         const LinearCalibration& start,
-                                        LogSet* training, LogSet* validation) {
+                                        const LogSet& training,
+                                        const LogSet* validation) {
   TrajectoryRefinement result{start, false, false, start.reason, 0};
   if (!start.solved) return result;
   const double bandwidth = start.rows.bandwidth_hz > 0
                                ? start.rows.bandwidth_hz
-                               : DefaultBandwidth(training->time_bases());
+                               : DefaultBandwidth(training.time_bases());
   result.knot_s = 0.5 / bandwidth;
   // Positions as they are: what a filter leaves of their noise is not white.
-  training->Prepare(0, 0);
-  Refinement refinement(robot, options, training, &result);
+  Refinement refinement(robot, options, Prepare(training, {}), &result);
   result.refined = refinement.Run() && refinement.Report();
-  training->Prepare(start.rows.bandwidth_hz, RowReach(start.rows));
   if (!result.refined) return result;
   LinearCalibration& c = result.calibration;
-  const auto evaluate = [&](const std::string& stage, LogSet* logs) {
+  // Gross errors of the torque count by the loss, and none was taken out.
+  c.preparation = PreparationForRows(c.rows);
+  const auto evaluate = [&](const std::string& stage, const LogSet& logs) {
     return EvaluateTorqueResidual(c.parameters, c.x, c.rows.bandwidth_hz, stage,
-                                  options.progress, logs);
+                                  options.progress,
+                                  Prepare(logs, PreparationForRows(c.rows)));
   };
   c.training = evaluate("residuals", training);
   ++c.passes;
-  if (validation != nullptr) c.validation = evaluate("validation", validation);
+  if (validation != nullptr) {
+    c.validation = evaluate("validation", *validation);
+  }
   return result;
 }
 

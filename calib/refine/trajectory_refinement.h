@@ -30,6 +30,7 @@ struct TrajectoryRefinement {
 TrajectoryRefinement RefineTrajectories(const Robot& robot,
                                         const LinearCalibrationOptions& options,
                                         const LinearCalibration& start,
-                                        LogSet* training, LogSet* validation);
+                                        const LogSet& training,
+                                        const LogSet* validation);
 
 }  // namespace armcal

@@ -26,7 +26,7 @@ ArmEngine MakeArmEngine(const Robot& robot) {
   }
   try {
     return {std::make_unique<SimbodyArm>(robot), true};
-  } catch (const InputError&) {  // Verify() tells of it
+  } catch (const InputError&) {  // VerifyDynamics() tells of it
     return {std::make_unique<RigidArm>(robot), false};
   }
 }

@@ -44,14 +44,14 @@ std::vector<ArmState> RandomStates(const Robot& robot, int count,
 }
 
 std::vector<ArmState> LoggedStates(int count, const Progress& progress,
-                                   LogSet* logs) {
+                                   const PreparedLogs& logs) {
   double samples = 0;
-  for (const TimeBase& base : logs->time_bases()) samples += base.samples;
+  for (const TimeBase& base : logs.time_bases()) samples += base.samples;
   const double step = std::max(1.0, samples / count);
   std::vector<ArmState> states;
   double passed = 0;  // samples of the grid, thinned ones counted as one
-  logs->ForEach("states", progress, [&](int log, const Trajectory& t) {
-    const double thinned = t.dt / logs->time_bases()[log].dt;
+  logs.ForEach("states", progress, [&](int log, const Trajectory& t) {
+    const double thinned = t.dt / logs.time_bases()[log].dt;
     for (int k = t.core_begin; k < t.core_end; ++k, passed += thinned) {
       const bool due = passed >= step * static_cast<double>(states.size());
       if (!due || static_cast<int>(states.size()) >= count) continue;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
@@ -24,6 +24,6 @@ std::vector<ArmState> RandomStates(const Robot& robot, int count,
 
 // At most `count` states of the logs' motion, evenly spread.
 std::vector<ArmState> LoggedStates(int count, const Progress& progress,
-                                   LogSet* logs);
+                                   const PreparedLogs& logs);
 
 }  // namespace armcal

@@ -191,17 +191,24 @@ int Rollouts::NumDiverged(int model) const {
       [model](const RolloutWindow& w) { return w.diverged(model); }));
 }
 
+PreparationOptions PreparationFor(const RolloutOptions& options,
+                                  double bandwidth_hz) {
+  PreparationOptions prepared;
+  prepared.bandwidth_hz = bandwidth_hz;
+  prepared.reach_s =
+      *std::max_element(options.windows_s.begin(), options.windows_s.end());
+  return prepared;
+}
+
 std::vector<Rollouts> RollOut(const std::vector<RolloutModel>& models,
                               const RolloutOptions& options,
-                              double bandwidth_hz, LogSet* logs) {
-  const double longest =
-      *std::max_element(options.windows_s.begin(), options.windows_s.end());
-  logs->Prepare(bandwidth_hz, longest);
+                              double bandwidth_hz, const LogSet& logs) {
   Roller roller(models, options);
-  logs->ForEach("rollouts", options.progress,
-                [&roller](int log, const Trajectory& trajectory) {
-                  roller.Add(log, trajectory);
-                });
+  Prepare(logs, PreparationFor(options, bandwidth_hz))
+      .ForEach("rollouts", options.progress,
+               [&roller](int log, const Trajectory& trajectory) {
+                 roller.Add(log, trajectory);
+               });
   return roller.TakeRollouts();
 }
 

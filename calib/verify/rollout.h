@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "model/dynamics/batch_torque_replay.h"
 #include "model/dynamics/torque_replay.h"
 
@@ -55,12 +55,15 @@ struct Rollouts {
   int NumDiverged(int model) const;
 };
 
+// How logs are prepared for them.
+PreparationOptions PreparationFor(const RolloutOptions& options,
+                                  double bandwidth_hz);
+
 // Simulates every model over the windows of the logs (multiple shooting). A
-// window that stands still for half of its samples or more is left out. The
-// logs are prepared with the given bandwidth.
+// window that stands still for half of its samples or more is left out.
 std::vector<Rollouts> RollOut(const std::vector<RolloutModel>& models,
                               const RolloutOptions& options,
-                              double bandwidth_hz, LogSet* logs);
+                              double bandwidth_hz, const LogSet& logs);
 
 // The joints of a robot whose positions have the unit "rad", "m".
 std::vector<int> JointsWithUnit(const Robot& robot, const std::string& unit);

@@ -66,7 +66,7 @@ RolloutComparisons CompareRollouts(const Robot& file,
                                    const CalibratedRobot* calibrated,
                                    const RolloutOptions& options,
                                    double bandwidth_hz, std::uint64_t seed,
-                                   LogSet* logs) {
+                                   const LogSet& logs) {
   std::vector<CoulombTransition> transitions(file.num_joints());
   if (calibrated != nullptr) transitions = calibrated->transitions;
   Model before(file, transitions);

@@ -61,6 +61,6 @@ RolloutComparisons CompareRollouts(const Robot& file,
                                    const CalibratedRobot* calibrated,
                                    const RolloutOptions& options,
                                    double bandwidth_hz, std::uint64_t seed,
-                                   LogSet* logs);
+                                   const LogSet& logs);
 
 }  // namespace armcal

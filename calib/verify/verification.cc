@@ -204,14 +204,16 @@ bool Verification::passed() const {
                      [](const VerificationCheck& c) { return c.passed(); });
 }
 
-Verification Verify(const Robot& robot, const VerificationOptions& options,
-                    LogSet* log) {
+Verification VerifyDynamics(const Robot& robot,
+                            const VerificationOptions& options,
+                            const PreparedLogs* log) {
   Verification result{kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, 0, 0, {}};
   std::vector<ArmState> states =
       RandomStates(robot, options.random_states, options.seed);
   result.random_states = static_cast<int>(states.size());
   if (log != nullptr) {
-    const auto logged = LoggedStates(options.log_states, options.progress, log);
+    const auto logged =
+        LoggedStates(options.log_states, options.progress, *log);
     states.insert(states.end(), logged.begin(), logged.end());
     result.log_states = static_cast<int>(logged.size());
   }

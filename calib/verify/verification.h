@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
@@ -55,7 +55,8 @@ struct Verification {
 
 // `log` may be null. Where Simbody refuses a link, only our own model is
 // checked.
-Verification Verify(const Robot& robot, const VerificationOptions& options,
-                    LogSet* log);
+Verification VerifyDynamics(const Robot& robot,
+                            const VerificationOptions& options,
+                            const PreparedLogs* log);
 
 }  // namespace armcal

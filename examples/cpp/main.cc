@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
     armcal::LinearCalibrationOptions options;
     options.bandwidth_hz = 10;
     const armcal::LinearCalibration result =
-        armcal::CalibrateLinear(robot, options, &logs, nullptr);
+        armcal::CalibrateLinear(robot, options, logs, nullptr);
     if (!result.solved) {
       std::cerr << "not calibrated: " << result.reason << "\n";
       return 1;

@@ -4,21 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "model/dynamics/geometry_knowledge.h"
 #include "model/dynamics/joint_term.h"
 #include "model/dynamics/proximal_chain.h"
 #include "model/dynamics/regressor.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
-
-// What is known of the lengths between the joint axes; their directions always
-// are. kDeclared: all but those the robot file lists as unknown.
-enum class GeometryKnowledge {
-  kKnown,
-  kDeclaredLengths,
-  kNonzeroLengths,
-  kAllLengths
-};
 
 // One entry of the parameter vector X.
 struct ModelParameter {

@@ -16,11 +16,11 @@ std::size_t BytesOf(const Log& log) {
 
 }  // namespace
 
-KeptLog::KeptLog(const std::string& path, const LogReaderOptions& options,
+KeptLog::KeptLog(const LogSource& source, const LogReaderOptions& options,
                  std::shared_ptr<MemoryBudget> budget)
-    : path_(path),
+    : source_(source),
       options_(options),
-      reader_(std::in_place, path, options),
+      reader_(std::in_place, source, options),
       blocks_(std::move(budget)) {
   torque_source_ = reader_->torque_source();
   blocks_.Begin();
@@ -31,7 +31,7 @@ const Log* KeptLog::Next() {
     const bool more = next_ < blocks_.items().size();
     return more ? &blocks_.items()[next_++] : nullptr;
   }
-  if (!reader_) reader_.emplace(path_, options_);
+  if (!reader_) reader_.emplace(source_, options_);
   if (reader_->Read(kBlockRows, &block_)) {
     return blocks_.Add(&block_, BytesOf(block_));
   }

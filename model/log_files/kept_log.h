@@ -16,10 +16,10 @@ namespace armcal {
 class KeptLog {
  public:
   // A null budget keeps nothing. Throws InputError.
-  KeptLog(const std::string& path, const LogReaderOptions& options,
+  KeptLog(const LogSource& source, const LogReaderOptions& options,
           std::shared_ptr<MemoryBudget> budget = nullptr);
 
-  const std::string& path() const { return path_; }
+  const LogSource& source() const { return source_; }
   const LogReaderOptions& options() const { return options_; }
   const std::string& torque_source() const { return torque_source_; }
 
@@ -30,7 +30,7 @@ class KeptLog {
   void Rewind();
 
  private:
-  std::string path_;
+  LogSource source_;
   LogReaderOptions options_;
   std::string torque_source_;
   std::optional<LogReader> reader_;  // while the file is open

@@ -36,11 +36,11 @@ bool IsBlank(std::string_view line) {
 }  // namespace
 
 struct LogReader::Impl {
-  Impl(const std::string& path, const LogReaderOptions& options)
-      : path(path),
+  Impl(const LogSource& log, const LogReaderOptions& options)
+      : path(log.name),
         joints(static_cast<int>(options.joint_names.size())),
-        source(OpenLines(path, {options.joint_names, options.topics,
-                                options.torque_kind == TorqueKind::kCurrent})),
+        source(OpenLines(log, {options.joint_names, options.topics,
+                               options.torque_kind == TorqueKind::kCurrent})),
         columns(path, Header(), options.joint_names, source->About()),
         time_column(columns.FindTime(&time_decimals)),
         row(path, columns, time_column) {
@@ -265,9 +265,9 @@ struct LogReader::Impl {
   std::string last_time;
 };
 
-LogReader::LogReader(const std::string& path, const LogReaderOptions& options) {
+LogReader::LogReader(const LogSource& log, const LogReaderOptions& options) {
   CHECK(!options.joint_names.empty());
-  impl_ = std::make_unique<Impl>(path, options);
+  impl_ = std::make_unique<Impl>(log, options);
 }
 LogReader::~LogReader() = default;
 LogReader::LogReader(LogReader&&) noexcept = default;
@@ -295,13 +295,13 @@ bool LogReader::Read(int max_rows, Log* log) {
 
 void LogReader::Rewind() { impl_->Rewind(); }
 
-Log ReadWholeLog(const std::string& path, const LogReaderOptions& options) {
+Log ReadWholeLog(const LogSource& source, const LogReaderOptions& options) {
   constexpr int kMostRows = 1 << 20;
-  LogReader reader(path, options);
+  LogReader reader(source, options);
   Log log, more;
   reader.Read(kMostRows, &log);
   if (reader.Read(1, &more)) {
-    throw InputError(path, "row " + std::to_string(more.first_row), "",
+    throw InputError(source.name, "row " + std::to_string(more.first_row), "",
                      "expected a log of at most " + std::to_string(kMostRows) +
                          " rows, which all are kept in memory");
   }

@@ -5,11 +5,12 @@
 
 #include "model/log_files/log.h"
 #include "model/log_files/log_reader_options.h"
+#include "model/log_files/log_source.h"
 
 namespace armcal {
 
-// Reads a CSV or gzipped CSV log block by block in constant memory, or another
-// format (line_source.h) held in it.
+// Reads a CSV or gzipped CSV log block by block in constant memory, another
+// format (open_lines.h) held in it, or one that is in memory.
 //
 // Header: `t` (or time, timestamp, __time) and per joint either by number
 // (1-based) q1 qd1 qdd1 tau1 i1 qref1 temp1 or by name shoulder/position|
@@ -32,7 +33,7 @@ namespace armcal {
 // lines of the file, the header is row 1.
 class LogReader {
  public:
-  LogReader(const std::string& path, const LogReaderOptions& options);
+  LogReader(const LogSource& log, const LogReaderOptions& options);
   ~LogReader();
   LogReader(LogReader&&) noexcept;
   LogReader& operator=(LogReader&&) noexcept;
@@ -58,6 +59,6 @@ class LogReader {
 
 // All rows of a log that has to be in memory as a whole. Throws InputError,
 // also for more than 2^20 rows.
-Log ReadWholeLog(const std::string& path, const LogReaderOptions& options);
+Log ReadWholeLog(const LogSource& log, const LogReaderOptions& options);
 
 }  // namespace armcal

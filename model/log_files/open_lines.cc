@@ -31,8 +31,12 @@ void RefuseOthers(const std::string& path, const std::string& first) {
 
 }  // namespace
 
-std::unique_ptr<LineSource> OpenLines(const std::string& path,
+std::unique_ptr<LineSource> OpenLines(const LogSource& log,
                                       const LineOptions& options) {
+  if (log.arrays != nullptr) {
+    return std::make_unique<ArraySource>(log.name, *log.arrays);
+  }
+  const std::string& path = log.name;
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     return std::make_unique<BagSource>(path, options);

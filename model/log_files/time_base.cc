@@ -185,7 +185,7 @@ TimeBase AuditTimeBase(const TimeRange& crop, KeptLog* log) {
   TimeBase& base = audit.base;
   if (base.samples < 3) {
     throw InputError(
-        log->path(), "", std::to_string(base.samples) + " samples",
+        log->source().name, "", std::to_string(base.samples) + " samples",
         "expected at least 3 samples with different times in the log (" +
             OptionName("crop") + " keeps a part of it)");
   }

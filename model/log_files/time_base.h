@@ -1,20 +1,12 @@
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "model/log_files/kept_log.h"
+#include "model/log_files/time_range.h"
 
 namespace armcal {
-
-// A stretch of a log's time, s since its first row.
-struct TimeRange {
-  double begin = -std::numeric_limits<double>::infinity();
-  double end = std::numeric_limits<double>::infinity();
-
-  bool Contains(double t) const { return t >= begin && t <= end; }
-};
 
 // How far a stamp is from where it would be if samples were taken evenly, means
 // over a second, s. Of a clock that runs unevenly, or of a sampler that does.

@@ -15,6 +15,12 @@ struct TorqueOutlier {
   double recorded;     // N m or N
   double replacement;  // N m or N: what the model predicts
   double size;         // of the jump from the samples around, in noise units
+
+  friend bool operator==(const TorqueOutlier& a, const TorqueOutlier& b) {
+    return a.row == b.row && a.time == b.time && a.joint == b.joint &&
+           a.recorded == b.recorded && a.replacement == b.replacement &&
+           a.size == b.size;
+  }
 };
 
 // Torque as it was sampled, before anything is put on a time grid.

@@ -24,8 +24,8 @@ inline Robot CalibratedRobot(const std::string& folder, const std::string& log,
   LogSet logs({data + log}, reader, {});
   LinearCalibrationOptions options;
   options.bandwidth_hz = bandwidth_hz;
-  const auto linear = CalibrateLinear(robot, options, &logs, nullptr);
-  return CalibrateNonlinear(robot, linear, {}, &logs, nullptr).robot;
+  const auto linear = CalibrateLinear(robot, options, logs, nullptr);
+  return CalibrateNonlinear(robot, linear, {}, logs, nullptr).robot;
 }
 
 inline Robot CalibratedUr10e() {

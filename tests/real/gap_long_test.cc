@@ -40,17 +40,16 @@ json Diagnose(const std::string& folder, const std::string& log,
   const Robot robot = ReadRobot(kData + folder + "robot.urdf", {});
   const LogReaderOptions log_options = LogOptions(folder, robot);
   LogSet training({kData + folder + log}, log_options, crop);
-  std::unique_ptr<LogSet> before;
+  std::optional<LogSet> before;
   if (!reference.empty()) {
-    before = std::make_unique<LogSet>(
-        std::vector<std::string>{kData + folder + reference}, log_options,
-        reference_crop);
+    before.emplace(LogFiles({kData + folder + reference}), log_options,
+                   reference_crop);
   }
   DiagnosisOptions options;
   if (before) options.baseline.trust = .5;
   options.bandwidth_hz = DiagnosisBandwidth(training.time_bases());
-  json result =
-      ToJson(DiagnoseGap(robot, options, &training, nullptr, before.get()));
+  json result = ToJson(DiagnoseGap(robot, options, training, nullptr,
+                                   before ? &*before : nullptr));
   return result;
 }
 

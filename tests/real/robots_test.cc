@@ -39,12 +39,12 @@ LinearCalibration Calibrate(const std::string& folder, const Setup& setup) {
     for (const auto& name : names) full.push_back(kData + folder + name);
     return full;
   };
-  LogSet training(paths(setup.logs), log_options, {});
-  LogSet validation(paths(setup.validation), log_options, {});
+  LogSet training(LogFiles(paths(setup.logs)), log_options, {});
+  LogSet validation(LogFiles(paths(setup.validation)), log_options, {});
   LinearCalibrationOptions options;
   options.bandwidth_hz = setup.bandwidth_hz;
   LinearCalibration result = CalibrateLinear(
-      robot, options, &training, validation.size() > 0 ? &validation : nullptr);
+      robot, options, training, validation.size() > 0 ? &validation : nullptr);
   EXPECT_TRUE(result.solved) << result.reason;
   EXPECT_EQ(result.identifiability.batch_rank, result.identifiability.total);
   return result;

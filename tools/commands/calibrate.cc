@@ -9,6 +9,7 @@
 #include "calib/excite/segment_selection.h"
 #include "calib/linear/calibrate_linear.h"
 #include "calib/linear/calibration.h"
+#include "calib/linear/calibration_model.h"
 #include "calib/linear/calibration_report.h"
 #include "calib/linear/outlier_report.h"
 #include "calib/linear/verdict.h"
@@ -56,7 +57,8 @@ Task TaskFromFlags(const CommandInput& input) {
 // Adds the robot for simulators to the outputs. False where one was asked for
 // and there is none.
 bool Refine(const CommandInput& input, const Task& task,
-            const LinearCalibration& linear, LogSet* training, LogSet* held_out,
+            const LinearCalibration& linear, const LogSet& training,
+            const LogSet* held_out,
             std::optional<NonlinearCalibration>* refined, nlohmann::json* json,
             CommandOutcome* outcome) {
   if (!task.refinement || !linear.solved) return true;
@@ -79,7 +81,7 @@ bool Refine(const CommandInput& input, const Task& task,
 // With --select the segments to calibrate on take the place of all logs.
 std::optional<SegmentSelection> SelectFromFlags(const FlagValues& flags,
                                                 const Task& task,
-                                                LogSet* training) {
+                                                const LogSet& training) {
   constexpr double kMostRatio = 1.25;  // of standard deviations
   if (!flags.Switch("select")) return {};
   if (task.linear.identification != Identification::kWeak) {
@@ -108,26 +110,27 @@ CommandOutcome RunCalibrate(const CommandInput& input) {
   input.Begin("opening the logs");
   const auto gains = DriveGainsFromFlags(input, robot, task.linear, &task.logs);
   if (gains && !gains->solved) return UnsolvedGains(input, robot, *gains);
-  LogSet training(LogsFromFlags(input), task.logs, CropFromFlags(input.flags));
-  LogSet validation(ValidationLogsFromFlags(input), task.logs,
-                    ValidationCropFromFlags(input.flags));
-  LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
+  LogSet training(LogFiles(LogsFromFlags(input)), task.logs,
+                  CropFromFlags(input.flags));
+  const LogSet validation(LogFiles(ValidationLogsFromFlags(input)), task.logs,
+                          ValidationCropFromFlags(input.flags));
+  const LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
 
   const std::optional<SegmentSelection> selection =
-      SelectFromFlags(input.flags, task, &training);
+      SelectFromFlags(input.flags, task, training);
   CommandOutcome outcome;
   std::string& report = outcome.output.text;
   if (gains) report = DriveGainsReport(*gains);
   if (selection) {
     report += SelectionText(*selection, training);
-    training.Keep(selection->Stretches(training));
+    training = training.Within(selection->Stretches(training));
   }
   LinearCalibration result =
-      CalibrateLinear(robot, task.linear, &training, held_out);
+      CalibrateLinear(robot, task.linear, training, held_out);
   result.identifiability.advice =
-      AdviseMotions(robot, result, task.linear, &training);
+      AdviseMotions(robot, result, task.linear, training);
   const std::string corrected = CorrectTrajectories(
-      input.flags, robot, task.linear, &training, held_out, &result);
+      input.flags, robot, task.linear, training, held_out, &result);
   if (result.solved) {
     outcome.model = std::make_shared<TracedModel>(
         TracedModel{"calibrated", result.parameters, result.x});
@@ -140,15 +143,17 @@ CommandOutcome RunCalibrate(const CommandInput& input) {
   OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
   std::optional<NonlinearCalibration> arm;
   const bool refined =
-      Refine(input, task, result, &training, held_out, &arm, &json, &outcome);
+      Refine(input, task, result, training, held_out, &arm, &json, &outcome);
   outcome.output.json = json.dump(2) + "\n";
   out.Add("calibration.json", outcome.output.json);
   out.Add("covariance.csv", CovarianceCsv(result));
-  out.Add("outliers.csv", OutlierCsv(robot, training));
-  AddCalibrationReport(input, robot, json,
-                       {result, arm ? &*arm : nullptr,
-                        held_out != nullptr ? held_out : &training},
-                       &out);
+  out.Add("outliers.csv", OutlierCsv(robot, training, result));
+  AddCalibrationReport(
+      input, robot, outcome.output.json,
+      {result, arm ? &*arm : nullptr,
+       held_out != nullptr ? Prepare(*held_out, PreparationForRows(result.rows))
+                           : Prepare(training, result.preparation)},
+      &out);
   outcome.output.verdict = robot.name + ": ";
   outcome.output.positive = refined && Shortcomings(robot, result).empty();
   outcome.output.notes = robot.notes;

@@ -105,9 +105,10 @@ std::optional<TorqueInformation> TorquesFromFlags(const CommandInput& input,
   NonlinearCalibrationOptions options;
   options.trust = TrustFromFlags(flags);
   options.progress = input.progress;
-  LogSet logs(paths, LogOptionsFromFlags(flags, robot), TimeRange());
-  return InformByTorques(robot, CalibrateLinear(robot, linear, &logs, nullptr),
-                         options, &logs);
+  const LogSet logs(LogFiles(paths), LogOptionsFromFlags(flags, robot),
+                    TimeRange());
+  return InformByTorques(robot, CalibrateLinear(robot, linear, logs, nullptr),
+                         options, logs);
 }
 
 void ExpectMasses(const CommandInput& input, const Robot& robot) {
@@ -194,7 +195,7 @@ CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
   }
   files.insert(files.end(), torque_logs.begin(), torque_logs.end());
   AddReport(
-      input, "calibrate", robot, json, files,
+      input, "calibrate", robot, outcome.output.json, files,
       [&](ReportContent* content) {
         AddDrawings(robot, result, &content->extra);
       },

@@ -67,10 +67,11 @@ std::optional<DriveGains> DriveGainsFromFlags(
   CheckOtherFlags(options, *log_options);
   log_options->torque_kind = TorqueKind::kCurrent;
   log_options->torque_constants.assign(robot.num_joints(), 1);
-  LogSet bare(LogsFromFlags(input), *log_options, CropFromFlags(input.flags));
-  LogSet payload(payload_logs, *log_options, TimeRange());
+  const LogSet bare(LogFiles(LogsFromFlags(input)), *log_options,
+                    CropFromFlags(input.flags));
+  const LogSet payload(LogFiles(payload_logs), *log_options, TimeRange());
   const DriveGains gains =
-      EstimateDriveGains(robot, options, mass, &bare, &payload);
+      EstimateDriveGains(robot, options, mass, bare, &payload);
   if (gains.solved) log_options->torque_constants = gains.TorqueConstants();
   return gains;
 }
@@ -87,7 +88,7 @@ CommandOutcome UnsolvedGains(const CommandInput& input, const Robot& robot,
   out.Add("covariance.csv", "\n");  // no older matrix beside a refusal
   std::vector<std::string> files = LogsFromFlags(input);
   for (const std::string& log : PayloadLogs(input)) files.push_back(log);
-  AddReport(input, "calibrate", robot, json, files, nullptr, &out);
+  AddReport(input, "calibrate", robot, text, files, nullptr, &out);
   outcome.output = {
       text, DriveGainsReport(gains), robot.name + ": ", false, {}};
   return outcome;

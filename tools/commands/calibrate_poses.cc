@@ -71,7 +71,7 @@ CommandOutcome CalibratePosesFromFlags(const CommandInput& input) {
     content->extra["geometry"] =
         GeometryDrawing(result.robot, result.before, result.after);
   };
-  AddReport(input, "calibrate", robot, json, {flags.Text("poses")}, draw, &out);
+  AddReport(input, "calibrate", robot, text, {flags.Text("poses")}, draw, &out);
   const bool good = Shortcomings(robot, result).empty();
   outcome.output = {text, report, robot.name + ": ", good, {}};
   return outcome;

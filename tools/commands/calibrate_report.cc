@@ -79,12 +79,14 @@ json GeometryDrawing(const Robot& calibrated, const std::vector<double>& before,
 }
 
 void AddCalibrationReport(const CommandInput& input, const Robot& robot,
-                          const json& result, const CalibrationDrawing& drawing,
+                          const std::string& result,
+                          const CalibrationDrawing& drawing,
                           OutputFolder* out) {
   const auto complete = [&](ReportContent* content) {
     if (!drawing.linear.solved) return;
-    content->torques =
-        TracesJson(robot, Models(robot, drawing), drawing.logs, input.progress);
+    content->torques = TracesJson(
+        robot,
+        DrawTorques(Models(robot, drawing), input.progress, drawing.logs));
     content->extra["correlations"] = Correlations(drawing);
     const NonlinearCalibration* refined = drawing.refined;
     if (refined == nullptr || !refined->solved || !refined->refined_geometry) {

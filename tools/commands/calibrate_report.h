@@ -16,11 +16,11 @@ namespace armcal {
 struct CalibrationDrawing {
   const LinearCalibration& linear;
   const NonlinearCalibration* refined;  // null: there is none
-  LogSet* logs;                         // whose torques are drawn
+  PreparedLogs logs;                    // whose torques are drawn
 };
 
 void AddCalibrationReport(const CommandInput& input, const Robot& robot,
-                          const nlohmann::json& json,
+                          const std::string& json,
                           const CalibrationDrawing& drawing, OutputFolder* out);
 
 // {skeleton, poses}: a calibrated geometry, and distances of poses before and

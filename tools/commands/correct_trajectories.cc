@@ -46,7 +46,8 @@ void CheckTrajectoryFlag(const FlagValues& flags,
 
 std::string CorrectTrajectories(const FlagValues& flags, const Robot& robot,
                                 const LinearCalibrationOptions& options,
-                                LogSet* training, LogSet* validation,
+                                const LogSet& training,
+                                const LogSet* validation,
                                 LinearCalibration* result) {
   if (!IsAskedFor(flags) || !result->solved) return "";
   const TrajectoryRefinement refinement =

@@ -17,7 +17,8 @@ void CheckTrajectoryFlag(const FlagValues& flags,
 // what a person reads about it; else nothing.
 std::string CorrectTrajectories(const FlagValues& flags, const Robot& robot,
                                 const LinearCalibrationOptions& options,
-                                LogSet* training, LogSet* validation,
+                                const LogSet& training,
+                                const LogSet* validation,
                                 LinearCalibration* result);
 
 }  // namespace armcal

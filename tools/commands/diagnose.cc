@@ -3,7 +3,7 @@
 #include <gflags/gflags.h>
 
 #include <cmath>
-#include <memory>
+#include <optional>
 
 #include "calib/diagnose/report.h"
 #include "calib/diagnose/robot_export.h"
@@ -66,10 +66,15 @@ void SetController(const CommandInput& input, const Robot& robot,
 nlohmann::json Torques(const FlagValues& flags, const Robot& robot,
                        const GapDiagnosis& diagnosis, const LogSet& logs) {
   const bool reference = !flags.Text("reference").empty();
-  std::vector<std::string> labels = {
-      reference ? "as in the reference" : "the robot file", "fitted again"};
-  if (!diagnosis.effects.empty()) labels.push_back("with the effects");
-  return TracesJson(robot, labels, diagnosis.traces, logs);
+  DrawnTorques drawn;
+  drawn.labels = {reference ? "as in the reference" : "the robot file",
+                  "fitted again"};
+  if (!diagnosis.effects.empty()) drawn.labels.push_back("with the effects");
+  for (int log = 0; log < logs.size(); ++log) {
+    drawn.logs.push_back(logs.path(log));
+  }
+  drawn.traces = diagnosis.traces;
+  return TracesJson(robot, drawn);
 }
 
 std::vector<std::string> FilesRead(const CommandInput& input) {
@@ -101,7 +106,7 @@ CommandOutcome Finish(const CommandInput& input, const Robot& robot,
   const auto draw = [&](ReportContent* content) {
     content->torques = Torques(input.flags, robot, diagnosis, logs);
   };
-  AddReport(input, "diagnose", robot, json, FilesRead(input), draw, &out);
+  AddReport(input, "diagnose", robot, text, FilesRead(input), draw, &out);
   const bool tested = diagnosis.verdict != GapVerdict::kNotTestable;
   const std::string report = FullReport(diagnosis) + losses;
   outcome.output = {
@@ -122,26 +127,28 @@ CommandOutcome RunDiagnose(const CommandInput& input) {
   log_options.want_temperature = true;
   input.Begin("opening the logs");
   MakeTorquesOfCommands(flags, robot, FilesRead(input), &log_options);
-  LogSet training(LogsFromFlags(input), log_options, CropFromFlags(flags));
+  const LogSet training(LogFiles(LogsFromFlags(input)), log_options,
+                        CropFromFlags(flags));
   options.progress = input.progress;
   options.baseline.trust = TrustInFile(flags);
   options.bandwidth_hz = BandwidthFromFlags(flags).value_or(
       DiagnosisBandwidth(training.time_bases()));
-  std::unique_ptr<LogSet> reference, validation;
+  std::optional<LogSet> reference, validation;
   if (!flags.Text("reference").empty()) {
-    reference = std::make_unique<LogSet>(SplitAtCommas(flags.Text("reference")),
-                                         log_options, TimeRange());
+    reference.emplace(LogFiles(SplitAtCommas(flags.Text("reference"))),
+                      log_options, TimeRange());
   }
   const std::vector<std::string> held_out = ValidationLogsFromFlags(input);
   if (!held_out.empty()) {
-    validation = std::make_unique<LogSet>(held_out, log_options,
-                                          ValidationCropFromFlags(flags));
+    validation.emplace(LogFiles(held_out), log_options,
+                       ValidationCropFromFlags(flags));
   }
   SetController(input, robot, log_options, &options);
   options.forward = flags.Switch("forward");
   options.seed = SeedFromFlags(flags);
   const GapDiagnosis diagnosis =
-      DiagnoseGap(robot, options, &training, validation.get(), reference.get());
+      DiagnoseGap(robot, options, training, validation ? &*validation : nullptr,
+                  reference ? &*reference : nullptr);
   return Finish(input, robot, diagnosis, validation ? *validation : training);
 }
 

@@ -52,20 +52,20 @@ ModelParameters ModelFor(const Robot& robot, DesignTarget target) {
 GivenCalibration LearnFromLogs(const CommandInput& input, const Robot& robot,
                                const std::vector<std::string>& paths,
                                const ModelParameters& model) {
-  LogSet logs(paths, LogOptionsFromFlags(input.flags, robot),
-              CropFromFlags(input.flags));
+  const LogSet logs(LogFiles(paths), LogOptionsFromFlags(input.flags, robot),
+                    CropFromFlags(input.flags));
   LinearCalibrationOptions options;
   options.joint_terms = kTerms;
   options.bandwidth_hz = BandwidthFromFlags(input.flags);
   options.progress = input.progress;
   const LinearCalibration linear =
-      CalibrateLinear(robot, options, &logs, nullptr);
+      CalibrateLinear(robot, options, logs, nullptr);
   if (!linear.solved) {
     throw InputError(paths[0], "", "", "--given: " + linear.reason);
   }
   const Eigen::VectorXd density = ErrorDensity(linear);
-  return {density,
-          GivenInformation(robot, model, density, input.progress, &logs)};
+  return {density, GivenInformation(robot, model, density, input.progress,
+                                    Prepare(logs, linear.preparation))};
 }
 
 // How large errors of the torque are, and what is known already.
@@ -139,7 +139,7 @@ CommandOutcome RunPostures(const CommandInput& input, const Robot& robot,
   const auto draw = [&](ReportContent* content) {
     content->extra["postures"] = PosturesJson(robot, design.q);
   };
-  AddReport(input, "excite", robot, json, FilesOfDesign(input.flags), draw,
+  AddReport(input, "excite", robot, text, FilesOfDesign(input.flags), draw,
             &out);
   outcome.output = {text, FullReport(summary), "", true, {}};
   return outcome;
@@ -162,7 +162,7 @@ CommandOutcome Finish(const CommandInput& input,
   const auto draw = [&](ReportContent* content) {
     content->extra["motion"] = MotionJson(summary.robot, motion);
   };
-  AddReport(input, "excite", summary.robot, json, FilesOfDesign(input.flags),
+  AddReport(input, "excite", summary.robot, text, FilesOfDesign(input.flags),
             draw, &out);
   outcome.output = {text, FullReport(summary), "", found, {}};
   return outcome;

@@ -58,9 +58,9 @@ ReductionModel ModelFromFlags(const CommandInput& input, const Robot& robot) {
   if (flags.Text("like").empty()) {
     LinearCalibrationOptions options = LinearOptionsFromFlags(flags, robot);
     options.progress = input.progress;
-    LogSet logs(LogsFromFlags(input), LogOptionsFromFlags(flags, robot),
-                CropFromFlags(flags));
-    return ChooseReductionModel(robot, sha256, options, &logs);
+    const LogSet logs(LogFiles(LogsFromFlags(input)),
+                      LogOptionsFromFlags(flags, robot), CropFromFlags(flags));
+    return ChooseReductionModel(robot, sha256, options, logs);
   }
   for (const char* flag :
        {"geometry", "identification", "joint_terms", "coulomb_width", "window",
@@ -100,8 +100,9 @@ CommandOutcome RunReduce(const CommandInput& input) {
   OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(flags));
   Reduction all{model, {}};
   for (const std::string& path : LogsFromFlags(input)) {
-    LogSet log({path}, LogOptionsFromFlags(flags, robot), CropFromFlags(flags));
-    ReducedLog reduced = ReduceLog(robot, model, input.progress, &log);
+    const LogSet log({path}, LogOptionsFromFlags(flags, robot),
+                     CropFromFlags(flags));
+    ReducedLog reduced = ReduceLog(robot, model, input.progress, log);
     reduced.sha256 = HashLog(path);
     reduced.unit = flags.Text("unit");
     reduced.time = time;

@@ -2,10 +2,7 @@
 
 #include <gflags/gflags.h>
 
-#include <optional>
-
-#include "calib/refine/calibration_reader.h"
-#include "calib/verify/verification_report.h"
+#include "calib/verify.h"
 #include "tools/command_report.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
@@ -20,132 +17,41 @@ DEFINE_string(
 namespace armcal {
 namespace {
 
-double BandwidthFor(const FlagValues& flags, const CalibratedRobot* calibrated,
-                    const LogSet& logs) {
-  const std::optional<double> given = BandwidthFromFlags(flags);
-  if (given) return *given;
-  return calibrated ? calibrated->bandwidth_hz
-                    : DefaultBandwidth(logs.time_bases());
-}
-
-std::vector<std::string> SeenLogs(const CalibratedRobot& calibrated,
-                                  const LogSet& logs) {
-  std::vector<std::string> seen;
-  for (int k = 0; k < logs.size(); ++k) {
-    if (calibrated.Saw(logs.path(k), logs.time_bases()[k].range)) {
-      seen.push_back(logs.path(k));
-    }
-  }
-  return seen;
-}
-
-// The log that --controller is to follow, if it is given.
-std::optional<CommandedLog> CommandsFromFlags(const CommandInput& input,
-                                              const Robot& file) {
+VerifyOptions OptionsFromFlags(const CommandInput& input, const Robot& robot) {
   const FlagValues& flags = input.flags;
-  if (flags.Text("controller").empty()) return std::nullopt;
-  return ReadCommandedLog(LogsFromFlags(input)[0],
-                          LogOptionsFromFlags(flags, file),
-                          CropFromFlags(flags));
-}
-
-ClosedLoopComparison CloseLoop(const FlagValues& flags, const Robot& file,
-                               const CalibratedRobot* calibrated,
-                               const CommandedLog& log) {
-  const ControllerOptions controller =
-      ControllerFromFlags(flags, file, log.log.qref.row(0));
-  return CompareClosedLoop(file, calibrated, controller, log);
-}
-
-CommandOutcome Finish(const CommandInput& input, const Robot& file,
-                      const VerificationReport& report,
-                      const nlohmann::json& torques) {
-  CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
-  const nlohmann::json json = ToJson(report);
-  const std::string text = json.dump(2) + "\n";
-  out.Add("verification.json", text);
-  std::vector<std::string> files = report.logs;
-  if (!report.calibration.empty()) files.push_back(report.calibration);
-  AddReport(
-      input, "verify", file, json, files,
-      [&](ReportContent* content) { content->torques = torques; }, &out);
-  outcome.output = {text, FullReport(report), file.name + ": ", report.passed(),
-                    file.notes};
-  return outcome;
-}
-
-// The torques of the file's robot, and of the calibrated one.
-nlohmann::json Traces(const CommandInput& input, const Robot& file,
-                      const CalibratedRobot* calibrated, LogSet* logs) {
-  if (!input.WantsReport()) return nlohmann::json::array();
-  std::vector<TracedModel> models = {TraceRobot("the robot file", file, {})};
-  if (calibrated != nullptr) {
-    models.push_back(
-        TraceRobot("calibrated", calibrated->robot, calibrated->transitions));
-  }
-  return TracesJson(file, models, logs, input.progress);
-}
-
-// What logs say, where there are any; returns their torques.
-nlohmann::json VerifyOnLogs(const CommandInput& input, const Robot& file,
-                            const CalibratedRobot* calibrated,
-                            const VerificationOptions& options,
-                            VerificationReport* report) {
-  const FlagValues& flags = input.flags;
-  report->logs = LogsFromFlags(input);
-  const std::optional<CommandedLog> commanded = CommandsFromFlags(input, file);
-  if (commanded) {
-    report->closed_loop = CloseLoop(flags, file, calibrated, *commanded);
-    if (commanded->log.tau.size() == 0) {
-      // Positions alone: the robot is verified on random states.
-      report->verification = Verify(report->robot, options, nullptr);
-      if (calibrated != nullptr &&
-          calibrated->Saw(commanded->path, CropFromFlags(flags))) {
-        report->seen_logs = report->logs;
-      }
-      return nlohmann::json::array();
-    }
-  }
-  LogSet logs(report->logs, LogOptionsFromFlags(flags, file),
-              CropFromFlags(flags));
-  if (calibrated != nullptr) report->seen_logs = SeenLogs(*calibrated, logs);
-  logs.Prepare(BandwidthFor(flags, calibrated, logs), 0);
-  report->verification = Verify(report->robot, options, &logs);
-  RolloutOptions rollouts;
-  rollouts.progress = options.progress;
-  report->rollouts = CompareRollouts(file, calibrated, rollouts,
-                                     logs.bandwidth_hz(), report->seed, &logs);
-  return Traces(input, file, calibrated, &logs);
+  VerifyOptions options;
+  options.calibration = flags.Text("calibration");
+  options.reading = LogOptionsFromFlags(flags, robot);
+  options.bandwidth_hz = BandwidthFromFlags(flags);
+  options.controller = flags.Text("controller");
+  options.seed = SeedFromFlags(flags);
+  options.draw_torques = input.WantsReport();
+  options.progress = input.progress;
+  return options;
 }
 
 CommandOutcome RunVerify(const CommandInput& input) {
   const FlagValues& flags = input.flags;
-  if (!flags.Text("controller").empty() && LogsFromFlags(input).size() != 1) {
-    throw UsageError("--controller follows the command of one log: --log=FILE");
+  const bool needs_log = !flags.Text("controller").empty();
+  LogInput logs;
+  std::vector<std::string> files;
+  if (needs_log || !flags.Text("log").empty()) {
+    files = LogsFromFlags(input);
+    logs = {LogFiles(files), CropFromFlags(flags)};
   }
-  const Robot file = RobotFromFlags(input);
-  std::optional<CalibratedRobot> calibrated;
-  const std::string calibration = flags.Text("calibration");
-  if (!calibration.empty()) {
-    calibrated = ReadCalibration(calibration, file);
-  }
-  VerificationReport report;
-  report.robot = calibrated ? calibrated->robot : file;
-  report.calibration = calibration;
-  report.calibration_converged = !calibrated || calibrated->converged;
-  VerificationOptions options;
-  options.seed = report.seed = SeedFromFlags(flags);
-  input.Begin("verifying");
-  options.progress = input.progress;
-  nlohmann::json torques = nlohmann::json::array();
-  if (flags.Text("log").empty()) {
-    report.verification = Verify(report.robot, options, nullptr);
-  } else {
-    torques = VerifyOnLogs(input, file, calibrated ? &*calibrated : nullptr,
-                           options, &report);
-  }
-  return Finish(input, file, report, torques);
+  const Robot robot = RobotFromFlags(input);
+  const VerifyOptions options = OptionsFromFlags(input, robot);
+  const VerifySummary summary = Verify(robot, logs, options);
+  CommandOutcome outcome = OutcomeOf(input, robot, summary, robot.notes);
+  if (!options.calibration.empty()) files.push_back(options.calibration);
+  AddReport(
+      input, "verify", robot, summary.json, files,
+      [&](ReportContent* content) {
+        if (summary.torques == nullptr) return;
+        content->torques = TracesJson(robot, *summary.torques);
+      },
+      &outcome.folders[0]);
+  return outcome;
 }
 
 }  // namespace

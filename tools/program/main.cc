@@ -88,7 +88,7 @@ int Run(const Command& command, int argc, char** argv) {
   const ParsedFlags parsed = ParseFlags(command, argc, argv);
   try {
     return RunAndTell(command, parsed.values);
-  } catch (const UsageError& error) {
+  } catch (const OptionError& error) {
     // "--bandwidth: found .." of a flag file's line.
     const std::string text = error.what();
     const std::string name = text.substr(0, text.find_first_of(": ="));
@@ -148,7 +148,7 @@ std::string MemoryLimitText() {
 int TellError() {
   try {
     throw;
-  } catch (const UsageError& error) {
+  } catch (const OptionError& error) {
     PrintError(error.what());
     return kExitUsage;
   } catch (const InputError& error) {

@@ -148,13 +148,15 @@ std::vector<PredictedLog> Trace(const Outcome& outcome,
   const py::gil_scoped_release release;
   CommandInput input;
   input.flags = FlagsOf(CommandNamed("calibrate"), flags);
-  LogSet logs(LogsFromFlags(input),
-              LogOptionsFromFlags(input.flags, robot.robot),
-              CropFromFlags(input.flags));
-  logs.Prepare(bandwidth_hz, 0);
+  const LogSet logs(LogFiles(LogsFromFlags(input)),
+                    LogOptionsFromFlags(input.flags, robot.robot),
+                    CropFromFlags(input.flags));
+  PreparationOptions prepared;
+  prepared.bandwidth_hz = bandwidth_hz;
   std::vector<PredictedLog> predicted;
-  for (const TorqueTrace& trace : TraceTorques({*outcome.model}, kMostSamples,
-                                               reporter.AsProgress(), &logs)) {
+  for (const TorqueTrace& trace :
+       TraceTorques({*outcome.model}, kMostSamples, reporter.AsProgress(),
+                    Prepare(logs, prepared))) {
     predicted.push_back(
         FromTrace(trace, logs.path(trace.log), robot.robot.num_joints()));
   }

@@ -22,8 +22,8 @@ PYBIND11_MODULE(_armcal, module) {
       .attr("__doc__") =
       "Bad input: the file, the place in it, the value "
       "found and what was expected.";
-  py::register_exception<armcal::UsageError>(module, "UsageError",
-                                             PyExc_ValueError)
+  py::register_exception<armcal::OptionError>(module, "UsageError",
+                                              PyExc_ValueError)
       .attr("__doc__") = "An option that is not known, or its value.";
   armcal::AddRobot(&module);
   armcal::AddCommands(&module);

@@ -96,21 +96,6 @@ json SpectrumJson(const PowerSpectrum& spectrum, int models, int n) {
 
 }  // namespace
 
-TracedModel TraceRobot(const std::string& label, const Robot& robot,
-                       const std::vector<CoulombTransition>& transitions) {
-  ModelParameters::Options options;
-  options.joint_terms = {JointTerm::kViscous, JointTerm::kCoulomb,
-                         JointTerm::kOffset, JointTerm::kArmature};
-  for (int j = 0; j < robot.num_joints(); ++j) {
-    options.transitions.push_back(
-        {transitions.empty()
-             ? CoulombTransition{CoulombTransition::Law::kVelocity, .005}
-             : transitions[j]});
-  }
-  const ModelParameters parameters(robot, options);
-  return {label, parameters, parameters.Values(robot)};
-}
-
 json PositionsJson(const Robot& robot, const std::vector<std::string>& labels,
                    const std::vector<PositionTrace>& traces) {
   const int n = robot.num_joints(), models = static_cast<int>(labels.size());
@@ -130,11 +115,11 @@ json PositionsJson(const Robot& robot, const std::vector<std::string>& labels,
   return list;
 }
 
-json TracesJson(const Robot& robot, const std::vector<std::string>& labels,
-                const std::vector<TorqueTrace>& traces, const LogSet& logs) {
+json TracesJson(const Robot& robot, const DrawnTorques& drawn) {
   json list = json::array();
-  const int n = robot.num_joints(), count = static_cast<int>(labels.size());
-  for (const TorqueTrace& trace : traces) {
+  const int n = robot.num_joints();
+  const int count = static_cast<int>(drawn.labels.size());
+  for (const TorqueTrace& trace : drawn.traces) {
     if (list.size() == kMostDrawnLogs) break;
     json joints = json::array();
     for (int j = 0; j < n; ++j) {
@@ -142,9 +127,9 @@ json TracesJson(const Robot& robot, const std::vector<std::string>& labels,
           JointTraceJson(robot.links[j].joint, j, n, count, trace.torque));
       joints.back()["where"] = MapJson(trace.where[j], count);
     }
-    list.push_back({{"log", logs.path(trace.log)},
-                    {"logs", traces.size()},
-                    {"labels", labels},
+    list.push_back({{"log", drawn.logs[trace.log]},
+                    {"logs", drawn.traces.size()},
+                    {"labels", drawn.labels},
                     {"t", TimesJson(trace.torque)},
                     {"joints", joints}});
     if (!trace.residual.empty()) {
@@ -152,16 +137,6 @@ json TracesJson(const Robot& robot, const std::vector<std::string>& labels,
     }
   }
   return list;
-}
-
-json TracesJson(const Robot& robot, const std::vector<TracedModel>& models,
-                LogSet* logs, const Progress& progress) {
-  const int count = static_cast<int>(models.size());
-  const int bins = MostTraceBins(logs->size(), robot.num_joints(), count);
-  std::vector<std::string> labels;
-  for (const TracedModel& model : models) labels.push_back(model.label);
-  return TracesJson(robot, labels, TraceTorques(models, bins, progress, logs),
-                    *logs);
 }
 
 json RoundedJson(const VectorXd& values) {

@@ -5,29 +5,16 @@
 #include <vector>
 
 #include "calib/closed_loop/position_trace.h"
-#include "calib/logs/log_set.h"
-#include "calib/logs/torque_trace.h"
+#include "calib/logs/drawn_torques.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
-
-// The robot's own parameters, its Coulomb friction changing sign by
-// `transitions` (one per joint; empty: within 5 mrad/s or mm/s).
-TracedModel TraceRobot(const std::string& label, const Robot& robot,
-                       const std::vector<CoulombTransition>& transitions);
 
 // [{log, logs: how many there are, labels: [model], t, joints: [{name, unit,
 // position_unit, low, high, where}], spectrum}], with `low` and `high` a list
 // per signal of TorqueTrace and `where` ProfileJson of each coordinate. Numbers
 // have 5 digits; null ends a stretch.
-nlohmann::json TracesJson(const Robot& robot,
-                          const std::vector<std::string>& labels,
-                          const std::vector<TorqueTrace>& traces,
-                          const LogSet& logs);
-// Of the logs' torques.
-nlohmann::json TracesJson(const Robot& robot,
-                          const std::vector<TracedModel>& models, LogSet* logs,
-                          const Progress& progress);
+nlohmann::json TracesJson(const Robot& robot, const DrawnTorques& drawn);
 
 // The same of positions: {log, logs, labels, t, joints}.
 nlohmann::json PositionsJson(const Robot& robot,

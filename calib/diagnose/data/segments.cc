@@ -112,30 +112,34 @@ void FindStillJoints(GapSegment* segment) {
 }  // namespace
 
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
-                                     const Progress& progress, LogSet* logs) {
+                                     const Progress& progress,
+                                     const LogSet& logs) {
   if (!(bandwidth_hz > 0)) {
     throw InputError("", OptionName("bandwidth"), NumberText(bandwidth_hz),
                      "expected a frequency above 0 Hz: torques are compared "
                      "below it");
   }
-  CheckBandwidth(bandwidth_hz, *logs);
-  logs->Prepare(MotionBandwidth(bandwidth_hz), 0, true, .25 / bandwidth_hz);
+  CheckBandwidth(bandwidth_hz, logs);
+  PreparationOptions prepared;
+  prepared.bandwidth_hz = MotionBandwidth(bandwidth_hz);
+  prepared.longest_gap_s = .25 / bandwidth_hz;
   std::vector<GapSegment> segments;
   int log = -1, part = -1;
-  logs->ForEach("reading the logs", progress,
-                [&](int index, const Trajectory& trajectory) {
-                  if (index != log || trajectory.segment != part) {
-                    segments.emplace_back();
-                    segments.back().log = log = index;
-                    if (const MadeTorque* made = logs->made_torque(index)) {
-                      segments.back().made_torque = true;
-                      segments.back().torque_drifts = made->drifts;
-                      segments.back().lost = logs->time_bases()[index].gaps;
-                    }
-                    part = trajectory.segment;
-                  }
-                  AppendCore(trajectory, &segments.back());
-                });
+  Prepare(logs, prepared)
+      .ForEach("reading the logs", progress,
+               [&](int index, const Trajectory& trajectory) {
+                 if (index != log || trajectory.segment != part) {
+                   segments.emplace_back();
+                   segments.back().log = log = index;
+                   if (const MadeTorque* made = logs.made_torque(index)) {
+                     segments.back().made_torque = true;
+                     segments.back().torque_drifts = made->drifts;
+                     segments.back().lost = logs.time_bases()[index].gaps;
+                   }
+                   part = trajectory.segment;
+                 }
+                 AppendCore(trajectory, &segments.back());
+               });
   const auto is_short = [](const GapSegment& segment) {
     return segment.size() * segment.motion.dt < kShortest;
   };
@@ -143,7 +147,7 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                  segments.end());
   for (GapSegment& segment : segments) {
     FindStillJoints(&segment);
-    if (const MadeTorque* made = logs->made_torque(segment.log)) {
+    if (const MadeTorque* made = logs.made_torque(segment.log)) {
       AddErrors(*made, bandwidth_hz, &segment);
     }
     for (const TimeRange& burst :
@@ -152,7 +156,7 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
     }
     Motion& motion = segment.motion;
     motion.torque = SmoothTorqueOf(segment);
-    const auto& errors = logs->time_bases()[segment.log].stamp_errors;
+    const auto& errors = logs.time_bases()[segment.log].stamp_errors;
     if (errors.size() > 1) motion.stamp_error = StampErrors(errors, motion);
     if (motion.temperature.size() == 0) continue;
     motion.temperature =
@@ -166,17 +170,16 @@ double MotionBandwidth(double bandwidth_hz) {
   return kMotionBandwidth * bandwidth_hz;
 }
 
-RecordedPositions AuditPositions(const Progress& progress, LogSet* logs) {
+RecordedPositions AuditPositions(const Progress& progress, const LogSet& logs) {
   RecordedPositions recorded;
-  logs->Prepare(0, 0);
-  logs->ForEach("reading the logs", progress,
-                [&](int, const Trajectory& trajectory) {
-                  if (recorded.noise.size() > 0 || trajectory.size() < 100) {
-                    return;
-                  }
-                  recorded.noise = PositionNoise(trajectory.q);
-                  recorded.rate_hz = 1 / trajectory.dt;
-                });
+  Prepare(logs, {}).ForEach(
+      "reading the logs", progress, [&](int, const Trajectory& trajectory) {
+        if (recorded.noise.size() > 0 || trajectory.size() < 100) {
+          return;
+        }
+        recorded.noise = PositionNoise(trajectory.q);
+        recorded.rate_hz = 1 / trajectory.dt;
+      });
   return recorded;
 }
 

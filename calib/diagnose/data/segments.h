@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calib/diagnose/data/segment.h"
-#include "calib/logs/log_set.h"
+#include "calib/logs/prepared_logs.h"
 
 namespace armcal {
 
@@ -13,7 +13,8 @@ namespace armcal {
 // what is computed from it passes that filter again, as the torque does, and
 // must not have been bent below it.
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
-                                     const Progress& progress, LogSet* logs);
+                                     const Progress& progress,
+                                     const LogSet& logs);
 
 // Noise of the recorded positions (position_noise.h), n entries, and the rate
 // they were recorded at.
@@ -21,7 +22,7 @@ struct RecordedPositions {
   Eigen::VectorXd noise;  // rad or m
   double rate_hz = 0;
 };
-RecordedPositions AuditPositions(const Progress& progress, LogSet* logs);
+RecordedPositions AuditPositions(const Progress& progress, const LogSet& logs);
 
 // Of the motion of segments, Hz.
 double MotionBandwidth(double bandwidth_hz);

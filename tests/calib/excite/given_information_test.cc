@@ -28,11 +28,15 @@ class GivenInformationTest : public testing::Test {
     AddNoise(&random_, sigma_, &log.tau);
     LogReaderOptions reader;
     reader.joint_names = robot_.JointNames();
-    logs_.emplace(std::vector<std::string>{WriteFile(LogCsv(log), "given.csv")},
-                  reader, TimeRange());
+    logs_.emplace(LogFiles({WriteFile(LogCsv(log), "given.csv")}), reader,
+                  TimeRange());
     LinearCalibrationOptions options;
     options.joint_terms = {};
-    linear_.emplace(CalibrateLinear(robot_, options, &*logs_, nullptr));
+    linear_.emplace(CalibrateLinear(robot_, options, *logs_, nullptr));
+  }
+
+  PreparedLogs Prepared() const {
+    return Prepare(*logs_, linear_->preparation);
   }
 
   std::mt19937_64 random_{8};
@@ -53,7 +57,7 @@ TEST_F(GivenInformationTest, TheDensityIsThatOfTheNoise) {
 // Its inverse is the covariance that the calibration finds.
 TEST_F(GivenInformationTest, IsTheInverseOfACalibrationsCovariance) {
   const MatrixXd A = GivenInformation(robot_, linear_->parameters,
-                                      ErrorDensity(*linear_), {}, &*logs_);
+                                      ErrorDensity(*linear_), {}, Prepared());
   const MatrixXd covariance =
       A.llt().solve(MatrixXd::Identity(A.rows(), A.cols()));
   const VectorXd ratio =
@@ -64,9 +68,9 @@ TEST_F(GivenInformationTest, IsTheInverseOfACalibrationsCovariance) {
 TEST_F(GivenInformationTest, SegmentsAddUp) {
   const VectorXd density = VectorXd::Ones(3);
   const MatrixXd whole =
-      GivenInformation(robot_, linear_->parameters, density, {}, &*logs_);
+      GivenInformation(robot_, linear_->parameters, density, {}, Prepared());
   const auto segments = InformationBySegment(robot_, linear_->parameters,
-                                             density, 7, {}, &*logs_);
+                                             density, 7, {}, Prepared());
   ASSERT_EQ(segments.size(), 6u);
   MatrixXd sum = 0 * whole;
   for (size_t k = 0; k < segments.size(); ++k) {

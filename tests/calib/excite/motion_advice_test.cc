@@ -38,7 +38,7 @@ class MotionAdviceTest : public testing::Test {
     AddNoise(&random_, .001 * ColumnRms(log.tau), &log.tau);
     return WriteFile(LogCsv(log), name);
   }
-  LinearCalibration Calibrate(LogSet* logs) {
+  LinearCalibration Calibrate(const LogSet& logs) {
     return CalibrateLinear(robot_, options_, logs, nullptr);
   }
 
@@ -51,28 +51,28 @@ class MotionAdviceTest : public testing::Test {
 // Whoever does as advised, with motions of their own, sees all 36.
 TEST_F(MotionAdviceTest, WhatItAdvisesShowsEverything) {
   std::vector<std::string> paths = {LogOf({1, 2}, "two.csv")};
-  LogSet two(paths, reader_, {});
-  const LinearCalibration poor = Calibrate(&two);
+  LogSet two(LogFiles(paths), reader_, {});
+  const LinearCalibration poor = Calibrate(two);
   ASSERT_TRUE(poor.solved) << poor.reason;
   EXPECT_EQ(poor.identifiability.total, 36);
   EXPECT_LT(poor.identifiability.batch_rank, 25);
-  const auto advice = AdviseMotions(robot_, poor, options_, &two);
+  const auto advice = AdviseMotions(robot_, poor, options_, two);
   ASSERT_FALSE(advice.empty());
   EXPECT_EQ(advice.back().rank, 36);
   for (const AdvisedMotion& motion : advice) {
     paths.push_back(
         LogOf(motion.joints, "more" + std::to_string(paths.size()) + ".csv"));
   }
-  LogSet more(paths, reader_, {});
-  EXPECT_EQ(Calibrate(&more).identifiability.batch_rank, 36)
+  LogSet more(LogFiles(paths), reader_, {});
+  EXPECT_EQ(Calibrate(more).identifiability.batch_rank, 36)
       << AdviceText(robot_, advice, 36);
 }
 
 TEST_F(MotionAdviceTest, NothingIsAdvisedWhereNothingIsMissing) {
   LogSet all({LogOf({0, 1, 2, 3, 4, 5}, "all.csv")}, reader_, {});
-  const LinearCalibration rich = Calibrate(&all);
+  const LinearCalibration rich = Calibrate(all);
   EXPECT_EQ(rich.identifiability.batch_rank, 36);
-  EXPECT_TRUE(AdviseMotions(robot_, rich, options_, &all).empty());
+  EXPECT_TRUE(AdviseMotions(robot_, rich, options_, all).empty());
 }
 
 TEST_F(MotionAdviceTest, ReadsLikeASentence) {

@@ -18,10 +18,10 @@ class SegmentSelectionTest : public testing::Test {
     options_.joint_terms = {};
     LogReaderOptions reader;
     reader.joint_names = robot_.JointNames();
-    logs_.emplace(std::vector<std::string>{Write({0}, true, "long.csv"),
-                                           Write({1}, false, "other.csv")},
+    logs_.emplace(LogFiles({Write({0}, true, "long.csv"),
+                            Write({1}, false, "other.csv")}),
                   reader, TimeRange());
-    linear_.emplace(CalibrateLinear(robot_, options_, &*logs_, nullptr));
+    linear_.emplace(CalibrateLinear(robot_, options_, *logs_, nullptr));
   }
 
   std::string Write(const std::vector<int>& joints, bool all_late,
@@ -64,7 +64,7 @@ class SegmentSelectionTest : public testing::Test {
 TEST_F(SegmentSelectionTest, TheTellingStretchComesFirst) {
   ASSERT_TRUE(linear_->solved) << linear_->reason;
   const SegmentSelection selection =
-      SelectSegments(robot_, *linear_, options_, 5, 1.25, &*logs_);
+      SelectSegments(robot_, *linear_, options_, 5, 1.25, *logs_);
   EXPECT_EQ(selection.considered, 12);
   ASSERT_FALSE(selection.chosen.empty());
   EXPECT_EQ(selection.chosen[0].log, 0);
@@ -78,10 +78,9 @@ TEST_F(SegmentSelectionTest, TheTellingStretchComesFirst) {
 // finds, errors of equations being independent.
 TEST_F(SegmentSelectionTest, CalibratesNearlyAsWell) {
   const SegmentSelection selection =
-      SelectSegments(robot_, *linear_, options_, 5, 1.25, &*logs_);
-  logs_->Keep(selection.Stretches(*logs_));
-  const LinearCalibration few =
-      CalibrateLinear(robot_, options_, &*logs_, nullptr);
+      SelectSegments(robot_, *linear_, options_, 5, 1.25, *logs_);
+  const LinearCalibration few = CalibrateLinear(
+      robot_, options_, logs_->Within(selection.Stretches(*logs_)), nullptr);
   ASSERT_TRUE(few.solved) << few.reason;
   EXPECT_EQ(few.identifiability.batch_rank,
             linear_->identifiability.batch_rank);

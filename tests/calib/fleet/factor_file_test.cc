@@ -40,7 +40,7 @@ class FactorFile : public testing::Test {
     options_.loss = RobustLoss::kSquared;
   }
   LogSet Open(const std::vector<std::string>& paths) const {
-    return LogSet(paths, reader_, TimeRange());
+    return LogSet(LogFiles(paths), reader_, TimeRange());
   }
   // Each log by itself, as separate runs would.
   std::vector<Reduction> Reduced() const {
@@ -48,8 +48,8 @@ class FactorFile : public testing::Test {
     for (const std::string& path : paths_) {
       LogSet log = Open({path});
       const ReductionModel model =
-          ChooseReductionModel(robot_, "the robot's", options_, &log);
-      ReducedLog reduced = ReduceLog(robot_, model, {}, &log);
+          ChooseReductionModel(robot_, "the robot's", options_, log);
+      ReducedLog reduced = ReduceLog(robot_, model, {}, log);
       reduced.sha256 = HexText(Sha256Of(path));
       parts.push_back({model, {reduced}});
     }
@@ -78,7 +78,7 @@ TEST_F(FactorFile, MergedIsTheSinglePass) {
   const Reduction all = Together(Reduced());
   LogSet logs = Open(paths_);
   const LinearCalibration expected =
-      CalibrateLinear(robot_, options_, &logs, nullptr);
+      CalibrateLinear(robot_, options_, logs, nullptr);
   const LinearCalibration merged = CalibrateFromFactors(robot_, all);
   ASSERT_TRUE(expected.solved && merged.solved);
   EXPECT_EQ(merged.equations, expected.equations);
@@ -87,7 +87,7 @@ TEST_F(FactorFile, MergedIsTheSinglePass) {
             1e-12 * expected.noise.norm());
   EXPECT_EQ(merged.travel, expected.travel);
   EXPECT_EQ(merged.identifiable, expected.identifiable);
-  const LogFactors pass(expected.parameters, expected.rows, {}, &logs);
+  const LogFactors pass(expected.parameters, expected.rows, {}, logs);
   for (int i = 0; i < 2; ++i) {
     MatrixXd one, other;
     BlockTriangularFactor both(expected.parameters), single = both;

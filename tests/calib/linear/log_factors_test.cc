@@ -32,12 +32,12 @@ class Factors : public testing::Test {
     }
     LogReaderOptions reader;
     reader.joint_names = robot_.JointNames();
-    set_.emplace(paths, reader, TimeRange());
+    const LogSet set(LogFiles(paths), reader, TimeRange());
     RowOptions rows;
     rows.identification = Identification::kDifferential;
-    set_->Prepare(0, RowReach(rows));
     parameters_.emplace(robot_, ModelParameters::Options());
-    factors_.emplace(*parameters_, rows, Progress(), &*set_);
+    factors_.emplace(*parameters_, rows, Progress(),
+                     Prepare(set, PreparationForRows(rows)));
   }
   // [U | tau]' [U | tau] of joint i in log k, in its own columns.
   MatrixXd Gram(int k, int i) const {
@@ -123,7 +123,7 @@ TEST_F(Factors, ReportsProgress) {
         EXPECT_GE(fraction, last);
         last = fraction;
       },
-      &*set_);
+      *set_);
   EXPECT_EQ(last, 1);
 }
 

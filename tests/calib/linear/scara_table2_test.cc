@@ -60,7 +60,7 @@ LinearCalibration Calibrate(const std::string& motion,
   LogReaderOptions log_options;
   log_options.joint_names = robot.JointNames();
   LogSet training({kScara + motion + ".csv.gz"}, log_options, TimeRange());
-  return CalibrateLinear(robot, options, &training, nullptr);
+  return CalibrateLinear(robot, options, training, nullptr);
 }
 
 double Error(const LinearCalibration& result, const double* expected) {

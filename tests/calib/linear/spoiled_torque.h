@@ -61,8 +61,8 @@ inline Calibrated CalibrateAndList(const Robot& robot, const Log& log,
   LogReaderOptions reader;
   reader.joint_names = robot.JointNames();
   LogSet set({WriteFile(LogCsv(log))}, reader, {});
-  Calibrated c{CalibrateLinear(robot, options, &set, nullptr), {}};
-  for (const auto& list : set.outliers()) {
+  Calibrated c{CalibrateLinear(robot, options, set, nullptr), {}};
+  for (const auto& list : *c.result.preparation.outliers) {
     for (const TorqueOutlier& o : list) {
       c.listed.insert({o.row, o.joint});
       EXPECT_EQ(o.recorded, log.tau(o.row - 2, o.joint));

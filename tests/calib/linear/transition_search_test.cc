@@ -14,8 +14,9 @@ Transitions Find(const Robot& robot, const Log& log) {
   LogSet set({WriteFile(LogCsv(log))}, reader, TimeRange());
   const LinearCalibrationOptions options;
   const RowOptions rows = MakeRowOptions(options, set);
-  set.Prepare(rows.bandwidth_hz, RowReach(rows));
-  return FindTransitions(robot, options, rows, &set, TorqueUnits::kPerJoint);
+  return FindTransitions(robot, options, rows,
+                         Prepare(set, PreparationForRows(rows)),
+                         TorqueUnits::kPerJoint);
 }
 
 // Joint by joint, what unit each joint's torque is in does not matter: currents

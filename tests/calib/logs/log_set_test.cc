@@ -1,17 +1,24 @@
 #include "calib/logs/log_set.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
+#include "calib/logs/prepared_logs.h"
+#include "model/text/input_error.h"
 #include "tests/fixtures/cut_log.h"
 
 namespace armcal::log_set_test {
 
-LogSet Open(const std::vector<std::string>& paths, std::size_t memory) {
+LogReaderOptions OneJoint() {
   LogReaderOptions options;
   options.joint_names = {"joint1"};
-  return LogSet(paths, options, {}, memory);
+  return options;
+}
+
+LogSet Open(const std::vector<std::string>& paths, std::size_t memory) {
+  return LogSet(LogFiles(paths), OneJoint(), {}, memory);
 }
 
 void ExpectSame(const Trajectory& a, const Trajectory& b) {
@@ -29,19 +36,19 @@ void ExpectSame(const Trajectory& a, const Trajectory& b) {
 }
 
 // What all passes give, at both rates.
-std::vector<std::pair<int, Trajectory>> Passes(LogSet* logs) {
+std::vector<std::pair<int, Trajectory>> Passes(const PreparedLogs& logs) {
   std::vector<std::pair<int, Trajectory>> all;
   const auto visit = [&](int log, const Trajectory& t) {
     all.emplace_back(log, t);
   };
   for (int pass = 0; pass < 2; ++pass) {
-    logs->ForEach("", {}, visit);
-    logs->ForEachAtFullRate("", {}, visit);
+    logs.ForEach("", {}, visit);
+    logs.ForEachAtFullRate("", {}, visit);
   }
   return all;
 }
 
-void ExpectSame(LogSet* a, LogSet* b) {
+void ExpectSame(const PreparedLogs& a, const PreparedLogs& b) {
   const auto ours = Passes(a), theirs = Passes(b);
   ASSERT_EQ(ours.size(), theirs.size());
   ASSERT_GT(ours.size(), 3);
@@ -49,7 +56,14 @@ void ExpectSame(LogSet* a, LogSet* b) {
     EXPECT_EQ(ours[k].first, theirs[k].first);
     ExpectSame(ours[k].second, theirs[k].second);
   }
-  EXPECT_EQ(a->spikes(), b->spikes());
+  EXPECT_EQ(a.spikes(), b.spikes());
+}
+
+PreparationOptions At(double bandwidth_hz) {
+  PreparationOptions options;
+  options.bandwidth_hz = bandwidth_hz;
+  options.reach_s = .3;
+  return options;
 }
 
 // One log with uneven steps and a gap, one with spikes.
@@ -69,42 +83,88 @@ std::vector<std::string> WriteLogs() {
 TEST(LogSet, WhatIsKeptIsWhatWouldBeMadeAgain) {
   const auto paths = WriteLogs();
   for (const std::size_t memory : {std::size_t{1} << 28, std::size_t{300000}}) {
-    LogSet kept = Open(paths, memory), made = Open(paths, 0);
+    const LogSet kept = Open(paths, memory), made = Open(paths, 0);
     for (const double bandwidth : {5., 0.}) {
-      for (LogSet* logs : {&kept, &made}) logs->Prepare(bandwidth, .3);
-      ExpectSame(&kept, &made);
-      EXPECT_EQ(kept.spikes() > 0, bandwidth > 0);
-      for (LogSet* logs : {&kept, &made}) logs->TakeOut({{}, {}});
-      ExpectSame(&kept, &made);  // spikes are no longer replaced
-      for (LogSet* logs : {&kept, &made}) {
-        logs->TakeOut({{{900, 4.4, 0, 1, -7, 9}}, {}});
+      PreparationOptions options = At(bandwidth);
+      ExpectSame(Prepare(kept, options), Prepare(made, options));
+      EXPECT_EQ(Prepare(kept, options).spikes() > 0, bandwidth > 0);
+      // Spikes are not replaced where outliers are listed, none at first.
+      for (const std::vector<TorqueOutlier>& first :
+           {std::vector<TorqueOutlier>(),
+            {{900, 4.4, 0, 1, -7, 9}},
+            std::vector<TorqueOutlier>()}) {
+        options.outliers = {first, {}};
+        ExpectSame(Prepare(kept, options), Prepare(made, options));
       }
-      ExpectSame(&kept, &made);
-      for (LogSet* logs : {&kept, &made}) logs->TakeOut({{}, {}});
-      ExpectSame(&kept, &made);
     }
   }
 }
 
-TEST(LogSet, StretchesMayChangeBetweenPasses) {
+// Two views of the same logs, used in turns.
+TEST(LogSet, AViewStaysAsItWasPrepared) {
+  const LogSet logs = Open(WriteLogs(), std::size_t{1} << 28);
+  const PreparedLogs first = Prepare(logs, At(5));
+  const auto before = Passes(first);
+  PreparationOptions options = At(5);
+  options.outliers = {{{900, 4.4, 0, 1, -7, 9}}, {}};
+  const PreparedLogs second = Prepare(logs, options);
+  const auto other = Passes(second), after = Passes(first);
+  ASSERT_EQ(before.size(), after.size());
+  double moved = 0;
+  for (size_t k = 0; k < before.size(); ++k) {
+    ExpectSame(before[k].second, after[k].second);
+    moved += (before[k].second.tau - other[k].second.tau).norm();
+  }
+  EXPECT_GT(moved, 1);
+  EXPECT_GT(first.spikes(), 0);
+  EXPECT_EQ(second.spikes(), 0);
+}
+
+TEST(LogSet, StretchesAreOfAView) {
   const auto paths = WriteLogs();
-  LogSet kept = Open(paths, std::size_t{1} << 28), made = Open(paths, 0);
-  for (LogSet* logs : {&kept, &made}) logs->Prepare(5, .3);
+  const LogSet kept = Open(paths, std::size_t{1} << 28), made = Open(paths, 0);
   for (const LogSet::Stretches& stretches : {LogSet::Stretches(),
                                              {{{1, 4}, {6, 9}}, {{2, 21}}},
                                              {{{2, 5}}, {{0, 3}, {3, 8}}},
                                              LogSet::Stretches()}) {
-    for (LogSet* logs : {&kept, &made}) logs->Keep(stretches);
-    ExpectSame(&kept, &made);
+    ExpectSame(Prepare(kept.Within(stretches), At(5)),
+               Prepare(made.Within(stretches), At(5)));
+    EXPECT_TRUE(kept.stretches().empty());
   }
 }
 
 TEST(LogSet, ReadsFilesOnceWhereMemoryAllows) {
   const auto paths = WriteLogs();
-  LogSet logs = Open(paths, std::size_t{1} << 28);
+  const LogSet logs = Open(paths, std::size_t{1} << 28);
   for (const std::string& path : paths) std::remove(path.c_str());
-  logs.Prepare(5, .3);
-  EXPECT_GT(Passes(&logs).size(), 3);
+  EXPECT_GT(Passes(Prepare(logs, At(5))).size(), 3);
+}
+
+// Arrays are the same log as their file.
+TEST(LogSet, TakesLogsFromMemory) {
+  const std::vector<std::string> paths = WriteLogs();
+  std::vector<LogSource> arrays;
+  for (const std::string& path : paths) {
+    LogReaderOptions all = OneJoint();
+    all.want_velocity = all.want_acceleration = true;
+    arrays.emplace_back(path, ReadWholeLog(path, all));
+  }
+  for (const std::string& path : paths) std::remove(path.c_str());
+  const LogSet from_arrays(arrays, OneJoint(), {});
+  const LogSet from_files = Open(WriteLogs(), std::size_t{1} << 28);
+  for (const double bandwidth : {5., 0.}) {
+    ExpectSame(Prepare(from_arrays, At(bandwidth)),
+               Prepare(from_files, At(bandwidth)));
+  }
+  Log ragged = ReadWholeLog(WriteLogs()[0], OneJoint());
+  ragged.tau.conservativeResize(100, 1);
+  EXPECT_THAT(
+      [&] {
+        LogSet({{"ragged", ragged}}, OneJoint(), {});
+      },
+      testing::Throws<InputError>(testing::Property(
+          &InputError::what,
+          testing::StartsWith("ragged: array tau: found '100 rows'"))));
 }
 
 }  // namespace armcal::log_set_test

@@ -50,7 +50,7 @@ void Calibrate(const std::string& path) {
   LogSet training({path}, log_options, {}, 0);
   LinearCalibrationOptions options;
   options.bandwidth_hz = 8;
-  EXPECT_TRUE(CalibrateLinear(robot, options, &training, nullptr).solved);
+  EXPECT_TRUE(CalibrateLinear(robot, options, training, nullptr).solved);
 }
 
 TEST(Streaming, MemoryDoesNotGrowWithTheLog) {

@@ -21,11 +21,13 @@ TEST(TorqueTrace, HoldsRecordedPredictedAndTheirDifference) {
   reader.joint_names = robot.JointNames();
   reader.want_velocity = reader.want_acceleration = true;
   LogSet logs({WriteFile(LogCsv(log), "log.csv")}, reader, TimeRange());
-  logs.Prepare(0, 0, false);
+  PreparationOptions as_recorded;
+  as_recorded.remove_spikes = false;
   const ModelParameters parameters(robot, {});
   const Eigen::VectorXd x = parameters.Values(robot);
-  const std::vector<TorqueTrace> traces = TraceTorques(
-      {{"true", parameters, x}, {"half", parameters, .5 * x}}, 500, {}, &logs);
+  const std::vector<TorqueTrace> traces =
+      TraceTorques({{"true", parameters, x}, {"half", parameters, .5 * x}}, 500,
+                   {}, Prepare(logs, as_recorded));
   ASSERT_EQ(traces.size(), 1u);
   ASSERT_EQ(traces[0].torque.num_signals(), 3 * 5);
   EXPECT_LE(traces[0].torque.bins().size(), 500u);

@@ -39,11 +39,11 @@ Written CalibrateAndWrite(BentArm* arm, GeometryKnowledge geometry,
   linear.transition = BentArm::kWidth;
   linear.joint_terms = terms;
   const LinearCalibration start =
-      CalibrateLinear(arm->file, linear, &training, nullptr);
+      CalibrateLinear(arm->file, linear, training, nullptr);
   NonlinearCalibrationOptions options;
   options.refine = refine;
   const NonlinearCalibration result =
-      CalibrateNonlinear(arm->file, start, options, &training, nullptr, poses);
+      CalibrateNonlinear(arm->file, start, options, training, nullptr, poses);
   EXPECT_TRUE(result.solved) << result.reason;
   json calibration = ToJson(arm->file, training, nullptr, start);
   AddRefined(result, &calibration);

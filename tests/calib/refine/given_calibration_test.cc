@@ -43,7 +43,7 @@ class GivenCalibrationTest : public testing::Test {
     LogSet logs({WriteFile(LogCsv(log), "log.csv")}, reader, TimeRange());
     LinearCalibrationOptions options;
     options.joint_terms = {};
-    LinearCalibration result = CalibrateLinear(robot_, options, &logs, nullptr);
+    LinearCalibration result = CalibrateLinear(robot_, options, logs, nullptr);
     json_ = ToJson(robot_, logs, nullptr, result);
     csv_ = CovarianceCsv(result);
     return result;

@@ -17,7 +17,7 @@ struct Case {
     LinearCalibrationOptions options;
     options.transition = BentArm::kWidth;
     options.bandwidth_hz = 0;
-    linear.emplace(CalibrateLinear(arm.file, options, &logs, nullptr));
+    linear.emplace(CalibrateLinear(arm.file, options, logs, nullptr));
     unknowns.emplace(arm.file, *linear, RefineGeometry::kAll, nullptr);
   }
   LogSet Open() {
@@ -39,7 +39,7 @@ struct Case {
   }
   double Misfit(double part) {
     const LinkEquations equations =
-        LinkPass(*unknowns, *linear, {}, &logs)
+        LinkPass(*unknowns, *linear, {}, Prepare(logs, linear->preparation))
             .Reduce(Values(part), VectorXd::Ones(6));
     return (equations.R * Values(0).Stacked() - equations.z).norm();
   }

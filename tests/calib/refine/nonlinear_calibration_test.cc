@@ -108,9 +108,8 @@ TEST(NonlinearCalibration, HoldsTermsThatAreNotAskedFor) {
     options.bandwidth_hz = 0;
     options.joint_terms = {JointTerm::kViscous, JointTerm::kOffset};
     if (none) options.joint_terms.clear();
-    const auto linear = CalibrateLinear(arm.file, options, &logs, nullptr);
-    const auto result =
-        CalibrateNonlinear(arm.file, linear, {}, &logs, nullptr);
+    const auto linear = CalibrateLinear(arm.file, options, logs, nullptr);
+    const auto result = CalibrateNonlinear(arm.file, linear, {}, logs, nullptr);
     ASSERT_TRUE(result.solved) << result.reason;
     EXPECT_EQ(Get(result, "joint2.viscous").held, none);
     EXPECT_TRUE(Get(result, "joint2.coulomb").held);
@@ -131,8 +130,8 @@ TEST(NonlinearCalibration, AnUnsolvedStartIsAResult) {
   LogReaderOptions reader;
   reader.joint_names = arm.file.JointNames();
   LogSet logs({WriteFile(LogCsv(still))}, reader, {});
-  const auto linear = CalibrateLinear(arm.file, {}, &logs, nullptr);
-  const auto result = CalibrateNonlinear(arm.file, linear, {}, &logs, nullptr);
+  const auto linear = CalibrateLinear(arm.file, {}, logs, nullptr);
+  const auto result = CalibrateNonlinear(arm.file, linear, {}, logs, nullptr);
   EXPECT_FALSE(result.solved);
   EXPECT_EQ(result.reason, linear.reason);
   EXPECT_TRUE(result.parameters.empty());
@@ -154,8 +153,8 @@ void ExpectRealRobot(const std::string& folder, const std::string& training,
   LogSet validation({kData + folder + held_out}, reader, held_out_crop);
   LinearCalibrationOptions options;
   options.bandwidth_hz = bandwidth_hz;
-  const auto linear = CalibrateLinear(robot, options, &logs, &validation);
-  const auto result = CalibrateNonlinear(robot, linear, {}, &logs, &validation);
+  const auto linear = CalibrateLinear(robot, options, logs, &validation);
+  const auto result = CalibrateNonlinear(robot, linear, {}, logs, &validation);
   ASSERT_TRUE(result.solved) << result.reason;
   EXPECT_EQ(result.reason, "CONVERGENCE");
   ExpectPhysical(result.robot);

@@ -58,10 +58,9 @@ void ExpectHeldOut(const Robot& robot, const NonlinearRun& run) {
   LogReaderOptions reader;
   reader.joint_names = robot.JointNames();
   LogSet logs({run.held_out}, reader, {});
-  logs.Prepare(run.linear.rows.bandwidth_hz, RowReach(run.linear.rows));
-  const TorqueResidual residual =
-      EvaluateTorqueResidual(parameters, parameters.Values(robot),
-                             run.linear.rows.bandwidth_hz, "", {}, &logs);
+  const TorqueResidual residual = EvaluateTorqueResidual(
+      parameters, parameters.Values(robot), run.linear.rows.bandwidth_hz, "",
+      {}, Prepare(logs, PreparationForRows(run.linear.rows)));
   const VectorXd rms = residual.moving().residual_rms;
   const VectorXd linear = run.linear.validation->moving().residual_rms;
   for (int j = 0; j < rms.size(); ++j) {

@@ -78,9 +78,9 @@ TEST_P(PhysicalIntervals, HoldTheTruth) {
     LogSet log({WriteFile(LogCsv(Record(arm.truth, &random)))}, reader, {});
     NonlinearCalibrationOptions options;
     options.trust.inertia = kTrust;
-    const auto linear = CalibrateLinear(arm.file, {}, &log, nullptr);
+    const auto linear = CalibrateLinear(arm.file, {}, log, nullptr);
     const auto result =
-        CalibrateNonlinear(arm.file, linear, options, &log, nullptr);
+        CalibrateNonlinear(arm.file, linear, options, log, nullptr);
     ASSERT_TRUE(result.converged()) << result.reason;
     const Eigen::VectorXd x = linear.parameters.Values(arm.truth);
     for (int k = 0; k < x.size(); ++k) {

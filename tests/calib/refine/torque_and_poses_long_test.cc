@@ -79,14 +79,14 @@ TEST(TorqueAndPosesLong, BeatEitherAlone) {
     LogSet log({arm.Record(20)}, reader, {});
     const PoseMeasurements measured = arm.Measure(Instrument::kPoses, 30, 2e-4);
     const Log unseen = arm.Move(10, .02);
-    const auto linear = CalibrateLinear(arm.file, {}, &log, nullptr);
+    const auto linear = CalibrateLinear(arm.file, {}, log, nullptr);
     NonlinearCalibrationOptions options;
     options.trust = {BentArm::kInertia, BentArm::kLength, BentArm::kAngle};
     options.refine = RefineGeometry::kAll;
     const auto of_torques =
-        CalibrateNonlinear(arm.file, linear, options, &log, nullptr);
+        CalibrateNonlinear(arm.file, linear, options, log, nullptr);
     const auto of_both =
-        CalibrateNonlinear(arm.file, linear, options, &log, nullptr, &measured);
+        CalibrateNonlinear(arm.file, linear, options, log, nullptr, &measured);
     PoseCalibrationOptions alone;
     alone.prior_length = BentArm::kLength;
     alone.prior_angle = BentArm::kAngle;

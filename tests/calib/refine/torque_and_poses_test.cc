@@ -26,12 +26,12 @@ TEST_P(Instruments, FindGeometryAndInertia) {
   LogSet log({arm.Record(20)}, reader, {});
   const PoseMeasurements poses = arm.Measure(GetParam(), 60, 1e-4);
   const Log unseen = arm.Move(10, .02);
-  const auto linear = CalibrateLinear(arm.file, {}, &log, nullptr);
+  const auto linear = CalibrateLinear(arm.file, {}, log, nullptr);
   const auto both = CalibrateNonlinear(
-      arm.file, linear, Options(RefineGeometry::kAll), &log, nullptr, &poses);
+      arm.file, linear, Options(RefineGeometry::kAll), log, nullptr, &poses);
   ASSERT_TRUE(both.converged()) << both.reason;
   const auto rigid = CalibrateNonlinear(
-      arm.file, linear, Options(RefineGeometry::kNothing), &log, nullptr);
+      arm.file, linear, Options(RefineGeometry::kNothing), log, nullptr);
   EXPECT_LT(TorqueError(both.robot, unseen), .2);
   EXPECT_LT(TorqueError(both.robot, unseen),
             .5 * TorqueError(rigid.robot, unseen));
@@ -67,9 +67,9 @@ TEST(TorqueAndPoses, TooFewPosesAreRefused) {
   reader.joint_names = arm.file.JointNames();
   LogSet log({arm.Record(10)}, reader, {});
   const PoseMeasurements poses = arm.Measure(Instrument::kPoses, 3, 1e-4);
-  const auto linear = CalibrateLinear(arm.file, {}, &log, nullptr);
+  const auto linear = CalibrateLinear(arm.file, {}, log, nullptr);
   const auto result = CalibrateNonlinear(
-      arm.file, linear, Options(RefineGeometry::kAll), &log, nullptr, &poses);
+      arm.file, linear, Options(RefineGeometry::kAll), log, nullptr, &poses);
   EXPECT_FALSE(result.solved);
   EXPECT_NE(result.reason.find("measure more positions"), std::string::npos)
       << result.reason;
@@ -83,9 +83,9 @@ TEST(TorqueAndPoses, TorquesAloneRefineTheGeometry) {
   reader.joint_names = arm.file.JointNames();
   LogSet log({arm.Record(20)}, reader, {});
   const Log unseen = arm.Move(10, .02);
-  const auto linear = CalibrateLinear(arm.file, {}, &log, nullptr);
+  const auto linear = CalibrateLinear(arm.file, {}, log, nullptr);
   const auto result = CalibrateNonlinear(
-      arm.file, linear, Options(RefineGeometry::kAll), &log, nullptr);
+      arm.file, linear, Options(RefineGeometry::kAll), log, nullptr);
   ASSERT_TRUE(result.converged()) << result.reason;
   EXPECT_LT(TorqueError(result.robot, unseen), .25);
   bool seen = false;

@@ -140,9 +140,9 @@ TEST_P(NoisyEncoders, EstimatesAreAsGoodAsCanBeAndSayHowGood) {
   for (int run = 0; run < Runs(GetParam().runs); ++run) {
     LogSet logs = simulation.Record();
     const LinearCalibration start =
-        CalibrateLinear(simulation.robot, simulation.options, &logs, nullptr);
+        CalibrateLinear(simulation.robot, simulation.options, logs, nullptr);
     const TrajectoryRefinement refinement = RefineTrajectories(
-        simulation.robot, simulation.options, start, &logs, nullptr);
+        simulation.robot, simulation.options, start, logs, nullptr);
     ASSERT_TRUE(refinement.refined) << refinement.reason;
     weak.Add(start);
     corrected.Add(refinement.calibration);
@@ -191,10 +191,9 @@ TEST(PumaLengths, UpperArmToAThirdOfAMillimetre) {
   LinearCalibrationOptions options;
   options.geometry = GeometryKnowledge::kNonzeroLengths;
   options.joint_terms = {};
-  const LinearCalibration weak =
-      CalibrateLinear(robot, options, &logs, nullptr);
+  const LinearCalibration weak = CalibrateLinear(robot, options, logs, nullptr);
   const TrajectoryRefinement corrected =
-      RefineTrajectories(robot, options, weak, &logs, nullptr);
+      RefineTrajectories(robot, options, weak, logs, nullptr);
   for (const auto* lengths : {&weak.lengths, &corrected.calibration.lengths}) {
     for (const RecoveredLength& l : *lengths) {
       std::printf("%s: stddev %.3f mm, error %.3f mm\n", l.symbol.c_str(),

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calib/linear/calibrate_linear.h"
+#include "calib/linear/outlier_report.h"
 #include "calib/refine/trajectory_covariance.h"
 #include "tests/fixtures/calibrate_logs.h"
 #include "tests/fixtures/sample_robots.h"
@@ -57,8 +58,8 @@ class NoisyScara : public testing::Test {
   }
   TrajectoryRefinement Refine() {
     LogSet logs = Logs();
-    start_.emplace_back(CalibrateLinear(robot_, options_, &logs, nullptr));
-    return RefineTrajectories(robot_, options_, start_[0], &logs, nullptr);
+    start_.emplace_back(CalibrateLinear(robot_, options_, logs, nullptr));
+    return RefineTrajectories(robot_, options_, start_[0], logs, nullptr);
   }
   // rms of errors in units of what `result` claims.
   double Normalised(const LinearCalibration& result) const {
@@ -136,6 +137,23 @@ TEST_F(NoisyScara, LeavesAnUnsolvedStartAsItIs) {
   EXPECT_FALSE(result.refined);
   EXPECT_EQ(result.reason, start_[0].reason);
   EXPECT_EQ(result.calibration.encoder_noise.size(), 0);
+}
+
+// What is left is the start, which was made without the gross errors and says
+// so.
+TEST_F(NoisyScara, AFailedRefinementKeepsTheStartsOutliers) {
+  constexpr double kBeyondSplines = 1e100;
+  for (int k = 150; k < log_.size(); k += 400) {
+    log_.tau(k, 1) += 40 * torque_noise_[1];
+  }
+  log_.tau *= kBeyondSplines;
+  const TrajectoryRefinement result = Refine();
+  ASSERT_TRUE(start_[0].solved) << start_[0].reason;
+  ASSERT_FALSE(result.refined);
+  EXPECT_EQ(CountOutliers(start_[0]), 10);
+  EXPECT_EQ(CountOutliers(result.calibration), 10);
+  EXPECT_EQ(result.calibration.preparation.outliers,
+            start_[0].preparation.outliers);
 }
 
 }  // namespace armcal::trajectory_refinement_test

@@ -45,9 +45,8 @@ TEST(LoggedStates, SpreadEvenly) {
   }
   LogReaderOptions reader;
   reader.joint_names = robot.JointNames();
-  LogSet logs(paths, reader, {});
-  logs.Prepare(0, 0);
-  const auto states = LoggedStates(100, nullptr, &logs);
+  LogSet logs(LogFiles(paths), reader, {});
+  const auto states = LoggedStates(100, nullptr, Prepare(logs, {}));
   ASSERT_EQ(states.size(), 100u);
   const Log log = RecordMotion(motion, 20, .01);
   for (int k = 0; k < 100; ++k) {

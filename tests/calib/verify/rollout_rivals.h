@@ -30,7 +30,8 @@ inline Eigen::MatrixXd TorqueLeft(const Robot& robot, const Trajectory& t) {
 // then what `robot`'s links leave of the recorded torque, all low-passed.
 inline std::vector<Eigen::MatrixXd> TermRows(
     const Robot& robot, const std::vector<CoulombTransition>& transitions,
-    const std::vector<JointTerm>& terms, double bandwidth_hz, LogSet* logs) {
+    const std::vector<JointTerm>& terms, double bandwidth_hz,
+    const LogSet& logs) {
   const int n = robot.num_joints(), m = static_cast<int>(terms.size());
   std::vector<JointTermColumn> coulomb;
   for (int j = 0; j < n; ++j) {
@@ -38,8 +39,9 @@ inline std::vector<Eigen::MatrixXd> TermRows(
   }
   CoulombStates states(coulomb);
   std::vector<Eigen::MatrixXd> rows(n, Eigen::MatrixXd(0, m + 1));
-  logs->Prepare(bandwidth_hz, 0);
-  logs->ForEach("", nullptr, [&](int, const Trajectory& t) {
+  PreparationOptions prepared;
+  prepared.bandwidth_hz = bandwidth_hz;
+  Prepare(logs, prepared).ForEach("", nullptr, [&](int, const Trajectory& t) {
     const Eigen::MatrixXd c = states.Follow(t);
     const Eigen::MatrixXd left = TorqueLeft(robot, t);
     for (int j = 0; j < n; ++j) {
@@ -93,7 +95,7 @@ inline Eigen::VectorXd FitTerms(const Eigen::MatrixXd& rows,
 inline Robot WithFittedTerms(const Robot& robot,
                              const std::vector<CoulombTransition>& transitions,
                              const std::vector<JointTerm>& terms,
-                             double bandwidth_hz, LogSet* logs) {
+                             double bandwidth_hz, const LogSet& logs) {
   Robot fitted = robot;
   const auto rows = TermRows(robot, transitions, terms, bandwidth_hz, logs);
   for (int j = 0; j < robot.num_joints(); ++j) {

@@ -44,9 +44,9 @@ class Contest {
     LinearCalibrationOptions options;
     options.bandwidth_hz = setup.bandwidth_hz;
     const LinearCalibration linear =
-        CalibrateLinear(file_, options, &training_, nullptr);
+        CalibrateLinear(file_, options, training_, nullptr);
     transitions_ = linear.transitions;
-    refined_ = CalibrateNonlinear(file_, linear, {}, &training_, nullptr).robot;
+    refined_ = CalibrateNonlinear(file_, linear, {}, training_, nullptr).robot;
   }
 
   const Robot& file() const { return file_; }
@@ -64,7 +64,7 @@ class Contest {
       for (const T term : terms) text += std::string(" ") + JointTermName(term);
       rivals_.push_back(
           {text, WithFittedTerms(links, transitions_, terms,
-                                 setup_.bandwidth_hz, &training_)});
+                                 setup_.bandwidth_hz, training_)});
     }
   }
   void Add(const Rival& rival) { rivals_.push_back(rival); }
@@ -83,7 +83,7 @@ class Contest {
     RolloutOptions options;
     options.windows_s = {0.5};
     const Rollouts rollouts =
-        RollOut(models, options, setup_.bandwidth_hz, &held_out_)[0];
+        RollOut(models, options, setup_.bandwidth_hz, held_out_)[0];
     const auto joints = JointsWithUnit(file_, "rad");
     const RolloutFigure ours = MedianError(rollouts, 0, joints, 1);
     std::printf("%zu windows of 0.5 s: ours %.4f [%.4f %.4f] rad\n",
@@ -110,7 +110,7 @@ class Contest {
     LogReaderOptions options;
     options.joint_names = file_.JointNames();
     options.torque_constants = setup_.torque_constants;
-    return LogSet(paths, options, crop);
+    return LogSet(LogFiles(paths), options, crop);
   }
 
   Setup setup_;

@@ -37,11 +37,9 @@ class RolloutLogs : public testing::Test {
     AddTorque(truth_, &resting);
     LogReaderOptions reader;
     reader.joint_names = truth_.JointNames();
-    logs_.emplace(
-        std::vector<std::string>{
-            WriteFile(LogCsv(moving, true), "moving.csv"),
-            WriteFile(LogCsv(resting, true), "resting.csv")},
-        reader, TimeRange());
+    logs_.emplace(LogFiles({WriteFile(LogCsv(moving, true), "moving.csv"),
+                            WriteFile(LogCsv(resting, true), "resting.csv")}),
+                  reader, TimeRange());
   }
 
   std::vector<Rollouts> Run(const std::vector<Robot>& robots,
@@ -57,7 +55,7 @@ class RolloutLogs : public testing::Test {
     SimbodyArm simbody(truth_);
     TorqueReplay referee(truth_, transitions, &simbody);
     if (robots.size() > 1) models[0].referee = &referee;
-    return RollOut(models, options, 0, &*logs_);
+    return RollOut(models, options, 0, *logs_);
   }
 
   std::mt19937_64 random_{3};

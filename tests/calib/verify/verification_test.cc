@@ -37,7 +37,7 @@ TEST_P(KnownArms, AreTheSameInSimbody) {
   robot.gravity = {2, -1, -9};
   robot.X_LT.translation() << .1, .2, .3;
   VerificationOptions options;
-  const Verification result = Verify(robot, options, nullptr);
+  const Verification result = VerifyDynamics(robot, options, nullptr);
   ExpectPassed(result);
   EXPECT_EQ(result.random_states, 1000);
 }
@@ -50,7 +50,7 @@ TEST(Verify, ArmThatGravityDoesNotLoad) {
   const Eigen::Matrix3d R = RotationFromRpy({.3, -.7, 1.1});
   robot.links[0].X_PF.linear() = R * robot.links[0].X_PF.linear();
   robot.gravity = R * robot.gravity;
-  ExpectPassed(Verify(robot, {}, nullptr));
+  ExpectPassed(VerifyDynamics(robot, {}, nullptr));
 }
 
 // One branch of a tree, with a link that is lumped into another, odd axes and
@@ -79,7 +79,7 @@ TEST(Verify, ChainOutOfABranchingUrdf) {
           JointXml("j4", "continuous", "b", "eye", "<axis xyz='1 0 0'/>"),
       options);
   ASSERT_EQ(robot.num_joints(), 3);
-  ExpectPassed(Verify(robot, {}, nullptr));
+  ExpectPassed(VerifyDynamics(robot, {}, nullptr));
 }
 
 TEST(Verify, StatesOfALog) {
@@ -91,11 +91,13 @@ TEST(Verify, StatesOfALog) {
   LogReaderOptions reader;
   reader.joint_names = robot.JointNames();
   LogSet logs({WriteFile(LogCsv(log))}, reader, {});
-  logs.Prepare(8, 0);
+  PreparationOptions at_8_hz;
+  at_8_hz.bandwidth_hz = 8;
+  const PreparedLogs prepared = Prepare(logs, at_8_hz);
   VerificationOptions options;
   options.log_states = 300;
   options.random_states = 10;
-  const Verification result = Verify(robot, options, &logs);
+  const Verification result = VerifyDynamics(robot, options, &prepared);
   ExpectPassed(result);
   EXPECT_NEAR(result.log_states, 300, 5);
 }
@@ -109,7 +111,7 @@ TEST(Verify, RefusedLinksAreNamedAndTheRestIsChecked) {
   robot.links[2].inertial = InertialParameters::FromCenterOfMass(
       4.8, {0, 0, .07}, Eigen::Vector3d(.066, .086, .0125).asDiagonal());
   robot.links[4].inertial = robot.links[2].inertial;
-  const Verification result = Verify(robot, {}, nullptr);
+  const Verification result = VerifyDynamics(robot, {}, nullptr);
   EXPECT_FALSE(result.passed());
   EXPECT_THAT(result.reasons,
               ElementsAre(HasSubstr("puma: link link3: Simbody cannot"),
@@ -126,7 +128,7 @@ TEST(Verify, MasslessTipCannotSwing) {
   Robot robot = SampleRobot("3R elbow");
   SetRandomInertials(&random, &robot);
   robot.links[2].inertial = {};
-  const Verification result = Verify(robot, {}, nullptr);
+  const Verification result = VerifyDynamics(robot, {}, nullptr);
   EXPECT_FALSE(result.passed());
   EXPECT_THAT(
       result.reasons,
@@ -145,7 +147,7 @@ TEST(Verify, WhatSwingsTooFastIsToldSo) {
   link.has_inertial = true;
   robot.links = {link};
   robot.gravity = {0, -9.81, 0};  // the joint turns about z
-  const Verification result = Verify(robot, {}, nullptr);
+  const Verification result = VerifyDynamics(robot, {}, nullptr);
   EXPECT_FALSE(result.passed());
   ASSERT_EQ(result.reasons.size(), 2u);
   EXPECT_THAT(result.reasons[1], HasSubstr("more than 100000 steps up to t ="));
@@ -181,7 +183,7 @@ TEST(Verify, SameSeedSameFigures) {
   options.swing_s = .5;
   const auto figures = [&](std::uint64_t seed) {
     options.seed = seed;
-    const Verification v = Verify(robot, options, nullptr);
+    const Verification v = VerifyDynamics(robot, options, nullptr);
     return std::make_pair(v.torque_max_rel, v.own_energy_drift_rel);
   };
   EXPECT_EQ(figures(1), figures(1));

@@ -12,7 +12,7 @@ class GapAuditTest : public DiagnosedArm<32> {
     LogReaderOptions reader;
     reader.joint_names = File().JointNames();
     LogSet logs({WriteFile(LogCsv(log), "audited.csv")}, reader, {});
-    const std::vector<GapSegment> segments = ReadSegments(6, {}, &logs);
+    const std::vector<GapSegment> segments = ReadSegments(6, {}, logs);
     GapRows rows(segments, 6);
     return AuditTorque(File(), rows);
   }

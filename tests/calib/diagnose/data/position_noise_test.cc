@@ -41,7 +41,7 @@ class GapPositionNoiseTest : public testing::Test {
           MakeTorque(truth_, controller, commanded, commanded.log.t, 1));
     }
     LogSet logs({path}, reader, {});
-    return ReadSegments(kBandwidth, {}, &logs);
+    return ReadSegments(kBandwidth, {}, logs);
   }
   GapBaseline Baseline() const {
     return {truth_, {}, VectorXd::Constant(3, 10)};

@@ -37,8 +37,8 @@ std::vector<GapSegment> Read(const std::vector<std::string>& texts) {
   LogReaderOptions reader;
   reader.joint_names = {"a", "b"};
   reader.want_temperature = true;
-  LogSet logs(paths, reader, {});
-  return ReadSegments(kBandwidth, {}, &logs);
+  LogSet logs(LogFiles(paths), reader, {});
+  return ReadSegments(kBandwidth, {}, logs);
 }
 
 // The log without its rows between t0 and t1.
@@ -115,7 +115,7 @@ TEST(GapSegments, CreepingStandsStillWhereTorquesAreMade) {
   reader.joint_names = {"a", "b"};
   const auto still = [&] {
     LogSet logs({path}, reader, {});
-    const auto segments = ReadSegments(kBandwidth, {}, &logs);
+    const auto segments = ReadSegments(kBandwidth, {}, logs);
     return segments.at(0).still.col(1).count() * segments[0].motion.dt;
   };
   EXPECT_EQ(still(), 0);

@@ -19,11 +19,11 @@ class GapRunsTest : public DiagnosedArm<25> {
     }
     LogReaderOptions reader;
     reader.joint_names = File().JointNames();
-    LogSet logs(paths, reader, {});
+    LogSet logs(LogFiles(paths), reader, {});
     DiagnosisOptions options;
     options.bandwidth_hz = 6;
     options.forward = false;
-    return DiagnoseGap(File(), options, &logs, nullptr, nullptr).drifts;
+    return DiagnoseGap(File(), options, logs, nullptr, nullptr).drifts;
   }
 };
 

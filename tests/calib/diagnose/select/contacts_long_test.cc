@@ -63,7 +63,7 @@ class PushedArm : public testing::Test {
     DiagnosisOptions options;
     options.bandwidth_hz = 8;
     options.forward = false;
-    return DiagnoseGap(arm_->robot, options, &training, nullptr, &reference);
+    return DiagnoseGap(arm_->robot, options, training, nullptr, &reference);
   }
 
   static const EffectArm* arm_;

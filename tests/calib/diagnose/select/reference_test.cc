@@ -15,7 +15,7 @@ class GapReferenceTest : public DiagnosedArm<32> {
     LogReaderOptions reader;
     reader.joint_names = File().JointNames();
     LogSet logs({Record(before_, "reference.csv")}, reader, {});
-    segments_ = ReadSegments(hz, {}, &logs);
+    segments_ = ReadSegments(hz, {}, logs);
     BaselineOptions options;
     options.timing_s = .05;
     const GapBaseline file(File(), options, UsualTorque(segments_));
