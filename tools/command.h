@@ -7,6 +7,7 @@
 
 #include "calib/logs/log_set.h"
 #include "model/robot/robot.h"
+#include "model/text/document.h"
 #include "tools/console.h"
 #include "tools/flag_values.h"
 #include "tools/output_folder.h"
@@ -35,8 +36,10 @@ struct FlagGroup {
 struct CommandInput {
   FlagValues flags;
   std::optional<Robot> robot;  // instead of that in the file of --robot
-  Progress progress;           // a fraction below 0: nobody knows
-  bool report = false;         // make report.html even without --out
+  // What that robot was read from, instead of the file of --robot.
+  std::optional<Document> robot_file;
+  Progress progress;    // a fraction below 0: nobody knows
+  bool report = false;  // make report.html even without --out
 
   bool WantsReport() const { return report || !flags.Text("out").empty(); }
 

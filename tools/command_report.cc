@@ -32,7 +32,7 @@ void AddReport(const CommandInput& input, const std::string& command,
   for (const std::string& flag : input.flags.AsTyped()) {
     content.arguments.push_back(flag);
   }
-  content.files.push_back(HashFile(RobotPathFromFlags(input)));
+  content.files.push_back(HashDocument(RobotFileFromFlags(input)));
   for (const std::string& file : files) content.files.push_back(HashFile(file));
   if (complete) complete(&content);
   out->Add("report.html", ReportPage(content));

@@ -204,8 +204,9 @@ LogReaderOptions LogOptionsFromFlags(const FlagValues& flags,
   return options;
 }
 
-std::string RobotPathFromFlags(const CommandInput& input) {
-  return input.flags.Text("robot");
+Document RobotFileFromFlags(const CommandInput& input) {
+  if (input.robot_file) return *input.robot_file;
+  return {input.flags.Text("robot")};
 }
 
 std::vector<std::string> FileNames(const std::string& flag,

@@ -23,7 +23,7 @@ FlagGroup ChainFlags();   // which chain of the robot file, and how it hangs
 Robot RobotFromFlags(const CommandInput& input);
 LogReaderOptions LogOptionsFromFlags(const FlagValues& flags,
                                      const Robot& robot);
-std::string RobotPathFromFlags(const CommandInput& input);
+Document RobotFileFromFlags(const CommandInput& input);
 std::vector<std::string> LogsFromFlags(const CommandInput& input);  // --log
 // --validate
 std::vector<std::string> ValidationLogsFromFlags(const CommandInput& input);
@@ -69,7 +69,8 @@ auto MakeForRobot(const CommandInput& input, const std::string& where,
   try {
     return make();
   } catch (const std::invalid_argument& error) {
-    throw InputError(RobotPathFromFlags(input), "", "", where + error.what());
+    throw InputError(RobotFileFromFlags(input).name(), "", "",
+                     where + error.what());
   }
 }
 

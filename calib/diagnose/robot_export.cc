@@ -265,7 +265,7 @@ nlohmann::json RobotFilesJson(const std::vector<RobotFile>& files) {
 }
 
 RobotExport ExportCorrectedRobot(
-    const CorrectedRobot& corrected, const Robot& file, const std::string& urdf,
+    const CorrectedRobot& corrected, const Robot& file, const Document& urdf,
     const std::string& base, const std::vector<const RobotFormat*>& formats) {
   RobotExport result;
   const RobotFormat of_urdf = UrdfFormat();
@@ -273,7 +273,7 @@ RobotExport ExportCorrectedRobot(
       Describe(corrected, file, of_urdf, &result.losses);
   const Robot& robot = description.robot;
   AddLosses(corrected, of_urdf, description, &result.losses);
-  result.urdf = urdf.empty()
+  result.urdf = urdf.name().empty()
                     ? MakeUrdf(robot)
                     : UpdateUrdf(urdf, robot, !SameGeometry(robot, file), base);
   for (const RobotFormat* format : formats) {

@@ -6,6 +6,7 @@
 
 #include "calib/diagnose/candidates/corrected_robot.h"
 #include "model/robot_files/robot_format.h"
+#include "model/text/document.h"
 
 namespace armcal {
 
@@ -36,10 +37,10 @@ struct RobotExport {
 };
 
 // `urdf`: the file of `file`, the robot without corrections, which is kept but
-// for its numbers; `base` as for UpdateUrdf. Empty: a URDF of the chain alone.
-// Throws InputError where the file is not the robot's.
+// for its numbers; `base` as for UpdateUrdf. Without a name: a URDF of the
+// chain alone. Throws InputError where the file is not the robot's.
 RobotExport ExportCorrectedRobot(
-    const CorrectedRobot& corrected, const Robot& file, const std::string& urdf,
+    const CorrectedRobot& corrected, const Robot& file, const Document& urdf,
     const std::string& base = "",
     const std::vector<const RobotFormat*>& formats = {});
 

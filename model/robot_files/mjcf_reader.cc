@@ -5,8 +5,8 @@
 
 namespace armcal {
 
-Robot ReadMjcf(const std::string& path, const RobotReaderOptions& options) {
-  return MakeChainRobot(path, ReadMjcfTree(path), options);
+Robot ReadMjcf(const Document& file, const RobotReaderOptions& options) {
+  return MakeChainRobot(file.name(), ReadMjcfTree(file), options);
 }
 
 }  // namespace armcal

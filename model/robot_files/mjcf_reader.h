@@ -1,9 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "model/robot/robot.h"
 #include "model/robot_files/robot_reader_options.h"
+#include "model/text/document.h"
 
 namespace armcal {
 
@@ -14,6 +13,6 @@ namespace armcal {
 // MuJoCo makes bodies from and what its compiler would change are refused.
 // Noted and not used: springs, tendons, equalities, gravcomp. Throws
 // InputError.
-Robot ReadMjcf(const std::string& path, const RobotReaderOptions& options);
+Robot ReadMjcf(const Document& file, const RobotReaderOptions& options);
 
 }  // namespace armcal

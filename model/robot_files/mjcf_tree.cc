@@ -195,8 +195,8 @@ RobotTree MjcfTreeReader::Read(const XmlElement& root) {
 
 }  // namespace
 
-RobotTree ReadMjcfTree(const std::string& path) {
-  const XmlFile file(path);
+RobotTree ReadMjcfTree(const Document& document) {
+  const XmlFile file(document);
   const XmlElement root = file.root();
   if (root.tag() != "mujoco") {
     root.Refuse("", root.tag(), "expected the root element <mujoco>");

@@ -10,6 +10,6 @@ namespace armcal {
 // Bodies without joints are fixed to their parents; a body with several has a
 // massless link for each but the last. Names that are missing are made up:
 // "body2", "joint3". Throws InputError.
-RobotTree ReadMjcfTree(const std::string& path);
+RobotTree ReadMjcfTree(const Document& document);
 
 }  // namespace armcal

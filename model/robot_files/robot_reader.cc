@@ -30,8 +30,8 @@ void RefuseOverflow(const std::string& path, const Robot& robot) {
                    "the numbers of the tool are too large to calculate with");
 }
 
-RobotFileKind KindOfXml(const std::string& path) {
-  const XmlFile file(path);
+RobotFileKind KindOfXml(const Document& document) {
+  const XmlFile file(document);
   const std::string tag = file.root().tag();
   if (tag == "robot") return RobotFileKind::kUrdf;
   if (tag == "mujoco") return RobotFileKind::kMjcf;
@@ -42,12 +42,13 @@ RobotFileKind KindOfXml(const std::string& path) {
 
 }  // namespace
 
-RobotFileKind KindOfRobotFile(const std::string& path) {
+RobotFileKind KindOfRobotFile(const Document& file) {
+  const std::string& path = file.name();
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   if (ending == ".urdf" || ending == ".xml" || ending == ".mjcf") {
-    return KindOfXml(path);
+    return KindOfXml(file);
   }
   if (ending == ".yaml" || ending == ".yml") return RobotFileKind::kYaml;
   if (ending == ".xacro") {
@@ -58,12 +59,12 @@ RobotFileKind KindOfRobotFile(const std::string& path) {
                    "(URDF or MJCF) or .yaml or .yml (DH table or poses)");
 }
 
-Robot ReadRobot(const std::string& path, const RobotReaderOptions& options) {
-  const RobotFileKind kind = KindOfRobotFile(path);
-  const Robot robot = kind == RobotFileKind::kUrdf   ? ReadUrdf(path, options)
-                      : kind == RobotFileKind::kMjcf ? ReadMjcf(path, options)
-                                                     : ReadYaml(path, options);
-  RefuseOverflow(path, robot);
+Robot ReadRobot(const Document& file, const RobotReaderOptions& options) {
+  const RobotFileKind kind = KindOfRobotFile(file);
+  const Robot robot = kind == RobotFileKind::kUrdf   ? ReadUrdf(file, options)
+                      : kind == RobotFileKind::kMjcf ? ReadMjcf(file, options)
+                                                     : ReadYaml(file, options);
+  RefuseOverflow(file.name(), robot);
   return robot;
 }
 

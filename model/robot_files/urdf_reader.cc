@@ -5,8 +5,8 @@
 
 namespace armcal {
 
-Robot ReadUrdf(const std::string& path, const RobotReaderOptions& options) {
-  return MakeChainRobot(path, ReadUrdfTree(path), options);
+Robot ReadUrdf(const Document& file, const RobotReaderOptions& options) {
+  return MakeChainRobot(file.name(), ReadUrdfTree(file), options);
 }
 
 }  // namespace armcal

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "model/robot/robot.h"
 #include "model/robot_files/robot_reader_options.h"
+#include "model/text/document.h"
 
 namespace armcal {
 
@@ -14,6 +13,6 @@ namespace armcal {
 // refused. Accepted with a note: mass 0 (no inertia given), inertia that no
 // rigid body has (a start value), limits that are missing or 0 (none). No
 // entity, mesh or other file is ever opened. Throws InputError.
-Robot ReadUrdf(const std::string& path, const RobotReaderOptions& options);
+Robot ReadUrdf(const Document& file, const RobotReaderOptions& options);
 
 }  // namespace armcal

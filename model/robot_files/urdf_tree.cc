@@ -83,8 +83,8 @@ void RefuseLoops(const std::string& path, const RobotTree& tree) {
 
 }  // namespace
 
-RobotTree ReadUrdfTree(const std::string& path) {
-  const XmlFile file(path);
+RobotTree ReadUrdfTree(const Document& document) {
+  const XmlFile file(document);
   const XmlElement root = file.root();
   if (root.tag() != "robot") {
     root.Refuse("", root.tag(), "expected the root element <robot>");
@@ -102,7 +102,7 @@ RobotTree ReadUrdfTree(const std::string& path) {
       tree.roots.push_back(static_cast<int>(i));
     }
   }
-  RefuseLoops(path, tree);
+  RefuseLoops(document.name(), tree);
   return tree;
 }
 

@@ -8,6 +8,6 @@ namespace armcal {
 
 // Reads every link and joint of a URDF file and ties them to trees: each link
 // has at most one parent joint and there are no loops. Throws InputError.
-RobotTree ReadUrdfTree(const std::string& path);
+RobotTree ReadUrdfTree(const Document& document);
 
 }  // namespace armcal

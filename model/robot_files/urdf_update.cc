@@ -112,15 +112,16 @@ void SetGeometry(const std::string& path, const Robot& robot,
 
 }  // namespace
 
-std::string UpdateUrdf(const std::string& path, const Robot& robot,
-                       bool geometry, const std::string& base) {
-  RobotTree tree = ReadUrdfTree(path);
+std::string UpdateUrdf(const Document& file, const Robot& robot, bool geometry,
+                       const std::string& base) {
+  const std::string& path = file.name();
+  RobotTree tree = ReadUrdfTree(file);
   std::vector<int> joints;
   for (const Link& link : robot.links) {
     joints.push_back(FindJoint(path, tree, link));
   }
   XMLDocument document;
-  document.Parse(ReadTextFile(path, 32L << 20).c_str());
+  document.Parse(file.Text(32L << 20).c_str());
   XMLElement* root = document.FirstChildElement("robot");
   if (root == nullptr) {
     throw InputError(path, "", "", "expected the robot's URDF file");

@@ -268,15 +268,15 @@ void ReadTool(const YamlNode& tool, Robot* robot) {
 
 }  // namespace
 
-Robot ReadYaml(const std::string& path, const RobotReaderOptions& options) {
+Robot ReadYaml(const Document& file, const RobotReaderOptions& options) {
   for (const auto& [option, value] : {std::make_pair("base", options.base),
                                       std::make_pair("tip", options.tip)}) {
     if (value.empty()) continue;
-    throw InputError(path, OptionName(option), OneLine(value),
+    throw InputError(file.name(), OptionName(option), OneLine(value),
                      "expected no such flag with a YAML robot, which is one "
                      "chain");
   }
-  const YamlNode root = YamlNode::ReadFile(path);
+  const YamlNode root = YamlNode::ReadFile(file);
   root.ExpectKeys({"name", "gravity", "convention", "links", "tool"});
   Robot robot;
   const std::optional<YamlNode> name = root.Child("name");

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "model/robot/robot.h"
 #include "model/robot_files/robot_reader_options.h"
+#include "model/text/document.h"
 
 namespace armcal {
 
@@ -41,6 +40,6 @@ namespace armcal {
 // Only convention, links and each link's joint are required; gravity defaults
 // to 0 0 -9.81, a mass without inertia is a point mass. Unknown, duplicate and
 // misspelt keys are refused, and --base and --tip. Throws InputError.
-Robot ReadYaml(const std::string& path, const RobotReaderOptions& options);
+Robot ReadYaml(const Document& file, const RobotReaderOptions& options);
 
 }  // namespace armcal

@@ -10,15 +10,12 @@
 #include <system_error>
 
 #include "model/text/input_error.h"
+#include "model/text/plain_text.h"
 
 namespace armcal {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
-
-bool IsUtf16(std::string_view text) {
-  return text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF";
-}
 
 }  // namespace
 
@@ -55,12 +52,7 @@ std::string ReadTextFile(const std::string& path, long max_bytes) {
   std::string text = ReadSmallFile(path, max_bytes);
   if (Trim(text, kBlanks).empty())
     throw InputError(path, "", "", "the file is empty");
-  if (IsUtf16(text)) {
-    throw InputError(path, "", "", "is UTF-16: expected UTF-8 text");
-  }
-  if (text.find('\0') != std::string::npos) {
-    throw InputError(path, "", "", "contains NUL bytes: expected UTF-8 text");
-  }
+  RequirePlainText(path, text);
   return text;
 }
 

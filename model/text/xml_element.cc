@@ -254,23 +254,24 @@ void XmlElement::Refuse(const std::string& attribute, const std::string& found,
   throw InputError(*file_, LinePlace(line, what), OneLine(found), expected);
 }
 
-XmlFile::XmlFile(const std::string& path)
-    : path_(path), document_(std::make_unique<tinyxml2::XMLDocument>()) {
-  const std::string text = ReadTextFile(path, kMaxXmlBytes);
-  RefuseDeclarations(path, text);
-  RefuseManyAttributes(path, text);
+XmlFile::XmlFile(const Document& document)
+    : path_(document.name()),
+      document_(std::make_unique<tinyxml2::XMLDocument>()) {
+  const std::string text = document.Text(kMaxXmlBytes);
+  RefuseDeclarations(path_, text);
+  RefuseManyAttributes(path_, text);
   if (document_->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    throw InputError(path, LinePlace(document_->ErrorLineNum(), ""), "",
+    throw InputError(path_, LinePlace(document_->ErrorLineNum(), ""), "",
                      WhyNotParsed(*document_));
   }
   const tinyxml2::XMLElement* root = document_->RootElement();
-  if (root == nullptr) throw InputError(path, "", "", "expected XML elements");
+  if (root == nullptr) throw InputError(path_, "", "", "expected XML elements");
   if (const auto* second = root->NextSiblingElement()) {
-    throw InputError(path, LinePlace(second->GetLineNum(), ""),
+    throw InputError(path_, LinePlace(second->GetLineNum(), ""),
                      "<" + OneLine(second->Name()) + ">",
                      "expected only one root element");
   }
-  RefuseXacroElements(path, root);
+  RefuseXacroElements(path_, root);
 }
 
 XmlFile::~XmlFile() = default;

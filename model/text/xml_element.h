@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "model/text/document.h"
+
 namespace tinyxml2 {
 class XMLDocument;
 class XMLElement;
@@ -60,12 +62,12 @@ class XmlElement {
   bool is_owner_ = false;
 };
 
-// A parsed XML file. Refuses, besides what is not well formed: more than 32
-// MiB, UTF-16, any DOCTYPE, nesting deeper than tinyxml2 allows (100), two
-// roots, repeated attributes and xacro elements.
+// A parsed XML file, or text in memory. Refuses, besides what is not well
+// formed: more than 32 MiB, UTF-16, any DOCTYPE, nesting deeper than tinyxml2
+// allows (100), two roots, repeated attributes and xacro elements.
 class XmlFile {
  public:
-  explicit XmlFile(const std::string& path);
+  explicit XmlFile(const Document& document);
   ~XmlFile();
   XmlElement root() const;
 

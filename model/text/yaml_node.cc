@@ -68,8 +68,9 @@ std::string ListText(const YAML::Node& list) {
 
 }  // namespace
 
-YamlNode YamlNode::ReadFile(const std::string& path) {
-  const std::string text = ReadTextFile(path, kMaxYamlBytes);
+YamlNode YamlNode::ReadFile(const Document& file) {
+  const std::string& path = file.name();
+  const std::string text = file.Text(kMaxYamlBytes);
   try {
     if (!HasOneDocument(text)) {
       throw InputError(path, "", "",

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "model/text/document.h"
+
 namespace armcal {
 
 // A node of a YAML file, read strictly: what is not as asked throws InputError
@@ -14,8 +16,8 @@ namespace armcal {
 // was expected.
 class YamlNode {
  public:
-  // The only document of the file at `path`.
-  static YamlNode ReadFile(const std::string& path);
+  // What the file, or the text, is of: one YAML document.
+  static YamlNode ReadFile(const Document& file);
 
   // Requires a map with no other keys than `known` and none of them twice.
   void ExpectKeys(const std::vector<std::string>& known) const;

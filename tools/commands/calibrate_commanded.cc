@@ -114,7 +114,7 @@ std::optional<TorqueInformation> TorquesFromFlags(const CommandInput& input,
 void ExpectMasses(const CommandInput& input, const Robot& robot) {
   for (const Link& link : robot.links) {
     if (link.inertial.mass > 0) continue;
-    throw InputError(RobotPathFromFlags(input), "link " + link.name, "",
+    throw InputError(RobotFileFromFlags(input).name(), "link " + link.name, "",
                      "expected a mass: a simulation starts from it");
   }
 }

@@ -57,10 +57,10 @@ CommandOutcome CalibratePosesFromFlags(const CommandInput& input) {
   std::string report = PoseReport(robot, measured, result);
   if (result.solved) {
     outcome.robot = result.robot;
-    const std::string path = RobotPathFromFlags(input);
+    const Document file = RobotFileFromFlags(input);
     out.Add("robot.urdf",
-            KindOfRobotFile(path) == RobotFileKind::kUrdf
-                ? UpdateUrdf(path, result.robot, true, BaseFromFlags(flags))
+            KindOfRobotFile(file) == RobotFileKind::kUrdf
+                ? UpdateUrdf(file, result.robot, true, BaseFromFlags(flags))
                 : MakeUrdf(result.robot));
     report += AddExports({result.robot, {}}, formats, &json, &out);
   }

@@ -61,13 +61,13 @@ std::string WhyNotRefined(const Robot& robot,
 
 void AddRobotFiles(const CommandInput& input, const Robot& robot, bool geometry,
                    OutputFolder* out) {
-  const std::string robot_path = RobotPathFromFlags(input);
-  if (KindOfRobotFile(robot_path) != RobotFileKind::kUrdf) {
+  const Document file = RobotFileFromFlags(input);
+  if (KindOfRobotFile(file) != RobotFileKind::kUrdf) {
     out->Add("robot.urdf", MakeUrdf(robot));
     return;
   }
   out->Add("robot.urdf",
-           UpdateUrdf(robot_path, robot, geometry, BaseFromFlags(input.flags)));
+           UpdateUrdf(file, robot, geometry, BaseFromFlags(input.flags)));
   out->Add("robot_without_meshes.urdf", MakeUrdf(robot));
 }
 

@@ -91,10 +91,10 @@ CommandOutcome Finish(const CommandInput& input, const Robot& robot,
                       const GapDiagnosis& diagnosis, const LogSet& logs) {
   CommandOutcome outcome;
   OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
-  const std::string path = RobotPathFromFlags(input);
+  const Document file = RobotFileFromFlags(input);
   const RobotExport corrected = ExportCorrectedRobot(
       diagnosis.corrected, robot,
-      KindOfRobotFile(path) == RobotFileKind::kUrdf ? path : "",
+      KindOfRobotFile(file) == RobotFileKind::kUrdf ? file : "",
       BaseFromFlags(input.flags), ExportBesideUrdfFromFlags(input.flags));
   nlohmann::json json = ToJson(diagnosis);
   json["not_in_urdf"] = corrected.losses;

@@ -62,11 +62,11 @@ Reduction ReadFactors(const CommandInput& input, const Robot& robot) {
     parts.emplace_back(file, ReadFactorFile(file));
   }
   Reduction all = Combine(parts);
-  const std::string sha256 = HashFile(RobotPathFromFlags(input)).sha256;
+  const std::string sha256 = HashDocument(RobotFileFromFlags(input)).sha256;
   if (all.model.robot_sha256 != sha256) {
     throw InputError(
         files[0], "key model.robot_sha256", all.model.robot_sha256,
-        "expected " + sha256 + ", that of " + RobotPathFromFlags(input));
+        "expected " + sha256 + ", that of " + RobotFileFromFlags(input).name());
   }
   ParametersOf(robot, all.model, files[0]);
   return all;

@@ -54,7 +54,7 @@ std::optional<double> TimeFromFlags(const FlagValues& flags) {
 // Of --like, or chosen for all logs of --log together.
 ReductionModel ModelFromFlags(const CommandInput& input, const Robot& robot) {
   const FlagValues& flags = input.flags;
-  const std::string sha256 = HashFile(RobotPathFromFlags(input)).sha256;
+  const std::string sha256 = HashDocument(RobotFileFromFlags(input)).sha256;
   if (flags.Text("like").empty()) {
     LinearCalibrationOptions options = LinearOptionsFromFlags(flags, robot);
     options.progress = input.progress;
@@ -76,7 +76,7 @@ ReductionModel ModelFromFlags(const CommandInput& input, const Robot& robot) {
   if (model.robot_sha256 != sha256) {
     throw InputError(
         like, "key model.robot_sha256", model.robot_sha256,
-        "expected " + sha256 + ", that of " + RobotPathFromFlags(input));
+        "expected " + sha256 + ", that of " + RobotFileFromFlags(input).name());
   }
   ParametersOf(robot, model, like);
   return model;

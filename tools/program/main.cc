@@ -69,7 +69,10 @@ int Help(const Words& words) {
 int RunAndTell(const Command& command, const FlagValues& flags) {
   const ThreadLimit limit(ThreadsFromFlags(flags));
   ProgressBar bar("reading the input");
-  CommandOutcome outcome = command.run({flags, std::nullopt, bar.Callback()});
+  CommandInput input;
+  input.flags = flags;
+  input.progress = bar.Callback();
+  CommandOutcome outcome = command.run(input);
   OutputFolder::WriteTogether(&outcome.folders);
   Print(outcome.output, flags);
   return outcome.code();

@@ -86,7 +86,10 @@ Outcome Run(const std::string& name, const FlagTexts& flags,
   const Command& command = CommandNamed(name);
   CommandInput input;
   input.flags = FlagsOf(command, flags);
-  if (robot) input.robot = robot->robot;
+  if (robot) {
+    input.robot = robot->robot;
+    input.robot_file = robot->file;
+  }
   input.progress = reporter.AsProgress();
   input.report = true;
   const CommandOutcome found = RunWithInput(command, input, write);
@@ -97,9 +100,8 @@ Outcome Run(const std::string& name, const FlagTexts& flags,
     for (const auto& file : folder.files()) outcome.files.push_back(file);
   }
   if (found.robot) {
-    outcome.robot =
-        LoadedRobot{*found.robot, robot ? robot->path : "",
-                    robot ? robot->base : "", robot ? robot->tip : ""};
+    outcome.robot = robot.value_or(LoadedRobot{{}, "", "", ""});
+    outcome.robot->robot = *found.robot;
   }
   return outcome;
 }

@@ -26,16 +26,33 @@ using Array = py::array_t<double>;
 using RowMajor =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-LoadedRobot ReadLoadedRobot(const std::filesystem::path& path,
-                            const std::string& base, const std::string& tip,
-                            const py::object& gravity) {
+LoadedRobot ReadLoadedRobot(const Document& file, const std::string& base,
+                            const std::string& tip, const py::object& gravity) {
   RobotReaderOptions options;
   options.base = base;
   options.tip = tip;
   if (!gravity.is_none()) {
     options.gravity = ReadVector("gravity", gravity, 3);
   }
-  return {ReadRobot(path.string(), options), path.string(), base, tip};
+  return {ReadRobot(file, options), file, base, tip};
+}
+
+LoadedRobot ReadRobotFile(const std::filesystem::path& path,
+                          const std::string& base, const std::string& tip,
+                          const py::object& gravity) {
+  return ReadLoadedRobot(path.string(), base, tip, gravity);
+}
+
+// Named as a file of that format is, by which readers tell it.
+LoadedRobot ReadRobotText(const std::string& text, const std::string& format,
+                          const std::string& name, const std::string& base,
+                          const std::string& tip, const py::object& gravity) {
+  for (const std::string known : {"urdf", "mjcf", "yaml"}) {
+    if (format != known) continue;
+    return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity);
+  }
+  throw py::value_error("format: found " + Quoted(format) +
+                        ", expected urdf, mjcf or yaml");
 }
 
 std::vector<std::string> LinkNames(const LoadedRobot& file) {
@@ -213,8 +230,13 @@ std::string Describe(const LoadedRobot& file) {
 
 std::string UpdatedUrdf(const LoadedRobot& file,
                         const std::filesystem::path& path, bool geometry) {
-  return UpdateUrdf(path.empty() ? file.path : path.string(), file.robot,
+  return UpdateUrdf(path.empty() ? file.file : path.string(), file.robot,
                     geometry, file.base);
+}
+
+std::string TextOf(const LoadedRobot& file) {
+  constexpr long kMostBytes = 32L << 20;  // that readers take
+  return file.file.Text(kMostBytes);
 }
 
 void AddProperties(py::class_<LoadedRobot>* robot) {
@@ -225,8 +247,16 @@ void AddProperties(py::class_<LoadedRobot>* robot) {
       "name", [](const LoadedRobot& f) { return f.robot.name; },
       "Of the file.");
   add(
-      "path", [](const LoadedRobot& f) { return f.path; },
-      "The file it is from.");
+      "path",
+      [](const LoadedRobot& f) {
+        return f.file.is_file() ? f.file.name() : "";
+      },
+      "The file it is from; empty for a text.");
+  add(
+      "source", [](const LoadedRobot& f) { return f.file.name(); },
+      "What messages and reports call what it is from: the path, or the text's "
+      "name with its format.");
+  add("text", &TextOf, "The text it is from, of a file too.");
   add(
       "base", [](const LoadedRobot& f) { return f.base; },
       "As it was asked for.");
@@ -309,6 +339,14 @@ void AddRobot(py::module_* module) {
   AddDynamics(&robot);
   const py::none none;
   robot
+      .def_static("from_text", &ReadRobotText, py::arg("text"),
+                  py::arg("format") = "urdf", py::kw_only(),
+                  py::arg("name") = "robot", py::arg("base") = "",
+                  py::arg("tip") = "", py::arg("gravity") = none,
+                  py::call_guard<DecimalPoint>(),
+                  "The robot of a text: urdf, mjcf or yaml. Messages and "
+                  "reports call it name.format; base, tip and gravity as of "
+                  "read_robot.")
       .def("replace", &Replace, py::kw_only(),
            py::arg("inertial_parameters") = none, py::arg("gravity") = none,
            py::arg("viscous") = none, py::arg("coulomb") = none,
@@ -328,7 +366,7 @@ void AddRobot(py::module_* module) {
           py::call_guard<DecimalPoint>(),
           "What a URDF cannot say of this robot, a sentence each.")
       .def("__repr__", &Describe, py::call_guard<DecimalPoint>());
-  module->def("read_robot", &ReadLoadedRobot, py::arg("path"),
+  module->def("read_robot", &ReadRobotFile, py::arg("path"),
               py::arg("base") = "", py::arg("tip") = "",
               py::arg("gravity") = none, py::call_guard<DecimalPoint>(),
               "The robot of a .urdf, or of a .yaml with a DH table; of a URDF "

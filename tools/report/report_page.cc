@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <fstream>
+#include <limits>
 #include <string_view>
 
 #include "calib/numerics/sha256.h"
@@ -80,6 +81,13 @@ SourceFile HashFile(const std::string& path) {
   }
   source.sha256 = HexText(hash.Value());
   return source;
+}
+
+SourceFile HashDocument(const Document& document) {
+  if (document.is_file()) return HashFile(document.name());
+  const std::string text = document.Text(std::numeric_limits<long>::max());
+  return {document.name(), HexText(Sha256Of(text)),
+          static_cast<long>(text.size())};
 }
 
 std::string ReportPage(const ReportContent& content) {

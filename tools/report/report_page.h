@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "model/text/document.h"
+
 namespace armcal {
 
 // A file that a result came from, with what `sha256sum` says of it.
@@ -14,6 +16,8 @@ struct SourceFile {
 };
 // Throws InputError where it cannot be read.
 SourceFile HashFile(const std::string& path);
+// Of a text in memory: of its bytes.
+SourceFile HashDocument(const Document& document);
 
 // What report.html shows. Everything but `result` may be empty.
 struct ReportContent {

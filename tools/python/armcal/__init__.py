@@ -16,6 +16,7 @@ from armcal._armcal import (INERTIAL_NAMES, INERTIAL_UNITS, InputError,
 from armcal.commands import (calibrate, diagnose, excite, inspect, merge,
                              reduce, simulate, verify)
 from armcal.log import Log, read_log
+from armcal.robot import from_arrays as _from_arrays  # Robot.from_arrays
 from armcal.results import (Calibration, Diagnosis, Estimates, Excitation,
                             Inspection, Merger, Reduction, Result, Simulation,
                             Verification)

@@ -96,7 +96,7 @@ def _run(command: str, robot: _armcal.Robot, options: Dict[str, Any],
         for name in ("base", "tip"):
             if getattr(robot, name):
                 flags[name] = getattr(robot, name)
-        flags["robot"] = robot.path
+        flags["robot"] = robot.source
         try:
             outcome = _armcal.run(command, flags, robot, progress,
                                   write="out" in flags)

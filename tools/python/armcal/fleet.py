@@ -40,11 +40,25 @@ def read_table(path: str) -> List[Recording]:
                 for row in rows]
 
 
-def _robot_of(place: Tuple[str, str, str]) -> _armcal.Robot:
-    return _armcal.read_robot(*place)
+#: path, source, text (of a robot in no file), base and tip.
+Place = Tuple[str, str, str, str, str]
 
 
-def reduce_one(place: Tuple[str, str, str], recording: Recording, like: bytes,
+def _place_of(robot: _armcal.Robot) -> Place:
+    if robot.path:
+        return (os.path.abspath(robot.path), "", "", robot.base, robot.tip)
+    return ("", robot.source, robot.text, robot.base, robot.tip)
+
+
+def _robot_of(place: Place) -> _armcal.Robot:
+    path, source, text, base, tip = place
+    if path:
+        return _armcal.read_robot(path, base, tip)
+    name, format = source.rsplit(".", 1)
+    return _armcal.Robot.from_text(text, format, name=name, base=base, tip=tip)
+
+
+def reduce_one(place: Place, recording: Recording, like: bytes,
                options: Dict[str, Any]) -> Tuple[str, bytes, str]:
     """On a worker: the name and the bytes of a factor file, or why there is
     none. A log that is refused is so wherever it is tried."""
@@ -87,7 +101,7 @@ def reduce_logs(client: Any, robot: RobotLike, recordings: Iterable[Recording],
     from distributed import as_completed
     arm = robot if isinstance(robot, _armcal.Robot) else _armcal.read_robot(
         robot)
-    place = (os.path.abspath(arm.path), arm.base, arm.tip)
+    place = _place_of(arm)
     todo = sorted(recordings, key=lambda recording: recording.log)
     os.makedirs(folder, exist_ok=True)
     model = b""
