@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "calib/calibrate_parts.h"
+#include "calib/calibrated_robot.h"
+#include "calib/calibration_details.h"
 #include "calib/closed_loop/output_error_report.h"
 #include "calib/linear/calibrate_linear.h"
 #include "model/robot_files/controller_reader.h"
@@ -48,10 +50,10 @@ OutputErrorOptions FitOptions(const CalibrateOptions& options) {
 void ExpectMasses(const Robot& robot, const CalibrateOptions& options) {
   for (const Link& link : robot.links) {
     if (link.inertial.mass > 0) continue;
-    throw InputError(options.source.name.empty() ? robot.name
-                                                 : options.source.name,
-                     "link " + link.name, "",
-                     "expected a mass: a simulation starts from it");
+    throw InputError(
+        options.source.name.empty() ? robot.name : options.source.name,
+        "link " + link.name, "",
+        "expected a mass: a simulation starts from it");
   }
 }
 
@@ -112,9 +114,8 @@ CalibrateSummary CalibrateFromCommands(const Robot& robot, const LogInput& logs,
   const std::vector<CommandedLog> training = Read(logs, reading);
   const std::vector<CommandedLog> validation =
       Read(options.validation, reading);
-  const ControllerOptions controller =
-      ReadController(options.commands->controller, robot,
-                     training.at(0).log.qref.row(0));
+  const ControllerOptions controller = ReadController(
+      options.commands->controller, robot, training.at(0).log.qref.row(0));
   if (options.draw_torques) {
     const auto drawn = validation.empty() ? training.size() : validation.size();
     fit.trace_bins =

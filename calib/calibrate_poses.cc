@@ -1,5 +1,7 @@
-#include "calib/calibrate_parts.h"
 #include "calib/poses/calibrate_poses.h"
+
+#include "calib/calibrate_parts.h"
+#include "calib/calibration_details.h"
 #include "calib/poses/report.h"
 #include "calib/poses/verdict.h"
 #include "calib/robot_outputs.h"

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "calib/calibrate_parts.h"
+#include "calib/calibrated_robot.h"
+#include "calib/calibration_details.h"
 #include "calib/drive_gains/estimate_drive_gains.h"
 #include "calib/drive_gains/report.h"
 #include "calib/excite/motion_advice.h"
@@ -92,11 +94,11 @@ bool RefinesGeometry(const CalibrateOptions& options) {
 
 void CheckTarget(const CalibrateOptions& options) {
   FormatsNamed(options.exports);  // refused before anything is calculated
-  Expect(options.target != CalibrationTarget::kLinear ||
-             !RefinesGeometry(options),
-         "estimate", "linear",
-         "refined or auto: a geometry is only refined together with the "
-         "robot");
+  Expect(
+      options.target != CalibrationTarget::kLinear || !RefinesGeometry(options),
+      "estimate", "linear",
+      "refined or auto: a geometry is only refined together with the "
+      "robot");
 }
 
 std::string WhyNotRefined(const Robot& robot,
@@ -282,8 +284,8 @@ CalibrateSummary TorqueCalibrator::Run() {
   }
   const auto& names = linear().parameters.parameters();
   for (int k = 0; k < linear().x.size(); ++k) {
-    summary_.parameters.push_back({names[k].name, names[k].unit,
-                                   linear().x[k], linear().stddev[k]});
+    summary_.parameters.push_back(
+        {names[k].name, names[k].unit, linear().x[k], linear().stddev[k]});
   }
   summary_.covariance = linear().covariance;
   nlohmann::json json = ToJson(robot_, *training_, held_out(), linear());

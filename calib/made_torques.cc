@@ -10,7 +10,7 @@
 namespace armcal {
 namespace {
 
-constexpr unsigned kSeed = 1;  // the same answer to the same logs
+constexpr unsigned kNoiseSeed = 1;  // the same answer to the same logs
 
 }  // namespace
 
@@ -25,7 +25,7 @@ void MakeTorques(const Robot& robot, const std::string& controller,
     const CommandedLog log = CommandedRows(source.name, all, {});
     const ControllerOptions law =
         ReadController(controller, robot, log.log.qref.row(0));
-    MadeTorque made = MakeTorque(robot, law, log, all.t, kSeed);
+    MadeTorque made = MakeTorque(robot, law, log, all.t, kNoiseSeed);
     made.source = "commands and positions, by " + controller;
     reading->made_torque[source.name] =
         std::make_shared<const MadeTorque>(std::move(made));

@@ -17,7 +17,8 @@ DEFINE_string(
 namespace armcal {
 namespace {
 
-VerifyOptions OptionsFromFlags(const CommandInput& input, const Robot& robot) {
+VerifyOptions VerifyOptionsFromFlags(const CommandInput& input,
+                                     const Robot& robot) {
   const FlagValues& flags = input.flags;
   VerifyOptions options;
   options.calibration = flags.Text("calibration");
@@ -40,7 +41,7 @@ CommandOutcome RunVerify(const CommandInput& input) {
     logs = {LogFiles(files), CropFromFlags(flags)};
   }
   const Robot robot = RobotFromFlags(input);
-  const VerifyOptions options = OptionsFromFlags(input, robot);
+  const VerifyOptions options = VerifyOptionsFromFlags(input, robot);
   const VerifySummary summary = Verify(robot, logs, options);
   CommandOutcome outcome = OutcomeOf(input, robot, summary, robot.notes);
   if (!options.calibration.empty()) files.push_back(options.calibration);

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "calib/log_input.h"
+#include "calib/robot_source.h"
+#include "tools/command.h"
+
+namespace armcal {
+
+// What the flags name, as the functions of calib take it: files, or what the
+// input holds in memory under a name. Throw UsageError.
+LogInput LogInputFromFlags(const CommandInput& input);         // --log --crop
+LogInput ValidationInputFromFlags(const CommandInput& input);  // --validate ..
+RobotSource RobotSourceFromFlags(const CommandInput& input);   // --robot --base
+
+}  // namespace armcal
