@@ -226,6 +226,20 @@ std::vector<std::string> LogsFromFlags(const CommandInput& input) {
   return FileNames("log", logs);
 }
 
+LogSource SourceOf(const CommandInput& input, const std::string& name) {
+  const auto log = input.logs.find(name);
+  return log == input.logs.end() ? LogSource(name) : log->second;
+}
+
+std::vector<LogSource> SourcesOf(const CommandInput& input,
+                                 const std::vector<std::string>& names) {
+  std::vector<LogSource> sources;
+  for (const std::string& name : names) {
+    sources.push_back(SourceOf(input, name));
+  }
+  return sources;
+}
+
 std::vector<std::string> ValidationLogsFromFlags(const CommandInput& input) {
   return FileNames("validate", input.flags.Text("validate"));
 }

@@ -110,10 +110,10 @@ CommandOutcome RunCalibrate(const CommandInput& input) {
   input.Begin("opening the logs");
   const auto gains = DriveGainsFromFlags(input, robot, task.linear, &task.logs);
   if (gains && !gains->solved) return UnsolvedGains(input, robot, *gains);
-  LogSet training(LogFiles(LogsFromFlags(input)), task.logs,
+  LogSet training(SourcesOf(input, LogsFromFlags(input)), task.logs,
                   CropFromFlags(input.flags));
-  const LogSet validation(LogFiles(ValidationLogsFromFlags(input)), task.logs,
-                          ValidationCropFromFlags(input.flags));
+  const LogSet validation(SourcesOf(input, ValidationLogsFromFlags(input)),
+                          task.logs, ValidationCropFromFlags(input.flags));
   const LogSet* const held_out = validation.size() > 0 ? &validation : nullptr;
 
   const std::optional<SegmentSelection> selection =

@@ -66,12 +66,12 @@ OutputErrorOptions OptionsFromFlags(const FlagValues& flags,
   return options;
 }
 
-std::vector<CommandedLog> Read(const std::vector<std::string>& paths,
+std::vector<CommandedLog> Read(const std::vector<LogSource>& sources,
                                const LogReaderOptions& options,
                                const TimeRange& crop) {
   std::vector<CommandedLog> logs;
-  for (const std::string& path : paths) {
-    logs.push_back(ReadCommandedLog(path, options, crop));
+  for (const LogSource& source : sources) {
+    logs.push_back(ReadCommandedLog(source, options, crop));
   }
   return logs;
 }
@@ -105,7 +105,7 @@ std::optional<TorqueInformation> TorquesFromFlags(const CommandInput& input,
   NonlinearCalibrationOptions options;
   options.trust = TrustFromFlags(flags);
   options.progress = input.progress;
-  const LogSet logs(LogFiles(paths), LogOptionsFromFlags(flags, robot),
+  const LogSet logs(SourcesOf(input, paths), LogOptionsFromFlags(flags, robot),
                     TimeRange());
   return InformByTorques(robot, CalibrateLinear(robot, linear, logs, nullptr),
                          options, logs);
@@ -155,8 +155,8 @@ CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
   LogReaderOptions reading = LogOptionsFromFlags(flags, robot);
   reading.need_torque = false;
   input.Begin("opening the logs");
-  const std::vector<CommandedLog> training =
-      Read(LogsFromFlags(input), reading, CropFromFlags(flags));
+  const std::vector<CommandedLog> training = Read(
+      SourcesOf(input, LogsFromFlags(input)), reading, CropFromFlags(flags));
   const std::vector<CommandedLog> validation = Read(
       ValidationLogsFromFlags(input), reading, ValidationCropFromFlags(flags));
   const ControllerOptions controller =

@@ -67,9 +67,10 @@ std::optional<DriveGains> DriveGainsFromFlags(
   CheckOtherFlags(options, *log_options);
   log_options->torque_kind = TorqueKind::kCurrent;
   log_options->torque_constants.assign(robot.num_joints(), 1);
-  const LogSet bare(LogFiles(LogsFromFlags(input)), *log_options,
+  const LogSet bare(SourcesOf(input, LogsFromFlags(input)), *log_options,
                     CropFromFlags(input.flags));
-  const LogSet payload(LogFiles(payload_logs), *log_options, TimeRange());
+  const LogSet payload(SourcesOf(input, payload_logs), *log_options,
+                       TimeRange());
   const DriveGains gains =
       EstimateDriveGains(robot, options, mass, bare, &payload);
   if (gains.solved) log_options->torque_constants = gains.TorqueConstants();

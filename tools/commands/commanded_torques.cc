@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "calib/closed_loop/commanded_torque.h"
+#include "tools/input_flags.h"
 #include "tools/simulation_flags.h"
 
 namespace armcal {
@@ -15,15 +16,17 @@ constexpr unsigned kSeed = 1;  // the same answer to the same logs
 
 }  // namespace
 
-void MakeTorquesOfCommands(const FlagValues& flags, const Robot& robot,
+void MakeTorquesOfCommands(const CommandInput& input, const Robot& robot,
                            const std::vector<std::string>& logs,
                            LogReaderOptions* options) {
+  const FlagValues& flags = input.flags;
   if (flags.Text("controller").empty()) return;
   LogReaderOptions reading = *options;
   reading.commands_do = true;
   for (const std::string& path : logs) {
-    if (LogReader(path, reading).has_torque()) continue;
-    const Log all = ReadWholeLog(path, reading);
+    const LogSource source = SourceOf(input, path);
+    if (LogReader(source, reading).has_torque()) continue;
+    const Log all = ReadWholeLog(source, reading);
     const CommandedLog log = CommandedRows(path, all, {});
     const ControllerOptions controller =
         ControllerFromFlags(flags, robot, log.log.qref.row(0));

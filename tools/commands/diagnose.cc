@@ -55,7 +55,7 @@ void SetController(const CommandInput& input, const Robot& robot,
   for (const std::string& path :
        held_out ? ValidationLogsFromFlags(input) : LogsFromFlags(input)) {
     options->commanded.push_back(ReadCommandedLog(
-        path, log_options,
+        SourceOf(input, path), log_options,
         held_out ? ValidationCropFromFlags(flags) : CropFromFlags(flags)));
   }
   options->controller =
@@ -126,8 +126,8 @@ CommandOutcome RunDiagnose(const CommandInput& input) {
   LogReaderOptions log_options = LogOptionsFromFlags(flags, robot);
   log_options.want_temperature = true;
   input.Begin("opening the logs");
-  MakeTorquesOfCommands(flags, robot, FilesRead(input), &log_options);
-  const LogSet training(LogFiles(LogsFromFlags(input)), log_options,
+  MakeTorquesOfCommands(input, robot, FilesRead(input), &log_options);
+  const LogSet training(SourcesOf(input, LogsFromFlags(input)), log_options,
                         CropFromFlags(flags));
   options.progress = input.progress;
   options.baseline.trust = TrustInFile(flags);
@@ -135,12 +135,12 @@ CommandOutcome RunDiagnose(const CommandInput& input) {
       DiagnosisBandwidth(training.time_bases()));
   std::optional<LogSet> reference, validation;
   if (!flags.Text("reference").empty()) {
-    reference.emplace(LogFiles(SplitAtCommas(flags.Text("reference"))),
+    reference.emplace(SourcesOf(input, SplitAtCommas(flags.Text("reference"))),
                       log_options, TimeRange());
   }
   const std::vector<std::string> held_out = ValidationLogsFromFlags(input);
   if (!held_out.empty()) {
-    validation.emplace(LogFiles(held_out), log_options,
+    validation.emplace(SourcesOf(input, held_out), log_options,
                        ValidationCropFromFlags(flags));
   }
   SetController(input, robot, log_options, &options);

@@ -52,7 +52,8 @@ ModelParameters ModelFor(const Robot& robot, DesignTarget target) {
 GivenCalibration LearnFromLogs(const CommandInput& input, const Robot& robot,
                                const std::vector<std::string>& paths,
                                const ModelParameters& model) {
-  const LogSet logs(LogFiles(paths), LogOptionsFromFlags(input.flags, robot),
+  const LogSet logs(SourcesOf(input, paths),
+                    LogOptionsFromFlags(input.flags, robot),
                     CropFromFlags(input.flags));
   LinearCalibrationOptions options;
   options.joint_terms = kTerms;

@@ -17,12 +17,13 @@ namespace armcal {
 namespace {
 
 // "fixed_1.csv": logs of different folders may have one name.
-void AddMended(const Robot& robot, const LogReaderOptions& options,
+void AddMended(const CommandInput& input, const Robot& robot,
+               const LogReaderOptions& options,
                const std::vector<LogInspection>& logs, OutputFolder* out) {
   LogReaderOptions wanted = options;
   wanted.want_velocity = wanted.commands_do = true;
   for (size_t k = 0; k < logs.size(); ++k) {
-    const Log log = ReadWholeLog(logs[k].path, wanted);
+    const Log log = ReadWholeLog(SourceOf(input, logs[k].path), wanted);
     out->Add("fixed_" + std::to_string(k + 1) + ".csv",
              LogText(Mended(robot, log, logs[k])));
   }
@@ -56,10 +57,11 @@ CommandOutcome RunInspect(const CommandInput& input) {
   const LogReaderOptions options = LogOptionsFromFlags(flags, robot);
   if (!flags.Text("log").empty()) {
     for (const std::string& path : LogsFromFlags(input)) {
+      const LogSource source = SourceOf(input, path);
       input.Begin("inspecting " + path);
-      LogInspection log = InspectLog(robot, path, options);
+      LogInspection log = InspectLog(robot, source, options);
       if (log.as_it_is) {
-        log.coverage = CoverageOf(robot, path, options);
+        log.coverage = CoverageOf(robot, source, options);
         log.findings.insert(log.findings.end(), log.coverage.findings.begin(),
                             log.coverage.findings.end());
       }
@@ -73,7 +75,7 @@ CommandOutcome RunInspect(const CommandInput& input) {
       AddExports(DescriptionFromFlags(flags, robot), formats, &json, &out);
   const std::string text = json.dump(2) + "\n";
   out.Add("inspect.json", text);
-  if (flags.Switch("fix")) AddMended(robot, options, logs, &out);
+  if (flags.Switch("fix")) AddMended(input, robot, options, logs, &out);
   bool clean = of_robot.empty();
   for (const LogInspection& log : logs) clean = clean && log.findings.empty();
   outcome.output = {

@@ -37,7 +37,7 @@ CommandOutcome RunVerify(const CommandInput& input) {
   std::vector<std::string> files;
   if (needs_log || !flags.Text("log").empty()) {
     files = LogsFromFlags(input);
-    logs = {LogFiles(files), CropFromFlags(flags)};
+    logs = {SourcesOf(input, files), CropFromFlags(flags)};
   }
   const Robot robot = RobotFromFlags(input);
   const VerifyOptions options = OptionsFromFlags(input, robot);
