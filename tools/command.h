@@ -1,11 +1,13 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calib/logs/log_set.h"
+#include "model/log_files/log_source.h"
 #include "model/robot/robot.h"
 #include "model/text/document.h"
 #include "tools/console.h"
@@ -38,6 +40,8 @@ struct CommandInput {
   std::optional<Robot> robot;  // instead of that in the file of --robot
   // What that robot was read from, instead of the file of --robot.
   std::optional<Document> robot_file;
+  // Logs in memory, by the names that flags have for them.
+  std::map<std::string, LogSource> logs;
   Progress progress;    // a fraction below 0: nobody knows
   bool report = false;  // make report.html even without --out
 

@@ -1,6 +1,7 @@
 #include "tools/command_report.h"
 
 #include "tools/input_flags.h"
+#include "tools/input_hash.h"
 #include "tools/report/report_data.h"
 
 namespace armcal {
@@ -33,7 +34,9 @@ void AddReport(const CommandInput& input, const std::string& command,
     content.arguments.push_back(flag);
   }
   content.files.push_back(HashDocument(RobotFileFromFlags(input)));
-  for (const std::string& file : files) content.files.push_back(HashFile(file));
+  for (const std::string& file : files) {
+    content.files.push_back(HashInput(input, file));
+  }
   if (complete) complete(&content);
   out->Add("report.html", ReportPage(content));
 }

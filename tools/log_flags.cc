@@ -5,12 +5,26 @@
 
 namespace armcal {
 
+LogSource SourceOf(const CommandInput& input, const std::string& name) {
+  const auto log = input.logs.find(name);
+  return log == input.logs.end() ? LogSource(name) : log->second;
+}
+
+std::vector<LogSource> SourcesOf(const CommandInput& input,
+                                 const std::vector<std::string>& names) {
+  std::vector<LogSource> sources;
+  for (const std::string& name : names) {
+    sources.push_back(SourceOf(input, name));
+  }
+  return sources;
+}
+
 LogInput LogInputFromFlags(const CommandInput& input) {
-  return {LogFiles(LogsFromFlags(input)), CropFromFlags(input.flags)};
+  return {SourcesOf(input, LogsFromFlags(input)), CropFromFlags(input.flags)};
 }
 
 LogInput ValidationInputFromFlags(const CommandInput& input) {
-  return {LogFiles(ValidationLogsFromFlags(input)),
+  return {SourcesOf(input, ValidationLogsFromFlags(input)),
           ValidationCropFromFlags(input.flags)};
 }
 

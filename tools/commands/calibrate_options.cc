@@ -67,7 +67,8 @@ RefineGeometry GeometryFromFlags(const FlagValues& flags) {
   return RefineGeometry::kNothing;
 }
 
-std::optional<PayloadLogs> PayloadFromFlags(const FlagValues& flags) {
+std::optional<PayloadLogs> PayloadFromFlags(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
   const std::string mass = flags.Text("payload_mass");
   const std::string logs = flags.Text("payload_log");
   if (mass.empty() && logs.empty()) return std::nullopt;
@@ -75,11 +76,12 @@ std::optional<PayloadLogs> PayloadFromFlags(const FlagValues& flags) {
     throw UsageError("--payload_mass=KG and --payload_log=FILE go together");
   }
   return PayloadLogs{PositiveNumber("payload_mass", mass),
-                     LogFiles(FileNames("payload_log", logs))};
+                     SourcesOf(input, FileNames("payload_log", logs))};
 }
 
 std::optional<CommandedCalibrationOptions> CommandsFromFlags(
-    const FlagValues& flags) {
+    const CommandInput& input) {
+  const FlagValues& flags = input.flags;
   const std::string torque_logs = flags.Text("torque_log");
   if (flags.Text("controller").empty()) {
     if (torque_logs.empty()) return std::nullopt;
@@ -91,7 +93,7 @@ std::optional<CommandedCalibrationOptions> CommandsFromFlags(
   options.controller = flags.Text("controller");
   options.gains_trust = flags.Number("gains_trust");
   options.delay_trust = flags.Number("delay_trust");
-  options.torque_logs = LogFiles(SplitAtCommas(torque_logs));
+  options.torque_logs = SourcesOf(input, SplitAtCommas(torque_logs));
   return options;
 }
 
@@ -110,7 +112,7 @@ CalibrateOptions CalibrateOptionsFromFlags(const CommandInput& input,
     options.geometry = kPoseGeometries.Parse(flags.Text("geometry"));
     options.equations.loss = LossFromFlags(flags);
   } else {
-    options.commands = CommandsFromFlags(flags);
+    options.commands = CommandsFromFlags(input);
     options.equations = LinearOptionsFromFlags(flags, robot);
     options.target = kCalibrationTargets.Parse(flags.Text("estimate"));
     options.geometry = GeometryFromFlags(flags);
@@ -119,7 +121,7 @@ CalibrateOptions CalibrateOptionsFromFlags(const CommandInput& input,
     if (flags.Switch("select")) options.select_s = flags.Number("segment");
     options.reading = LogOptionsFromFlags(flags, robot);
     options.validation = ValidationInputFromFlags(input);
-    options.payload = PayloadFromFlags(flags);
+    options.payload = PayloadFromFlags(input);
   }
   options.exports = ExportFromFlags(flags);
   options.trust = TrustFromFlags(flags);

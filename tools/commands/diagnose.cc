@@ -27,7 +27,8 @@ DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
                                          const Robot& robot) {
   const FlagValues& flags = input.flags;
   DiagnoseOptions options;
-  options.reference = {LogFiles(SplitAtCommas(flags.Text("reference")))};
+  options.reference = {
+      SourcesOf(input, SplitAtCommas(flags.Text("reference")))};
   options.validation = ValidationInputFromFlags(input);
   options.reading = LogOptionsFromFlags(flags, robot);
   if (!flags.IsDefault("trust")) options.trust = TrustFromFlags(flags).inertia;

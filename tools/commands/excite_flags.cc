@@ -168,13 +168,14 @@ std::optional<StaticPoses> PosesFromFlags(const FlagValues& flags) {
 }
 
 // Logs, or one calibration.json.
-void SetGiven(const FlagValues& flags, ExciteOptions* options) {
+void SetGiven(const CommandInput& input, ExciteOptions* options) {
+  const FlagValues& flags = input.flags;
   const std::vector<std::string> paths = SplitAtCommas(flags.Text("given"));
   const auto is_calibration = [](const std::string& path) {
     return std::filesystem::path(path).extension() == ".json";
   };
   if (std::none_of(paths.begin(), paths.end(), is_calibration)) {
-    options->given = {LogFiles(paths), CropFromFlags(flags)};
+    options->given = {SourcesOf(input, paths), CropFromFlags(flags)};
     return;
   }
   if (paths.size() > 1) {
@@ -221,7 +222,7 @@ ExciteOptions ExciteOptionsFromFlags(const CommandInput& input,
   options.torque_noise =
       PositiveFromFlags(flags, "torque_noise", robot.num_joints());
   options.trust = TrustFromFlags(flags);
-  SetGiven(flags, &options);
+  SetGiven(input, &options);
   options.reading = LogOptionsFromFlags(flags, robot);
   options.bandwidth_hz = BandwidthFromFlags(flags);
   options.seed = SeedFromFlags(flags);

@@ -6,6 +6,7 @@
 #include "tools/command_report.h"
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
+#include "tools/log_flags.h"
 
 DEFINE_bool(fix, false,
             "write the logs as they are understood: order, signs and units");
@@ -38,7 +39,9 @@ CommandOutcome RunInspect(const CommandInput& input) {
   const Robot robot = RobotFromFlags(input);
   options.reading = LogOptionsFromFlags(input.flags, robot);
   std::vector<LogSource> logs;
-  if (!input.flags.Text("log").empty()) logs = LogFiles(LogsFromFlags(input));
+  if (!input.flags.Text("log").empty()) {
+    logs = LogInputFromFlags(input).logs;
+  }
   CommandOutcome outcome =
       OutcomeOf(input, robot, Inspect(robot, logs, options), {});
   outcome.output.verdict = "";

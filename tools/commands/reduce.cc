@@ -15,6 +15,8 @@
 #include "model/text/input_error.h"
 #include "tools/commands/calibrate_flags.h"
 #include "tools/input_flags.h"
+#include "tools/log_flags.h"
+#include "tools/input_hash.h"
 #include "tools/report/report_page.h"
 
 DEFINE_string(like, "",
@@ -30,9 +32,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of a bag's folder: of its files' hashes, by name.
-std::string HashLog(const std::string& path) {
+std::string HashLog(const CommandInput& input, const std::string& path) {
   std::error_code error;
-  if (!fs::is_directory(path, error)) return HashFile(path).sha256;
+  if (input.logs.count(path) > 0 || !fs::is_directory(path, error)) {
+    return HashInput(input, path).sha256;
+  }
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(path)) {
     if (entry.is_regular_file()) files.insert(entry.path().string());
@@ -58,7 +62,7 @@ ReductionModel ModelFromFlags(const CommandInput& input, const Robot& robot) {
   if (flags.Text("like").empty()) {
     LinearCalibrationOptions options = LinearOptionsFromFlags(flags, robot);
     options.progress = input.progress;
-    const LogSet logs(LogFiles(LogsFromFlags(input)),
+    const LogSet logs(SourcesOf(input, LogsFromFlags(input)),
                       LogOptionsFromFlags(flags, robot), CropFromFlags(flags));
     return ChooseReductionModel(robot, sha256, options, logs);
   }
@@ -93,17 +97,17 @@ CommandOutcome RunReduce(const CommandInput& input) {
   const FlagValues& flags = input.flags;
   const Robot robot = RobotFromFlags(input);
   const std::optional<double> time = TimeFromFlags(flags);
-  CheckLogsApart(input);
+  CheckApart(LogInputFromFlags(input), {});
   input.Begin("opening the logs");
   const ReductionModel model = ModelFromFlags(input, robot);
   CommandOutcome outcome;
   OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(flags));
   Reduction all{model, {}};
   for (const std::string& path : LogsFromFlags(input)) {
-    const LogSet log({path}, LogOptionsFromFlags(flags, robot),
+    const LogSet log({SourceOf(input, path)}, LogOptionsFromFlags(flags, robot),
                      CropFromFlags(flags));
     ReducedLog reduced = ReduceLog(robot, model, input.progress, log);
-    reduced.sha256 = HashLog(path);
+    reduced.sha256 = HashLog(input, path);
     reduced.unit = flags.Text("unit");
     reduced.time = time;
     out.Add(FactorName(reduced), FactorFileBytes({model, {reduced}}));

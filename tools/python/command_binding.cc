@@ -14,6 +14,7 @@
 #include "tools/input_flags.h"
 #include "tools/python/command_flags.h"
 #include "tools/python/loaded_robot.h"
+#include "tools/python/log_arrays.h"
 #include "tools/python/samples.h"
 
 namespace armcal {
@@ -80,11 +81,12 @@ CommandOutcome RunWithInput(const Command& command, const CommandInput& input,
 
 Outcome Run(const std::string& name, const FlagTexts& flags,
             const std::optional<LoadedRobot>& robot, const py::object& progress,
-            bool write) {
+            const PythonLogs& logs, bool write) {
   Reporter reporter(progress);
+  CommandInput input;
+  input.logs = LogSources(logs);
   const py::gil_scoped_release release;
   const Command& command = CommandNamed(name);
-  CommandInput input;
   input.flags = FlagsOf(command, flags);
   if (robot) {
     input.robot = robot->robot;
@@ -139,16 +141,18 @@ PredictedLog FromTrace(const TorqueTrace& trace, const std::string& path,
 std::vector<PredictedLog> Trace(const Outcome& outcome,
                                 const LoadedRobot& robot,
                                 const FlagTexts& flags, double bandwidth_hz,
+                                const PythonLogs& in_memory,
                                 const py::object& progress) {
   constexpr int kMostSamples = 1 << 22;
   if (outcome.model == nullptr) {
     throw py::value_error("nothing was calibrated that predicts torques");
   }
   Reporter reporter(progress);
-  const py::gil_scoped_release release;
   CommandInput input;
+  input.logs = LogSources(in_memory);
+  const py::gil_scoped_release release;
   input.flags = FlagsOf(CommandNamed("calibrate"), flags);
-  const LogSet logs(LogFiles(LogsFromFlags(input)),
+  const LogSet logs(SourcesOf(input, LogsFromFlags(input)),
                     LogOptionsFromFlags(input.flags, robot.robot),
                     CropFromFlags(input.flags));
   PreparationOptions prepared;
@@ -198,12 +202,15 @@ void AddCommands(py::module_* module) {
       .def_readonly("temperature", &Log::temperature);
   module->def("run", &Run, py::arg("command"), py::arg("flags"),
               py::arg("robot") = py::none(), py::arg("progress") = py::none(),
-              py::arg("write") = false, py::call_guard<DecimalPoint>(),
-              "Runs a command of the armcal binary; with write its files go to "
-              "the folders that the flags name.");
+              py::arg("logs") = PythonLogs(), py::arg("write") = false,
+              py::call_guard<DecimalPoint>(),
+              "Runs a command of the armcal binary on files and on logs "
+              "{name: {array's name: array}} that flags name; with write its "
+              "files go to the folders that the flags name.");
   module->def("trace", &Trace, py::arg("outcome"), py::arg("robot"),
               py::arg("flags"), py::arg("bandwidth_hz"),
-              py::arg("progress") = py::none(), py::call_guard<DecimalPoint>(),
+              py::arg("logs") = PythonLogs(), py::arg("progress") = py::none(),
+              py::call_guard<DecimalPoint>(),
               "Measured and predicted torques of logs.");
   module->def("read_log", &ReadLog, py::arg("path"), py::arg("robot"),
               py::arg("flags"), py::arg("torque") = true,

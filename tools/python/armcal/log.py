@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Optional, Union
+from typing import Any, Dict, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,11 +80,15 @@ class Log:
 
     def savez(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes an .npz that read_log and the armcal binary read."""
+        with open(path, "wb") as file:  # savez would add an ending
+            np.savez(file, **self._arrays())
+
+    def _arrays(self) -> Dict[str, Array]:
+        """By their names in an .npz."""
         arrays = {key: getattr(self, signal)
                   for signal, key in _SIGNALS.items()
                   if getattr(self, signal) is not None}
-        with open(path, "wb") as file:  # savez would add an ending
-            np.savez(file, t=self.t, **arrays)
+        return {"t": self.t, **arrays}
 
 
 def read_log(path: Union[str, "os.PathLike[str]"], robot: _armcal.Robot, *,
