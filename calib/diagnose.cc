@@ -62,8 +62,7 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
   DiagnoseSummary summary;
   const RobotExport corrected = ExportCorrectedRobot(
       diagnosis.corrected, robot, options.source.urdf.value_or(Document("")),
-      options.source.base,
-      FormatsBesideUrdf(options.exports));
+      options.source.base, FormatsBesideUrdf(options.exports));
   nlohmann::json json = ToJson(diagnosis);
   json["not_in_urdf"] = corrected.losses;
   const std::string losses =

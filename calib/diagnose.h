@@ -56,7 +56,7 @@ struct DiagnosedEffect {
 };
 
 struct DiagnoseSummary : Summary {
-  std::string verdict;  // "explained" .. (docs/diagnose.md)
+  std::string verdict;                   // "explained" .. (docs/diagnose.md)
   std::vector<DiagnosedEffect> effects;  // strongest first
   Robot robot;                           // fitted, with what a robot can hold
   // Of what is held out, where they are drawn; null: not asked for.

@@ -18,7 +18,7 @@ namespace {
 
 // Friction changes sign within this, rad/s or m/s: wide enough for a search
 // that follows slopes.
-constexpr double kTransition = .05;
+constexpr double kDesignTransition = .05;
 
 const std::vector<JointTerm> kTerms = {JointTerm::kViscous, JointTerm::kCoulomb,
                                        JointTerm::kOffset,
@@ -39,7 +39,8 @@ ModelParameters ModelFor(const Robot& robot, DesignTarget target) {
   }
   options.joint_terms = kTerms;
   options.transitions.assign(
-      robot.num_joints(), {{CoulombTransition::Law::kVelocity, kTransition}});
+      robot.num_joints(),
+      {{CoulombTransition::Law::kVelocity, kDesignTransition}});
   return {robot, options};
 }
 
@@ -86,9 +87,9 @@ Design MakeDesign(const Robot& robot, const ExciteOptions& options,
   Design design{ModelFor(robot, options.target), {}, {}, {}};
   const int n = robot.num_joints(), m = design.model.size();
   design.known = Eigen::MatrixXd::Zero(m, m);
-  design.reference = MakeReferenceScale(
-      design.model, limits.velocity.mean() / 2, .5, 1,
-      Eigen::VectorXd::Zero(n), design.model.Values(robot));
+  design.reference =
+      MakeReferenceScale(design.model, limits.velocity.mean() / 2, .5, 1,
+                         Eigen::VectorXd::Zero(n), design.model.Values(robot));
   design.noise = PerJoint("torque_noise", options.torque_noise, n)
                      .cwiseProduct(design.reference.torque);
   LearnFromGiven(robot, options, &design);
@@ -134,7 +135,7 @@ ExciteSummary ForTarget(const Robot& robot, const ExciteOptions& options,
                            options.trust, design.reference, design.known);
   const Excitation excitation =
       DesignExcitation(robot, design.model, quantities.design, motion);
-  ExcitationSummary summary{robot, motion, quantities, excitation,
+  ExcitationSummary summary{robot, motion,  quantities, excitation,
                             {},    assumed, {}};
   if (HasGiven(options)) {
     const int m = design.model.size();
@@ -156,7 +157,7 @@ ExciteSummary ForSeparation(const Robot& robot, const ExciteOptions& options,
   const EffectSeparation separation =
       SeparateEffects(robot, design.model, question, design.known, motion);
   const NamedQuantities quantities = Quantities(robot, separation);
-  ExcitationSummary summary{robot, motion, quantities, separation.motion,
+  ExcitationSummary summary{robot, motion,  quantities, separation.motion,
                             {},    assumed, {}};
   summary.alone_stddev.resize(static_cast<long>(separation.sizes.size()));
   for (size_t k = 0; k < separation.sizes.size(); ++k) {

@@ -16,8 +16,8 @@ struct LogInput {
 
 std::vector<std::string> NamesOf(const std::vector<LogSource>& logs);
 
-// OptionError where there is no log, one is named twice, or held out whole from what it is
-// calibrated on.
+// OptionError where there is no log, one is named twice, or held out whole from
+// what it is calibrated on.
 void CheckApart(const LogInput& logs, const LogInput& validation);
 // Of further logs the first that is named twice or is one of those; empty:
 // none.

@@ -38,8 +38,8 @@ void AddAssumed(const std::vector<std::string>& of_robot,
       {"accelerations", given.acceleration.size() > 0},
       {"any torque", given.effort.size() > 0}};
   for (const std::string& sentence : of_robot) {
-    const bool set = std::any_of(
-        std::begin(words), std::end(words), [&](const auto& word) {
+    const bool set =
+        std::any_of(std::begin(words), std::end(words), [&](const auto& word) {
           return word.second && sentence.rfind(word.first, 0) == 0;
         });
     if (!set) assumed->push_back(sentence);

@@ -56,9 +56,29 @@ endforeach()
 add_library(all_of_armcal INTERFACE)
 set_target_properties(all_of_armcal PROPERTIES EXPORT_NAME armcal)
 target_link_libraries(all_of_armcal INTERFACE ${exported})
-foreach(folder model problems calib)
-  install(DIRECTORY ${folder} DESTINATION ${headers} COMPONENT development
-          FILES_MATCHING PATTERN "*.h" PATTERN hidden EXCLUDE)
+# Installed are the doors, what makes their arguments, and what these include:
+# nothing else of the libraries is promised to programs.
+set(public calib/calibrate.h calib/diagnose.h calib/excite.h calib/inspect.h
+    calib/merge.h calib/verify.h model/dynamics/forward_dynamics.h
+    model/dynamics/inverse_dynamics.h model/log_files/log_reader.h
+    model/robot/kinematics.h model/robot_files/robot_reader.h
+    model/robot_files/urdf_writer.h)
+set(header 0)
+list(LENGTH public count)
+while(header LESS count)
+  list(GET public ${header} file)
+  file(STRINGS ${file} includes REGEX "^#include \"")
+  foreach(include ${includes})
+    string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" include "${include}")
+    list(APPEND public ${include})
+  endforeach()
+  list(REMOVE_DUPLICATES public)
+  list(LENGTH public count)
+  math(EXPR header "${header} + 1")
+endwhile()
+foreach(file ${public})
+  get_filename_component(folder ${file} DIRECTORY)
+  install(FILES ${file} DESTINATION ${headers}/${folder} COMPONENT development)
 endforeach()
 install(TARGETS ${exported} all_of_armcal EXPORT armcal COMPONENT development)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/armcal)

@@ -25,6 +25,12 @@ execute_process(COMMAND ${python} ${root}/tests/documents.py --armcal=${ARMCAL}
 message("${out}")
 expect_code(0)
 
+set(case "examples in documents")
+execute_process(COMMAND ${python} ${root}/tools/paste_examples.py --check
+                RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
+message("${out}")
+expect_code(0)
+
 # The examples of both formats are read; they are too short for a result.
 file(READ ${root}/docs/robot_files.md rest)
 take_block(yaml robot)

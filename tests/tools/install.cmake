@@ -26,26 +26,46 @@ if(EXISTS ${prefix}/include/armcal/model/plant/hidden)
   fail("model/plant/hidden must not be installed")
 endif()
 
+file(GLOB_RECURSE headers ${prefix}/include/armcal/*.h)
+list(LENGTH headers count)
+if(count GREATER 60)
+  fail("${count} headers are installed, expected at most 60: the doors and what "
+       "they include")
+endif()
+
 get_filename_component(root ${DATA_DIR} DIRECTORY)
 set(ENV{CXX} "${CXX}")  # sanitizers' libraries need theirs
 set(ENV{CXXFLAGS} "${CXXFLAGS}")
-do("the example finds armcal" ${CMAKE_COMMAND} -S ${root}/examples/cpp
+do("the examples find armcal" ${CMAKE_COMMAND} -S ${root}/examples/cpp
    -B example -DCMAKE_PREFIX_PATH=${prefix})
-do("the example is built" ${CMAKE_COMMAND} --build example)
+do("the examples are built" ${CMAKE_COMMAND} --build example)
 write_arm(arm "" "")
 run("a log" simulate --robot=arm.yaml --duration=12 --log_rate=100 --out=made)
-do("the example calibrates" example/calibrate_arm arm.yaml made/log.csv)
-expect_text(out "viscous[1] = " " +- " " N m s/rad" "arm: 13 model parameters")
-# What armcal itself says of the same log.
-string(REGEX MATCH "viscous\\[1\\] = ([0-9.]+)" viscous "${out}")
-set(viscous ${CMAKE_MATCH_1})
+run("a log with a payload" simulate --robot=arm.yaml --duration=12
+    --log_rate=100 --effects=payload:mass=2kg --run=1 --out=loaded)
+do("calibrate" example/calibrate arm.yaml made/log.csv)
+expect_text(out " +- " " N m s/rad" "arm: 13 model parameters")
+expect_files(${WORK_DIR} calibrated/calibration.json calibrated/covariance.csv)
+# What armcal itself writes of the same log.
 run("armcal calibrates" calibrate --robot=arm.yaml --log=made/log.csv
-    --bandwidth=10 --estimate=linear)
-if(NOT out MATCHES "viscous\\[1\\] +${viscous}")
-  fail("the example found another viscous[1] than armcal, ${viscous}")
-endif()
+    --bandwidth=10 --out=same)
+foreach(file calibration.json covariance.csv outliers.csv)
+  file(SHA256 ${WORK_DIR}/calibrated/${file} of_example)
+  file(SHA256 ${WORK_DIR}/same/${file} of_armcal)
+  if(NOT of_example STREQUAL of_armcal)
+    fail("${file} of the example is not that of armcal")
+  endif()
+endforeach()
+do("diagnose" example/diagnose arm.yaml loaded/log.csv made/log.csv)
+expect_text(out "explained\npayload " " % of the gap")
+do("verify" example/verify arm.yaml made/log.csv)
+expect_text(out "Simbody")
+do("excite" example/excite arm.yaml)
+expect_files(${WORK_DIR} motion/trajectory.csv motion/excite.json)
+do("pendulum" example/pendulum)
+expect_text(out "viscous[1] = 0.3" " N m s/rad")
 set(case "a wrong log")
-execute_process(COMMAND example/calibrate_arm arm.yaml arm.yaml
+execute_process(COMMAND example/calibrate arm.yaml arm.yaml
                 WORKING_DIRECTORY ${WORK_DIR} RESULT_VARIABLE code
                 OUTPUT_VARIABLE out ERROR_VARIABLE err)
 expect_code(3)

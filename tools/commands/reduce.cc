@@ -15,8 +15,8 @@
 #include "model/text/input_error.h"
 #include "tools/commands/calibrate_flags.h"
 #include "tools/input_flags.h"
-#include "tools/log_flags.h"
 #include "tools/input_hash.h"
+#include "tools/log_flags.h"
 #include "tools/report/report_page.h"
 
 DEFINE_string(like, "",

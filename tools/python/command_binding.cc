@@ -12,6 +12,7 @@
 #include "model/signals/trajectory.h"
 #include "model/text/decimal_point.h"
 #include "tools/input_flags.h"
+#include "tools/log_flags.h"
 #include "tools/python/command_flags.h"
 #include "tools/python/loaded_robot.h"
 #include "tools/python/log_arrays.h"

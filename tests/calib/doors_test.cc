@@ -1,0 +1,167 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "calib/calibrate.h"
+#include "calib/diagnose.h"
+#include "calib/excite.h"
+#include "calib/inspect.h"
+#include "calib/verify.h"
+#include "model/text/input_error.h"
+#include "model/text/option_error.h"
+#include "tests/fixtures/sample_motion.h"
+#include "tests/fixtures/sample_robots.h"
+#include "tests/fixtures/temp_file.h"
+
+namespace armcal::doors_test {
+
+using testing::HasSubstr;
+
+// A pendulum of 2 kg on a massless rod of .5 m whose hinge turns about the
+// world's -y, so that q > 0 is up from the horizontal:
+// tau = m g l cos(q) + (m l^2 + armature) qdd + viscous qd.
+struct Pendulum {
+  Pendulum() {
+    robot.name = "pendulum";
+    robot.links.resize(1);
+    Link& rod = robot.links[0];
+    rod.name = "rod";
+    rod.joint.name = "hinge";
+    rod.joint.viscous = .3;
+    rod.X_PF = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX());
+    rod.has_inertial = true;
+    rod.inertial = InertialParameters::FromCenterOfMass(
+        2, {.5, 0, 0}, 1e-3 * Eigen::Matrix3d::Identity());
+    log.t = Eigen::VectorXd::LinSpaced(4001, 0, 20);
+    const Eigen::ArrayXd w = 2 * log.t.array(), v = 5.3 * log.t.array();
+    log.q = w.sin() + .3 * v.sin();
+    const Eigen::ArrayXd qd = 2 * w.cos() + .3 * 5.3 * v.cos();
+    const Eigen::ArrayXd qdd = -4 * w.sin() - .3 * 5.3 * 5.3 * v.sin();
+    log.tau = 9.81 * log.q.array().cos() + .501 * qdd + .3 * qd;
+    std::mt19937_64 random(1);
+    AddNoise(&random, Eigen::VectorXd::Constant(1, 1e-5), &log.q);
+    AddNoise(&random, Eigen::VectorXd::Constant(1, .02), &log.tau);
+  }
+  LogInput InMemory() const { return {{{"swings", log}}}; }
+
+  Robot robot;
+  Log log;
+};
+
+CalibrateOptions OneTerm() {
+  CalibrateOptions options;
+  options.equations.joint_terms = {JointTerm::kViscous};
+  return options;
+}
+
+double ValueOf(const CalibrateSummary& summary, const std::string& name) {
+  for (const EstimatedParameter& p : summary.parameters) {
+    if (p.name == name) return p.value;
+  }
+  ADD_FAILURE() << "no parameter " << name;
+  return 0;
+}
+
+TEST(Doors, CalibrateFindsAPendulumInMemory) {
+  const Pendulum pendulum;
+  CalibrateOptions options = OneTerm();
+  options.target = CalibrationTarget::kLinear;
+  const CalibrateSummary summary =
+      Calibrate(pendulum.robot, pendulum.InMemory(), options);
+  ASSERT_TRUE(summary.solved && summary.positive) << summary;
+  EXPECT_NEAR(ValueOf(summary, "hx[1]"), 1, 1e-3);
+  EXPECT_NEAR(ValueOf(summary, "Izz[1]"), .501, 1e-3);
+  EXPECT_NEAR(ValueOf(summary, "viscous[1]"), .3, 2e-3);
+  EXPECT_FALSE(summary.robot);
+  EXPECT_THAT(summary.json, HasSubstr("\"file\": \"swings\""));
+}
+
+// A file of the same numbers gives the same bytes, under the same name.
+TEST(Doors, ALogInMemoryIsItsFile) {
+  const Pendulum pendulum;
+  const std::string path = WriteFile(LogCsv(pendulum.log), "swings.csv");
+  const CalibrateSummary of_file =
+      Calibrate(pendulum.robot, {{path}}, OneTerm());
+  const CalibrateSummary of_memory =
+      Calibrate(pendulum.robot, {{{path, pendulum.log}}}, OneTerm());
+  EXPECT_EQ(of_memory.json, of_file.json);
+  EXPECT_EQ(of_memory.report, of_file.report);
+  ASSERT_TRUE(of_memory.robot);
+}
+
+TEST(Doors, OptionsAreValidAsConstructed) {
+  const Pendulum pendulum;
+  const DiagnoseSummary diagnosis =
+      Diagnose(pendulum.robot, pendulum.InMemory(), DiagnoseOptions());
+  EXPECT_EQ(diagnosis.verdict, "noise_floor") << diagnosis;
+  EXPECT_TRUE(diagnosis.effects.empty());
+  const VerifySummary verification =
+      Verify(pendulum.robot, pendulum.InMemory(), VerifyOptions());
+  EXPECT_TRUE(verification.positive) << verification;
+  EXPECT_TRUE(verification.shortcomings.empty());
+  EXPECT_TRUE(Verify(pendulum.robot, {}, VerifyOptions()).positive);
+  const InspectSummary inspected =
+      Inspect(pendulum.robot, pendulum.InMemory().logs, InspectOptions());
+  ASSERT_EQ(inspected.logs.size(), 1u);
+  EXPECT_TRUE(inspected.logs[0].as_it_is) << inspected;
+  const ExciteSummary motion = Excite(pendulum.robot, ExciteOptions());
+  EXPECT_TRUE(motion.positive) << motion;
+  EXPECT_EQ(motion.motion.size(), 20 * 250 + 1);
+}
+
+TEST(Doors, AWrongRobotIsNotVerifiedByItsLog) {
+  Pendulum pendulum;
+  pendulum.log.tau *= -1;
+  const InspectSummary inspected =
+      Inspect(pendulum.robot, pendulum.InMemory().logs, InspectOptions());
+  EXPECT_FALSE(inspected.positive);
+  EXPECT_FALSE(inspected.logs[0].as_it_is);
+}
+
+TEST(Doors, RefuseWhatDoesNotGoTogether) {
+  const Pendulum pendulum;
+  const Robot& robot = pendulum.robot;
+  const LogInput logs = pendulum.InMemory();
+  EXPECT_THROW(Calibrate(robot, {}, OneTerm()), OptionError);
+  EXPECT_THROW(Calibrate(robot, {{logs.logs[0], logs.logs[0]}}, OneTerm()),
+               OptionError);
+  CalibrateOptions options = OneTerm();
+  options.exports = {"step"};
+  EXPECT_THROW(Calibrate(robot, logs, options), OptionError);
+  options = OneTerm();
+  options.target = CalibrationTarget::kLinear;
+  options.geometry = RefineGeometry::kAll;
+  EXPECT_THROW(Calibrate(robot, logs, options), OptionError);
+  ExciteOptions motion;
+  motion.duration_s = .1;
+  EXPECT_THROW(Excite(robot, motion), OptionError);
+  motion = ExciteOptions();
+  motion.limits.velocity = Eigen::Vector3d::Ones();
+  EXPECT_THROW(Excite(robot, motion), OptionError);
+  EXPECT_THROW(Calibrate(robot, {{"no such file"}}, OneTerm()), InputError);
+}
+
+TEST(Doors, SeveralRunAtOnce) {
+  const Pendulum pendulum;
+  const auto calibrate = [&] {
+    return Calibrate(pendulum.robot, pendulum.InMemory(), OneTerm()).json;
+  };
+  const auto diagnose = [&] {
+    return Diagnose(pendulum.robot, pendulum.InMemory(), DiagnoseOptions())
+        .json;
+  };
+  const std::string calibrated = calibrate(), diagnosed = diagnose();
+  std::string at_once[3];
+  std::thread first([&] { at_once[0] = calibrate(); });
+  std::thread second([&] { at_once[1] = diagnose(); });
+  at_once[2] = calibrate();
+  first.join();
+  second.join();
+  EXPECT_EQ(at_once[0], calibrated);
+  EXPECT_EQ(at_once[1], diagnosed);
+  EXPECT_EQ(at_once[2], calibrated);
+}
+
+}  // namespace armcal::doors_test
