@@ -156,7 +156,7 @@ ExciteSummary ForSeparation(const Robot& robot, const ExciteOptions& options,
       });
   const EffectSeparation separation =
       SeparateEffects(robot, design.model, question, design.known, motion);
-  const NamedQuantities quantities = Quantities(robot, separation);
+  const NamedQuantities quantities = SeparatedQuantities(robot, separation);
   ExcitationSummary summary{robot, motion,  quantities, separation.motion,
                             {},    assumed, {}};
   summary.alone_stddev.resize(static_cast<long>(separation.sizes.size()));

@@ -248,7 +248,7 @@ EffectSeparation SeparateEffects(const Robot& robot,
   return Separator(robot, model, question, known, options).Run();
 }
 
-NamedQuantities Quantities(const Robot& robot,
+NamedQuantities SeparatedQuantities(const Robot& robot,
                            const EffectSeparation& separation) {
   NamedQuantities all;
   const auto k = static_cast<long>(separation.sizes.size());

@@ -40,7 +40,7 @@ EffectSeparation SeparateEffects(const Robot& robot,
                                  const ExcitationOptions& options);
 
 // The sizes as what a motion was designed for.
-NamedQuantities Quantities(const Robot& robot,
+NamedQuantities SeparatedQuantities(const Robot& robot,
                            const EffectSeparation& separation);
 
 }  // namespace armcal
