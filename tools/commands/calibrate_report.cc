@@ -1,7 +1,5 @@
 #include "tools/commands/calibrate_report.h"
 
-#include <gflags/gflags.h>
-
 #include <algorithm>
 
 #include "tools/command_report.h"

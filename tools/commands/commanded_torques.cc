@@ -1,7 +1,5 @@
 #include "tools/commands/commanded_torques.h"
 
-#include <gflags/gflags.h>
-
 #include <memory>
 #include <utility>
 

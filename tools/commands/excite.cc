@@ -1,7 +1,5 @@
 #include "tools/commands/excite.h"
 
-#include <gflags/gflags.h>
-
 #include "calib/excite/effect_separation.h"
 #include "calib/excite/excitation_report.h"
 #include "calib/excite/given_information.h"
