@@ -157,8 +157,9 @@ CommandOutcome CalibrateCommandedFromFlags(const CommandInput& input) {
   input.Begin("opening the logs");
   const std::vector<CommandedLog> training = Read(
       SourcesOf(input, LogsFromFlags(input)), reading, CropFromFlags(flags));
-  const std::vector<CommandedLog> validation = Read(
-      ValidationLogsFromFlags(input), reading, ValidationCropFromFlags(flags));
+  const std::vector<CommandedLog> validation =
+      Read(SourcesOf(input, ValidationLogsFromFlags(input)), reading,
+           ValidationCropFromFlags(flags));
   const ControllerOptions controller =
       ControllerFromFlags(flags, robot, training.at(0).log.qref.row(0));
   if (input.WantsReport()) {
