@@ -22,7 +22,7 @@ class ThreadLimit {
 };
 
 // Does `work` in the calling thread, with so many threads at most that share
-// it; 0: as many as there are cores. Unlike a ThreadLimit it says nothing to
+// it, and no more than cores; 0: as many as there are cores. Unlike a ThreadLimit it says nothing to
 // what other threads do at the same time.
 void WithThreads(int threads, const std::function<void()>& work);
 
