@@ -43,8 +43,8 @@ int ThreadLimit::Active() {
 // this thread and never hands it to another.
 void WithThreads(int threads, const std::function<void()>& work) {
   // TBB has no more workers than this, and says so on stderr.
-  const int all = static_cast<int>(
-      Control::active_value(Control::max_allowed_parallelism));
+  const int all =
+      static_cast<int>(Control::active_value(Control::max_allowed_parallelism));
   const int limit = threads == 0 ? all : std::min(threads, all);
   tbb::task_arena arena(limit);
   arena.execute([&] {
