@@ -55,6 +55,8 @@ class InMemory(InFolder):
                 (armcal.calibrate, {"log": 1}, dict(select=True)),
                 (armcal.calibrate, {"log": 1, "torque_log": 2},
                  dict(controller="drives.yaml")),
+                (armcal.calibrate, {"log": 1, "validate": 2},
+                 dict(controller="drives.yaml")),
                 (armcal.diagnose, {"log": 1, "reference": 2},
                  dict(forward=False)),
                 (armcal.diagnose, {"log": 1, "validate": 2},
