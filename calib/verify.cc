@@ -6,17 +6,12 @@
 #include "calib/refine/calibration_reader.h"
 #include "calib/verify/verification_report.h"
 #include "model/robot_files/controller_reader.h"
+#include "model/signals/bandwidth.h"
 #include "model/text/option_error.h"
 #include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
-
-std::vector<std::string> NamesOf(const std::vector<LogSource>& logs) {
-  std::vector<std::string> names;
-  for (const LogSource& log : logs) names.push_back(log.name);
-  return names;
-}
 
 class Verifier {
  public:

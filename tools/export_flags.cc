@@ -2,7 +2,6 @@
 
 #include <gflags/gflags.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "model/robot_files/robot_formats.h"
@@ -14,60 +13,24 @@ DEFINE_string(export, "", "formats to write the robot in");
 namespace armcal {
 namespace {
 
-std::vector<std::pair<std::string, const RobotFormat*>> Formats() {
-  std::vector<std::pair<std::string, const RobotFormat*>> formats;
+std::vector<std::pair<std::string, std::string>> Formats() {
+  std::vector<std::pair<std::string, std::string>> formats;
   for (const RobotFormat& format : RobotFormats()) {
-    formats.push_back({format.name, &format});
+    formats.push_back({format.name, format.name});
   }
   return formats;
 }
 
-const FlagChoices<const RobotFormat*> kFormats("export", Formats(), true);
+const FlagChoices<std::string> kFormats("export", Formats(), true);
 
 }  // namespace
 
-std::vector<const RobotFormat*> ExportFromFlags(const FlagValues& flags) {
-  std::vector<const RobotFormat*> formats;
+std::vector<std::string> ExportFromFlags(const FlagValues& flags) {
+  std::vector<std::string> formats;
   for (const std::string& name : SplitAtCommas(flags.Text("export"))) {
-    const RobotFormat* format = kFormats.Parse(name);
-    if (std::count(formats.begin(), formats.end(), format) == 0) {
-      formats.push_back(format);
-    }
+    formats.push_back(kFormats.Parse(name));
   }
   return formats;
-}
-
-std::vector<const RobotFormat*> ExportBesideUrdfFromFlags(
-    const FlagValues& flags) {
-  std::vector<const RobotFormat*> formats;
-  for (const RobotFormat* format : ExportFromFlags(flags)) {
-    if (std::string(format->name) != "urdf") formats.push_back(format);
-  }
-  return formats;
-}
-
-std::string AddFiles(const std::vector<RobotFile>& files, nlohmann::json* json,
-                     OutputFolder* out) {
-  std::string lines;
-  for (const RobotFile& file : files) {
-    out->Add(file.format->file, file.text);
-    for (const std::string& loss : file.losses) {
-      lines += std::string(file.format->file) + "  " + loss + "\n";
-    }
-  }
-  if (!files.empty()) (*json)["robot_files"] = RobotFilesJson(files);
-  return lines;
-}
-
-std::string AddExports(const RobotDescription& description,
-                       const std::vector<const RobotFormat*>& formats,
-                       nlohmann::json* json, OutputFolder* out) {
-  std::vector<RobotFile> files;
-  for (const RobotFormat* format : formats) {
-    files.push_back(
-        {format, format->write(description), Losses(*format, description)});
-  }
-  return AddFiles(files, json, out);
 }
 
 }  // namespace armcal

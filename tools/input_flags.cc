@@ -226,20 +226,6 @@ std::vector<std::string> LogsFromFlags(const CommandInput& input) {
   return FileNames("log", logs);
 }
 
-LogSource SourceOf(const CommandInput& input, const std::string& name) {
-  const auto log = input.logs.find(name);
-  return log == input.logs.end() ? LogSource(name) : log->second;
-}
-
-std::vector<LogSource> SourcesOf(const CommandInput& input,
-                                 const std::vector<std::string>& names) {
-  std::vector<LogSource> sources;
-  for (const std::string& name : names) {
-    sources.push_back(SourceOf(input, name));
-  }
-  return sources;
-}
-
 std::vector<std::string> ValidationLogsFromFlags(const CommandInput& input) {
   return FileNames("validate", input.flags.Text("validate"));
 }
@@ -254,14 +240,6 @@ TimeRange OneRange(const std::string& flag, const std::string& text) {
   return ranges.empty() ? TimeRange() : ranges[0];
 }
 
-void RefuseTwice(const std::string& flag, std::vector<std::string> logs) {
-  std::sort(logs.begin(), logs.end());
-  const auto twice = std::adjacent_find(logs.begin(), logs.end());
-  if (twice == logs.end()) return;
-  throw UsageError("--" + flag + " names " + *twice +
-                   " twice, which would count its evidence twice");
-}
-
 }  // namespace
 
 TimeRange CropFromFlags(const FlagValues& flags) {
@@ -269,33 +247,6 @@ TimeRange CropFromFlags(const FlagValues& flags) {
 }
 TimeRange ValidationCropFromFlags(const FlagValues& flags) {
   return OneRange("validate_crop", flags.Text("validate_crop"));
-}
-
-void CheckLogsApart(const CommandInput& input) {
-  const FlagValues& flags = input.flags;
-  const std::vector<std::string> logs = LogsFromFlags(input);
-  RefuseTwice("log", logs);
-  RefuseTwice("validate", ValidationLogsFromFlags(input));
-  if (!flags.Text("crop").empty() && !flags.Text("validate_crop").empty())
-    return;
-  for (const std::string& log : ValidationLogsFromFlags(input)) {
-    if (std::count(logs.begin(), logs.end(), log) == 0) continue;
-    throw UsageError("--validate names " + log +
-                     ", which --log calibrates on; give --crop and "
-                     "--validate_crop to use a part of it for each");
-  }
-}
-
-std::string NamedBefore(const CommandInput& input,
-                        const std::vector<std::string>& logs) {
-  std::vector<std::string> all = LogsFromFlags(input);
-  for (const std::string& log : ValidationLogsFromFlags(input))
-    all.push_back(log);
-  for (const std::string& log : logs) {
-    if (std::count(all.begin(), all.end(), log) > 0) return log;
-    all.push_back(log);
-  }
-  return "";
 }
 
 std::optional<double> BandwidthFromFlags(const FlagValues& flags) {

@@ -30,18 +30,6 @@ std::vector<std::string> ValidationLogsFromFlags(const CommandInput& input);
 TimeRange CropFromFlags(const FlagValues& flags);  // --crop
 // --validate_crop
 TimeRange ValidationCropFromFlags(const FlagValues& flags);
-// What logs of these names are read from: memory where the input has them, else
-// files.
-LogSource SourceOf(const CommandInput& input, const std::string& name);
-std::vector<LogSource> SourcesOf(const CommandInput& input,
-                                 const std::vector<std::string>& names);
-// Refuses a log that is named twice, or held out whole from what it is
-// calibrated on.
-void CheckLogsApart(const CommandInput& input);
-// Of the logs of a further flag the first that is named twice or is one of
-// --log or --validate; empty: none.
-std::string NamedBefore(const CommandInput& input,
-                        const std::vector<std::string>& logs);
 std::optional<double> BandwidthFromFlags(
     const FlagValues& flags);                        // --bandwidth
 std::string OutFromFlags(const FlagValues& flags);   // --out

@@ -10,6 +10,7 @@
 #include "calib/diagnose/select/fit.h"
 #include "calib/diagnose/select/reference.h"
 #include "calib/diagnose/trace.h"
+#include "model/signals/bandwidth.h"
 
 namespace armcal {
 namespace {
@@ -33,8 +34,9 @@ bool Overlaps(const std::vector<GapEvent>& events, const GapEvent& event) {
 
 class Diagnoser {
  public:
-  Diagnoser(const Robot& robot, const DiagnosisOptions& options)
-      : robot_(robot), options_(options) {}
+  Diagnoser(const Robot& robot, const DiagnosisOptions& options,
+            double bandwidth_hz)
+      : robot_(robot), options_(options), bandwidth_hz_(bandwidth_hz) {}
 
   GapDiagnosis Run(const LogSet& training, const LogSet* validation,
                    const LogSet* reference);
@@ -42,10 +44,9 @@ class Diagnoser {
  private:
   std::vector<GapSegment> Read(const LogSet& logs, LogPart part,
                                bool must_move = true) {
-    const double hz = options_.bandwidth_hz;
     std::vector<GapSegment> segments =
-        ReadSegments(hz, options_.progress, logs);
-    if (must_move || segments.empty()) CheckMotion(segments, hz, part, logs);
+        ReadSegments(bandwidth_hz_, options_.progress, logs);
+    if (must_move || segments.empty()) CheckMotion(segments, bandwidth_hz_, part, logs);
     KnowUsualTemperature(&segments);
     AdvanceTorque(delay_, &segments);
     return segments;
@@ -66,6 +67,7 @@ class Diagnoser {
 
   const Robot& robot_;
   const DiagnosisOptions& options_;
+  const double bandwidth_hz_;
   double delay_ = 0;            // of recorded torque, s, that was undone
   VectorXd usual_temperature_;  // deg C
   std::optional<GapBaseline> baseline_;
@@ -97,7 +99,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   if (reference != nullptr) before = Read(*reference, LogPart::kAll);
   Tell("fitting the baseline");
   const LackedFamilies lacked =
-      FitLackedFamilies(robot_, options_.baseline, options_.bandwidth_hz,
+      FitLackedFamilies(robot_, options_.baseline, bandwidth_hz_,
                         before.empty() ? segments : before);
   BaselineOptions trust = options_.baseline;
   if (!lacked.families.empty()) trust.joint_trust = kTrustInFitted;
@@ -109,7 +111,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
   if (!before.empty()) {
     const ReferenceModel model =
-        FitReference(*baseline_, options_.bandwidth_hz, &before);
+        FitReference(*baseline_, bandwidth_hz_, &before);
     baseline_ = model.baseline;
     delay_ = model.delay;
     AdvanceTorque(delay_, &segments);
@@ -124,7 +126,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
     held_out_.emplace(*fit_, Read(*validation, LogPart::kAll));
   }
   Tell("checking what was held out");
-  result_.bandwidth_hz = options_.bandwidth_hz;
+  result_.bandwidth_hz = bandwidth_hz_;
   result_.floor = fit_->noise().source;
   const HeldOut::Residuals residuals = held_out_->AllResiduals();
   result_.torque =
@@ -155,7 +157,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
 // is looked for.
 void Diagnoser::Fit(const std::vector<GapSegment>& segments,
                     const std::vector<GapSegment>& before, bool split) {
-  const GapFitOptions options{options_.bandwidth_hz, options_.selection,
+  const GapFitOptions options{bandwidth_hz_, options_.selection,
                               options_.without};
   fit_.emplace(*baseline_, options, segments,
                split ? LogPart::kFitted : LogPart::kAll, before);
@@ -247,7 +249,7 @@ void Diagnoser::Simulate(const LogSet& held_out, bool split) {
   result_.forward =
       ForwardGapInWindows(robots, held_out_->segments(),
                           {positions.noise, positions.rate_hz,
-                           MotionBandwidth(options_.bandwidth_hz),
+                           MotionBandwidth(bandwidth_hz_),
                            fit_->noise().joints, held_out_->rows().step(0)},
                           options_.seed, counted);
 }
@@ -272,7 +274,7 @@ void Diagnoser::Judge() {
   result_.data = AuditTorque(robot_, fit_->rows());
   const bool testable = result_.data.empty();
   for (DataFinding& burst : TellTorqueBursts(robot_, fit_->rows().segments(),
-                                             options_.bandwidth_hz)) {
+                                             bandwidth_hz_)) {
     result_.data.push_back(std::move(burst));
   }
   if (!testable) {
@@ -293,16 +295,9 @@ void Diagnoser::Judge() {
 GapDiagnosis DiagnoseGap(const Robot& robot, const DiagnosisOptions& options,
                          const LogSet& training, const LogSet* validation,
                          const LogSet* reference) {
-  return Diagnoser(robot, options).Run(training, validation, reference);
-}
-
-double DiagnosisBandwidth(const std::vector<TimeBase>& time_bases) {
-  constexpr double kLeast = 10, kShareOfRate = .125;
-  double hz = std::max(kLeast, DefaultBandwidth(time_bases));
-  for (const TimeBase& base : time_bases) {
-    hz = std::min(hz, kShareOfRate / base.dt);
-  }
-  return hz;
+  const double bandwidth_hz = options.bandwidth_hz.value_or(
+      DiagnosisBandwidth(training.time_bases()));
+  return Diagnoser(robot, options, bandwidth_hz).Run(training, validation, reference);
 }
 
 }  // namespace armcal

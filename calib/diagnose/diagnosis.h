@@ -30,7 +30,9 @@ namespace armcal {
 
 struct DiagnosisOptions {
   BaselineOptions baseline;
-  double bandwidth_hz = 0;
+  // Of the torque residual, Hz. Not given: DiagnosisBandwidth of the training
+  // logs.
+  std::optional<double> bandwidth_hz;
   SelectionOptions selection;
   std::vector<std::string> without;  // effects that are not considered
   std::uint64_t seed = 1;
@@ -78,10 +80,6 @@ struct GapDiagnosis {
   std::vector<UntestableEffect> untestable;
   double bandwidth_hz = 0;
 };
-
-// Effects bend torques faster than motions go: at least 10 Hz, and at most an
-// eighth of every sample rate.
-double DiagnosisBandwidth(const std::vector<TimeBase>& time_bases);
 
 // Diagnoses the gap between `robot` and the training logs; figures are of the
 // validation logs, or of parts of the training logs that are held out where

@@ -12,6 +12,7 @@
 #include "calib/linear/calibration_checks.h"
 #include "calib/linear/calibration_model.h"
 #include "calib/linear/transition_search.h"
+#include "model/signals/bandwidth.h"
 #include "problems/make_rows.h"
 
 namespace armcal {

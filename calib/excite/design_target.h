@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/excite/design_kinds.h"
 #include "calib/linear/identifiability.h"
 #include "calib/refine/arm_unknowns.h"
 #include "model/dynamics/model_parameters.h"
@@ -11,13 +12,6 @@
 #include "problems/excitation_criterion.h"
 
 namespace armcal {
-
-// What a motion is designed to tell.
-enum class DesignTarget {
-  kModel,     // the model parameters
-  kPhysical,  // the links' inertial parameters and joint terms, with a prior
-  kGeometry   // the lengths, with inertias that are no better known
-};
 
 // Quantities of a design with what they are called.
 struct NamedQuantities {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/excite/design_kinds.h"
 #include "model/log_files/pose_reader.h"
 #include "model/robot/robot.h"
 #include "problems/excitation_criterion.h"
@@ -13,12 +14,6 @@
 #include "problems/workspace.h"
 
 namespace armcal {
-
-// What will be measured at each posture.
-enum class PoseInstrument {
-  kTarget,  // the position of a target on the tool, by a tracker
-  kPose     // the pose of the tool
-};
 
 struct PostureOptions {
   int count = 20;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/signals/bandwidth.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 #include "problems/make_rows.h"

@@ -9,8 +9,8 @@ namespace armcal {
 LogSet::LogSet(const std::vector<LogSource>& sources,
                const LogReaderOptions& log_options, const TimeRange& crop,
                std::size_t memory_bytes)
-    : recorded_(std::make_shared<Recorded>()) {
-  Recorded& r = *recorded_;
+    : recorded_(std::make_shared<RecordedLogs>()) {
+  RecordedLogs& r = *recorded_;
   r.memory = std::make_shared<MemoryBudget>(memory_bytes);
   r.crop = crop;
   for (const LogSource& source : sources) {
@@ -48,16 +48,6 @@ const MadeTorque* LogSet::made_torque(int log) const {
 
 const std::shared_ptr<MemoryBudget>& LogSet::memory() const {
   return recorded_->memory;
-}
-
-KeptLog* LogSet::Recorded::Rows(int log, bool rates) {
-  LogReaderOptions options = rows[log].options();
-  if (rates && !options.want_velocity) {
-    options.want_velocity = options.want_acceleration = true;
-    rows[log] = KeptLog(rows[log].source(), options, memory);
-  }
-  rows[log].Rewind();
-  return &rows[log];
 }
 
 }  // namespace armcal

@@ -13,6 +13,8 @@
 
 namespace armcal {
 
+struct RecordedLogs;  // recorded_logs.h
+
 // Several recorded logs that are worked through together: a value that nothing
 // changes, whose copies share what has been read. Passes go over a preparation
 // of them (prepared_logs.h). What a pass has read is kept for the next as far
@@ -43,9 +45,8 @@ class LogSet {
 
  private:
   friend class PreparedLogs;
-  struct Recorded;
 
-  std::shared_ptr<Recorded> recorded_;
+  std::shared_ptr<RecordedLogs> recorded_;
   Stretches stretches_;
 };
 

@@ -31,8 +31,9 @@ bool AreSameBut(const PreparationOptions& a, const PreparationOptions& b) {
 }  // namespace
 
 // What ForEach made, as far as the memory goes.
-struct PreparedLogs::Kept {
-  Kept(const PreparationOptions& options, std::shared_ptr<MemoryBudget> memory)
+struct KeptTrajectories {
+  KeptTrajectories(const PreparationOptions& options,
+                   std::shared_ptr<MemoryBudget> memory)
       : made_with(options), stretches(std::move(memory)) {}
 
   // Whether trajectories with other options would be the same.
@@ -55,12 +56,13 @@ struct PreparedLogs::Kept {
 PreparedLogs::PreparedLogs(const LogSet& logs,
                            const PreparationOptions& options)
     : logs_(logs), options_(options) {
-  LogSet::Recorded& recorded = *logs_.recorded_;
+  RecordedLogs& recorded = *logs_.recorded_;
   const std::lock_guard<std::mutex> lock(recorded.pass);
   if (recorded.last == nullptr || !recorded.last->Serves(options)) {
     // Of several preparations one is kept; others are made again.
     if (recorded.last != nullptr) recorded.last->stretches.Forget();
-    recorded.last = std::make_shared<Kept>(options, recorded.memory);
+    recorded.last =
+        std::make_shared<KeptTrajectories>(options, recorded.memory);
   }
   kept_ = recorded.last;
 }
@@ -116,7 +118,7 @@ void Make(const Rows& rows_of, const std::vector<TimeBase>& time_bases,
 
 void PreparedLogs::ForEach(const std::string& stage, const Progress& progress,
                            const Visit& visit) const {
-  LogSet::Recorded& recorded = *logs_.recorded_;
+  RecordedLogs& recorded = *logs_.recorded_;
   const std::lock_guard<std::mutex> lock(recorded.pass);
   long spikes = 0;
   const auto see = [&](Stretch* stretch) {
@@ -146,7 +148,7 @@ void PreparedLogs::ForEach(const std::string& stage, const Progress& progress,
 void PreparedLogs::ForEachAtFullRate(const std::string& stage,
                                      const Progress& progress,
                                      const Visit& visit) const {
-  LogSet::Recorded& recorded = *logs_.recorded_;
+  RecordedLogs& recorded = *logs_.recorded_;
   const std::lock_guard<std::mutex> lock(recorded.pass);
   TrajectoryOptions options = OptionsOf(options_, recorded.crop);
   options.every_sample = true;

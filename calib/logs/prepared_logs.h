@@ -11,6 +11,8 @@
 
 namespace armcal {
 
+struct KeptTrajectories;  // prepared_logs.cc
+
 // Gross errors in torque samples, a list per log in the order of rows.
 using OutlierLists = std::vector<std::vector<TorqueOutlier>>;
 
@@ -51,20 +53,14 @@ class PreparedLogs {
  private:
   friend PreparedLogs Prepare(const LogSet& logs,
                               const PreparationOptions& options);
-  friend struct LogSet::Recorded;
-  struct Kept;
 
   PreparedLogs(const LogSet& logs, const PreparationOptions& options);
-  void WorkThrough(const std::string& stage, const Progress& progress,
-                   const TrajectoryOptions& options,
-                   const OutlierLists& outliers, Kept* kept,
-                   const Visit& visit) const;
   void VisitStretches(const Visit& visit, int log,
                       Trajectory* trajectory) const;
 
   LogSet logs_;
   PreparationOptions options_;
-  std::shared_ptr<Kept> kept_;
+  std::shared_ptr<KeptTrajectories> kept_;
 };
 
 // What was made for the last preparation of these logs serves again where the

@@ -5,15 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "calib/logs/prepared_logs.h"
 #include "model/log_files/kept_log.h"
-#include "model/text/kept_items.h"
+#include "model/log_files/time_base.h"
+#include "model/text/memory_budget.h"
 
 namespace armcal {
 
+struct KeptTrajectories;  // prepared_logs.cc
+
 // What copies of a LogSet share. Only `rows` and `last` change, under `pass`:
 // they hold what could be read or made again.
-struct LogSet::Recorded {
+struct RecordedLogs {
   // A log's rows from the first; with recorded rates, if they are wanted.
   KeptLog* Rows(int log, bool rates);
 
@@ -26,7 +28,7 @@ struct LogSet::Recorded {
 
   std::mutex pass;
   std::vector<KeptLog> rows;
-  std::shared_ptr<PreparedLogs::Kept> last;  // of the last preparation
+  std::shared_ptr<KeptTrajectories> last;  // of the last preparation
 };
 
 }  // namespace armcal

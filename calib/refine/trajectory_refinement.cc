@@ -7,6 +7,7 @@
 #include "calib/linear/calibration_model.h"
 #include "calib/refine/trajectory_covariance.h"
 #include "calib/refine/trajectory_pass.h"
+#include "model/signals/bandwidth.h"
 #include "model/signals/dense_solvers.h"
 #include "problems/make_rows.h"
 

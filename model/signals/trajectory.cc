@@ -39,15 +39,6 @@ std::size_t BytesOf(const Trajectory& t) {
          sizeof(double);
 }
 
-double DefaultBandwidth(const std::vector<TimeBase>& time_bases) {
-  double wish = 8, limit = 20;
-  for (const TimeBase& base : time_bases) {
-    wish = std::max(wish, 10 * base.motion_hz);
-    limit = std::min(limit, 0.2 / base.dt);
-  }
-  return std::min(wish, limit);
-}
-
 struct TrajectoryReader::Impl {
   Impl(KeptLog* log_in, const TimeBase& time_base,
        const TrajectoryOptions& options_in)

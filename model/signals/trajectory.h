@@ -66,12 +66,6 @@ struct TrajectoryOptions {
   bool every_sample = false;
 };
 
-// A bandwidth for logs whose time bases are these: 10 times the fastest
-// motion's frequency, between 8 and 20 Hz (friction changes sign, and
-// accelerations begin, faster than the bulk of the motion), and at most a fifth
-// of every sample rate.
-double DefaultBandwidth(const std::vector<TimeBase>& time_bases);
-
 // Cuts a log into trajectories of bounded length, so that a log of any length
 // needs the same memory. A gap longer than longest_gap_s ends a segment;
 // shorter ones are interpolated.

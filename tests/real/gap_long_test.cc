@@ -47,7 +47,6 @@ json Diagnose(const std::string& folder, const std::string& log,
   }
   DiagnosisOptions options;
   if (before) options.baseline.trust = .5;
-  options.bandwidth_hz = DiagnosisBandwidth(training.time_bases());
   json result = ToJson(DiagnoseGap(robot, options, training, nullptr,
                                    before ? &*before : nullptr));
   return result;

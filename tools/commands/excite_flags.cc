@@ -11,7 +11,9 @@
 #include "tools/command.h"
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
+#include "tools/log_flags.h"
 #include "tools/simulation_flags.h"
+#include "tools/trust_flags.h"
 
 DEFINE_string(target, "model",
               "what the motion is to tell: model (parameters), physical "
@@ -72,30 +74,27 @@ const FlagChoices<DesignTarget> kTargets("target",
                                           {"geometry",
                                            DesignTarget::kGeometry}});
 
-void CheckWithin(const char* flag, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  throw UsageError("--" + std::string(flag) + ": found '" + NumberText(value) +
-                   "', expected a number from " + NumberText(low) + " to " +
-                   NumberText(high));
-}
-
-void SetPositive(const char* flag, const std::string& text,
-                 Eigen::VectorXd* values) {
-  if (text.empty()) return;
-  *values = ParsePerJoint(flag, text, static_cast<int>(values->size()));
-  if (values->minCoeff() > 0) return;
+// One number for all of n joints, or one for each, above 0; none: nothing is
+// asked for.
+Eigen::VectorXd PositiveFromFlags(const FlagValues& flags, const char* flag,
+                                  int n) {
+  const std::string text = flags.Text(flag);
+  if (text.empty()) return {};
+  const Eigen::VectorXd values = ParsePerJoint(flag, text, n);
+  if (values.minCoeff() > 0) return values;
   throw UsageError("--" + std::string(flag) + ": found '" + text +
                    "', expected numbers above 0");
 }
 
-void SetPositions(const std::string& text, MotionLimits* limits) {
+void SetPositions(const std::string& text, int n, ExcitationLimits* limits) {
   if (text.empty()) return;
   std::vector<TimeRange> ranges = ParseRanges("position_limits", text);
-  const auto n = static_cast<size_t>(limits->lower.size());
   if (ranges.size() == 1) ranges.assign(n, ranges[0]);
-  for (size_t j = 0; j < n; ++j) {
-    if (ranges.size() == n && std::isfinite(ranges[j].begin) &&
-        std::isfinite(ranges[j].end)) {
+  limits->lower.resize(n);
+  limits->upper.resize(n);
+  for (int j = 0; j < n; ++j) {
+    if (static_cast<int>(ranges.size()) == n &&
+        std::isfinite(ranges[j].begin) && std::isfinite(ranges[j].end)) {
       limits->lower[j] = ranges[j].begin;
       limits->upper[j] = ranges[j].end;
       continue;
@@ -106,34 +105,14 @@ void SetPositions(const std::string& text, MotionLimits* limits) {
   }
 }
 
-MotionLimits LimitsFromFlags(const FlagValues& flags, const Robot& robot,
-                             std::vector<std::string>* assumed) {
-  std::vector<std::string> of_file;
-  MotionLimits limits = LimitsOf(robot, &of_file);
-  SetPositions(flags.Text("position_limits"), &limits);
-  SetPositive("velocity_limits", flags.Text("velocity_limits"),
-              &limits.velocity);
-  if (!flags.Text("velocity_limits").empty()) {
-    limits.acceleration = 3 * limits.velocity;
-  }
-  SetPositive("acceleration_limits", flags.Text("acceleration_limits"),
-              &limits.acceleration);
-  SetPositive("effort_limits", flags.Text("effort_limits"), &limits.effort);
-  const std::pair<const char*, std::string> given[] = {
-      {"positions", flags.Text("position_limits")},
-      {"velocities", flags.Text("velocity_limits")},
-      {"accelerations", flags.Text("acceleration_limits")},
-      {"any torque", flags.Text("effort_limits")}};
-  for (const std::string& sentence : of_file) {
-    bool set = false;
-    for (const auto& [word, text] : given) {
-      set = set || (sentence.rfind(word, 0) == 0 && !text.empty());
-    }
-    if (!set) assumed->push_back(sentence);
-  }
-  const double use = flags.Number("use");
-  CheckWithin("use", use, .05, 1);
-  return limits.Within(use);
+ExcitationLimits LimitsFromFlags(const FlagValues& flags, int n) {
+  ExcitationLimits limits;
+  SetPositions(flags.Text("position_limits"), n, &limits);
+  limits.velocity = PositiveFromFlags(flags, "velocity_limits", n);
+  limits.acceleration = PositiveFromFlags(flags, "acceleration_limits", n);
+  limits.effort = PositiveFromFlags(flags, "effort_limits", n);
+  limits.use = flags.Number("use");
+  return limits;
 }
 
 Box ParseBox(const char* flag, const std::string& text) {
@@ -150,12 +129,9 @@ Box ParseBox(const char* flag, const std::string& text) {
           {ranges[0].end, ranges[1].end, ranges[2].end}};
 }
 
-Workspace WorkspaceFromFlags(const CommandInput& input, const Robot& robot,
-                             const MotionLimits& limits) {
-  const FlagValues& flags = input.flags;
+WorkspaceOptions WorkspaceFromFlags(const FlagValues& flags) {
   WorkspaceOptions options;
   options.link_radius = flags.Number("link_radius");
-  CheckWithin("link_radius", options.link_radius, .005, 1);
   if (!flags.Text("tool_box").empty()) {
     options.tool_box = ParseBox("tool_box", flags.Text("tool_box"));
   }
@@ -172,13 +148,42 @@ Workspace WorkspaceFromFlags(const CommandInput& input, const Robot& robot,
   for (std::string box; std::getline(boxes, box, ';');) {
     options.obstacles.push_back(ParseBox("obstacles", box));
   }
-  return MakeForRobot(input, "within the limits ", [&] {
-    return Workspace(robot, options, limits.lower, limits.upper);
-  });
+  return options;
 }
 
-ExcitationCriterion CriterionFromFlags(const FlagValues& flags) {
-  return kCriteria.Parse(flags.Text("criterion"));
+std::optional<StaticPoses> PosesFromFlags(const FlagValues& flags) {
+  if (flags.Whole("static_poses") == 0) return {};
+  StaticPoses poses;
+  poses.count = flags.Whole("static_poses");
+  poses.instrument = kInstruments.Parse(flags.Text("instrument"));
+  const std::vector<double> noise =
+      ParseNumbers("pose_noise", flags.Text("pose_noise"));
+  if (noise.size() != 2 || !(noise[0] > 0) || !(noise[1] > 0)) {
+    throw UsageError("--pose_noise: found '" + flags.Text("pose_noise") +
+                     "', expected two numbers above 0, m and rad");
+  }
+  poses.position_noise = noise[0];
+  poses.rotation_noise = noise[1];
+  return poses;
+}
+
+// Logs, or one calibration.json.
+void SetGiven(const CommandInput& input, ExciteOptions* options) {
+  const FlagValues& flags = input.flags;
+  const std::vector<std::string> paths = SplitAtCommas(flags.Text("given"));
+  const auto is_calibration = [](const std::string& path) {
+    return std::filesystem::path(path).extension() == ".json";
+  };
+  if (std::none_of(paths.begin(), paths.end(), is_calibration)) {
+    options->given = {SourcesOf(input, paths), CropFromFlags(flags)};
+    return;
+  }
+  if (paths.size() > 1) {
+    throw UsageError("--given=" + flags.Text("given") +
+                     ": expected one calibration.json alone, or logs: a "
+                     "calibration holds what its own logs tell");
+  }
+  options->given_calibration = paths[0];
 }
 
 }  // namespace
@@ -197,95 +202,33 @@ std::vector<FlagGroup> ExcitationFlagGroups() {
           {"postures", {"instrument", "pose_noise"}, false}};
 }
 
-ExcitationOptions ExcitationOptionsFromFlags(
-    const CommandInput& input, const Robot& robot,
-    std::vector<std::string>* assumed) {
+ExciteOptions ExciteOptionsFromFlags(const CommandInput& input,
+                                     const Robot& robot) {
   const FlagValues& flags = input.flags;
-  // Hz, unless asked for: effects show in what is quick.
-  const double highest = flags.Text("separate").empty() ? .5 : 1;
-  ExcitationOptions options;
-  CheckWithin("duration", flags.Number("duration"), .5, 1000);
-  CheckWithin("periods", flags.Whole("periods"), 1, 100);
+  ExciteOptions options;
+  options.target = kTargets.Parse(flags.Text("target"));
+  for (const Effect* effect :
+       ParseEffects("separate", flags.Text("separate"))) {
+    options.separate.push_back(effect->name);
+  }
+  options.poses = PosesFromFlags(flags);
   options.duration_s = flags.Number("duration");
   options.periods = flags.Whole("periods");
-  const double period = flags.Number("duration") / flags.Whole("periods");
-  options.harmonics =
-      std::max(5, static_cast<int>(std::lround(highest * period)));
-  if (flags.Whole("harmonics") != 0) {
-    CheckWithin("harmonics", flags.Whole("harmonics"), 2, 100);
-    options.harmonics = flags.Whole("harmonics");
-  }
-  CheckWithin("log_rate", flags.Number("log_rate"), 1, 1e5);
+  options.harmonics = flags.Whole("harmonics");
   options.rate_hz = flags.Number("log_rate");
-  options.criterion = CriterionFromFlags(flags);
-  options.limits = LimitsFromFlags(flags, robot, assumed);
-  options.workspace = WorkspaceFromFlags(input, robot, options.limits);
-  if (options.workspace.empty()) {
-    assumed->push_back("nothing is in the way (--floor, --obstacles)");
-  }
+  options.criterion = kCriteria.Parse(flags.Text("criterion"));
+  options.limits = LimitsFromFlags(flags, robot.num_joints());
+  options.workspace = WorkspaceFromFlags(flags);
+  options.torque_noise =
+      PositiveFromFlags(flags, "torque_noise", robot.num_joints());
+  options.trust = TrustFromFlags(flags);
+  SetGiven(input, &options);
+  options.reading = LogOptionsFromFlags(flags, robot);
+  options.bandwidth_hz = BandwidthFromFlags(flags);
   options.seed = SeedFromFlags(flags);
+  options.source = RobotSourceFromFlags(input);
+  options.progress = input.progress;
   return options;
-}
-
-std::optional<PostureOptions> PostureOptionsFromFlags(
-    const CommandInput& input, const Robot& robot,
-    std::vector<std::string>* assumed) {
-  const FlagValues& flags = input.flags;
-  if (flags.Whole("static_poses") == 0) return {};
-  CheckWithin("static_poses", flags.Whole("static_poses"), 1, 1000);
-  PostureOptions options;
-  options.count = flags.Whole("static_poses");
-  options.instrument = kInstruments.Parse(flags.Text("instrument"));
-  options.criterion = CriterionFromFlags(flags);
-  const std::vector<double> noise =
-      ParseNumbers("pose_noise", flags.Text("pose_noise"));
-  if (noise.size() != 2 || !(noise[0] > 0) || !(noise[1] > 0)) {
-    throw UsageError("--pose_noise: found '" + flags.Text("pose_noise") +
-                     "', expected two numbers above 0, m and rad");
-  }
-  options.noise = {noise[0], noise[1]};
-  std::vector<std::string> sentences;
-  const MotionLimits limits = LimitsFromFlags(flags, robot, &sentences);
-  for (const std::string& sentence : sentences) {
-    if (sentence.rfind("positions", 0) == 0) assumed->push_back(sentence);
-  }
-  options.lower = limits.lower;
-  options.upper = limits.upper;
-  options.workspace = WorkspaceFromFlags(input, robot, limits);
-  options.seed = SeedFromFlags(flags);
-  return options;
-}
-
-std::vector<const Effect*> SeparatedEffectsFromFlags(const FlagValues& flags) {
-  return ParseEffects("separate", flags.Text("separate"));
-}
-
-DesignTarget TargetFromFlags(const FlagValues& flags) {
-  return kTargets.Parse(flags.Text("target"));
-}
-
-Eigen::VectorXd NoiseSharesFromFlags(const FlagValues& flags, int num_joints) {
-  const Eigen::VectorXd shares =
-      ParsePerJoint("torque_noise", flags.Text("torque_noise"), num_joints);
-  if (shares.minCoeff() > 0) return shares;
-  throw UsageError("--torque_noise: found '" + flags.Text("torque_noise") +
-                   "', expected numbers above 0");
-}
-
-Given GivenFromFlags(const FlagValues& flags) {
-  const std::vector<std::string> paths = SplitAtCommas(flags.Text("given"));
-  const auto is_calibration = [](const std::string& path) {
-    return std::filesystem::path(path).extension() == ".json";
-  };
-  if (std::none_of(paths.begin(), paths.end(), is_calibration)) {
-    return {paths, ""};
-  }
-  if (paths.size() > 1) {
-    throw UsageError("--given=" + flags.Text("given") +
-                     ": expected one calibration.json alone, or logs: a "
-                     "calibration holds what its own logs tell");
-  }
-  return {{}, paths[0]};
 }
 
 }  // namespace armcal

@@ -15,6 +15,7 @@
 #include "model/text/input_error.h"
 #include "tools/commands/calibrate_flags.h"
 #include "tools/input_flags.h"
+#include "tools/log_flags.h"
 #include "tools/input_hash.h"
 #include "tools/report/report_page.h"
 
@@ -96,7 +97,7 @@ CommandOutcome RunReduce(const CommandInput& input) {
   const FlagValues& flags = input.flags;
   const Robot robot = RobotFromFlags(input);
   const std::optional<double> time = TimeFromFlags(flags);
-  CheckLogsApart(input);
+  CheckApart(LogInputFromFlags(input), {});
   input.Begin("opening the logs");
   const ReductionModel model = ModelFromFlags(input, robot);
   CommandOutcome outcome;

@@ -5,6 +5,7 @@
 #include "calib/verify.h"
 #include "tools/command_report.h"
 #include "tools/input_flags.h"
+#include "tools/log_flags.h"
 #include "tools/output_folder.h"
 #include "tools/report/report_data.h"
 #include "tools/simulation_flags.h"
@@ -17,7 +18,8 @@ DEFINE_string(
 namespace armcal {
 namespace {
 
-VerifyOptions OptionsFromFlags(const CommandInput& input, const Robot& robot) {
+VerifyOptions VerifyOptionsFromFlags(const CommandInput& input,
+                                     const Robot& robot) {
   const FlagValues& flags = input.flags;
   VerifyOptions options;
   options.calibration = flags.Text("calibration");
@@ -32,17 +34,16 @@ VerifyOptions OptionsFromFlags(const CommandInput& input, const Robot& robot) {
 
 CommandOutcome RunVerify(const CommandInput& input) {
   const FlagValues& flags = input.flags;
-  const bool needs_log = !flags.Text("controller").empty();
   LogInput logs;
-  std::vector<std::string> files;
-  if (needs_log || !flags.Text("log").empty()) {
-    files = LogsFromFlags(input);
-    logs = {SourcesOf(input, files), CropFromFlags(flags)};
+  // A controller follows the command of one.
+  if (!flags.Text("log").empty() || !flags.Text("controller").empty()) {
+    logs = LogInputFromFlags(input);
   }
   const Robot robot = RobotFromFlags(input);
-  const VerifyOptions options = OptionsFromFlags(input, robot);
+  const VerifyOptions options = VerifyOptionsFromFlags(input, robot);
   const VerifySummary summary = Verify(robot, logs, options);
   CommandOutcome outcome = OutcomeOf(input, robot, summary, robot.notes);
+  std::vector<std::string> files = NamesOf(logs.logs);
   if (!options.calibration.empty()) files.push_back(options.calibration);
   AddReport(
       input, "verify", robot, summary.json, files,

@@ -102,22 +102,4 @@ TEST(TrajectoryReader, ThinsOnlyFastLogs) {
   EXPECT_NEAR(step(.001, 0), .001, 1e-12);
 }
 
-TEST(DefaultBandwidth, FollowsTheMotionAndTheRate) {
-  const auto bandwidth = [](std::vector<std::pair<double, double>> logs) {
-    std::vector<TimeBase> bases;
-    for (const auto& [motion_hz, dt] : logs) {
-      bases.emplace_back();
-      bases.back().motion_hz = motion_hz;
-      bases.back().dt = dt;
-    }
-    return DefaultBandwidth(bases);
-  };
-  EXPECT_EQ(bandwidth({{.1, .001}}), 8);
-  EXPECT_EQ(bandwidth({{.85, .001}}), 8.5);
-  EXPECT_EQ(bandwidth({{.7, .001}, {.9, .001}}), 9);
-  EXPECT_EQ(bandwidth({{5, .001}}), 20);
-  EXPECT_EQ(bandwidth({{5, .02}, {1, .001}}), 10);
-  EXPECT_EQ(bandwidth({{0, .1}}), 2);
-}
-
 }  // namespace armcal::trajectory_test

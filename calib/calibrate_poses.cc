@@ -1,0 +1,44 @@
+#include "calib/poses/calibrate_poses.h"
+
+#include "calib/calibrate_parts.h"
+#include "calib/calibration_details.h"
+#include "calib/poses/report.h"
+#include "calib/poses/verdict.h"
+#include "calib/robot_outputs.h"
+
+namespace armcal {
+
+CalibrateSummary CalibrateFromPoses(const Robot& robot,
+                                    const CalibrateOptions& options) {
+  PoseCalibrationOptions fit;
+  fit.refine = options.geometry;
+  const auto formats = FormatsBesideUrdf(options.exports);
+  fit.loss = options.equations.loss.value_or(fit.loss);
+  fit.prior_length = options.trust.length;
+  fit.prior_angle = options.trust.angle;
+  if (options.progress) options.progress("fitting the poses", -1);
+  auto details = std::make_shared<CalibrationDetails>();
+  const PoseCalibration& result =
+      details->poses.emplace(CalibratePoses(robot, *options.poses, fit));
+  CalibrateSummary summary;
+  summary.solved = result.solved;
+  nlohmann::json json = PoseJson(robot, *options.poses, result);
+  summary.report = PoseReport(robot, *options.poses, result);
+  if (result.solved) {
+    summary.robot = result.robot;
+    summary.files.push_back(
+        {"robot.urdf", RobotUrdf(options.source, result.robot, true)});
+    summary.report +=
+        AddExports({result.robot, {}}, formats, &json, &summary.files);
+  }
+  for (const GeometryEstimate& p : result.parameters) {
+    summary.parameters.push_back({p.name, p.unit, p.value, p.stddev});
+  }
+  summary.json = json.dump(2) + "\n";
+  summary.files.push_back({"calibration.json", summary.json});
+  summary.positive = Shortcomings(robot, result).empty();
+  summary.details = std::move(details);
+  return summary;
+}
+
+}  // namespace armcal

@@ -1,0 +1,126 @@
+#include "calib/diagnose.h"
+
+#include <utility>
+
+#include "calib/diagnose/diagnosis.h"
+#include "calib/diagnose/report.h"
+#include "calib/logs/drawn_torques.h"
+#include "calib/made_torques.h"
+#include "calib/robot_outputs.h"
+#include "model/robot_files/controller_reader.h"
+
+namespace armcal {
+namespace {
+
+// A file is good to 5 %, and counts for little beside a reference.
+double TrustInFile(const DiagnoseOptions& options) {
+  return options.trust.value_or(options.reference.logs.empty() ? .05 : .5);
+}
+
+std::vector<LogSource> AllLogs(const LogInput& logs,
+                               const DiagnoseOptions& options) {
+  std::vector<LogSource> all = logs.logs;
+  for (const LogInput* more : {&options.validation, &options.reference}) {
+    all.insert(all.end(), more->logs.begin(), more->logs.end());
+  }
+  return all;
+}
+
+std::optional<LogSet> Open(const LogInput& input,
+                           const LogReaderOptions& reading) {
+  if (input.logs.empty()) return std::nullopt;
+  return LogSet(input.logs, reading, input.crop);
+}
+
+// The commands of what is held out, for a controller to follow.
+void SetController(const Robot& robot, const LogInput& held_out,
+                   const DiagnoseOptions& options,
+                   const LogReaderOptions& reading, DiagnosisOptions* fit) {
+  if (options.controller.empty()) return;
+  for (const LogSource& log : held_out.logs) {
+    fit->commanded.push_back(ReadCommandedLog(log, reading, held_out.crop));
+  }
+  fit->controller = ReadController(options.controller, robot,
+                                   fit->commanded[0].log.qref.row(0));
+}
+
+DrawnTorques Draw(const GapDiagnosis& diagnosis, const LogSet& held_out) {
+  DrawnTorques drawn;
+  drawn.labels = {
+      diagnosis.has_reference ? "as in the reference" : "the robot file",
+      "fitted again"};
+  if (!diagnosis.effects.empty()) drawn.labels.push_back("with the effects");
+  for (int log = 0; log < held_out.size(); ++log) {
+    drawn.logs.push_back(held_out.path(log));
+  }
+  drawn.traces = diagnosis.traces;
+  return drawn;
+}
+
+DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
+                          const GapDiagnosis& diagnosis) {
+  DiagnoseSummary summary;
+  const RobotExport corrected = ExportCorrectedRobot(
+      diagnosis.corrected, robot, options.source.urdf.value_or(Document("")),
+      options.source.base,
+      FormatsBesideUrdf(options.exports));
+  nlohmann::json json = ToJson(diagnosis);
+  json["not_in_urdf"] = corrected.losses;
+  const std::string losses =
+      AddRobotFiles(corrected.files, &json, &summary.files);
+  summary.json = json.dump(2) + "\n";
+  summary.files.push_back({"diagnosis.json", summary.json});
+  summary.files.push_back({"robot.urdf", corrected.urdf});
+  summary.files.push_back({"effects.json", corrected.effects.dump(2) + "\n"});
+  summary.report = FullReport(diagnosis) + losses;
+  summary.brief = BriefReport(diagnosis);
+  summary.positive = diagnosis.verdict != GapVerdict::kNotTestable;
+  summary.verdict = GapVerdictName(diagnosis.verdict);
+  for (const FoundEffect& found : diagnosis.effects) {
+    summary.effects.push_back(
+        {found.effect->name,
+         found.joint < 0 ? "" : robot.links[found.joint].joint.name,
+         found.probability, found.removed_percent});
+  }
+  summary.robot = diagnosis.corrected.plant.robot;
+  return summary;
+}
+
+}  // namespace
+
+DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
+                         const DiagnoseOptions& options) {
+  CheckApart(logs, options.validation);
+  FormatsNamed(options.exports);  // refused before anything is calculated
+  LogReaderOptions reading = options.reading;
+  reading.joint_names = robot.JointNames();
+  reading.want_temperature = true;
+  if (options.progress) options.progress("opening the logs", -1);
+  if (!options.controller.empty()) {
+    MakeTorques(robot, options.controller, AllLogs(logs, options), &reading);
+  }
+  const LogSet training(logs.logs, reading, logs.crop);
+  DiagnosisOptions fit;
+  fit.without = options.without;
+  fit.progress = options.progress;
+  fit.baseline.trust = TrustInFile(options);
+  fit.bandwidth_hz = options.bandwidth_hz;
+  const std::optional<LogSet> reference = Open(options.reference, reading);
+  const std::optional<LogSet> validation = Open(options.validation, reading);
+  SetController(robot, validation ? options.validation : logs, options, reading,
+                &fit);
+  fit.forward = options.forward;
+  fit.seed = options.seed;
+  auto details = std::make_shared<const GapDiagnosis>(
+      DiagnoseGap(robot, fit, training, validation ? &*validation : nullptr,
+                  reference ? &*reference : nullptr));
+  DiagnoseSummary summary = Summarise(robot, options, *details);
+  if (options.draw_torques) {
+    summary.torques = std::make_shared<DrawnTorques>(
+        Draw(*details, validation ? *validation : training));
+  }
+  summary.details = std::move(details);
+  return summary;
+}
+
+}  // namespace armcal

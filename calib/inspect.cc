@@ -1,0 +1,73 @@
+#include "calib/inspect.h"
+
+#include "calib/inspect/inspection_report.h"
+#include "calib/inspect/robot_audit.h"
+#include "calib/robot_outputs.h"
+#include "model/log_files/log_writer.h"
+#include "model/robot_files/controller_reader.h"
+
+namespace armcal {
+namespace {
+
+LogInspection InspectWhole(const Robot& robot, const LogSource& source,
+                           const LogReaderOptions& reading) {
+  LogInspection log = InspectLog(robot, source, reading);
+  if (!log.as_it_is) return log;
+  log.coverage = CoverageOf(robot, source, reading);
+  log.findings.insert(log.findings.end(), log.coverage.findings.begin(),
+                      log.coverage.findings.end());
+  return log;
+}
+
+std::string MendedText(const Robot& robot, const LogSource& source,
+                       const LogReaderOptions& reading,
+                       const LogInspection& inspection) {
+  LogReaderOptions wanted = reading;
+  wanted.want_velocity = wanted.commands_do = true;
+  return LogText(Mended(robot, ReadWholeLog(source, wanted), inspection));
+}
+
+RobotDescription Describe(const Robot& robot, const InspectOptions& options) {
+  if (options.controller.empty()) return {robot, {}};
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(robot.num_joints());
+  return {robot, {}, ReadController(options.controller, robot, zero)};
+}
+
+}  // namespace
+
+InspectSummary Inspect(const Robot& robot, const std::vector<LogSource>& logs,
+                       const InspectOptions& options) {
+  const auto formats = FormatsNamed(options.exports);
+  const auto begin = [&](const std::string& stage) {
+    if (options.progress) options.progress(stage, -1);
+  };
+  begin("inspecting");
+  InspectSummary summary;
+  summary.of_robot = AuditRobot(robot);
+  summary.positive = summary.of_robot.empty();
+  LogReaderOptions reading = options.reading;
+  reading.joint_names = robot.JointNames();
+  std::vector<LogInspection> inspected;
+  for (const LogSource& source : logs) {
+    begin("inspecting " + source.name);
+    inspected.push_back(InspectWhole(robot, source, reading));
+    const LogInspection& log = inspected.back();
+    summary.logs.push_back({source.name, log.as_it_is, log.findings});
+    summary.positive = summary.positive && log.findings.empty();
+  }
+  nlohmann::json json = ToJson(robot, summary.of_robot, inspected);
+  const std::string losses =
+      AddExports(Describe(robot, options), formats, &json, &summary.files);
+  summary.json = json.dump(2) + "\n";
+  summary.files.push_back({"inspect.json", summary.json});
+  // Numbers in their names: logs of different folders may have one name.
+  for (size_t k = 0; options.mend && k < logs.size(); ++k) {
+    summary.files.push_back(
+        {"fixed_" + std::to_string(k + 1) + ".csv",
+         MendedText(robot, logs[k], reading, inspected[k])});
+  }
+  summary.report = FullReport(robot, summary.of_robot, inspected) + losses;
+  return summary;
+}
+
+}  // namespace armcal

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/robot_export.h"
+#include "calib/robot_source.h"
+#include "calib/summary.h"
+
+namespace armcal {
+
+// The formats of these names, each once. OptionError for any other.
+std::vector<const RobotFormat*> FormatsNamed(
+    const std::vector<std::string>& names);
+// The same for a result that has robot.urdf in any case.
+std::vector<const RobotFormat*> FormatsBesideUrdf(
+    const std::vector<std::string>& names);
+
+// Adds the files to a result's, and where there are any robot_files[] {format,
+// file, losses[]} to `json`. Returns what is lost, a line each.
+std::string AddRobotFiles(const std::vector<RobotFile>& files,
+                          nlohmann::json* json,
+                          std::vector<ResultFile>* results);
+// The same of a robot in these formats.
+std::string AddExports(const RobotDescription& description,
+                       const std::vector<const RobotFormat*>& formats,
+                       nlohmann::json* json, std::vector<ResultFile>* results);
+
+// robot.urdf: a URDF that the robot was read from with its numbers changed, its
+// origins too with `geometry`; else the chain alone.
+std::string RobotUrdf(const RobotSource& source, const Robot& robot,
+                      bool geometry);
+
+}  // namespace armcal
