@@ -61,9 +61,10 @@ std::optional<int> ParseInt32(const std::string& text) {
   return static_cast<int>(*number);
 }
 
-// strtoull takes a minus, and 2^64 less the number.
+// strtoull takes a minus, and 2^64 less the number. Blanks alone are 0.
 std::optional<uint64_t> ParseUint64(const std::string& text) {
   const size_t begin = std::min(text.find_first_not_of(' '), text.size());
+  if (begin == text.size() && begin > 0) return 0;
   if (begin < text.size() && text[begin] == '-') return std::nullopt;
   return WholeText(text, [&](const char* first, char** end) {
     return static_cast<uint64_t>(std::strtoull(first, end, BaseOf(text)));

@@ -3,6 +3,8 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+
 namespace armcal {
 namespace {
 
@@ -40,9 +42,13 @@ int ThreadLimit::Active() {
 // An arena has a place for the thread that makes it: execute() does the work in
 // this thread and never hands it to another.
 void WithThreads(int threads, const std::function<void()>& work) {
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
+  // TBB has no more workers than this, and says so on stderr.
+  const int all =
+      static_cast<int>(Control::active_value(Control::max_allowed_parallelism));
+  const int limit = threads == 0 ? all : std::min(threads, all);
+  tbb::task_arena arena(limit);
   arena.execute([&] {
-    const OwnLimit limit(threads);
+    const OwnLimit own(limit);
     work();
   });
 }

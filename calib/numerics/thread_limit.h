@@ -22,8 +22,8 @@ class ThreadLimit {
 };
 
 // Does `work` in the calling thread, with so many threads at most that share
-// it; 0: as many as there are cores. Unlike a ThreadLimit it says nothing to
-// what other threads do at the same time.
+// it, and no more than cores; 0: as many as there are cores. Unlike a
+// ThreadLimit it says nothing to what other threads do at the same time.
 void WithThreads(int threads, const std::function<void()>& work);
 
 }  // namespace armcal

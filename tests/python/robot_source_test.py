@@ -27,10 +27,10 @@ def pendulum(**more):
     """A bob on a rod along x, which turns about y: z of the bob falls by
     LENGTH sin q."""
     return armcal.Robot.from_arrays(
-        joint_types=["revolute"], axes=[[0, 1, 0]],
         inertial_parameters=[[MASS, MASS * LENGTH, 0, 0,
                               .05, 0, INERTIA, 0, 0, INERTIA]],
-        **{"name": "pendulum", **more})
+        **{"name": "pendulum", "joint_types": ["revolute"],
+           "axes": [[0, 1, 0]], **more})
 
 
 def planar(**more):

@@ -4,11 +4,14 @@ import os
 import pathlib
 import signal
 import sys
+import tarfile
+import tempfile
 import threading
 import time
 import unittest
 
 import armcal
+import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from arm_folder import InFolder
@@ -145,6 +148,35 @@ class AtOnce(InFolder):
                                     progress=meet())])
         self.assertIsInstance(found[0], armcal.Calibration, found[0])
         self.assertIsInstance(found[1], armcal.Diagnosis, found[1])
+
+
+class Formats(unittest.TestCase):
+    """What reads formats by other libraries, some in processes of their own,
+    while other threads do the same."""
+
+    YAML = """convention: standard
+links:
+  - {joint: revolute, mass: 1}
+  - {joint: revolute, mass: 1}
+"""
+
+    def test_at_once(self):
+        archive = (pathlib.Path(os.environ["DATA_DIR"]) /
+                   "log_formats/written.tar.xz")
+        robot = armcal.Robot.from_text(self.YAML, "yaml")
+        names = ["v4.mat", "v5.mat", "v73.mat", "log.db3", "zstd.mcap",
+                 "plain.mcap"]
+        with tempfile.TemporaryDirectory() as folder:
+            with tarfile.open(archive) as files:
+                for name in names:
+                    files.extract(f"./{name}", folder)
+            tasks = [lambda path=os.path.join(folder, name): [
+                armcal.read_log(path, robot).tau for _ in range(5)]
+                     for name in names]
+            expected = [task() for task in tasks]
+            found = AtOnce.all_at_once(2 * tasks)
+        for one, other in zip(2 * expected, found):
+            np.testing.assert_array_equal(other, one)
 
 
 if __name__ == "__main__":

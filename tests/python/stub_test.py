@@ -27,7 +27,8 @@ def stub_arguments(function):
     arguments = function.args
     count = len(arguments.args) - len(arguments.defaults)
     found = [(a.arg, k >= count) for k, a in enumerate(arguments.args)]
-    return found + [(a.arg, True) for a in arguments.kwonlyargs]
+    return found + [(a.arg, default is not None) for a, default in zip(
+        arguments.kwonlyargs, arguments.kw_defaults)]
 
 
 def real_arguments(function):

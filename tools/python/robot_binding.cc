@@ -9,12 +9,12 @@
 #include "model/dynamics/forward_dynamics.h"
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/robot/kinematics.h"
-#include "model/robot_files/robot_reader.h"
 #include "model/robot_files/urdf_update.h"
 #include "model/robot_files/urdf_writer.h"
 #include "model/text/decimal_point.h"
 #include "model/text/input_text.h"
 #include "tools/python/loaded_robot.h"
+#include "tools/python/robot_reading.h"
 #include "tools/python/samples.h"
 
 namespace armcal {
@@ -25,35 +25,6 @@ namespace py = pybind11;
 using Array = py::array_t<double>;
 using RowMajor =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-LoadedRobot ReadLoadedRobot(const Document& file, const std::string& base,
-                            const std::string& tip, const py::object& gravity) {
-  RobotReaderOptions options;
-  options.base = base;
-  options.tip = tip;
-  if (!gravity.is_none()) {
-    options.gravity = ReadVector("gravity", gravity, 3);
-  }
-  return {ReadRobot(file, options), file, base, tip};
-}
-
-LoadedRobot ReadRobotFile(const std::filesystem::path& path,
-                          const std::string& base, const std::string& tip,
-                          const py::object& gravity) {
-  return ReadLoadedRobot(path.string(), base, tip, gravity);
-}
-
-// Named as a file of that format is, by which readers tell it.
-LoadedRobot ReadRobotText(const std::string& text, const std::string& format,
-                          const std::string& name, const std::string& base,
-                          const std::string& tip, const py::object& gravity) {
-  for (const std::string known : {"urdf", "mjcf", "yaml"}) {
-    if (format != known) continue;
-    return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity);
-  }
-  throw py::value_error("format: found " + Quoted(format) +
-                        ", expected urdf, mjcf or yaml");
-}
 
 std::vector<std::string> LinkNames(const LoadedRobot& file) {
   std::vector<std::string> names;
@@ -234,11 +205,6 @@ std::string UpdatedUrdf(const LoadedRobot& file,
                     geometry, file.base);
 }
 
-std::string TextOf(const LoadedRobot& file) {
-  constexpr long kMostBytes = 32L << 20;  // that readers take
-  return file.file.Text(kMostBytes);
-}
-
 void AddProperties(py::class_<LoadedRobot>* robot) {
   const auto add = [robot](const char* name, auto get, const char* doc) {
     robot->def_property_readonly(name, get, doc);
@@ -246,23 +212,6 @@ void AddProperties(py::class_<LoadedRobot>* robot) {
   add(
       "name", [](const LoadedRobot& f) { return f.robot.name; },
       "Of the file.");
-  add(
-      "path",
-      [](const LoadedRobot& f) {
-        return f.file.is_file() ? f.file.name() : "";
-      },
-      "The file it is from; empty for a text.");
-  add(
-      "source", [](const LoadedRobot& f) { return f.file.name(); },
-      "What messages and reports call what it is from: the path, or the text's "
-      "name with its format.");
-  add("text", &TextOf, "The text it is from, of a file too.");
-  add(
-      "base", [](const LoadedRobot& f) { return f.base; },
-      "As it was asked for.");
-  add(
-      "tip", [](const LoadedRobot& f) { return f.tip; },
-      "As it was asked for.");
   add(
       "num_joints", [](const LoadedRobot& f) { return f.robot.num_joints(); },
       "n.");
@@ -339,14 +288,6 @@ void AddRobot(py::module_* module) {
   AddDynamics(&robot);
   const py::none none;
   robot
-      .def_static("from_text", &ReadRobotText, py::arg("text"),
-                  py::arg("format") = "urdf", py::kw_only(),
-                  py::arg("name") = "robot", py::arg("base") = "",
-                  py::arg("tip") = "", py::arg("gravity") = none,
-                  py::call_guard<DecimalPoint>(),
-                  "The robot of a text: urdf, mjcf or yaml. Messages and "
-                  "reports call it name.format; base, tip and gravity as of "
-                  "read_robot.")
       .def("replace", &Replace, py::kw_only(),
            py::arg("inertial_parameters") = none, py::arg("gravity") = none,
            py::arg("viscous") = none, py::arg("coulomb") = none,
@@ -366,12 +307,7 @@ void AddRobot(py::module_* module) {
           py::call_guard<DecimalPoint>(),
           "What a URDF cannot say of this robot, a sentence each.")
       .def("__repr__", &Describe, py::call_guard<DecimalPoint>());
-  module->def("read_robot", &ReadRobotFile, py::arg("path"),
-              py::arg("base") = "", py::arg("tip") = "",
-              py::arg("gravity") = none, py::call_guard<DecimalPoint>(),
-              "The robot of a .urdf, or of a .yaml with a DH table; of a URDF "
-              "the chain from link base to link tip. gravity: (3,), m/s^2, "
-              "instead of the file's.");
+  AddRobotReading(module, &robot);
   py::list names, units;
   for (int k = 0; k < 10; ++k) {
     names.append(InertialName(k));

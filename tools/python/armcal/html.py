@@ -66,13 +66,16 @@ def _table(table: Table) -> str:
             f"{more}")
 
 
-def page(title: str, passed: bool, sentence: str,
-         tables: List[Table]) -> str:
-    """A heading with the verdict, a sentence, and the tables that have rows."""
+def page(title: str, passed: bool, sentence: str, tables: List[Table],
+         report: str = "") -> str:
+    """A heading with the verdict, a sentence, and the tables that have rows;
+    where none has any, the report."""
+    shown = [_table(table) for table in tables if table.rows]
+    if not shown and report:
+        shown = [f'<pre style="margin:6px 0">{escape(report)}</pre>']
     mark = "✓" if passed else "✗"
     colour = "#1a7f37" if passed else "#b42318"
     return (f'<div><div><b>{escape(title)}</b> '
             f'<span style="color:{colour}">{mark}</span></div>'
             f'<div style="max-width:60em">{escape(sentence)}</div>' +
-            "".join(_table(table) for table in tables if table.rows) +
-            "</div>")
+            "".join(shown) + "</div>")

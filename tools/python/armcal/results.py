@@ -65,7 +65,7 @@ class Result:
     def _repr_html_(self) -> str:
         """What a notebook shows: the verdict and the result's main figures."""
         return page(f"armcal {type(self).__name__.lower()}", self.passed,
-                    self._first_line(), self._tables())
+                    self._first_line(), self._tables(), self.report())
 
     def _tables(self) -> List[Table]:
         return []
