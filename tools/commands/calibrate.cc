@@ -12,8 +12,8 @@ namespace armcal {
 namespace {
 
 CommandOutcome RunCalibrate(const CommandInput& input) {
-  const LogInput logs = CalibrationLogsFromFlags(input);
   const Robot robot = RobotFromFlags(input);
+  const LogInput logs = CalibrationLogsFromFlags(input);
   const CalibrateOptions options = CalibrateOptionsFromFlags(input, robot);
   const CalibrateSummary summary = Calibrate(robot, logs, options);
   CommandOutcome outcome = OutcomeOf(input, robot, summary, robot.notes);
