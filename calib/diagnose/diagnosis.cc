@@ -46,7 +46,8 @@ class Diagnoser {
                                bool must_move = true) {
     std::vector<GapSegment> segments =
         ReadSegments(bandwidth_hz_, options_.progress, logs);
-    if (must_move || segments.empty()) CheckMotion(segments, bandwidth_hz_, part, logs);
+    if (must_move || segments.empty())
+      CheckMotion(segments, bandwidth_hz_, part, logs);
     KnowUsualTemperature(&segments);
     AdvanceTorque(delay_, &segments);
     return segments;
@@ -246,12 +247,11 @@ void Diagnoser::Simulate(const LogSet& held_out, bool split) {
       AuditPositions(options_.progress, held_out);
   if (positions.noise.size() == 0) return;
   Tell("simulating what was held out");
-  result_.forward =
-      ForwardGapInWindows(robots, held_out_->segments(),
-                          {positions.noise, positions.rate_hz,
-                           MotionBandwidth(bandwidth_hz_),
-                           fit_->noise().joints, held_out_->rows().step(0)},
-                          options_.seed, counted);
+  result_.forward = ForwardGapInWindows(
+      robots, held_out_->segments(),
+      {positions.noise, positions.rate_hz, MotionBandwidth(bandwidth_hz_),
+       fit_->noise().joints, held_out_->rows().step(0)},
+      options_.seed, counted);
 }
 
 // What no effect explains, in sample: its share of what a refit leaves beyond
@@ -273,8 +273,8 @@ void Diagnoser::TellUnexplained() {
 void Diagnoser::Judge() {
   result_.data = AuditTorque(robot_, fit_->rows());
   const bool testable = result_.data.empty();
-  for (DataFinding& burst : TellTorqueBursts(robot_, fit_->rows().segments(),
-                                             bandwidth_hz_)) {
+  for (DataFinding& burst :
+       TellTorqueBursts(robot_, fit_->rows().segments(), bandwidth_hz_)) {
     result_.data.push_back(std::move(burst));
   }
   if (!testable) {
@@ -295,9 +295,10 @@ void Diagnoser::Judge() {
 GapDiagnosis DiagnoseGap(const Robot& robot, const DiagnosisOptions& options,
                          const LogSet& training, const LogSet* validation,
                          const LogSet* reference) {
-  const double bandwidth_hz = options.bandwidth_hz.value_or(
-      DiagnosisBandwidth(training.time_bases()));
-  return Diagnoser(robot, options, bandwidth_hz).Run(training, validation, reference);
+  const double bandwidth_hz =
+      options.bandwidth_hz.value_or(DiagnosisBandwidth(training.time_bases()));
+  return Diagnoser(robot, options, bandwidth_hz)
+      .Run(training, validation, reference);
 }
 
 }  // namespace armcal

@@ -249,7 +249,7 @@ EffectSeparation SeparateEffects(const Robot& robot,
 }
 
 NamedQuantities SeparatedQuantities(const Robot& robot,
-                           const EffectSeparation& separation) {
+                                    const EffectSeparation& separation) {
   NamedQuantities all;
   const auto k = static_cast<long>(separation.sizes.size());
   all.nominal = all.design.scale = VectorXd(k);

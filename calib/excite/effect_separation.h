@@ -41,6 +41,6 @@ EffectSeparation SeparateEffects(const Robot& robot,
 
 // The sizes as what a motion was designed for.
 NamedQuantities SeparatedQuantities(const Robot& robot,
-                           const EffectSeparation& separation);
+                                    const EffectSeparation& separation);
 
 }  // namespace armcal

@@ -1,8 +1,9 @@
 // calibrate ROBOT LOG: calibrates an arm and writes what the command would.
 
+#include "calib/calibrate.h"
+
 #include <iostream>
 
-#include "calib/calibrate.h"
 #include "model/robot_files/robot_reader.h"
 
 int main(int argc, char** argv) try {

@@ -1,8 +1,9 @@
 // diagnose ROBOT LOG REFERENCE: what has changed since a log from before?
 
+#include "calib/diagnose.h"
+
 #include <iostream>
 
-#include "calib/diagnose.h"
 #include "model/robot_files/robot_reader.h"
 
 int main(int argc, char** argv) try {

@@ -1,9 +1,10 @@
-// excite ROBOT: the motion of 10 s, 20 cm over the floor at least, that tells
-// most about an arm, as a log to follow.
+// excite ROBOT: the motion of 10 s, within .8 of its limits, that tells most
+// about an arm, as a log to follow.
+
+#include "calib/excite.h"
 
 #include <iostream>
 
-#include "calib/excite.h"
 #include "model/robot_files/robot_reader.h"
 
 int main(int argc, char** argv) try {
@@ -11,7 +12,7 @@ int main(int argc, char** argv) try {
   const armcal::Robot robot = armcal::ReadRobot(argv[1], {});
   armcal::ExciteOptions options;
   options.duration_s = 10;
-  options.workspace.floor = .2;
+  options.limits.use = .8;
   const armcal::ExciteSummary result = armcal::Excite(robot, options);
   std::cout << result << result.motion.size() << " samples\n";
   armcal::WriteFiles(result, "motion");

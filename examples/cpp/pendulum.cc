@@ -1,5 +1,5 @@
-// A robot and a log that no file holds: a pendulum of 2 kg, .5 m from its hinge,
-// whose torque is m g l cos(q) + m l^2 qdd + .3 qd, calibrated from it.
+// A robot and a log that no file holds: a pendulum of 2 kg, .5 m from its
+// hinge, whose torque is m g l cos(q) + m l^2 qdd + .3 qd, calibrated from it.
 
 #include <cmath>
 #include <iostream>

@@ -1,9 +1,10 @@
 // verify ROBOT LOG: does Simbody say the same of a robot, and what does the
 // robot do along the log?
 
+#include "calib/verify.h"
+
 #include <iostream>
 
-#include "calib/verify.h"
 #include "model/robot_files/robot_reader.h"
 
 int main(int argc, char** argv) try {

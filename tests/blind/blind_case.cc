@@ -35,7 +35,7 @@ Robot ReadYaml(const std::string& text, uint64_t seed) {
       fs::temp_directory_path() / ("armcal_blind_" + std::to_string(seed) +
                                    "_" + std::to_string(getpid()) + ".yaml");
   std::ofstream(path) << text;
-  const Robot robot = ReadRobot(path, {});
+  const Robot robot = ReadRobot(path.string(), {});
   fs::remove(path);
   return robot;
 }

@@ -52,7 +52,7 @@ const Source& SourceOf(const RealLog& real) {
   if (source.sizer) return source;
   const fs::path folder = fs::path(FLAGS_data) / real.arm;
   source.real = real;
-  source.robot = ReadRobot(folder / real.robot, {});
+  source.robot = ReadRobot((folder / real.robot).string(), {});
   const auto read = [&](const std::string& file, const TimeRange& span) {
     return ReadRealLog(folder / file, span, source.robot.JointNames(),
                        real.torque_constants);

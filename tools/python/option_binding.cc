@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/text/decimal_point.h"
 #include "tools/flag_choices.h"
 #include "tools/flag_text.h"
 #include "tools/python/command_flags.h"
@@ -69,8 +70,10 @@ void AddOptions(py::module_* module) {
           "several", [](const Option& option) { return option.words.list; },
           "Whether it may be several of the words.");
   module->def("option_definitions", &DefinitionsOf, py::arg("command"),
+              py::call_guard<DecimalPoint>(),
               "The options of a command, in the order of --help.");
   module->def("options", &OptionsOf, py::arg("command"),
+              py::call_guard<DecimalPoint>(),
               "{name: (default, description)} of a command's flags.");
 }
 

@@ -87,7 +87,8 @@ TEST_F(FactorFile, MergedIsTheSinglePass) {
             1e-12 * expected.noise.norm());
   EXPECT_EQ(merged.travel, expected.travel);
   EXPECT_EQ(merged.identifiable, expected.identifiable);
-  const LogFactors pass(expected.parameters, expected.rows, {}, logs);
+  const LogFactors pass(expected.parameters, expected.rows, {},
+                        Prepare(logs, expected.preparation));
   for (int i = 0; i < 2; ++i) {
     MatrixXd one, other;
     BlockTriangularFactor both(expected.parameters), single = both;

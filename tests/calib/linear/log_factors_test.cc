@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "problems/make_rows.h"
+#include "calib/linear/calibration_model.h"
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
@@ -32,12 +32,12 @@ class Factors : public testing::Test {
     }
     LogReaderOptions reader;
     reader.joint_names = robot_.JointNames();
-    const LogSet set(LogFiles(paths), reader, TimeRange());
     RowOptions rows;
     rows.identification = Identification::kDifferential;
+    set_ = Prepare(LogSet(LogFiles(paths), reader, TimeRange()),
+                   PreparationForRows(rows));
     parameters_.emplace(robot_, ModelParameters::Options());
-    factors_.emplace(*parameters_, rows, Progress(),
-                     Prepare(set, PreparationForRows(rows)));
+    factors_.emplace(*parameters_, rows, Progress(), *set_);
   }
   // [U | tau]' [U | tau] of joint i in log k, in its own columns.
   MatrixXd Gram(int k, int i) const {
@@ -60,7 +60,7 @@ class Factors : public testing::Test {
 
   Robot robot_;
   std::vector<Log> logs_;
-  std::optional<LogSet> set_;
+  std::optional<PreparedLogs> set_;
   std::optional<ModelParameters> parameters_;
   std::optional<LogFactors> factors_;
 };

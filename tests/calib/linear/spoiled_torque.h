@@ -62,7 +62,8 @@ inline Calibrated CalibrateAndList(const Robot& robot, const Log& log,
   reader.joint_names = robot.JointNames();
   LogSet set({WriteFile(LogCsv(log))}, reader, {});
   Calibrated c{CalibrateLinear(robot, options, set, nullptr), {}};
-  for (const auto& list : *c.result.preparation.outliers) {
+  for (const auto& list :
+       c.result.preparation.outliers.value_or(OutlierLists())) {
     for (const TorqueOutlier& o : list) {
       c.listed.insert({o.row, o.joint});
       EXPECT_EQ(o.recorded, log.tau(o.row - 2, o.joint));

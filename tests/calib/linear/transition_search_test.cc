@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "problems/make_rows.h"
+#include "calib/linear/calibration_model.h"
 #include "tests/fixtures/drive_gain_runs.h"
 #include "tests/fixtures/temp_file.h"
 

@@ -37,9 +37,10 @@ struct Case {
     values.SetStacked(truth + part * (values.Stacked() - truth));
     return values;
   }
+  PreparedLogs Prepared() const { return Prepare(logs, linear->preparation); }
   double Misfit(double part) {
     const LinkEquations equations =
-        LinkPass(*unknowns, *linear, {}, Prepare(logs, linear->preparation))
+        LinkPass(*unknowns, *linear, {}, Prepared())
             .Reduce(Values(part), VectorXd::Ones(6));
     return (equations.R * Values(0).Stacked() - equations.z).norm();
   }
@@ -54,7 +55,7 @@ struct Case {
 // exactness; about other geometry and inertia, to second order of the distance.
 TEST(LinkEquations, HoldAtTheTruthToSecondOrder) {
   Case c;
-  const double torque = LinkPass(*c.unknowns, *c.linear, {}, &c.logs)
+  const double torque = LinkPass(*c.unknowns, *c.linear, {}, c.Prepared())
                             .Reduce(c.Values(0), VectorXd::Ones(6))
                             .z.norm();
   const double exact = c.Misfit(0);
@@ -67,7 +68,7 @@ TEST(LinkEquations, HoldAtTheTruthToSecondOrder) {
 // The spread of residuals in units of the noise that is given.
 TEST(LinkEquations, SpreadIsInUnitsOfTheNoise) {
   Case c;
-  LinkPass pass(*c.unknowns, *c.linear, {}, &c.logs);
+  LinkPass pass(*c.unknowns, *c.linear, {}, c.Prepared());
   const VectorXd one = pass.Reduce(c.Values(1), VectorXd::Ones(6)).spread;
   const VectorXd two =
       pass.Reduce(c.Values(1), VectorXd::Constant(6, 2)).spread;
@@ -79,7 +80,7 @@ TEST(LinkEquations, InformationIsThatOfTheEquations) {
   Case c;
   c.linear->loss = RobustLoss::kSquared;
   c.linear->fitted_transitions = false;
-  LinkPass pass(*c.unknowns, *c.linear, {}, &c.logs);
+  LinkPass pass(*c.unknowns, *c.linear, {}, c.Prepared());
   const VectorXd noise = VectorXd::Constant(6, .1);
   const int size = c.unknowns->size();
   const Eigen::MatrixXd R = pass.Reduce(c.Values(0), noise).R;

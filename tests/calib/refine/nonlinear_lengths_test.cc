@@ -6,12 +6,12 @@
 #include <cmath>
 #include <map>
 
+#include "calib/linear/calibration_model.h"
 #include "calib/refine/nonlinear_report.h"
 #include "model/robot_files/urdf_reader.h"
 #include "model/robot_files/urdf_update.h"
 #include "model/robot_files/urdf_writer.h"
 #include "problems/identification_rows.h"
-#include "problems/make_rows.h"
 #include "tests/fixtures/nonlinear_runs.h"
 #include "tests/fixtures/temp_file.h"
 
