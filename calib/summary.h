@@ -14,7 +14,7 @@ struct ResultFile {
 
 // What a function has to say to a person, to a program and in files.
 struct Summary {
-  bool positive = true;  // the verdict: with exit code 0 the command agrees
+  bool positive = true;  // the verdict; false: exit code 1 of the command
   std::string brief;     // a sentence or two; empty where there is none
   std::string report;    // what a person reads
   std::string json;      // the same for a program; docs have its keys
