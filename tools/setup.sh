@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that armcal needs. Does nothing, and needs no
 # rights, where all of them are there.
-#   --full   those of tools/test.sh --full too: clang with its sanitizers,
-#            clang-tidy, llvm-cov
+#   --full   those of tools/test.sh --full too: clang's sanitizers, clang-tidy,
+#            llvm-cov
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build python3 dpkg-dev file groff-base locales
+  clang g++ cmake ninja-build python3 dpkg-dev file groff-base locales
   libeigen3-dev libgflags-dev libgoogle-glog-dev libtinyxml2-dev libyaml-cpp-dev
   nlohmann-json3-dev zlib1g-dev libsqlite3-dev libzstd-dev liblz4-dev
   libmatio-dev libceres-dev libsimbody-dev libtbb-dev libboost-dev
@@ -15,7 +15,7 @@ packages=(
 )
 for argument in "$@"; do
   case $argument in
-    --full) packages+=(clang clang-tidy libclang-rt-14-dev lld llvm) ;;
+    --full) packages+=(clang-tidy libclang-rt-14-dev lld llvm) ;;
     *) echo "setup.sh: unknown argument $argument; expected --full" >&2; exit 2 ;;
   esac
 done

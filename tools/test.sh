@@ -17,7 +17,7 @@ done
 
 source tools/build.sh
 cores=$(nproc)
-mapfile -t options < <(fast_options)
+mapfile -t options < <(fast_options build)
 options+=(-G Ninja -DBUILD_TESTING=ON)
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
