@@ -3,8 +3,8 @@
 # over, elsewhere in a line for each tenth. What compilers say is shown where
 # they fail.
 
-# What a fresh build is configured with. Clang 14 takes five sixths of GCC 12's
-# time for armcal (docs/speed.md), and the programs are as fast; CXX says otherwise, as does
+# What a fresh build is configured with. Clang 14 takes five sixths of the time of
+# GCC 12 (docs/speed.md), and its programs are as fast; CXX says otherwise, as does
 # a folder that is configured already. GCC is faster by a tenth without garbage
 # collection, where there is memory: its compiler of several sources has up to
 # 1.5 GB then.

@@ -151,9 +151,9 @@ LinearCalibration CalibrateFromFactors(const Robot& robot,
   result.reason = WhyNothingToSolve(factors, result.parameters);
   if (!result.reason.empty()) return result;
   const ReferenceScale reference =
-      MakeReference(robot, result.parameters, model.rows, motion_hz, factors);
+      MakeReference(result.parameters, model.rows, motion_hz, factors);
   const UsedEquations equations =
-      FindUsedEquations(factors, result.parameters, robot, reference);
+      FindUsedEquations(factors, result.parameters, reference);
   result.used = equations.used;
   result.unpowered = equations.unpowered;
   const LinearSolution solution =

@@ -10,6 +10,7 @@
 #include "calib/linear/calibration.h"
 #include "calib/linear/calibration_report.h"
 #include "calib/linear/outlier_report.h"
+#include "calib/logs/prepared_logs.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
 
@@ -37,16 +38,53 @@ void AddAuditedTorque(const Robot& robot, double bandwidth_hz,
   }
 }
 
-void AddOutliers(const Robot& robot, long samples, LogCoverage* coverage) {
+// Times at which joint j of the log turns round, s, ascending.
+std::vector<std::vector<double>> Reversals(const LogSet& logs,
+                                           const PreparationOptions& options,
+                                           int num_joints) {
+  std::vector<std::vector<double>> times(num_joints);
+  Prepare(logs, options).ForEach("", nullptr, [&](int, const Trajectory& t) {
+    for (int row = t.core_begin + 1; row < t.core_end; ++row) {
+      for (int j = 0; j < num_joints; ++j) {
+        if (t.qd(row - 1, j) * t.qd(row, j) < 0) {
+          times[j].push_back(t.time(row));
+        }
+      }
+    }
+  });
+  return times;
+}
+
+// Gross errors per joint but for those where the joint turns round: there
+// friction jumps, and a model whose transition is a little off leaves samples
+// as large. Positions low-passed at f Hz tell where that is to half a period.
+std::vector<long> ErrorsInMotion(const LinearCalibration& result,
+                                 const LogSet& logs, int num_joints) {
+  std::vector<long> counts(num_joints, 0);
+  if (CountOutliers(result) == 0) return counts;
+  const double f = result.preparation.bandwidth_hz;
+  const double near = f > 0 ? .5 / f : 0;
+  const auto turns = Reversals(logs, result.preparation, num_joints);
+  for (const TorqueOutlier& o : result.preparation.outliers->front()) {
+    const std::vector<double>& of_joint = turns[o.joint];
+    const auto next =
+        std::lower_bound(of_joint.begin(), of_joint.end(), o.time - near);
+    if (next == of_joint.end() || *next > o.time + near) ++counts[o.joint];
+  }
+  return counts;
+}
+
+void AddOutliers(const Robot& robot, const std::vector<long>& errors,
+                 long samples, LogCoverage* coverage) {
   constexpr double kMany = .005;  // of the samples
-  for (size_t j = 0; j < coverage->outliers.size(); ++j) {
-    const double share = static_cast<double>(coverage->outliers[j]) /
+  for (size_t j = 0; j < errors.size(); ++j) {
+    const double share = static_cast<double>(errors[j]) /
                          static_cast<double>(std::max(1L, samples));
     if (share < kMany) continue;
     coverage->findings.push_back(
         {"outliers",
          "the torque of " + robot.links[j].joint.name + " has gross errors",
-         Format("%ld samples (%.1f %%)", coverage->outliers[j], 100 * share),
+         Format("%ld samples (%.1f %%)", errors[j], 100 * share),
          "armcal calibrate leaves them out and lists them in outliers.csv",
          static_cast<int>(j)});
   }
@@ -76,7 +114,8 @@ LogCoverage CoverageOf(const Robot& robot, const LogSource& log,
     for (int j = 0; j < robot.num_joints(); ++j) {
       coverage.outliers.push_back(CountOutliers(result, j));
     }
-    AddOutliers(robot, logs.time_bases()[0].samples, &coverage);
+    AddOutliers(robot, ErrorsInMotion(result, logs, robot.num_joints()),
+                logs.time_bases()[0].samples, &coverage);
     coverage.advice =
         AdviceText(robot, AdviseMotions(robot, result, linear, logs), id.total);
     AddAuditedTorque(robot, result.preparation.bandwidth_hz, logs, &coverage);

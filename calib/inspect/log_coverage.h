@@ -23,7 +23,7 @@ struct LogCoverage {
   std::string time_base;     // samples, steps and gaps in a sentence
   double stamp_wander = 0;   // s, of stamps beside even samples
   // What would spoil a calibration or a diagnosis: torques computed from
-  // positions, more gross errors than now and then.
+  // positions, more gross errors in motion than now and then.
   std::vector<InspectionFinding> findings;
 };
 

@@ -124,10 +124,10 @@ LinearCalibration CalibrateOnce(const Robot& robot,
     motion_hz = std::max(motion_hz, base.motion_hz);
   }
   const ReferenceScale reference =
-      MakeReference(robot, result.parameters, rows, motion_hz, factors);
+      MakeReference(result.parameters, rows, motion_hz, factors);
   UsedEquations equations = AllEquations(factors, robot.num_joints());
   if (options.solver == LinearSolver::kWeighted) {
-    equations = FindUsedEquations(factors, result.parameters, robot, reference);
+    equations = FindUsedEquations(factors, result.parameters, reference);
     result.unpowered = equations.unpowered;
   }
   result.used = equations.used;

@@ -31,8 +31,7 @@ LinearSolution SolveByNoise(const BlockTriangularFactor& factor,
 
 }  // namespace
 
-ReferenceScale MakeReference(const Robot& robot,
-                             const ModelParameters& parameters,
+ReferenceScale MakeReference(const ModelParameters& parameters,
                              const RowOptions& rows, double motion_hz,
                              const LogFactors& factors) {
   double speed = std::sqrt(factors.mean_square_speed().maxCoeff());
@@ -47,7 +46,7 @@ ReferenceScale MakeReference(const Robot& robot,
   return MakeReferenceScale(
       parameters, speed, std::max(0.1, motion_hz), unit,
       RightSideRms(factors.Merged(parameters, FindNonzero(factors))),
-      parameters.Values(robot));
+      parameters.nominal());
 }
 
 LinearSolution SolveFactor(const BlockTriangularFactor& factor,

@@ -14,8 +14,7 @@ namespace armcal {
 
 // What the logs behind `factors` are judged against; `motion_hz`: about where
 // the spectrum of their motion lies.
-ReferenceScale MakeReference(const Robot& robot,
-                             const ModelParameters& parameters,
+ReferenceScale MakeReference(const ModelParameters& parameters,
                              const RowOptions& rows, double motion_hz,
                              const LogFactors& factors);
 

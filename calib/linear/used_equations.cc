@@ -27,11 +27,10 @@ UsedEquations AllEquations(const LogFactors& factors, int num_joints) {
 
 UsedEquations FindUsedEquations(const LogFactors& factors,
                                 const ModelParameters& parameters,
-                                const Robot& robot,
                                 const ReferenceScale& reference) {
-  const int n = robot.num_joints();
+  const int n = parameters.num_joints();
   const EquationMask by_robot =
-      FindPowered(factors, parameters.Values(robot), 0.05);
+      FindPowered(factors, parameters.nominal(), 0.05);
   EquationMask powered = by_robot;
   for (int round = 0; round < 2; ++round) {
     const BlockTriangularFactor merged = factors.Merged(parameters, powered);

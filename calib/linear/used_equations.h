@@ -35,7 +35,6 @@ UsedEquations AllEquations(const LogFactors& factors, int num_joints);
 // mass.
 UsedEquations FindUsedEquations(const LogFactors& factors,
                                 const ModelParameters& parameters,
-                                const Robot& robot,
                                 const ReferenceScale& reference);
 
 }  // namespace armcal

@@ -87,6 +87,7 @@ ModelParameters::ModelParameters(const Robot& robot, const Options& options)
   DropZeroMoments(robot);
   ChooseBasis();
   NameParameters();
+  nominal_ = Values(robot);
 }
 
 void ModelParameters::ChooseUnknownLengths(const Robot& robot,

@@ -55,6 +55,8 @@ class ModelParameters {
   // X(V, W): the parameters' values for the inertia, lengths and joint terms of
   // `robot`, an arm of the same structure.
   Eigen::VectorXd Values(const Robot& robot) const;
+  // Those of the robot that this was made from.
+  const Eigen::VectorXd& nominal() const { return nominal_; }
 
   const ProximalChain& chain() const { return chain_; }
   // The unknown lengths, and what X is made of before regrouping:
@@ -90,6 +92,7 @@ class ModelParameters {
   std::vector<int> block_begin_;
   std::vector<std::vector<int>> row_columns_;
   std::vector<std::string> merged_;
+  Eigen::VectorXd nominal_;
 };
 
 }  // namespace armcal

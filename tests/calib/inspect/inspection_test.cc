@@ -80,6 +80,31 @@ TEST_F(InspectionTest, GrossErrorsAreNamedWithTheirJoint) {
   EXPECT_EQ(coverage.findings[0].joint, 2);
 }
 
+// A model whose friction turns over a little too early or late leaves the same.
+TEST_F(InspectionTest, WhatIsOffAtReversalsIsNoGrossError) {
+  Log wrong = arm_.log;
+  const double size = 20 * ColumnRms(wrong.tau)[2];
+  int reversals = 0;
+  for (int s = 1; s < wrong.size(); ++s) {
+    if (wrong.q(s, 2) == wrong.q(s - 1, 2)) continue;
+    if (s < 2 || (wrong.q(s, 2) - wrong.q(s - 1, 2)) *
+                         (wrong.q(s - 1, 2) - wrong.q(s - 2, 2)) >=
+                     0) {
+      continue;
+    }
+    wrong.tau(s, 2) += size;
+    ++reversals;
+  }
+  ASSERT_GE(reversals, .005 * wrong.size());
+  Inspect(wrong);
+  const LogCoverage coverage = CoverageOf(arm_.robot, path_, options_);
+  ASSERT_TRUE(coverage.known) << coverage.reason;
+  EXPECT_GE(coverage.outliers[2], .005 * wrong.size());
+  for (const InspectionFinding& finding : coverage.findings) {
+    EXPECT_NE(finding.finding, "outliers");
+  }
+}
+
 TEST_F(InspectionTest, AJointAtRestIsMissed) {
   Log still = RecordMotion(
       [] {
