@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds armcal in build/ and runs its tests.
 #   --full   more, for hours: clang-tidy (tools/tidy.sh), the long tests, all
-#            others under the address and undefined-behaviour sanitizers (in
+#            others as GCC builds them (in build-gcc/) and under the address and undefined-behaviour sanitizers (in
 #            build-instrumented/), the lines they cover (tools/coverage.py) and
 #            damaged files for every reader (tools/fuzz.sh)
 set -euo pipefail
@@ -56,6 +56,8 @@ if $full; then
   tools/tidy.sh
   selection=()
   run_tests build -DPYTHON=ON -DLONG_TESTS=ON
+  selection=(-LE long)
+  run_tests build-gcc -DPYTHON=ON -DCMAKE_CXX_COMPILER=g++
   run_instrumented
 else
   tools/setup.sh
