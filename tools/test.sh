@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds armcal in build/ and runs its tests.
 #   --full   more, for hours: clang-tidy (tools/tidy.sh), the long tests, all
-#            others as GCC builds them (in build-gcc/) and under the address and undefined-behaviour sanitizers (in
-#            build-instrumented/), the lines they cover (tools/coverage.py) and
-#            damaged files for every reader (tools/fuzz.sh)
+#            others as GCC builds them (in build-gcc/) and under the address and
+#            undefined-behaviour sanitizers (in build-instrumented/), the lines
+#            they cover (tools/coverage.py) and damaged files for every reader
+#            (tools/fuzz.sh)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
