@@ -273,6 +273,9 @@ void Diagnoser::TellUnexplained() {
 void Diagnoser::Judge() {
   result_.data = AuditTorque(robot_, fit_->rows());
   const bool testable = result_.data.empty();
+  if (held_out_->rows().num_rows() == 0) {
+    result_.data.push_back(TooShortToHoldOut(held_out_->rows()));
+  }
   for (DataFinding& burst :
        TellTorqueBursts(robot_, fit_->rows().segments(), bandwidth_hz_)) {
     result_.data.push_back(std::move(burst));

@@ -54,8 +54,8 @@ struct Unexplained {
 struct JointGap {
   std::string name;
   std::string unit;
-  // rms of the held-out torque residual, N m or N.
-  double nominal_rms = 0, refit_rms = 0, after_rms = 0, floor_rms = 0;
+  // rms of the held-out torque residual, N m or N; NaN where none was held out.
+  double nominal_rms = NAN, refit_rms = NAN, after_rms = NAN, floor_rms = 0;
   Organisation organised;  // of the refitted model's residual
   double unexplained = 0;  // chi^2 beyond the noise's after the effects
 };

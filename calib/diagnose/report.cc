@@ -65,15 +65,22 @@ std::string EffectLines(const FoundEffect& found,
   return text;
 }
 
+// What was not held out has no figure.
+std::string FigureText(double x) {
+  return std::isnan(x) ? "-" : Format("%.3g", x);
+}
+
 std::string WhereTable(const GapDiagnosis& diagnosis) {
   std::string text =
       "\nheld-out torque, rms        nominal      refit      after      noise"
       "   organised by\n";
   for (const JointGap& joint : diagnosis.joints) {
-    text += Format("  %-16s %4s %10.3g %10.3g %10.3g %10.3g   %s\n",
-                   joint.name.c_str(), joint.unit.c_str(), joint.nominal_rms,
-                   joint.refit_rms, joint.after_rms, joint.floor_rms,
-                   joint.organised.by.c_str());
+    text +=
+        Format("  %-16s %4s %10s %10s %10s %10s   %s\n", joint.name.c_str(),
+               joint.unit.c_str(), FigureText(joint.nominal_rms).c_str(),
+               FigureText(joint.refit_rms).c_str(),
+               FigureText(joint.after_rms).c_str(),
+               FigureText(joint.floor_rms).c_str(), joint.organised.by.c_str());
   }
   return text;
 }
@@ -101,6 +108,9 @@ std::string Interval(const double* ci95) {
 }
 
 std::string HowFar(const GapFigures& gap) {
+  if (std::isnan(gap.after)) {
+    return "\nnothing was held out: how far the gap shrinks is not known\n";
+  }
   std::string text = Format(
       "\nheld-out gap, mean square over the noise's: nominal %.3g, "
       "refitted %.3g, with the effects %.3g, noise 1\n",
@@ -200,9 +210,24 @@ std::string MovedTitle(const GapDiagnosis& diagnosis) {
              : "\nparameters far from the file's\n";
 }
 
-}  // namespace
+// Friction that differs on several joints is one change, as temperature makes
+// it: "Friction has changed since the reference: elbow.viscous -20 %." Empty
+// where none has.
+std::string FrictionChanged(const GapDiagnosis& diagnosis) {
+  if (!diagnosis.has_reference || diagnosis.moved.empty()) return "";
+  std::string text = "Friction has changed since the reference: ";
+  for (size_t k = 0; k < diagnosis.moved.size(); ++k) {
+    const MovedParameter& moved = diagnosis.moved[k];
+    text += (k > 0 ? ", " : "") + moved.name;
+    text += moved.nominal != 0
+                ? Format(" %+.0f %%", 100 * (moved.value / moved.nominal - 1))
+                : Format(" %+.3g %s", moved.value, moved.unit.c_str());
+  }
+  return text + ".";
+}
 
-std::string BriefReport(const GapDiagnosis& diagnosis) {
+// What is left beside friction that has changed.
+std::string BriefVerdict(const GapDiagnosis& diagnosis) {
   constexpr double kNoisy = 2;  // times the noise's mean square
   const bool nothing_named = diagnosis.verdict == GapVerdict::kNoiseFloor ||
                              diagnosis.verdict == GapVerdict::kAbsorbed;
@@ -239,6 +264,14 @@ std::string BriefReport(const GapDiagnosis& diagnosis) {
       return "These data cannot carry a diagnosis.";
   }
   return "";
+}
+
+}  // namespace
+
+std::string BriefReport(const GapDiagnosis& diagnosis) {
+  const std::string changed = FrictionChanged(diagnosis);
+  return changed.empty() ? BriefVerdict(diagnosis)
+                         : changed + " " + BriefVerdict(diagnosis);
 }
 
 std::string FullReport(const GapDiagnosis& diagnosis) {

@@ -7,6 +7,8 @@
 
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/dynamics/link_regressor.h"
+#include "model/text/format.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -86,6 +88,20 @@ std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows) {
                 100 * worst);
   return {{"the torque was computed from the positions, not measured", evidence,
            "log the motors' currents or measured torque"}};
+}
+
+DataFinding TooShortToHoldOut(const GapRows& rows) {
+  double longest = 0;
+  for (const GapSegment& segment : rows.segments()) {
+    longest = std::max(longest, segment.size() * segment.motion.dt);
+  }
+  return {"nothing of the log can be held out to check with",
+          Format("the longest stretch without a gap has %.3g s; %.3g s in "
+                 "motion are needed at %.3g Hz",
+                 longest, GapRows::ShortestSplit(rows.bandwidth_hz()),
+                 rows.bandwidth_hz()),
+          "a longer log, another one as " + OptionName("validate") +
+              ", or a higher " + OptionName("bandwidth")};
 }
 
 }  // namespace armcal

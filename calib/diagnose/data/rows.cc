@@ -53,17 +53,34 @@ GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
   }
 }
 
-// Tenths of a segment: of the third, sixth and ninth, whose edges are guarded.
+double GapRows::ShortestSplit(double bandwidth_hz) {
+  // Three blocks with guards on both sides of a run, and the bent ends.
+  const double block = kPeriodsAtEnds + kShortestRun / kRateOverBandwidth;
+  return (3 * block + 2 * kPeriodsAtEnds) / bandwidth_hz;
+}
+
+// Of which each third is held out: as many as are long enough.
+int GapRows::NumBlocks(int segment) const {
+  const double size = thin_begin_[segment + 1] - thin_begin_[segment];
+  const double guards = kPeriodsAtEnds / bandwidth_hz_ / step(segment);
+  for (const int blocks : {10, 7, 4, 3}) {
+    if (size / blocks >= kShortestRun + guards) return blocks;
+  }
+  return 1;
+}
+
+// Blocks of a segment: of the held-out ones the edges are guarded.
 GapRows::Use GapRows::UseOf(int segment, int joint, int k) const {
   const int within = k - thin_begin_[segment];
   const int size = thin_begin_[segment + 1] - thin_begin_[segment];
   if (part_ != LogPart::kAll) {
     const double guard = kPeriodsAtEnds / bandwidth_hz_ / 2 / step(segment);
-    const double tenth = size / 10.0;
-    const int block = std::min(9, static_cast<int>(within / tenth));
+    const int blocks = NumBlocks(segment);
+    const double length = static_cast<double>(size) / blocks;
+    const int block = std::min(blocks - 1, static_cast<int>(within / length));
     const bool held_out = block % 3 == 2;
     const double from_edge =
-        std::min(within - block * tenth, (block + 1) * tenth - within);
+        std::min(within - block * length, (block + 1) * length - within);
     if (held_out != (part_ == LogPart::kHeldOut)) return Use::kNone;
     if (held_out && from_edge < guard) return Use::kNone;
   }

@@ -13,7 +13,10 @@ namespace armcal {
 
 // Which samples of a log have rows: all; or, where no log is held out, seven
 // tenths of them for fitting and choosing, three tenths (the third, sixth and
-// ninth tenth of each segment) for judging, with guards between them.
+// ninth tenth of each segment) for judging, with guards between them. Segments
+// whose tenths are shorter than guards and the shortest run are cut into seven,
+// four or three blocks, of which each third is held out; those too short for
+// three are fitted whole.
 enum class LogPart { kAll, kFitted, kHeldOut };
 
 // Rows of a regression on the torque of some logs: signals are low-passed at
@@ -25,6 +28,9 @@ class GapRows {
   // References to segments are kept.
   GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
           LogPart part = LogPart::kAll);
+
+  // The shortest segment of which a part can be held out, s.
+  static double ShortestSplit(double bandwidth_hz);
 
   int num_joints() const { return static_cast<int>(runs_.size()); }
   double bandwidth_hz() const { return bandwidth_hz_; }
@@ -91,6 +97,7 @@ class GapRows {
                           OfSegment part) const;
   enum class Use { kMoving, kStill, kNone };
   void MakeRuns();
+  int NumBlocks(int segment) const;
   Use UseOf(int segment, int joint, int k) const;
 
   const std::vector<GapSegment>& segments_;

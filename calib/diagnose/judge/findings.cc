@@ -82,9 +82,12 @@ FoundEffect Findings::Found(size_t k) const {
   }
   found.evidence = evidence_.ForEffect(k, all);
   found.probability = ProbabilityOf(found.evidence);
-  found.removed_percent =
-      100 * found.evidence.gain / std::max(.1, torque_.refit - 1);
-  found.ci95[0] = found.ci95[1] = std::numeric_limits<double>::quiet_NaN();
+  found.ci95[0] = found.ci95[1] = found.removed_percent =
+      std::numeric_limits<double>::quiet_NaN();
+  if (std::isfinite(torque_.refit)) {
+    found.removed_percent =
+        100 * found.evidence.gain / std::max(.1, torque_.refit - 1);
+  }
   if (refined.effects.size() == 1) {
     found.removed_percent = torque_.removed_percent;
     std::copy(torque_.ci95, torque_.ci95 + 2, found.ci95);

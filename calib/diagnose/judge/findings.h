@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,9 @@ struct FoundEffect {
   std::vector<double> stddev;  // of the estimates
   // Others that these data cannot tell from it.
   std::vector<PlacedEffect> equivalent;
-  // Of the held-out gap, by this one beside the others.
-  double removed_percent = 0;
-  double ci95[2] = {0, 0};
+  // Of the held-out gap, by this one beside the others; NaN: not known.
+  double removed_percent = NAN;
+  double ci95[2] = {NAN, NAN};
   std::string separate_by;        // the experiment that would tell them apart
   std::vector<Contact> contacts;  // of external_contact, in time's order
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,18 +17,19 @@ struct HeldOutSquares {
 };
 
 // E, a mean over samples and joints of squares in units of the noise's. The
-// floor is the noise: 1, or what is left where that is less.
+// floor is the noise: 1, or what is left where that is less. NaN where nothing
+// was held out, which agrees with nothing.
 struct GapFigures {
-  double nominal = 0;
-  double refit = 0;
-  double after = 0;
+  double nominal = NAN;
+  double refit = NAN;
+  double after = NAN;
   double floor = 1;
   // 100 (refit - after) / (refit - floor); NaN where nothing can be removed.
-  double removed_percent = 0;
-  double removed_from_nominal_percent = 0;
-  double ci95[2] = {0, 0};          // of removed_percent
-  double nominal_ci95[2] = {0, 0};  // of removed_from_nominal_percent
-  Eigen::MatrixXd joints;           // n x 3 rms: nominal, refit, after
+  double removed_percent = NAN;
+  double removed_from_nominal_percent = NAN;
+  double ci95[2] = {NAN, NAN};          // of removed_percent
+  double nominal_ci95[2] = {NAN, NAN};  // of removed_from_nominal_percent
+  Eigen::MatrixXd joints;               // n x 3 rms: nominal, refit, after
 };
 
 // Of all that are no NaN; 1 where there are none.

@@ -1,5 +1,7 @@
 #include "calib/diagnose/judge/verdict.h"
 
+#include <cmath>
+
 namespace armcal {
 
 double UnexplainedOf(const JointLeft& left) {
@@ -17,6 +19,11 @@ GapVerdict JudgeGap(const GapFacts& facts) {
   constexpr double kReal = 100;        // chi^2 that is not chance
   constexpr double kUnexplained = .3;  // of what could be removed
   const bool much_left = facts.left > kReal && facts.left_share > kUnexplained;
+  if (std::isnan(facts.torque.after)) {
+    if (facts.effects) return GapVerdict::kPartlyExplained;
+    const bool unknown = much_left || facts.found_without_name;
+    return unknown ? GapVerdict::kUnknown : GapVerdict::kNotTestable;
+  }
   const double after = facts.torque.after - 1;
   const double nominal = facts.torque.nominal - 1;
   const double refit = facts.torque.refit - 1;

@@ -38,7 +38,7 @@ struct GapFacts {
 };
 
 // For data that can be diagnosed. What is left counts when it is much more than
-// chance gives and much of what was there.
+// chance gives and much of what was there. Nothing held out is no agreement.
 GapVerdict JudgeGap(const GapFacts& facts);
 
 }  // namespace armcal

@@ -19,6 +19,7 @@ FoundEffect Found(const std::string& name, int joint) {
   found.probability = .9;
   found.estimates = {{"size", "N m", 1.25}, {"share", "1", .5}};
   found.stddev = {.04, .01};
+  found.removed_percent = 40;
   return found;
 }
 
@@ -30,6 +31,8 @@ GapDiagnosis Diagnosis() {
     joint.name = name;
     joint.unit = "N m";
     joint.nominal_rms = 4;
+    joint.refit_rms = 3;
+    joint.after_rms = 1;
     joint.organised.by = "speed";
     diagnosis.joints.push_back(joint);
   }
@@ -42,7 +45,11 @@ GapDiagnosis Diagnosis() {
   diagnosis.moved = {{"forearm.mass", "kg", 2, 2.5, .1, 3}};
   diagnosis.untestable = {{"backlash", "elbow", "the load never reverses"}};
   diagnosis.data = {{"currents", "no torque column", "`torque_constants`"}};
+  diagnosis.torque.nominal = 12;
+  diagnosis.torque.refit = 9;
+  diagnosis.torque.after = 1.5;
   diagnosis.torque.removed_percent = 93.4;
+  diagnosis.torque.removed_from_nominal_percent = 95;
   diagnosis.bandwidth_hz = 8;
   diagnosis.unexplained = {"elbow", "time", .1};
   return diagnosis;
@@ -118,10 +125,31 @@ TEST(BriefReport, SaysWhatItCannotName) {
       {GapVerdict::kNoiseFloor, "agrees with the log to within the noise"},
       {GapVerdict::kAbsorbed, "better values"},
       {GapVerdict::kNotTestable, "cannot carry a diagnosis"}};
+  diagnosis.torque.refit = 1;
   for (const auto& [verdict, text] : others) {
     diagnosis.verdict = verdict;
     EXPECT_THAT(BriefReport(diagnosis), HasSubstr(text));
   }
+}
+
+// Whatever the verdict.
+TEST(BriefReport, SaysFirstWhatFrictionHasChanged) {
+  GapDiagnosis diagnosis = Diagnosis();
+  diagnosis.has_reference = true;
+  diagnosis.moved = {{"elbow.viscous", "N m s/rad", 10, 8, .1, -2},
+                     {"wrist.coulomb", "N m", 0, .25, .01, 1}};
+  const std::string said =
+      "Friction has changed since the reference: elbow.viscous -20 %, "
+      "wrist.coulomb +0.25 N m. ";
+  EXPECT_EQ(BriefReport(diagnosis).rfind(said, 0), 0u)
+      << BriefReport(diagnosis);
+  diagnosis.effects.clear();
+  diagnosis.torque.refit = 1;
+  diagnosis.verdict = GapVerdict::kAbsorbed;
+  EXPECT_EQ(BriefReport(diagnosis).rfind(said, 0), 0u);
+  // Against a file it is the file that is wrong.
+  diagnosis.has_reference = false;
+  EXPECT_THAT(BriefReport(diagnosis), Not(HasSubstr("Friction has changed")));
 }
 
 TEST(BriefReport, DoesNotCallItNoiseWhereMoreIsLeft) {
@@ -161,6 +189,17 @@ TEST(FullReport, HoldsEveryPart) {
         "noise told from: assumed"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
+}
+
+TEST(FullReport, SaysWhereNothingWasHeldOut) {
+  GapDiagnosis diagnosis = Diagnosis();
+  diagnosis.torque = {};
+  diagnosis.joints[0].refit_rms = std::nan("");
+  const std::string text = FullReport(diagnosis);
+  EXPECT_THAT(text, HasSubstr("nothing was held out"));
+  EXPECT_THAT(text, HasSubstr("         -"));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+  EXPECT_TRUE(ToJson(diagnosis)["gap"]["torque"]["after"].is_null());
 }
 
 TEST(FullReport, LeavesOutWhatThereIsNot) {

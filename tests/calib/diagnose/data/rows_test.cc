@@ -107,6 +107,27 @@ TEST(GapRows, HoldOutTheThirdSixthAndNinthTenth) {
                           Stretch{0, 239, 19}));
 }
 
+// Blocks of a shorter segment are as long as guards (10.4 thinned samples) and
+// the shortest run (12) are at least; a third of them is held out.
+TEST(GapRows, HoldOutEachThirdBlockOfAShortSegment) {
+  const auto held_out = [](double seconds) {
+    const std::vector<GapSegment> segments = {
+        Segment(static_cast<int>(seconds / kStep))};
+    return GapRows(segments, kBandwidth, LogPart::kHeldOut).runs(0).size();
+  };
+  EXPECT_EQ(held_out(16.2), 3u);  // tenths
+  EXPECT_EQ(held_out(15.2), 2u);  // sevenths
+  EXPECT_EQ(held_out(8), 1u);     // fourths
+  const double shortest = GapRows::ShortestSplit(kBandwidth);
+  EXPECT_NEAR(shortest, 34.4 / 6, 1e-9);
+  EXPECT_EQ(held_out(shortest + .2), 1u);
+  EXPECT_EQ(held_out(shortest - .2), 0u);
+  // Too short: fitted whole.
+  const std::vector<GapSegment> segments = {Segment(1250)};
+  EXPECT_THAT(GapRows(segments, kBandwidth, LogPart::kFitted).runs(0),
+              ElementsAre(Stretch{0, 0, 58}));
+}
+
 TEST(GapRows, PartsOfStillJointsAreSplitAsWell) {
   std::vector<GapSegment> segments = {Segment(5000)};
   segments[0].still.setConstant(true);

@@ -73,4 +73,13 @@ TEST(JudgeGap, ThirtyPercentMayBeLeft) {
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kPartlyExplained);
 }
 
+TEST(JudgeGap, NothingHeldOutIsNoAgreement) {
+  GapFacts facts;
+  EXPECT_EQ(JudgeGap(facts), GapVerdict::kNotTestable);
+  facts.found_without_name = true;
+  EXPECT_EQ(JudgeGap(facts), GapVerdict::kUnknown);
+  facts.effects = true;
+  EXPECT_EQ(JudgeGap(facts), GapVerdict::kPartlyExplained);
+}
+
 }  // namespace armcal::verdict_test

@@ -1,0 +1,49 @@
+"""What checks of the scoreboard read out of a diagnosis.json."""
+
+
+def claims(diagnosis, above=.5):
+    """Effects named with more than this probability, the likeliest first."""
+    named = [e for e in diagnosis["effects"] if e["probability"] > above]
+    return sorted(named, key=lambda e: -e["probability"])
+
+
+def names(diagnosis, above=.5):
+    return [(e["effect"], e["joint_index"]) for e in claims(diagnosis, above)]
+
+
+def told(diagnosis):
+    """The claims in a few words."""
+    words = [f"{e['effect']} {e['joint']} {e['probability']:.2f}".replace("  ", " ")
+             for e in claims(diagnosis)]
+    return ", ".join(words) or f"nothing ({diagnosis['verdict']})"
+
+
+def claim(diagnosis, effects, joint=None):
+    """The likeliest claim of one of these effects (on `joint`, from 1), or None."""
+    for entry in claims(diagnosis):
+        if entry["effect"] not in effects:
+            continue
+        if joint is None or entry["joint_index"] == joint:
+            return entry
+    return None
+
+
+def values(entry, quantity):
+    """{name: (value, stddev)} of an effect's estimates whose name ends so."""
+    return {e["name"]: (e["value"], e["stddev"]) for e in entry["estimates"]
+            if e["name"].split(".")[-1] == quantity}
+
+
+def held_out_share(diagnosis, joint):
+    """After over refit of a joint's torque on held-out data, by rms; None where
+    nothing was held out. Joints from 1."""
+    entry = diagnosis["where"]["joints"][joint - 1]
+    if not entry["refit_rms"] or entry["after_rms"] is None:
+        return None
+    return entry["after_rms"] / entry["refit_rms"]
+
+
+def model_parameters(calibration, quantity, count):
+    """Of joints 1 to `count`: "coulomb[1]", ..."""
+    found = {p["name"]: p["value"] for p in calibration["model_parameters"]}
+    return [found[f"{quantity}[{j + 1}]"] for j in range(count)]

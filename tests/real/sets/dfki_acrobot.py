@@ -1,0 +1,64 @@
+"""Acrobot: 38 pushes on single joints in ten runs, ten runs without one
+(TRUTH_events.csv: run, joint, start, end, peak)."""
+import csv
+
+from reading import claim, claims, told
+from runs import DATA
+
+PART = "evaluation"
+NUMBERS = [f"{k:02}" for k in range(1, 11)]
+CALM = NUMBERS[5:]
+REFERENCE = ",".join(f"reference_{k}.csv.gz" for k in NUMBERS[:5])
+RUNS = {f"{kind}_{k}": ("diagnose", ["--robot=robot.urdf", f"--reference={REFERENCE}",
+                                     f"--log={kind}_{k}.csv.gz"], "diagnosis.json")
+        for kind, those in (("run", NUMBERS), ("reference", CALM)) for k in those}
+
+
+def pushes():
+    with open(DATA / "dfki_acrobot" / "TRUTH_events.csv", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def contacts(diagnosis):
+    """(time, joint, torque) of each contact: the joint with the largest torque."""
+    found = claim(diagnosis, ["external_contact"])
+    for contact in found["contacts"] if found else []:
+        torque = contact["torque"]
+        joint = max(range(len(torque)), key=lambda j: abs(torque[j]))
+        yield contact["time"], joint, torque[joint]
+
+
+def matches(push, contact, tolerance=.2):
+    time, joint, torque = contact
+    return (float(push["t_start"]) - tolerance <= time
+            <= float(push["t_end"]) + tolerance
+            and joint == int(push["joint"]) - 1
+            and torque * float(push["peak_Nm"]) > 0)
+
+
+def recall(runs):
+    """run_01 to 10: of 38 pushes 60 % are found, in time, joint and sign"""
+    every = pushes()
+    found = sum(any(matches(p, c) for c in contacts(runs[p["run"]])) for p in every)
+    return found >= .6 * len(every), f"{found} of {len(every)}"
+
+
+def precision(runs):
+    """run_01 to 10: of the contacts named 80 % are pushes"""
+    every, named, right = pushes(), 0, 0
+    for k in NUMBERS:
+        for contact in contacts(runs[f"run_{k}"]):
+            named += 1
+            right += any(p["run"] == f"run_{k}" and matches(p, contact)
+                         for p in every)
+    return named > 0 and right >= .8 * named, f"{right} of {named}"
+
+
+def calm_of(k):
+    def check(runs):
+        return not claims(runs[f"reference_{k}"]), told(runs[f"reference_{k}"])
+    check.__doc__ = f"reference_{k}: nothing is named"
+    return check
+
+
+CHECKS = [recall, precision] + [calm_of(k) for k in CALM]

@@ -1,0 +1,32 @@
+"""The Panda's log with a clock that is 2.2 % fast and hides holes (TRUTH.md)."""
+from reading import claims, told
+
+PART = "evaluation"
+RUNS = {"log": ("diagnose", ["--robot=robot.urdf", "--log=log.csv.gz"],
+                "diagnosis.json"),
+        "inspect": ("inspect", ["--robot=robot.urdf", "--log=log.csv.gz"],
+                    "inspect.json")}
+TIMING = {"delay", "time_base", "time_drift", "clock"}
+GIVEN = {"viscous_friction", "coulomb_friction", "armature", "torque_offset"}
+
+
+def timing(runs):
+    """log: what is named beyond the terms the file lacks is an error of time"""
+    beyond = [e for e in claims(runs["log"]) if e["effect"] not in GIVEN]
+    return (bool(beyond) and all(e["effect"] in TIMING for e in beyond),
+            told(runs["log"]))
+
+
+def clock(runs):
+    """inspect: the time of the samples is found wrong"""
+    said = [f["finding"] for log in runs["inspect"]["logs"] for f in log["findings"]]
+    return any("time" in s or "clock" in s for s in said), f"{said}"
+
+
+def no_torque_delay(runs):
+    """inspect: no delay of the torques is found"""
+    said = [f["finding"] for log in runs["inspect"]["logs"] for f in log["findings"]]
+    return not any("late" in s for s in said), f"{said}"
+
+
+CHECKS = [timing, clock, no_torque_delay]
