@@ -273,7 +273,7 @@ void Diagnoser::TellUnexplained() {
 void Diagnoser::Judge() {
   result_.data = AuditTorque(robot_, fit_->rows());
   const bool testable = result_.data.empty();
-  if (held_out_->rows().num_rows() == 0) {
+  if (!result_.torque.known()) {
     result_.data.push_back(TooShortToHoldOut(held_out_->rows()));
   }
   for (DataFinding& burst :

@@ -108,7 +108,7 @@ std::string Interval(const double* ci95) {
 }
 
 std::string HowFar(const GapFigures& gap) {
-  if (std::isnan(gap.after)) {
+  if (!gap.known()) {
     return "\nnothing was held out: how far the gap shrinks is not known\n";
   }
   std::string text = Format(

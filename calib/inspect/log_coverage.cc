@@ -44,7 +44,7 @@ std::vector<std::vector<double>> Reversals(const LogSet& logs,
                                            int num_joints) {
   std::vector<std::vector<double>> times(num_joints);
   Prepare(logs, options).ForEach("", nullptr, [&](int, const Trajectory& t) {
-    for (int row = t.core_begin + 1; row < t.core_end; ++row) {
+    for (int row = std::max(1, t.core_begin); row < t.core_end; ++row) {
       for (int j = 0; j < num_joints; ++j) {
         if (t.qd(row - 1, j) * t.qd(row, j) < 0) {
           times[j].push_back(t.time(row));

@@ -7,10 +7,6 @@ def claims(diagnosis, above=.5):
     return sorted(named, key=lambda e: -e["probability"])
 
 
-def names(diagnosis, above=.5):
-    return [(e["effect"], e["joint_index"]) for e in claims(diagnosis, above)]
-
-
 def told(diagnosis):
     """The claims in a few words."""
     words = [f"{e['effect']} {e['joint']} {e['probability']:.2f}".replace("  ", " ")

@@ -9,26 +9,39 @@ from pathlib import Path
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 
 
+def diagnose(*flags):
+    """(command, flags, file of the answer), as RUNS of a set have them."""
+    return "diagnose", flags, "diagnosis.json"
+
+
+def calibrate(*flags):
+    return "calibrate", flags, "calibration.json"
+
+
+def inspect(*flags):
+    return "inspect", flags, "inspect.json"
+
+
 class Runs:
-    """The answers of one set's commands, made when a check asks for them."""
+    """Runs the commands of one set, {run: (command, flags, file of the answer)},
+    and has their answers: runs[run]."""
 
     def __init__(self, armcal, name, commands, work):
         self.armcal, self.commands = armcal, commands
         self.folder, self.work = DATA / name, work / name
+        self.work.mkdir(parents=True, exist_ok=True)
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            self.done = dict(zip(commands, pool.map(self.start, commands)))
 
     def start(self, run):
+        """(exit code, file of the answer)"""
         command, flags, answer = self.commands[run]
         out = self.work / run
-        (self.work).mkdir(parents=True, exist_ok=True)
         result = subprocess.run(
             [self.armcal, command, *flags, f"--out={out}"], cwd=self.folder,
             capture_output=True, text=True)
         (self.work / f"{run}.txt").write_text(result.stdout + result.stderr)
         return result.returncode, out / answer
-
-    def all(self):
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
-            self.done = dict(zip(self.commands, pool.map(self.start, self.commands)))
 
     def code(self, run):
         return self.done[run][0]

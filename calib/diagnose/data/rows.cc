@@ -22,6 +22,15 @@ constexpr int kShortestRun = 3 * Autoregression::kOrder;
 // are not known better than this share of what they usually are.
 constexpr double kMadeTorqueDoubt = .001;
 
+// Into how many blocks of `size` samples, of which each third is held out: as
+// many as hold `guards` samples and a run.
+int NumBlocks(double size, double guards) {
+  for (const int blocks : {10, 7, 4, 3}) {
+    if (size / blocks >= kShortestRun + guards) return blocks;
+  }
+  return 1;
+}
+
 }  // namespace
 
 GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
@@ -41,6 +50,11 @@ GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
         0, (segment.size() - 1 - 2 * skip_.back()) / stride_.back() + 1);
   }
   thin_begin_.push_back(begin);
+  for (size_t i = 0; i < segments.size(); ++i) {
+    const int s = static_cast<int>(i);
+    blocks_.push_back(NumBlocks(thin_begin_[s + 1] - thin_begin_[s],
+                                kPeriodsAtEnds / bandwidth_hz / step(s)));
+  }
   MakeRuns();
   made_doubt_ = kMadeTorqueDoubt * UsualTorque(segments, true);
   for (size_t i = 0; i < segments.size(); ++i) {
@@ -59,23 +73,13 @@ double GapRows::ShortestSplit(double bandwidth_hz) {
   return (3 * block + 2 * kPeriodsAtEnds) / bandwidth_hz;
 }
 
-// Of which each third is held out: as many as are long enough.
-int GapRows::NumBlocks(int segment) const {
-  const double size = thin_begin_[segment + 1] - thin_begin_[segment];
-  const double guards = kPeriodsAtEnds / bandwidth_hz_ / step(segment);
-  for (const int blocks : {10, 7, 4, 3}) {
-    if (size / blocks >= kShortestRun + guards) return blocks;
-  }
-  return 1;
-}
-
 // Blocks of a segment: of the held-out ones the edges are guarded.
 GapRows::Use GapRows::UseOf(int segment, int joint, int k) const {
   const int within = k - thin_begin_[segment];
   const int size = thin_begin_[segment + 1] - thin_begin_[segment];
   if (part_ != LogPart::kAll) {
     const double guard = kPeriodsAtEnds / bandwidth_hz_ / 2 / step(segment);
-    const int blocks = NumBlocks(segment);
+    const int blocks = blocks_[segment];
     const double length = static_cast<double>(size) / blocks;
     const int block = std::min(blocks - 1, static_cast<int>(within / length));
     const bool held_out = block % 3 == 2;

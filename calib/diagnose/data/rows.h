@@ -97,7 +97,6 @@ class GapRows {
                           OfSegment part) const;
   enum class Use { kMoving, kStill, kNone };
   void MakeRuns();
-  int NumBlocks(int segment) const;
   Use UseOf(int segment, int joint, int k) const;
 
   const std::vector<GapSegment>& segments_;
@@ -106,6 +105,7 @@ class GapRows {
   std::vector<int> stride_;                        // per segment
   std::vector<int> skip_;                          // fine samples at its ends
   std::vector<int> thin_begin_;                    // per segment, and the end
+  std::vector<int> blocks_;                        // per segment, for LogPart
   std::vector<std::optional<TorqueDrift>> drift_;  // per segment
   Eigen::VectorXd made_doubt_;                     // per joint, N m or N
   std::vector<std::vector<Run>> runs_, still_runs_;

@@ -90,7 +90,7 @@ EffectEvidence GapEvidence::ForEffect(
   evidence.strength = std::log(std::max(1., fit_.selection().drops[k]));
   evidence.beside = Beside(k);
   evidence.imitated = !effect.effect->imitated_by.empty();
-  if (held_out_.rows().num_rows() == 0) return evidence;
+  if (!figures_.known()) return evidence;
   const HeldOut::Merit merit = held_out_.MeritOf(k, figures_.after);
   evidence.gain = merit.gain;
   evidence.confirmation = merit.confirmation;

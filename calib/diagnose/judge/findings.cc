@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "calib/diagnose/data/estimate_deviations.h"
 #include "model/effects/effects.h"
@@ -82,15 +81,12 @@ FoundEffect Findings::Found(size_t k) const {
   }
   found.evidence = evidence_.ForEffect(k, all);
   found.probability = ProbabilityOf(found.evidence);
-  found.ci95[0] = found.ci95[1] = found.removed_percent =
-      std::numeric_limits<double>::quiet_NaN();
-  if (std::isfinite(torque_.refit)) {
-    found.removed_percent =
-        100 * found.evidence.gain / std::max(.1, torque_.refit - 1);
-  }
   if (refined.effects.size() == 1) {
     found.removed_percent = torque_.removed_percent;
     std::copy(torque_.ci95, torque_.ci95 + 2, found.ci95);
+  } else if (torque_.known()) {
+    found.removed_percent =
+        100 * found.evidence.gain / std::max(.1, torque_.refit - 1);
   }
   found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
   return found;

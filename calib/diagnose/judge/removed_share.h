@@ -20,6 +20,8 @@ struct HeldOutSquares {
 // floor is the noise: 1, or what is left where that is less. NaN where nothing
 // was held out, which agrees with nothing.
 struct GapFigures {
+  bool known() const { return !std::isnan(after); }
+
   double nominal = NAN;
   double refit = NAN;
   double after = NAN;

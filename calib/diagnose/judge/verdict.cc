@@ -1,7 +1,5 @@
 #include "calib/diagnose/judge/verdict.h"
 
-#include <cmath>
-
 namespace armcal {
 
 double UnexplainedOf(const JointLeft& left) {
@@ -19,7 +17,7 @@ GapVerdict JudgeGap(const GapFacts& facts) {
   constexpr double kReal = 100;        // chi^2 that is not chance
   constexpr double kUnexplained = .3;  // of what could be removed
   const bool much_left = facts.left > kReal && facts.left_share > kUnexplained;
-  if (std::isnan(facts.torque.after)) {
+  if (!facts.torque.known()) {
     if (facts.effects) return GapVerdict::kPartlyExplained;
     const bool unknown = much_left || facts.found_without_name;
     return unknown ? GapVerdict::kUnknown : GapVerdict::kNotTestable;

@@ -2,15 +2,16 @@
 (TRUTH_events.csv: run, joint, start, end, peak)."""
 import csv
 
-from reading import claim, claims, told
-from runs import DATA
+from checks import names_only
+from reading import claim
+from runs import DATA, diagnose
 
 PART = "evaluation"
 NUMBERS = [f"{k:02}" for k in range(1, 11)]
 CALM = NUMBERS[5:]
 REFERENCE = ",".join(f"reference_{k}.csv.gz" for k in NUMBERS[:5])
-RUNS = {f"{kind}_{k}": ("diagnose", ["--robot=robot.urdf", f"--reference={REFERENCE}",
-                                     f"--log={kind}_{k}.csv.gz"], "diagnosis.json")
+RUNS = {f"{kind}_{k}": diagnose("--robot=robot.urdf", f"--reference={REFERENCE}",
+                                f"--log={kind}_{k}.csv.gz")
         for kind, those in (("run", NUMBERS), ("reference", CALM)) for k in those}
 
 
@@ -54,11 +55,4 @@ def precision(runs):
     return named > 0 and right >= .8 * named, f"{right} of {named}"
 
 
-def calm_of(k):
-    def check(runs):
-        return not claims(runs[f"reference_{k}"]), told(runs[f"reference_{k}"])
-    check.__doc__ = f"reference_{k}: nothing is named"
-    return check
-
-
-CHECKS = [recall, precision] + [calm_of(k) for k in CALM]
+CHECKS = [recall, precision] + [names_only(f"reference_{k}") for k in CALM]

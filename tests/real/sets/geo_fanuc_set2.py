@@ -1,18 +1,12 @@
 """The same poses with the controller's J3, which is measured against the ground: no
 geometry explains them, q3 - q2 does (TRUTH.md)."""
+from checks import no_success
+from runs import calibrate
+
 PART = "building"
-RUNS = {"refine": ("calibrate", ["--robot=robot.urdf", "--poses=poses.csv",
-                                 "--geometry=refine"], "calibration.json"),
-        "frames": ("calibrate", ["--robot=robot.urdf", "--poses=poses.csv"],
-                   "calibration.json")}
-
-
-def not_passed_of(run):
-    def check(runs):
-        verdict = runs[run]["verdict"]
-        return runs.code(run) == 1, f"exit code {runs.code(run)}, {verdict}"[:110]
-    check.__doc__ = f"{run}: poses that no geometry explains are no success"
-    return check
+RUNS = {"refine": calibrate("--robot=robot.urdf", "--poses=poses.csv",
+                            "--geometry=refine"),
+        "frames": calibrate("--robot=robot.urdf", "--poses=poses.csv")}
 
 
 def coupling(runs):
@@ -21,4 +15,5 @@ def coupling(runs):
     return "coupl" in said, said.strip().splitlines()[1][:110]
 
 
-CHECKS = [not_passed_of("frames"), not_passed_of("refine"), coupling]
+CHECKS = [no_success(run, "poses that no geometry explains are no success")
+          for run in RUNS] + [coupling]

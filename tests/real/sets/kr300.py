@@ -1,16 +1,15 @@
 """KUKA KR300 with 151 kg of tooling and a hydraulic counterbalance on axis 2, of
 which the robot file has neither (TRUTH.md)."""
 from reading import claim, held_out_share, told, values
+from runs import diagnose
 
 PART = "building"
 LOGS = "ABC"
-RUNS = {log: ("diagnose", ["--robot=robot.urdf", f"--log=log_{log}.csv.gz"],
-              "diagnosis.json") for log in LOGS}
-RUNS["all"] = ("diagnose", ["--robot=robot.urdf",
-                            "--log=" + ",".join(f"log_{log}.csv.gz" for log in LOGS)],
-               "diagnosis.json")
-RUNS["control"] = ("diagnose", ["--robot=robot.urdf", "--reference=log_A.csv.gz",
-                                "--log=log_B.csv.gz"], "diagnosis.json")
+RUNS = {log: diagnose("--robot=robot.urdf", f"--log=log_{log}.csv.gz") for log in LOGS}
+RUNS["all"] = diagnose("--robot=robot.urdf",
+                       "--log=" + ",".join(f"log_{log}.csv.gz" for log in LOGS))
+RUNS["control"] = diagnose("--robot=robot.urdf", "--reference=log_A.csv.gz",
+                           "--log=log_B.csv.gz")
 
 
 def mass(diagnosis):

@@ -1,11 +1,12 @@
 """Franka Panda with joint torque sensors and true time stamps (SOURCE.md: published
 friction and gravity terms of this very trajectory)."""
-from reading import claims, model_parameters, told
+from checks import names_none
+from reading import model_parameters
+from runs import calibrate, diagnose
 
 PART = "building"
-RUNS = {"calibrate": ("calibrate", ["--robot=robot.urdf", "--log=log.csv"],
-                      "calibration.json"),
-        "log": ("diagnose", ["--robot=robot.urdf", "--log=log.csv"], "diagnosis.json")}
+RUNS = {"calibrate": calibrate("--robot=robot.urdf", "--log=log.csv"),
+        "log": diagnose("--robot=robot.urdf", "--log=log.csv")}
 COULOMB = [.2450, .1523, .1827, .3591, .2669, .1658, .2109]
 TIMING = {"delay", "time_base", "time_drift"}
 
@@ -17,10 +18,4 @@ def coulomb(runs):
             " ".join(f"{o:.3f}" for o in own))
 
 
-def no_timing(runs):
-    """log: no error of time is named"""
-    wrong = [e for e in claims(runs["log"]) if e["effect"] in TIMING]
-    return not wrong, told(runs["log"])
-
-
-CHECKS = [coulomb, no_timing]
+CHECKS = [coulomb, names_none("log", TIMING, "no error of time is named")]

@@ -1,12 +1,14 @@
 """Schunk LWA 4P: one torque sequence replayed while friction falls (TRUTH.md: warm-up,
 viscous friction of several joints by a fifth to a quarter)."""
-from reading import claims, names, told
+from checks import names_only
+from reading import claims, told
+from runs import diagnose
 
 PART = "building"
 PAIRS = {"080_092": ("run_080", "run_092"), "001_017": ("run_001", "run_017")}
 CONTROLS = {"091_092": ("run_091", "run_092"), "016_017": ("run_016", "run_017")}
-RUNS = {run: ("diagnose", ["--robot=robot.urdf", f"--reference={a}.csv.gz",
-                           f"--log={b}.csv.gz"], "diagnosis.json")
+RUNS = {run: diagnose("--robot=robot.urdf", f"--reference={a}.csv.gz",
+                      f"--log={b}.csv.gz")
         for run, (a, b) in {**PAIRS, **CONTROLS}.items()}
 FRICTION = {"viscous_friction", "coulomb_friction", "thermal_friction", "friction"}
 
@@ -27,21 +29,7 @@ def headline_of(run):
     return check
 
 
-def nothing_else_of(run):
-    def check(runs):
-        other = [n for n, _ in names(runs[run]) if n not in FRICTION]
-        return not other, told(runs[run])
-    check.__doc__ = f"{run}: no mass, gain or other effect is named"
-    return check
-
-
-def control_of(run):
-    def check(runs):
-        return not claims(runs[run]), told(runs[run])
-    check.__doc__ = f"{run}: one run after the other, nothing is named"
-    return check
-
-
-CHECKS = [make(run) for run in PAIRS
-          for make in (named_of, headline_of, nothing_else_of)]
-CHECKS += [control_of(run) for run in CONTROLS]
+CHECKS = [make(run) for run in PAIRS for make in (named_of, headline_of)]
+CHECKS += [names_only(run, FRICTION, "no mass, gain or other effect is named")
+           for run in PAIRS]
+CHECKS += [names_only(run) for run in CONTROLS]

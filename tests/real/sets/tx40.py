@@ -1,14 +1,15 @@
 """Staubli TX40: joints 5 and 6 share a drive, whose friction follows qd5 + qd6
 (TRUTH.md: published friction of every joint)."""
+from checks import names_none
 from reading import claim, claims, held_out_share, model_parameters, told
+from runs import calibrate, diagnose
 
 PART = "building"
-RUNS = {"log": ("diagnose", ["--robot=robot.urdf", "--log=log.csv.gz"],
-                "diagnosis.json"),
-        "log_40_hz": ("diagnose", ["--robot=robot.urdf", "--log=log.csv.gz",
-                                   "--bandwidth=40"], "diagnosis.json"),
-        "calibrate": ("calibrate", ["--robot=robot.urdf", "--log=log.csv.gz",
-                                    "--bandwidth=40"], "calibration.json")}
+RUNS = {"log": diagnose("--robot=robot.urdf", "--log=log.csv.gz"),
+        "log_40_hz": diagnose("--robot=robot.urdf", "--log=log.csv.gz",
+                              "--bandwidth=40"),
+        "calibrate": calibrate("--robot=robot.urdf", "--log=log.csv.gz",
+                               "--bandwidth=40")}
 VISCOUS = [8.05, 5.53, 1.97, 1.11]
 COULOMB = [7.14, 8.26, 6.34, 2.48]
 GIVEN = ["viscous_friction", "coulomb_friction", "armature", "torque_offset"]
@@ -39,11 +40,6 @@ def removed(runs):
     return share is not None and share ** 2 <= .25, f"{share and round(share ** 2, 3)}"
 
 
-def no_delay(runs):
-    """log_40_hz: no delay is named (one rig, one clock)"""
-    return claim(runs["log_40_hz"], ["delay"]) is None, told(runs["log_40_hz"])
-
-
 def friction_of(quantity, truth):
     def check(runs):
         own = model_parameters(runs["calibrate"], quantity, 4)
@@ -53,5 +49,6 @@ def friction_of(quantity, truth):
     return check
 
 
-CHECKS = [coupled_of("log"), coupled_of("log_40_hz"), size, removed, no_delay,
+CHECKS = [coupled_of("log"), coupled_of("log_40_hz"), size, removed,
+          names_none("log_40_hz", {"delay"}, "no delay is named (one rig, one clock)"),
           friction_of("viscous", VISCOUS), friction_of("coulomb", COULOMB)]

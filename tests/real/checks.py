@@ -1,0 +1,38 @@
+"""Checks that several sets of the scoreboard share: functions of the runs, whose
+docstring is what a right answer says."""
+
+from reading import claim, claims, told
+
+
+def names_only(run, allowed=(), says="nothing is named"):
+    """Of a diagnosis: no effect but these has more than 50 %."""
+    def check(runs):
+        other = [e for e in claims(runs[run]) if e["effect"] not in allowed]
+        return not other, told(runs[run])
+    check.__doc__ = f"{run}: {says}"
+    return check
+
+
+def names_none(run, effects, says):
+    """Of a diagnosis: none of these effects has more than 50 %."""
+    def check(runs):
+        return claim(runs[run], effects) is None, told(runs[run])
+    check.__doc__ = f"{run}: {says}"
+    return check
+
+
+def leaves(run, most_mm):
+    """Of a calibration on poses: the cross-validated rms, mm."""
+    def check(runs):
+        rms = 1e3 * runs[run]["poses"]["cross_validated_rms"]
+        return rms <= most_mm, f"{rms:.3f} mm"
+    check.__doc__ = f"{run}: at most {most_mm:g} mm are left, cross-validated"
+    return check
+
+
+def no_success(run, says):
+    def check(runs):
+        code = runs.code(run)
+        return code == 1, f"exit code {code}, {runs[run]['verdict']}"[:110]
+    check.__doc__ = f"{run}: {says}"
+    return check
