@@ -16,7 +16,9 @@ enum class RandomPurpose {
   kTorque,
   kColoured,
   kJitter,
-  kLoss
+  kLoss,
+  kMisfit,
+  kDrift
 };
 
 // `seed`: the robot; `run`: which of its logs.

@@ -80,7 +80,7 @@ TEST(RandomStream, DiffersByRobotRunAndPurpose) {
   int count = 0;
   for (const uint64_t seed : {0ull, 1ull, 1ull << 32, 1ull << 63}) {
     for (const uint64_t run : {0, 1, 2}) {
-      for (int purpose = 0; purpose <= static_cast<int>(RandomPurpose::kLoss);
+      for (int purpose = 0; purpose <= static_cast<int>(RandomPurpose::kDrift);
            ++purpose, ++count) {
         first.insert(
             RandomStream(seed, run, static_cast<RandomPurpose>(purpose))());

@@ -212,6 +212,10 @@ Scenario BlindScenario(const BlindCase& blind, BlindLog log,
   scenario.loop.sensors.run = static_cast<uint64_t>(log);
   scenario.seed = blind.seed;
   scenario.run = static_cast<uint64_t>(log);
+  if (blind.misfit) {
+    scenario.misfit =
+        PlantMisfit(*blind.misfit, scenario.run, scenario.motion.duration);
+  }
   return scenario;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/plant/hidden/scenario.h"
 #include "tests/blind/case_plan.h"
+#include "tests/blind/structured_misfit.h"
 
 namespace armcal {
 
@@ -37,6 +39,7 @@ struct BlindCase {
   std::vector<ChosenEffect> effects;
   std::vector<SizeAim> aims;  // of each effect
   SensorOptions sensors;
+  std::optional<StructuredMisfit> misfit;  // nothing: the plant has none
 };
 
 // A case of that plan, its effects at their usual sizes. `attempt`: the same

@@ -100,4 +100,18 @@ SizedCase DrawSizedCase(uint64_t seed, const CasePlan& plan) {
   return *best;
 }
 
+void AddMisfit(SizedCase* sized) {
+  const Log log = sized->training.run.log;
+  BlindCase& blind = sized->blind;
+  for (uint32_t attempt = 0; attempt < kMostDraws; ++attempt) {
+    blind.misfit =
+        DrawMisfit(blind.seed, attempt, blind.robot, blind.zero_velocity, log);
+    sized->training = Run(blind, BlindLog::kTraining);
+    if (!Follows(sized->training.run)) continue;
+    sized->validation = Run(blind, BlindLog::kValidation);
+    if (Follows(sized->validation.run)) return;
+  }
+  LOG(FATAL) << "case " << blind.seed << ": with a misfit it never follows";
+}
+
 }  // namespace armcal

@@ -23,5 +23,8 @@ struct SizedCase {
 // Of a few draws of the effects' joints and forms the first whose sizes are as
 // planned, else the one that is nearest.
 SizedCase DrawSizedCase(uint64_t seed, const CasePlan& plan);
+// Draws a structured misfit for the case and makes its logs anew with it.
+// Sizes and oracle stay those of the plant without it.
+void AddMisfit(SizedCase* sized);
 
 }  // namespace armcal

@@ -33,6 +33,10 @@ DEFINE_bool(torques, true,
             "false: logs hold times, positions and commands alone, the "
             "diagnoser is told the controller, and visibility (enr) is that on "
             "positions; the robots are the same");
+DEFINE_bool(misfit, false,
+            "true: each robot also has what no model of it has: another law of "
+            "friction at zero velocity, ripple, torque constants that are off, "
+            "drift; the robots and their effects are the same");
 DEFINE_string(quiet, "",
               "folder for held-out motion without noise of cases with effects; "
               "empty: none");
@@ -61,9 +65,17 @@ json OracleJson(const OracleGap& gap) {
 // How visible the effects are in what is logged.
 std::vector<EffectSize> SizesAsLogged(const SizedCase& sized) {
   if (sized.blind.has_torque || sized.sizes.empty()) return sized.sizes;
-  const auto sizes = EffectSizes(sized.blind);
+  BlindCase planned = sized.blind;
+  planned.misfit.reset();
+  const auto sizes = EffectSizes(planned);
   CHECK(sizes) << "an arm that has followed follows";
   return *sizes;
+}
+
+json MisfitJson(const BlindCase& blind) {
+  std::vector<std::string> logs = {"training", "validation"};
+  if (blind.has_reference) logs.push_back("reference");  // as BlindLog has them
+  return ToJson(*blind.misfit, logs);
 }
 
 // Of what truth.json says of effect k, and what the bench knows of it.
@@ -89,6 +101,7 @@ json Label(const SizedCase& sized) {
   label["motion"] = blind.points ? "points" : "fourier";
   label["reference"] = blind.has_reference;
   label["attempt"] = sized.attempt;
+  if (blind.misfit) label["misfit"] = MisfitJson(blind);
   const std::vector<EffectSize> sizes = SizesAsLogged(sized);
   for (size_t k = 0; k < sizes.size(); ++k) {
     AddSize(sized, sizes[k], k, &label["effects"][k]);
@@ -140,6 +153,7 @@ void WriteCase(BlindSet set, uint32_t index) {
   SizedCase sized =
       DrawSizedCase(BlindCaseSeed(set, FLAGS_seed, index), Plan(index));
   sized.blind.has_torque = FLAGS_torques;
+  if (FLAGS_misfit) AddMisfit(&sized);
   const BlindCase& blind = sized.blind;
   const fs::path folder = fs::path(FLAGS_logs) / name;
   fs::create_directories(folder);

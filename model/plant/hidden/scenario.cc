@@ -32,6 +32,7 @@ SimulatedRobot TrueRobot(const Scenario& scenario) {
   robot.robot = VaryRobot(scenario.model, scenario.robot_error, scenario.seed);
   // The arm's own; effects that put joints under the base know how to move it.
   AddJointFriction(scenario.zero_velocity, &robot);
+  if (scenario.misfit) scenario.misfit(&robot);
   return robot;
 }
 

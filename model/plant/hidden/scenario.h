@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct Scenario {
   // motion's, since logs of one robot may differ in length.
   double effect_time = 40;
   std::vector<ChosenEffect> effects;
+  // Gives the true robot what no effect has; may be empty.
+  std::function<void(SimulatedRobot* robot)> misfit;
   ReferenceMotion motion;
   ClosedLoopOptions loop;
   uint64_t seed = 0;  // of the robot's errors and of what effects draw
