@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/torque_bursts.h"
 #include "calib/diagnose/judge/held_out.h"
 #include "calib/diagnose/select/fit.h"
@@ -18,8 +19,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Relative standard deviation of joint terms that were fitted, not given.
-constexpr double kTrustInFitted = .5;
 constexpr double kTimingWithReference = .05;  // s
 // Of torques that are known well enough to show it, s.
 constexpr double kReversalOfMadeTorques = .005;
@@ -60,6 +59,8 @@ class Diagnoser {
   void KnowUsualTemperature(std::vector<GapSegment>* segments);
   void Fit(const std::vector<GapSegment>& segments,
            const std::vector<GapSegment>& before, bool split);
+  void KnowWhatModelsLack(const std::vector<GapSegment>& segments,
+                          const std::vector<GapSegment>& before);
   JointGap JointFigures(int joint) const;
   JointCourse CourseOf(int joint) const;
   void Simulate(const LogSet& held_out, bool split);
@@ -103,7 +104,9 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
       FitLackedFamilies(robot_, options_.baseline, bandwidth_hz_,
                         before.empty() ? segments : before);
   BaselineOptions trust = options_.baseline;
-  if (!lacked.families.empty()) trust.joint_trust = kTrustInFitted;
+  for (const LackedFamily& family : lacked.families) {
+    trust.fitted_terms.insert(family.term);
+  }
   // How late a log's torque is, a reference tells.
   if (!before.empty()) trust.timing_s = kTimingWithReference;
   if (HaveNoiseOfPositions(segments)) {
@@ -116,6 +119,9 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
     baseline_ = model.baseline;
     delay_ = model.delay;
     AdvanceTorque(delay_, &segments);
+    // Numbered after the diagnosed ones: each log drifts for itself.
+    const int logs = segments.back().log + 1;
+    for (GapSegment& segment : before) segment.log += logs;
   }
   result_.ladder = lacked;
   result_.has_reference = reference != nullptr;
@@ -145,19 +151,31 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   result_.traces =
       TraceHeldOut(held_out_->rows(), residuals, !result_.effects.empty());
   Simulate(split ? training : *validation, split);
-  result_.moved = ListMoved(*fit_, fit_->refined().baseline);
-  result_.shown = ListShown(*fit_, fit_->refined().baseline);
-  result_.drifts = ListRunDrifts(*fit_, fit_->refined().baseline);
+  result_.moved = ListMoved(*fit_, fit_->model_after());
+  result_.shown = ListShown(*fit_, fit_->model_after());
+  result_.drifts = ListRunDrifts(*fit_, fit_->model_after());
   result_.untestable = ListUntestable(*fit_);
   TellUnexplained();
   Judge();
   return result_;
 }
 
+// Torques that are made of commands have noise of another kind, which is known.
+void Diagnoser::KnowWhatModelsLack(const std::vector<GapSegment>& segments,
+                                   const std::vector<GapSegment>& before) {
+  if (HaveNoiseOfPositions(segments)) return;
+  const GapRows rows(segments, bandwidth_hz_);
+  const MotionScale scale =
+      ScaleOf(*baseline_, rows, RecordedTorques(*baseline_, rows));
+  baseline_->AddDiscrepancy(Discrepancy(
+      robot_, scale, (before.empty() ? segments : before).back().log + 1));
+}
+
 // What happens once may happen in the part that is held out, where nothing else
 // is looked for.
 void Diagnoser::Fit(const std::vector<GapSegment>& segments,
                     const std::vector<GapSegment>& before, bool split) {
+  KnowWhatModelsLack(segments, before);
   const GapFitOptions options{bandwidth_hz_, options_.selection,
                               options_.without};
   fit_.emplace(*baseline_, options, segments,
@@ -178,7 +196,7 @@ void Diagnoser::Fit(const std::vector<GapSegment>& segments,
 
 JointGap Diagnoser::JointFigures(int j) const {
   const Joint& joint = robot_.links[j].joint;
-  const double sigma = fit_->rows().noise(j).stddev();
+  const double sigma = fit_->noise().joints[j].stddev();
   JointGap gap;
   gap.name = joint.name;
   gap.unit = EffortUnit(joint.type);
@@ -223,8 +241,9 @@ void Diagnoser::Simulate(const LogSet& held_out, bool split) {
                          const std::vector<GapCandidate>& effects) {
     return MakeCorrectedRobot(*baseline_, x, effects, fit_->scale());
   };
-  ForwardRobots robots = {robot(fit_->before(), {}), robot(fit_->refit(), {}),
-                          robot(refined.baseline, refined.effects)};
+  ForwardRobots robots = {robot(fit_->before(), {}),
+                          robot(fit_->model_refit(), {}),
+                          robot(fit_->model_after(), refined.effects)};
   result_.corrected = robots.after;
   // Segments have their torque as if it came without delay; logs have not.
   result_.corrected.delay += delay_;
@@ -288,9 +307,12 @@ void Diagnoser::Judge() {
   }
   double left = 0;
   for (const JointGap& joint : result_.joints) left += joint.unexplained;
+  const bool lacks_something = std::any_of(
+      result_.effects.begin(), result_.effects.end(),
+      [](const FoundEffect& found) { return !found.of_another_day; });
   result_.verdict =
-      JudgeGap({result_.torque, !result_.effects.empty(), found_without_name_,
-                left, result_.unexplained.share});
+      JudgeGap({result_.torque, lacks_something, found_without_name_, left,
+                result_.unexplained.share});
 }
 
 }  // namespace

@@ -93,9 +93,6 @@ struct Effect {
   // Effects that a model without this law would show in its stead, as its mean:
   // beside it on the same joint they are a part of it.
   std::vector<std::string> means;
-  // Mechanisms that no effect describes and that are often taken for this one,
-  // a phrase: then finding it says less. Empty: none is known.
-  std::string imitated_by;
   // Whether it is friction that in steady motion depends on the joint's own
   // velocity alone: then the nearest viscous and Coulomb friction stand for it
   // in files that have no other.

@@ -84,7 +84,7 @@ GapBaseline::GapBaseline(const Robot& robot, const BaselineOptions& options,
     transition.width = kReferenceWidth * WidthUnit(robot.links[j].joint);
     transitions_.push_back(transition);
     AddLink(j, options.trust);
-    AddTerms(j, options.joint_trust.value_or(options.trust), usual_torque[j]);
+    AddTerms(j, options, usual_torque[j]);
     AddReversal(j, options.reversal_s);
   }
   columns_.push_back({BaselineColumn::Kind::kTiming, -1, 0, options.timing_s});
@@ -110,11 +110,42 @@ void GapBaseline::FreeDays() {
 
 void GapBaseline::AddKnown(const KnownEffects& known) {
   CHECK(known_.parameters().empty());
+  CHECK_EQ(num_model_columns(), size());
   known_ = known;
+  known_begin_ = size();
   for (const KnownEffects::Parameter& parameter : known.parameters()) {
     columns_.push_back({BaselineColumn::Kind::kEffect, parameter.joint,
                         parameter.index, parameter.spread});
   }
+}
+
+void GapBaseline::AddDiscrepancy(const Discrepancy& discrepancy) {
+  CHECK_EQ(num_model_columns(), size());
+  discrepancy_ = discrepancy;
+  for (int j = 0; j < robot_.num_joints(); ++j) {
+    const Eigen::VectorXd spreads =
+        discrepancy_.Spreads(j, robot_.links[j].joint);
+    for (int k = 0; k < spreads.size(); ++k) {
+      columns_.push_back(
+          {BaselineColumn::Kind::kDiscrepancy, j, k, spreads[k]});
+    }
+  }
+}
+
+GapBaseline GapBaseline::WithoutDiscrepancy() const {
+  GapBaseline without = *this;
+  without.columns_.resize(num_model_columns());
+  without.discrepancy_ = {};
+  return without;
+}
+
+int GapBaseline::num_model_columns() const {
+  int count = size();
+  while (count > 0 &&
+         columns_[count - 1].kind == BaselineColumn::Kind::kDiscrepancy) {
+    --count;
+  }
+  return count;
 }
 
 void GapBaseline::AddLink(int link, double trust) {
@@ -128,18 +159,28 @@ void GapBaseline::AddLink(int link, double trust) {
   }
 }
 
-void GapBaseline::AddTerms(int j, double trust, double usual_torque) {
+void GapBaseline::AddTerms(int j, const BaselineOptions& options,
+                           double usual_torque) {
   const Joint& joint = robot_.links[j].joint;
-  const auto add = [&](JointTerm term, double spread) {
+  const auto add = [&](JointTerm term, double size) {
+    const double trust = options.fitted_terms.count(term) > 0
+                             ? options.trust_in_fitted
+                             : options.trust;
+    const double spread = trust * std::abs(size);
     if (spread <= 0) return;
     columns_.push_back(
         {BaselineColumn::Kind::kTerm, j, static_cast<int>(term), spread});
   };
-  add(JointTerm::kArmature, trust * std::abs(joint.armature));
-  add(JointTerm::kViscous, trust * std::abs(joint.viscous));
-  add(JointTerm::kCoulomb, trust * std::abs(joint.coulomb));
-  add(JointTerm::kOffset,
-      trust * std::max(std::abs(joint.coulomb), kOffsetShare * usual_torque));
+  add(JointTerm::kArmature, joint.armature);
+  add(JointTerm::kViscous, joint.viscous);
+  add(JointTerm::kCoulomb, joint.coulomb);
+  // A file that was made by measuring friction has its zero as well as that.
+  if (options.fitted_terms.empty()) {
+    add(JointTerm::kOffset,
+        std::max(std::abs(joint.coulomb), kOffsetShare * usual_torque));
+  } else {
+    add(JointTerm::kOffset, kOffsetShare * usual_torque / options.trust);
+  }
   if (joint.coulomb == 0) return;
   for (size_t k = 0; k < kOtherWidths.size(); ++k) {
     columns_.push_back({BaselineColumn::Kind::kZeroVelocity, j,
@@ -184,41 +225,61 @@ VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
       return SlopeByDelay(torque.nominal().col(j), motion.torque.OfJoint(j),
                           motion.dt);
     case BaselineColumn::Kind::kEffect:
+    case BaselineColumn::Kind::kDiscrepancy:
       break;
   }
   return {};
 }
 
-std::vector<MatrixXd> GapBaseline::ThinColumns(
+// Joint j's torque per unit of all columns in a segment, those that act on it.
+BaselineColumns GapBaseline::FineColumns(int j, const GapSegment& segment,
+                                         const MatrixXd& inertial,
+                                         const std::vector<MatrixXd>& known,
+                                         const RecordedTorque& torque) const {
+  const int samples = segment.size(), model = num_model_columns();
+  BaselineColumns fine;
+  std::vector<VectorXd> columns;
+  const auto add = [&](int c, VectorXd column) {
+    fine.which.push_back(c);
+    columns.push_back(std::move(column));
+  };
+  for (int c = 0; c < model; ++c) {
+    if (columns_[c].kind == BaselineColumn::Kind::kEffect) {
+      add(c, known[c - known_begin_].col(j));
+      continue;
+    }
+    VectorXd column = FineColumn(columns_[c], j, inertial, torque);
+    if (column.size() > 0) add(c, columns_[c].spread * column);
+  }
+  MatrixXd own;
+  for (int c = model; c < size(); ++c) {
+    if (columns_[c].joint != j) continue;
+    if (own.size() == 0) own = discrepancy_.Torque(j, segment, torque);
+    add(c, columns_[c].spread * own.col(columns_[c].index));
+  }
+  fine.values.resize(samples, static_cast<Eigen::Index>(columns.size()));
+  for (size_t k = 0; k < columns.size(); ++k) fine.values.col(k) = columns[k];
+  return fine;
+}
+
+std::vector<BaselineColumns> GapBaseline::ThinColumns(
     const GapRows& rows, const std::vector<RecordedTorque>& torques) const {
   const int n = robot_.num_joints();
-  std::vector<MatrixXd> thin(n, MatrixXd(rows.num_thin(), size()));
+  std::vector<BaselineColumns> thin(n);
   for (size_t i = 0; i < torques.size(); ++i) {
-    const int s = static_cast<int>(i);
+    const int s = static_cast<int>(i), begin = rows.thin_begin(s);
     const Motion& motion = torques[i].motion();
     const std::vector<MatrixXd> inertial = InertialTorque(robot_, motion);
     const std::vector<MatrixXd> known = known_.Torques(robot_, torques[i]);
     tbb::parallel_for(0, n, [&](int j) {
-      std::vector<int> which;
-      std::vector<VectorXd> columns;
-      const auto add = [&](int c, VectorXd column) {
-        if (column.size() == 0 || column.isZero(0)) return;
-        which.push_back(c);
-        columns.push_back(std::move(column));
-      };
-      for (int c = 0; c < size(); ++c) {
-        add(c, columns_[c].spread *
-                   FineColumn(columns_[c], j, inertial[j], torques[i]));
+      BaselineColumns fine =
+          FineColumns(j, rows.segments()[i], inertial[j], known, torques[i]);
+      const MatrixXd low = rows.Thin(s, fine.values);
+      if (i == 0) {
+        thin[j].which = std::move(fine.which);
+        thin[j].values.resize(rows.num_thin(), low.cols());
       }
-      for (size_t k = 0; k < known.size(); ++k) {
-        add(static_cast<int>(size() - known.size() + k), known[k].col(j));
-      }
-      MatrixXd fine(motion.size(), columns.size());
-      for (size_t k = 0; k < columns.size(); ++k) fine.col(k) = columns[k];
-      const MatrixXd low = rows.Thin(s, fine);
-      auto here = thin[j].middleRows(rows.thin_begin(s), low.rows());
-      here.setZero();
-      for (size_t k = 0; k < which.size(); ++k) here.col(which[k]) = low.col(k);
+      thin[j].values.middleRows(begin, low.rows()) = low;
     });
   }
   return thin;
@@ -266,7 +327,7 @@ std::vector<CoulombPart> GapBaseline::CoulombAt(int j,
 }
 
 std::vector<KnownEffect> GapBaseline::KnownAt(const VectorXd& x) const {
-  return known_.At(x.tail(known_.parameters().size()));
+  return known_.At(x.segment(known_begin_, known_.parameters().size()));
 }
 
 double GapBaseline::DelayAt(const VectorXd& x) const {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/data/baseline_columns.h"
+#include "calib/diagnose/data/discrepancy.h"
 #include "calib/diagnose/data/known_effects.h"
 #include "calib/diagnose/data/rows.h"
 #include "calib/logs/joint_term_laws.h"
@@ -21,6 +23,7 @@ namespace armcal {
 // the robot is known to have.
 struct BaselineColumn {
   // kDay: a joint term in the diagnosed logs only, not in a reference.
+  // kDiscrepancy: what models of robots lack as a rule (discrepancy.h).
   enum class Kind {
     kInertial,
     kTerm,
@@ -28,12 +31,13 @@ struct BaselineColumn {
     kReversal,
     kTiming,
     kDay,
-    kEffect
+    kEffect,
+    kDiscrepancy
   };
   Kind kind;
   int joint;      // or link; -1: all
   int index = 0;  // inertial parameter or JointTerm or shape or parameter of
-                  // KnownEffects
+                  // KnownEffects or shape of Discrepancy
   double spread;  // SI units per prior standard deviation
 
   // Whether it is one of the changes of friction near zero velocity that show
@@ -48,8 +52,10 @@ struct BaselineColumn {
 // file's inertial parameters, armature and friction.
 struct BaselineOptions {
   double trust = 0.05;
-  // The same of armature and friction, where these are not the file's.
-  std::optional<double> joint_trust;
+  // The joint terms that are not the file's but were fitted, and the same of
+  // these.
+  std::set<JointTerm> fitted_terms;
+  double trust_in_fitted = 0.5;
   double timing_s = 5e-4;  // standard deviation, torque against position
   // The same of friction's change of sign against that of the velocity, whose
   // low pass takes a stop for a turn; 0: none.
@@ -68,6 +74,13 @@ class GapBaseline {
   void FreeDays();
   // From now on the linear parameters of these are columns, too. Once.
   void AddKnown(const KnownEffects& known);
+  // From now on what models lack as a rule has columns, too; after all others.
+  // Once.
+  void AddDiscrepancy(const Discrepancy& discrepancy);
+  const Discrepancy& discrepancy() const { return discrepancy_; }
+  GapBaseline WithoutDiscrepancy() const;
+  // The columns before those.
+  int num_model_columns() const;
 
   const Robot& robot() const { return robot_; }
   int size() const { return static_cast<int>(columns_.size()); }
@@ -75,9 +88,8 @@ class GapBaseline {
   const std::vector<CoulombTransition>& transitions() const {
     return transitions_;
   }
-  // Torque of all columns at unit value, low-passed and thinned: n matrices of
-  // thinned samples x size(), of which row k column c is joint j's.
-  std::vector<Eigen::MatrixXd> ThinColumns(
+  // Torque of all columns at unit value, low-passed and thinned, per joint.
+  std::vector<BaselineColumns> ThinColumns(
       const GapRows& rows, const std::vector<RecordedTorque>& torques) const;
   // The robot with these values of the columns; nuisances have no place in it.
   Robot With(const Eigen::VectorXd& x) const;
@@ -93,15 +105,22 @@ class GapBaseline {
  private:
   void AddLink(int link, double trust);
   double WidthOf(const BaselineColumn& column) const;  // of kZeroVelocity
-  void AddTerms(int joint, double trust, double usual_torque);
+  void AddTerms(int joint, const BaselineOptions& options, double usual_torque);
   void AddReversal(int joint, double timing);
   Eigen::VectorXd FineColumn(const BaselineColumn& column, int j,
                              const Eigen::MatrixXd& inertial,
                              const RecordedTorque& torque) const;
 
+  BaselineColumns FineColumns(int j, const GapSegment& segment,
+                              const Eigen::MatrixXd& inertial,
+                              const std::vector<Eigen::MatrixXd>& known,
+                              const RecordedTorque& torque) const;
+
   Robot robot_;
   std::vector<BaselineColumn> columns_;
   KnownEffects known_;
+  int known_begin_ = 0;  // the first of their columns
+  Discrepancy discrepancy_;
   std::vector<CoulombTransition> transitions_;
 };
 

@@ -31,7 +31,7 @@ MatrixXd Spread(const MatrixXd& doubt) {
 
 GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
                  double bandwidth_hz, LogPart part)
-    : signals_(std::make_shared<Signals>()) {
+    : signals_(std::make_shared<Signals>()), num_columns_(baseline.size()) {
   signals_->segments = std::move(segments);
   rows_ = std::make_unique<GapRows>(signals_->segments, bandwidth_hz, part);
   torques_ = RecordedTorques(baseline, *rows_);
@@ -44,7 +44,7 @@ GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
     const BaselineColumn& column = baseline.columns()[c];
     if (!column.IsZeroVelocityDoubt()) continue;
     auto doubt = usual.col(column.joint);
-    doubt = doubt.cwiseMax(columns()[column.joint].col(c).cwiseAbs());
+    doubt = doubt.cwiseMax(columns()[column.joint].Column(c).cwiseAbs());
   }
   for (size_t i = 0; i < signals_->segments.size(); ++i) {
     const int s = static_cast<int>(i), begin = rows_->thin_begin(s);
@@ -68,7 +68,8 @@ GapData::GapData(const GapData& other, LogPart part)
       rows_(std::make_unique<GapRows>(signals_->segments,
                                       other.rows_->bandwidth_hz(), part)),
       torques_(other.torques_),
-      columns_(signals_->columns) {
+      columns_(signals_->columns),
+      num_columns_(other.num_columns_) {
   Unmask();
 }
 
@@ -88,7 +89,7 @@ MatrixXd GapData::ResidualWith(const VectorXd& x,
                                const std::vector<VectorXd>& torque) const {
   MatrixXd residual = signals_->residual;
   for (int j = 0; j < rows_->num_joints(); ++j) {
-    residual.col(j) -= columns()[j] * x;
+    residual.col(j) -= columns()[j].Times(x);
     if (torque[j].size() > 0) residual.col(j) -= torque[j];
     residual.col(j) = rows_->WithoutDrift(j, residual.col(j));
   }
@@ -99,9 +100,27 @@ void GapData::SetNoise(std::vector<Autoregression> noise) {
   rows_->SetNoise(std::move(noise), doubt_);
 }
 
+void GapData::SetEvidence(const VectorXd& stddev) {
+  rows_->SetEvidence(stddev, doubt_);
+}
+
+void GapData::ScaleEvidence(const VectorXd& factor) {
+  rows_->ScaleEvidence(factor);
+}
+
+void GapData::ScaleColumns(int first, double factor) {
+  Columns scaled = *columns_;
+  for (BaselineColumns& columns : scaled) {
+    for (size_t k = 0; k < columns.which.size(); ++k) {
+      if (columns.which[k] >= first) columns.values.col(k) *= factor;
+    }
+  }
+  columns_ = std::make_shared<const Columns>(std::move(scaled));
+}
+
 void GapData::Hold(int column) {
   Columns held = *columns_;
-  for (MatrixXd& columns : held) columns.col(column).setZero();
+  for (BaselineColumns& columns : held) columns.Remove(column);
   columns_ = std::make_shared<const Columns>(std::move(held));
 }
 
@@ -123,12 +142,19 @@ void GapData::MaskIn(int segment, const TimeRange& window,
 
 void GapData::Unmask() { doubt_ = signals_->usual_doubt; }
 
-std::vector<MatrixXd> GapData::WhitenedColumns() const {
-  std::vector<MatrixXd> white;
+std::vector<BaselineColumns> GapData::WhitenedColumns() const {
+  std::vector<BaselineColumns> white;
   for (int j = 0; j < rows_->num_joints(); ++j) {
-    white.push_back(rows_->Whiten(j, columns()[j]));
+    const BaselineColumns& own = columns()[j];
+    white.push_back({own.which, rows_->Whiten(j, own.values)});
   }
   return white;
+}
+
+GapScreen GapData::Screen(int columns) const {
+  std::vector<BaselineColumns> white = WhitenedColumns();
+  for (BaselineColumns& own : white) own.KeepFirst(columns);
+  return GapScreen(std::move(white), columns, WhitenedResidual());
 }
 
 std::vector<VectorXd> GapData::WhitenedResidual() const {

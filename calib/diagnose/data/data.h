@@ -7,6 +7,7 @@
 #include "calib/diagnose/data/baseline.h"
 #include "calib/diagnose/data/noise.h"
 #include "calib/diagnose/data/rows.h"
+#include "calib/diagnose/data/screen.h"
 #include "calib/diagnose/data/segment.h"
 
 namespace armcal {
@@ -30,8 +31,8 @@ class GapData {
   const Eigen::MatrixXd& residual() const { return signals_->residual; }
   // The same on the segments' own grids.
   std::vector<Eigen::MatrixXd> FineResidual() const;
-  // Per joint, thinned samples x baseline size.
-  const std::vector<Eigen::MatrixXd>& columns() const { return *columns_; }
+  // Per joint, of thinned samples.
+  const std::vector<BaselineColumns>& columns() const { return *columns_; }
   // What the baseline at x leaves.
   Eigen::MatrixXd ResidualWith(const Eigen::VectorXd& x) const;
   // The same beside a torque: per joint thinned samples, empty where it is 0.
@@ -42,6 +43,11 @@ class GapData {
   // Friction near zero velocity is doubted beyond what the baseline's columns
   // can vary: laws differ, and encoders do not see slow creep.
   void SetNoise(std::vector<Autoregression> noise);
+  // Rows are from now on whitened as GapRows::SetEvidence says.
+  void SetEvidence(const Eigen::VectorXd& stddev);
+  void ScaleEvidence(const Eigen::VectorXd& factor);
+  // Multiplies the baseline's columns from `first` on.
+  void ScaleColumns(int first, double factor);
   // As if this column of the baseline did not act in these logs.
   void Hold(int column);
   // From now on nothing is believed of a log in this time, s.
@@ -49,11 +55,14 @@ class GapData {
   // All is believed again.
   void Unmask();
   // Whitened, per joint.
-  std::vector<Eigen::MatrixXd> WhitenedColumns() const;
+  std::vector<BaselineColumns> WhitenedColumns() const;
   std::vector<Eigen::VectorXd> WhitenedResidual() const;
+  // The residual on these columns, the baseline's first `columns` alone.
+  GapScreen Screen(int columns) const;
+  GapScreen Screen() const { return Screen(num_columns_); }
 
  private:
-  using Columns = std::vector<Eigen::MatrixXd>;
+  using Columns = std::vector<BaselineColumns>;
   // What does not depend on which samples have rows.
   struct Signals {
     std::vector<GapSegment> segments;
@@ -69,6 +78,7 @@ class GapData {
   std::unique_ptr<GapRows> rows_;
   std::vector<RecordedTorque> torques_;
   std::shared_ptr<const Columns> columns_;
+  int num_columns_;
   Eigen::MatrixXd doubt_;
 };
 

@@ -1,6 +1,8 @@
 #include "calib/diagnose/data/days.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <set>
 
@@ -16,6 +18,34 @@ std::vector<int> DayColumns(const GapBaseline& baseline) {
   return columns;
 }
 
+std::vector<int> ChangedTogether(const GapBaseline& baseline, JointTerm term,
+                                 const Eigen::VectorXd& x,
+                                 const Eigen::MatrixXd& covariance) {
+  constexpr double kTold = .8;  // of the prior's variance, that is still left
+  std::vector<int> told, changed;
+  for (const int c : DayColumns(baseline)) {
+    if (static_cast<JointTerm>(baseline.columns()[c].index) != term) continue;
+    if (covariance(c, c) > kTold) continue;
+    told.push_back(c);
+    if (std::abs(x[c]) > 1) changed.push_back(c);
+  }
+  if (changed.size() < 2) return {};
+  // An estimate within a prior of variance 1 is N(0, 1 - what is left of it).
+  const Eigen::Index count = static_cast<Eigen::Index>(told.size());
+  const Eigen::MatrixXd scatter =
+      Eigen::MatrixXd::Identity(count, count) - covariance(told, told);
+  const Eigen::VectorXd own = x(told);
+  const double of_each = own.dot(scatter.ldlt().solve(own));
+  const double of_mean = own.sum() * own.sum() / scatter.sum();
+  using boost::math::cdf;
+  using boost::math::chi_squared;
+  using boost::math::complement;
+  const double chance = std::min(cdf(complement(chi_squared(count), of_each)),
+                                 cdf(complement(chi_squared(1), of_mean)));
+  if (2 * chance > kChanceOfDays) return {};
+  return changed;
+}
+
 bool IsAnotherDay(const GapBaseline& baseline, const Eigen::VectorXd& x,
                   const Eigen::MatrixXd& covariance) {
   constexpr double kClear = 5;  // standard deviations
@@ -25,6 +55,9 @@ bool IsAnotherDay(const GapBaseline& baseline, const Eigen::VectorXd& x,
     if (std::abs(x[c]) > kClear * std::sqrt(covariance(c, c))) {
       changed.insert(baseline.columns()[c].joint);
     }
+  }
+  for (const JointTerm term : {JointTerm::kViscous, JointTerm::kCoulomb}) {
+    if (!ChangedTogether(baseline, term, x, covariance).empty()) return true;
   }
   return static_cast<int>(changed.size()) >=
          std::min(kSeveral, baseline.robot().num_joints());

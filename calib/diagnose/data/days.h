@@ -10,8 +10,22 @@ namespace armcal {
 // Columns of friction that differs from day to day.
 std::vector<int> DayColumns(const GapBaseline& baseline);
 
+// How often friction of an ordinary other day is taken for more: beyond three
+// standard deviations.
+inline constexpr double kChanceOfDays = .0027;
+
+// Of the days' columns of one joint term, x in their standard deviations: those
+// that changed by more than one, where the joints together, or their mean,
+// changed by more than chance has it (two tests: twice the smaller tail of chi
+// squared), on two joints at least: one change, as temperature makes it. Empty:
+// friction is that of an ordinary other day.
+std::vector<int> ChangedTogether(const GapBaseline& baseline, JointTerm term,
+                                 const Eigen::VectorXd& x,
+                                 const Eigen::MatrixXd& covariance);
+
 // Whether x (with its covariance) says that logs are of another day than their
-// reference: friction differs on three joints, on all of smaller arms.
+// reference: friction differs on three joints, on all of smaller arms, or has
+// changed together.
 bool IsAnotherDay(const GapBaseline& baseline, const Eigen::VectorXd& x,
                   const Eigen::MatrixXd& covariance);
 

@@ -157,6 +157,23 @@ void GapRows::SetNoise(std::vector<Autoregression> noise,
   }
 }
 
+void GapRows::SetEvidence(const Eigen::VectorXd& stddev,
+                          const MatrixXd& doubt) {
+  CHECK_EQ(stddev.size(), num_joints());
+  CHECK_EQ(doubt.rows(), num_thin());
+  evidence_ = stddev;
+  evidence_weight_.resize(num_thin(), num_joints());
+  for (int j = 0; j < num_joints(); ++j) {
+    const double own = stddev[j] * stddev[j];
+    evidence_weight_.col(j) =
+        (own / (own + doubt.col(j).array().square())).sqrt();
+  }
+}
+
+void GapRows::ScaleEvidence(const Eigen::VectorXd& factor) {
+  evidence_ = evidence_.cwiseProduct(factor);
+}
+
 int GapRows::num_rows(int joint) const {
   int rows = 0;
   for (const Run& run : runs_[joint]) rows += run.size - Autoregression::kOrder;
@@ -195,20 +212,37 @@ MatrixXd GapRows::WithoutDrift(int joint, const MatrixXd& thin) const {
   return without;
 }
 
-MatrixXd GapRows::Whiten(int joint, const MatrixXd& signals) const {
-  const MatrixXd thin = WithoutDrift(joint, signals);
+template <typename Rows>
+MatrixXd GapRows::RowsOfRuns(int joint, const MatrixXd& thin,
+                             const MatrixXd& weight, Rows rows_of_run) const {
   MatrixXd rows(num_rows(joint), thin.cols());
   int at = 0;
   for (const Run& run : runs_[joint]) {
     const int size = run.size - Autoregression::kOrder;
     rows.middleRows(at, size) =
-        weight_.col(joint)
+        weight.col(joint)
             .segment(run.begin + Autoregression::kOrder, size)
             .asDiagonal() *
-        noise_[joint].Whiten(thin.middleRows(run.begin, run.size));
+        rows_of_run(thin.middleRows(run.begin, run.size));
     at += size;
   }
   return rows;
+}
+
+MatrixXd GapRows::Whiten(int joint, const MatrixXd& signals) const {
+  if (!has_evidence()) return WhitenByNoise(joint, signals);
+  return RowsOfRuns(
+      joint, WithoutDrift(joint, signals), evidence_weight_,
+      [&](const MatrixXd& run) -> MatrixXd {
+        return run.bottomRows(run.rows() - Autoregression::kOrder) /
+               evidence_[joint];
+      });
+}
+
+MatrixXd GapRows::WhitenByNoise(int joint, const MatrixXd& signals) const {
+  return RowsOfRuns(
+      joint, WithoutDrift(joint, signals), weight_,
+      [&](const MatrixXd& run) { return noise_[joint].Whiten(run); });
 }
 
 MatrixXd GapRows::Stacked(const std::vector<MatrixXd>& signals,

@@ -66,6 +66,15 @@ class GapRows {
   // (thinned samples x n, N m or N); rows count the less.
   void SetNoise(std::vector<Autoregression> noise,
                 const Eigen::MatrixXd& doubt);
+  // From now on Whiten() takes what the model leaves for white noise of these
+  // standard deviations (n, N m or N), not for the noise of the torque alone:
+  // what is right of the model is told by what it leaves, samples of which are
+  // not all independent.
+  void SetEvidence(const Eigen::VectorXd& stddev, const Eigen::MatrixXd& doubt);
+  // Times the standard deviations, doubts included.
+  void ScaleEvidence(const Eigen::VectorXd& factor);
+  bool has_evidence() const { return evidence_.size() > 0; }
+  const Eigen::VectorXd& evidence() const { return evidence_; }
   const Autoregression& noise(int joint) const { return noise_[joint]; }
   // Variance of a thinned sample: of the noise and the doubt.
   double variance(int joint, int sample) const {
@@ -79,6 +88,8 @@ class GapRows {
   Eigen::MatrixXd WithoutDrift(int joint, const Eigen::MatrixXd& thin) const;
   // Whitened rows of thinned signals (num_thin() x any).
   Eigen::MatrixXd Whiten(int joint, const Eigen::MatrixXd& thin) const;
+  // The same by the noise of the torque alone.
+  Eigen::MatrixXd WhitenByNoise(int joint, const Eigen::MatrixXd& thin) const;
   // The thinned sample that each row is of.
   std::vector<int> SampleOfRow(int joint) const;
   // The same with its segment and its time, s since the log's first row.
@@ -97,6 +108,11 @@ class GapRows {
                           OfSegment part) const;
   enum class Use { kMoving, kStill, kNone };
   void MakeRuns();
+  // Rows of each run, its first kOrder samples left out, times their weights.
+  template <typename Rows>
+  Eigen::MatrixXd RowsOfRuns(int joint, const Eigen::MatrixXd& thin,
+                             const Eigen::MatrixXd& weight,
+                             Rows rows_of_run) const;
   Use UseOf(int segment, int joint, int k) const;
 
   const std::vector<GapSegment>& segments_;
@@ -111,6 +127,8 @@ class GapRows {
   std::vector<std::vector<Run>> runs_, still_runs_;
   std::vector<Autoregression> noise_;
   Eigen::MatrixXd variance_, weight_;  // thinned samples x n
+  Eigen::VectorXd evidence_;           // n, N m or N; empty: none
+  Eigen::MatrixXd evidence_weight_;    // like weight_
 };
 
 // Throws InputError where a part of the logs has no rows: nothing to fit or to

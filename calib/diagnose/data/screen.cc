@@ -3,6 +3,7 @@
 #include <glog/logging.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/signals/dense_solvers.h"
@@ -29,24 +30,26 @@ MatrixXd InnerProducts(const MatrixXd& a, const MatrixXd& b) {
 
 }  // namespace
 
-GapScreen::GapScreen(std::vector<MatrixXd> baseline, JointRows target)
+GapScreen::GapScreen(std::vector<BaselineColumns> baseline, int size,
+                     JointRows target)
     : baseline_(std::move(baseline)), target_(std::move(target)) {
   CHECK_EQ(baseline_.size(), target_.size());
-  const Eigen::Index size = baseline_.at(0).cols();
-  information_ = MatrixXd::Identity(size, size);
-  gradient_ = VectorXd::Zero(size);
-  for (size_t j = 0; j < baseline_.size(); ++j) {
-    CHECK_EQ(baseline_[j].rows(), target_[j].size());
-    information_ += InnerProducts(baseline_[j], baseline_[j]);
-    gradient_ += baseline_[j].transpose() * target_[j];
-  }
+  known_information_ = MatrixXd::Zero(size, size);
+  known_gradient_ = VectorXd::Zero(size);
+  products_.resize(target_.size());
+  tbb::parallel_for(size_t{0}, products_.size(), [&](size_t j) {
+    CHECK_EQ(baseline_[j].values.rows(), target_[j].size());
+    products_[j].of_baseline =
+        InnerProducts(baseline_[j].values, baseline_[j].values);
+    products_[j].of_target = baseline_[j].values.transpose() * target_[j];
+  });
 }
 
 void GapScreen::AddInformation(const MatrixXd& AtA, const VectorXd& Aty) {
   CHECK_EQ(known_.size(), 0);
   CHECK_LT(factored_, 0);
-  information_ += AtA;
-  gradient_ += Aty;
+  known_information_ = AtA;
+  known_gradient_ = Aty;
   // The root of a matrix that may be singular, which a triangular one of it
   // would not survive: A'A = U'U with U = sqrt(values) vectors'.
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(AtA);
@@ -67,47 +70,118 @@ int GapScreen::AddColumn(JointRows column) {
   return size() - 1;
 }
 
-GapScreen::Products GapScreen::ProductsOf(int joint) const {
-  Products products;
-  for (int c = 0; c < size(); ++c) {
-    if (columns_[c][joint].size() == 0) continue;
-    products.all.push_back(c);
-    if (c >= factored_) products.added.push_back(c);
+void GapScreen::Weigh(const VectorXd& factor) {
+  CHECK_EQ(factor.size(), num_joints());
+  for (int j = 0; j < num_joints(); ++j) {
+    const double f = factor[j];
+    baseline_[j].values *= f;
+    target_[j] *= f;
+    for (JointRows& column : columns_) column[j] *= f;
+    Products& own = products_[j];
+    for (MatrixXd* x : {&own.of_columns, &own.by_baseline, &own.of_baseline}) {
+      *x *= f * f;
+    }
+    own.by_target *= f * f;
+    own.of_target *= f * f;
   }
-  if (products.added.empty()) return products;
-  MatrixXd C(target_[joint].size(), products.all.size());
-  for (size_t k = 0; k < products.all.size(); ++k) {
-    C.col(k) = columns_[products.all[k]][joint];
+  if (factored_ >= 0) Project(0);
+}
+
+void GapScreen::ScaleBaseline(int first, double factor) {
+  const Eigen::Index all = known_gradient_.size(), more = all - first;
+  known_information_.rightCols(more) *= factor;
+  known_information_.bottomRows(more) *= factor;
+  known_gradient_.tail(more) *= factor;
+  if (known_root_.size() > 0) known_root_.rightCols(more) *= factor;
+  for (int j = 0; j < num_joints(); ++j) {
+    BaselineColumns& own = baseline_[j];
+    const auto begin =
+        std::lower_bound(own.which.begin(), own.which.end(), first);
+    const Eigen::Index tail = own.which.end() - begin;
+    Products& products = products_[j];
+    own.values.rightCols(tail) *= factor;
+    products.of_baseline.rightCols(tail) *= factor;
+    products.of_baseline.bottomRows(tail) *= factor;
+    products.of_target.tail(tail) *= factor;
+    if (products.by_baseline.size() > 0) {
+      products.by_baseline.bottomRows(tail) *= factor;
+    }
   }
-  const MatrixXd added = C.rightCols(products.added.size());
-  products.by_columns = InnerProducts(C, added);
-  products.by_baseline = InnerProducts(baseline_[joint], added);
-  products.by_target = added.transpose() * target_[joint];
-  return products;
+  if (factored_ >= 0) Project(0);
+}
+
+GapScreen GapScreen::Only(const std::vector<int>& columns) const {
+  GapScreen only = *this;
+  only.columns_.clear();
+  for (const int c : columns) only.columns_.push_back(columns_[c]);
+  for (Products& own : only.products_) {
+    own.columns.clear();
+    own.of_columns.resize(0, 0);
+    own.by_baseline.resize(own.of_baseline.rows(), 0);
+    own.by_target.resize(0);
+  }
+  only.factored_ = -1;
+  only.Factor();
+  return only;
+}
+
+void GapScreen::AddProducts(int joint) {
+  Products& own = products_[joint];
+  const Eigen::Index before = static_cast<Eigen::Index>(own.columns.size());
+  for (int c = std::max(0, factored_); c < size(); ++c) {
+    if (columns_[c][joint].size() > 0) own.columns.push_back(c);
+  }
+  const Eigen::Index count = static_cast<Eigen::Index>(own.columns.size());
+  const Eigen::Index more = count - before;
+  if (more == 0) return;
+  MatrixXd C(target_[joint].size(), count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    C.col(k) = columns_[own.columns[k]][joint];
+  }
+  const MatrixXd added = C.rightCols(more);
+  own.of_columns.conservativeResize(count, count);
+  own.of_columns.rightCols(more) = InnerProducts(C, added);
+  own.of_columns.bottomLeftCorner(more, before) =
+      own.of_columns.topRightCorner(before, more).transpose();
+  own.by_baseline.conservativeResize(own.of_baseline.rows(), count);
+  own.by_baseline.rightCols(more) =
+      InnerProducts(baseline_[joint].values, added);
+  own.by_target.conservativeResize(count);
+  own.by_target.tail(more) = added.transpose() * target_[joint];
 }
 
 void GapScreen::Factor() {
-  if (factored_ < 0) {
+  tbb::parallel_for(0, num_joints(), [&](int j) { AddProducts(j); });
+  Project(std::max(0, factored_));
+}
+
+void GapScreen::Project(int before) {
+  if (before == 0) {
+    information_ = known_information_;
+    information_.diagonal().array() += 1;
+    gradient_ = known_gradient_;
+    for (int j = 0; j < num_joints(); ++j) {
+      const std::vector<int>& which = baseline_[j].which;
+      information_(which, which) += products_[j].of_baseline;
+      gradient_(which) += products_[j].of_target;
+    }
     factor_.compute(information_);
-    factored_ = 0;
   }
-  const int before = factored_, count = size(), more = count - before;
-  std::vector<Products> products(target_.size());
-  tbb::parallel_for(size_t{0}, products.size(), [&](size_t j) {
-    products[j] = ProductsOf(static_cast<int>(j));
-  });
+  const int count = size(), more = count - before;
   cross_.conservativeResize(gradient_.size(), count);
   cross_.rightCols(more).setZero();
   // All columns by the new ones.
   MatrixXd G = MatrixXd::Zero(count, more);
   VectorXd g = VectorXd::Zero(more);
-  for (const Products& own : products) {
-    for (size_t k = 0; k < own.added.size(); ++k) {
-      const int c = own.added[k];
-      cross_.col(c) += own.by_baseline.col(k);
+  for (int j = 0; j < num_joints(); ++j) {
+    const Products& own = products_[j];
+    for (size_t k = 0; k < own.columns.size(); ++k) {
+      const int c = own.columns[k];
+      if (c < before) continue;
+      cross_(baseline_[j].which, c) += own.by_baseline.col(k);
       g[c - before] += own.by_target[k];
-      for (size_t l = 0; l < own.all.size(); ++l) {
-        G(own.all[l], c - before) += own.by_columns(l, k);
+      for (size_t l = 0; l < own.columns.size(); ++l) {
+        G(own.columns[l], c - before) += own.of_columns(l, k);
       }
     }
   }
@@ -144,8 +218,11 @@ MatrixXd GapScreen::Gradients(const JointRows& target,
       while (end < rows && part[end] == part[begin]) ++end;
       const int p = part[begin], count = end - begin;
       const auto here = target[j].segment(begin, count);
-      gradient.col(p) +=
-          baseline_[j].middleRows(begin, count).transpose() * here;
+      const VectorXd own =
+          baseline_[j].values.middleRows(begin, count).transpose() * here;
+      for (Eigen::Index k = 0; k < own.size(); ++k) {
+        gradient(baseline_[j].which[k], p) += own[k];
+      }
       for (int c = 0; c < size(); ++c) {
         if (columns_[c][j].size() == 0) continue;
         g(c, p) += columns_[c][j].segment(begin, count).dot(here);
@@ -183,7 +260,7 @@ double GapScreen::DropOf(const std::vector<JointRows>& columns) const {
     for (size_t j = 0; j < target_.size(); ++j) {
       const VectorXd& column = columns[a][j];
       if (column.size() == 0) continue;
-      cross.col(a) += baseline_[j].transpose() * column;
+      cross(baseline_[j].which, a) += baseline_[j].values.transpose() * column;
       g[a] += column.dot(target_[j]);
       for (int b = 0; b < size; ++b) {
         if (columns[b][j].size() > 0) G(a, b) += column.dot(columns[b][j]);
@@ -206,7 +283,7 @@ VectorXd GapScreen::Baseline(const Fit& fit) const {
 }
 
 VectorXd GapScreen::Residual(int joint, const Fit& fit) const {
-  VectorXd residual = target_[joint] - baseline_[joint] * Baseline(fit);
+  VectorXd residual = target_[joint] - baseline_[joint].Times(Baseline(fit));
   for (size_t k = 0; k < fit.columns.size(); ++k) {
     const VectorXd& column = columns_[fit.columns[k]][joint];
     if (column.size() > 0) residual -= fit.coefficients[k] * column;
@@ -214,14 +291,27 @@ VectorXd GapScreen::Residual(int joint, const Fit& fit) const {
   return residual;
 }
 
-VectorXd GapScreen::BaselineBeside(const JointRows& torque) const {
+VectorXd GapScreen::GradientBeside(const JointRows& torque) const {
   VectorXd gradient = gradient_;
   for (size_t j = 0; j < target_.size(); ++j) {
     if (torque[j].size() > 0) {
-      gradient -= baseline_[j].transpose() * torque[j];
+      gradient(baseline_[j].which) -=
+          baseline_[j].values.transpose() * torque[j];
     }
   }
-  return factor_.solve(gradient);
+  return gradient;
+}
+
+VectorXd GapScreen::BaselineBeside(const JointRows& torque) const {
+  return factor_.solve(GradientBeside(torque));
+}
+
+VectorXd GapScreen::BaselineBeside(const JointRows& torque, int columns) const {
+  VectorXd x = VectorXd::Zero(gradient_.size());
+  x.head(columns) = information_.topLeftCorner(columns, columns)
+                        .llt()
+                        .solve(GradientBeside(torque).head(columns));
+  return x;
 }
 
 VectorXd GapScreen::ResidualBeside(const JointRows& torque) const {
@@ -232,7 +322,7 @@ VectorXd GapScreen::ResidualBeside(const JointRows& torque) const {
   Eigen::Index at = 0;
   for (size_t j = 0; j < target_.size(); ++j) {
     auto here = residual.segment(at, target_[j].size());
-    here = target_[j] - baseline_[j] * x;
+    here = target_[j] - baseline_[j].Times(x);
     if (torque[j].size() > 0) here -= torque[j];
     at += target_[j].size();
   }
@@ -245,10 +335,34 @@ VectorXd GapScreen::ResidualBeside(const JointRows& torque) const {
 
 VectorXd GapScreen::Projected(int column, int joint) const {
   VectorXd projected =
-      -baseline_[joint] * factor_.solve(VectorXd(cross_.col(column)));
+      -baseline_[joint].Times(factor_.solve(VectorXd(cross_.col(column))));
   const VectorXd& own = columns_[column][joint];
   if (own.size() > 0) projected += own;
   return projected;
+}
+
+double GapScreen::PriorCost(const Fit& fit) const {
+  const VectorXd x = Baseline(fit);
+  double cost = x.squaredNorm();
+  if (known_.size() > 0) cost += (known_root_ * x - known_).squaredNorm();
+  return cost;
+}
+
+double GapScreen::LogDeterminant(const Fit& fit) const {
+  double sum = 2 * factor_.matrixLLT().diagonal().array().log().sum();
+  if (fit.columns.empty()) return sum;
+  return sum - std::log(fit.covariance.determinant());
+}
+
+VectorXd GapScreen::FittedRows() const {
+  const MatrixXd covariance = BaselineCovariance();
+  VectorXd fitted(num_joints());
+  for (int j = 0; j < num_joints(); ++j) {
+    const std::vector<int>& which = baseline_[j].which;
+    fitted[j] =
+        products_[j].of_baseline.cwiseProduct(covariance(which, which)).sum();
+  }
+  return fitted;
 }
 
 MatrixXd GapScreen::BaselineCovariance() const {

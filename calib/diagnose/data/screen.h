@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "calib/diagnose/data/baseline_columns.h"
+
 namespace armcal {
 
 // Whitened torque of one unit of something, per joint; empty where it is zero.
@@ -18,14 +20,22 @@ using JointRows = std::vector<Eigen::VectorXd>;
 //   drop of chi^2 by a set S of candidate columns = g_S' G_SS^-1 g_S.
 class GapScreen {
  public:
-  // baseline: per joint rows x size; target: the whitened residual of the
-  // robot as the file has it.
-  GapScreen(std::vector<Eigen::MatrixXd> baseline, JointRows target);
+  // baseline: whitened, `size` columns in all; target: the whitened residual of
+  // the robot as the file has it.
+  GapScreen(std::vector<BaselineColumns> baseline, int size, JointRows target);
 
   // What other data (a reference log) tell of the baseline: A'A and A'y. Once.
   void AddInformation(const Eigen::MatrixXd& AtA, const Eigen::VectorXd& Aty);
   // Returns the index of the column.
   int AddColumn(JointRows column);
+  // Multiplies joint j's rows by factor[j], as if its noise were so much
+  // smaller.
+  void Weigh(const Eigen::VectorXd& factor);
+  // The same rows with these columns alone, factored.
+  GapScreen Only(const std::vector<int>& columns) const;
+  // Multiplies the baseline's columns from `first` on, as if they were so much
+  // more uncertain.
+  void ScaleBaseline(int first, double factor);
   // Solves with the columns that there are; what was solved with those before
   // is kept.
   void Factor();
@@ -71,29 +81,49 @@ class GapScreen {
   Eigen::VectorXd Residual(int joint, const Fit& fit) const;
   // The baseline that fits best beside a torque (whitened, per joint).
   Eigen::VectorXd BaselineBeside(const JointRows& torque) const;
+  // The same of its first `columns` alone, 0 for the others.
+  Eigen::VectorXd BaselineBeside(const JointRows& torque, int columns) const;
   // What that leaves, all joints, the prior's and other data's share included:
   // its squared norm is chi^2.
   Eigen::VectorXd ResidualBeside(const JointRows& torque) const;
   // Joint j's rows of a column, less what the baseline absorbs of it.
   Eigen::VectorXd Projected(int column, int joint) const;
+  // Of chi^2: what the baseline's values beside `fit` cost by their prior and
+  // other data.
+  double PriorCost(const Fit& fit) const;
+  // ln det of the information on the baseline and the columns of `fit`.
+  double LogDeterminant(const Fit& fit) const;
+  // How many of joint j's rows the baseline fits: tr(A_j C A_j'), C its
+  // covariance.
+  Eigen::VectorXd FittedRows() const;
   // Covariance of the baseline's values alone.
   Eigen::MatrixXd BaselineCovariance() const;
 
  private:
-  // What a joint's rows add of the columns that are new.
+  // Inner products of a joint's rows, the baseline's once and those of columns
+  // as they come.
   struct Products {
-    std::vector<int> all, added;  // columns that the joint has
-    Eigen::MatrixXd by_columns;   // all' added
-    Eigen::MatrixXd by_baseline;  // baseline' added
-    Eigen::VectorXd by_target;    // added' target
+    std::vector<int> columns;     // that the joint has
+    Eigen::MatrixXd of_columns;   // columns' columns
+    Eigen::MatrixXd by_baseline;  // own baseline' columns
+    Eigen::VectorXd by_target;    // columns' target
+    Eigen::MatrixXd of_baseline;  // own baseline' own baseline
+    Eigen::VectorXd of_target;    // own baseline' target
   };
-  Products ProductsOf(int joint) const;
+  void AddProducts(int joint);
 
-  std::vector<Eigen::MatrixXd> baseline_;
+  // Solves for the columns from `before` on, of cached products.
+  void Project(int before);
+  Eigen::VectorXd GradientBeside(const JointRows& torque) const;
+
+  std::vector<BaselineColumns> baseline_;
   JointRows target_;
   std::vector<JointRows> columns_;
+  std::vector<Products> products_;
   Eigen::MatrixXd information_;  // of the baseline, prior included
   Eigen::VectorXd gradient_;
+  Eigen::MatrixXd known_information_;  // of other data
+  Eigen::VectorXd known_gradient_;
   // Other data: root of their information, and what they say of the baseline.
   Eigen::MatrixXd known_root_;
   Eigen::VectorXd known_;

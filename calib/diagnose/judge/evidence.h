@@ -17,8 +17,10 @@ struct EffectEvidence {
   // How many others are on its joint (if it has one), a law and its mean being
   // one: what has no name may be pieced together from several that have.
   int beside = 0;
-  // Whether mechanisms without a name are often taken for it.
-  bool imitated = false;
+  // How many of the others are stronger, and of these on its joint, where the
+  // robot has several: what the form of a strong effect has wrong looks like
+  // weaker ones, not the other way round.
+  int stronger = 0, stronger_beside = 0;
   double next = 0;            // score of the best further candidate, at least 0
   int events = 0;             // windows of it, of what comes and goes
   double one_joint = 0;       // GapEvent's, of the strongest
@@ -42,7 +44,9 @@ class GapEvidence {
   EffectEvidence ForEvents() const;
 
  private:
-  int Beside(size_t k) const;
+  // Whether the i-th effect is on the joint of the k-th, the two not being a
+  // law and its mean.
+  bool IsBeside(size_t i, size_t k) const;
 
   const GapFit& fit_;
   const HeldOut& held_out_;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/estimate_deviations.h"
+#include "calib/diagnose/judge/agreement.h"
 #include "model/effects/effects.h"
 
 namespace armcal {
@@ -19,6 +21,7 @@ constexpr double kLikelyUnseen = .7;  // that held-out data do not show
 // else is of what comes and goes, which may be anything, nor of what does not
 // help where nothing was chosen on.
 constexpr double kLikely = .5;
+constexpr double kForm = .2;  // of a drop, that the form of a law has wrong
 
 // Whether b is what a file has a number for and a's law has a mean of.
 bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
@@ -42,6 +45,7 @@ class Findings {
   FoundEffect Found(size_t k) const;
   FoundEffect Contacts() const;
   void AddFamilies(const std::vector<LackedFamily>& families);
+  void AddChangedFriction();
   void ShareTheRest(FoundEffect* found, bool is_first);
 
   const Robot& robot_;
@@ -80,6 +84,10 @@ FoundEffect Findings::Found(size_t k) const {
     }
   }
   found.evidence = evidence_.ForEffect(k, all);
+  // A clock is one for all joints; what lags differently is none.
+  if (effect.joint < 0 && effect.effect->nature == Effect::Nature::kRecording) {
+    found.joints_agree = !DisagreementOf(fit_, k).IsReal(found.drop, kForm);
+  }
   found.probability = ProbabilityOf(found.evidence);
   if (refined.effects.size() == 1) {
     found.removed_percent = torque_.removed_percent;
@@ -137,8 +145,38 @@ void Findings::AddFamilies(const std::vector<LackedFamily>& families) {
   }
 }
 
+// Friction that differs from the reference's on several joints, as one effect.
+void Findings::AddChangedFriction() {
+  const GapBaseline& baseline = fit_.baseline();
+  const VectorXd& x = fit_.refined().baseline;
+  const MatrixXd covariance = fit_.screen().BaselineCovariance();
+  for (const Effect& effect : Effects()) {
+    if (!effect.joint_term) continue;
+    const std::vector<int> changed =
+        ChangedTogether(baseline, *effect.joint_term, x, covariance);
+    if (changed.empty()) continue;
+    FoundEffect found;
+    found.effect = &effect;
+    found.of_another_day = true;
+    found.probability = 1 - kChanceOfDays;
+    for (const int c : changed) {
+      const BaselineColumn& column = baseline.columns()[c];
+      const Joint& joint = robot_.links[column.joint].joint;
+      found.estimates.push_back(
+          {joint.name + "." + JointTermName(*effect.joint_term),
+           JointTermUnit(*effect.joint_term, joint.type),
+           x[c] * column.spread});
+      found.stddev.push_back(std::sqrt(covariance(c, c)) * column.spread);
+      found.drop += x[c] * x[c];
+    }
+    found.score = found.drop;
+    result_.effects.push_back(found);
+  }
+}
+
 GapFindings Findings::List(const std::vector<LackedFamily>& families) {
   AddFamilies(families);
+  AddChangedFriction();
   if (!fit_.events().empty()) result_.effects.push_back(Contacts());
   for (size_t k = 0; k < fit_.refined().effects.size(); ++k) {
     result_.effects.push_back(Found(k));
@@ -206,15 +244,16 @@ bool IsPossible(const FoundEffect& found) {
 bool IsContradicted(const FoundEffect& found) {
   constexpr double kVisible = 40;  // chi^2
   constexpr double kHelps = .03;   // of the noise's mean square
-  constexpr double kForm = .2;     // by which the form of a law may be wrong
   const Confirmation& confirmation = found.evidence.confirmation;
   return confirmation.expected > std::max(kVisible, kForm * found.drop) &&
          confirmation.explained < 0 && found.evidence.gain < kHelps;
 }
 
 bool IsClaimed(const FoundEffect& found) {
+  if (found.of_another_day) return true;
   if (!found.contacts.empty()) return found.probability >= kLikely;
   if (!IsPossible(found) || IsContradicted(found)) return false;
+  if (!found.joints_agree) return false;
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
   if (!IsSeenAgain(found)) {

@@ -33,6 +33,11 @@ struct FoundEffect {
   double ci95[2] = {NAN, NAN};
   std::string separate_by;        // the experiment that would tell them apart
   std::vector<Contact> contacts;  // of external_contact, in time's order
+  // Whether joints tell it alike, if it is of all of them.
+  bool joints_agree = true;
+  // Whether it is friction of several joints that is that of another day: one
+  // change, the estimates being each joint's, and no term of the model's.
+  bool of_another_day = false;
 };
 
 // Whether held-out data have it as well, in part.

@@ -62,7 +62,7 @@ HeldOut::HeldOut(const GapFit& fit)
   for (const GapEvent& event : fit.events()) {
     data_->Mask(event.contact.log, event.contact.window);
   }
-  data_->SetNoise(fit.noise().joints);
+  SetNoise();
 }
 
 HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs)
@@ -70,8 +70,13 @@ HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs)
       other_logs_(true),
       data_(std::make_unique<GapData>(std::move(other_logs), fit.baseline(),
                                       fit.rows().bandwidth_hz())) {
-  data_->SetNoise(fit.noise().joints);
+  SetNoise();
   if (!fit.events().empty()) MaskEvents();
+}
+
+void HeldOut::SetNoise() {
+  data_->SetNoise(fit_.noise().joints);
+  if (fit_.rows().has_evidence()) data_->SetEvidence(fit_.rows().evidence());
 }
 
 // An arm that was touched in one log may have been in another: windows that
@@ -81,7 +86,7 @@ void HeldOut::MaskEvents() {
   constexpr int kMostWindows = 12;
   constexpr double kMostOfTime = 1. / 3;
   const MatrixXd residual =
-      Residual(fit_.refined().effects, fit_.refined().baseline);
+      Residual(fit_.refined().effects, fit_.model_after());
   double masked = 0;
   for (int round = 0; round < kMostWindows; ++round) {
     const auto worst = StrongestWindow(rows(), Deviations(residual));
@@ -91,7 +96,7 @@ void HeldOut::MaskEvents() {
     if (masked > kMostOfTime * TimeOf(rows())) return;
     data_->Mask(worst->log, {window.centre - window.duration,
                              window.centre + window.duration});
-    data_->SetNoise(fit_.noise().joints);
+    SetNoise();
   }
 }
 
@@ -170,8 +175,8 @@ MatrixXd HeldOut::Deviations(const MatrixXd& residual) const {
 }
 
 HeldOut::Residuals HeldOut::AllResiduals() const {
-  return {Residual({}, fit_.before()), Residual({}, fit_.refit()),
-          Residual(fit_.refined().effects, fit_.refined().baseline)};
+  return {Residual({}, fit_.before()), Residual({}, fit_.model_refit()),
+          Residual(fit_.refined().effects, fit_.model_after())};
 }
 
 HeldOutSquares HeldOut::SquaresOf(const Residuals& residuals) const {
@@ -188,13 +193,15 @@ JointRows HeldOut::Whitened(const MatrixXd& residual) const {
   return white;
 }
 
+// What the model leaves tells by how much the gap shrinks; whether the effect
+// is there again is asked beside what models lack as a rule.
 HeldOut::Merit HeldOut::MeritOf(size_t k, double after) const {
   const RefinedEffects& refined = fit_.refined();
-  const MatrixXd without =
-      Residual(AllBut(refined.effects, k), fit_.BaselineWithout(k));
-  const MatrixXd with = Residual(refined.effects, refined.baseline);
-  return {MeanSquare(Deviations(without).cwiseAbs2()) - after,
-          Confirm(Whitened(without), Whitened(with))};
+  const std::vector<GapCandidate> others = AllBut(refined.effects, k);
+  const MatrixXd left = Residual(others, fit_.ModelBeside(others));
+  return {MeanSquare(Deviations(left).cwiseAbs2()) - after,
+          Confirm(Whitened(Residual(others, fit_.BaselineBeside(others))),
+                  Whitened(Residual(refined.effects, refined.baseline)))};
 }
 
 }  // namespace armcal

@@ -41,6 +41,7 @@ class HeldOut {
   Merit MeritOf(size_t k, double after) const;
 
  private:
+  void SetNoise();
   void MaskEvents();
   std::vector<GapCandidate> InTheirPhase(
       const std::vector<GapCandidate>& effects,

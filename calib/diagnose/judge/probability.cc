@@ -13,6 +13,7 @@ constexpr double kCredible = .95;
 
 std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
   const std::vector<GapCandidate>& candidates = fit.candidates();
+  const GapCandidate& chosen = candidates[fit.selection().chosen[k]];
   const Eigen::VectorXd scores =
       ScoresBeside(fit.screen(), candidates, fit.selection_options(),
                    fit.selection().chosen, static_cast<int>(k));
@@ -35,7 +36,11 @@ std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
     }
     for (auto& [place, score] : best) score += std::max(0., fitted - grid);
     for (const RefinedScore& rival : fit.rivals(k)) {
-      best[{rival.effect, rival.joint}] = rival.score;
+      const auto place = std::make_pair(rival.effect, rival.joint);
+      best[place] = rival.score;
+      const bool is_chosen =
+          place == std::make_pair(chosen.effect, chosen.joint);
+      if (!rival.is_possible && !is_chosen) best.erase(place);
     }
   }
   std::vector<PlacedEffect> all;

@@ -80,8 +80,8 @@ std::vector<RunDrift> DriftsOf(const GapFit& fit, const VectorXd& x, int j) {
                                    [](const auto& k) { return k.empty(); })) {
     return {};
   }
-  const MatrixXd columns = fit.rows().Whiten(
-      j, MatrixXd(fit.data()->columns()[j](Eigen::all, terms)));
+  const MatrixXd columns =
+      fit.rows().Whiten(j, fit.data()->columns()[j].Select(terms));
   std::vector<OwnChange> changes;
   for (const std::vector<int>& own : logs) {
     changes.push_back(ChangeIn(columns(own, Eigen::all), fit.Left(j)(own)));

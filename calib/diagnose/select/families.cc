@@ -21,23 +21,19 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Effects that are a joint term which the robot gives no joint. Those of a
-// recording, which are in no robot file, are last, and only beside others.
+// Effects that are a joint term which the robot gives no joint. Not those of a
+// recording: a torque's zero is in no robot file, and is known within a prior.
 std::vector<const Effect*> LackedTerms(const Robot& robot) {
   std::vector<const Effect*> terms;
-  for (const bool of_recording : {false, true}) {
-    if (of_recording && terms.empty()) break;
-    for (const Effect& effect : Effects()) {
-      if (!effect.joint_term ||
-          (effect.nature == Effect::Nature::kRecording) != of_recording) {
-        continue;
-      }
-      const bool lacked = std::all_of(
-          robot.links.begin(), robot.links.end(), [&](const Link& link) {
-            return TermOf(*effect.joint_term, link.joint) == 0;
-          });
-      if (lacked) terms.push_back(&effect);
+  for (const Effect& effect : Effects()) {
+    if (!effect.joint_term || effect.nature == Effect::Nature::kRecording) {
+      continue;
     }
+    const bool lacked = std::all_of(
+        robot.links.begin(), robot.links.end(), [&](const Link& link) {
+          return TermOf(*effect.joint_term, link.joint) == 0;
+        });
+    if (lacked) terms.push_back(&effect);
   }
   return terms;
 }
@@ -109,7 +105,7 @@ class FamilyFit {
  private:
   void Weigh() {
     data_.SetNoise(noise_);
-    screen_.emplace(data_.WhitenedColumns(), data_.WhitenedResidual());
+    screen_.emplace(data_.Screen());
     AddCandidates(data_.rows(), &candidates_, &*screen_);
     screen_->Factor();
   }

@@ -9,6 +9,7 @@
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/form_error.h"
+#include "calib/diagnose/select/growth.h"
 #include "calib/diagnose/select/idle.h"
 #include "calib/diagnose/select/null.h"
 #include "calib/diagnose/select/reference.h"
@@ -105,6 +106,23 @@ void GapFit::MakeScreen() {
   pool_.List();
 }
 
+// Effects beside the noise that they leave.
+void GapFit::SelectWithTheirNoise() {
+  constexpr int kRounds = 3;
+  std::vector<int> before =
+      GrowEffects(candidates(), options_.selection, &regression_);
+  for (int round = 0; round < kRounds; ++round) {
+    selection_ = SelectEffects(screen(), candidates(), options_.selection);
+    if (std::is_permutation(before.begin(), before.end(),
+                            selection_.chosen.begin(),
+                            selection_.chosen.end())) {
+      return;
+    }
+    before = selection_.chosen;
+    regression_.SettleEvidence(ColumnsOf(candidates(), before));
+  }
+}
+
 // Effects, and again with the shapes and sizes that fit best: what the nearest
 // of a grid left is no effect.
 void GapFit::Select() {
@@ -112,7 +130,12 @@ void GapFit::Select() {
   const auto select = [this] {
     selection_ = SelectEffects(screen(), candidates(), options_.selection);
   };
-  select();
+  SelectWithTheirNoise();
+  if (regression_.ChooseDiscrepancy(
+          ColumnsOf(candidates(), selection_.chosen))) {
+    MakeScreen();
+    SelectWithTheirNoise();
+  }
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<GapCandidate> chosen = pool_.Fitted(selection_.chosen);
     if (std::none_of(chosen.begin(), chosen.end(), HasShape)) return;
@@ -253,6 +276,8 @@ void GapFit::Finish() {
   }
   const MatrixXd left = data()->ResidualWith(
       refined_.baseline, regression_.TorqueOf(refined_.effects));
+  model_refit_ = ModelBeside({});
+  model_after_ = ModelBeside(refined_.effects);
   left_.resize(left.cols());
   for (int j = 0; j < left.cols(); ++j) {
     left_[j] = rows().Whiten(j, left.col(j));
@@ -276,9 +301,21 @@ void GapFit::Refine() {
   }
 }
 
-VectorXd GapFit::BaselineWithout(size_t k) const {
-  return regression_.BaselineBeside(
-      regression_.TorqueOf(AllBut(refined_.effects, k)));
+VectorXd GapFit::BaselineBeside(
+    const std::vector<GapCandidate>& effects) const {
+  return regression_.BaselineBeside(regression_.TorqueOf(effects));
+}
+
+VectorXd GapFit::ModelBeside(const std::vector<GapCandidate>& effects) const {
+  return regression_.ModelBeside(regression_.TorqueOf(effects));
+}
+
+VectorXd GapFit::LeftByNoise(int joint, bool with_effects) const {
+  const VectorXd x = with_effects ? refined_.baseline : refit();
+  const JointRows torque = with_effects ? regression_.TorqueOf(refined_.effects)
+                                        : JointRows(rows().num_joints());
+  return rows().WhitenByNoise(joint,
+                              data()->ResidualWith(x, torque).col(joint));
 }
 
 }  // namespace armcal

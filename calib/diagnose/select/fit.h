@@ -68,12 +68,23 @@ class GapFit {
   // Whitened residual of joint j beside the refined effects: their torque as it
   // is, not as columns have it.
   const Eigen::VectorXd& Left(int joint) const { return left_[joint]; }
-  // The baseline beside the refined effects but for the k-th.
-  Eigen::VectorXd BaselineWithout(size_t k) const;
+  // The baseline's values beside other effects.
+  Eigen::VectorXd BaselineBeside(
+      const std::vector<GapCandidate>& effects) const;
+  // The model's values beside other effects, without what models lack as a
+  // rule: what a robot file can hold.
+  Eigen::VectorXd ModelBeside(const std::vector<GapCandidate>& effects) const;
+  // The same without any effect, and beside the refined ones.
+  const Eigen::VectorXd& model_refit() const { return model_refit_; }
+  const Eigen::VectorXd& model_after() const { return model_after_; }
+  // What the model leaves of joint j's torque, whitened by the torque's noise
+  // alone, with the refined effects or refitted without any.
+  Eigen::VectorXd LeftByNoise(int joint, bool with_effects) const;
 
  private:
   void MakeScreen();
   void Select();
+  void SelectWithTheirNoise();
   bool TakeOutContacts(const std::vector<GapCandidate>& effects,
                        ContactSearch search);
   void TakeOutEvent(size_t k);
@@ -93,6 +104,7 @@ class GapFit {
   Selection selection_;
   RefinedEffects refined_;
   JointRows left_;
+  Eigen::VectorXd model_refit_, model_after_;
   std::vector<Rivals> rivals_;
   std::vector<GapEvent> events_;
 };

@@ -8,6 +8,7 @@
 
 namespace armcal {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 CandidatePool::CandidatePool(GapRegression* regression,
@@ -95,9 +96,10 @@ std::vector<GapCandidate> CandidatePool::LargerOnesWhereTheyShow() const {
 
 bool CandidatePool::HasMoreThanNoise(int joint) const {
   constexpr double kMore = 1.1;  // of the variance
-  const GapScreen& screen = regression_.screen();
-  return screen.Residual(joint, {}).squaredNorm() >
-         kMore * screen.num_rows(joint);
+  const MatrixXd left = regression_.data()->ResidualWith(regression_.refit());
+  const VectorXd rows =
+      regression_.rows().WhitenByNoise(joint, left.col(joint));
+  return rows.squaredNorm() > kMore * static_cast<double>(rows.size());
 }
 
 // What a candidate's torque is, events do not change.

@@ -32,7 +32,7 @@ bool CanBeInReference(const Effect& effect) {
 }
 
 VectorXd Refit(const GapData& data) {
-  GapScreen screen(data.WhitenedColumns(), data.WhitenedResidual());
+  GapScreen screen = data.Screen();
   screen.Factor();
   return screen.BaselineBeside(JointRows(data.rows().num_joints()));
 }
@@ -81,7 +81,7 @@ class LawSearch {
     std::vector<int> chosen;
     GapScreen::Fit fit;
     for (int round = 0; round < kRounds; ++round) {
-      GapScreen screen(data_.WhitenedColumns(), data_.WhitenedResidual());
+      GapScreen screen = data_.Screen();
       AddCandidates(data_.rows(), &candidates_, &screen);
       screen.Factor();
       SelectionOptions options;
@@ -134,15 +134,17 @@ class LawSearch {
 // What the fit leaves, divided by how much more than the noise (of `rows`) it
 // has to leave of samples that it has not seen, its parameters being uncertain.
 MatrixXd Unforeseen(const GapData& data, const GapRows& rows) {
-  GapScreen screen(data.WhitenedColumns(), data.WhitenedResidual());
+  GapScreen screen = data.Screen();
   screen.Factor();
   const JointRows none(data.rows().num_joints());
   MatrixXd left = data.ResidualWith(screen.BaselineBeside(none));
   const MatrixXd covariance = screen.BaselineCovariance();
   for (int j = 0; j < left.cols(); ++j) {
-    const MatrixXd& columns = data.columns()[j];
-    const VectorXd variance =
-        (columns * covariance).cwiseProduct(columns).rowwise().sum();
+    const BaselineColumns& own = data.columns()[j];
+    const VectorXd variance = (own.values * covariance(own.which, own.which))
+                                  .cwiseProduct(own.values)
+                                  .rowwise()
+                                  .sum();
     for (int k = 0; k < left.rows(); ++k) {
       left(k, j) /= std::sqrt(1 + variance[k] / rows.variance(j, k));
     }

@@ -1,6 +1,6 @@
 #include "calib/diagnose/select/regression.h"
 
-#include <cmath>
+#include <array>
 
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/motion_scale.h"
@@ -13,22 +13,34 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-VectorXd RefitBaseline(const GapData& data) {
-  GapScreen screen(data.WhitenedColumns(), data.WhitenedResidual());
+// With the model's columns alone; 0 for others.
+VectorXd RefitModel(const GapBaseline& baseline, const GapData& data) {
+  GapScreen screen = data.Screen(baseline.num_model_columns());
   screen.Factor();
-  return screen.BaselineBeside(JointRows(data.rows().num_joints()));
+  VectorXd x = VectorXd::Zero(baseline.size());
+  x.head(baseline.num_model_columns()) =
+      screen.BaselineBeside(JointRows(data.rows().num_joints()));
+  return x;
 }
 
-void AddReference(const GapData& before, GapScreen* screen) {
-  const std::vector<MatrixXd> A = before.WhitenedColumns();
+void AddReference(const GapData& before, int size, GapScreen* screen) {
+  const std::vector<BaselineColumns> A = before.WhitenedColumns();
   const std::vector<VectorXd> y = before.WhitenedResidual();
-  MatrixXd AtA = MatrixXd::Zero(A[0].cols(), A[0].cols());
-  VectorXd Aty = VectorXd::Zero(A[0].cols());
+  MatrixXd AtA = MatrixXd::Zero(size, size);
+  VectorXd Aty = VectorXd::Zero(size);
   for (size_t j = 0; j < A.size(); ++j) {
-    AtA += A[j].transpose() * A[j];
-    Aty += A[j].transpose() * y[j];
+    AtA(A[j].which, A[j].which) += A[j].values.transpose() * A[j].values;
+    Aty(A[j].which) += A[j].values.transpose() * y[j];
   }
   screen->AddInformation(AtA, Aty);
+}
+
+// White noise of what a robot as its file has it leaves.
+VectorXd Start(const GapData& data) {
+  const std::vector<Autoregression> noise = WhiteNoise(data.residual());
+  VectorXd stddev(noise.size());
+  for (size_t j = 0; j < noise.size(); ++j) stddev[j] = noise[j].sigma;
+  return stddev;
 }
 
 }  // namespace
@@ -44,7 +56,8 @@ GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
   if (of_positions) noise_ = NoiseOfPositions(baseline, data_->rows());
   if (!reference.empty()) {
     if (!of_positions) {
-      noise_ = ReferenceNoise(baseline, bandwidth_hz, reference);
+      noise_ = ReferenceNoise(baseline.WithoutDiscrepancy(), bandwidth_hz,
+                              reference);
     }
     reference_ =
         std::make_shared<GapData>(std::move(reference), baseline, bandwidth_hz);
@@ -59,7 +72,10 @@ GapRegression::GapRegression(const GapRegression& other, LogPart part)
       data_(std::make_unique<GapData>(*other.data_, part)),
       reference_(other.reference_),
       noise_(other.noise_),
-      scale_(other.scale_) {
+      scale_(other.scale_),
+      discrepancy_(other.discrepancy_),
+      discrepancy_chosen_(true) {
+  data_->ScaleColumns(baseline_.num_model_columns(), discrepancy_);
   EstimateNoise();
 }
 
@@ -67,26 +83,75 @@ void GapRegression::EstimateNoise() {
   before_ = VectorXd::Zero(baseline_.size());
   if (reference_) {
     reference_->SetNoise(noise_.joints);
-    before_ = RefitBaseline(*reference_);
+    SettleReference();
   } else if (noise_.source != NoiseFloor::kPositions) {
     data_->SetNoise(WhiteNoise(data_->residual()));
-    noise_ = EstimateGapNoise(data_->rows(), data_->FineResidual(),
-                              data_->ResidualWith(RefitBaseline(*data_)));
+    noise_ =
+        EstimateGapNoise(data_->rows(), data_->FineResidual(),
+                         data_->ResidualWith(RefitModel(baseline_, *data_)));
   }
   data_->SetNoise(noise_.joints);
 }
 
+void GapRegression::SettleReference() {
+  if (noise_.source != NoiseFloor::kPositions) {
+    const VectorXd start = Start(*reference_);
+    reference_->SetEvidence(start);
+    GapScreen screen = reference_->Screen();
+    screen.Factor();
+    reference_->SetEvidence(SettleNoise(std::move(screen), start).stddev());
+  }
+  before_ = RefitModel(baseline_, *reference_);
+}
+
 void GapRegression::Refit() {
   data_->SetNoise(noise_.joints);
-  screen_.emplace(data_->WhitenedColumns(), data_->WhitenedResidual());
-  if (reference_) AddReference(*reference_, &*screen_);
+  const bool of_positions = noise_.source == NoiseFloor::kPositions;
+  if (!of_positions) data_->SetEvidence(Start(*data_));
+  screen_.emplace(data_->Screen());
+  if (reference_) AddReference(*reference_, baseline_.size(), &*screen_);
   screen_->Factor();
+  SettleEvidence({});
   refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
   if (HoldDays()) Refit();
 }
 
-// What changed by more than from day to day, or on one joint or two only, is to
-// be explained, not absorbed. Whether a column is held now that was not.
+bool GapRegression::ChooseDiscrepancy(const std::vector<int>& columns) {
+  constexpr std::array<double, 2> kSmaller = {.3, .1};
+  const int first = baseline_.num_model_columns();
+  if (discrepancy_chosen_ || first == baseline_.size()) return false;
+  discrepancy_chosen_ = true;
+  const GapScreen screen = screen_->Only(columns);
+  double most = LogEvidence(screen, evidence_);
+  for (const double size : kSmaller) {
+    GapScreen scaled = screen;
+    scaled.ScaleBaseline(first, size);
+    const double evidence = LogEvidence(std::move(scaled), evidence_);
+    if (evidence <= most) continue;
+    most = evidence;
+    discrepancy_ = size;
+  }
+  if (discrepancy_ == 1) return false;
+  data_->ScaleColumns(first, discrepancy_);
+  if (reference_) {
+    reference_->ScaleColumns(first, discrepancy_);
+    SettleReference();
+  }
+  return true;
+}
+
+void GapRegression::SettleEvidence(const std::vector<int>& columns) {
+  if (noise_.source == NoiseFloor::kPositions) return;
+  const VectorXd before = data_->rows().evidence();
+  evidence_ = SettleNoise(screen_->Only(columns), before);
+  data_->ScaleEvidence(evidence_.stddev().cwiseQuotient(before));
+  screen_->Weigh(before.cwiseQuotient(evidence_.stddev()));
+  refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
+}
+
+// What changed on one joint or two only is to be explained, not absorbed; so is
+// what changed by more than from day to day where others did not change with
+// it. Whether a column is held now that was not.
 bool GapRegression::HoldDays() {
   constexpr double kUsual = 3;  // standard deviations
   const std::vector<int> days = DayColumns(baseline_);
@@ -95,8 +160,17 @@ bool GapRegression::HoldDays() {
         IsAnotherDay(baseline_, refit_, screen_->BaselineCovariance());
   }
   bool any = false;
+  if (*another_day_ && held_.empty()) {
+    for (const JointTerm term : {JointTerm::kViscous, JointTerm::kCoulomb}) {
+      const auto changed = ChangedTogether(baseline_, term, refit_,
+                                           screen_->BaselineCovariance());
+      changed_together_.insert(changed.begin(), changed.end());
+    }
+  }
   for (const int c : days) {
-    if (*another_day_ && std::abs(refit_[c]) < kUsual) continue;
+    const bool is_usual =
+        std::abs(refit_[c]) < kUsual || changed_together_.count(c) > 0;
+    if (*another_day_ && is_usual) continue;
     any |= held_.insert(c).second;
     data_->Hold(c);
   }
@@ -115,6 +189,11 @@ bool GapRegression::IsTheSameDayBeside(
 JointRows GapRegression::TorqueOf(
     const std::vector<GapCandidate>& effects) const {
   return EffectTorque(baseline_, scale_, effects, data_.get());
+}
+
+VectorXd GapRegression::ModelBeside(const JointRows& torque) const {
+  return screen_->BaselineBeside(WhitenEach(data_->rows(), torque),
+                                 baseline_.num_model_columns());
 }
 
 VectorXd GapRegression::BaselineBeside(const JointRows& torque) const {

@@ -11,6 +11,7 @@
 #include "calib/diagnose/data/data.h"
 #include "calib/diagnose/data/noise.h"
 #include "calib/diagnose/data/screen.h"
+#include "calib/diagnose/select/evidence_noise.h"
 
 namespace armcal {
 
@@ -34,6 +35,15 @@ class GapRegression {
   // beside these effects; friction is held from the next Refit on.
   bool IsTheSameDayBeside(const std::vector<GapCandidate>& effects);
 
+  // What the baseline and these columns of the screen leave is the noise of the
+  // evidence from now on; the screen's rows are weighed anew. Torques that were
+  // made of commands keep the noise of their positions.
+  void SettleEvidence(const std::vector<int>& columns);
+  // Gives what models lack as a rule the size, of the routine one and smaller
+  // ones, that is the most likely beside these columns; once, before the next
+  // Refit. Whether that changed it.
+  bool ChooseDiscrepancy(const std::vector<int>& columns);
+  const EvidenceNoise& evidence() const { return evidence_; }
   const GapBaseline& baseline() const { return baseline_; }
   const GapNoise& noise() const { return noise_; }
   const MotionScale& scale() const { return scale_; }
@@ -51,21 +61,28 @@ class GapRegression {
   JointRows TorqueOf(const std::vector<GapCandidate>& effects) const;
   // The baseline's values beside such a torque.
   Eigen::VectorXd BaselineBeside(const JointRows& torque) const;
+  // The same of the model alone, 0 for what models lack as a rule.
+  Eigen::VectorXd ModelBeside(const JointRows& torque) const;
 
  private:
   void EstimateNoise();
+  void SettleReference();
   bool HoldDays();
 
   const GapBaseline& baseline_;
   std::unique_ptr<GapData> data_;
   std::shared_ptr<GapData> reference_;  // the same for any part
   GapNoise noise_;
+  EvidenceNoise evidence_;
   MotionScale scale_;
+  double discrepancy_ = 1;  // of the routine size
+  bool discrepancy_chosen_ = false;
   std::optional<GapScreen> screen_;
   // Whether friction is that of another day than the reference's, and the
   // columns of it that are held nevertheless.
   std::optional<bool> another_day_;
   std::set<int> held_;
+  std::set<int> changed_together_;  // of the days' columns
   Eigen::VectorXd before_, refit_;
 };
 

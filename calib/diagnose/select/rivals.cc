@@ -17,6 +17,12 @@ using Eigen::VectorXd;
 
 constexpr double kOut = -std::numeric_limits<double>::infinity();
 
+// What fits about as well as something that can be is not what cannot.
+bool IsPossible(const GapCandidate& effect, const EffectSite& site) {
+  return !effect.effect->plausible ||
+         effect.effect->plausible(EstimatesOf(*effect.effect, site, effect.p));
+}
+
 }  // namespace
 
 Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
@@ -56,14 +62,20 @@ Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
   });
   Rivals rivals{{}, selection.chosen[k], {}};
   double best_score = kOut;
+  bool best_is_possible = false;
   for (size_t r = 0; r < near.size(); ++r) {
     const GapCandidate& rival = candidates[near[r]];
     const size_t varied = ListCoordinates(baseline, scale, {rival}, 0).size();
     const double score = refined[r].drop - by_others -
                          RefinedPrice(screen, rival, static_cast<int>(varied));
-    rivals.scores.push_back({rival.effect, rival.joint, score});
-    if (!(score > best_score)) continue;
+    const bool is_possible =
+        IsPossible(refined[r].effects[k],
+                   EffectSite{&baseline.robot(), rival.joint, &scale});
+    rivals.scores.push_back({rival.effect, rival.joint, score, is_possible});
+    if (is_possible < best_is_possible) continue;
+    if (is_possible == best_is_possible && !(score > best_score)) continue;
     best_score = score;
+    best_is_possible = is_possible;
     rivals.best = near[r];
     rivals.refined = refined[r];
   }

@@ -15,6 +15,8 @@ struct RefinedScore {
   const Effect* effect = nullptr;
   int joint = -1;
   double score = 0;
+  // Whether its estimates can be of a real arm (Effect::plausible).
+  bool is_possible = true;
 };
 
 struct Rivals {

@@ -41,7 +41,6 @@ Effect Cable() {
         robot);
   };
   effect.means = {"torque_offset"};
-  effect.imitated_by = "a weight on a loose bolt";
   effect.experiment = "slow sweeps over the whole range, both ways";
   return effect;
 }

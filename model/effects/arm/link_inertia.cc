@@ -1,7 +1,19 @@
+#include <cmath>
+
 #include "model/effects/effect_parts.h"
 
 namespace armcal {
 inline namespace effects {
+
+namespace {
+
+// A link with no mass left, or with more than twice its own, carries something
+// or has lost it: another effect.
+bool IsOfTheLink(const std::vector<EffectEstimate>& estimates) {
+  return std::abs(estimates[0].value) < 1;
+}
+
+}  // namespace
 
 // A link whose mass, first moments and inertia are (1 + share) of the robot
 // file's.
@@ -28,7 +40,7 @@ Effect LinkInertia() {
                ? "the link has no mass"
                : WhyNotCarried(site);
   };
-  effect.imitated_by = "a load that sloshes";
+  effect.plausible = IsOfTheLink;
   effect.experiment = "poses of the joints before, held, and swung";
   return effect;
 }

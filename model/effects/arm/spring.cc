@@ -41,7 +41,6 @@ Effect Spring() {
     drive->stiffness = p[0];
     return true;
   };
-  effect.imitated_by = "a weight on a loose bolt";
   effect.experiment = "slow sweeps over the whole range, both ways";
   return effect;
 }

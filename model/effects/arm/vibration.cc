@@ -34,7 +34,6 @@ Effect Vibration() {
         {"frequency", "Hz", p[2]},
         {"phase", "rad", Phase(p[0], p[1])}};
   };
-  effect.imitated_by = "a torque that wanders at random";
   effect.experiment = "the arm at rest";
   return effect;
 }

@@ -23,7 +23,6 @@ Effect Armature() {
         {"armature", IsRotational(site.at().type) ? "kg m^2" : "kg", p[0]}};
   };
   effect.joint_term = JointTerm::kArmature;
-  effect.imitated_by = "a load that sloshes";
   effect.experiment = "fast motion of small amplitude";
   return effect;
 }

@@ -66,7 +66,6 @@ Effect Backlash() {
   };
   effect.proportional = false;
   effect.means = {"armature"};
-  effect.imitated_by = "a weight on a loose bolt";
   effect.experiment =
       "slow motion through poses in which the load changes sign, at 100 Hz or "
       "more; an encoder at the link";

@@ -66,7 +66,6 @@ Effect Elasticity() {
   };
   effect.proportional = false;
   effect.means = {"armature"};
-  effect.imitated_by = "a belt that creeps, a weight on a loose bolt";
   effect.experiment = "fast motion and stops; an encoder at the link";
   return effect;
 }

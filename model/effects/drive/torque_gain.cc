@@ -22,7 +22,6 @@ Effect TorqueGain() {
     drive->gain /= 1 + p[0];
     return true;
   };
-  effect.imitated_by = "a motor that warms up";
   effect.experiment = "a known payload, held and moved";
   return effect;
 }

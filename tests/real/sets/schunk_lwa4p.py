@@ -24,7 +24,7 @@ def named_of(run):
 def headline_of(run):
     def check(runs):
         first = runs[run]["sentence"]
-        return "friction" in first, first[:110]
+        return "friction has changed" in first.lower(), first[:110]
     check.__doc__ = f"{run}: the first sentence says that friction changed"
     return check
 

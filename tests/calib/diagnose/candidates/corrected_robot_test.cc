@@ -46,10 +46,11 @@ double Misfit(const GapBaseline& baseline, const VectorXd& x,
   const std::vector<GapSegment> segments = {segment};
   const GapRows rows(segments, kBandwidth);
   const std::vector<RecordedTorque> torques = RecordedTorques(baseline, rows);
-  const std::vector<MatrixXd> columns = baseline.ThinColumns(rows, torques);
+  const std::vector<BaselineColumns> columns =
+      baseline.ThinColumns(rows, torques);
   const MatrixXd recorded = rows.Thin(0, segment.tau);
   MatrixXd missing = recorded - rows.Thin(0, torques[0].nominal());
-  for (int j = 0; j < 3; ++j) missing.col(j) -= columns[j] * x;
+  for (int j = 0; j < 3; ++j) missing.col(j) -= columns[j].Times(x);
   if (effect.size() > 0) missing -= rows.Thin(0, effect);
   return missing.norm() / recorded.norm();
 }

@@ -49,7 +49,7 @@ class GapRefinementTest : public testing::Test {
                      FitAutoregression({thin.col(1)}, false)});
   }
   RefinedEffects Refine(const Effect& effect, int joint, const VectorXd& from) {
-    GapScreen screen(data_->WhitenedColumns(), data_->WhitenedResidual());
+    GapScreen screen = data_->Screen();
     screen.Factor();
     GapCandidate start;
     start.effect = &effect;

@@ -86,7 +86,7 @@ TEST_P(GapBaselineTest, ColumnsAreWhatTheirParametersChange) {
     const Robot changed = baseline_->With(VectorXd::Unit(baseline_->size(), c));
     for (int j = 0; j < n(); ++j) {
       const VectorXd expected = Change(changed, j);
-      EXPECT_LT((thin[j].col(c) - expected).norm(),
+      EXPECT_LT((thin[j].Select({c}) - expected).norm(),
                 1e-3 * expected.norm() + 1e-9)
           << "column " << c << ", joint " << j + 1;
     }
@@ -110,8 +110,9 @@ TEST_P(GapBaselineTest, FrictionMayChangeSignWithinOtherWidths) {
     other[j].width = widths[column.index] * unit;
     const VectorXd expected =
         (Torque(robot_, other, j) - Torque(robot_, usual, j)) / 2;
-    EXPECT_LT((thin[j].col(c) - expected).norm(), 1e-6 * expected.norm()) << c;
-    EXPECT_EQ(thin[(j + 1) % n()].col(c).norm(), 0) << c;
+    EXPECT_LT((thin[j].Select({c}) - expected).norm(), 1e-6 * expected.norm())
+        << c;
+    EXPECT_EQ(thin[(j + 1) % n()].Select({c}).norm(), 0) << c;
     ++other_widths;
   }
   EXPECT_EQ(other_widths, 5 * n());
@@ -128,7 +129,8 @@ TEST_P(GapBaselineTest, TimingIsTheTorqueOfOtherTimes) {
     const VectorXd late = Torque(robot_, smooth.transitions(), j, -5e-4);
     const VectorXd expected = late - Torque(robot_, smooth.transitions(), j);
     ASSERT_GT(expected.norm(), 0);
-    EXPECT_LT((thin[j].col(c) - expected).norm(), .01 * expected.norm()) << j;
+    EXPECT_LT((thin[j].Select({c}) - expected).norm(), .01 * expected.norm())
+        << j;
   }
 }
 
@@ -151,8 +153,9 @@ TEST_P(GapBaselineTest, FrictionMayChangeSignAtOtherTimes) {
     const int j = turning.columns()[c].joint;
     const VectorXd expected =
         (friction(j, -kStep) - friction(j, kStep)) * (.002 / (2 * kStep));
-    EXPECT_LT((thin[j].col(c) - expected).norm(), .05 * expected.norm()) << j;
-    EXPECT_EQ(thin[(j + 1) % n()].col(c).norm(), 0) << c;
+    EXPECT_LT((thin[j].Select({c}) - expected).norm(), .05 * expected.norm())
+        << j;
+    EXPECT_EQ(thin[(j + 1) % n()].Select({c}).norm(), 0) << c;
     ++reversals;
   }
   EXPECT_EQ(reversals, n());

@@ -46,4 +46,34 @@ TEST_F(GapDaysTest, OneOrTwoJointsAreNoOtherDay) {
   EXPECT_TRUE(IsAnother(3));
 }
 
+// Viscous friction of all joints is down by so many standard deviations from
+// day to day, each told to .3 of one.
+class ChangedTogetherTest : public GapDaysTest {
+ protected:
+  std::vector<int> Changed(double each, int joints) const {
+    VectorXd x = VectorXd::Zero(baseline_.size());
+    for (const int c : DayColumns(baseline_)) {
+      const BaselineColumn& column = baseline_.columns()[c];
+      if (static_cast<JointTerm>(column.index) == JointTerm::kViscous &&
+          column.joint < joints) {
+        x[c] = -each;
+      }
+    }
+    const MatrixXd covariance =
+        .09 * MatrixXd::Identity(baseline_.size(), baseline_.size());
+    return ChangedTogether(baseline_, JointTerm::kViscous, x, covariance);
+  }
+};
+
+// Six that are down by 1.6 each are so once in 25 000 days; by 1, once in 90.
+TEST_F(ChangedTogetherTest, SeveralThatChangeAlikeAreMoreThanEachIs) {
+  EXPECT_EQ(Changed(1.6, 6).size(), 6u);
+  EXPECT_TRUE(Changed(1, 6).empty());
+}
+
+TEST_F(ChangedTogetherTest, OneJointIsNotSeveral) {
+  EXPECT_TRUE(Changed(9, 1).empty());
+  EXPECT_EQ(Changed(4, 2).size(), 2u);
+}
+
 }  // namespace armcal::days_test

@@ -40,7 +40,7 @@ class GapScreenTest : public testing::Test {
   }
 
   GapScreen Screen() const {
-    GapScreen screen(baseline_, target_);
+    GapScreen screen(OnEachJoint(baseline_), kBaseline, target_);
     for (const JointRows& column : columns_) screen.AddColumn(column);
     screen.Factor();
     return screen;
@@ -81,7 +81,7 @@ class GapScreenTest : public testing::Test {
     other_y_ = 2 * size * RandomVector(&random_, 3);
   }
   void ExpectTheJointResidual(double tolerance) const {
-    GapScreen screen(baseline_, target_);
+    GapScreen screen(OnEachJoint(baseline_), kBaseline, target_);
     screen.AddInformation(other_A_.transpose() * other_A_,
                           other_A_.transpose() * other_y_);
     screen.Factor();
@@ -100,7 +100,7 @@ class GapScreenTest : public testing::Test {
 };
 
 TEST_F(GapScreenTest, ColumnsMayComeLater) {
-  GapScreen screen(baseline_, target_);
+  GapScreen screen(OnEachJoint(baseline_), kBaseline, target_);
   for (const JointRows& column : columns_) {
     screen.Factor();
     screen.AddColumn(column);
@@ -173,7 +173,7 @@ TEST_F(GapScreenTest, BaselinesCovarianceIsOfTheBaselineAlone) {
 TEST_F(GapScreenTest, InformationIsAsGoodAsTheRowsItIsOf) {
   other_A_ = RandomMatrix(&random_, 25, kBaseline);
   other_y_ = 2 * RandomVector(&random_, 25);
-  GapScreen screen(baseline_, target_);
+  GapScreen screen(OnEachJoint(baseline_), kBaseline, target_);
   screen.AddInformation(other_A_.transpose() * other_A_,
                         other_A_.transpose() * other_y_);
   for (const JointRows& column : columns_) screen.AddColumn(column);
@@ -234,6 +234,69 @@ TEST_F(GapScreenTest, VisibleIsWhatTheBaselineCannotTake) {
   EXPECT_NEAR(screen.visible(1), 1, 1e-6);
   EXPECT_NEAR(screen.raw(1), free.squaredNorm(), kTight * free.squaredNorm());
   EXPECT_LT(screen.Solve({0}).coefficients.norm(), 1);
+}
+
+// As if rows had come with other weights.
+TEST_F(GapScreenTest, WeighedRowsAreThoseOfALargerNoise) {
+  const VectorXd factor = Eigen::Vector2d(.4, 2.5);
+  GapScreen weighed = Screen();
+  weighed.Weigh(factor);
+  for (int j = 0; j < 2; ++j) {
+    baseline_[j] *= factor[j];
+    target_[j] *= factor[j];
+    for (JointRows& column : columns_) column[j] *= factor[j];
+  }
+  const GapScreen expected = Screen();
+  EXPECT_LT((weighed.G() - expected.G()).norm(), kTight);
+  EXPECT_LT((weighed.g() - expected.g()).norm(), kTight);
+  EXPECT_LT((weighed.Residual(1, weighed.Solve({0, 2})) -
+             expected.Residual(1, expected.Solve({0, 2})))
+                .norm(),
+            kTight);
+}
+
+TEST_F(GapScreenTest, SomeColumnsAreAsIfThereWereNoOthers) {
+  const GapScreen only = Screen().Only({2, 0});
+  columns_ = {columns_[2], columns_[0]};
+  const GapScreen expected = Screen();
+  EXPECT_LT((only.G() - expected.G()).norm(), kTight);
+  EXPECT_NEAR(only.Solve({0, 1}).drop, expected.Solve({0, 1}).drop, kTight);
+}
+
+// Of columns that are k times as large a value with the same prior makes k
+// times as much.
+TEST_F(GapScreenTest, BaselinesAreAsUncertainAsTheirColumnsAreLarge) {
+  GapScreen scaled = Screen();
+  scaled.ScaleBaseline(3, .2);
+  for (MatrixXd& A : baseline_) A.rightCols(2) *= .2;
+  const GapScreen expected = Screen();
+  EXPECT_LT((scaled.G() - expected.G()).norm(), kTight);
+  EXPECT_LT((scaled.g() - expected.g()).norm(), kTight);
+  EXPECT_NEAR(scaled.LogDeterminant({}), expected.LogDeterminant({}), kTight);
+}
+
+// The first columns alone, as by least squares without the others.
+TEST_F(GapScreenTest, TheFirstColumnsMayBeFittedAlone) {
+  const GapScreen screen = Screen();
+  const VectorXd x = screen.BaselineBeside(JointRows(2), 3);
+  EXPECT_EQ(x.tail(2).norm(), 0);
+  for (MatrixXd& A : baseline_) A.rightCols(2).setZero();
+  EXPECT_LT((x - Screen().BaselineBeside(JointRows(2))).norm(), kTight);
+}
+
+// The trace of the matrix that makes a joint's fitted rows of its rows.
+TEST_F(GapScreenTest, FittedRowsAreTheTraceOfTheHatMatrix) {
+  const GapScreen screen = Screen();
+  MatrixXd A(70, kBaseline);
+  A << baseline_[0], baseline_[1];
+  const MatrixXd hat =
+      A *
+      (A.transpose() * A + MatrixXd::Identity(kBaseline, kBaseline)).inverse() *
+      A.transpose();
+  EXPECT_NEAR(screen.FittedRows()[0], hat.topLeftCorner(40, 40).trace(),
+              kTight);
+  EXPECT_NEAR(screen.FittedRows()[1], hat.bottomRightCorner(30, 30).trace(),
+              kTight);
 }
 
 }  // namespace armcal::screen_test

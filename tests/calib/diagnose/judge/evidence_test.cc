@@ -33,17 +33,33 @@ TEST_P(ProbabilityOfTest, FallsWithAllThatSpeaksAgainst) {
   expect_less("a near rival", [](EffectEvidence* e) { e->odds = 0; });
   expect_less("little explained", [](EffectEvidence* e) { e->strength = 3; });
   expect_less("more to come", [](EffectEvidence* e) { e->next = 60; });
-  expect_less("others were needed", [](EffectEvidence* e) { e->chosen = 3; });
-  expect_less("others on its joint", [](EffectEvidence* e) { e->beside = 1; });
-  expect_less("it is easily imitated",
-              [](EffectEvidence* e) { e->imitated = true; });
+  expect_less("stronger ones were needed", [](EffectEvidence* e) {
+    e->chosen = 3;
+    e->stronger = 2;
+  });
+  expect_less("a stronger one is on its joint", [](EffectEvidence* e) {
+    e->beside = 1;
+    e->stronger_beside = 1;
+  });
   expect_less("held-out data do not care",
               [](EffectEvidence* e) { e->confirmation.explained = 0; });
   expect_less("held-out data hardly see it", [](EffectEvidence* e) {
     e->confirmation = {5, 5};
   });
+  if (!GetParam()) return;
   expect_less("much is left on its joint",
               [](EffectEvidence* e) { e->left = .5; });
+}
+
+// Weaker ones may be what its form has wrong, and are nothing against it.
+TEST(ProbabilityTest, WeakerEffectsSayNothingAgainstARecordedOne) {
+  EffectEvidence alone;
+  alone.odds = 8;
+  alone.strength = 7;
+  EffectEvidence beside_weaker = alone;
+  beside_weaker.chosen = 3;
+  beside_weaker.beside = 2;
+  EXPECT_EQ(ProbabilityOf(alone), ProbabilityOf(beside_weaker));
 }
 
 TEST_P(ProbabilityOfTest, AContactFeltByOneJointManyTimesIsNone) {

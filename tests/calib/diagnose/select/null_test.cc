@@ -56,9 +56,10 @@ class GapNullTest : public testing::Test {
     return x;
   }
   GapScreen Screen(const VectorXd& target) const {
-    GapScreen screen({MatrixXd::Constant(rows_->num_rows(0), 1, 1e-3),
-                      MatrixXd::Constant(rows_->num_rows(1), 1, 1e-3)},
-                     {target, VectorXd::Zero(rows_->num_rows(1))});
+    GapScreen screen(
+        OnEachJoint({MatrixXd::Constant(rows_->num_rows(0), 1, 1e-3),
+                     MatrixXd::Constant(rows_->num_rows(1), 1, 1e-3)}),
+        1, {target, VectorXd::Zero(rows_->num_rows(1))});
     for (int k = 0; k < kCandidates; ++k) {
       JointRows column(2);
       column[0] = Wave(k);
@@ -110,9 +111,10 @@ TEST_F(GapNullTest, AnEffectIsNoChance) {
 
 // What a wrong form leaves on one joint is no reason to doubt another's effect.
 TEST_F(GapNullTest, ErrorsOfOneJointAreNotThoseOfAnother) {
-  GapScreen screen({MatrixXd::Constant(rows_->num_rows(0), 1, 1e-3),
-                    MatrixXd::Constant(rows_->num_rows(1), 1, 1e-3)},
-                   {Noise(.01), 30 * Noise(8)});
+  GapScreen screen(
+      OnEachJoint({MatrixXd::Constant(rows_->num_rows(0), 1, 1e-3),
+                   MatrixXd::Constant(rows_->num_rows(1), 1, 1e-3)}),
+      1, {Noise(.01), 30 * Noise(8)});
   for (int joint = 0; joint < 2; ++joint) {
     for (int k = 0; k < kCandidates; ++k) {
       JointRows column(2);

@@ -50,7 +50,7 @@ class GapSelectionTest : public testing::Test {
   }
   GapScreen Screen() const {
     const MatrixXd baseline = MatrixXd::Constant(kRows, 1, 1e-3);
-    GapScreen screen({baseline, baseline}, target_);
+    GapScreen screen(OnEachJoint({baseline, baseline}), 1, target_);
     for (const JointRows& column : columns_) screen.AddColumn(column);
     screen.Factor();
     return screen;

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/select/regression.h"
+#include "calib/diagnose/select/selection_options.h"
+
+namespace armcal {
+
+// Effects one by one, each the one whose larger model is the most likely beside
+// those before (LargerModelOdds less the price of its parameters), as long as
+// that is above the threshold. The regression's noise is then that of what the
+// last of these models leaves: an effect that explains most of the torque shows
+// how small the noise is only once it is in the model.
+std::vector<int> GrowEffects(const std::vector<GapCandidate>& candidates,
+                             const SelectionOptions& options,
+                             GapRegression* regression);
+
+}  // namespace armcal
