@@ -106,9 +106,13 @@ void GapFit::MakeScreen() {
   pool_.List();
 }
 
-// Effects beside the noise that they leave.
+// Effects beside the noise that they leave, where that is not known.
 void GapFit::SelectWithTheirNoise() {
   constexpr int kRounds = 3;
+  if (!rows().has_evidence()) {
+    selection_ = SelectEffects(screen(), candidates(), options_.selection);
+    return;
+  }
   std::vector<int> before =
       GrowEffects(candidates(), options_.selection, &regression_);
   for (int round = 0; round < kRounds; ++round) {
