@@ -167,6 +167,7 @@ RESIDUALS = {  # name: (residual of joint 1, N m; what orders it; its label)
     "link_length": (change(l1=.43), Q, "q, rad"),
     "base_tilt": (change(tilt=.05), Q, "q, rad"),
     "payload": (change(m2=3.4, c2=(3 * .15 + .4 * .3) / 3.4), Q, "q, rad"),
+    "added_mass": (change(m1=5.5, c1=1.2 / 5.5, i1=.35 - 1.2 ** 2 / 5.5), Q, "q, rad"),
     "link_inertia": (change(m2=3.3, i2=.033), Q, "q, rad"),
     "thermal_friction": (each(lambda k: -(.5 * V[k] + .8 * sign(V[k])) *
                               (1 - math.exp(-T[k] / 5))), T, "t, s"),

@@ -163,7 +163,7 @@ effect say little about that effect: 7 of 7 is 59 to 100 % (95 %).
 | grows with speed | `viscous_friction`, `quadratic_friction`, `asymmetric_friction` |
 | follows acceleration | `armature`, `link_inertia`, `elasticity`, `time_base` |
 | repeats with position | `spring`, `cable`, `torque_ripple`, `position_friction` |
-| follows gravity, on several joints | `payload`, `link_inertia`, `link_length`, `encoder_offset`, `base_tilt` |
+| follows gravity, on several joints | `payload`, `added_mass`, `link_inertia`, `link_length`, `encoder_offset`, `base_tilt` |
 | follows the torque itself | `torque_gain`, `torque_nonlinearity`, `torque_saturation`, `torque_deadband` |
 | comes where torque changes fast | `delay`, `backlash`, `elasticity` |
 | is there at rest | `torque_offset`, `vibration`, `time_drift` |

@@ -29,6 +29,7 @@
   X(LinkLength)           \
   X(BaseTilt)             \
   X(Payload)              \
+  X(AddedMass)            \
   X(LinkInertia)          \
   X(ThermalFriction)      \
   X(TimeDrift)            \

@@ -104,6 +104,35 @@ HiddenEffect Payload() {
           nullptr};
 }
 
+// A cube of aluminium about its own centre, at a place on the link.
+HiddenEffect AddedMass() {
+  return {"added_mass",
+          true,
+          Scope::kJoint,
+          "Something fixed to a link: a valve block, hoses, a weight.",
+          {{"mass", "1", .03, .005, .1, Draw::kLog, 5e-4, .6},
+           {"x", "m", .1, -.2, .2, Draw::kUniform, -.8, .8},
+           {"y", "m", -.05, -.2, .2, Draw::kUniform, -.8, .8},
+           {"z", "m", .08, -.2, .2, Draw::kUniform, -.8, .8}},
+          [](const EffectSite& site) -> std::vector<EffectValue> {
+            const double mass = site.p[0] * site.moving_mass();
+            const Vector3d com = site.p.tail<3>();
+            const double edge = std::cbrt(mass / 2700);
+            site.link().inertial += InertialParameters::FromCenterOfMass(
+                mass, com,
+                mass * edge * edge / 6 * Eigen::Matrix3d::Identity());
+            return {{"mass", "kg", mass},
+                    {"hx", "kg m", mass * com.x()},
+                    {"hy", "kg m", mass * com.y()},
+                    {"hz", "kg m", mass * com.z()}};
+          },
+          [](const SimulatedRobot& robot, int joint) -> std::string {
+            return robot.num_passive + joint + 1 < robot.robot.num_joints()
+                       ? ""
+                       : "on the last link it is a payload";
+          }};
+}
+
 HiddenEffect LinkInertia() {
   return {
       "link_inertia",
@@ -126,7 +155,7 @@ HiddenEffect LinkInertia() {
 
 std::vector<HiddenEffect> RigidBodyEffects() {
   std::vector<HiddenEffect> effects = {Armature(), LinkLength(), BaseTilt(),
-                                       Payload(), LinkInertia()};
+                                       Payload(),  AddedMass(),  LinkInertia()};
   for (HiddenEffect& effect : effects) effect.changes_robot = true;
   return effects;
 }

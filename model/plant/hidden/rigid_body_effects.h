@@ -6,7 +6,8 @@
 
 namespace armcal {
 
-// Another rigid arm: armature, link_length, base_tilt, payload, link_inertia.
+// Another rigid arm: armature, link_length, base_tilt, payload, added_mass,
+// link_inertia.
 std::vector<HiddenEffect> RigidBodyEffects();
 
 }  // namespace armcal

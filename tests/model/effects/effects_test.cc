@@ -28,8 +28,8 @@ TEST(Effects, AreThoseOfTheDesignInItsOrder) {
                  "cable", "torque_ripple", "torque_gain", "torque_nonlinearity",
                  "torque_saturation", "torque_deadband", "torque_crosstalk",
                  "delay", "encoder_offset", "link_length", "base_tilt",
-                 "payload", "link_inertia", "thermal_friction", "time_drift",
-                 "external_contact", "vibration", "time_base"));
+                 "payload", "added_mass", "link_inertia", "thermal_friction",
+                 "time_drift", "external_contact", "vibration", "time_base"));
   EXPECT_EQ(FindEffect("payload")->name, "payload");
   EXPECT_EQ(FindEffect("gremlins"), nullptr);
 }
@@ -128,7 +128,8 @@ TEST_P(EffectOf, IsLinearInItsLinearParameters) {
       VectorXd twice = once;
       twice[k] *= 2;
       const MatrixXd doubled = slow(twice);
-      EXPECT_LE((doubled - 2 * slow(once)).norm(), tolerance * doubled.norm())
+      EXPECT_LE((doubled - 2 * slow(once)).norm(),
+                tolerance * doubled.norm() + 1e-12 * recorded->nominal().norm())
           << GetParam().parameters[k].name;
     }
   });
@@ -142,7 +143,7 @@ TEST(WhatALinkCarries, IsNotFeltBeyondJointsThatStand) {
   arm.motion.q.col(0).setConstant(.3);
   arm.SetScale();
   RecordedTorque recorded = arm.Recorded();
-  for (const char* name : {"link_length", "link_inertia"}) {
+  for (const char* name : {"link_length", "added_mass", "link_inertia"}) {
     const Effect& effect = *FindEffect(name);
     const MatrixXd first =
         arm.Change(effect, 0, arm.Sizes(effect, 0), &recorded);

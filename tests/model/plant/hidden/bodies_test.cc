@@ -90,6 +90,29 @@ TEST(HiddenBodies, PayloadWeighs) {
   }
 }
 
+// A weight on a link: its mass and its moments add, its own edge is a cube's.
+TEST(HiddenBodies, AddedMassAddsToOneLink) {
+  HiddenPlant plant;
+  const Robot before = plant.robot.robot;
+  plant.Add("added_mass", 2, {.05, .1, -.2, .3});
+  const double m = plant.Value("mass");
+  EXPECT_EQ(plant.Value("hz"), m * .3);
+  for (int j = 0; j < 6; ++j) {
+    const Vector10d added = plant.robot.robot.links[j].inertial.ToVector() -
+                            before.links[j].inertial.ToVector();
+    if (j != 2) {
+      EXPECT_EQ(added.norm(), 0) << j;
+      continue;
+    }
+    EXPECT_NEAR(added[0], m, 1e-12);
+    EXPECT_NEAR((added.segment<3>(1) - m * Vector3d(.1, -.2, .3)).norm(), 0,
+                1e-12);
+    const double own = m * std::pow(m / 2700, 2 / 3.) / 6;
+    EXPECT_NEAR(added[4], m * (.2 * .2 + .3 * .3) + own, 1e-12);  // Ixx
+    EXPECT_NEAR(added[5], m * .1 * .2, 1e-12);                    // Ixy
+  }
+}
+
 TEST(HiddenBodies, LinkInertiaScalesOneLink) {
   HiddenPlant plant;
   const Robot before = plant.robot.robot;

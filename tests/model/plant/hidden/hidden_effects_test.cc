@@ -44,6 +44,7 @@ const char* const kCatalogue[] = {"viscous_friction",
                                   "link_length",
                                   "base_tilt",
                                   "payload",
+                                  "added_mass",
                                   "link_inertia",
                                   "thermal_friction",
                                   "time_drift",
@@ -147,12 +148,13 @@ bool Swing(const HiddenEffect& effect, const Robot& robot, int joint,
 TEST(HiddenEffects, ApplyToSixRevoluteJointsAndToAScara) {
   const std::map<std::string, std::set<std::string>> none = {
       // The first link turns about one axis, which is gravity's.
-      {"UR5 6R", {"link_length 5", "gyroscope 0", "loose_bolt 0"}},
+      {"UR5 6R",
+       {"link_length 5", "added_mass 5", "gyroscope 0", "loose_bolt 0"}},
       // All axes are gravity's.
       {"SCARA RRPR",
-       {"link_length 3", "gyroscope 0", "gyroscope 1", "gyroscope 2",
-        "gyroscope 3", "loose_bolt 0", "loose_bolt 1", "loose_bolt 2",
-        "loose_bolt 3"}}};
+       {"link_length 3", "added_mass 3", "gyroscope 0", "gyroscope 1",
+        "gyroscope 2", "gyroscope 3", "loose_bolt 0", "loose_bolt 1",
+        "loose_bolt 2", "loose_bolt 3"}}};
   for (const auto& [name, expected] : none) {
     const Robot robot = Arm(name);
     std::set<std::string> unfit;
