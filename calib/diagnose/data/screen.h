@@ -1,15 +1,13 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <memory>
+#include <utility>
 #include <vector>
 
-#include "calib/diagnose/data/baseline_columns.h"
+#include "calib/diagnose/data/baseline_fit.h"
 
 namespace armcal {
-
-// Whitened torque of one unit of something, per joint; empty where it is zero.
-using JointRows = std::vector<Eigen::VectorXd>;
 
 // The regression that all questions of a diagnosis are asked of: torque
 // residual on the baseline's columns, each with a standard normal prior, and
@@ -18,14 +16,17 @@ using JointRows = std::vector<Eigen::VectorXd>;
 // model), so that whatever is asked afterwards needs the small matrices G and g
 // only:
 //   drop of chi^2 by a set S of candidate columns = g_S' G_SS^-1 g_S.
+// Copies share rows.
 class GapScreen {
  public:
   // baseline: whitened, `size` columns in all; target: the whitened residual of
   // the robot as the file has it.
   GapScreen(std::vector<BaselineColumns> baseline, int size, JointRows target);
 
-  // What other data (a reference log) tell of the baseline: A'A and A'y. Once.
-  void AddInformation(const Eigen::MatrixXd& AtA, const Eigen::VectorXd& Aty);
+  // Whitened rows of other data (a reference log), which the baseline alone
+  // fits. Once, before columns are factored.
+  void AddKnown(const std::vector<BaselineColumns>& baseline,
+                const JointRows& target);
   // Returns the index of the column.
   int AddColumn(JointRows column);
   // Multiplies joint j's rows by factor[j], as if its noise were so much
@@ -41,9 +42,9 @@ class GapScreen {
   void Factor();
 
   int size() const { return static_cast<int>(columns_.size()); }
-  int num_joints() const { return static_cast<int>(target_.size()); }
+  int num_joints() const { return baseline_.num_joints(); }
   int num_rows(int joint) const {
-    return static_cast<int>(target_[joint].size());
+    return static_cast<int>(baseline_.rows(joint).target.size());
   }
   const Eigen::MatrixXd& G() const { return G_; }
   const Eigen::VectorXd& g() const { return g_; }
@@ -80,12 +81,18 @@ class GapScreen {
   // Whitened residual of joint j.
   Eigen::VectorXd Residual(int joint, const Fit& fit) const;
   // The baseline that fits best beside a torque (whitened, per joint).
-  Eigen::VectorXd BaselineBeside(const JointRows& torque) const;
+  Eigen::VectorXd BaselineBeside(const JointRows& torque) const {
+    return baseline_.Beside(torque);
+  }
   // The same of its first `columns` alone, 0 for the others.
-  Eigen::VectorXd BaselineBeside(const JointRows& torque, int columns) const;
+  Eigen::VectorXd BaselineBeside(const JointRows& torque, int columns) const {
+    return baseline_.Beside(torque, columns);
+  }
   // What that leaves, all joints, the prior's and other data's share included:
   // its squared norm is chi^2.
-  Eigen::VectorXd ResidualBeside(const JointRows& torque) const;
+  Eigen::VectorXd ResidualBeside(const JointRows& torque) const {
+    return baseline_.ResidualBeside(torque);
+  }
   // Joint j's rows of a column, less what the baseline absorbs of it.
   Eigen::VectorXd Projected(int column, int joint) const;
   // Of chi^2: what the baseline's values beside `fit` cost by their prior and
@@ -95,42 +102,43 @@ class GapScreen {
   double LogDeterminant(const Fit& fit) const;
   // How many of joint j's rows the baseline fits: tr(A_j C A_j'), C its
   // covariance.
-  Eigen::VectorXd FittedRows() const;
+  Eigen::VectorXd FittedRows() const { return baseline_.FittedRows(); }
   // Covariance of the baseline's values alone.
-  Eigen::MatrixXd BaselineCovariance() const;
+  Eigen::MatrixXd BaselineCovariance() const { return baseline_.Covariance(); }
 
  private:
-  // Inner products of a joint's rows, the baseline's once and those of columns
-  // as they come.
+  using Column = std::shared_ptr<const JointRows>;
+
+  // Inner products of one joint's rows of columns, as these come.
   struct Products {
-    std::vector<int> columns;     // that the joint has
+    std::vector<int> columns;     // that the joint has, ascending
     Eigen::MatrixXd of_columns;   // columns' columns
     Eigen::MatrixXd by_baseline;  // own baseline' columns
     Eigen::VectorXd by_target;    // columns' target
-    Eigen::MatrixXd of_baseline;  // own baseline' own baseline
-    Eigen::VectorXd of_target;    // own baseline' target
+
+    // Those from `first` on that act on the joint.
+    void Add(const std::vector<Column>& all, int first, int joint,
+             const BaselineFit::Rows& rows);
+    // With these columns alone, numbered as they come here.
+    Products Only(const std::vector<int>& which) const;
   };
-  void AddProducts(int joint);
+
+  explicit GapScreen(BaselineFit baseline) : baseline_(std::move(baseline)) {}
 
   // Solves for the columns from `before` on, of cached products.
   void Project(int before);
-  Eigen::VectorXd GradientBeside(const JointRows& torque) const;
+  // Adds joint j's share to all that Project makes; what its arm of the
+  // baseline leaves of its columns' products with those from `before` on.
+  Eigen::MatrixXd ProjectOnArm(int joint, int before);
 
-  std::vector<BaselineColumns> baseline_;
-  JointRows target_;
-  std::vector<JointRows> columns_;
-  std::vector<Products> products_;
-  Eigen::MatrixXd information_;  // of the baseline, prior included
-  Eigen::VectorXd gradient_;
-  Eigen::MatrixXd known_information_;  // of other data
-  Eigen::VectorXd known_gradient_;
-  // Other data: root of their information, and what they say of the baseline.
-  Eigen::MatrixXd known_root_;
-  Eigen::VectorXd known_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
-  int factored_ = -1;      // columns; -1: nothing yet
-  Eigen::MatrixXd cross_;  // baseline' columns
-  Eigen::MatrixXd half_;   // the factor's inverse times that
+  BaselineFit baseline_;
+  std::vector<Column> columns_;     // as if no rows were weighed
+  std::vector<Products> products_;  // per joint, the same
+  int factored_ = -1;               // columns; -1: nothing yet
+  Eigen::MatrixXd cross_;           // baseline' columns
+  // Halves of these, as of ArrowFactor.
+  std::vector<Eigen::MatrixXd> arm_half_;  // per joint, of columns it has
+  Eigen::MatrixXd common_half_;
   Eigen::MatrixXd G_;
   Eigen::VectorXd g_, raw_;
 };

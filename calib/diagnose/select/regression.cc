@@ -23,18 +23,6 @@ VectorXd RefitModel(const GapBaseline& baseline, const GapData& data) {
   return x;
 }
 
-void AddReference(const GapData& before, int size, GapScreen* screen) {
-  const std::vector<BaselineColumns> A = before.WhitenedColumns();
-  const std::vector<VectorXd> y = before.WhitenedResidual();
-  MatrixXd AtA = MatrixXd::Zero(size, size);
-  VectorXd Aty = VectorXd::Zero(size);
-  for (size_t j = 0; j < A.size(); ++j) {
-    AtA(A[j].which, A[j].which) += A[j].values.transpose() * A[j].values;
-    Aty(A[j].which) += A[j].values.transpose() * y[j];
-  }
-  screen->AddInformation(AtA, Aty);
-}
-
 // White noise of what a robot as its file has it leaves.
 VectorXd Start(const GapData& data) {
   const std::vector<Autoregression> noise = WhiteNoise(data.residual());
@@ -109,7 +97,10 @@ void GapRegression::Refit() {
   const bool of_positions = noise_.source == NoiseFloor::kPositions;
   if (!of_positions) data_->SetEvidence(Start(*data_));
   screen_.emplace(data_->Screen());
-  if (reference_) AddReference(*reference_, baseline_.size(), &*screen_);
+  if (reference_) {
+    screen_->AddKnown(reference_->WhitenedColumns(),
+                      reference_->WhitenedResidual());
+  }
   screen_->Factor();
   SettleEvidence({});
   refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));

@@ -82,8 +82,7 @@ class GapScreenTest : public testing::Test {
   }
   void ExpectTheJointResidual(double tolerance) const {
     GapScreen screen(OnEachJoint(baseline_), kBaseline, target_);
-    screen.AddInformation(other_A_.transpose() * other_A_,
-                          other_A_.transpose() * other_y_);
+    screen.AddKnown(OnEachJoint({other_A_}), {other_y_});
     screen.Factor();
     double chi_squared;
     Estimate({}, &chi_squared);
@@ -174,8 +173,8 @@ TEST_F(GapScreenTest, InformationIsAsGoodAsTheRowsItIsOf) {
   other_A_ = RandomMatrix(&random_, 25, kBaseline);
   other_y_ = 2 * RandomVector(&random_, 25);
   GapScreen screen(OnEachJoint(baseline_), kBaseline, target_);
-  screen.AddInformation(other_A_.transpose() * other_A_,
-                        other_A_.transpose() * other_y_);
+  screen.AddKnown(OnEachJoint({other_A_.topRows(9), other_A_.bottomRows(16)}),
+                  {other_y_.head(9), other_y_.tail(16)});
   for (const JointRows& column : columns_) screen.AddColumn(column);
   screen.Factor();
   double none, with;
