@@ -38,7 +38,7 @@ TEST(CasePlan, EvaluationHasTheCasesAskedFor) {
   EXPECT_EQ(strata[Stratum::kTwo], 60);
   EXPECT_EQ(strata[Stratum::kOutside], 60);
   EXPECT_EQ(excitations.size(), 4u);
-  EXPECT_EQ(large.size(), 32u);
+  EXPECT_EQ(large.size(), 33u);
   for (const auto& [name, count] : large) EXPECT_GE(count, 6) << name;
   for (const auto& [name, count] : large) EXPECT_EQ(small[name], 2) << name;
   EXPECT_EQ(outside.size(), 13u);

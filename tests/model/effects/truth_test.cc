@@ -97,8 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"encoder_offset", {"offset"}}, Case{"link_length", {"length"}},
         Case{"base_tilt", {"tilt", "gravity_x", "gravity_y", "gravity_z"}},
         Case{"payload", {"mass", "com_x", "com_y", "com_z"}},
-        Case{"added_mass", {"mass"}},
-        Case{"link_inertia", {"share", "mass"}},
+        Case{"added_mass", {"mass"}}, Case{"link_inertia", {"share", "mass"}},
         Case{"external_contact", {"force_x", "force_y", "force_z"}, "force"},
         Case{"time_base", {"rate"}}),
     [](const auto& info) { return info.param.effect; });
