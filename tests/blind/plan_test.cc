@@ -50,9 +50,9 @@ TEST(CasePlan, EveryStretchHasItsShares) {
     std::map<Stratum, int> strata;
     for (uint32_t k = first; k < first + 100; ++k)
       ++strata[PlanCase(k).stratum];
-    EXPECT_NEAR(strata[Stratum::kNoneRich], 15000. / 618, 2);
-    EXPECT_NEAR(strata[Stratum::kNonePoor], 6000. / 618, 2);
-    EXPECT_NEAR(strata[Stratum::kOne], 28800. / 618, 2);
+    EXPECT_NEAR(strata[Stratum::kNoneRich], 15000. / 627, 2);
+    EXPECT_NEAR(strata[Stratum::kNonePoor], 6000. / 627, 2);
+    EXPECT_NEAR(strata[Stratum::kOne], 29700. / 627, 2);
   }
 }
 
