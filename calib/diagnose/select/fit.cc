@@ -66,41 +66,62 @@ double GapFit::UsualExcess(const FrictionExcess& excess, bool of_itself) const {
                                    further, kFalseContacts));
 }
 
-// Contacts stand out from all that friction does when nothing touches the arm,
-// which only a reference tells. What one joint alone feels in motion may be its
-// own: where the arm has no other, it has to stand out from the rest of the log
-// as well. Whether there were any. Torques that are made of commands have the
-// drives' integrals in them, which wind up where friction holds.
-bool GapFit::TakeOutContacts(const std::vector<GapCandidate>& effects,
-                             ContactSearch search) {
+// Contacts that were not known, beside effects. They stand out from all that
+// friction does when nothing touches the arm, which only a reference tells.
+// What one joint alone feels in motion may be its own: where the arm has no
+// other, it has to stand out from the rest of the log as well. Torques that are
+// made of commands have the drives' integrals in them, which wind up where
+// friction holds.
+GapFit::NewContacts GapFit::ContactsBeside(
+    const std::vector<GapCandidate>& effects, ContactSearch search) const {
   const bool of_itself = search == ContactSearch::kInMotion;
-  if (IsLeftOut(ContactEffect())) return false;
-  if (HaveNoiseOfPositions(rows().segments())) return false;
-  if (of_itself ? rows().num_joints() > 1 : !regression_.reference())
-    return false;
-  const FrictionExcess excess = ExcessBeside(effects);
-  const double usual = UsualExcess(excess, of_itself);
-  bool any = false;
+  if (IsLeftOut(ContactEffect())) return {};
+  if (HaveNoiseOfPositions(rows().segments())) return {};
+  if (of_itself ? rows().num_joints() > 1 : !regression_.reference()) return {};
+  NewContacts found;
+  found.excess = ExcessBeside(effects);
+  const double usual = UsualExcess(found.excess, of_itself);
   for (const Contact& contact :
-       FindContacts(baseline().robot(), rows(), excess, usual, search)) {
-    if (std::any_of(events_.begin(), events_.end(), [&](const GapEvent& event) {
+       FindContacts(baseline().robot(), rows(), found.excess, usual, search)) {
+    const bool known =
+        std::any_of(events_.begin(), events_.end(), [&](const GapEvent& event) {
           return event.contact.log == contact.log &&
                  event.contact.window.Contains(contact.time);
-        })) {
-      continue;
-    }
-    events_.push_back(EventBeyondFriction(rows(), excess, contact));
+        });
+    if (!known) found.contacts.push_back(contact);
+  }
+  return found;
+}
+
+bool GapFit::TakeOut(const NewContacts& found, ContactSearch search) {
+  for (const Contact& contact : found.contacts) {
+    events_.push_back(EventBeyondFriction(rows(), found.excess, contact));
     events_.back().at_rest = search == ContactSearch::kAtRest;
     data()->Mask(contact.log, contact.window);
-    any = true;
   }
-  return any;
+  return !found.contacts.empty();
+}
+
+// Beside the chosen effects. Columns are of small effects on a grid of shapes:
+// what a large one leaves beyond its column is no contact, so that contacts
+// have to be there beside the fitted effects as well.
+bool GapFit::TakeOutContacts(ContactSearch search) {
+  const std::vector<GapCandidate> effects = pool_.Fitted(selection_.chosen);
+  NewContacts found = ContactsBeside(effects, search);
+  if (!found.contacts.empty() && !effects.empty()) {
+    found = ContactsBeside(
+        RefineEffects(screen(), baseline(), scale(), effects, -1, data())
+            .effects,
+        search);
+  }
+  return TakeOut(found, search);
 }
 
 void GapFit::MakeScreen() {
   regression_.Refit();
+  constexpr ContactSearch kAtRest = ContactSearch::kAtRest;
   while (options_.selection.events &&
-         TakeOutContacts({}, ContactSearch::kAtRest)) {
+         TakeOut(ContactsBeside({}, kAtRest), kAtRest)) {
     regression_.Refit();
   }
   pool_.List();
@@ -236,11 +257,8 @@ void GapFit::SelectWithEvents() {
         lasting = Cost(SelectEffects(screen(), candidates(), options));
       }
       TakeOutEvent(event - selection_.chosen.begin());
-    } else if (TakeOutContacts(pool_.Fitted(selection_.chosen),
-                               ContactSearch::kOfTwoJoints) ||
-               TakeOutContacts(pool_.Fitted(selection_.chosen),
-                               ContactSearch::kInMotion)) {
-    } else {
+    } else if (!TakeOutContacts(ContactSearch::kOfTwoJoints) &&
+               !TakeOutContacts(ContactSearch::kInMotion)) {
       break;
     }
   }

@@ -85,8 +85,15 @@ class GapFit {
   void MakeScreen();
   void Select();
   void SelectWithTheirNoise();
-  bool TakeOutContacts(const std::vector<GapCandidate>& effects,
-                       ContactSearch search);
+  struct NewContacts {
+    FrictionExcess excess;
+    std::vector<Contact> contacts;
+  };
+  NewContacts ContactsBeside(const std::vector<GapCandidate>& effects,
+                             ContactSearch search) const;
+  // Whether there were any.
+  bool TakeOut(const NewContacts& found, ContactSearch search);
+  bool TakeOutContacts(ContactSearch search);
   void TakeOutEvent(size_t k);
   double Cost(const Selection& selection) const;
   void ForgetTouches();
