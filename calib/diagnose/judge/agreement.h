@@ -6,22 +6,31 @@
 
 namespace armcal {
 
-// How far joints are from telling the k-th effect of a fit alike, if it is of
-// all of them: of chi^2, by what each would rather have it, rows whitened as
-// the evidence is,
-//   sum_j r_j' P_j (P_j' P_j)^-1 P_j' r_j,
+// Whether joints tell the k-th effect of a fit alike, if it is of all of them.
+//
+// How far they are from it is, of chi^2, by what each would rather have it,
+// rows whitened as the evidence is,
+//   chi_squared = sum_j r_j' P_j (P_j' P_j)^-1 P_j' r_j,
 // r_j joint j's residual beside all effects, P_j its rows of this one's
 // columns, the baseline free. `freedom`: of the chi squared that this is where
 // joints agree; 0 where one joint alone tells.
-struct Disagreement {
+//
+// A joint that has the columns' sizes x_j = x + (P_j' P_j)^-1 P_j' r_j by
+// itself sees the effect where x_j' P_j' P_j x_j is more than chance.
+struct Agreement {
   double chi_squared = 0;
   int freedom = 0;
+  int moving = 0;   // joints with rows
+  int seen_by = 0;  // joints
 
-  // Whether it is more than chance (three standard deviations), and than
-  // `form`: what of the effect's drop of chi^2 its form may have wrong.
-  bool IsReal(double drop, double form) const;
+  // Whether they differ by more than chance (three standard deviations), and by
+  // more than `form`: what of the effect's drop of chi^2 its form may have
+  // wrong.
+  bool Differ(double drop, double form) const;
+  // Whether one joint alone sees what all that move should.
+  bool IsOfOneJoint() const { return moving > 1 && seen_by < 2; }
 };
 
-Disagreement DisagreementOf(const GapFit& fit, size_t k);
+Agreement AgreementOn(const GapFit& fit, size_t k);
 
 }  // namespace armcal

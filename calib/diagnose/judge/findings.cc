@@ -86,7 +86,9 @@ FoundEffect Findings::Found(size_t k) const {
   found.evidence = evidence_.ForEffect(k, all);
   // A clock is one for all joints; what lags differently is none.
   if (effect.joint < 0 && effect.effect->nature == Effect::Nature::kRecording) {
-    found.joints_agree = !DisagreementOf(fit_, k).IsReal(found.drop, kForm);
+    const Agreement agreement = AgreementOn(fit_, k);
+    found.joints_agree =
+        !agreement.Differ(found.drop, kForm) && !agreement.IsOfOneJoint();
   }
   found.probability = ProbabilityOf(found.evidence);
   if (refined.effects.size() == 1) {
