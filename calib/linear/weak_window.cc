@@ -12,11 +12,6 @@ constexpr double kPeriods = 1.5;
 // Trapezoids over a test function have order 4: an error of 1e-6 of the torque
 // with 50 samples (weak_rows.h) is 1e-4 with 16.
 constexpr double kLeastSamples = 16;
-// With this window accelerations of encoders with 1e-4 rad at 500 Hz bias a
-// SCARA's inertia by less than .02 % (calibration_long_test.cc). Encoders worse
-// than that do not get longer ones: these would no longer see friction change
-// sign.
-constexpr double kLongest = 0.3;
 // Noise in a regressor's column shrinks its coefficient by the noise's share of
 // what the other columns leave of the column (attenuation; Fuller, Measurement
 // Error Models, 1987, 1.1). A column of which they leave 1 % shrinks by 1 %,
@@ -42,10 +37,10 @@ double NoiseWindow(const EncoderNoise& noise) {
     const double made = kCurvature * noise.density[j];
     const double allowed = kNoiseShare * noise.mean_square_acceleration[j];
     if (made <= 0) continue;
-    if (allowed <= 0) return kLongest;
+    if (allowed <= 0) return kLongestNoiseWindow;
     longest = std::max(longest, std::pow(made / allowed, .2));
   }
-  return std::min(longest, kLongest);
+  return std::min(longest, kLongestNoiseWindow);
 }
 
 double DefaultWindow(double bandwidth_hz, const LogSet& logs) {
@@ -54,7 +49,7 @@ double DefaultWindow(double bandwidth_hz, const LogSet& logs) {
     window = std::max(window, kLeastSamples * base.dt);
   }
   // Noise asks for no longer one: spare the look at it.
-  if (window >= kLongest) return window;
+  if (window >= kLongestNoiseWindow) return window;
   return std::max(window, NoiseWindow(MeasureEncoderNoise(logs, bandwidth_hz)));
 }
 
