@@ -5,6 +5,7 @@
 #include "calib/linear/error_density.h"
 #include "calib/linear/joint_figures.h"
 #include "calib/linear/outlier_report.h"
+#include "calib/linear/transition_bound.h"
 #include "calib/linear/verdict.h"
 #include "calib/numerics/json_figures.h"
 
@@ -196,6 +197,7 @@ void AddResiduals(const LogSet* validation, const LinearCalibration& result,
 }  // namespace
 
 json ToJson(const Robot& robot, const LinearCalibration& result) {
+  const bool weak = result.rows.identification == Identification::kWeak;
   return {{"format", "armcal calibration 1"},
           {"robot", robot.name},
           {"estimate", "linear"},
@@ -203,11 +205,13 @@ json ToJson(const Robot& robot, const LinearCalibration& result) {
           {"trajectory",
            result.encoder_noise.size() > 0 ? "corrected" : "measured"},
           {"bandwidth_hz", result.rows.bandwidth_hz},
+          {"window_s", weak ? json(result.rows.window_s) : json(nullptr)},
           {"joints", JointsJson(robot, result)},
           {"model_parameters", ModelParametersJson(result)},
           {"parameters", ParametersJson(robot, result)},
           {"merged", result.parameters.merged()},
           {"verdict", VerdictJson(Shortcomings(robot, result))},
+          {"warnings", TransitionWarnings(robot, result)},
           {"rank", RankJson(robot, result)},
           {"geometry", GeometryJson(result)},
           {"covariance", CovarianceJson(result)},

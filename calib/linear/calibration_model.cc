@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "calib/linear/weak_window.h"
 #include "model/signals/bandwidth.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
@@ -15,8 +16,12 @@ RowOptions MakeRowOptions(const LinearCalibrationOptions& options,
   rows.bandwidth_hz =
       options.bandwidth_hz.value_or(DefaultBandwidth(training.time_bases()));
   rows.identification = options.identification;
-  rows.window_s = options.window_s.value_or(
-      rows.bandwidth_hz > 0 ? std::max(0.3, 1.5 / rows.bandwidth_hz) : 0.5);
+  if (options.window_s) {
+    rows.window_s = *options.window_s;
+  } else if (rows.identification == Identification::kWeak &&
+             rows.bandwidth_hz > 0) {
+    rows.window_s = DefaultWindow(rows.bandwidth_hz, training);
+  }
   rows.intervals = options.intervals;
   rows.interval_s = options.interval_s;
   rows.quadrature = options.quadrature;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/linear/outlier_report.h"
+#include "calib/linear/transition_bound.h"
 #include "calib/linear/verdict.h"
 #include "model/text/format.h"
 #include "model/text/option_name.h"
@@ -220,6 +221,9 @@ std::string EstimateText(const Robot& robot, const LinearCalibration& result) {
             ParameterTable(result);
   }
   text += "\n";
+  for (const std::string& sentence : TransitionWarnings(robot, result)) {
+    text += "warning    " + sentence + "\n";
+  }
   if (result.solved) text += VerdictText(Shortcomings(robot, result));
   return text;
 }

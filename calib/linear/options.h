@@ -28,8 +28,8 @@ struct LinearCalibrationOptions {
   std::optional<CoulombTransition> transition;
   std::vector<CoulombTransition> joint_transitions;
   Identification identification = Identification::kWeak;
-  // Length of the weak form's test functions, s. Not given: 1.5 periods of the
-  // bandwidth, at least 0.3 s (shorter ones are biased by encoder noise).
+  // Length of the weak form's test functions, s. Not given: DefaultWindow; 0.5
+  // without a bandwidth.
   std::optional<double> window_s;
   std::vector<TimeRange> intervals;  // of the integral model
   double interval_s = 0.5;

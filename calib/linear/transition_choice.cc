@@ -208,7 +208,13 @@ struct LogGrid {
 constexpr LogGrid kVelocities = {1e-3, 0.3, 18};
 constexpr LogGrid kDisplacements = {1e-4, 2e-2, 15};
 
+const LogGrid& GridOf(Law law) {
+  return law == Law::kVelocity ? kVelocities : kDisplacements;
+}
+
 }  // namespace
+
+double LargestTransition(Law law) { return (1 - 1e-9) * GridOf(law).high; }
 
 std::vector<CoulombTransition> CandidateTransitions() {
   std::vector<CoulombTransition> grid;
@@ -219,8 +225,7 @@ std::vector<CoulombTransition> CandidateTransitions() {
 
 std::vector<CoulombTransition> FinerTransitions(
     const CoulombTransition& coarse) {
-  const LogGrid& grid =
-      coarse.law == Law::kVelocity ? kVelocities : kDisplacements;
+  const LogGrid& grid = GridOf(coarse.law);
   LogGrid finer = {coarse.width / grid.ratio(),
                    std::min(grid.high, coarse.width * grid.ratio()), 9};
   // What changes sign as sharply as the grid can say may do so at once, as

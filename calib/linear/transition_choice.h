@@ -16,6 +16,8 @@ constexpr double kLeastTransition = 1e-9;
 // from 1e-3 to 0.3 rad/s and 15 displacements from 1e-4 to 2e-2 rad (m/s and m
 // for a prismatic joint).
 std::vector<CoulombTransition> CandidateTransitions();
+// The largest width of them and of FinerTransitions, but for rounding.
+double LargestTransition(CoulombTransition::Law law);
 
 // Picks one transition per joint so that the weighted sum of squared residuals
 // is least, from the factor of a model that has a Coulomb column for every

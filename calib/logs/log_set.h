@@ -13,6 +13,7 @@
 
 namespace armcal {
 
+struct EncoderNoise;  // encoder_noise.h
 struct RecordedLogs;  // recorded_logs.h
 
 // Several recorded logs that are worked through together: a value that nothing
@@ -45,6 +46,8 @@ class LogSet {
 
  private:
   friend class PreparedLogs;
+  friend EncoderNoise MeasureEncoderNoise(const LogSet& logs,
+                                          double bandwidth_hz);
 
   std::shared_ptr<RecordedLogs> recorded_;
   Stretches stretches_;

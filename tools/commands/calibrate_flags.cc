@@ -29,7 +29,7 @@ DEFINE_string(coulomb_width, "auto",
               "for all joints");
 DEFINE_string(window, "",
               "`S` length of the weak form's test functions, s; default: 1.5 "
-              "periods of the bandwidth, at least 0.3");
+              "periods of the bandwidth, to 0.3 for noise");
 DEFINE_string(
     intervals, "",
     "`T1:T2[,..]` integral model: from T1 to T2, s; default: side by side");

@@ -1,0 +1,113 @@
+#include "calib/logs/encoder_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "calib/logs/position_noise.h"
+#include "calib/logs/recorded_logs.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::ArrayXd;
+
+// As many as the noise of torques is told from (EstimateSampleNoise): the
+// median of 60000 is known to a percent.
+constexpr long kMostSamples = 60000;
+
+// Times and positions of a log's first samples within the crop.
+struct RecordedPositions {
+  std::vector<double> t;
+  Eigen::MatrixXd q;  // samples x n
+};
+
+RecordedPositions ReadPositions(const TimeRange& crop, long most,
+                                KeptLog* rows) {
+  RecordedPositions read;
+  std::vector<double> values;  // row after row
+  Eigen::Index n = 0;
+  const long limit = std::max(8L, most);
+  while (const Log* block = rows->Next()) {
+    n = block->q.cols();
+    for (Eigen::Index k = 0; k < block->q.rows(); ++k) {
+      const double t = block->t[k];
+      if (t < crop.begin || static_cast<long>(read.t.size()) >= limit) continue;
+      if (t > crop.end) break;
+      if (!read.t.empty() && t <= read.t.back()) continue;
+      read.t.push_back(t);
+      for (Eigen::Index j = 0; j < n; ++j) values.push_back(block->q(k, j));
+    }
+    if (static_cast<long>(read.t.size()) >= limit) break;
+  }
+  using RowMajor =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  read.q = Eigen::Map<const RowMajor>(
+      values.data(), static_cast<Eigen::Index>(read.t.size()), n);
+  return read;
+}
+
+// The mean square of (q(t + h) - 2 q(t) + q(t - h)) / h^2 with h = lag steps of
+// dt, less 6 variance / h^4, which is what white noise makes of it. Differences
+// across gaps are left out.
+ArrayXd MeanSquareAcceleration(const RecordedPositions& read, double dt,
+                               int lag, const ArrayXd& variance) {
+  const double h = lag * dt;
+  ArrayXd sum = ArrayXd::Zero(read.q.cols());
+  long count = 0;
+  const long size = static_cast<long>(read.t.size());
+  for (long k = lag; k + lag < size; ++k) {
+    if (read.t[k + lag] - read.t[k - lag] > 3 * h) continue;
+    const auto bend =
+        read.q.row(k + lag) - 2 * read.q.row(k) + read.q.row(k - lag);
+    sum += bend.transpose().array().square();
+    ++count;
+  }
+  if (count == 0) return sum;
+  const double to_rate = 1 / (h * h * h * h);
+  return ((sum / count - 6 * variance) * to_rate).max(0);
+}
+
+// Sums over logs, weighted by the seconds that were read.
+struct Sums {
+  ArrayXd density, acceleration, low, high;
+  double seconds = 0;
+
+  void Add(const RecordedPositions& read, double dt, double bandwidth_hz) {
+    const Eigen::Index n = read.q.cols();
+    if (seconds == 0) {
+      density = acceleration = ArrayXd::Zero(n);
+      low = ArrayXd::Constant(n, std::numeric_limits<double>::infinity());
+      high = -low;
+    }
+    const ArrayXd variance = PositionNoise(read.q).array().square();
+    const int lag =
+        std::max(1, static_cast<int>(std::lround(1 / (4 * bandwidth_hz * dt))));
+    const double length = static_cast<double>(read.t.size()) * dt;
+    density += length * dt * variance;
+    acceleration += length * MeanSquareAcceleration(read, dt, lag, variance);
+    low = low.min(read.q.colwise().minCoeff().transpose().array());
+    high = high.max(read.q.colwise().maxCoeff().transpose().array());
+    seconds += length;
+  }
+};
+
+}  // namespace
+
+EncoderNoise MeasureEncoderNoise(const LogSet& logs, double bandwidth_hz) {
+  RecordedLogs& recorded = *logs.recorded_;
+  const std::lock_guard<std::mutex> lock(recorded.pass);
+  Sums sums;
+  for (int log = 0; log < logs.size(); ++log) {
+    const RecordedPositions read = ReadPositions(
+        recorded.crop, kMostSamples / logs.size(), recorded.Rows(log, false));
+    if (read.q.rows() == 0) continue;
+    sums.Add(read, logs.time_bases()[log].dt, bandwidth_hz);
+  }
+  if (sums.seconds == 0) return {};
+  return {sums.density / sums.seconds, sums.acceleration / sums.seconds,
+          sums.high - sums.low};
+}
+
+}  // namespace armcal

@@ -1,0 +1,142 @@
+#include "calib/linear/weak_window.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calib/linear/calibration_model.h"
+#include "tests/fixtures/calibrate_logs.h"
+#include "tests/fixtures/sample_robots.h"
+#include "tests/fixtures/temp_file.h"
+
+namespace armcal::weak_window_test {
+
+using Eigen::ArrayXd;
+
+EncoderNoise Noise(double density, double mean_square_acceleration) {
+  return {ArrayXd::Constant(1, density),
+          ArrayXd::Constant(1, mean_square_acceleration),
+          ArrayXd::Constant(1, 1.)};
+}
+
+// What white noise of density S makes of int phi'' q dt, summed sample by
+// sample for a test function differenced numerically, is 1e-4 of the
+// acceleration.
+TEST(WeakWindow, NoiseIsATenThousandthOfTheAcceleration) {
+  constexpr double kDensity = 1e-14, kAcceleration = 3;
+  const double w = NoiseWindow(Noise(kDensity, kAcceleration));
+  ASSERT_GT(w, .01);
+  ASSERT_LT(w, .3);
+  constexpr int kSteps = 4000;
+  const double dt = w / kSteps;
+  const auto bump = [](int k) {
+    const double s = 2. * k / kSteps - 1;
+    return std::pow(1 - s * s, 4);
+  };
+  double area = 0, power = 0;
+  for (int k = 1; k < kSteps; ++k) {
+    area += bump(k) * dt;
+    const double bend = (bump(k + 1) - 2 * bump(k) + bump(k - 1)) / (dt * dt);
+    power += bend * bend * dt;
+  }
+  EXPECT_NEAR(kDensity * power / (area * area) / (1e-4 * kAcceleration), 1,
+              1e-3);
+}
+
+TEST(WeakWindow, TheJointThatNeedsTheLongestDecides) {
+  EncoderNoise two = Noise(1e-14, 3);
+  two.density = ArrayXd::Constant(2, 1e-14);
+  two.mean_square_acceleration = Eigen::Array2d(3, 3. / 32);
+  two.travel = ArrayXd::Constant(2, 1.);
+  EXPECT_NEAR(NoiseWindow(two) / NoiseWindow(Noise(1e-14, 3)), 2, 1e-9);
+  two.travel[1] = 1e-3;  // it does not move
+  EXPECT_DOUBLE_EQ(NoiseWindow(two), NoiseWindow(Noise(1e-14, 3)));
+}
+
+TEST(WeakWindow, IsNoLongerThanATransitionAllows) {
+  EXPECT_EQ(NoiseWindow(Noise(1, 1)), .3);
+  EXPECT_EQ(NoiseWindow(Noise(1e-14, 0)), .3);
+  EXPECT_EQ(NoiseWindow(Noise(0, 1)), 0);
+}
+
+LogSet SetOf(const Robot& robot, const Log& log) {
+  LogReaderOptions reader;
+  reader.joint_names = robot.JointNames();
+  return LogSet({WriteFile(LogCsv(log))}, reader, TimeRange());
+}
+
+// Windows are 1.5 periods of the bandwidth where encoders are good; long where
+// they are not; as long as was asked for.
+TEST(WeakWindow, FollowsTheBandwidthUnlessEncodersAreNoisy) {
+  std::mt19937_64 random(3);
+  const Robot robot = SampleRobot("2R planar (vertical plane)");
+  Log log = RecordMotion(RandomMultisine(&random, 2), 20, .002);
+  AddTorque(robot, &log);
+  LinearCalibrationOptions options;
+  options.bandwidth_hz = 20;
+  const auto window = [&] {
+    return MakeRowOptions(options, SetOf(robot, log)).window_s;
+  };
+  AddNoise(&random, Eigen::VectorXd::Constant(2, 1e-7), &log.q);
+  EXPECT_DOUBLE_EQ(window(), 1.5 / 20);
+  AddNoise(&random, Eigen::VectorXd::Constant(2, 1e-2), &log.q);
+  EXPECT_DOUBLE_EQ(window(), .3);
+  options.window_s = .12;
+  EXPECT_EQ(window(), .12);
+}
+
+// At the least 16 samples: 100 Hz with a bandwidth of 20 Hz.
+TEST(WeakWindow, HoldsSamplesEnough) {
+  std::mt19937_64 random(3);
+  const Robot robot = SampleRobot("2R planar (vertical plane)");
+  Log log = RecordMotion(RandomMultisine(&random, 2), 20, .01);
+  AddTorque(robot, &log);
+  EXPECT_NEAR(DefaultWindow(20, SetOf(robot, log)), .16, 1e-12);
+}
+
+// Friction of a real drive: it falls off with speed, so that no Coulomb and
+// viscous friction fit it, and changes sign within .02 rad/s. A reversal that
+// the bandwidth passes is seen by the default as by the differential model.
+class FallingFriction : public testing::Test {
+ protected:
+  FallingFriction() : robot_(SampleRobot("2R planar (vertical plane)")) {
+    SetRandomInertials(&random_, &robot_);
+    log_ = RecordMotion(RandomMultisine(&random_, 2, 1.5), 20, .002);
+    AddTorque(robot_, &log_);
+    for (int j = 0; j < 2; ++j) {
+      const ArrayXd v = log_.qd.col(j).array();
+      log_.tau.col(j).array() += 2 * (v / .02).tanh() + 2 * (v / .6).tanh();
+    }
+    AddNoise(&random_, Eigen::VectorXd::Constant(2, 1e-6), &log_.q);
+    AddNoise(&random_, .005 * ColumnRms(log_.tau), &log_.tau);
+    options_.bandwidth_hz = 40;
+  }
+  LinearCalibration Calibrate(Identification identification) {
+    options_.identification = identification;
+    return CalibrateLogs(robot_, {log_}, options_);
+  }
+
+  std::mt19937_64 random_{11};
+  Robot robot_;
+  Log log_;
+  LinearCalibrationOptions options_;
+};
+
+TEST_F(FallingFriction, IsThatOfTheDifferentialModel) {
+  const LinearCalibration weak = Calibrate(Identification::kWeak);
+  const LinearCalibration differential =
+      Calibrate(Identification::kDifferential);
+  for (int k = 0; k < weak.parameters.size(); ++k) {
+    const ModelParameter& p = weak.parameters.parameters()[k];
+    if (!p.is_joint_term || p.term != JointTerm::kCoulomb) continue;
+    EXPECT_LT(std::abs(weak.x[k] - differential.x[k]),
+              2 * differential.stddev[k])
+        << p.name << " " << weak.x[k] << " " << differential.x[k] << " +- "
+        << differential.stddev[k];
+    const double ratio = weak.transitions[p.block].width /
+                         differential.transitions[p.block].width;
+    EXPECT_NEAR(ratio, 1, .5) << p.name;
+  }
+}
+
+}  // namespace armcal::weak_window_test
