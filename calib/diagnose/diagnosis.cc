@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "calib/diagnose/data/motion_scale.h"
+#include "calib/diagnose/data/segments.h"
 #include "calib/diagnose/data/torque_bursts.h"
 #include "calib/diagnose/judge/held_out.h"
 #include "calib/diagnose/select/fit.h"
@@ -112,7 +113,10 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   if (HaveNoiseOfPositions(segments)) {
     trust.reversal_s = kReversalOfMadeTorques;
   }
+  // A reference is fitted on another day than a calibration was.
+  trust.of_another_day = !before.empty();
   baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
+  if (before.empty() && trust.posterior != nullptr) baseline_->FreeDays();
   if (!before.empty()) {
     const ReferenceModel model =
         FitReference(*baseline_, bandwidth_hz_, &before);
@@ -125,6 +129,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   }
   result_.ladder = lacked;
   result_.has_reference = reference != nullptr;
+  result_.has_calibration = options_.baseline.posterior != nullptr;
   Tell("choosing effects");
   Fit(segments, before, split);
   if (split) {
