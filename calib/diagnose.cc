@@ -79,6 +79,18 @@ void SetController(const Robot& robot, const LogInput& held_out,
                                    fit->commanded[0].log.qref.row(0));
 }
 
+// Those that need no file.
+DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
+  DiagnosisOptions fit;
+  fit.without = options.without;
+  fit.progress = options.progress;
+  fit.baseline.trust = TrustInFile(options);
+  fit.bandwidth_hz = options.bandwidth_hz;
+  fit.forward = options.forward;
+  fit.seed = options.seed;
+  return fit;
+}
+
 DrawnTorques Draw(const GapDiagnosis& diagnosis, const LogSet& held_out) {
   DrawnTorques drawn;
   drawn.labels = {diagnosis.has_reference     ? "as in the reference"
@@ -136,20 +148,14 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   if (!options.controller.empty()) {
     MakeTorques(robot, options.controller, AllLogs(logs, options), &reading);
   }
-  DiagnosisOptions fit;
+  DiagnosisOptions fit = FitOptions(options);
   const std::optional<CalibratedRobot> calibrated =
       Calibrated(robot, options.calibration, &fit.baseline);
   const LogSet training(logs.logs, reading, logs.crop);
-  fit.without = options.without;
-  fit.progress = options.progress;
-  fit.baseline.trust = TrustInFile(options);
-  fit.bandwidth_hz = options.bandwidth_hz;
   const std::optional<LogSet> reference = Open(options.reference, reading);
   const std::optional<LogSet> validation = Open(options.validation, reading);
   SetController(robot, validation ? options.validation : logs, options, reading,
                 &fit);
-  fit.forward = options.forward;
-  fit.seed = options.seed;
   const LogSet* held_out = validation ? &*validation : nullptr;
   const LogSet* before = reference ? &*reference : nullptr;
   auto details = std::make_shared<GapDiagnosis>(DiagnoseGap(
