@@ -21,7 +21,7 @@ constexpr double kMassStddev = .02, kViscousStddev = .01, kArmatureStddev = .03;
 // armature that it found to be 0, and nothing else.
 class CalibratedPriorTest : public testing::Test {
  protected:
-  CalibratedPriorTest() : robot_(SampleRobot("2R planar")) {
+  CalibratedPriorTest() : robot_(SampleRobot("2R planar (vertical plane)")) {
     SetRandomInertials(&random_, &robot_);
     for (Link& link : robot_.links) {
       link.joint.viscous = 2;

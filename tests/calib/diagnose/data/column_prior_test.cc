@@ -72,7 +72,8 @@ TEST_F(ColumnPriorTest, PrecisionIsTheInverseCovariance) {
               1e-9);
 }
 
-// Parameters of which only a sum is known stay as open as they were.
+// Of x1 and x2, each of variance 1, the sum has 2e-8 and the difference 4: they
+// stay as open as they were.
 TEST_F(ColumnPriorTest, ASharpSumOfOpenParameters) {
   constexpr double kSharp = 1e-8;
   const Eigen::Matrix2d sharp =
@@ -80,7 +81,7 @@ TEST_F(ColumnPriorTest, ASharpSumOfOpenParameters) {
   const MatrixXd precision = ColumnPrior({0, 1}, sharp).Precision(2);
   const Eigen::Vector2d sum(1, 1), difference(1, -1);
   EXPECT_NEAR(sum.dot(precision * sum) * kSharp, 2, 1e-6);
-  EXPECT_NEAR(difference.dot(precision * difference), 2, 1e-6);
+  EXPECT_NEAR(difference.dot(precision * difference), 1, 1e-6);
 }
 
 TEST_F(ColumnPriorTest, AScreenFitsWithinIt) {
