@@ -91,7 +91,7 @@ run("calibrate" calibrate ${poor} --log=before/log.csv --out=calibrated)
 expect_code(0)
 simulate(unchanged 5)
 simulate(slipping 6
-         --effects=stribeck@2:stribeck=.8,stribeck_velocity=.15rad/s)
+         --effects=stribeck@2:stribeck=.8Nm,stribeck_velocity=.15rad/s)
 run("the calibrated robot" diagnose ${poor} --calibration=calibrated
     --log=unchanged/log.csv --out=out)
 expect_code(0)
