@@ -13,8 +13,9 @@ namespace {
 
 using Parameter = ParameterPosterior::Parameter;
 
-constexpr JointTerm kTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
-                                JointTerm::kOffset, JointTerm::kArmature};
+constexpr JointTerm kEstimatedTerms[] = {
+    JointTerm::kViscous, JointTerm::kCoulomb, JointTerm::kOffset,
+    JointTerm::kArmature};
 
 // Of a robot, by the names that calibrations give them.
 std::map<std::string, Parameter> ParametersOf(const Robot& robot) {
@@ -24,7 +25,7 @@ std::map<std::string, Parameter> ParametersOf(const Robot& robot) {
     for (int k = 0; k < 10; ++k) {
       parameters[link.name + "." + InertialName(k)] = {i, std::nullopt, k};
     }
-    for (const JointTerm term : kTerms) {
+    for (const JointTerm term : kEstimatedTerms) {
       parameters[link.joint.name + "." + JointTermName(term)] = {i, term};
     }
   }

@@ -90,8 +90,6 @@ set(poor --robot=poor.yaml)
 run("calibrate" calibrate ${poor} --log=before/log.csv --out=calibrated)
 expect_code(0)
 simulate(unchanged 5)
-simulate(slipping 6
-         --effects=stribeck@2:stribeck=.8Nm,stribeck_velocity=.15rad/s)
 run("the calibrated robot" diagnose ${poor} --calibration=calibrated
     --log=unchanged/log.csv --out=out)
 expect_code(0)
@@ -111,9 +109,9 @@ expect_json(explained verdict)
 expect_json(payload effects 0 effect)
 expect_between(.43 .57 effects 0 estimates 0 value)
 expect_between(90 101 gap torque removed_percent)
-run("what its friction lacks" diagnose ${poor} --calibration=calibrated
-    --log=slipping/log.csv --out=out)
-expect_json(stribeck effects 0 effect)
+run("what its motor lacks" diagnose ${poor} --calibration=calibrated
+    --log=rippled/log.csv --out=out)
+expect_json(torque_ripple effects 0 effect)
 expect_json(2 effects 0 joint_index)
 run("since a reference, too" diagnose ${poor} --calibration=calibrated
     --reference=unchanged/log.csv --log=after/log.csv --out=out)

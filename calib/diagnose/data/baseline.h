@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/data/baseline_column.h"
 #include "calib/diagnose/data/baseline_columns.h"
 #include "calib/diagnose/data/column_prior.h"
 #include "calib/diagnose/data/discrepancy.h"
@@ -19,37 +20,6 @@
 #include "model/robot/robot.h"
 
 namespace armcal {
-
-// One thing that the model may vary, in units of its prior's standard
-// deviation (of what a calibration knows better, by the robot file): an
-// inertial parameter, a joint term, or a nuisance (how friction changes sign,
-// how torque and position are shifted in time), or an effect that the robot is
-// known to have.
-struct BaselineColumn {
-  // kDay: a joint term in the diagnosed logs only, not in a reference.
-  // kDiscrepancy: what models of robots lack as a rule (discrepancy.h).
-  enum class Kind {
-    kInertial,
-    kTerm,
-    kZeroVelocity,
-    kReversal,
-    kTiming,
-    kDay,
-    kEffect,
-    kDiscrepancy
-  };
-  Kind kind;
-  int joint;      // or link; -1: all
-  int index = 0;  // inertial parameter or JointTerm or shape or parameter of
-                  // KnownEffects or shape of Discrepancy
-  double spread;  // SI units per unit of the column
-
-  // Whether it is one of the changes of friction near zero velocity that show
-  // where that is doubtful: half and twice the usual width.
-  bool IsZeroVelocityDoubt() const {
-    return kind == Kind::kZeroVelocity && (index == 1 || index == 2);
-  }
-};
 
 // The model that a gap is judged against: the robot, and how far each of its
 // parameters may be from it. `trust` is the relative standard deviation of the

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "calib/diagnose/data/baseline.h"
+#include "calib/diagnose/data/baseline_column.h"
 #include "calib/diagnose/data/column_prior.h"
 #include "calib/refine/parameter_posterior.h"
 #include "model/robot/robot.h"

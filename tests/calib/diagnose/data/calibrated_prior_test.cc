@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 
+#include "calib/diagnose/data/baseline.h"
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 
