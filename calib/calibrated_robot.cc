@@ -20,6 +20,8 @@ void AddCalibratedRobot(const NonlinearCalibration& refined,
   }
   summary->files.push_back(
       {"parameters_covariance.csv", ParametersCovarianceCsv(refined)});
+  summary->files.push_back(
+      {"parameters_posterior.csv", ParametersPosteriorCsv(refined)});
   for (const std::string& loss : UrdfLosses(refined.robot)) {
     summary->report += "robot.urdf  " + loss + "\n";
   }

@@ -6,8 +6,11 @@
 #include "calib/diagnose/report.h"
 #include "calib/logs/drawn_torques.h"
 #include "calib/made_torques.h"
+#include "calib/refine/calibration_reader.h"
+#include "calib/refine/parameter_posterior.h"
 #include "calib/robot_outputs.h"
 #include "model/robot_files/controller_reader.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -32,6 +35,38 @@ std::optional<LogSet> Open(const LogInput& input,
   return LogSet(input.logs, reading, input.crop);
 }
 
+std::optional<CalibratedRobot> Calibrated(const Robot& robot,
+                                          const std::string& path,
+                                          BaselineOptions* baseline) {
+  if (path.empty()) return std::nullopt;
+  const std::string file = CalibrationFile(path);
+  CalibratedRobot calibrated = ReadCalibration(file, robot);
+  baseline->posterior = std::make_shared<const ParameterPosterior>(
+      ReadParameterPosterior(file, robot));
+  baseline->transitions = calibrated.transitions;
+  return calibrated;
+}
+
+// What a calibration was fitted to it holds already: logs that are the same
+// would count twice.
+void NoteCalibration(const CalibratedRobot& calibrated,
+                     const std::vector<const LogSet*>& used,
+                     std::vector<DataFinding>* notes) {
+  const std::string flag = OptionName("calibration");
+  if (!calibrated.converged) {
+    notes->push_back({"the calibration had not converged",
+                      "its numbers may be far from the logs'", flag});
+  }
+  for (const LogSet* logs : used) {
+    for (int k = 0; logs != nullptr && k < logs->size(); ++k) {
+      if (!calibrated.Saw(logs->path(k), logs->time_bases()[k].range)) continue;
+      notes->push_back({"the calibration was fitted to " + logs->path(k),
+                        "it agrees with that better than with other logs",
+                        flag + " of other logs"});
+    }
+  }
+}
+
 // The commands of what is held out, for a controller to follow.
 void SetController(const Robot& robot, const LogInput& held_out,
                    const DiagnoseOptions& options,
@@ -44,11 +79,24 @@ void SetController(const Robot& robot, const LogInput& held_out,
                                    fit->commanded[0].log.qref.row(0));
 }
 
+// Those that need no file.
+DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
+  DiagnosisOptions fit;
+  fit.without = options.without;
+  fit.progress = options.progress;
+  fit.baseline.trust = TrustInFile(options);
+  fit.bandwidth_hz = options.bandwidth_hz;
+  fit.forward = options.forward;
+  fit.seed = options.seed;
+  return fit;
+}
+
 DrawnTorques Draw(const GapDiagnosis& diagnosis, const LogSet& held_out) {
   DrawnTorques drawn;
-  drawn.labels = {
-      diagnosis.has_reference ? "as in the reference" : "the robot file",
-      "fitted again"};
+  drawn.labels = {diagnosis.has_reference     ? "as in the reference"
+                  : diagnosis.has_calibration ? "as calibrated"
+                                              : "the robot file",
+                  "fitted again"};
   if (!diagnosis.effects.empty()) drawn.labels.push_back("with the effects");
   for (int log = 0; log < held_out.size(); ++log) {
     drawn.logs.push_back(held_out.path(log));
@@ -65,6 +113,8 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
       options.source.base, FormatsBesideUrdf(options.exports));
   nlohmann::json json = ToJson(diagnosis);
   json["not_in_urdf"] = corrected.losses;
+  json["calibration"] = nullptr;
+  if (!options.calibration.empty()) json["calibration"] = options.calibration;
   const std::string losses =
       AddRobotFiles(corrected.files, &json, &summary.files);
   summary.json = json.dump(2) + "\n";
@@ -98,21 +148,21 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   if (!options.controller.empty()) {
     MakeTorques(robot, options.controller, AllLogs(logs, options), &reading);
   }
+  DiagnosisOptions fit = FitOptions(options);
+  const std::optional<CalibratedRobot> calibrated =
+      Calibrated(robot, options.calibration, &fit.baseline);
   const LogSet training(logs.logs, reading, logs.crop);
-  DiagnosisOptions fit;
-  fit.without = options.without;
-  fit.progress = options.progress;
-  fit.baseline.trust = TrustInFile(options);
-  fit.bandwidth_hz = options.bandwidth_hz;
   const std::optional<LogSet> reference = Open(options.reference, reading);
   const std::optional<LogSet> validation = Open(options.validation, reading);
   SetController(robot, validation ? options.validation : logs, options, reading,
                 &fit);
-  fit.forward = options.forward;
-  fit.seed = options.seed;
-  auto details = std::make_shared<const GapDiagnosis>(
-      DiagnoseGap(robot, fit, training, validation ? &*validation : nullptr,
-                  reference ? &*reference : nullptr));
+  const LogSet* held_out = validation ? &*validation : nullptr;
+  const LogSet* before = reference ? &*reference : nullptr;
+  auto details = std::make_shared<GapDiagnosis>(DiagnoseGap(
+      calibrated ? calibrated->robot : robot, fit, training, held_out, before));
+  if (calibrated) {
+    NoteCalibration(*calibrated, {&training, held_out, before}, &details->data);
+  }
   DiagnoseSummary summary = Summarise(robot, options, *details);
   if (options.draw_torques) {
     summary.torques = std::make_shared<DrawnTorques>(

@@ -22,13 +22,17 @@ struct DiagnoseOptions {
   // Logs of the same robot from before: the model is fitted to them first, and
   // the diagnosis says what has changed since.
   LogInput reference;
+  // Path of a calibration.json for the robot, or of its folder: what is still
+  // missing in the calibrated robot, whose parameters are known as well as the
+  // calibration says. Empty: the robot's own numbers, and trust.
+  std::string calibration;
   // Held out, to check what is found; none: parts of the logs are.
   LogInput validation;
   // How the torques of logs are read; joint_names are the robot's.
   LogReaderOptions reading;
   // Relative standard deviation of the robot file's inertial parameters and
-  // friction. Not given: a file is good to .05, and counts for little (.5)
-  // beside a reference.
+  // friction, of those that no calibration tells. Not given: a file is good to
+  // .05, and counts for little (.5) beside a reference.
   std::optional<double> trust;
   // Cutoff below which torques are compared, Hz. Not given: 10 times the
   // motion's frequency, 10 to 20 Hz, at most an eighth of the sample rate.

@@ -4,6 +4,7 @@
 
 #include "calib/logs/drawn_torques.h"
 #include "calib/refine/calibration_reader.h"
+#include "calib/refine/parameter_posterior.h"
 #include "calib/verify/verification_report.h"
 #include "model/robot_files/controller_reader.h"
 #include "model/signals/bandwidth.h"
@@ -19,7 +20,8 @@ class Verifier {
       : file_(robot), options_(options) {
     options_.reading.joint_names = robot.JointNames();
     if (!options.calibration.empty()) {
-      calibrated_ = ReadCalibration(options.calibration, robot);
+      calibrated_ =
+          ReadCalibration(CalibrationFile(options.calibration), robot);
     }
     report_.robot = calibrated_ ? calibrated_->robot : robot;
     report_.calibration = options.calibration;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "calib/diagnose/data/motion_scale.h"
+#include "calib/diagnose/data/segments.h"
 #include "calib/diagnose/data/torque_bursts.h"
 #include "calib/diagnose/judge/held_out.h"
 #include "calib/diagnose/select/fit.h"
@@ -57,6 +58,9 @@ class Diagnoser {
   }
   // Friction is the model's at the temperature of the first sample read.
   void KnowUsualTemperature(std::vector<GapSegment>* segments);
+  void FitBaseline(const LackedFamilies& lacked,
+                   std::vector<GapSegment>* segments,
+                   std::vector<GapSegment>* before);
   void Fit(const std::vector<GapSegment>& segments,
            const std::vector<GapSegment>& before, bool split);
   void KnowWhatModelsLack(const std::vector<GapSegment>& segments,
@@ -90,6 +94,37 @@ void Diagnoser::KnowUsualTemperature(std::vector<GapSegment>* segments) {
   }
 }
 
+// The model and its freedom; a reference moves it to what that shows.
+// Afterwards both kinds of segments have their torque as if it came without
+// delay.
+void Diagnoser::FitBaseline(const LackedFamilies& lacked,
+                            std::vector<GapSegment>* segments,
+                            std::vector<GapSegment>* before) {
+  BaselineOptions trust = options_.baseline;
+  for (const LackedFamily& family : lacked.families) {
+    trust.fitted_terms.insert(family.term);
+  }
+  // How late a log's torque is, a reference tells.
+  if (!before->empty()) trust.timing_s = kTimingWithReference;
+  if (HaveNoiseOfPositions(*segments)) {
+    trust.reversal_s = kReversalOfMadeTorques;
+  }
+  // A reference is fitted on another day than a calibration was.
+  trust.of_another_day = !before->empty();
+  baseline_.emplace(lacked.robot, trust, UsualTorque(*segments));
+  if (before->empty() && trust.posterior != nullptr) baseline_->FreeDays();
+  if (!before->empty()) {
+    const ReferenceModel model =
+        FitReference(*baseline_, bandwidth_hz_, before);
+    baseline_ = model.baseline;
+    delay_ = model.delay;
+    AdvanceTorque(delay_, segments);
+    // Numbered after the diagnosed ones: each log drifts for itself.
+    const int logs = segments->back().log + 1;
+    for (GapSegment& segment : *before) segment.log += logs;
+  }
+}
+
 GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
                             const LogSet* reference) {
   const bool split = validation == nullptr;
@@ -103,28 +138,10 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   const LackedFamilies lacked =
       FitLackedFamilies(robot_, options_.baseline, bandwidth_hz_,
                         before.empty() ? segments : before);
-  BaselineOptions trust = options_.baseline;
-  for (const LackedFamily& family : lacked.families) {
-    trust.fitted_terms.insert(family.term);
-  }
-  // How late a log's torque is, a reference tells.
-  if (!before.empty()) trust.timing_s = kTimingWithReference;
-  if (HaveNoiseOfPositions(segments)) {
-    trust.reversal_s = kReversalOfMadeTorques;
-  }
-  baseline_.emplace(lacked.robot, trust, UsualTorque(segments));
-  if (!before.empty()) {
-    const ReferenceModel model =
-        FitReference(*baseline_, bandwidth_hz_, &before);
-    baseline_ = model.baseline;
-    delay_ = model.delay;
-    AdvanceTorque(delay_, &segments);
-    // Numbered after the diagnosed ones: each log drifts for itself.
-    const int logs = segments.back().log + 1;
-    for (GapSegment& segment : before) segment.log += logs;
-  }
+  FitBaseline(lacked, &segments, &before);
   result_.ladder = lacked;
   result_.has_reference = reference != nullptr;
+  result_.has_calibration = options_.baseline.posterior != nullptr;
   Tell("choosing effects");
   Fit(segments, before, split);
   if (split) {

@@ -70,6 +70,7 @@ struct GapDiagnosis {
   std::vector<RunDrift> drifts;    // from log to log
   NoiseFloor floor = NoiseFloor::kAssumed;
   bool has_reference = false;
+  bool has_calibration = false;  // whether the robot is a calibrated one
   GapFigures torque;
   std::optional<ForwardGap> forward;
   LackedFamilies ladder;  // what the file gives no joint at all

@@ -205,18 +205,25 @@ std::string Drifts(const std::vector<RunDrift>& drifts) {
   return text;
 }
 
+// What changes are told since; empty: the robot file, since which nothing is.
+std::string Before(const GapDiagnosis& diagnosis) {
+  if (diagnosis.has_reference) return "the reference";
+  return diagnosis.has_calibration ? "the calibration" : "";
+}
+
 std::string MovedTitle(const GapDiagnosis& diagnosis) {
-  return diagnosis.has_reference
-             ? "\nfriction that has changed since the reference\n"
-             : "\nparameters far from the file's\n";
+  const std::string before = Before(diagnosis);
+  return before.empty() ? "\nparameters far from the file's\n"
+                        : "\nfriction that has changed since " + before + "\n";
 }
 
 // Friction that differs on several joints is one change, as temperature makes
 // it: "Friction has changed since the reference: elbow.viscous -20 %." Empty
 // where none has.
 std::string FrictionChanged(const GapDiagnosis& diagnosis) {
-  if (!diagnosis.has_reference || diagnosis.moved.empty()) return "";
-  std::string text = "Friction has changed since the reference: ";
+  const std::string before = Before(diagnosis);
+  if (before.empty() || diagnosis.moved.empty()) return "";
+  std::string text = "Friction has changed since " + before + ": ";
   for (size_t k = 0; k < diagnosis.moved.size(); ++k) {
     const MovedParameter& moved = diagnosis.moved[k];
     text += (k > 0 ? ", " : "") + moved.name;

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <sstream>
 #include <vector>
 
 #include "calib/numerics/json_value.h"
 #include "calib/refine/calibration_reader.h"
-#include "model/text/input_error.h"
-#include "model/text/input_text.h"
+#include "calib/refine/covariance_file.h"
 
 namespace armcal {
 namespace {
@@ -24,47 +22,14 @@ struct SeenCovariance {
   MatrixXd value;
 };
 
-MatrixXd ReadMatrix(const std::string& path, int size) {
-  constexpr long kMaxBytes = 16L << 20;
-  std::istringstream lines(ReadTextFile(path, kMaxBytes));
-  std::string line, cell;
-  std::getline(lines, line);  // names
-  MatrixXd matrix(size, size);
-  for (int r = 0; r < size; ++r) {
-    const std::string row = "row " + std::to_string(r + 2);
-    if (!std::getline(lines, line)) {
-      throw InputError(path, row, "",
-                       "expected " + std::to_string(size) +
-                           " rows below the names, one per parameter");
-    }
-    std::istringstream cells(line + ",");
-    for (int c = 0; c < size; ++c) {
-      std::getline(cells, cell, ',');
-      const auto number = cell.empty() ? std::nan("") : ParseNumber(cell);
-      if (!cells || !number || std::isinf(*number)) {
-        throw InputError(path, row + ", column " + std::to_string(c + 1),
-                         OneLine(cell), "expected a number or nothing");
-      }
-      matrix(r, c) = *number;
-    }
-  }
-  return matrix;
-}
-
-SeenCovariance ReadCovariance(const std::string& path, int size) {
-  const MatrixXd whole = ReadMatrix(path, size);
+SeenCovariance ReadSeenCovariance(const std::string& path, int size) {
+  const MatrixXd whole = ReadCovarianceCsv(path, size);
   SeenCovariance seen;
   for (int k = 0; k < size; ++k) {
     if (whole(k, k) > 0) seen.parameters.push_back(k);
   }
   seen.value = whole(seen.parameters, seen.parameters);
-  const VectorXd scale = seen.value.diagonal().cwiseSqrt();
-  const MatrixXd difference = seen.value - seen.value.transpose();
-  if ((difference.array().abs() <= 1e-9 * (scale * scale.transpose()).array())
-          .all()) {
-    return seen;
-  }
-  throw InputError(path, "", "", "expected a symmetric matrix below the names");
+  return seen;
 }
 
 // Of the model's parameters, the one of each name of the calibration.
@@ -107,7 +72,7 @@ GivenCalibration ReadGivenCalibration(const std::string& path,
   const JsonValue covariance = root.At("covariance");
   const JsonValue names = covariance.At("names");
   const std::filesystem::path file = covariance.At("file").Text();
-  const SeenCovariance seen = ReadCovariance(
+  const SeenCovariance seen = ReadSeenCovariance(
       std::filesystem::path(path).replace_filename(file.filename()),
       static_cast<int>(names.Entries().size()));
   const std::vector<int> places = Places(names, seen.parameters, model);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "calib/linear/joint_figures.h"
 #include "calib/numerics/json_figures.h"
@@ -61,6 +62,28 @@ json CorrelationsJson(const NonlinearCalibration& result) {
   return list;
 }
 
+// The covariance of the parameters that are `written`, below their names;
+// fields of others are empty.
+std::string MatrixCsv(const NonlinearCalibration& result,
+                      const std::function<bool(size_t)>& written) {
+  std::string text;
+  for (const PhysicalParameter& p : result.parameters) {
+    text += (text.empty() ? "\"" : ",\"") + p.name + "\"";
+  }
+  text += "\n";
+  char number[40];
+  for (size_t r = 0; r < result.parameters.size(); ++r) {
+    for (size_t k = 0; k < result.parameters.size(); ++k) {
+      if (k > 0) text += ",";
+      if (!written(r) || !written(k)) continue;
+      std::snprintf(number, sizeof(number), "%.17g", result.covariance(r, k));
+      text += number;
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<Correlation> StrongCorrelations(
@@ -95,6 +118,7 @@ void AddParameters(const NonlinearCalibration& result, json* calibration) {
   c["parameters_covariance"] = {{"names", names},
                                 {"units", units},
                                 {"file", "parameters_covariance.csv"},
+                                {"posterior_file", "parameters_posterior.csv"},
                                 {"correlations", CorrelationsJson(result)},
                                 {"unidentifiable", result.unseen}};
 }
@@ -131,25 +155,13 @@ void AddRefined(const NonlinearCalibration& result, json* calibration) {
 }
 
 std::string ParametersCovarianceCsv(const NonlinearCalibration& result) {
-  std::string text;
-  for (const PhysicalParameter& p : result.parameters) {
-    text += (text.empty() ? "\"" : ",\"") + p.name + "\"";
-  }
-  text += "\n";
-  char number[40];
-  for (size_t r = 0; r < result.parameters.size(); ++r) {
-    for (size_t k = 0; k < result.parameters.size(); ++k) {
-      if (k > 0) text += ",";
-      if (!result.parameters[r].identifiable ||
-          !result.parameters[k].identifiable) {
-        continue;
-      }
-      std::snprintf(number, sizeof(number), "%.17g", result.covariance(r, k));
-      text += number;
-    }
-    text += "\n";
-  }
-  return text;
+  return MatrixCsv(result, [&result](size_t k) {
+    return result.parameters[k].identifiable;
+  });
+}
+
+std::string ParametersPosteriorCsv(const NonlinearCalibration& result) {
+  return MatrixCsv(result, [](size_t) { return true; });
 }
 
 }  // namespace armcal

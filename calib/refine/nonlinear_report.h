@@ -34,4 +34,10 @@ void AddRefined(const NonlinearCalibration& result,
 // empty fields where a parameter is not identifiable.
 std::string ParametersCovarianceCsv(const NonlinearCalibration& result);
 
+// parameters_posterior.csv: the same of all parameters, those that only the
+// robot file's prior tells as well; rows of what is held are 0. Their sums may
+// be known far better than each of them alone, which this has and the other
+// file has not.
+std::string ParametersPosteriorCsv(const NonlinearCalibration& result);
+
 }  // namespace armcal

@@ -8,6 +8,7 @@
 #include "calib/numerics/sha256.h"
 #include "calib/refine/calibration_reader.h"
 #include "calib/refine/given_calibration.h"
+#include "calib/refine/parameter_posterior.h"
 #include "model/log_files/log_reader.h"
 #include "model/log_files/pose_reader.h"
 #include "model/robot_files/controller_reader.h"
@@ -58,22 +59,33 @@ void ReadBagFolder(const std::string& path) {
   BagFiles(folder);
 }
 
-// A calibration.json, a zero and its covariance.csv.
-void ReadGiven(const std::string& path) {
+// Writes the calibration.json and, behind a zero, the matrix beside it that are
+// in a file; the path of the first.
+std::string WriteCalibration(const std::string& path, const char* matrix) {
   const std::string bytes = BytesOf(path);
   const std::string::size_type zero = bytes.find('\0');
-  const std::filesystem::path file(path);
-  std::ofstream(file.parent_path() / "calibration.json", std::ios::binary)
+  const std::filesystem::path folder =
+      std::filesystem::path(path).parent_path();
+  std::ofstream(folder / "calibration.json", std::ios::binary)
       << bytes.substr(0, zero);
-  std::ofstream(file.parent_path() / "covariance.csv", std::ios::binary)
+  std::ofstream(folder / matrix, std::ios::binary)
       << (zero == std::string::npos ? "" : bytes.substr(zero + 1));
+  return folder / "calibration.json";
+}
+
+void ReadPosterior(const std::string& path) {
+  ReadParameterPosterior(WriteCalibration(path, "parameters_posterior.csv"),
+                         FuzzedRobot());
+}
+
+void ReadGiven(const std::string& path) {
+  const std::string calibration = WriteCalibration(path, "covariance.csv");
   ModelParameters::Options options;
   options.joint_terms = {JointTerm::kArmature, JointTerm::kViscous,
                          JointTerm::kCoulomb, JointTerm::kOffset};
   options.transitions.assign(FuzzedRobot().num_joints(), {CoulombTransition()});
   static const ModelParameters model(FuzzedRobot(), options);
-  ReadGivenCalibration(file.parent_path() / "calibration.json", FuzzedRobot(),
-                       model);
+  ReadGivenCalibration(calibration, FuzzedRobot(), model);
 }
 
 void ReadAnyController(const std::string& path) {
@@ -104,6 +116,7 @@ const std::vector<FuzzedReader>& FuzzedReaders() {
       {"poses", "input.csv", ReadAnyPoses},
       {"json", "input.json", ReadAnyCalibration},
       {"given", "input", ReadGiven},
+      {"posterior", "input", ReadPosterior},
       {"metadata", "metadata.yaml", ReadBagFolder},
       {"controller", "input.yaml", ReadAnyController},
       {"factor", "input.factor", ReadFactor},

@@ -31,13 +31,17 @@ def armcal_files(armcal, folder):
     given = folder / "given"
     given.write_bytes((folder / "all/calibration.json").read_bytes() + b"\0" +
                       (folder / "all/covariance.csv").read_bytes())
+    posterior = folder / "posterior"
+    posterior.write_bytes((folder / "all/calibration.json").read_bytes() + b"\0" +
+                          (folder / "all/parameters_posterior.csv").read_bytes())
     short = folder / "short.csv"
     lines = (folder / log).read_text().splitlines(keepends=True)
     short.write_text("".join(lines[:40]))
     run("reduce", arm, f"--log={log}", "--out=factors")
     made = {"json": ["all/calibration.json"],
             "urdf": ["all/robot.urdf"], "mjcf": ["all/robot.xml"],
-            "yaml": ["all/robot.yaml"], "csv": ["short.csv"], "given": ["given"], "factor": ["factors/*.factor"]}
+            "yaml": ["all/robot.yaml"], "csv": ["short.csv"], "given": ["given"],
+            "posterior": ["posterior"], "factor": ["factors/*.factor"]}
     return {target: [file for name in names for file in folder.glob(name)]
             for target, names in made.items()}
 

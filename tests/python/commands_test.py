@@ -212,6 +212,13 @@ class OtherCommands(InFolder):
         self.assertEqual(verified.to_dict()["calibration"],
                          "calibration.json")
 
+        diagnosed = armcal.diagnose(self.robot, result.log,
+                                    calibration=calibration, forward=False)
+        self.assertEqual(diagnosed.to_dict()["calibration"],
+                         "calibration.json")
+        self.assertEqual(diagnosed.to_dict()["effects"], [])
+        self.assertIn("the calibration was fitted to", diagnosed.report())
+
         excited = armcal.excite(self.robot, duration=4, harmonics=2,
                                 position_limits="-1:1", velocity_limits=2)
         self.assertEqual(excited.trajectory.q.shape,

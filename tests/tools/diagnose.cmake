@@ -78,6 +78,68 @@ if(NOT once STREQUAL twice)
   fail("the same command must give the same bytes")
 endif()
 
+# A calibration: of a file whose masses and friction are wrong and that has no
+# armature, on one log of the true arm; then what other logs say is missing.
+file(READ ${WORK_DIR}/arm.yaml yaml)
+string(REGEX REPLACE ", armature: [.0-9]+" "" yaml "${yaml}")
+string(REPLACE "mass: 5" "mass: 4.2" yaml "${yaml}")
+string(REPLACE "mass: 3" "mass: 3.5" yaml "${yaml}")
+string(REPLACE "viscous: 2" "viscous: 1.5" yaml "${yaml}")
+file(WRITE ${WORK_DIR}/poor.yaml "${yaml}")
+set(poor --robot=poor.yaml)
+run("calibrate" calibrate ${poor} --log=before/log.csv --out=calibrated)
+expect_code(0)
+simulate(unchanged 5)
+run("the calibrated robot" diagnose ${poor} --calibration=calibrated
+    --log=unchanged/log.csv --out=out)
+expect_code(0)
+expect_empty(err)
+foreach(list effects ladder data)
+  json(${list})
+  string(JSON found LENGTH "${text}" ${list})
+  if(NOT found EQUAL 0)
+    fail("diagnosis.json: ${list} of a calibrated robot: ${value}")
+  endif()
+endforeach()
+expect_json(calibrated calibration)
+expect_between(.5 2 gap torque nominal)
+run("what hangs on the calibrated robot" diagnose ${poor}
+    --calibration=calibrated/calibration.json --log=after/log.csv --out=out)
+expect_json(explained verdict)
+expect_json(payload effects 0 effect)
+expect_between(.43 .57 effects 0 estimates 0 value)
+expect_between(90 101 gap torque removed_percent)
+run("what its motor lacks" diagnose ${poor} --calibration=calibrated
+    --log=rippled/log.csv --out=out)
+expect_json(torque_ripple effects 0 effect)
+expect_json(2 effects 0 joint_index)
+run("since a reference, too" diagnose ${poor} --calibration=calibrated
+    --reference=unchanged/log.csv --log=after/log.csv --out=out)
+expect_json(payload effects 0 effect)
+expect_between(.47 .53 effects 0 estimates 0 value)
+run("the log that it was calibrated on" diagnose ${poor}
+    --calibration=calibrated --log=before/log.csv --out=out)
+expect_text(out "note       the calibration was fitted to before/log.csv")
+run("the folder of a calibration" verify ${poor} --calibration=calibrated)
+expect_code(0)
+
+run("a calibration of another file" diagnose ${robot} --calibration=calibrated
+    --log=after/log.csv)
+expect_refusal(3 "calibrated/calibration.json" "what the robot file has for"
+               "give the file that was calibrated")
+run("no calibration there" diagnose ${poor} --calibration=nowhere
+    --log=after/log.csv)
+expect_refusal(3 "nowhere: cannot be opened")
+run("calibrate for itself" calibrate ${poor} --log=before/log.csv
+    --estimate=linear --out=linear)
+run("a linear calibration" diagnose ${poor} --calibration=linear
+    --log=after/log.csv)
+expect_refusal(3 "expected 'refined'" "run armcal calibrate --estimate=refined")
+file(REMOVE ${WORK_DIR}/calibrated/parameters_posterior.csv)
+run("a calibration without its posterior" diagnose ${poor}
+    --calibration=calibrated --log=after/log.csv)
+expect_refusal(3 "calibrated/parameters_posterior.csv: cannot be opened")
+
 run("no folder asked for" diagnose ${robot} --log=before/log.csv)
 expect_code(0)
 if(EXISTS ${WORK_DIR}/diagnosis.json OR EXISTS ${WORK_DIR}/out)

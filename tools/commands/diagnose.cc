@@ -29,6 +29,7 @@ DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
   DiagnoseOptions options;
   options.reference = {
       SourcesOf(input, SplitAtCommas(flags.Text("reference")))};
+  options.calibration = flags.Text("calibration");
   options.validation = ValidationInputFromFlags(input);
   options.reading = LogOptionsFromFlags(flags, robot);
   if (!flags.IsDefault("trust")) options.trust = TrustFromFlags(flags).inertia;
@@ -57,6 +58,7 @@ CommandOutcome RunDiagnose(const CommandInput& input) {
   for (const LogInput* more : {&options.validation, &options.reference}) {
     for (const std::string& name : NamesOf(more->logs)) files.push_back(name);
   }
+  if (!options.calibration.empty()) files.push_back(options.calibration);
   AddReport(
       input, "diagnose", robot, summary.json, files,
       [&](ReportContent* content) {
@@ -74,7 +76,8 @@ Command DiagnoseCommand() {
           "where the sim-to-real gap lies, which effect causes it, and how far "
           "it shrinks once that effect is in the model",
           {{"robot and logs",
-            {"robot", "log", "reference", "validate", "bandwidth", "crop"}},
+            {"robot", "calibration", "log", "reference", "validate",
+             "bandwidth", "crop"}},
            {"diagnosis", {"trust", "without", "forward", "controller", "seed"}},
            {"more of the logs", {"validate_crop"}, false},
            TorqueFlags(),
@@ -82,6 +85,8 @@ Command DiagnoseCommand() {
            ChainFlags()},
           {"armcal diagnose --robot=arm.urdf --log=today.csv "
            "--reference=january.csv",
+           "armcal diagnose --robot=arm.urdf --log=today.csv "
+           "--calibration=calibrated",
            "armcal diagnose --robot=arm.urdf --log=today.csv --json | "
            "jq .verdict"},
           &RunDiagnose};

@@ -12,8 +12,8 @@
 
 DEFINE_string(
     calibration, "",
-    "`FILE` calibration.json of armcal calibrate for --robot: its refined "
-    "parameters are verified; default: the robot file's own");
+    "`FILE` calibration.json of armcal calibrate for --robot, or its folder: "
+    "its refined parameters instead of the robot file's own");
 
 namespace armcal {
 namespace {

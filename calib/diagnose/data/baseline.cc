@@ -3,10 +3,13 @@
 #include <glog/logging.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "calib/diagnose/data/calibrated_prior.h"
+#include "calib/diagnose/data/day_shares.h"
 #include "model/dynamics/batch_regressor.h"
 #include "model/signals/low_pass.h"
 #include "model/signals/recording_delay.h"
@@ -18,16 +21,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Widths of tanh(qd / width), rad/s (0.3 of it in m/s): friction changes sign
-// as the first, or as any mixture of it and the others.
+// as the first, or a calibrated one, or as any mixture of it and others, which
+// are so many times as wide.
 constexpr double kReferenceWidth = 6e-3;
-constexpr std::array<double, 5> kOtherWidths = {1.5e-3, 3e-3, 12e-3, 24e-3,
-                                                48e-3};
+constexpr std::array<double, 5> kOtherWidths = {.25, .5, 2, 4, 8};
 // Of the joint's Coulomb friction, how much may change sign otherwise.
 constexpr double kMixture = .5;
-// Scatter of friction from one day to the next: a UR10e's in eight logs of a
-// month (shared/data/ur10e_free/SOURCE.md), ranges over 2.85.
-constexpr std::array<std::pair<JointTerm, double>, 2> kShareOfDays = {
-    {{JointTerm::kViscous, .1}, {JointTerm::kCoulomb, .06}}};
 // A torque's zero is not known better than this share of its usual size.
 constexpr double kOffsetShare = .02;
 
@@ -57,6 +56,22 @@ std::vector<MatrixXd> InertialTorque(const Robot& robot, const Motion& motion) {
   return momentum;
 }
 
+// How joint j's Coulomb friction changes sign. A calibrated width counts where
+// it is one of velocity, down to the narrowest mixture about the usual one:
+// others differ only where a joint is slower than recorded velocities tell.
+CoulombTransition TransitionOf(const Robot& robot, int j,
+                               const BaselineOptions& options) {
+  CoulombTransition transition;
+  transition.width = kReferenceWidth * WidthUnit(robot.links[j].joint);
+  if (options.transitions.empty()) return transition;
+  const CoulombTransition& calibrated = options.transitions[j];
+  if (calibrated.law == CoulombTransition::Law::kVelocity) {
+    transition.width =
+        std::max(calibrated.width, kOtherWidths[0] * transition.width);
+  }
+  return transition;
+}
+
 VectorXd TermTorque(JointTerm term, const CoulombTransition& transition,
                     const Motion& motion, int j) {
   switch (term) {
@@ -80,19 +95,21 @@ GapBaseline::GapBaseline(const Robot& robot, const BaselineOptions& options,
   const int n = robot.num_joints();
   CHECK_EQ(usual_torque.size(), n);
   for (int j = 0; j < n; ++j) {
-    CoulombTransition transition;
-    transition.width = kReferenceWidth * WidthUnit(robot.links[j].joint);
-    transitions_.push_back(transition);
+    transitions_.push_back(TransitionOf(robot, j, options));
     AddLink(j, options.trust);
     AddTerms(j, options, usual_torque[j]);
     AddReversal(j, options.reversal_s);
   }
   columns_.push_back({BaselineColumn::Kind::kTiming, -1, 0, options.timing_s});
+  if (options.posterior == nullptr) return;
+  prior_ = CalibratedPrior(*options.posterior, robot_, columns_,
+                           options.of_another_day);
 }
 
 GapBaseline GapBaseline::MovedTo(const VectorXd& x) const {
   GapBaseline moved = *this;
   moved.robot_ = With(x);
+  moved.prior_.MoveZeroTo(x);
   return moved;
 }
 
@@ -166,7 +183,11 @@ void GapBaseline::AddTerms(int j, const BaselineOptions& options,
     const double trust = options.fitted_terms.count(term) > 0
                              ? options.trust_in_fitted
                              : options.trust;
-    const double spread = trust * std::abs(size);
+    double spread = trust * std::abs(size);
+    // What a calibration found to be 0 is not known to be that.
+    if (spread <= 0 && options.posterior != nullptr) {
+      spread = options.posterior->Stddev(j, term);
+    }
     if (spread <= 0) return;
     columns_.push_back(
         {BaselineColumn::Kind::kTerm, j, static_cast<int>(term), spread});
@@ -286,8 +307,7 @@ std::vector<BaselineColumns> GapBaseline::ThinColumns(
 }
 
 double GapBaseline::WidthOf(const BaselineColumn& column) const {
-  return kOtherWidths[column.index] *
-         WidthUnit(robot_.links[column.joint].joint);
+  return kOtherWidths[column.index] * transitions_[column.joint].width;
 }
 
 Robot GapBaseline::With(const VectorXd& x) const {

@@ -1,51 +1,25 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/data/baseline_column.h"
 #include "calib/diagnose/data/baseline_columns.h"
+#include "calib/diagnose/data/column_prior.h"
 #include "calib/diagnose/data/discrepancy.h"
 #include "calib/diagnose/data/known_effects.h"
 #include "calib/diagnose/data/rows.h"
 #include "calib/logs/joint_term_laws.h"
+#include "calib/refine/parameter_posterior.h"
 #include "model/dynamics/joint_term.h"
 #include "model/dynamics/recorded_torque.h"
 #include "model/effects/effect.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
-
-// One thing that the model may vary, in units of its prior's standard
-// deviation: an inertial parameter, a joint term, or a nuisance (how friction
-// changes sign, how torque and position are shifted in time), or an effect that
-// the robot is known to have.
-struct BaselineColumn {
-  // kDay: a joint term in the diagnosed logs only, not in a reference.
-  // kDiscrepancy: what models of robots lack as a rule (discrepancy.h).
-  enum class Kind {
-    kInertial,
-    kTerm,
-    kZeroVelocity,
-    kReversal,
-    kTiming,
-    kDay,
-    kEffect,
-    kDiscrepancy
-  };
-  Kind kind;
-  int joint;      // or link; -1: all
-  int index = 0;  // inertial parameter or JointTerm or shape or parameter of
-                  // KnownEffects or shape of Discrepancy
-  double spread;  // SI units per prior standard deviation
-
-  // Whether it is one of the changes of friction near zero velocity that show
-  // where that is doubtful: half and twice the usual width.
-  bool IsZeroVelocityDoubt() const {
-    return kind == Kind::kZeroVelocity && (index == 1 || index == 2);
-  }
-};
 
 // The model that a gap is judged against: the robot, and how far each of its
 // parameters may be from it. `trust` is the relative standard deviation of the
@@ -60,6 +34,12 @@ struct BaselineOptions {
   // The same of friction's change of sign against that of the velocity, whose
   // low pass takes a stop for a turn; 0: none.
   double reversal_s = 0;
+  // What a calibration knows of the robot, which is the calibrated one, and how
+  // its joints' Coulomb friction changes sign. Null: the robot is its file's.
+  std::shared_ptr<const ParameterPosterior> posterior;
+  std::vector<CoulombTransition> transitions;
+  // Whether the logs to be fitted are of another day than the calibration's.
+  bool of_another_day = false;
 };
 
 class GapBaseline {
@@ -85,6 +65,7 @@ class GapBaseline {
   const Robot& robot() const { return robot_; }
   int size() const { return static_cast<int>(columns_.size()); }
   const std::vector<BaselineColumn>& columns() const { return columns_; }
+  const ColumnPrior& prior() const { return prior_; }
   const std::vector<CoulombTransition>& transitions() const {
     return transitions_;
   }
@@ -118,6 +99,7 @@ class GapBaseline {
 
   Robot robot_;
   std::vector<BaselineColumn> columns_;
+  ColumnPrior prior_;
   KnownEffects known_;
   int known_begin_ = 0;  // the first of their columns
   Discrepancy discrepancy_;

@@ -46,8 +46,9 @@ void BaselineFit::Rows::Multiply() {
 }
 
 BaselineFit::BaselineFit(std::vector<BaselineColumns> columns, int size,
-                         JointRows target)
+                         JointRows target, ColumnPrior prior)
     : known_(std::make_shared<const std::vector<Rows>>()),
+      prior_(std::move(prior)),
       weight_(VectorXd::Ones(target.size())),
       scale_(VectorXd::Ones(size)) {
   CHECK_EQ(columns.size(), target.size());
@@ -73,10 +74,12 @@ void BaselineFit::AddKnown(const std::vector<BaselineColumns>& columns,
   FindArms();
 }
 
-// What acts on one joint only, here and in other data, is of its arm.
+// What acts on one joint only, here and in other data, is of its arm, unless
+// the prior ties it to others.
 void BaselineFit::FindArms() {
   constexpr int kNone = -1, kSeveral = -2;
   std::vector<int> joint_of(size(), kNone);
+  for (const int c : prior_.which()) joint_of[c] = kSeveral;
   for (const std::vector<Rows>* data : {rows_.get(), known_.get()}) {
     for (int j = 0; j < static_cast<int>(data->size()); ++j) {
       for (const int c : (*data)[j].columns.which) {
@@ -124,7 +127,7 @@ VectorXd BaselineFit::ScaleOf(int joint) const {
 
 // On the first `columns` alone, the prior's included.
 MatrixXd BaselineFit::Information(int columns) const {
-  MatrixXd information = MatrixXd::Identity(columns, columns);
+  MatrixXd information = prior_.Precision(columns);
   const auto add = [&](const Rows& rows, double weight) {
     const std::vector<int>& all = rows.columns.which;
     const std::vector<int> which(
@@ -141,7 +144,7 @@ MatrixXd BaselineFit::Information(int columns) const {
 }
 
 void BaselineFit::Factor() {
-  gradient_ = VectorXd::Zero(size());
+  gradient_ = prior_.PrecisionTimesMean(size());
   for (int j = 0; j < num_joints(); ++j) {
     gradient_(rows(j).columns.which) +=
         weight_[j] * ScaleOf(j).cwiseProduct(rows(j).of_target);
@@ -214,7 +217,7 @@ VectorXd BaselineFit::ResidualBeside(const JointRows& torque) const {
     if (torque[j].size() > 0) here -= torque[j];
     at += target.size();
   }
-  residual.segment(at, x.size()) = x;
+  residual.segment(at, x.size()) = prior_.Residual(x);
   residual.tail(known.size()) = known;
   return residual;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/diagnose/data/baseline_columns.h"
+#include "calib/diagnose/data/column_prior.h"
 #include "calib/numerics/arrow_factor.h"
 
 namespace armcal {
@@ -12,8 +13,8 @@ namespace armcal {
 // Whitened torque of one unit of something, per joint; empty where it is zero.
 using JointRows = std::vector<Eigen::VectorXd>;
 
-// The regression of whitened torque on the baseline's columns, each with a
-// standard normal prior. Most columns act on one joint only: the information on
+// The regression of whitened torque on the baseline's columns within their
+// prior. Most columns act on one joint only: the information on
 // them is an arrow (ArrowFactor). Copies share rows, and new weights need
 // products of rows only.
 class BaselineFit {
@@ -36,7 +37,8 @@ class BaselineFit {
   };
 
   // Of `size` columns in all.
-  BaselineFit(std::vector<BaselineColumns> columns, int size, JointRows target);
+  BaselineFit(std::vector<BaselineColumns> columns, int size, JointRows target,
+              ColumnPrior prior = {});
 
   // Whitened rows of other data (a reference log). Once.
   void AddKnown(const std::vector<BaselineColumns>& columns,
@@ -54,6 +56,7 @@ class BaselineFit {
   const Rows& rows(int joint) const { return (*rows_)[joint]; }
   const Places& places(int joint) const { return places_[joint]; }
   double weight(int joint) const { return weight_[joint]; }
+  const ColumnPrior& prior() const { return prior_; }
   // What its columns are multiplied by, weight included.
   Eigen::VectorXd ScaleOf(int joint) const;
   const ArrowFactor& factor() const { return factor_; }
@@ -90,6 +93,7 @@ class BaselineFit {
   std::shared_ptr<const std::vector<Rows>> rows_;
   // Of other data: the root of what they tell, as if these were their rows.
   std::shared_ptr<const std::vector<Rows>> known_;
+  ColumnPrior prior_;
   Eigen::VectorXd weight_;  // of each joint's rows
   Eigen::VectorXd scale_;   // of columns
 

@@ -31,7 +31,9 @@ MatrixXd Spread(const MatrixXd& doubt) {
 
 GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
                  double bandwidth_hz, LogPart part)
-    : signals_(std::make_shared<Signals>()), num_columns_(baseline.size()) {
+    : signals_(std::make_shared<Signals>()),
+      num_columns_(baseline.size()),
+      prior_(baseline.prior()) {
   signals_->segments = std::move(segments);
   rows_ = std::make_unique<GapRows>(signals_->segments, bandwidth_hz, part);
   torques_ = RecordedTorques(baseline, *rows_);
@@ -69,7 +71,8 @@ GapData::GapData(const GapData& other, LogPart part)
                                       other.rows_->bandwidth_hz(), part)),
       torques_(other.torques_),
       columns_(signals_->columns),
-      num_columns_(other.num_columns_) {
+      num_columns_(other.num_columns_),
+      prior_(other.prior_) {
   Unmask();
 }
 
@@ -154,7 +157,7 @@ std::vector<BaselineColumns> GapData::WhitenedColumns() const {
 GapScreen GapData::Screen(int columns) const {
   std::vector<BaselineColumns> white = WhitenedColumns();
   for (BaselineColumns& own : white) own.KeepFirst(columns);
-  return GapScreen(std::move(white), columns, WhitenedResidual());
+  return GapScreen(std::move(white), columns, WhitenedResidual(), prior_);
 }
 
 std::vector<VectorXd> GapData::WhitenedResidual() const {

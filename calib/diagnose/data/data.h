@@ -79,6 +79,7 @@ class GapData {
   std::vector<RecordedTorque> torques_;
   std::shared_ptr<const Columns> columns_;
   int num_columns_;
+  ColumnPrior prior_;
   Eigen::MatrixXd doubt_;
 };
 

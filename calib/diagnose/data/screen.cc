@@ -55,8 +55,9 @@ GapScreen::Products GapScreen::Products::Only(
 }
 
 GapScreen::GapScreen(std::vector<BaselineColumns> baseline, int size,
-                     JointRows target)
-    : baseline_(std::move(baseline), size, std::move(target)) {
+                     JointRows target, ColumnPrior prior)
+    : baseline_(std::move(baseline), size, std::move(target),
+                std::move(prior)) {
   products_.resize(num_joints());
   for (int j = 0; j < num_joints(); ++j) {
     products_[j].by_baseline.resize(baseline_.rows(j).of_target.size(), 0);
@@ -271,7 +272,8 @@ VectorXd GapScreen::Projected(int column, int joint) const {
 
 double GapScreen::PriorCost(const Fit& fit) const {
   const VectorXd x = Baseline(fit);
-  return x.squaredNorm() + baseline_.KnownResidual(x).squaredNorm();
+  return baseline_.prior().Residual(x).squaredNorm() +
+         baseline_.KnownResidual(x).squaredNorm();
 }
 
 double GapScreen::LogDeterminant(const Fit& fit) const {

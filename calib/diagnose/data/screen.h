@@ -10,8 +10,8 @@
 namespace armcal {
 
 // The regression that all questions of a diagnosis are asked of: torque
-// residual on the baseline's columns, each with a standard normal prior, and
-// candidates without one. Candidates are projected on what the baseline cannot
+// residual on the baseline's columns within their prior, and candidates without
+// one. Candidates are projected on what the baseline cannot
 // absorb (Frisch and Waugh 1933; Plumlee 2017: a discrepancy orthogonal to the
 // model), so that whatever is asked afterwards needs the small matrices G and g
 // only:
@@ -21,7 +21,8 @@ class GapScreen {
  public:
   // baseline: whitened, `size` columns in all; target: the whitened residual of
   // the robot as the file has it.
-  GapScreen(std::vector<BaselineColumns> baseline, int size, JointRows target);
+  GapScreen(std::vector<BaselineColumns> baseline, int size, JointRows target,
+            ColumnPrior prior = {});
 
   // Whitened rows of other data (a reference log), which the baseline alone
   // fits. Once, before columns are factored.

@@ -49,13 +49,14 @@ std::vector<MovedParameter> ListMoved(const GapFit& fit,
     const BaselineColumn& column = fit.baseline().columns()[c];
     MovedParameter parameter = Describe(column, fit.baseline().robot());
     const double own = std::sqrt(covariance(c, c));
+    const double prior = fit.baseline().prior().Stddev(c);
     const bool of_day = column.kind == BaselineColumn::Kind::kDay;
     if (parameter.name.empty() || of_day != since_reference) continue;
     const double least = of_day ? kNotable : kFar;
-    if (std::abs(x[c]) < std::max(least, kFar * own)) continue;
+    if (std::abs(x[c]) < std::max(least * prior, kFar * own)) continue;
     parameter.value = parameter.nominal + x[c] * column.spread;
     parameter.stddev = own * column.spread;
-    parameter.deviations = x[c];
+    parameter.deviations = x[c] / prior;
     moved.push_back(parameter);
   }
   std::sort(moved.begin(), moved.end(),

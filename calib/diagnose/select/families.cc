@@ -21,14 +21,26 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Whether a calibration looked for the term, which the robot has then, if only
+// as none.
+bool IsCalibrated(JointTerm term, const BaselineOptions& options) {
+  if (options.posterior == nullptr) return false;
+  const auto& known = options.posterior->parameters;
+  return std::any_of(known.begin(), known.end(), [&](const auto& parameter) {
+    return parameter.term == term;
+  });
+}
+
 // Effects that are a joint term which the robot gives no joint. Not those of a
 // recording: a torque's zero is in no robot file, and is known within a prior.
-std::vector<const Effect*> LackedTerms(const Robot& robot) {
+std::vector<const Effect*> LackedTerms(const Robot& robot,
+                                       const BaselineOptions& options) {
   std::vector<const Effect*> terms;
   for (const Effect& effect : Effects()) {
     if (!effect.joint_term || effect.nature == Effect::Nature::kRecording) {
       continue;
     }
+    if (IsCalibrated(*effect.joint_term, options)) continue;
     const bool lacked = std::all_of(
         robot.links.begin(), robot.links.end(), [&](const Link& link) {
           return TermOf(*effect.joint_term, link.joint) == 0;
@@ -208,7 +220,7 @@ LackedFamilies FitLackedFamilies(const Robot& robot,
                                  const BaselineOptions& options,
                                  double bandwidth_hz,
                                  const std::vector<GapSegment>& segments) {
-  const std::vector<const Effect*> lacked = LackedTerms(robot);
+  const std::vector<const Effect*> lacked = LackedTerms(robot, options);
   LackedFamilies none;
   none.robot = robot;
   if (lacked.empty()) return none;

@@ -146,7 +146,8 @@ void GapRegression::SettleEvidence(const std::vector<int>& columns) {
 bool GapRegression::HoldDays() {
   constexpr double kUsual = 3;  // standard deviations
   const std::vector<int> days = DayColumns(baseline_);
-  if (!days.empty() && !another_day_) {
+  if (days.empty()) return false;
+  if (!another_day_) {
     another_day_ =
         IsAnotherDay(baseline_, refit_, screen_->BaselineCovariance());
   }

@@ -172,4 +172,19 @@ TEST(ParametersCovarianceCsv, LeavesOutWhatTheLogsDoNotTell) {
   }
 }
 
+TEST(ParametersPosteriorCsv, HasAllParameters) {
+  const NonlinearCalibration physical = MakeCase("b", "c").run.physical;
+  const auto lines = Lines(ParametersPosteriorCsv(physical));
+  const auto& p = physical.parameters;
+  ASSERT_EQ(lines.size(), p.size() + 1);
+  for (size_t r = 0; r < p.size(); ++r) {
+    std::istringstream row(lines[r + 1]);
+    for (size_t k = 0; k < p.size(); ++k) {
+      std::string field;
+      ASSERT_TRUE(std::getline(row, field, ','));
+      EXPECT_EQ(std::stod(field), physical.covariance(r, k));
+    }
+  }
+}
+
 }  // namespace armcal::nonlinear_report_test

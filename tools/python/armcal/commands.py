@@ -102,18 +102,24 @@ def calibrate(robot: RobotLike, log: Optional[Logs] = None, *,
 
 
 def diagnose(robot: RobotLike, log: Logs, *, validate: Optional[Logs] = None,
-             reference: Optional[Logs] = None, progress: Progress = None,
-             **options: Any) -> Diagnosis:
+             reference: Optional[Logs] = None,
+             calibration: Union[Calibration, str, "os.PathLike[str]",
+                                None] = None,
+             progress: Progress = None, **options: Any) -> Diagnosis:
     """Where the sim-to-real gap lies, which effect causes it, and how far it
     shrinks once that effect is in the model.
 
-    log        logs of the real machine, paths or Logs
-    validate   logs held out that the figures are of
-    reference  logs of the same robot from before
+    log          logs of the real machine, paths or Logs
+    validate     logs held out that the figures are of
+    reference    logs of the same robot from before
+    calibration  a Calibration, its calibration.json or the folder of that:
+                 what is still missing in the calibrated robot; robot is then
+                 the one that it was made of
     """
     return Diagnosis(*_run("diagnose", _robot(robot),
                            {**options, "log": log, "validate": validate,
-                            "reference": reference}, progress))
+                            "reference": reference,
+                            "calibration": calibration}, progress))
 
 
 def verify(robot: RobotLike, log: Optional[Logs] = None, *,
@@ -122,8 +128,8 @@ def verify(robot: RobotLike, log: Optional[Logs] = None, *,
            progress: Progress = None, **options: Any) -> Verification:
     """A robot, or a calibration of it, against an independent engine.
 
-    calibration  a Calibration or its calibration.json; robot is then the one
-                 that it was made of
+    calibration  a Calibration, its calibration.json or the folder of that;
+                 robot is then the one that it was made of
     """
     return Verification(*_run("verify", _robot(robot),
                               {**options, "log": log,

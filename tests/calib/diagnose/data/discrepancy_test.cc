@@ -6,6 +6,7 @@
 
 #include "calib/diagnose/data/baseline.h"
 #include "calib/diagnose/data/motion_scale.h"
+#include "calib/diagnose/data/segments.h"
 #include "tests/fixtures/diagnosed_arm.h"
 
 namespace armcal::discrepancy_test {
