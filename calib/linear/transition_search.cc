@@ -1,11 +1,9 @@
 #include "calib/linear/transition_search.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "calib/linear/log_factors.h"
 #include "calib/linear/transition_choice.h"
-#include "calib/linear/weak_window.h"
 
 namespace armcal {
 namespace {
@@ -23,20 +21,6 @@ struct Screening {
   ModelParameters parameters;
   BlockTriangularFactor factor;
 };
-
-// The rows that widths are chosen from: those of the estimate, for a reversal
-// that these do not see tells no width. Of short test functions no more of them
-// than of the longest (kLongestNoiseWindow) are begun, since every row has a
-// column for each candidate; each sample is in two of them at least, so that no
-// reversal falls between.
-RowOptions SearchRows(RowOptions rows) {
-  const double as_often = rows.hops * rows.window_s / kLongestNoiseWindow;
-  if (rows.identification == Identification::kWeak) {
-    rows.hops = std::clamp(static_cast<int>(std::lround(as_often)),
-                           std::min(2, rows.hops), rows.hops);
-  }
-  return rows;
-}
 
 // What `choose` makes of the equations, all at once or joint by joint.
 template <class Choose>
@@ -59,7 +43,7 @@ Transitions Refine(const Robot& robot, const LinearCalibrationOptions& options,
                    TorqueUnits scale, const PreparedLogs& training) {
   Transitions finer;
   for (const CoulombTransition& t : about) finer.push_back(FinerTransitions(t));
-  const Screening fine(robot, options, SearchRows(rows), finer, training);
+  const Screening fine(robot, options, rows, finer, training);
   Transitions transitions;
   for (const CoulombTransition& t :
        ChooseFrom(fine, scale, RefineTransitions)) {
@@ -81,8 +65,7 @@ Transitions FindTransitions(const Robot& robot,
   }
   if (const auto given = GivenTransitions(robot, options)) return *given;
   const auto candidates = CandidateTransitions();
-  const Screening coarse(robot, options, SearchRows(rows), {n, candidates},
-                         training);
+  const Screening coarse(robot, options, rows, {n, candidates}, training);
   std::vector<CoulombTransition> about;
   for (const int choice : ChooseFrom(coarse, scale, ChooseTransitions)) {
     about.push_back(candidates[choice]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calib/logs/encoder_noise.h"
 #include "model/robot/joint.h"
 
 namespace armcal {
@@ -11,8 +12,6 @@ namespace {
 
 using Sentences = std::vector<std::string>;
 
-// A joint that travels less shows nothing but noise and play, rad or m.
-constexpr double kLeastTravel = 2e-3;
 // Shares of what was measured that a fit must not leave: of all joints' torque,
 // and of one joint's (where others can be right).
 constexpr double kMostResidual = 70;  // %: half of the mean square

@@ -6,6 +6,9 @@
 
 namespace armcal {
 
+// A joint that travels less shows nothing but noise and play, rad or m.
+constexpr double kLeastTravel = 2e-3;
+
 // Noise of the recorded positions beside the motion that they are of, per
 // joint, all logs together (the first samples of each, as far as they were
 // recorded within the crop).

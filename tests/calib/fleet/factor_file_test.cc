@@ -182,7 +182,7 @@ TEST_F(FactorFile, RefusesWhatDoesNotBelongTogether) {
   Reduction changed = parts[1];
   changed.model.rows.window_s = .7;
   EXPECT_THAT(refusal(changed),
-              HasSubstr("FILE: key model.window_s: found '0.7': expected 0.3 "
+              HasSubstr("FILE: key model.window_s: found '0.7': expected 0.16 "
                         "as in file0; reduce the log with `like`=file0"));
   Reduction foreign = parts[1];
   foreign.model.robot_sha256 = "another";
