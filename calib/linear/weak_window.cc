@@ -34,7 +34,7 @@ constexpr double kCurvature = 32. * 64 * (108. / 143) / (256. / 315);
 double NoiseWindow(const EncoderNoise& noise) {
   double longest = 0;
   for (Eigen::Index j = 0; j < noise.density.size(); ++j) {
-    if (noise.travel[j] < kLeastTravelOfNoise) continue;
+    if (noise.travel[j] < kLeastTravel) continue;
     const double made = kCurvature * noise.density[j];
     const double allowed = kNoiseShare * noise.mean_square_acceleration[j];
     if (made <= 0) continue;
