@@ -1,7 +1,8 @@
 # armcal reduce and merge: the same from any order, and refusals.
 
 set(robot ${DATA_DIR}/scara/robot.yaml)
-set(model --bandwidth=8 --geometry=lengths --joint_terms=none --loss=squared)
+set(model --bandwidth=8 --window=0.3 --geometry=lengths --joint_terms=none
+    --loss=squared)
 foreach(log A B C)
   run("reduce ${log}" reduce --robot=${robot} --log=${DATA_DIR}/scara/${log}.csv.gz
       ${model} --out=factors)

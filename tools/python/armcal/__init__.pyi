@@ -123,7 +123,8 @@ def calibrate(
                          displacement such as 0.001rad, for all joints (default
                          auto)
     window               float, s: length of the weak form's test functions, s;
-                         default: 1.5 periods of the bandwidth, to 0.3 for noise
+                         default: 1.5 periods of the bandwidth, to 0.3 for
+                         noise
     interval             float, s: integral model: length of intervals (default
                          0.5)
     intervals            Union[Range, Sequence[Range]]: integral model: from T1
@@ -570,7 +571,8 @@ def reduce(
                          displacement such as 0.001rad, for all joints (default
                          auto)
     window               float, s: length of the weak form's test functions, s;
-                         default: 1.5 periods of the bandwidth, to 0.3 for noise
+                         default: 1.5 periods of the bandwidth, to 0.3 for
+                         noise
     interval             float, s: integral model: length of intervals (default
                          0.5)
     quadrature           str: integral model: trapezoid, simpson (default
