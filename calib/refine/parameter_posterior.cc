@@ -44,8 +44,8 @@ double ParameterPosterior::Stddev(int joint, JointTerm term) const {
 
 std::string CalibrationFile(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::is_directory(path, error)) return path;
-  return (std::filesystem::path(path) / "calibration.json").string();
+  const auto inside = std::filesystem::path(path) / "calibration.json";
+  return std::filesystem::exists(inside, error) ? inside.string() : path;
 }
 
 ParameterPosterior ReadParameterPosterior(const std::string& path,

@@ -26,7 +26,7 @@ struct ParameterPosterior {
   double Stddev(int joint, JointTerm term) const;
 };
 
-// The calibration.json at `path`; of a folder, the one in it.
+// The calibration.json at `path`; of a folder that has one, that.
 std::string CalibrationFile(const std::string& path);
 
 // Reads the calibration.json that `armcal calibrate` wrote for `robot` and the

@@ -98,8 +98,12 @@ TEST_F(ParameterPosteriorTest, DamagedMatricesAreRefused) {
 }
 
 TEST(CalibrationFile, OfAFolderIsTheOneInIt) {
-  EXPECT_EQ(CalibrationFile(testing::TempDir()),
-            std::filesystem::path(testing::TempDir()) / "calibration.json");
+  const std::filesystem::path folder = WriteFile("{}", "file") + "_folder";
+  std::filesystem::create_directory(folder);
+  EXPECT_EQ(CalibrationFile(folder), folder);
+  std::ofstream(folder / "calibration.json") << "{}";
+  EXPECT_EQ(CalibrationFile(folder), folder / "calibration.json");
+  std::filesystem::remove_all(folder);
   EXPECT_EQ(CalibrationFile("some.json"), "some.json");
 }
 

@@ -169,8 +169,8 @@ def verify(
 ) -> Verification:
     """A robot, or a calibration of it, against an independent engine.
 
-    calibration  a Calibration or its calibration.json; robot is then the one
-                 that it was made of
+    calibration  a Calibration, its calibration.json or the folder of that;
+                 robot is then the one that it was made of
 
     Options:
     crop                 Range: of --log to use, s since its first row;
@@ -202,6 +202,7 @@ def diagnose(
     *,
     validate: Optional[Logs] = None,
     reference: Optional[Logs] = None,
+    calibration: Union[Calibration, str, 'os.PathLike[str]', None] = None,
     progress: Progress = None,
     bandwidth: Optional[float] = None,
     crop: Optional[Range] = None,
@@ -223,9 +224,12 @@ def diagnose(
     """Where the sim-to-real gap lies, which effect causes it, and how far it
     shrinks once that effect is in the model.
 
-    log        logs of the real machine, paths or Logs
-    validate   logs held out that the figures are of
-    reference  logs of the same robot from before
+    log          logs of the real machine, paths or Logs
+    validate     logs held out that the figures are of
+    reference    logs of the same robot from before
+    calibration  a Calibration, its calibration.json or the folder of that:
+                 what is still missing in the calibrated robot; robot is then
+                 the one that it was made of
 
     Options:
     bandwidth            float, Hz: cutoff of the zero-phase low pass; 0: data
