@@ -13,6 +13,9 @@ struct Confirmation {
   // 1 where the effect is right, 0 where it is half of what it says, -1 where
   // it is not there; near 0 where it is too small to tell.
   double Share() const;
+  // Whether the effect would be seen there at all: chi^2 is expected to change
+  // by more than its variance per sample.
+  bool IsTold() const { return expected > 1; }
 };
 
 // From whitened residuals per joint with and without the effect, each beside

@@ -35,6 +35,11 @@ constexpr EventWeights kEventOfMade = {-3.376, 0,       -1.0671,
 
 constexpr double kMostOdds = 12;
 
+// A law acts all the time. What data cannot tell that were held out of the same
+// motion acted in one stretch of it only: a law or something that happened once
+// is as likely (indifference).
+constexpr double kUntold = .5;
+
 double Logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
 // Of mean squares beyond the noise's: after the effects, over before.
@@ -94,6 +99,7 @@ EffectEvidence GapEvidence::ForEffect(
     evidence.stronger_beside += fit_.rows().num_joints() > 1 && IsBeside(i, k);
   }
   if (!figures_.known()) return evidence;
+  evidence.held_out = true;
   const HeldOut::Merit merit = held_out_.MeritOf(k, figures_.after);
   evidence.gain = merit.gain;
   evidence.confirmation = merit.confirmation;
@@ -129,7 +135,9 @@ double ProbabilityOf(const EffectEvidence& e) {
                     w.one_joint * std::min(e.one_joint, 1.5));
   }
   const EffectWeights& w = e.made_torque ? kOfMade : kOfRecorded;
-  return Logistic(w.constant + w.odds * odds + w.rest * rest +
+  const double most = e.held_out && !e.confirmation.IsTold() ? kUntold : 1;
+  return most *
+         Logistic(w.constant + w.odds * odds + w.rest * rest +
                   w.others * (e.made_torque ? others : e.stronger) +
                   w.beside * (e.made_torque ? e.beside : e.stronger_beside) +
                   w.confirmed * e.confirmation.Share() + w.left * e.left);

@@ -25,7 +25,8 @@ struct EffectEvidence {
   int events = 0;             // windows of it, of what comes and goes
   double one_joint = 0;       // GapEvent's, of the strongest
   double gain = 0;            // by how much it lowers the held-out mean square
-  Confirmation confirmation;  // by held-out data
+  bool held_out = false;      // whether there are held-out data
+  Confirmation confirmation;  // by them
   // What all effects leave there of the gap of its joint, or of all.
   double left = 0;
   bool made_torque = false;  // of commands: their noise is of another kind

@@ -43,6 +43,29 @@ MatrixXd MovingMean(const MatrixXd& x, int size) {
   return mean;
 }
 
+// Where a joint may be breaking away: from when it rests last to this long
+// after, the sign of the velocity it then has (rows x n); 0 elsewhere.
+constexpr double kBreakawayTime = .5;  // s
+
+MatrixXd BreakawayDirection(const MatrixXd& moves, const MatrixXd& velocity,
+                            int rows_of_breakaway) {
+  MatrixXd direction = MatrixXd::Zero(moves.rows(), moves.cols());
+  for (int j = 0; j < moves.cols(); ++j) {
+    int since_rest = rows_of_breakaway;
+    for (int k = 0; k < moves.rows(); ++k) {
+      since_rest = moves(k, j) > 0 ? since_rest + 1 : 0;
+      if (since_rest == 0 || since_rest > rows_of_breakaway) continue;
+      direction(k, j) = velocity(k, j) > 0 ? 1 : -1;
+    }
+  }
+  return direction;
+}
+
+// Static friction over sliding friction: hard steel on hard steel, dry, has
+// coefficients of .78 and .42 (Marks' Standard Handbook for Mechanical
+// Engineers, coefficients of static and sliding friction).
+constexpr double kStaticFriction = .78 / .42;
+
 // Coulomb friction changes from day to day: by how much what is left of the
 // torque is against the motion, where that is clear, in the median, since a
 // push takes less than half of it. `friction`: as the model has it.
@@ -76,6 +99,7 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
   }
   excess.torque = excess.friction = excess.deviations =
       MatrixXd::Zero(rows.num_thin(), n);
+  MatrixXd breakaway = MatrixXd::Zero(rows.num_thin(), n);
   for (size_t i = 0; i < rows.segments().size(); ++i) {
     const int s = static_cast<int>(i), begin = rows.thin_begin(s);
     const GapSegment& segment = rows.segments()[i];
@@ -88,6 +112,11 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
         MovingMean(residual.middleRows(begin, own.rows()) + own, size);
     excess.friction.middleRows(begin, own.rows()) =
         MovingMean(own.cwiseProduct(moves), size);
+    breakaway.middleRows(begin, own.rows()) = MovingMean(
+        BreakawayDirection(
+            moves, rows.Pick(s, segment.motion.qd),
+            static_cast<int>(std::lround(kBreakawayTime / rows.step(s)))),
+        size);
   }
   for (int j = 0; j < n; ++j) {
     excess.coulomb[j] +=
@@ -97,8 +126,15 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
     excess.friction.col(j) = excess.friction.col(j)
                                  .cwiseMin(excess.coulomb[j])
                                  .cwiseMax(-excess.coulomb[j]);
+    // What drives a joint that breaks away is against its static friction,
+    // whereas a push that moves it is against what drives it.
+    const Eigen::ArrayXd held =
+        (excess.torque.col(j).array() * breakaway.col(j).array() > 0)
+            .select(
+                kStaticFriction * excess.coulomb[j],
+                Eigen::ArrayXd::Constant(rows.num_thin(), excess.coulomb[j]));
     excess.deviations.col(j) =
-        (excess.torque.col(j).cwiseAbs().array() - excess.coulomb[j]) /
+        (excess.torque.col(j).cwiseAbs().array() - held) /
         rows.noise(j).stddev();
   }
   return excess;

@@ -15,7 +15,8 @@ struct FrictionExcess {
   // Thinned samples x n, means over kExcessTime, N m or N:
   Eigen::MatrixXd torque;    // recorded less the model's, friction left in it
   Eigen::MatrixXd friction;  // Coulomb, as the motion says; 0 at rest
-  // (|torque| - Coulomb friction) / the noise's standard deviation.
+  // (|torque| - friction) / the noise's standard deviation; the friction is
+  // Coulomb, or static where the torque drives a joint out of a rest.
   Eigen::MatrixXd deviations;
   Eigen::VectorXd coulomb;  // n, N m or N
 

@@ -51,6 +51,16 @@ TEST_P(ProbabilityOfTest, FallsWithAllThatSpeaksAgainst) {
               [](EffectEvidence* e) { e->left = .5; });
 }
 
+// What was held out has to say something: an effect that one stretch alone
+// shows is as likely something that happened there.
+TEST_P(ProbabilityOfTest, IsAtMostEvenWhereHeldOutDataCannotTell) {
+  EffectEvidence evidence = Clear();
+  evidence.held_out = true;
+  EXPECT_EQ(ProbabilityOf(evidence), ProbabilityOf(Clear()));
+  evidence.confirmation = {1e-9, 1e-9};
+  EXPECT_LT(ProbabilityOf(evidence), .5);
+}
+
 // Weaker ones may be what its form has wrong, and are nothing against it.
 TEST(ProbabilityTest, WeakerEffectsSayNothingAgainstARecordedOne) {
   EffectEvidence alone;

@@ -31,6 +31,15 @@ class ExcessOfAJoint : public testing::Test {
   }
   // At `time`, of a residual that is `rest` before 10 s and `moving` after.
   double Deviations(double rest, double moving, double time) const {
+    return DeviationsOf([&](double t) { return t < 10 ? rest : moving; }, time);
+  }
+  // At `time`, of a residual that is `push` for .6 s around it.
+  double DeviationsOfAPush(double push, double time) const {
+    return DeviationsOf(
+        [&](double t) { return std::abs(t - time) < .3 ? push : 0; }, time);
+  }
+  template <typename Residual>
+  double DeviationsOf(Residual of_time, double time) const {
     Robot robot;
     robot.links.resize(1);
     robot.links[0].joint.coulomb = kCoulomb;
@@ -39,7 +48,7 @@ class ExcessOfAJoint : public testing::Test {
     MatrixXd residual(rows_->num_thin(), 1);
     int at = 0;
     for (int k = 0; k < residual.rows(); ++k) {
-      residual(k, 0) = rows_->thin_time(0, k) < 10 ? rest : moving;
+      residual(k, 0) = of_time(rows_->thin_time(0, k));
       if (rows_->thin_time(0, k) < time) at = k;
     }
     return ExcessOverFriction(baseline, VectorXd::Zero(baseline.size()), *rows_,
@@ -64,6 +73,15 @@ TEST_F(ExcessOfAJoint, IsWhatIsBeyondItsFriction) {
 TEST_F(ExcessOfAJoint, AllowsForTheFrictionOfTheDay) {
   EXPECT_NEAR(Deviations(0, 3, 15), 0, 1e-3);
   EXPECT_NEAR(Deviations(14, 3, 5), (14 - kCoulomb - 3) / kNoise, 1e-3);
+}
+
+// What drives it out of its rest may be against static friction, .78 / .42 of
+// the Coulomb one; a push that moves it drives the other way.
+TEST_F(ExcessOfAJoint, BreaksAwayFromStaticFriction) {
+  EXPECT_NEAR(DeviationsOfAPush(8, 15), 8 / kNoise, 1e-3);
+  EXPECT_NEAR(DeviationsOfAPush(8, 10.3),
+              (kCoulomb + 8 - kCoulomb * .78 / .42) / kNoise, .02);
+  EXPECT_NEAR(DeviationsOfAPush(-25, 10.3), (25 - 2 * kCoulomb) / kNoise, .02);
 }
 
 TEST_F(ExcessOfAJoint, HasMaximaOfBlocks) {
