@@ -22,6 +22,10 @@ DEFINE_string(validate, "", "`FILES` logs held out to check the result");
 DEFINE_string(torque_constants, "",
               "`K1,K2..` per joint, N m/A: torque = constant x gear ratio x "
               "current");
+DEFINE_string(torque_constants_stddev, "",
+              "`SHARE` of each joint's torque by which its scale may be off, a "
+              "standard deviation; default: .05 for currents, .02 for torques, "
+              "0 for logs of armcal simulate");
 DEFINE_string(gear_ratios, "", "`N1,N2..` per joint; default: 1");
 DEFINE_string(torque_kind, "auto",
               "what the log's torque is: auto, link, motor (motor side, times "
@@ -96,11 +100,22 @@ double ParseOne(const std::string& flag, const std::string& text) {
   return *number;
 }
 
+// From 0 up to 1; nothing where the flag is not given.
+std::optional<double> ShareOrNothing(const std::string& flag,
+                                     const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const double share = ParseOne(flag, text);
+  if (share >= 0 && share < 1) return share;
+  throw UsageError("--" + flag + ": found '" + text +
+                   "', expected a share from 0 to below 1, as in 0.03");
+}
+
 }  // namespace
 
 FlagGroup TorqueFlags() {
   return {"torques of logs",
-          {"torque_kind", "torque_constants", "gear_ratios", "topics"},
+          {"torque_kind", "torque_constants", "torque_constants_stddev",
+           "gear_ratios", "topics"},
           false};
 }
 
@@ -197,6 +212,8 @@ LogReaderOptions LogOptionsFromFlags(const FlagValues& flags,
   options.torque_kind = kTorqueKinds.Parse(flags.Text("torque_kind"));
   options.torque_constants =
       ParseNumbers("torque_constants", flags.Text("torque_constants"));
+  options.torque_constants_stddev = ShareOrNothing(
+      "torque_constants_stddev", flags.Text("torque_constants_stddev"));
   options.gear_ratios = ParseNumbers("gear_ratios", flags.Text("gear_ratios"));
   for (const std::string& topic : SplitAtCommas(flags.Text("topics"))) {
     options.topics.push_back(ParseTopic(topic));

@@ -142,6 +142,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   result_.ladder = lacked;
   result_.has_reference = reference != nullptr;
   result_.has_calibration = options_.baseline.posterior != nullptr;
+  result_.torque_constants_stddev = training.torque_constants_stddev();
   Tell("choosing effects");
   Fit(segments, before, split);
   if (split) {
@@ -185,7 +186,8 @@ void Diagnoser::KnowWhatModelsLack(const std::vector<GapSegment>& segments,
   const MotionScale scale =
       ScaleOf(*baseline_, rows, RecordedTorques(*baseline_, rows));
   baseline_->AddDiscrepancy(Discrepancy(
-      robot_, scale, (before.empty() ? segments : before).back().log + 1));
+      robot_, scale, (before.empty() ? segments : before).back().log + 1,
+      result_.torque_constants_stddev));
 }
 
 // What happens once may happen in the part that is held out, where nothing else

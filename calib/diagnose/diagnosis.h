@@ -81,6 +81,7 @@ struct GapDiagnosis {
   std::vector<DataFinding> data;
   std::vector<UntestableEffect> untestable;
   double bandwidth_hz = 0;
+  double torque_constants_stddev = 0;  // relative, LogSet
 };
 
 // Diagnoses the gap between `robot` and the training logs; figures are of the

@@ -230,6 +230,7 @@ json ToJson(const GapDiagnosis& diagnosis) {
           {"gap", gap},
           {"floor_source", NoiseFloorName(diagnosis.floor)},
           {"bandwidth_hz", JsonNumber(diagnosis.bandwidth_hz)},
+          {"torque_constants_stddev", diagnosis.torque_constants_stddev},
           {"unexplained", unexplained}};
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/log_files/torque_columns.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -297,6 +298,7 @@ std::string FullReport(const GapDiagnosis& diagnosis) {
     text += Simulated(*diagnosis.forward);
   }
   text += Format("  noise told from: %s\n", NoiseFloorName(diagnosis.floor));
+  text += "  torque: " + ScaleText(diagnosis.torque_constants_stddev) + "\n";
   if (!diagnosis.shown.empty()) text += "\nthe reference itself shows\n";
   for (const ShownEffect& shown : diagnosis.shown) {
     text += "  " + Named(*shown.effect, shown.joint, diagnosis) + ": " +

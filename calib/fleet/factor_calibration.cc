@@ -80,10 +80,7 @@ void SetCovariance(const LogFactors& factors, const VectorXd& inflations,
     result->covariance_method += ", at least the scatter between logs";
   }
   result->inflation = MedianInflation(result->covariance, independent);
-  for (int k = 0; k < m; ++k) {
-    if (!result->identifiable[k]) continue;
-    result->stddev[k] = std::sqrt(result->covariance(k, k));
-  }
+  AddScaleCovariance(solution, result);
 }
 
 }  // namespace
@@ -147,6 +144,8 @@ LinearCalibration CalibrateFromFactors(const Robot& robot,
   for (const ReducedLog& log : reduction.logs) {
     result.equations += log.factors[0].rows();
     motion_hz = std::max(motion_hz, log.motion_hz);
+    result.torque_constants_stddev =
+        std::max(result.torque_constants_stddev, log.torque_constants_stddev);
   }
   result.reason = WhyNothingToSolve(factors, result.parameters);
   if (!result.reason.empty()) return result;

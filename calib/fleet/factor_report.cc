@@ -6,6 +6,7 @@
 #include "calib/linear/calibration_report.h"
 #include "calib/linear/verdict.h"
 #include "calib/numerics/json_figures.h"
+#include "model/log_files/torque_columns.h"
 #include "model/text/calendar_time.h"
 #include "model/text/format.h"
 
@@ -141,7 +142,8 @@ std::string FullReport(const Robot& robot, const Reduction& reduction,
     text +=
         Format("           and %zu more\n", reduction.logs.size() - kListed);
   }
-  text += "torque     " + reduction.logs[0].torque + "\n";
+  text += "torque     " + reduction.logs[0].torque + "; " +
+          ScaleText(result.torque_constants_stddev) + "\n";
   text += Format("equations  %ld per joint, of %ld samples\n", result.equations,
                  Samples(reduction));
   return text + EstimateText(robot, result) +
@@ -153,6 +155,7 @@ json ToJson(const Robot& robot, const Reduction& reduction,
   json out = ToJson(robot, result);
   out["logs"] = LogsJson(reduction);
   out["torque"] = reduction.logs[0].torque;
+  out["torque_constants_stddev"] = result.torque_constants_stddev;
   out["unpowered"] = UnpoweredJson(robot, reduction, result);
   out["reduction"] = ToJson(reduction.model);
   return out;

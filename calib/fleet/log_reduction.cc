@@ -91,6 +91,7 @@ ReducedLog ReduceLog(const Robot& robot, const ReductionModel& model,
   ReducedLog reduced;
   reduced.file = std::filesystem::path(log.path(0)).filename().string();
   reduced.torque = log.torque_source();
+  reduced.torque_constants_stddev = log.torque_constants_stddev();
   reduced.samples = base.samples;
   reduced.range = base.range;
   reduced.resampled = !base.uniform;

@@ -33,9 +33,10 @@ struct ReductionModel {
 
 // A log, reduced to what a calibration needs of it.
 struct ReducedLog {
-  std::string file;            // its name without the folder
-  std::string sha256;          // of its bytes
-  std::string torque;          // LogSet::torque_source()
+  std::string file;                    // its name without the folder
+  std::string sha256;                  // of its bytes
+  std::string torque;                  // LogSet::torque_source()
+  double torque_constants_stddev = 0;  // as LogSet has it
   std::string unit;            // which robot of its kind; empty: not said
   std::optional<double> time;  // when it was recorded, s since 1970, UTC
   long samples = 0;

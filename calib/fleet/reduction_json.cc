@@ -146,6 +146,7 @@ json ToJson(const ReducedLog& log) {
   json entry = {{"file", log.file},
                 {"sha256", log.sha256},
                 {"torque", log.torque},
+                {"torque_constants_stddev", log.torque_constants_stddev},
                 {"unit", log.unit},
                 {"samples", log.samples},
                 {"begin_s", log.range.begin},
@@ -194,6 +195,8 @@ ReducedLog ReadReducedLog(const JsonValue& entry, const ReadTriangle& read) {
   log.file = entry.At("file").Text();
   log.sha256 = entry.At("sha256").Text();
   log.torque = entry.At("torque").Text();
+  log.torque_constants_stddev =
+      ReadOptional(entry, "torque_constants_stddev").value_or(0);
   log.unit = entry.At("unit").Text();
   log.time = ReadOptional(entry, "time");
   log.samples = entry.At("samples").Count();

@@ -25,15 +25,10 @@ using Eigen::VectorXd;
 
 void SetCovariance(const CovarianceEstimate& estimate,
                    LinearCalibration* result) {
-  const int m = result->parameters.size();
   result->covariance = estimate.covariance;
   result->covariance_method = estimate.method;
   result->score_window = estimate.window;
   result->rows_per_window = estimate.rows_per_window;
-  for (int k = 0; k < m; ++k) {
-    if (!result->identifiable[k]) continue;
-    result->stddev[k] = std::sqrt(result->covariance(k, k));
-  }
 }
 
 // From the factor to the parameters and their covariance.
@@ -76,6 +71,7 @@ void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
     result->inflation =
         MedianInflation(result->covariance, result->independent_covariance);
   }
+  AddScaleCovariance(solution, result);
 }
 
 }  // namespace
@@ -109,6 +105,7 @@ LinearCalibration CalibrateOnce(const Robot& robot,
   result.rows = rows;
   result.solver = options.solver;
   result.joint_terms = options.joint_terms;
+  result.torque_constants_stddev = training.logs().torque_constants_stddev();
 
   const LogFactors factors(result.parameters, rows, options.progress, training);
   result.travel = factors.travel();

@@ -38,6 +38,8 @@ struct LinearCalibration {
   // What it would be if the equations had independent errors.
   Eigen::MatrixXd independent_covariance;
   std::string covariance_method;
+  // Of each joint's torque scale, relative, which is part of the covariance.
+  double torque_constants_stddev = 0;
   // Of the covariance: rows per window of its scores, rows that overlap.
   int score_window = 1;
   int rows_per_window = 1;

@@ -229,6 +229,7 @@ json ToJson(const Robot& robot, const LogSet& training,
   }
   out["logs"] = LogsJson(training);
   out["torque"] = training.torque_source();
+  out["torque_constants_stddev"] = training.torque_constants_stddev();
   out["unpowered"] = UnpoweredJson(robot, training, result);
   out["outliers"] = OutlierJson(robot, training, result, kListedOutliers);
   out["outlier_count"] = CountOutliers(result);

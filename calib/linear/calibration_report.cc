@@ -6,6 +6,7 @@
 #include "calib/linear/outlier_report.h"
 #include "calib/linear/transition_bound.h"
 #include "calib/linear/verdict.h"
+#include "model/log_files/torque_columns.h"
 #include "model/text/format.h"
 #include "model/text/option_name.h"
 
@@ -39,7 +40,8 @@ std::string DataText(const LogSet& training, const LinearCalibration& result) {
     text += "log        " + training.path(k) + ": " +
             training.time_bases()[k].Describe() + "\n";
   }
-  text += "torque     " + training.torque_source() + "\n";
+  text += "torque     " + training.torque_source() + "; " +
+          ScaleText(training.torque_constants_stddev()) + "\n";
   text += "equations  " + std::string(IdentificationName(result));
   if (result.rows.identification == Identification::kWeak) {
     text += Format(", windows of %.3g s", result.rows.window_s);

@@ -73,6 +73,16 @@ LinearSolution SolveFactor(const BlockTriangularFactor& factor,
   return solution;
 }
 
+void AddScaleCovariance(const LinearSolution& solution,
+                        LinearCalibration* result) {
+  const MatrixXd by_scale = result->torque_constants_stddev * solution.by_scale;
+  result->covariance += by_scale * by_scale.transpose();
+  for (Eigen::Index k = 0; k < result->x.size(); ++k) {
+    if (!result->identifiable[k]) continue;
+    result->stddev[k] = std::sqrt(result->covariance(k, k));
+  }
+}
+
 double MedianInflation(const MatrixXd& covariance,
                        const MatrixXd& independent) {
   std::vector<double> ratios;

@@ -26,6 +26,13 @@ LinearSolution SolveFactor(const BlockTriangularFactor& factor,
                            const std::vector<bool>& frozen, LinearSolver solver,
                            LinearCalibration* result);
 
+// Adds what all torques of a joint that are off by one factor make of x, to
+// first order, and sets the deviations:
+//   covariance += sigma^2 sum_i (dx / de_i) (dx / de_i)',
+// e_i ~ N(0, sigma^2) independent of each other and of the noise.
+void AddScaleCovariance(const LinearSolution& solution,
+                        LinearCalibration* result);
+
 // How much larger standard deviations are than those of independent rows, the
 // median; at least 1.
 double MedianInflation(const Eigen::MatrixXd& covariance,

@@ -36,6 +36,30 @@ MatrixXd LinearSolution::IndependentCovariance(
   return CovarianceFromScores(scores);
 }
 
+namespace {
+
+// gain * weight_i U_i' y_i of each joint, U_i restricted to its own block for
+// the recursion.
+MatrixXd ByScale(const BlockTriangularFactor& factor,
+                 const LinearSolution& solution) {
+  MatrixXd scores =
+      MatrixXd::Zero(factor.num_parameters(), factor.num_joints());
+  for (int i = 0; i < factor.num_joints(); ++i) {
+    const std::vector<int>& columns = factor.columns(i);
+    const MatrixXd& R = factor.Triangle(i);
+    const Eigen::Index k =
+        solution.own_block_only ? factor.block_size(i) : columns.size();
+    const VectorXd score =
+        R.leftCols(k).transpose() * R.col(static_cast<int>(columns.size()));
+    for (Eigen::Index c = 0; c < k; ++c) {
+      scores(columns[c], i) = solution.weight[i] * score[c];
+    }
+  }
+  return solution.gain * scores;
+}
+
+}  // namespace
+
 LinearSolution SolveWeighted(const BlockTriangularFactor& factor,
                              const VectorXd& noise,
                              const ReferenceScale& reference) {
@@ -66,6 +90,7 @@ LinearSolution SolveWeighted(const BlockTriangularFactor& factor,
     if (noise[i] > 0) solution.weight[i] = 1 / (noise[i] * noise[i]);
   }
   for (int c = 0; c < m; ++c) solution.identifiable.push_back(share[c] < 1e-6);
+  solution.by_scale = ByScale(factor, solution);
   return solution;
 }
 
@@ -75,7 +100,7 @@ LinearSolution SolveBatch(const BlockTriangularFactor& factor,
   const double noise = std::max(1e-300, 1e-9 * RightSideRms(factor).maxCoeff());
   LinearSolution solution = SolveWeighted(
       factor, VectorXd::Constant(factor.num_joints(), noise), reference);
-  solution.gain /= noise * noise;
+  solution.gain /= noise * noise;  // by_scale has the weights, too
   solution.weight.setOnes();
   solution.weighted = false;
   return solution;
@@ -118,6 +143,7 @@ LinearSolution SolveRecursive(const BlockTriangularFactor& factor,
     solution.x.segment(begin, size) = R_ii.solve(z);
     solution.gain.middleRows(begin, size) = R_ii.solve(g);
   }
+  solution.by_scale = ByScale(factor, solution);
   solution.solved = true;
   return solution;
 }

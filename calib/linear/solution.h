@@ -21,7 +21,10 @@ struct LinearSolution {
   Eigen::VectorXd x;
   Eigen::MatrixXd gain;    // m x m
   Eigen::VectorXd weight;  // per joint
-  bool weighted = false;   // by the joints' noise
+  // d x / d e_i where all of joint i's right sides are 1 + e_i times as large,
+  // m x n: what a wrong torque constant does. The columns' sum is x.
+  Eigen::MatrixXd by_scale;
+  bool weighted = false;  // by the joints' noise
   bool own_block_only = false;
   std::vector<bool> identifiable;  // per parameter
 

@@ -1,5 +1,6 @@
 #include "calib/logs/log_set.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "calib/logs/recorded_logs.h"
@@ -18,6 +19,8 @@ LogSet::LogSet(const std::vector<LogSource>& sources,
     r.rows.emplace_back(source, log_options, r.memory);
     r.time_bases.push_back(AuditTimeBase(crop, &r.rows.back()));
     r.torque_source = r.rows.back().torque_source();
+    r.torque_constants_stddev = std::max(
+        r.torque_constants_stddev, r.rows.back().torque_constants_stddev());
     const auto made = log_options.made_torque.find(source.name);
     r.made.push_back(made == log_options.made_torque.end() ? nullptr
                                                            : made->second);
@@ -40,6 +43,10 @@ const std::vector<TimeBase>& LogSet::time_bases() const {
 
 const std::string& LogSet::torque_source() const {
   return recorded_->torque_source;
+}
+
+double LogSet::torque_constants_stddev() const {
+  return recorded_->torque_constants_stddev;
 }
 
 const MadeTorque* LogSet::made_torque(int log) const {

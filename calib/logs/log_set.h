@@ -39,6 +39,9 @@ class LogSet {
   const std::string& path(int log) const;
   const std::vector<TimeBase>& time_bases() const;
   const std::string& torque_source() const;
+  // Relative standard deviation of each joint's torque scale, one factor in all
+  // logs of the robot: the largest of the logs'.
+  double torque_constants_stddev() const;
   // What a log has instead of recorded torques; null where it has these.
   const MadeTorque* made_torque(int log) const;
   // What passes may keep what they made in.

@@ -24,6 +24,7 @@ struct RecordedLogs {
   std::vector<std::string> names;
   std::vector<TimeBase> time_bases;
   std::string torque_source;
+  double torque_constants_stddev = 0;
   std::vector<std::shared_ptr<const MadeTorque>> made;
 
   std::mutex pass;

@@ -27,7 +27,8 @@ constexpr double kMostInflation = 1e8;
 ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
                                     const ArmFit& fit, const ArmTrust& trust,
                                     const ArmValues& at,
-                                    const LinkInformation& torques) {
+                                    const LinkInformation& torques,
+                                    double torque_constants_stddev) {
   const std::vector<int> free = unknowns.FreeIndices();
   const MatrixXd poses = fit.PoseRows(at);
   MatrixXd data(torques.R.rows() + poses.rows(), unknowns.size());
@@ -64,6 +65,9 @@ ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
     result.identifiable.push_back(known && unknowns.is_free(k) &&
                                   untrusted[k] < 2 * trusted[k]);
   }
+  const MatrixXd by_scale =
+      torque_constants_stddev * posterior.Gain() * torques.scale_sums;
+  result.covariance += by_scale * by_scale.transpose();
   return result;
 }
 

@@ -23,10 +23,12 @@ struct ArmCovariance {
 };
 
 // The sandwich of information and scores: torque rows overlap and have
-// autocorrelated errors.
+// autocorrelated errors. Each joint's torque scale, of that relative standard
+// deviation, adds what it makes of the estimate.
 ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
                                     const ArmFit& fit, const ArmTrust& trust,
                                     const ArmValues& at,
-                                    const LinkInformation& torques);
+                                    const LinkInformation& torques,
+                                    double torque_constants_stddev);
 
 }  // namespace armcal

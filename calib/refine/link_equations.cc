@@ -36,6 +36,7 @@ void Eliminate(Eigen::Index count, LinkInformation* information) {
   information->R = R.bottomRightCorner(R.rows() - count, p);
   information->S = (T * information->S * T.transpose()).eval();
   information->log_sums = (T * information->log_sums).eval();
+  information->scale_sums = (T * information->scale_sums).eval();
   information->least.conservativeResize(p);
 }
 
@@ -49,6 +50,8 @@ LinkInformation Spread(const LinkInformation& torques,
   all.S(columns, columns) = torques.S;
   all.log_sums = MatrixXd::Zero(size, torques.log_sums.cols());
   all.log_sums(columns, Eigen::all) = torques.log_sums;
+  all.scale_sums = MatrixXd::Zero(size, torques.scale_sums.cols());
+  all.scale_sums(columns, Eigen::all) = torques.scale_sums;
   all.least = VectorXd::Zero(size);
   all.least(columns) = torques.least;
   return all;
@@ -69,7 +72,8 @@ Score LinkScore(const FittedRow& row) {
 // torque_geometry.
 struct LinkPass::Residual {
   const MatrixXd& U;
-  VectorXd r;  // in noise units, 0 where the equation is not used
+  VectorXd y;  // right side, in noise units
+  VectorXd r;  // the same of the residual, 0 where the equation is not used
   int log;
   bool follows;  // right after the row before it
 };
@@ -138,12 +142,12 @@ void LinkPass::ForEachResidual(
         rows, functions[log], [&](const IdentificationRow& row) {
           const bool follows = log == last_log && t.segment == last_segment;
           last_log = log, last_segment = t.segment;
-          VectorXd r =
-              (row.Y - row.U.leftCols(x.size()) * x).cwiseQuotient(noise);
+          const VectorXd y = row.Y.cwiseQuotient(noise);
+          VectorXd r = y - (row.U.leftCols(x.size()) * x).cwiseQuotient(noise);
           for (int i = 0; i < r.size(); ++i) {
             if (!linear_.used[log][i]) r[i] = 0;
           }
-          visit({row.U, r, log, follows});
+          visit({row.U, y, r, log, follows});
         });
   });
 }
@@ -246,12 +250,15 @@ LinkInformation LinkPass::Inform(const ArmValues& at, const VectorXd& noise,
   const int n = unknowns_.num_links();
   OverlapCovariance overlap(n, static_cast<int>(size), linear_.rows_per_window);
   information.log_sums = MatrixXd::Zero(size, logs_.size());
+  information.scale_sums = MatrixXd::Zero(size, n);
   run("covariance",
       [&](const Residual& residual, const FittedRow& row, const Score& score) {
         if (!residual.follows) scores.Break(), overlap.Break();
         scores.Add(score);
         overlap.Add(row);
         information.log_sums.col(residual.log) += score.value;
+        information.scale_sums +=
+            score.U.transpose() * (residual.y / linear_.inflation).asDiagonal();
       });
   information.S = scores.Value();
   information.least = overlap.Value(gain, VectorXd::Ones(n)).diagonal();

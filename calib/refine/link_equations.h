@@ -31,6 +31,9 @@ struct LinkInformation {
   // (Newey-West as the linear calibration's).
   Eigen::MatrixXd S;
   Eigen::MatrixXd log_sums;  // of scores, a column per log
+  // How that sum changes with the scale of a joint's torque, d / d e_i where it
+  // is 1 + e_i times as large; a column per joint.
+  Eigen::MatrixXd scale_sums;
   // Variances that errors make which are correlated only where rows overlap.
   Eigen::VectorXd least;
 };

@@ -241,7 +241,8 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
   Report(
       EstimateArmCovariance(unknowns_, fit, options_.trust, values_,
                             pass.Inform(values_, noise_, fit.PoseRows(values_),
-                                        fit.PriorInformation(options_.trust))),
+                                        fit.PriorInformation(options_.trust)),
+                            linear_.torque_constants_stddev),
       &result);
   result.robot = unknowns_.Apply(values_);
   result.refined_geometry =

@@ -23,6 +23,7 @@ KeptLog::KeptLog(const LogSource& source, const LogReaderOptions& options,
       reader_(std::in_place, source, options),
       blocks_(std::move(budget)) {
   torque_source_ = reader_->torque_source();
+  torque_constants_stddev_ = reader_->torque_constants_stddev();
   blocks_.Begin();
 }
 

@@ -22,6 +22,7 @@ class KeptLog {
   const LogSource& source() const { return source_; }
   const LogReaderOptions& options() const { return options_; }
   const std::string& torque_source() const { return torque_source_; }
+  double torque_constants_stddev() const { return torque_constants_stddev_; }
 
   // The next rows, which live until the next call; null at the end. Throws
   // InputError.
@@ -33,6 +34,7 @@ class KeptLog {
   LogSource source_;
   LogReaderOptions options_;
   std::string torque_source_;
+  double torque_constants_stddev_;
   std::optional<LogReader> reader_;  // while the file is open
   Log block_;                        // of a log that is not kept
   KeptItems<Log> blocks_;

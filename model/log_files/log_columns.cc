@@ -75,6 +75,10 @@ LogColumns::LogColumns(const std::string& file, std::string_view header,
   for (int i = 0; i < size(); ++i) Classify(i);
 }
 
+bool LogColumns::simulated() const {
+  return std::find(names_.begin(), names_.end(), kSimulated) != names_.end();
+}
+
 void LogColumns::Classify(int index) {
   std::string_view unit;
   const std::string_view base = SplitUnit(names_[index], &unit);

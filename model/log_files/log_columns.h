@@ -29,6 +29,10 @@ class LogColumns {
   char separator() const { return separator_; }
   // Fields in a row.
   int size() const { return static_cast<int>(names_.size()); }
+  // Whether the log says that a simulation has written it: a column of this
+  // name, whatever it holds.
+  static constexpr char kSimulated[] = "simulated";
+  bool simulated() const;
   // As the header has it, with the unit.
   const std::string& name(int index) const { return names_[index]; }
 

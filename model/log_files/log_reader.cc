@@ -64,13 +64,21 @@ struct LogReader::Impl {
     if (found != options.made_torque.end()) {
       made = found->second;
       torque_source = made->source;
+      KnowScale(kTorqueScaleStddev, options);
       return;
     }
     const bool commands_do = options.commands_do && qref != kUnused;
     if (commands_do && LacksTorque(columns, options)) return;
     const TorqueColumns torque = FindTorqueColumns(path, columns, options);
     torque_source = torque.source;
+    KnowScale(torque.scale_stddev, options);
     tau = row.Use(torque.columns);
+  }
+
+  // `usual`: that of this kind of torque.
+  void KnowScale(double usual, const LogReaderOptions& options) {
+    torque_constants_stddev = options.torque_constants_stddev.value_or(
+        columns.simulated() ? 0 : usual);
   }
 
   std::string_view Header() {
@@ -251,6 +259,7 @@ struct LogReader::Impl {
   int qref = kUnused;
   int temperature = kUnused;
   std::string torque_source;
+  double torque_constants_stddev = 0;
   std::shared_ptr<const MadeTorque> made;
   long next_made = 0;  // row of it
 
@@ -287,6 +296,10 @@ bool LogReader::has_acceleration() const {
 
 const std::string& LogReader::torque_source() const {
   return impl_->torque_source;
+}
+
+double LogReader::torque_constants_stddev() const {
+  return impl_->torque_constants_stddev;
 }
 
 bool LogReader::Read(int max_rows, Log* log) {

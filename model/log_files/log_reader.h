@@ -45,6 +45,10 @@ class LogReader {
   // "currents times 14.87 13.26 N m/A"; empty where it is not needed.
   const std::string& torque_source() const;
 
+  // Relative standard deviation of its scale, each joint's: as the options say,
+  // else 0 for a simulated log and by the torque's kind for any other.
+  double torque_constants_stddev() const;
+
   // Reads up to `max_rows` rows into *log (which it overwrites); false and an
   // empty log at the end of the file. The wanted signals that the log lacks
   // stay empty.

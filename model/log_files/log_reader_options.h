@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,11 @@ struct LogReaderOptions {
   std::vector<std::string> joint_names;  // the robot's, base to tip
   TorqueKind torque_kind = TorqueKind::kAuto;
   std::vector<double> torque_constants;  // N m/A per joint; empty: not given
-  std::vector<double> gear_ratios;       // per joint; empty: 1
-  std::vector<LogTopic> topics;          // of a bag (line_source.h)
+  // Relative standard deviation of each joint's torque scale: a factor
+  // that is fixed for the robot. Not given: see torque_columns.h.
+  std::optional<double> torque_constants_stddev = 0;
+  std::vector<double> gear_ratios;  // per joint; empty: 1
+  std::vector<LogTopic> topics;     // of a bag (line_source.h)
   bool need_torque = true;
   // Where torque is needed: a log will do that has neither torques nor currents
   // (nor --torque_constants for these) but the commands of all joints.

@@ -47,6 +47,7 @@ TorqueColumns FromCurrents(const LogColumns& columns,
       efforts ? "; where effort columns hold currents, say so with [A]" : "");
   MultiplyBy(options.torque_constants, &torque.columns);
   MultiplyBy(options.gear_ratios, &torque.columns);
+  torque.scale_stddev = kCurrentScaleStddev;
   torque.source =
       "currents times " + FormatAll(options.torque_constants) + " N m/A";
   if (!options.gear_ratios.empty()) {
@@ -100,6 +101,12 @@ void CheckTorqueFactors(const LogReaderOptions& options) {
   CheckFactors("torque_constants", options.torque_constants,
                options.joint_names);
   CheckFactors("gear_ratios", options.gear_ratios, options.joint_names);
+}
+
+std::string ScaleText(double scale_stddev) {
+  if (scale_stddev == 0) return "its scale taken as exact";
+  return "its scale known to " + NumberText(100 * scale_stddev) + " % (" +
+         OptionName("torque_constants_stddev") + ")";
 }
 
 bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options) {

@@ -8,11 +8,20 @@
 
 namespace armcal {
 
+// Relative standard deviations of a joint's torque scale where nothing is said.
+// Motor currents: makers of servo motors (Kollmorgen, maxon) give torque
+// constants to +-10 %, two deviations. Torque sensors, and torques that a drive
+// has made of currents with constants that its maker identified: some per cent.
+constexpr double kCurrentScaleStddev = .05;
+constexpr double kTorqueScaleStddev = .02;
+
 // The columns that give the joint torque once multiplied by their scale, which
 // holds unit, torque constant and gear ratio.
 struct TorqueColumns {
   std::vector<LogColumn> columns;
   std::string source;  // what LogReader::torque_source() says
+  // How well their scale is known, relative standard deviation.
+  double scale_stddev = kTorqueScaleStddev;
 };
 
 // Chooses them as `options` ask; `file` is for messages. Throws InputError that
@@ -20,6 +29,9 @@ struct TorqueColumns {
 TorqueColumns FindTorqueColumns(const std::string& file,
                                 const LogColumns& columns,
                                 const LogReaderOptions& options);
+
+// "its scale known to 5 % (--torque_constants_stddev)", a phrase for reports.
+std::string ScaleText(double scale_stddev);
 
 // Whether there is nothing in the log to make a torque of: no torques, and no
 // currents or no constants for them. A part of the joints is no nothing.

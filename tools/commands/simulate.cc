@@ -95,8 +95,7 @@ CommandOutcome Simulate(const CommandInput& input) {
                      NumberText(scenario.loop.controller.rate_hz));
   }
   if (OutFromFlags(flags).empty()) throw UsageError("--out=DIR is needed");
-  const LogWriterOptions writer =
-      WriterFromFlags(flags, scenario.model.num_joints());
+  LogWriterOptions writer = WriterFromFlags(flags, scenario.model.num_joints());
   input.Begin("simulating");
   scenario.loop.progress = [&input](double share) {
     if (input.progress) input.progress("simulating", share);
@@ -104,6 +103,7 @@ CommandOutcome Simulate(const CommandInput& input) {
   ScenarioRun run = RunScenario(scenario);
   if (!flags.Switch("temperature")) run.run.log.temperature.resize(0, 0);
   OutputFolder out(OutFromFlags(flags)), secret(flags.Text("truth"), "--truth");
+  writer.simulated = true;
   out.Add("log.csv", LogText(run.run.log, writer));
   const std::string truth = TruthJson(scenario, run).dump(2) + "\n";
   (flags.Text("truth").empty() ? out : secret).Add("truth.json", truth);

@@ -17,9 +17,6 @@ using Eigen::VectorXd;
 // were chosen on.
 constexpr double kPosition = .01, kPositionSign = .005, kLoad = .01,
                  kState = .01, kTime = .005;
-// How well torque constants are known; of the model's torque, since that of
-// the recorded one would explain whatever is recorded.
-constexpr double kTorqueConstant = .03;
 // Of the joint's Coulomb friction: how much its curve over velocity may differ.
 constexpr double kFrictionCurve = .1;
 
@@ -48,8 +45,11 @@ double HarmonicSize(int k) {
 
 }  // namespace
 
-Discrepancy::Discrepancy(const Robot& robot, const MotionScale& scale, int logs)
-    : scale_(scale), logs_(logs) {
+Discrepancy::Discrepancy(const Robot& robot, const MotionScale& scale, int logs,
+                         double torque_constants_stddev)
+    : scale_(scale),
+      logs_(logs),
+      torque_constants_stddev_(torque_constants_stddev) {
   const int n = robot.num_joints();
   per_turn_ = VectorXd::Ones(n);
   for (int j = 0; j < n; ++j) {
@@ -87,7 +87,8 @@ VectorXd Discrepancy::Spreads(int j, const Joint& joint) const {
   add(kSpeedShares.size(), kFrictionCurve * std::abs(joint.coulomb));
   add(kLoadShapes, kLoad * usual);
   add(kStateShapes, kState * usual);
-  add(1, kTorqueConstant * usual);
+  // Of the model's torque: the recorded one would explain whatever is recorded.
+  add(1, torque_constants_stddev_ * usual);
   add(kTimeShapes * logs_, kTime * usual);
   return spreads;
 }

@@ -27,8 +27,11 @@ namespace armcal {
 class Discrepancy {
  public:
   Discrepancy() = default;
-  // `logs`: how many there are, each of which drifts for itself.
-  Discrepancy(const Robot& robot, const MotionScale& scale, int logs);
+  // `logs`: how many there are, each of which drifts for itself. Torque
+  // constants have that relative standard deviation.
+  Discrepancy(const Robot& robot, const MotionScale& scale, int logs,
+              double torque_constants_stddev);
+  double torque_constants_stddev() const { return torque_constants_stddev_; }
 
   // Standard deviations of joint j's coefficients, N m or N.
   Eigen::VectorXd Spreads(int j, const Joint& joint) const;
@@ -43,6 +46,7 @@ class Discrepancy {
 
   MotionScale scale_;
   int logs_ = 0;
+  double torque_constants_stddev_ = 0;
   Eigen::VectorXd per_turn_;                // rad of a turn per rad or m
   std::vector<Eigen::MatrixXd> frequency_;  // per joint, of the state
   std::vector<Eigen::VectorXd> phase_;

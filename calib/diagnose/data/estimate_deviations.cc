@@ -8,10 +8,17 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+double WithTorqueScale(double stddev, double value, const std::string& unit,
+                       double scale_stddev) {
+  const bool has_mass = unit.rfind("kg", 0) == 0 || unit.rfind('N', 0) == 0;
+  return has_mass ? std::hypot(stddev, scale_stddev * value) : stddev;
+}
+
 std::vector<double> EstimateDeviations(const Effect& effect,
                                        const EffectSite& site,
                                        const VectorXd& p,
-                                       const MatrixXd& covariance) {
+                                       const MatrixXd& covariance,
+                                       double scale_stddev) {
   const std::vector<EffectEstimate> estimates = EstimatesOf(effect, site, p);
   MatrixXd J = MatrixXd::Zero(estimates.size(), p.size());
   for (int k = 0; k < p.size(); ++k) {
@@ -26,7 +33,13 @@ std::vector<double> EstimateDeviations(const Effect& effect,
   }
   const VectorXd variance = (J * covariance * J.transpose()).diagonal();
   std::vector<double> stddev;
-  for (const double v : variance) stddev.push_back(std::sqrt(std::max(v, 0.)));
+  for (size_t k = 0; k < estimates.size(); ++k) {
+    const double own = std::sqrt(std::max(variance[k], 0.));
+    // What nothing tells of has no deviation.
+    stddev.push_back(own > 0 ? WithTorqueScale(own, estimates[k].value,
+                                               estimates[k].unit, scale_stddev)
+                             : 0);
+  }
   return stddev;
 }
 

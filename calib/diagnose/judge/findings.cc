@@ -44,6 +44,9 @@ class Findings {
                        const MatrixXd& covariance) const;
   FoundEffect Found(size_t k) const;
   FoundEffect Contacts() const;
+  double scale_stddev() const {
+    return fit_.baseline().discrepancy().torque_constants_stddev();
+  }
   void AddFamilies(const std::vector<LackedFamily>& families);
   void AddChangedFriction();
   void ShareTheRest(FoundEffect* found, bool is_first);
@@ -63,7 +66,8 @@ FoundEffect Findings::Describe(const GapCandidate& effect,
   found.joint = effect.joint;
   found.p = effect.p;
   found.estimates = EstimatesOf(*effect.effect, site, effect.p);
-  found.stddev = EstimateDeviations(*effect.effect, site, effect.p, covariance);
+  found.stddev = EstimateDeviations(*effect.effect, site, effect.p, covariance,
+                                    scale_stddev());
   return found;
 }
 
@@ -141,7 +145,9 @@ void Findings::AddFamilies(const std::vector<LackedFamily>& families) {
       found.estimates.push_back({joint.name + "." + JointTermName(family.term),
                                  JointTermUnit(family.term, joint.type),
                                  family.value[j]});
-      found.stddev.push_back(family.stddev[j]);
+      const EffectEstimate& term = found.estimates.back();
+      found.stddev.push_back(WithTorqueScale(family.stddev[j], term.value,
+                                             term.unit, scale_stddev()));
     }
     result_.effects.push_back(found);
   }
@@ -168,7 +174,10 @@ void Findings::AddChangedFriction() {
           {joint.name + "." + JointTermName(*effect.joint_term),
            JointTermUnit(*effect.joint_term, joint.type),
            x[c] * column.spread});
-      found.stddev.push_back(std::sqrt(covariance(c, c)) * column.spread);
+      const EffectEstimate& term = found.estimates.back();
+      found.stddev.push_back(
+          WithTorqueScale(std::sqrt(covariance(c, c)) * column.spread,
+                          term.value, term.unit, scale_stddev()));
       found.drop += x[c] * x[c];
     }
     found.score = found.drop;

@@ -215,4 +215,22 @@ TEST(LinearSolution, ExcludedJointsKeepTheirNoise) {
   EXPECT_GT(solution.weight[1], 0);
 }
 
+// Equations solved again with joint i's torques 3 % larger.
+TEST(LinearSolution, TorqueScalesMoveTheEstimateAsSaid) {
+  Equations e("UR5 6R", 200, VectorXd::Constant(6, .1));
+  const VectorXd noise = VectorXd::LinSpaced(6, .1, .3);
+  const LinearSolution solution = SolveWeighted(e.Factor(), noise, e.reference);
+  EXPECT_LT((solution.by_scale.rowwise().sum() - solution.x).norm(),
+            1e-9 * solution.x.norm());
+  for (int i = 0; i < 6; ++i) {
+    Equations scaled = e;
+    scaled.Y.col(i) *= 1.03;
+    const VectorXd moved =
+        SolveWeighted(scaled.Factor(), noise, e.reference).x - solution.x;
+    EXPECT_LT((moved - .03 * solution.by_scale.col(i)).norm(),
+              1e-7 * solution.x.norm())
+        << i;
+  }
+}
+
 }  // namespace armcal::solution_test

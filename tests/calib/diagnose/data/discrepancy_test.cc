@@ -36,7 +36,7 @@ class DiscrepancyTest : public DiagnosedArm<33> {
 // All of it together is some per cent of a joint's usual torque, and half as
 // much again of its friction: a robot is not worse known than that.
 TEST_F(DiscrepancyTest, IsOfARoutineSize) {
-  const Discrepancy discrepancy(File(), scale_, 1);
+  const Discrepancy discrepancy(File(), scale_, 1, .03);
   for (int j = 0; j < File().num_joints(); ++j) {
     const MatrixXd shapes = discrepancy.Torque(j, segments_[0], torques_[0]);
     const VectorXd spreads = discrepancy.Spreads(j, File().links[j].joint);
@@ -52,7 +52,7 @@ TEST_F(DiscrepancyTest, IsOfARoutineSize) {
 
 // What one log's time says, says nothing of another.
 TEST_F(DiscrepancyTest, EachLogDriftsForItself) {
-  const Discrepancy discrepancy(File(), scale_, 2);
+  const Discrepancy discrepancy(File(), scale_, 2, .03);
   GapSegment other = segments_[0];
   other.log = 1;
   const MatrixXd first = discrepancy.Torque(0, segments_[0], torques_[0]);
@@ -69,7 +69,7 @@ TEST_F(DiscrepancyTest, EachLogDriftsForItself) {
 // Its columns are last, on their own joint alone, and can be left out again.
 TEST_F(DiscrepancyTest, IsANuisanceOfTheBaseline) {
   const int before = baseline_->size();
-  baseline_->AddDiscrepancy(Discrepancy(File(), scale_, 1));
+  baseline_->AddDiscrepancy(Discrepancy(File(), scale_, 1, .03));
   EXPECT_EQ(baseline_->num_model_columns(), before);
   EXPECT_GT(baseline_->size(), before);
   EXPECT_EQ(baseline_->WithoutDiscrepancy().size(), before);
