@@ -156,13 +156,18 @@ bool TorqueCalibrator::EstimateGains() {
   LogReaderOptions& reading = options_.reading;
   reading.torque_kind = TorqueKind::kCurrent;
   reading.torque_constants.assign(robot_.num_joints(), 1);
-  const LogSet bare(input_.logs, reading, input_.crop);
-  const LogSet payload(options_.payload->logs, reading, TimeRange());
+  LogReaderOptions currents = reading;
+  currents.torque_constants_stddev = 0;
+  const LogSet bare(input_.logs, currents, input_.crop);
+  const LogSet payload(options_.payload->logs, currents, TimeRange());
   gains_ = EstimateDriveGains(robot_, options_.equations,
                               options_.payload->mass, bare, &payload);
   summary_.report = DriveGainsReport(*gains_);
   if (gains_->solved) {
     reading.torque_constants = gains_->TorqueConstants();
+    if (!reading.torque_constants_stddev) {
+      reading.torque_constants_stddev = gains_->LargestRelativeStddev();
+    }
     return true;
   }
   nlohmann::json json = {{"format", "armcal calibration 1"},

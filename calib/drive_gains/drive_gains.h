@@ -42,6 +42,8 @@ struct DriveGains {
 
   // One per joint; CHECKs `solved`.
   std::vector<double> TorqueConstants() const;
+  // Of the gain that is known least well; CHECKs `solved`.
+  double LargestRelativeStddev() const;
 };
 
 }  // namespace armcal

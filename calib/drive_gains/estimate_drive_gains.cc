@@ -156,6 +156,15 @@ std::vector<double> DriveGains::TorqueConstants() const {
   return constants;
 }
 
+double DriveGains::LargestRelativeStddev() const {
+  CHECK(solved);
+  double largest = 0;
+  for (const DriveGain& gain : gains) {
+    largest = std::max(largest, gain.stddev / std::abs(gain.value));
+  }
+  return largest;
+}
+
 DriveGains EstimateDriveGains(const Robot& robot,
                               const LinearCalibrationOptions& options,
                               double payload_mass, const LogSet& bare,

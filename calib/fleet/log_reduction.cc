@@ -48,7 +48,8 @@ std::optional<double> Inflation(const Robot& robot, const ReductionModel& model,
   if (!measured) return std::nullopt;
   const LinearCalibration alone = CalibrateFromFactors(robot, {model, {log}});
   if (!alone.solved) return std::nullopt;
-  return MedianInflation(own.covariance, alone.independent_covariance);
+  return MedianInflation(own.covariance - own.scale_covariance,
+                         alone.independent_covariance);
 }
 
 }  // namespace

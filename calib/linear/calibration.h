@@ -40,6 +40,7 @@ struct LinearCalibration {
   std::string covariance_method;
   // Of each joint's torque scale, relative, which is part of the covariance.
   double torque_constants_stddev = 0;
+  Eigen::MatrixXd scale_covariance;  // which is what that makes of it
   // Of the covariance: rows per window of its scores, rows that overlap.
   int score_window = 1;
   int rows_per_window = 1;

@@ -76,7 +76,8 @@ LinearSolution SolveFactor(const BlockTriangularFactor& factor,
 void AddScaleCovariance(const LinearSolution& solution,
                         LinearCalibration* result) {
   const MatrixXd by_scale = result->torque_constants_stddev * solution.by_scale;
-  result->covariance += by_scale * by_scale.transpose();
+  result->scale_covariance = by_scale * by_scale.transpose();
+  result->covariance += result->scale_covariance;
   for (Eigen::Index k = 0; k < result->x.size(); ++k) {
     if (!result->identifiable[k]) continue;
     result->stddev[k] = std::sqrt(result->covariance(k, k));

@@ -160,7 +160,7 @@ bool Refinement::Report() {
   c.parameters = estimate_.parameters;
   c.transitions = transitions_;
   c.x = estimate_.x;
-  c.covariance = covariance->estimate.covariance;
+  c.covariance = covariance->estimate.covariance + c.scale_covariance;
   c.covariance_method =
       covariance->estimate.method + ", trajectories corrected";
   c.independent_covariance = covariance->independent;

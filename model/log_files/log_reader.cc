@@ -196,6 +196,7 @@ struct LogReader::Impl {
   bool Read(int max_rows, Log* log) {
     CHECK_GT(max_rows, 0);
     *log = Log();
+    log->simulated = columns.simulated();
     values.clear();
     times.clear();
     while (static_cast<int>(times.size()) < max_rows) {

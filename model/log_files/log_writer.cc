@@ -46,7 +46,7 @@ std::string LogText(const Log& log, const LogWriterOptions& options) {
               std::to_string(j + 1);
     }
   }
-  if (options.simulated) text += std::string(",") + LogColumns::kSimulated;
+  if (log.simulated) text += std::string(",") + LogColumns::kSimulated;
   char number[40];
   for (int k = 0; k < log.size(); ++k) {
     text += '\n';
@@ -57,7 +57,7 @@ std::string LogText(const Log& log, const LogWriterOptions& options) {
                                           column.values(k, j)));
       }
     }
-    if (options.simulated) text += ",1";
+    if (log.simulated) text += ",1";
   }
   return text + "\n";
 }

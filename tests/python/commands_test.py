@@ -97,7 +97,7 @@ class Calibrate(InFolder):
         rows = np.genfromtxt("run1/log.csv", delimiter=",", names=True)
         signals = {name: np.stack([rows[f"{name}{k}"] for k in (1, 2)], -1)
                    for name in ("q", "tau")}
-        log = armcal.Log(t=rows["t"], name="log.csv", **signals)
+        log = armcal.Log(t=rows["t"], name="log.csv", simulated=True, **signals)
         from_arrays = armcal.calibrate(self.robot, log)
         from_file = armcal.calibrate(self.robot, "run1/log.csv")
         self.assertEqual(

@@ -20,7 +20,7 @@ CONTROLLER = "law: pd\nrate: 1000\nbandwidth: 8\n"
 def log_of(path, name, *signals):
     """What a CSV of two joints holds, number for number."""
     rows = np.genfromtxt(path, delimiter=",", names=True)
-    return armcal.Log(t=rows["t"], name=name, **{
+    return armcal.Log(t=rows["t"], name=name, simulated=True, **{
         signal: np.stack([rows[f"{signal}{k}"] for k in (1, 2)], -1)
         for signal in signals})
 
@@ -130,7 +130,8 @@ class InMemory(InFolder):
         both = np.hstack([one.q, one.tau]).astype(">f8")
         strange = armcal.Log(t=one.t, q=both[:, :2],
                              tau=np.asfortranarray(both[:, 2:]),
-                             qref=one.qref[::-1][::-1], name="monday")
+                             qref=one.qref[::-1][::-1], simulated=True,
+                             name="monday")
         self.assertEqual(
             armcal.calibrate(self.robot, strange).files,
             armcal.calibrate(self.robot, one).files)

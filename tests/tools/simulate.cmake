@@ -77,7 +77,7 @@ run("currents" simulate --robot=arm.yaml --duration=12 --out=out
     --torque_constants=2,3 --temperature --jitter=0.0005 --lost=0.01)
 expect_code(0)
 file(STRINGS ${WORK_DIR}/out/log.csv header LIMIT_COUNT 1)
-if(NOT header STREQUAL "t,q1,q2,qd1,qd2,i1,i2,qref1,qref2,temp1,temp2")
+if(NOT header STREQUAL "t,q1,q2,qd1,qd2,i1,i2,qref1,qref2,temp1,temp2,simulated")
   fail("the header is ${header}")
 endif()
 file(RENAME ${WORK_DIR}/out ${WORK_DIR}/second)

@@ -51,10 +51,10 @@ Command CalibrateCommand() {
         false},
        {"equations and solver",
         {"identification", "solver", "loss", "trajectory", "joint_terms",
-         "coulomb_width", "window", "interval", "intervals", "quadrature"},
+         "coulomb_width", "window", "interval", "intervals", "quadrature",
+         "length_trust", "angle_trust"},
         false},
        {"payload", {"payload_mass", "payload_log"}, false},
-       {"trust in geometry", {"length_trust", "angle_trust"}, false},
        {"robot files", {"export"}, false},
        ChainFlags()},
       {"armcal calibrate --robot=arm.urdf --log=mon.csv --validate=tue.csv "

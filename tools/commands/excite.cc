@@ -50,8 +50,9 @@ CommandOutcome RunExcite(const CommandInput& input) {
 
 Command ExciteCommand() {
   std::vector<FlagGroup> groups = ExcitationFlagGroups();
-  groups.push_back({"logs that exist", {"bandwidth", "crop"}, false});
-  groups.push_back(TorqueFlags());
+  FlagGroup logs = {"logs that exist", {"bandwidth", "crop"}, false};
+  for (const auto& flag : TorqueFlags().flags) logs.flags.push_back(flag);
+  groups.push_back(logs);
   groups.push_back(ChainFlags());
   return {
       "excite",

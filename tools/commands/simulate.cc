@@ -95,7 +95,8 @@ CommandOutcome Simulate(const CommandInput& input) {
                      NumberText(scenario.loop.controller.rate_hz));
   }
   if (OutFromFlags(flags).empty()) throw UsageError("--out=DIR is needed");
-  LogWriterOptions writer = WriterFromFlags(flags, scenario.model.num_joints());
+  const LogWriterOptions writer =
+      WriterFromFlags(flags, scenario.model.num_joints());
   input.Begin("simulating");
   scenario.loop.progress = [&input](double share) {
     if (input.progress) input.progress("simulating", share);
@@ -103,7 +104,7 @@ CommandOutcome Simulate(const CommandInput& input) {
   ScenarioRun run = RunScenario(scenario);
   if (!flags.Switch("temperature")) run.run.log.temperature.resize(0, 0);
   OutputFolder out(OutFromFlags(flags)), secret(flags.Text("truth"), "--truth");
-  writer.simulated = true;
+  run.run.log.simulated = true;
   out.Add("log.csv", LogText(run.run.log, writer));
   const std::string truth = TruthJson(scenario, run).dump(2) + "\n";
   (flags.Text("truth").empty() ? out : secret).Add("truth.json", truth);

@@ -200,7 +200,8 @@ void AddCommands(py::module_* module) {
       .def_readonly("qdd", &Log::qdd)
       .def_readonly("tau", &Log::tau)
       .def_readonly("qref", &Log::qref)
-      .def_readonly("temperature", &Log::temperature);
+      .def_readonly("temperature", &Log::temperature)
+      .def_readonly("simulated", &Log::simulated);
   module->def("run", &Run, py::arg("command"), py::arg("flags"),
               py::arg("robot") = py::none(), py::arg("progress") = py::none(),
               py::arg("logs") = PythonLogs(), py::arg("write") = false,

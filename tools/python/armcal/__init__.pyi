@@ -26,6 +26,7 @@ def calibrate(
     segment: float = 5.0,
     torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
+    torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
     controller: Optional[Path] = None,
@@ -42,10 +43,10 @@ def calibrate(
     interval: float = 0.5,
     intervals: Optional[Union[Range, Sequence[Range]]] = None,
     quadrature: Literal['simpson', 'trapezoid'] = 'trapezoid',
-    payload_mass: Optional[float] = None,
-    payload_log: Optional[Logs] = None,
     length_trust: float = 0.01,
     angle_trust: float = 0.02,
+    payload_mass: Optional[float] = None,
+    payload_log: Optional[Logs] = None,
     export: Optional[Union[str, Sequence[str]]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
@@ -89,6 +90,10 @@ def calibrate(
                          (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
                          torque = constant x gear ratio x current
+    torque_constants_stddev float: of each joint's torque by which its scale
+                         may be off, a standard deviation; default: .05 for
+                         currents, .02 for torques, 0 for logs of armcal
+                         simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -131,16 +136,16 @@ def calibrate(
                          to T2, s; default: side by side
     quadrature           str: integral model: trapezoid, simpson (default
                          trapezoid)
-    payload_mass         float, kg: of the payload in --payload_log: the torque
-                         constants are estimated from the currents of --log
-                         (bare arm) and --payload_log
-    payload_log          Logs: logs of the same arm with a payload of
-                         --payload_mass fixed to its last link
     length_trust         float, m: standard deviation of the robot file's
                          lengths where they are refined, m (default 0.01)
     angle_trust          float, rad: standard deviation of the robot file's
                          angles where they are refined, and of the base's tilt,
                          rad (default 0.02)
+    payload_mass         float, kg: of the payload in --payload_log: the torque
+                         constants are estimated from the currents of --log
+                         (bare arm) and --payload_log
+    payload_log          Logs: logs of the same arm with a payload of
+                         --payload_mass fixed to its last link
     export               Union[str, Sequence[str]]: formats to write the robot
                          in
     out                  Path: for the result files; default: write none
@@ -161,6 +166,7 @@ def verify(
     seed: int = 0,
     torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
+    torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
     out: Optional[Path] = None,
@@ -187,6 +193,10 @@ def verify(
                          (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
                          torque = constant x gear ratio x current
+    torque_constants_stddev float: of each joint's torque by which its scale
+                         may be off, a standard deviation; default: .05 for
+                         currents, .02 for torques, 0 for logs of armcal
+                         simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -214,6 +224,7 @@ def diagnose(
     validate_crop: Optional[Range] = None,
     torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
+    torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
     export: Optional[Union[str, Sequence[str]]] = None,
@@ -255,6 +266,10 @@ def diagnose(
                          (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
                          torque = constant x gear ratio x current
+    torque_constants_stddev float: of each joint's torque by which its scale
+                         may be off, a standard deviation; default: .05 for
+                         currents, .02 for torques, 0 for logs of armcal
+                         simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -390,6 +405,7 @@ def excite(
     crop: Optional[Range] = None,
     torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
+    torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
     out: Optional[Path] = None,
@@ -460,6 +476,10 @@ def excite(
                          (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
                          torque = constant x gear ratio x current
+    torque_constants_stddev float: of each joint's torque by which its scale
+                         may be off, a standard deviation; default: .05 for
+                         currents, .02 for torques, 0 for logs of armcal
+                         simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -478,6 +498,7 @@ def inspect(
     controller: Optional[Path] = None,
     torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
+    torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
     out: Optional[Path] = None,
@@ -499,6 +520,10 @@ def inspect(
                          (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
                          torque = constant x gear ratio x current
+    torque_constants_stddev float: of each joint's torque by which its scale
+                         may be off, a standard deviation; default: .05 for
+                         currents, .02 for torques, 0 for logs of armcal
+                         simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -520,6 +545,7 @@ def reduce(
     crop: Optional[Range] = None,
     torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
+    torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
     geometry: Literal['all_lengths', 'known', 'lengths', 'offsets', 'refine'] = 'known',
@@ -553,6 +579,10 @@ def reduce(
                          (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
                          torque = constant x gear ratio x current
+    torque_constants_stddev float: of each joint's torque by which its scale
+                         may be off, a standard deviation; default: .05 for
+                         currents, .02 for torques, 0 for logs of armcal
+                         simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques

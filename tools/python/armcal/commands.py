@@ -63,7 +63,8 @@ def _run(command: str, robot: _armcal.Robot, options: Dict[str, Any],
 def _tracer(robot: _armcal.Robot, log: Optional[Logs],
             options: Dict[str, Any]) -> Callable[..., List[_armcal.PredictedLog]]:
     reading = {name: options.get(name)
-               for name in ("torque_kind", "torque_constants", "gear_ratios")}
+               for name in ("torque_kind", "torque_constants",
+                            "torque_constants_stddev", "gear_ratios")}
 
     def trace(outcome: _armcal.Outcome, found: Dict[str, Any],
               other: Optional[Logs]) -> List[_armcal.PredictedLog]:

@@ -106,7 +106,8 @@ def reduce_logs(client: Any, robot: RobotLike, recordings: Iterable[Recording],
     os.makedirs(folder, exist_ok=True)
     model = b""
     reading = {name: value for name, value in options.items() if name in (
-        "torque_kind", "torque_constants", "gear_ratios", "topics", "crop")}
+        "torque_kind", "torque_constants", "torque_constants_stddev", "gear_ratios",
+        "topics", "crop")}
     files: List[str] = []
     refused: Dict[str, str] = {}
     if like is not None:

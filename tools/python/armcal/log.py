@@ -29,6 +29,7 @@ class Log:
     current      (N, n) A, of the motors, instead of tau
     qref         (N, n) rad or m, what the controller was to follow
     temperature  (N, n) deg C
+    simulated    says that tau is exact, as in logs of armcal simulate
     name         what reports and messages call it
 
     Signals that are not given are None. Arrays are copied as float64.
@@ -42,15 +43,18 @@ class Log:
     current: Optional[Array]
     qref: Optional[Array]
     temperature: Optional[Array]
+    simulated: bool
     name: str
 
     def __init__(self, *, t: Any, q: Any, tau: Any = None, qd: Any = None,
                  qdd: Any = None, current: Any = None, qref: Any = None,
-                 temperature: Any = None, name: str = "log") -> None:
+                 temperature: Any = None, simulated: bool = False,
+                 name: str = "log") -> None:
         if not name or set(name) & set("/,\0"):
             raise ValueError(f"name: found {name!r}, expected a text without "
                              "slashes and commas")
         self.name = name
+        self.simulated = simulated
         self.t = np.array(t, dtype=float)
         if self.t.ndim != 1:
             raise ValueError(f"t: found shape {self.t.shape}, expected (N,)")
@@ -88,6 +92,8 @@ class Log:
         arrays = {key: getattr(self, signal)
                   for signal, key in _SIGNALS.items()
                   if getattr(self, signal) is not None}
+        if self.simulated:
+            arrays["simulated"] = np.ones(len(self.t))
         return {"t": self.t, **arrays}
 
 
@@ -104,6 +110,7 @@ def read_log(path: Union[str, "os.PathLike[str]"], robot: _armcal.Robot, *,
                               torque)
     signals = {signal: getattr(arrays, signal)
                for signal in ("qd", "qdd", "tau", "qref", "temperature")}
-    return Log(t=arrays.t, q=arrays.q, name=os.path.basename(path),
+    return Log(t=arrays.t, q=arrays.q, simulated=arrays.simulated,
+               name=os.path.basename(path),
                **{signal: values for signal, values in signals.items()
                   if values.size > 0})

@@ -141,7 +141,7 @@ _OF_FORM: Dict[str, Kind] = {
     "FILE": Kind("Path", "a path", _path),
     "DIR": Kind("Path", "a path", _path),
     "FILES": _FILES,
-    "HZ": _NUMBER, "KG": _NUMBER, "M": _NUMBER, "S": _NUMBER,
+    "HZ": _NUMBER, "KG": _NUMBER, "M": _NUMBER, "S": _NUMBER, "SHARE": _NUMBER,
     "K1,K2..": _NUMBERS, "N1,N2..": _NUMBERS, "1,2..": _NUMBERS,
     "A[,..]": _NUMBERS, "V[,..]": _NUMBERS, "T[,..]": _NUMBERS,
     "X,Y,Z": _NUMBERS,
