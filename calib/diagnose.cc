@@ -121,7 +121,7 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
   summary.files.push_back({"diagnosis.json", summary.json});
   summary.files.push_back({"robot.urdf", corrected.urdf});
   summary.files.push_back({"effects.json", corrected.effects.dump(2) + "\n"});
-  summary.report = FullReport(diagnosis) + losses;
+  summary.report = FullReport(diagnosis, options.verbose) + losses;
   summary.brief = BriefReport(diagnosis);
   summary.positive = diagnosis.verdict != GapVerdict::kNotTestable;
   summary.verdict = GapVerdictName(diagnosis.verdict);

@@ -48,6 +48,7 @@ struct DiagnoseOptions {
   std::vector<std::string> exports;  // formats beside URDF: "mjcf", "sdf" ..
   RobotSource source;                // of the robot
   bool draw_torques = false;         // keeps `torques` of the summary
+  bool verbose = false;              // a report with what is not testable, too
   Progress progress;
 };
 

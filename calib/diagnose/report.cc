@@ -1,9 +1,11 @@
 #include "calib/diagnose/report.h"
 
 #include <cmath>
+#include <set>
 
 #include "model/log_files/torque_columns.h"
 #include "model/text/format.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -127,8 +129,11 @@ std::string HowFar(const GapFigures& gap) {
   return text + "\n";
 }
 
-// Joints of one effect with one reason in one line.
-std::string Untestable(const std::vector<UntestableEffect>& effects) {
+// Joints of one effect with one reason in one line; how many there are, where
+// the lines are not wanted and would push the answer off the screen.
+std::string Untestable(const std::vector<UntestableEffect>& effects,
+                       bool verbose) {
+  constexpr size_t kFewLines = 5;
   std::vector<std::pair<std::string, std::string>> lines;  // key, joints
   for (const UntestableEffect& effect : effects) {
     const std::string key = effect.effect + ": " + effect.why;
@@ -137,6 +142,15 @@ std::string Untestable(const std::vector<UntestableEffect>& effects) {
     if (!effect.joint.empty()) {
       joints += (joints.empty() ? "" : ", ") + effect.joint;
     }
+  }
+  if (!verbose && lines.size() > kFewLines) {
+    std::set<std::string> names;
+    for (const UntestableEffect& effect : effects) names.insert(effect.effect);
+    return Format(
+               "\nnot testable on these data, on some joints or all: %zu "
+               "effects (",
+               names.size()) +
+           OptionName("verbose") + ": which, and why)\n";
   }
   std::string text;
   for (const auto& [key, joints] : lines) {
@@ -283,7 +297,7 @@ std::string BriefReport(const GapDiagnosis& diagnosis) {
                          : changed + " " + BriefVerdict(diagnosis);
 }
 
-std::string FullReport(const GapDiagnosis& diagnosis) {
+std::string FullReport(const GapDiagnosis& diagnosis, bool verbose) {
   std::string text = BriefReport(diagnosis) + "\n";
   for (const DataFinding& finding : diagnosis.data) {
     text += "note       " + finding.finding + ": " + finding.evidence +
@@ -310,7 +324,8 @@ std::string FullReport(const GapDiagnosis& diagnosis) {
         Format("  %-28s %10.4g -> %10.4g +- %.2g %s\n", moved.name.c_str(),
                moved.nominal, moved.value, moved.stddev, moved.unit.c_str());
   }
-  return text + Drifts(diagnosis.drifts) + Untestable(diagnosis.untestable);
+  return text + Drifts(diagnosis.drifts) +
+         Untestable(diagnosis.untestable, verbose);
 }
 
 }  // namespace armcal

@@ -20,6 +20,9 @@ DEFINE_string(reference, "",
               "first, and the diagnosis says what has changed since");
 DEFINE_string(without, "", "`A[,B..]` effects that are not considered");
 
+DEFINE_bool(verbose, false,
+            "list every effect that these data cannot tell, and why");
+
 namespace armcal {
 namespace {
 
@@ -38,6 +41,7 @@ DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
     options.without.push_back(effect->name);
   }
   options.forward = flags.Switch("forward");
+  options.verbose = flags.Switch("verbose");
   options.controller = flags.Text("controller");
   options.seed = SeedFromFlags(flags);
   options.exports = ExportFromFlags(flags);
@@ -78,7 +82,8 @@ Command DiagnoseCommand() {
           {{"robot and logs",
             {"robot", "calibration", "log", "reference", "validate",
              "bandwidth", "crop"}},
-           {"diagnosis", {"trust", "without", "forward", "controller", "seed"}},
+           {"diagnosis",
+            {"trust", "without", "forward", "verbose", "controller", "seed"}},
            {"more of the logs", {"validate_crop"}, false},
            TorqueFlags(),
            {"robot files", {"export"}, false},

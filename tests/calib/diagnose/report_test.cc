@@ -101,7 +101,7 @@ TEST(Reports, ListContacts) {
   EXPECT_THAT(BriefReport(diagnosis),
               HasSubstr("Something touched the arm 2 times; the model lacks "
                         "stribeck on elbow, which removes 93 %"));
-  EXPECT_THAT(FullReport(diagnosis),
+  EXPECT_THAT(FullReport(diagnosis, true),
               HasSubstr("         1.0 to 2.5 s: -40 +- 2 N m on elbow\n"));
   diagnosis.effects = {Touched()};
   EXPECT_EQ(BriefReport(diagnosis), "Something touched the arm 2 times.");
@@ -170,7 +170,7 @@ TEST(FullReport, WhatNothingTellsOfIsNotSeen) {
   diagnosis.effects[0].estimates = {
       {"mass", "kg", .5}, {"com_z", "m", 0}, {"harmonic", "1", 2}};
   diagnosis.effects[0].stddev = {.01, 0, 0};
-  EXPECT_THAT(FullReport(diagnosis),
+  EXPECT_THAT(FullReport(diagnosis, true),
               HasSubstr("mass 0.5 +- 0.01 kg, com_z not seen, harmonic 2\n"));
   const json estimates = ToJson(diagnosis)["effects"][0]["estimates"];
   EXPECT_TRUE(estimates[1]["value"].is_null());
@@ -180,7 +180,7 @@ TEST(FullReport, WhatNothingTellsOfIsNotSeen) {
 }
 
 TEST(FullReport, HoldsEveryPart) {
-  const std::string text = FullReport(Diagnosis());
+  const std::string text = FullReport(Diagnosis(), true);
   for (const char* part :
        {"stribeck on elbow: size 1.25 +- 0.04 N m, share 0.5 +- 0.01\n",
         "or 8 % presliding on elbow", "told apart by: constant velocities",
@@ -195,7 +195,7 @@ TEST(FullReport, SaysWhereNothingWasHeldOut) {
   GapDiagnosis diagnosis = Diagnosis();
   diagnosis.torque = {};
   diagnosis.joints[0].refit_rms = std::nan("");
-  const std::string text = FullReport(diagnosis);
+  const std::string text = FullReport(diagnosis, true);
   EXPECT_THAT(text, HasSubstr("nothing was held out"));
   EXPECT_THAT(text, HasSubstr("         -"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
@@ -204,7 +204,7 @@ TEST(FullReport, SaysWhereNothingWasHeldOut) {
 
 TEST(FullReport, LeavesOutWhatThereIsNot) {
   GapDiagnosis diagnosis;
-  const std::string text = FullReport(diagnosis);
+  const std::string text = FullReport(diagnosis, true);
   for (const char* part :
        {"which effect", "far from the file", "note ", "not testable", "nan"}) {
     EXPECT_THAT(text, Not(HasSubstr(part)));
@@ -218,9 +218,27 @@ TEST(FullReport, GathersWhatIsNotTestable) {
                           {"spring", "elbow", "noise"},
                           {"spring", "wrist", "noise"},
                           {"spring", "hand", "it rests"}};
-  EXPECT_THAT(FullReport(diagnosis),
+  EXPECT_THAT(FullReport(diagnosis, true),
               HasSubstr("  delay: noise\n  spring: noise (elbow, wrist)\n"
                         "  spring: it rests (hand)\n"));
+}
+
+// What many joints and effects have is a line, so that the answer stays on the
+// screen, unless asked for.
+TEST(FullReport, CountsWhatIsNotTestable) {
+  GapDiagnosis diagnosis = Diagnosis();
+  diagnosis.untestable.clear();
+  for (const char* effect : {"delay", "spring", "cable", "stribeck"}) {
+    diagnosis.untestable.push_back({effect, "elbow", "noise"});
+    diagnosis.untestable.push_back({effect, "hand", "it rests"});
+  }
+  EXPECT_THAT(FullReport(diagnosis, false),
+              HasSubstr("not testable on these data, on some joints or all: 4 "
+                        "effects (`verbose`: which, and why)\n"));
+  EXPECT_THAT(FullReport(diagnosis, false), Not(HasSubstr("it rests")));
+  EXPECT_THAT(FullReport(diagnosis, true), HasSubstr("  spring: it rests"));
+  diagnosis.untestable.resize(5);
+  EXPECT_THAT(FullReport(diagnosis, false), HasSubstr("  spring: it rests"));
 }
 
 // Type by type, the keys of diagnosis.json (docs/diagnose.md).

@@ -219,6 +219,7 @@ def diagnose(
     trust: float = 0.5,
     without: Optional[Union[str, Sequence[str]]] = None,
     forward: bool = True,
+    verbose: bool = False,
     controller: Optional[Path] = None,
     seed: int = 0,
     validate_crop: Optional[Range] = None,
@@ -256,6 +257,8 @@ def diagnose(
     forward              bool: simulate the held-out logs as well: along their
                          commands with --controller, else over windows of 0.5 s
                          (default true)
+    verbose              bool: list every effect that these data cannot tell,
+                         and why
     controller           Path: YAML with the controller's law (pd, p, cascade),
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
                          per joint
