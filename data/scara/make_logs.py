@@ -77,12 +77,12 @@ def torques(q, qd, qdd):
 
 def log_text(motion):
     names = [p + str(j) for p in ("q", "qd", "qdd", "tau") for j in (1, 2, 3, 4)]
-    lines = [",".join(["t"] + names)]
+    lines = [",".join(["t"] + names + ["simulated"])]
     for k in range(SAMPLES):
         q, qd, qdd = zip(*motion(k * STEP_MS / 1000))
         values = q + qd + qdd + torques(q, qd, qdd)
         lines.append(",".join(["%.3f" % (k * STEP_MS / 1000)] +
-                              ["%.17g" % v for v in values]))
+                              ["%.17g" % v for v in values] + ["1"]))
     return "\n".join(lines) + "\n"
 
 

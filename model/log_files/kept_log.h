@@ -34,7 +34,7 @@ class KeptLog {
   LogSource source_;
   LogReaderOptions options_;
   std::string torque_source_;
-  double torque_constants_stddev_;
+  double torque_constants_stddev_ = 0;
   std::optional<LogReader> reader_;  // while the file is open
   Log block_;                        // of a log that is not kept
   KeptItems<Log> blocks_;

@@ -16,8 +16,8 @@ struct Log {
   Eigen::MatrixXd tau;          // N m or N, on the joint side
   Eigen::MatrixXd qref;         // rad or m, what the controller was to follow
   Eigen::MatrixXd temperature;  // deg C, of the joints
-  bool simulated = false;  // says the log itself: its torque is what it says
-  long first_row = 0;      // the first sample's line in the file, header = 1
+  bool simulated = false;       // the log says that a simulation has written it
+  long first_row = 0;  // the first sample's line in the file, header = 1
 
   int size() const { return static_cast<int>(t.size()); }
 };

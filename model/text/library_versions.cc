@@ -8,7 +8,9 @@
 #include <zlib.h>
 #include <zstd.h>
 
+#include <cstddef>
 #include <cstdlib>
+#include <new>
 
 namespace armcal {
 namespace {
@@ -38,7 +40,11 @@ LibraryVersion Matio() {
           Dotted(version[0], version[1], version[2])};
 }
 
+// HDF5 prepares itself at its first call, and crashes where it has no memory
+// for that: as much as it takes is asked for first. Throws std::bad_alloc.
 LibraryVersion Hdf5() {
+  constexpr std::size_t kPrepared = 8 << 20;  // bytes
+  ::operator delete(::operator new(kPrepared));
   unsigned version[3] = {};
   H5get_libversion(&version[0], &version[1], &version[2]);
   return {"HDF5", Dotted(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE),

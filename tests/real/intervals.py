@@ -47,8 +47,8 @@ REPEATS = [
 
 def kind_of(name, one_day):
     """Of a model parameter. What lumps a joint term with an inertia is inertia."""
-    kinds = {word for key, word in KINDS.items() if name.startswith(key + "[")}
-    kind = kinds.pop() if kinds and "+" not in name else "inertia and gravity"
+    lumped = "inertia and gravity"
+    kind = lumped if "+" in name else KINDS.get(name.split("[")[0], lumped)
     changes = kind in ("viscous", "Coulomb", "offset")
     return f"{kind}, other days" if changes and not one_day else kind
 

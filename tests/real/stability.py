@@ -112,12 +112,23 @@ def places(diagnosis, above):
 
 
 def compare(before, after):
-    """(kept, lost, new) claims."""
-    named = places(after, NAMED)
-    kept = [place for place in places(before, SURE) if place in named]
-    lost = [place for place in places(before, SURE) if place not in named]
-    new = [place for place in places(after, SURE) if place not in places(before, NAMED)]
+    """(kept, lost, new) claims; `after` None: there was no answer."""
+    sure = places(before, SURE)
+    named = places(after, NAMED) if after else {}
+    found = places(after, SURE) if after else {}
+    kept = [place for place in sure if place in named]
+    lost = [place for place in sure if place not in named]
+    new = [place for place in found if place not in places(before, NAMED)]
     return kept, lost, new
+
+
+def answer(runs, run):
+    """Its diagnosis; None, and why, where there is none."""
+    try:
+        return runs[run]
+    except LookupError as error:
+        print(f"{run}: no answer ({str(error)[-100:]})", flush=True)
+        return None
 
 
 def study(arguments, set_name):
@@ -139,12 +150,11 @@ def study(arguments, set_name):
                for (run, repeat, _), command in zip(jobs, made)}
     runs = Runs(armcal, set_name, {**commands, **changed}, work)
     rows = []
+    recorded = {run: answer(runs, run) for run in commands}
     for run, repeat, _ in jobs:
-        try:
-            kept, lost, new = compare(runs[run], runs[f"{run}_{repeat}"])
-        except LookupError as error:
-            kept, lost, new = [], list(places(runs[run], SURE)), []
-            print(f"{set_name} {run} {repeat}: no answer ({str(error)[-100:]})")
+        if recorded[run] is None:
+            continue  # claims nothing
+        kept, lost, new = compare(recorded[run], answer(runs, f"{run}_{repeat}"))
         rows.append({"set": set_name, "run": run, "repeat": repeat, "kept": kept,
                      "lost": lost, "new": new})
         for word, those in (("lost", lost), ("new", new)):
@@ -156,7 +166,7 @@ def study(arguments, set_name):
 def summary(rows):
     kept, lost, new = (sum(len(row[key]) for row in rows)
                        for key in ("kept", "lost", "new"))
-    share = kept / max(1, kept + lost)
+    share = kept / (kept + lost) if kept + lost else 1
     return share, (f"{kept} of {kept + lost} claims kept ({100 * share:.1f} %), {new} "
                    f"new, in {len(rows)} repeats")
 

@@ -99,13 +99,6 @@ int Run(const Command& command, int argc, char** argv) {
   }
 }
 
-// Libraries prepare themselves at their first call, and HDF5 crashes where it
-// has no memory for that: what they take is asked for first.
-void ExpectMemory() {
-  constexpr std::size_t kOfLibraries = 8 << 20;  // bytes
-  ::operator delete(::operator new(kOfLibraries));
-}
-
 int Main(int argc, char** argv) {
   if (argc < 2) {
     std::cerr << GeneralHelp(Commands());
@@ -122,7 +115,6 @@ int Main(int argc, char** argv) {
     PrintText(Completion(Commands(), rest));
     return kExitOk;
   }
-  ExpectMemory();
   CheckLibraryVersions();
   return Run(CommandNamed(words[0]), argc - 1, argv + 1);
 }

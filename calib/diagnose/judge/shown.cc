@@ -28,9 +28,8 @@ std::vector<ShownEffect> ListShown(const GapFit& fit,
                              &baseline.known().scale()};
     shown.push_back(
         {known.effect, known.joint, EstimatesOf(*known.effect, site, known.p),
-         EstimateDeviations(
-             *known.effect, site, known.p, covariance,
-             fit.baseline().discrepancy().torque_constants_stddev())});
+         EstimateDeviations(*known.effect, site, known.p, covariance,
+                            baseline.discrepancy().torque_constants_stddev())});
   }
   return shown;
 }
