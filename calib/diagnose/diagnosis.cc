@@ -65,6 +65,8 @@ class Diagnoser {
            const std::vector<GapSegment>& before, bool split);
   void KnowWhatModelsLack(const std::vector<GapSegment>& segments,
                           const std::vector<GapSegment>& before);
+  GapFigures FiguresOf(const HeldOut::Residuals& residuals) const;
+  bool ClaimNoMore(GapFindings* findings);
   JointGap JointFigures(int joint) const;
   JointCourse CourseOf(int joint) const;
   void Simulate(const LogSet& held_out, bool split);
@@ -153,17 +155,18 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   Tell("checking what was held out");
   result_.bandwidth_hz = bandwidth_hz_;
   result_.floor = fit_->noise().source;
-  const HeldOut::Residuals residuals = held_out_->AllResiduals();
-  result_.torque =
-      ShrinkFigures(held_out_->SquaresOf(residuals),
-                    VarianceDoubt(fit_->noise().source) / 2, options_.seed);
+  HeldOut::Residuals residuals = held_out_->AllResiduals();
+  result_.torque = FiguresOf(residuals);
   for (int j = 0; j < robot_.num_joints(); ++j) {
     result_.joints.push_back(JointFigures(j));
   }
-  const GapFindings findings = ListFindings(
+  TellUnexplained();
+  GapFindings findings = ListFindings(
       robot_, *fit_, *held_out_, result_.torque,
       result_.has_reference ? std::vector<LackedFamily>() : lacked.families);
+  if (ClaimNoMore(&findings)) residuals = held_out_->AllResiduals();
   result_.effects = findings.effects;
+  result_.unnamed = findings.unnamed;
   result_.candidates = findings.candidates;
   found_without_name_ = findings.without_name;
   result_.traces =
@@ -173,7 +176,6 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   result_.shown = ListShown(*fit_, fit_->model_after());
   result_.drifts = ListRunDrifts(*fit_, fit_->model_after());
   result_.untestable = ListUntestable(*fit_);
-  TellUnexplained();
   Judge();
   return result_;
 }
@@ -211,6 +213,30 @@ void Diagnoser::Fit(const std::vector<GapSegment>& segments,
   }
   SortByTime(&events);
   if (events.size() > fit_->events().size()) fit_->ChooseBeside(events);
+}
+
+GapFigures Diagnoser::FiguresOf(const HeldOut::Residuals& residuals) const {
+  return ShrinkFigures(held_out_->SquaresOf(residuals),
+                       VarianceDoubt(fit_->noise().source) / 2, options_.seed);
+}
+
+// Fits what is claimed again without what is not, so that every figure, file
+// and drawing is of what the verdict names. What nothing explains was told
+// before: what is fitted and not named is not without explanation, it has
+// several. Whether there was anything to leave out.
+bool Diagnoser::ClaimNoMore(GapFindings* findings) {
+  const size_t fitted = fit_->refined().effects.size();
+  FitClaimed(findings, &*fit_);
+  if (fit_->refined().effects.size() == fitted) return false;
+  result_.torque = FiguresOf(held_out_->AllResiduals());
+  SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
+  if (result_.torque.joints.rows() > 0) {
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      result_.joints[j].after_rms =
+          fit_->noise().joints[j].stddev() * result_.torque.joints(j, 2);
+    }
+  }
+  return true;
 }
 
 JointGap Diagnoser::JointFigures(int j) const {
@@ -321,17 +347,23 @@ void Diagnoser::Judge() {
   if (!testable) {
     result_.verdict = GapVerdict::kNotTestable;
     result_.effects.clear();
+    result_.unnamed.clear();
     result_.candidates.clear();
     return;
   }
   double left = 0;
   for (const JointGap& joint : result_.joints) left += joint.unexplained;
-  const bool lacks_something = std::any_of(
-      result_.effects.begin(), result_.effects.end(),
-      [](const FoundEffect& found) { return !found.of_another_day; });
-  result_.verdict =
-      JudgeGap({result_.torque, lacks_something, found_without_name_, left,
-                result_.unexplained.share});
+  GapFacts facts;
+  facts.torque = result_.torque;
+  for (const FoundEffect& found : result_.effects) {
+    if (found.of_another_day) continue;
+    facts.effects = true;
+    facts.likely_effects |= IsLikely(found);
+  }
+  facts.found_without_name = found_without_name_;
+  facts.left = left;
+  facts.left_share = result_.unexplained.share;
+  result_.verdict = JudgeGap(facts);
 }
 
 }  // namespace

@@ -64,6 +64,8 @@ struct JointGap {
 struct GapDiagnosis {
   GapVerdict verdict = GapVerdict::kNoiseFloor;
   std::vector<FoundEffect> effects;  // strongest first
+  // Fitted as well, but not claimed: no part of any figure.
+  std::vector<FoundEffect> unnamed;
   std::vector<PlacedEffect> candidates;
   std::vector<MovedParameter> moved;
   std::vector<ShownEffect> shown;  // what a reference shows of itself

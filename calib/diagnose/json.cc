@@ -203,6 +203,10 @@ json ToJson(const GapDiagnosis& diagnosis) {
                     {"evidence", finding.evidence},
                     {"flag", finding.flag}});
   }
+  json unnamed = json::array();
+  for (const FoundEffect& found : diagnosis.unnamed) {
+    unnamed.push_back(EffectJson(found, diagnosis));
+  }
   json untestable = json::array();
   for (const UntestableEffect& effect : diagnosis.untestable) {
     untestable.push_back({{"effect", effect.effect},
@@ -220,6 +224,7 @@ json ToJson(const GapDiagnosis& diagnosis) {
           {"sentence", BriefReport(diagnosis)},
           {"data", data},
           {"effects", effects},
+          {"fitted_not_named", unnamed},
           {"candidates", PlacesJson(diagnosis.candidates)},
           {"ladder", LadderJson(diagnosis.ladder)},
           {"absorbed", MovedJson(diagnosis.moved)},

@@ -68,6 +68,22 @@ std::string EffectLines(const FoundEffect& found,
   return text;
 }
 
+// What the data ask for as well, but no name is probable enough for: no part of
+// any figure here.
+std::string Unnamed(const GapDiagnosis& diagnosis) {
+  std::string text = diagnosis.unnamed.empty() ? "" : "\nfitted, not named\n";
+  for (const FoundEffect& found : diagnosis.unnamed) {
+    text += Format("  %3.0f %%  ", 100 * found.probability) +
+            Named(*found.effect, found.joint, diagnosis);
+    if (std::isfinite(found.removed_percent)) {
+      text += Format(": would remove %.0f %% of what refitting leaves",
+                     found.removed_percent);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 // What was not held out has no figure.
 std::string FigureText(double x) {
   return std::isnan(x) ? "-" : Format("%.3g", x);
@@ -118,6 +134,12 @@ std::string HowFar(const GapFigures& gap) {
       "\nheld-out gap, mean square over the noise's: nominal %.3g, "
       "refitted %.3g, with the effects %.3g, noise 1\n",
       gap.nominal, gap.refit, gap.after);
+  if (gap.refit > gap.nominal) {
+    text +=
+        "  refitting the file's parameters does worse here than the file: "
+        "they took up what is not theirs, or something changed between what "
+        "was fitted and what was held out\n";
+  }
   if (!std::isfinite(gap.removed_percent)) return text;
   text += Format("  removed %.0f %% of what refitting leaves (%s)",
                  gap.removed_percent, Interval(gap.ci95).c_str());
@@ -307,6 +329,7 @@ std::string FullReport(const GapDiagnosis& diagnosis, bool verbose) {
   for (const FoundEffect& found : diagnosis.effects) {
     text += EffectLines(found, diagnosis);
   }
+  text += Unnamed(diagnosis);
   text += Ladder(diagnosis) + WhereTable(diagnosis) + HowFar(diagnosis.torque);
   if (diagnosis.forward && diagnosis.forward->has_figures) {
     text += Simulated(*diagnosis.forward);

@@ -15,6 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Less probable effects are candidates, no more.
+constexpr double kOddsOfNoContact = 9;
 constexpr double kLeastClaimed = .3;
 constexpr double kLikelyUnseen = .7;  // that held-out data do not show
 // What is likelier than not is told first, however little it explains. Nothing
@@ -22,6 +23,33 @@ constexpr double kLikelyUnseen = .7;  // that held-out data do not show
 // help where nothing was chosen on.
 constexpr double kLikely = .5;
 constexpr double kForm = .2;  // of a drop, that the form of a law has wrong
+
+// Sets estimates and deviations of one of the fit's effects.
+void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
+                    const MatrixXd& covariance, FoundEffect* found) {
+  const EffectSite site = {&fit.baseline().robot(), effect.joint, &fit.scale()};
+  const std::vector<EffectEstimate> estimates =
+      EstimatesOf(*effect.effect, site, effect.p);
+  const std::vector<double> stddev = EstimateDeviations(
+      *effect.effect, site, effect.p, covariance,
+      fit.baseline().discrepancy().torque_constants_stddev());
+  found->estimates.insert(found->estimates.end(), estimates.begin(),
+                          estimates.end());
+  found->stddev.insert(found->stddev.end(), stddev.begin(), stddev.end());
+}
+
+// Of the k-th refined effect's parameters.
+MatrixXd CovarianceOf(const RefinedEffects& refined, size_t k) {
+  Eigen::Index begin = 0;
+  for (size_t i = 0; i < k; ++i) begin += refined.effects[i].p.size();
+  const Eigen::Index size = refined.effects[k].p.size();
+  return refined.covariance.block(begin, begin, size, size);
+}
+
+// Of the refit's held-out gap.
+double RemovedPercent(double gain, const GapFigures& torque) {
+  return 100 * gain / std::max(.1, torque.refit - 1);
+}
 
 // Whether b is what a file has a number for and a's law has a mean of.
 bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
@@ -60,25 +88,18 @@ class Findings {
 
 FoundEffect Findings::Describe(const GapCandidate& effect,
                                const MatrixXd& covariance) const {
-  const EffectSite site = {&robot_, effect.joint, &fit_.scale()};
   FoundEffect found;
   found.effect = effect.effect;
   found.joint = effect.joint;
-  found.p = effect.p;
-  found.estimates = EstimatesOf(*effect.effect, site, effect.p);
-  found.stddev = EstimateDeviations(*effect.effect, site, effect.p, covariance,
-                                    scale_stddev());
+  DescribeFitted(fit_, effect, covariance, &found);
   return found;
 }
 
 FoundEffect Findings::Found(size_t k) const {
   const RefinedEffects& refined = fit_.refined();
   const GapCandidate& effect = refined.effects[k];
-  Eigen::Index begin = 0;
-  for (size_t i = 0; i < k; ++i) begin += refined.effects[i].p.size();
-  FoundEffect found = Describe(
-      effect,
-      refined.covariance.block(begin, begin, effect.p.size(), effect.p.size()));
+  FoundEffect found = Describe(effect, CovarianceOf(refined, k));
+  found.fitted = {static_cast<int>(k)};
   found.score = fit_.selection().scores[k];
   found.drop = fit_.selection().drops[k];
   const std::vector<PlacedEffect> all = Alternatives(fit_, k);
@@ -99,8 +120,7 @@ FoundEffect Findings::Found(size_t k) const {
     found.removed_percent = torque_.removed_percent;
     std::copy(torque_.ci95, torque_.ci95 + 2, found.ci95);
   } else if (torque_.known()) {
-    found.removed_percent =
-        100 * found.evidence.gain / std::max(.1, torque_.refit - 1);
+    found.removed_percent = RemovedPercent(found.evidence.gain, torque_);
   }
   found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
   return found;
@@ -123,11 +143,14 @@ FoundEffect Findings::Contacts() const {
   }
   found.score = strongest.score;
   found.evidence = evidence_.ForEvents();
-  found.probability = ProbabilityOf(found.evidence);
   for (const GapEvent& event : events) {
     found.drop += event.drop;
     found.contacts.push_back(event.contact);
-    if (event.beyond_friction) found.probability = 1 - kFalseContacts;
+    found.probability =
+        std::max(found.probability,
+                 event.beyond_friction
+                     ? ProbabilityBeyondChance(event.chance, kOddsOfNoContact)
+                     : ProbabilityOf(found.evidence));
   }
   return found;
 }
@@ -201,10 +224,10 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
       result_.effects.begin(), result_.effects.end(), IsClaimed);
   result_.without_name = unclaimed == result_.effects.begin() &&
                          IsThereWithoutName(result_.effects, torque_);
+  result_.unnamed.assign(unclaimed, result_.effects.end());
   result_.effects.erase(unclaimed, result_.effects.end());
-  std::stable_partition(
-      result_.effects.begin(), result_.effects.end(),
-      [](const FoundEffect& found) { return found.probability >= kLikely; });
+  std::stable_partition(result_.effects.begin(), result_.effects.end(),
+                        IsLikely);
   return result_;
 }
 
@@ -236,6 +259,8 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 }
 
 }  // namespace
+
+bool IsLikely(const FoundEffect& found) { return found.probability >= kLikely; }
 
 bool IsSeenAgain(const FoundEffect& found) {
   constexpr double kShare = .3;
@@ -303,6 +328,8 @@ void JoinMeans(std::vector<FoundEffect>* effects) {
                            mean.estimates.end());
       law.stddev.insert(law.stddev.end(), mean.stddev.begin(),
                         mean.stddev.end());
+      law.fitted.insert(law.fitted.end(), mean.fitted.begin(),
+                        mean.fitted.end());
       effects->erase(effects->begin() + i);
     }
   }
@@ -312,6 +339,42 @@ GapFindings ListFindings(const Robot& robot, const GapFit& fit,
                          const HeldOut& held_out, const GapFigures& torque,
                          const std::vector<LackedFamily>& families) {
   return Findings(robot, fit, held_out, torque).List(families);
+}
+
+void FitClaimed(GapFindings* findings, GapFit* fit) {
+  std::vector<int> kept;
+  for (const FoundEffect& found : findings->effects) {
+    kept.insert(kept.end(), found.fitted.begin(), found.fitted.end());
+  }
+  if (kept.size() == fit->refined().effects.size()) return;
+  std::sort(kept.begin(), kept.end());
+  fit->KeepOnly(kept);
+  for (FoundEffect& found : findings->effects) {
+    if (found.fitted.empty()) continue;
+    found.estimates.clear();
+    found.stddev.clear();
+    for (int& k : found.fitted) {
+      k = static_cast<int>(std::lower_bound(kept.begin(), kept.end(), k) -
+                           kept.begin());
+      DescribeFitted(*fit, fit->refined().effects[k],
+                     CovarianceOf(fit->refined(), k), &found);
+    }
+  }
+}
+
+void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
+                      const GapFigures& torque,
+                      std::vector<FoundEffect>* effects) {
+  for (FoundEffect& found : *effects) {
+    if (found.fitted.empty() || !torque.known()) continue;
+    if (fit.refined().effects.size() == 1) {
+      found.removed_percent = torque.removed_percent;
+      std::copy(torque.ci95, torque.ci95 + 2, found.ci95);
+    } else {
+      found.removed_percent = RemovedPercent(
+          held_out.MeritOf(found.fitted[0], torque.after).gain, torque);
+    }
+  }
 }
 
 }  // namespace armcal

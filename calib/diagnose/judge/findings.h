@@ -23,7 +23,9 @@ struct FoundEffect {
   double score = 0;
   double drop = 0;  // of chi^2 when it is left out
   EffectEvidence evidence;
-  Eigen::VectorXd p;
+  // Which of the fit's effects it is of: one, or a law and then its mean; none
+  // of what is no effect of the fit's.
+  std::vector<int> fitted;
   std::vector<EffectEstimate> estimates;
   std::vector<double> stddev;  // of the estimates
   // Others that these data cannot tell from it.
@@ -39,6 +41,9 @@ struct FoundEffect {
   // change, the estimates being each joint's, and no term of the model's.
   bool of_another_day = false;
 };
+
+// Likelier than not.
+bool IsLikely(const FoundEffect& found);
 
 // Whether held-out data have it as well, in part.
 bool IsSeenAgain(const FoundEffect& found);
@@ -76,6 +81,8 @@ struct GapFindings {
   // Probable enough to be claimed, what is likelier than not first, each
   // strongest first.
   std::vector<FoundEffect> effects;
+  // Fitted as well, but not probable enough to be claimed.
+  std::vector<FoundEffect> unnamed;
   // Those and all others that may be in their places: 95 % of each.
   std::vector<PlacedEffect> candidates;
   // Something was found, and seen again on held-out data, that no name is
@@ -88,5 +95,12 @@ struct GapFindings {
 GapFindings ListFindings(const Robot& robot, const GapFit& fit,
                          const HeldOut& held_out, const GapFigures& torque,
                          const std::vector<LackedFamily>& families);
+
+// Keeps the claimed effects alone in the fit, and tells them as they are then;
+// what they remove is told by SetClaimedShares, once the figures are known.
+void FitClaimed(GapFindings* findings, GapFit* fit);
+void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
+                      const GapFigures& torque,
+                      std::vector<FoundEffect>* effects);
 
 }  // namespace armcal

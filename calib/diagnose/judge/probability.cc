@@ -61,6 +61,12 @@ std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
   return all;
 }
 
+double ProbabilityBeyondChance(double chance, double odds_before) {
+  if (chance <= 0) return 1;
+  const double bound = chance < 1 / M_E ? -M_E * chance * std::log(chance) : 1;
+  return 1 / (1 + odds_before * bound);
+}
+
 std::vector<PlacedEffect> CredibleSet(const std::vector<PlacedEffect>& all) {
   std::vector<PlacedEffect> set;
   double sum = 0;

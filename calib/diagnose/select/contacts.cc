@@ -176,7 +176,7 @@ Contact Describe(const Robot& robot, const GapRows& rows,
   contact.window = {rows.thin_time(span.segment, span.begin),
                     rows.thin_time(span.segment, span.end - 1)};
   contact.time = rows.thin_time(span.segment, peak);
-  excess.deviations.row(peak).maxCoeff(&contact.joint);
+  contact.deviations = excess.deviations.row(peak).maxCoeff(&contact.joint);
   contact.torque = (excess.friction - excess.torque).row(peak);
   contact.stddev.resize(rows.num_joints());
   for (int j = 0; j < rows.num_joints(); ++j) {

@@ -22,6 +22,9 @@ struct GapEvent {
   };
   std::optional<Fitted> fitted;
   bool beyond_friction = false;
+  // Of what was found beyond friction: how probable such an excess is in a log
+  // without a contact.
+  double chance = 1;
   // Found at rest: what effects that were fitted to motion say of rest, it is
   // not told beside.
   bool at_rest = false;

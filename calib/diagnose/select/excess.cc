@@ -166,44 +166,4 @@ std::vector<double> BlockMaxima(const GapRows& rows, double block,
   return maxima;
 }
 
-namespace {
-
-// P(X > median + x) = share (1 + x / (m scale))^-m = probability / further.
-double Quantile(double median, double scale, double m, double share,
-                double further, double probability) {
-  return median +
-         m * scale * (std::pow(further * share / probability, 1 / m) - 1);
-}
-
-}  // namespace
-
-double PredictedMaximum(std::vector<double> maxima, double further,
-                        double probability) {
-  if (maxima.size() < 2) return std::numeric_limits<double>::infinity();
-  std::sort(maxima.begin(), maxima.end());
-  const double median = maxima[(maxima.size() - 1) / 2];
-  double sum = 0;
-  int above = 0;
-  for (const double x : maxima) {
-    if (x <= median) continue;
-    sum += x - median;
-    ++above;
-  }
-  if (above == 0) return median;
-  return Quantile(median, sum / above, above,
-                  static_cast<double>(above) / maxima.size(), further,
-                  probability);
-}
-
-double PredictedUsualMaximum(std::vector<double> maxima, double further,
-                             double probability) {
-  constexpr size_t kFewest = 8;
-  if (maxima.size() < kFewest) return std::numeric_limits<double>::infinity();
-  std::sort(maxima.begin(), maxima.end());
-  const size_t last = maxima.size() - 1;
-  const double median = maxima[last / 2];
-  const double scale = (maxima[3 * last / 4] - median) / std::log(2.);
-  return Quantile(median, scale, maxima.size() / 4., .5, further, probability);
-}
-
 }  // namespace armcal

@@ -40,16 +40,4 @@ double BlockTime(const GapRows& rows);
 std::vector<double> BlockMaxima(const GapRows& rows, double block,
                                 const Eigen::VectorXd& series);
 
-// What the largest of as many further maxima exceeds with this probability.
-// Maxima above their median have an exponential tail (peaks over a threshold,
-// Pickands 1975, in Gumbel's domain); that its scale is known from few of them
-// makes what is predicted a Lomax distribution:
-//   P(X > median + x) = 1/2 (1 + x / (m scale))^-m, m exceedances.
-double PredictedMaximum(std::vector<double> maxima, double further,
-                        double probability);
-// The same of maxima of which up to a quarter may be something else: the scale
-// is told by their upper quartile, as well as a quarter of them tells.
-double PredictedUsualMaximum(std::vector<double> maxima, double further,
-                             double probability);
-
 }  // namespace armcal

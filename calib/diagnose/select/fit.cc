@@ -48,22 +48,21 @@ FrictionExcess GapFit::ExcessBeside(
                             data()->ResidualWith(x, torque));
 }
 
-// Above what the excess of a log without a contact is: of the reference, or of
-// the log itself but for a few windows.
-double GapFit::UsualExcess(const FrictionExcess& excess, bool of_itself) const {
+// How large the excess of a log without a contact gets: of the reference, and
+// of the log itself but for a few windows.
+UsualMaximum GapFit::UsualExcess(const FrictionExcess& excess,
+                                 bool of_itself) const {
   const GapData* reference = regression_.reference();
   const GapRows& before = reference ? reference->rows() : rows();
   const double block = BlockTime(before);
   const std::vector<double> own = BlockMaxima(rows(), block, excess.Largest());
-  const double further = static_cast<double>(own.size());
-  double usual = 0;
-  if (of_itself) usual = PredictedUsualMaximum(own, further, kFalseContacts);
+  UsualMaximum usual{static_cast<double>(own.size()), {}};
+  if (of_itself) usual.tails.push_back(UsualTailOf(own));
   if (!reference) return usual;
   const FrictionExcess known = ExcessOverFriction(
       baseline(), refit(), before, reference->ResidualWith(refit()));
-  return std::max(usual,
-                  PredictedMaximum(BlockMaxima(before, block, known.Largest()),
-                                   further, kFalseContacts));
+  usual.tails.push_back(TailOf(BlockMaxima(before, block, known.Largest())));
+  return usual;
 }
 
 // Contacts that were not known, beside effects. They stand out from all that
@@ -80,9 +79,10 @@ GapFit::NewContacts GapFit::ContactsBeside(
   if (of_itself ? rows().num_joints() > 1 : !regression_.reference()) return {};
   NewContacts found;
   found.excess = ExcessBeside(effects);
-  const double usual = UsualExcess(found.excess, of_itself);
+  found.usual = UsualExcess(found.excess, of_itself);
   for (const Contact& contact :
-       FindContacts(baseline().robot(), rows(), found.excess, usual, search)) {
+       FindContacts(baseline().robot(), rows(), found.excess,
+                    found.usual.Quantile(kFalseContacts), search)) {
     const bool known =
         std::any_of(events_.begin(), events_.end(), [&](const GapEvent& event) {
           return event.contact.log == contact.log &&
@@ -96,7 +96,8 @@ GapFit::NewContacts GapFit::ContactsBeside(
 bool GapFit::TakeOut(const NewContacts& found, ContactSearch search) {
   for (const Contact& contact : found.contacts) {
     events_.push_back(EventBeyondFriction(rows(), found.excess, contact));
-    events_.back().at_rest = search == ContactSearch::kAtRest;
+    events_.back().chance = found.usual.Chance(contact.deviations);
+      events_.back().at_rest = search == ContactSearch::kAtRest;
     data()->Mask(contact.log, contact.window);
   }
   return !found.contacts.empty();
@@ -296,6 +297,11 @@ void GapFit::Finish() {
     selection_ = DescribeSelection(screen(), candidates(), options_.selection,
                                    Without(selection_.chosen, idle));
   }
+  FitModels();
+}
+
+// The models, and what they leave, beside the refined effects.
+void GapFit::FitModels() {
   const MatrixXd left = data()->ResidualWith(
       refined_.baseline, regression_.TorqueOf(refined_.effects));
   model_refit_ = ModelBeside({});
@@ -304,6 +310,27 @@ void GapFit::Finish() {
   for (int j = 0; j < left.cols(); ++j) {
     left_[j] = rows().Whiten(j, left.col(j));
   }
+}
+
+void GapFit::KeepOnly(const std::vector<int>& kept) {
+  std::vector<int> chosen;
+  std::vector<Rivals> rivals;
+  std::vector<GapCandidate> effects;
+  for (const int k : kept) {
+    chosen.push_back(selection_.chosen[k]);
+    rivals.push_back(rivals_[k]);
+    effects.push_back(refined_.effects[k]);
+  }
+  selection_ = DescribeSelection(screen(), candidates(), options_.selection,
+                                 std::move(chosen));
+  rivals_ = std::move(rivals);
+  refined_ = RefinedEffects();
+  refined_.baseline = refit();
+  if (!effects.empty()) {
+    refined_ =
+        RefineEffects(screen(), baseline(), scale(), effects, -1, data());
+  }
+  FitModels();
 }
 
 void GapFit::Refine() {

@@ -6,6 +6,7 @@
 
 #include "calib/diagnose/candidates/refinement.h"
 #include "calib/diagnose/select/events.h"
+#include "calib/diagnose/select/maxima_tail.h"
 #include "calib/diagnose/select/pool.h"
 #include "calib/diagnose/select/regression.h"
 #include "calib/diagnose/select/rivals.h"
@@ -37,6 +38,9 @@ class GapFit {
   // Effects beside these events, in the order of time, which are all that there
   // were.
   void ChooseBeside(const std::vector<GapEvent>& events);
+  // Of the effects that were chosen, those with these numbers alone, fitted
+  // again: what is not claimed is no part of what is shown.
+  void KeepOnly(const std::vector<int>& kept);
 
   const GapBaseline& baseline() const { return regression_.baseline(); }
   const GapNoise& noise() const { return regression_.noise(); }
@@ -87,6 +91,7 @@ class GapFit {
   void SelectWithTheirNoise();
   struct NewContacts {
     FrictionExcess excess;
+    UsualMaximum usual;
     std::vector<Contact> contacts;
   };
   NewContacts ContactsBeside(const std::vector<GapCandidate>& effects,
@@ -102,7 +107,8 @@ class GapFit {
   void SelectWithEvents();
   void Finish();
   void Refine();
-  double UsualExcess(const FrictionExcess& excess, bool of_itself) const;
+  void FitModels();
+  UsualMaximum UsualExcess(const FrictionExcess& excess, bool of_itself) const;
   FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
 
   GapFitOptions options_;

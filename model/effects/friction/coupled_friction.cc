@@ -8,20 +8,45 @@ inline namespace effects {
 
 namespace {
 
+// The joint further out that a bearing couples with the site's, from 0; none:
+// -1. Told from its other side the same bearing has friction times ratio,
+// viscous times ratio^2 and 1 / ratio, so that it is looked for from one side
+// only.
+int CoupledNeighbour(const EffectSite& site) {
+  const int k = site.joint + 1;
+  if (k >= site.robot->num_joints()) return -1;
+  EffectSite other = site;
+  other.joint = k;
+  const std::vector<int> out = Neighbours(site), in = Neighbours(other);
+  const bool coupled = std::count(out.begin(), out.end(), k) > 0 ||
+                       std::count(in.begin(), in.end(), site.joint) > 0;
+  return coupled ? k : -1;
+}
+
+std::string WhyNotCoupled(const EffectSite& site) {
+  if (site.robot->num_joints() == 1) return "the robot has one joint";
+  return CoupledNeighbour(site) >= 0
+             ? ""
+             : "a bearing is looked for on the joint that is nearer the base";
+}
+
 std::vector<EffectParameter> CoupledParameters() {
   return {Linear("friction", "E", ShareOfTorque(.05),
                  EffectParameter::Sign::kPositive),
           Linear("viscous", "E s/P", ShareOfDrag(.05),
                  EffectParameter::Sign::kPositive),
-          NeighbourParameter(),
+          Gridded("neighbour", "1",
+                  [](const EffectSite& site) {
+                    return std::vector<double>{CoupledNeighbour(site) + 1.};
+                  }),
           Gridded("ratio", "1",
                   [](const EffectSite& site) {
                     // Between a turning and a sliding joint in rad/m or m/rad.
-                    const std::vector<int> next = Neighbours(site);
                     EffectSite other = site;
-                    other.joint = next.empty() ? site.joint : next[0];
+                    other.joint = std::max(0, CoupledNeighbour(site));
                     const double r = Radian(site) / Radian(other);
-                    return std::vector<double>{-r, -.5 * r, .5 * r, r};
+                    return std::vector<double>{-2 * r, -r, -.5 * r,
+                                               .5 * r, r,  2 * r};
                   }),
           // Dry, or of a lubricated seal.
           Gridded("width", "P/s", [](const EffectSite& site) {
@@ -68,7 +93,7 @@ Effect CoupledFriction() {
                                        {"ratio", "1", p[3]},
                                        {"neighbour", "1", p[2]}};
   };
-  effect.unfit = WhyNoNeighbour;
+  effect.unfit = WhyNotCoupled;
   effect.experiment =
       "this joint and its neighbour alone, then both, with equal and with "
       "opposite velocities";

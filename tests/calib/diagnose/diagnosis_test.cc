@@ -78,4 +78,23 @@ TEST_F(GapDiagnosisTest, AnOffsetOfManyDegreesIsOneEffect) {
   EXPECT_EQ(diagnosis.candidates.size(), 1u);
 }
 
+// A swing that is in one log only was no law: it is told, and all that is shown
+// is of what is claimed.
+TEST_F(GapDiagnosisTest, WhatIsNotClaimedIsInNoFigure) {
+  Add("stribeck", 1, {1.2, .14});
+  later_ = truth_;
+  Add("vibration", 0, {.3, 0, 3.3});
+  const GapDiagnosis diagnosis = Diagnose(File());
+  ExpectFirst(diagnosis, "stribeck", 1);
+  EXPECT_EQ(diagnosis.effects.size(), 1u);
+  ASSERT_EQ(diagnosis.unnamed.size(), 1u);
+  EXPECT_EQ(diagnosis.unnamed[0].effect->name, "vibration");
+  // With it, the mean square would be off by 50 times the noise's.
+  EXPECT_LT(diagnosis.torque.after, 3);
+  EXPECT_LT(diagnosis.joints[0].after_rms, 1.2 * kNoise);
+  const FoundEffect& claimed = diagnosis.effects[0];
+  EXPECT_EQ(claimed.removed_percent, diagnosis.torque.removed_percent);
+  ExpectEstimate(claimed, "stribeck", 1.2, .1);
+}
+
 }  // namespace armcal::diagnosis_test

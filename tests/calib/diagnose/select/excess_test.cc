@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <random>
-
 namespace armcal::excess_test {
 
 using Eigen::MatrixXd;
@@ -97,51 +94,6 @@ TEST_F(ExcessOfAJoint, HasMaximaOfBlocks) {
     EXPECT_LT(rows_->thin_time(0, last), 2. * (k + 1));
     EXPECT_GE(rows_->thin_time(0, last + 1), 2. * (k + 1));
   }
-}
-
-// Of exponential maxima as many further ones pass it as it says.
-class PredictedMaxima : public testing::Test {
- protected:
-  std::vector<double> Draw(int size) {
-    std::vector<double> maxima(size);
-    for (double& x : maxima) x = maximum_(random_);
-    return maxima;
-  }
-  template <typename Limit>
-  double ShareAbove(Limit limit) {
-    int passed = 0;
-    for (int i = 0; i < kDraws; ++i) {
-      const std::vector<double> further = Draw(kFurther);
-      passed += *std::max_element(further.begin(), further.end()) > limit();
-    }
-    return passed / double(kDraws);
-  }
-  static constexpr int kDraws = 20000, kFurther = 14;
-  std::mt19937_64 random_{1};
-  std::exponential_distribution<double> maximum_{.7};
-};
-
-// What is held is the expected number of passes, and the median is not known
-// exactly either.
-TEST_F(PredictedMaxima, ArePassedAsOftenAsTheySay) {
-  for (const double p : {.01, .05}) {
-    EXPECT_NEAR(
-        ShareAbove([&] { return PredictedMaximum(Draw(29), kFurther, p); }), p,
-        p / 2);
-    EXPECT_LT(ShareAbove(
-                  [&] { return PredictedUsualMaximum(Draw(29), kFurther, p); }),
-              1.5 * p);
-  }
-}
-
-// A fifth of them is something else.
-TEST_F(PredictedMaxima, OfTheUsualDoNotHeedAFew) {
-  std::vector<double> maxima = Draw(100);
-  const double limit = PredictedUsualMaximum(maxima, 100, .01);
-  EXPECT_LT(limit, 40);
-  std::fill(maxima.begin(), maxima.begin() + 20, 1000.);
-  EXPECT_LT(PredictedUsualMaximum(maxima, 100, .01), 3 * limit);
-  EXPECT_GT(PredictedMaximum(maxima, 100, .01), 1000);
 }
 
 }  // namespace armcal::excess_test
