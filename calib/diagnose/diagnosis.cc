@@ -7,6 +7,7 @@
 
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/segments.h"
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/data/torque_bursts.h"
 #include "calib/diagnose/judge/held_out.h"
 #include "calib/diagnose/select/fit.h"
@@ -19,10 +20,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kTimingWithReference = .05;  // s
-// Of torques that are known well enough to show it, s.
-constexpr double kReversalOfMadeTorques = .005;
 
 bool Overlaps(const std::vector<GapEvent>& events, const GapEvent& event) {
   return std::any_of(events.begin(), events.end(), [&](const GapEvent& other) {
@@ -107,9 +104,9 @@ void Diagnoser::FitBaseline(const LackedFamilies& lacked,
     trust.fitted_terms.insert(family.term);
   }
   // How late a log's torque is, a reference tells.
-  if (!before->empty()) trust.timing_s = kTimingWithReference;
+  if (!before->empty()) trust.timing_s = Limits().timing_with_reference;
   if (HaveNoiseOfPositions(*segments)) {
-    trust.reversal_s = kReversalOfMadeTorques;
+    trust.reversal_s = Limits().reversal_of_made_torques;
   }
   // A reference is fitted on another day than a calibration was.
   trust.of_another_day = !before->empty();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/dynamics/link_regressor.h"
 #include "model/text/format.h"
@@ -16,9 +17,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kShare = .1;  // of the inertial torque
 // Of the joint's torque: below it the arm hardly accelerates.
-constexpr double kLeastInertial = .01;
 
 // Thinned, all segments: the recorded torque, what it takes to accelerate the
 // links and armatures, and (per joint) torque at rest per unit of the links'
@@ -73,14 +72,14 @@ std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows) {
     if (moving.empty()) continue;
     const VectorXd torque = all.torque.col(j)(moving);
     const double inertial = Rms(all.inertial.col(j)(moving));
-    if (inertial < kLeastInertial * Rms(torque)) continue;
+    if (inertial < Limits().least_inertial * Rms(torque)) continue;
     const MatrixXd columns = all.columns[j](moving, Eigen::all);
     const VectorXd x = columns.completeOrthogonalDecomposition().solve(torque);
     const double left = Rms(torque - columns * x);
     ++told;
     worst = std::max(worst, left / inertial);
   }
-  if (told == 0 || worst > kShare) return {};
+  if (told == 0 || worst > Limits().position_only) return {};
   char evidence[200];
   std::snprintf(evidence, sizeof evidence,
                 "a law of position alone leaves at most %.1f %% of the torque "

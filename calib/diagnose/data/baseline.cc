@@ -10,6 +10,7 @@
 
 #include "calib/diagnose/data/calibrated_prior.h"
 #include "calib/diagnose/data/day_shares.h"
+#include "calib/diagnose/data/thresholds.h"
 #include "model/dynamics/batch_regressor.h"
 #include "model/signals/low_pass.h"
 #include "model/signals/recording_delay.h"
@@ -23,12 +24,7 @@ using Eigen::VectorXd;
 // Widths of tanh(qd / width), rad/s (0.3 of it in m/s): friction changes sign
 // as the first, or a calibrated one, or as any mixture of it and others, which
 // are so many times as wide.
-constexpr double kReferenceWidth = 6e-3;
 constexpr std::array<double, 5> kOtherWidths = {.25, .5, 2, 4, 8};
-// Of the joint's Coulomb friction, how much may change sign otherwise.
-constexpr double kMixture = .5;
-// A torque's zero is not known better than this share of its usual size.
-constexpr double kOffsetShare = .02;
 
 double WidthUnit(const Joint& joint) {
   return IsRotational(joint.type) ? 1 : .3;
@@ -62,7 +58,7 @@ std::vector<MatrixXd> InertialTorque(const Robot& robot, const Motion& motion) {
 CoulombTransition TransitionOf(const Robot& robot, int j,
                                const BaselineOptions& options) {
   CoulombTransition transition;
-  transition.width = kReferenceWidth * WidthUnit(robot.links[j].joint);
+  transition.width = Limits().reversal_width * WidthUnit(robot.links[j].joint);
   if (options.transitions.empty()) return transition;
   const CoulombTransition& calibrated = options.transitions[j];
   if (calibrated.law == CoulombTransition::Law::kVelocity) {
@@ -197,15 +193,17 @@ void GapBaseline::AddTerms(int j, const BaselineOptions& options,
   add(JointTerm::kCoulomb, joint.coulomb);
   // A file that was made by measuring friction has its zero as well as that.
   if (options.fitted_terms.empty()) {
-    add(JointTerm::kOffset,
-        std::max(std::abs(joint.coulomb), kOffsetShare * usual_torque));
+    add(JointTerm::kOffset, std::max(std::abs(joint.coulomb),
+                                     Limits().offset_share * usual_torque));
   } else {
-    add(JointTerm::kOffset, kOffsetShare * usual_torque / options.trust);
+    add(JointTerm::kOffset,
+        Limits().offset_share * usual_torque / options.trust);
   }
   if (joint.coulomb == 0) return;
   for (size_t k = 0; k < kOtherWidths.size(); ++k) {
     columns_.push_back({BaselineColumn::Kind::kZeroVelocity, j,
-                        static_cast<int>(k), kMixture * joint.coulomb});
+                        static_cast<int>(k),
+                        Limits().width_mixture * joint.coulomb});
   }
 }
 

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of one prior standard deviation of the ways through zero velocity.
-constexpr double kDoubt = .3, kDoubtOfMadeTorques = .5;
 constexpr double kNothing = 1e3;
 
 // A doubtful sample is in the whitened rows of all that follow it within the
@@ -52,7 +52,7 @@ GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
     const int s = static_cast<int>(i), begin = rows_->thin_begin(s);
     auto here = usual.middleRows(begin, rows_->thin_begin(s + 1) - begin);
     const bool made = signals_->segments[i].made_torque;
-    here *= made ? kDoubtOfMadeTorques : kDoubt;
+    here *= made ? Limits().reversal_doubt_of_made : Limits().reversal_doubt;
     if (made) here = Spread(here);
   }
   for (size_t i = 0; i < signals_->segments.size(); ++i) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 
 std::vector<int> DayColumns(const GapBaseline& baseline) {
@@ -21,11 +23,10 @@ std::vector<int> DayColumns(const GapBaseline& baseline) {
 std::vector<int> ChangedTogether(const GapBaseline& baseline, JointTerm term,
                                  const Eigen::VectorXd& x,
                                  const Eigen::MatrixXd& covariance) {
-  constexpr double kTold = .8;  // of the prior's variance, that is still left
   std::vector<int> told, changed;
   for (const int c : DayColumns(baseline)) {
     if (static_cast<JointTerm>(baseline.columns()[c].index) != term) continue;
-    if (covariance(c, c) > kTold) continue;
+    if (covariance(c, c) > Limits().told_of_day) continue;
     told.push_back(c);
     if (std::abs(x[c]) > 1) changed.push_back(c);
   }
@@ -48,11 +49,9 @@ std::vector<int> ChangedTogether(const GapBaseline& baseline, JointTerm term,
 
 bool IsAnotherDay(const GapBaseline& baseline, const Eigen::VectorXd& x,
                   const Eigen::MatrixXd& covariance) {
-  constexpr double kClear = 5;  // standard deviations
-  constexpr int kSeveral = 3;
   std::set<int> changed;
   for (const int c : DayColumns(baseline)) {
-    if (std::abs(x[c]) > kClear * std::sqrt(covariance(c, c))) {
+    if (std::abs(x[c]) > Limits().clear_of_many * std::sqrt(covariance(c, c))) {
       changed.insert(baseline.columns()[c].joint);
     }
   }
@@ -60,7 +59,8 @@ bool IsAnotherDay(const GapBaseline& baseline, const Eigen::VectorXd& x,
     if (!ChangedTogether(baseline, term, x, covariance).empty()) return true;
   }
   return static_cast<int>(changed.size()) >=
-         std::min(kSeveral, baseline.robot().num_joints());
+         std::min<double>(Limits().several_joints,
+                          baseline.robot().num_joints());
 }
 
 }  // namespace armcal

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 namespace {
 
@@ -13,26 +15,17 @@ using Eigen::ArrayXXd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// rms amplitudes, shares of the joint's usual torque; the header says what they
-// were chosen on.
-constexpr double kPosition = .01, kPositionSign = .005, kLoad = .01,
-                 kState = .01, kTime = .005;
-// Of the joint's Coulomb friction: how much its curve over velocity may differ.
-constexpr double kFrictionCurve = .1;
-
 // Cycles per turn of position.
 constexpr int kHarmonics = 9;
 constexpr double kHarmonicStep = .6;
-constexpr double kHarmonicWidth = 4;  // higher ones are smaller
-constexpr int kSignStep = 2;          // each second harmonic with the sign
+constexpr int kSignStep = 2;  // each second harmonic with the sign
 constexpr int kSignHarmonics = (kHarmonics + kSignStep - 1) / kSignStep;
 // tanh(qd / (share of the top speed)) less the sign: the curve of friction.
 constexpr std::array<double, 3> kSpeedShares = {.1, .3, 1};
 constexpr int kLoadShapes = 5;
 constexpr int kStateShapes = 20;
-constexpr double kStateFrequency = .6;  // rad per unit of the state
-constexpr int kTimeShapes = 6;          // half cosines over the log
-constexpr double kSignWidth = .01;      // rad/s
+constexpr int kTimeShapes = 6;      // half cosines over the log
+constexpr double kSignWidth = .01;  // rad/s
 
 constexpr int kOfState = 2 * kHarmonics + 2 * kSignHarmonics +
                          static_cast<int>(kSpeedShares.size()) + kLoadShapes +
@@ -40,7 +33,7 @@ constexpr int kOfState = 2 * kHarmonics + 2 * kSignHarmonics +
 
 double HarmonicSize(int k) {
   const double cycles = kHarmonicStep * (k + 1);
-  return std::exp(-std::pow(cycles / kHarmonicWidth, 2) / 2);
+  return std::exp(-std::pow(cycles / Limits().lacked_cycles, 2) / 2);
 }
 
 }  // namespace
@@ -60,7 +53,7 @@ Discrepancy::Discrepancy(const Robot& robot, const MotionScale& scale, int logs,
     }
   }
   std::mt19937_64 random(1);
-  std::normal_distribution<double> normal(0, kStateFrequency);
+  std::normal_distribution<double> normal(0, Limits().lacked_state_frequency);
   std::uniform_real_distribution<double> angle(0, 2 * M_PI);
   for (int j = 0; j < n; ++j) {
     frequency_.emplace_back(2 * n, kStateShapes);
@@ -79,17 +72,18 @@ VectorXd Discrepancy::Spreads(int j, const Joint& joint) const {
     at += count;
   };
   for (int k = 0; k < kHarmonics; ++k) {
-    add(2, kPosition * usual * HarmonicSize(k));
+    add(2, Limits().lacked_over_position * usual * HarmonicSize(k));
   }
   for (int k = 0; k < kHarmonics; k += kSignStep) {
-    add(2, kPositionSign * usual * HarmonicSize(k));
+    add(2, Limits().lacked_over_position_and_sign * usual * HarmonicSize(k));
   }
-  add(kSpeedShares.size(), kFrictionCurve * std::abs(joint.coulomb));
-  add(kLoadShapes, kLoad * usual);
-  add(kStateShapes, kState * usual);
+  add(kSpeedShares.size(),
+      Limits().lacked_friction_curve * std::abs(joint.coulomb));
+  add(kLoadShapes, Limits().lacked_over_load * usual);
+  add(kStateShapes, Limits().lacked_over_state * usual);
   // Of the model's torque: the recorded one would explain whatever is recorded.
   add(1, torque_constants_stddev_ * usual);
-  add(kTimeShapes * logs_, kTime * usual);
+  add(kTimeShapes * logs_, Limits().lacked_over_time * usual);
   return spreads;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/logs/repeated_motion.h"
 
 namespace armcal {
@@ -12,8 +13,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr int kLeastRows = 60;
 
 int CountRows(const std::vector<VectorXd>& stretches) {
   int rows = 0;
@@ -24,26 +23,26 @@ int CountRows(const std::vector<VectorXd>& stretches) {
 // Lag of the motion's repeats in fine samples; 0: none. A log begins and ends
 // with what does not repeat: a start, a stop, a rest.
 int RepeatLag(const Motion& motion) {
-  constexpr double kShortestPeriod = 2;  // s
-  constexpr double kEnds = .12;          // of the log, at both ends
-  const int skip = static_cast<int>(kEnds * motion.size());
+  const int skip =
+      static_cast<int>(Limits().ends_without_repeat * motion.size());
   const int size = motion.size() - 2 * skip;
   const RecordedMotion recorded{
       VectorXd::LinSpaced(size, 0, (size - 1) * motion.dt),
       motion.q.middleRows(skip, size)};
-  const auto lag = FindRepeat(recorded, recorded, kShortestPeriod);
+  const auto lag = FindRepeat(recorded, recorded, Limits().shortest_period);
   return lag ? static_cast<int>(std::lround(*lag / motion.dt)) : 0;
 }
 
 // Whether the motion at each sample is that of `lag` samples later.
 std::vector<bool> Repeats(const Motion& motion, int lag) {
-  constexpr double kTolerance = .01;  // of a joint's rms position and velocity
   const auto usual = [](const MatrixXd& x) -> Eigen::RowVectorXd {
     return (x.colwise().squaredNorm() / x.rows()).cwiseSqrt();
   };
   const Eigen::RowVectorXd q =
-      kTolerance * usual(motion.q.rowwise() - motion.q.colwise().mean());
-  const Eigen::RowVectorXd qd = 3 * kTolerance * usual(motion.qd);
+      Limits().repeat_tolerance *
+      usual(motion.q.rowwise() - motion.q.colwise().mean());
+  const Eigen::RowVectorXd qd =
+      3 * Limits().repeat_tolerance * usual(motion.qd);
   std::vector<bool> repeats(motion.size(), false);
   for (int k = 0; k + lag < motion.size(); ++k) {
     repeats[k] = ((motion.q.row(k + lag) - motion.q.row(k)).array().abs() <
@@ -114,13 +113,13 @@ double VarianceDoubt(NoiseFloor source) {
     case NoiseFloor::kRepeats:
     case NoiseFloor::kReference:
     case NoiseFloor::kPositions:
-      return .25;
+      return Limits().doubt_of_noise;
     case NoiseFloor::kStandstill:
-      return 1;
+      return Limits().doubt_of_rest;
     case NoiseFloor::kAssumed:
       break;
   }
-  return 2;
+  return Limits().doubt_of_residual;
 }
 
 const char* NoiseFloorName(NoiseFloor source) {
@@ -150,12 +149,12 @@ GapNoise EstimateGapNoise(const GapRows& rows,
   for (int j = 0; j < n; ++j) {
     differences.col(j) = rows.WithoutDrift(j, differences.col(j));
     const auto repeats = Known(Stretches(rows.runs(j), differences.col(j)));
-    if (CountRows(repeats) >= kLeastRows) {
+    if (CountRows(repeats) >= Limits().noise_rows) {
       noise.joints.push_back(FitAutoregression(repeats, false));
       continue;
     }
     const auto still = Stretches(rows.still_runs(j), thin.col(j));
-    if (CountRows(still) >= kLeastRows) {
+    if (CountRows(still) >= Limits().noise_rows) {
       noise.joints.push_back(FitAutoregression(still, true));
       noise.source = std::max(noise.source, NoiseFloor::kStandstill);
       continue;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "model/signals/low_pass.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
@@ -18,9 +19,6 @@ using Eigen::MatrixXd;
 constexpr double kRateOverBandwidth = 2.5;
 constexpr double kPeriodsAtEnds = 4;  // of the bandwidth, bent by filters
 constexpr int kShortestRun = 3 * Autoregression::kOrder;
-// What drives give is not quite what their law says: torques made of commands
-// are not known better than this share of what they usually are.
-constexpr double kMadeTorqueDoubt = .001;
 
 // Into how many blocks of `size` samples, of which each third is held out: as
 // many as hold `guards` samples and a run.
@@ -56,7 +54,7 @@ GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
                                 kPeriodsAtEnds / bandwidth_hz / step(s)));
   }
   MakeRuns();
-  made_doubt_ = kMadeTorqueDoubt * UsualTorque(segments, true);
+  made_doubt_ = Limits().made_torque_doubt * UsualTorque(segments, true);
   for (size_t i = 0; i < segments.size(); ++i) {
     const int s = static_cast<int>(i), first = thin_begin_[i];
     drift_.emplace_back();

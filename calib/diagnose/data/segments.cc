@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/diagnose/data/smooth_torque.h"
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/data/torque_bursts.h"
 #include "calib/linear/calibration_checks.h"
 #include "calib/logs/position_noise.h"
@@ -23,10 +24,7 @@ using Eigen::VectorXd;
 constexpr double kSmoothTemperatureHz = .2;
 // Of errors of stamps, which are known every second.
 constexpr double kSmoothStampHz = .3;
-constexpr double kShortest = 2;  // s
-// Drives creep for a while when their command has come to rest: a torque that
-// was made of it is more certain than what friction is there.
-constexpr double kCreepSpeed = .004;    // rad/s or m/s
+constexpr double kShortest = 2;         // s
 constexpr double kMotionBandwidth = 5;  // of the torque's
 
 void AppendRows(const MatrixXd& rows, MatrixXd* to) {
@@ -100,7 +98,10 @@ void FindStillJoints(GapSegment* segment) {
   const MatrixXd velocity = MeanVelocity(motion.q, motion.dt);
   const int reach =
       static_cast<int>(std::ceil(kStandstillMeanTime / 2 / motion.dt));
-  const double speed = segment->made_torque ? kCreepSpeed : kStandstillSpeed;
+  // Drives creep for a while when their command has come to rest: a torque that
+  // was made of it is more certain than what friction is there.
+  const double speed =
+      segment->made_torque ? Limits().creep_speed : kStandstillSpeed;
   for (int j = 0; j < motion.num_joints(); ++j) {
     segment->still.col(j) =
         FindStandstill(velocity.col(j), motion.dt, reach, speed)

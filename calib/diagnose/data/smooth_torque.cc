@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "model/signals/low_pass.h"
 
 namespace armcal {
@@ -12,9 +13,6 @@ using Eigen::RowVectorXd;
 
 constexpr double kRecordedHz = 3;
 constexpr double kMadeHz[] = {1.5, 3, 5, 6.5, 8, 10, 12.5, 16, 20};
-// Power over the noise's. The baseline takes nearly all of a delay's torque:
-// with less than this, what is left would be the noise's.
-constexpr double kAboveNoise = 1000;
 
 double Power(const GapSegment& segment, const MatrixXd& band,
              const RowVectorXd& noise) {
@@ -40,7 +38,7 @@ double MadeHz(const GapSegment& segment) {
     const MatrixXd next_error =
         ZeroPhaseLowPass(segment.torque_noise, rate, next);
     if (Power(segment, next_tau - tau, noise) <
-        kAboveNoise * Power(segment, next_error - error, noise)) {
+        Limits().smooth_power * Power(segment, next_error - error, noise)) {
       break;
     }
     hz = next;

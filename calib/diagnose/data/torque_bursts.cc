@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "model/signals/low_pass.h"
 #include "model/text/format.h"
 
@@ -13,9 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSecond = 1;
-constexpr double kBeyond = 1;       // of the usual torque
-constexpr double kBeyondFast = 10;  // of what the noise of positions makes
-constexpr double kReach = .5;       // s, of filters, per power of ten
 
 // Of each second: its first sample and rms of a joint's torque.
 struct Second {
@@ -65,7 +63,8 @@ std::vector<TorqueBurst> FindTorqueBursts(const GapSegment& segment,
     const std::vector<Second> seconds = SecondsOf(segment, fast.col(j), j);
     const double usual = Middle(seconds, &Second::rms);
     const double least =
-        std::max(kBeyond * usual, kBeyondFast * Middle(seconds, &Second::fast));
+        std::max(Limits().burst * usual,
+                 Limits().burst_over_fast * Middle(seconds, &Second::fast));
     for (const Second& second : seconds) {
       if (usual == 0 || second.fast < least) continue;
       const double begin = motion.time(second.begin);
@@ -78,7 +77,8 @@ std::vector<TorqueBurst> FindTorqueBursts(const GapSegment& segment,
 std::vector<TimeRange> TimesOf(const std::vector<TorqueBurst>& bursts) {
   std::vector<TimeRange> times;
   for (const TorqueBurst& burst : bursts) {
-    const double reach = kReach * (1 + std::log10(burst.fast / burst.usual));
+    const double reach =
+        Limits().burst_reach * (1 + std::log10(burst.fast / burst.usual));
     times.push_back({burst.window.begin - reach, burst.window.end + reach});
   }
   return times;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
 
 namespace armcal {
@@ -41,7 +42,6 @@ bool Agreement::Differ(double drop, double form) const {
 }
 
 Agreement AgreementOn(const GapFit& fit, size_t k) {
-  constexpr double kTells = .01;  // of what all joints tell
   const GapScreen& screen = fit.screen();
   const std::vector<int>& chosen = fit.selection().chosen;
   const GapScreen::Fit all = screen.Solve(ColumnsOf(fit.candidates(), chosen));
@@ -67,7 +67,7 @@ Agreement AgreementOn(const GapFit& fit, size_t k) {
     const VectorXd further = information.ldlt().solve(wanted);
     const VectorXd alone = x + further;
     agreement.seen_by += IsMoreThanChance(alone.dot(information * alone), size);
-    if (rows[j].squaredNorm() <= kTells * told) continue;
+    if (rows[j].squaredNorm() <= Limits().tells * told) continue;
     ++tell;
     agreement.chi_squared += wanted.dot(further);
   }

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 
 double Confirmation::Share() const {
-  constexpr double kTooSmall = 20;  // chi^2
-  return std::clamp(explained / (expected + kTooSmall), -1., 1.);
+  return std::clamp(explained / (expected + Limits().confirmation), -1., 1.);
 }
 
 Confirmation Confirm(const JointRows& without, const JointRows& with) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 namespace {
 
@@ -32,13 +34,6 @@ constexpr EffectWeights kOfMade = {-1.6719, .2528, -.559,  -.9838,
                                    -.8015,  .8157, -1.1392};
 constexpr EventWeights kEventOfMade = {-3.376, 0,       -1.0671,
                                        -.16,   -1.4223, -1.0063};
-
-constexpr double kMostOdds = 12;
-
-// A law acts all the time. What data cannot tell that were held out of the same
-// motion acted in one stretch of it only: a law or something that happened once
-// is as likely (indifference).
-constexpr double kUntold = .5;
 
 double Logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
@@ -89,7 +84,8 @@ EffectEvidence GapEvidence::ForEffect(
     (same ? own : others) = std::max(same ? own : others, other.score);
   }
   evidence.odds =
-      std::clamp((own - others) / (2 * kTemperature), -kMostOdds, kMostOdds);
+      std::clamp<double>((own - others) / (2 * Limits().temperature),
+                         -Limits().most_odds, Limits().most_odds);
   evidence.strength = std::log(std::max(1., fit_.selection().drops[k]));
   const std::vector<double>& drops = fit_.selection().drops;
   for (size_t i = 0; i < drops.size(); ++i) {
@@ -116,7 +112,7 @@ EffectEvidence GapEvidence::ForEvents() const {
     most = event.drop;
     evidence.one_joint = event.one_joint;
   }
-  evidence.odds = kMostOdds;
+  evidence.odds = Limits().most_odds;
   evidence.strength = std::log(std::max(1., drop));
   evidence.events = static_cast<int>(fit_.events().size());
   return evidence;
@@ -135,7 +131,11 @@ double ProbabilityOf(const EffectEvidence& e) {
                     w.one_joint * std::min(e.one_joint, 1.5));
   }
   const EffectWeights& w = e.made_torque ? kOfMade : kOfRecorded;
-  const double most = e.held_out && !e.confirmation.IsTold() ? kUntold : 1;
+  // A law acts all the time. What data cannot tell that were held out of the
+  // same motion acted in one stretch of it only: a law or something that
+  // happened once is as likely.
+  const double most =
+      e.held_out && !e.confirmation.IsTold() ? Limits().untold : 1;
   return most *
          Logistic(w.constant + w.odds * odds + w.rest * rest +
                   w.others * (e.made_torque ? others : e.stronger) +

@@ -5,6 +5,7 @@
 
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/estimate_deviations.h"
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/judge/agreement.h"
 #include "model/effects/effects.h"
 
@@ -13,16 +14,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Less probable effects are candidates, no more.
-constexpr double kOddsOfNoContact = 9;
-constexpr double kLeastClaimed = .3;
-constexpr double kLikelyUnseen = .7;  // that held-out data do not show
-// What is likelier than not is told first, however little it explains. Nothing
-// else is of what comes and goes, which may be anything, nor of what does not
-// help where nothing was chosen on.
-constexpr double kLikely = .5;
-constexpr double kForm = .2;  // of a drop, that the form of a law has wrong
 
 // Sets estimates and deviations of one of the fit's effects.
 void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
@@ -112,8 +103,8 @@ FoundEffect Findings::Found(size_t k) const {
   // A clock is one for all joints; what lags differently is none.
   if (effect.joint < 0 && effect.effect->nature == Effect::Nature::kRecording) {
     const Agreement agreement = AgreementOn(fit_, k);
-    found.joints_agree =
-        !agreement.Differ(found.drop, kForm) && !agreement.IsOfOneJoint();
+    found.joints_agree = !agreement.Differ(found.drop, Limits().form_error) &&
+                         !agreement.IsOfOneJoint();
   }
   found.probability = ProbabilityOf(found.evidence);
   if (refined.effects.size() == 1) {
@@ -146,11 +137,11 @@ FoundEffect Findings::Contacts() const {
   for (const GapEvent& event : events) {
     found.drop += event.drop;
     found.contacts.push_back(event.contact);
-    found.probability =
-        std::max(found.probability,
-                 event.beyond_friction
-                     ? ProbabilityBeyondChance(event.chance, kOddsOfNoContact)
-                     : ProbabilityOf(found.evidence));
+    found.probability = std::max(
+        found.probability,
+        event.beyond_friction
+            ? ProbabilityBeyondChance(event.chance, Limits().odds_of_no_contact)
+            : ProbabilityOf(found.evidence));
   }
   return found;
 }
@@ -226,6 +217,7 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
                          IsThereWithoutName(result_.effects, torque_);
   result_.unnamed.assign(unclaimed, result_.effects.end());
   result_.effects.erase(unclaimed, result_.effects.end());
+  // What is likelier than not is told first, however little it explains.
   std::stable_partition(result_.effects.begin(), result_.effects.end(),
                         IsLikely);
   return result_;
@@ -236,7 +228,7 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
 // scores say. The set of candidates ends where 95 % are in it, or where each of
 // the others has next to nothing.
 void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
-  constexpr double kCredible = .95, kLeastCandidate = .01;
+  constexpr double kLeastCandidate = .01;
   double others = 0;
   for (const PlacedEffect& other : found->equivalent) {
     others += other.probability;
@@ -251,7 +243,7 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
   double sum = 1 - shared;
   for (PlacedEffect& other : found->equivalent) {
     other.probability *= shared / std::max(1e-9, others);
-    if (sum < kCredible && other.probability >= kLeastCandidate) {
+    if (sum < Limits().credible && other.probability >= kLeastCandidate) {
       result_.candidates.push_back(other);
     }
     sum += other.probability;
@@ -260,11 +252,12 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 
 }  // namespace
 
-bool IsLikely(const FoundEffect& found) { return found.probability >= kLikely; }
+bool IsLikely(const FoundEffect& found) {
+  return found.probability >= Limits().likely;
+}
 
 bool IsSeenAgain(const FoundEffect& found) {
-  constexpr double kShare = .3;
-  return found.evidence.confirmation.Share() > kShare;
+  return found.evidence.confirmation.Share() > Limits().seen_again;
 }
 
 bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
@@ -278,30 +271,33 @@ bool IsPossible(const FoundEffect& found) {
 }
 
 bool IsContradicted(const FoundEffect& found) {
-  constexpr double kVisible = 40;  // chi^2
-  constexpr double kHelps = .03;   // of the noise's mean square
   const Confirmation& confirmation = found.evidence.confirmation;
-  return confirmation.expected > std::max(kVisible, kForm * found.drop) &&
-         confirmation.explained < 0 && found.evidence.gain < kHelps;
+  return confirmation.expected >
+             std::max<double>(Limits().visible,
+                              Limits().form_error * found.drop) &&
+         confirmation.explained < 0 && found.evidence.gain < Limits().helps;
 }
 
+// Less than likely is nothing of what comes and goes, which may be anything,
+// nor of what does not help where nothing was chosen on.
 bool IsClaimed(const FoundEffect& found) {
   if (found.of_another_day) return true;
-  if (!found.contacts.empty()) return found.probability >= kLikely;
+  if (!found.contacts.empty()) return found.probability >= Limits().likely;
   if (!IsPossible(found) || IsContradicted(found)) return false;
   if (!found.joints_agree) return false;
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
   if (!IsSeenAgain(found)) {
-    return found.probability >=
-           (found.evidence.made_torque ? kLikely : kLikelyUnseen);
+    return found.probability >= (found.evidence.made_torque
+                                     ? Limits().likely
+                                     : Limits().likely_unseen);
   }
-  return found.probability >= kLikely ||
-         (found.probability >= kLeastClaimed && found.evidence.gain > 0);
+  return found.probability >= Limits().likely ||
+         (found.probability >= Limits().least_claimed &&
+          found.evidence.gain > 0);
 }
 
 void SortFindings(std::vector<FoundEffect>* effects) {
-  constexpr double kMuch = .2;  // of the number's drop
   std::stable_sort(effects->begin(), effects->end(),
                    [](const FoundEffect& a, const FoundEffect& b) {
                      return a.drop > b.drop;
@@ -309,7 +305,8 @@ void SortFindings(std::vector<FoundEffect>* effects) {
   for (size_t k = 1; k < effects->size(); ++k) {
     for (size_t i = k; i > 0; --i) {
       FoundEffect &before = (*effects)[i - 1], &law = (*effects)[i];
-      if (!IsMeanOf(before, law) || law.drop < kMuch * before.drop) break;
+      const double least = Limits().form_error * before.drop;
+      if (!IsMeanOf(before, law) || law.drop < least) break;
       std::swap(before, law);
     }
   }

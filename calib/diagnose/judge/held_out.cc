@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "calib/diagnose/candidates/search.h"
+#include "calib/diagnose/data/thresholds.h"
 
 namespace armcal {
 
@@ -32,7 +33,6 @@ struct LogWindow {
 // Of deviations, NaN where joints rest; none where all may be chance.
 std::optional<LogWindow> StrongestWindow(const GapRows& rows,
                                          const MatrixXd& deviations) {
-  constexpr double kReal = 100;                      // chi^2
   const std::vector<double> durations = {.4, 1, 2};  // s
   const MatrixXd left =
       deviations.unaryExpr([](double x) { return std::isnan(x) ? 0 : x; });
@@ -45,7 +45,8 @@ std::optional<LogWindow> StrongestWindow(const GapRows& rows,
     int searched = 0;
     for (const TimeWindow& window : StrongWindows(left.middleRows(begin, size),
                                                   t, durations, 1, &searched)) {
-      const double most = strongest ? strongest->window.strength : kReal;
+      const double most =
+          strongest ? strongest->window.strength : Limits().real;
       if (window.strength <= most) continue;
       strongest = {rows.segments()[i].log, window};
     }
@@ -84,7 +85,6 @@ void HeldOut::SetNoise() {
 // out in more than a third of the time was no touch.
 void HeldOut::MaskEvents() {
   constexpr int kMostWindows = 12;
-  constexpr double kMostOfTime = 1. / 3;
   const MatrixXd residual =
       Residual(fit_.refined().effects, fit_.model_after());
   double masked = 0;
@@ -93,7 +93,7 @@ void HeldOut::MaskEvents() {
     if (!worst) return;
     const TimeWindow& window = worst->window;
     masked += 2 * window.duration;
-    if (masked > kMostOfTime * TimeOf(rows())) return;
+    if (masked > Limits().most_of_time * TimeOf(rows())) return;
     data_->Mask(worst->log, {window.centre - window.duration,
                              window.centre + window.duration});
     SetNoise();

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 namespace {
-
-constexpr double kFar = 2;  // standard deviations
-// Of a usual change from day to day.
-constexpr double kNotable = .5;
 
 const char* const kInertialNames[] = {"mass", "hx",  "hy",  "hz",  "Ixx",
                                       "Ixy",  "Iyy", "Ixz", "Iyz", "Izz"};
@@ -52,8 +50,8 @@ std::vector<MovedParameter> ListMoved(const GapFit& fit,
     const double prior = fit.baseline().prior().Stddev(c);
     const bool of_day = column.kind == BaselineColumn::Kind::kDay;
     if (parameter.name.empty() || of_day != since_reference) continue;
-    const double least = of_day ? kNotable : kFar;
-    if (std::abs(x[c]) < std::max(least * prior, kFar * own)) continue;
+    const double least = of_day ? Limits().notable : Limits().far;
+    if (std::abs(x[c]) < std::max(least * prior, Limits().far * own)) continue;
     parameter.value = parameter.nominal + x[c] * column.spread;
     parameter.stddev = own * column.spread;
     parameter.deviations = x[c] / prior;

@@ -4,12 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
-namespace {
-
-constexpr double kCredible = .95;
-
-}  // namespace
 
 std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
   const std::vector<GapCandidate>& candidates = fit.candidates();
@@ -54,7 +51,7 @@ std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
   double sum = 0;
   for (PlacedEffect& effect : all) {
     effect.probability =
-        std::exp((effect.score - all[0].score) / (2 * kTemperature));
+        std::exp((effect.score - all[0].score) / (2 * Limits().temperature));
     sum += effect.probability;
   }
   for (PlacedEffect& effect : all) effect.probability /= sum;
@@ -71,7 +68,7 @@ std::vector<PlacedEffect> CredibleSet(const std::vector<PlacedEffect>& all) {
   std::vector<PlacedEffect> set;
   double sum = 0;
   for (const PlacedEffect& effect : all) {
-    if (sum >= kCredible) break;
+    if (sum >= Limits().credible) break;
     sum += effect.probability;
     set.push_back(effect);
   }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/fit.h"
 
 namespace armcal {
@@ -16,13 +17,9 @@ struct PlacedEffect {
   double score = 0;
 };
 
-// Divides scores: neither noise nor the catalogue nor forms are as a score
-// assumes. With 4 the 95 % sets of 141 simulated cases all held the truth.
-constexpr double kTemperature = 4;
-
 // The effects that could stand in place of the k-th that was chosen, the most
 // probable first, as scores over the temperature say: P ~ exp(score / (2
-// kTemperature)). Scores of those whose shapes were fitted are set against each
+// temperature)). Scores of those whose shapes were fitted are set against each
 // other as such, those of the others are of their grids.
 std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k);
 

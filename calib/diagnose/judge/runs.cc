@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr int kFewestLogs = 3;
-constexpr double kClear = 5;  // standard deviations
 
 // Columns of joint j's own terms, of which armature is not one that drifts.
 std::vector<int> TermsOf(const GapBaseline& baseline, int j) {
@@ -111,10 +110,12 @@ std::vector<RunDrift> DriftsOf(const GapFit& fit, const VectorXd& x, int j) {
 
 std::vector<RunDrift> ListRunDrifts(const GapFit& fit, const VectorXd& x) {
   std::vector<RunDrift> drifts;
-  if (fit.rows().segments().back().log + 1 < kFewestLogs) return drifts;
+  const int logs = fit.rows().segments().back().log + 1;
+  if (logs < Limits().fewest_logs) return drifts;
   for (int j = 0; j < fit.rows().num_joints(); ++j) {
     for (const RunDrift& drift : DriftsOf(fit, x, j)) {
-      if (std::abs(drift.per_log) > kClear * drift.per_log_stddev) {
+      if (std::abs(drift.per_log) >
+          Limits().clear_of_many * drift.per_log_stddev) {
         drifts.push_back(drift);
       }
     }

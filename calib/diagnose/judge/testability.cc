@@ -4,13 +4,11 @@
 #include <cmath>
 #include <map>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "model/effects/effects.h"
 
 namespace armcal {
 namespace {
-
-constexpr double kVisible = 1e-4;  // share of the squares of a column
-constexpr double kMaterial = .3;   // times the noise, rms
 
 struct Visibility {
   double share = 0;  // that the baseline does not absorb
@@ -37,9 +35,9 @@ Visibility VisibilityOf(const GapFit& fit, const GapCandidate& candidate) {
 }
 
 std::string WhyNot(const Visibility& visibility, bool moves) {
-  if (visibility.size >= kMaterial) return "";
+  if (visibility.size >= Limits().material) return "";
   if (!moves) return "the joint does not move";
-  if (visibility.share < kVisible) {
+  if (visibility.share < Limits().visible_share) {
     return "the model's own parameters would take it for theirs";
   }
   return "one that matters would hide in the noise of this motion";

@@ -1,5 +1,7 @@
 #include "calib/diagnose/judge/verdict.h"
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 
 double UnexplainedOf(const JointLeft& left) {
@@ -8,15 +10,16 @@ double UnexplainedOf(const JointLeft& left) {
   // Without any order, it may be noise that is louder here than where it was
   // told: up to twice; in motion, where clocks and encoders err, to twice the
   // standard deviation at rest.
-  const int louder = left.floor == NoiseFloor::kStandstill ? 3 : 1;
+  const double louder = left.floor == NoiseFloor::kStandstill
+                            ? Limits().louder_in_motion.value
+                            : 1;
   if (!left.is_ordered && left.excess < louder * left.rows) return 0;
   return left.excess;
 }
 
 GapVerdict JudgeGap(const GapFacts& facts) {
-  constexpr double kReal = 100;        // chi^2 that is not chance
-  constexpr double kUnexplained = .3;  // of what could be removed
-  const bool much_left = facts.left > kReal && facts.left_share > kUnexplained;
+  const bool much_left =
+      facts.left > Limits().real && facts.left_share > Limits().left;
   if (!facts.torque.known()) {
     if (facts.effects) return GapVerdict::kPartlyExplained;
     const bool unknown = much_left || facts.found_without_name;
@@ -27,14 +30,15 @@ GapVerdict JudgeGap(const GapFacts& facts) {
   const double refit = facts.torque.refit - 1;
   if (facts.effects) {
     const bool held_out_left =
-        after > kUnexplained && after > kUnexplained * refit;
+        after > Limits().left && after > Limits().left * refit;
     return much_left || held_out_left || !facts.likely_effects
                ? GapVerdict::kPartlyExplained
                : GapVerdict::kExplained;
   }
   if (much_left || facts.found_without_name) return GapVerdict::kUnknown;
-  return nominal > .3 && refit < .5 * nominal ? GapVerdict::kAbsorbed
-                                              : GapVerdict::kNoiseFloor;
+  return nominal > Limits().left && refit < Limits().absorbed * nominal
+             ? GapVerdict::kAbsorbed
+             : GapVerdict::kNoiseFloor;
 }
 
 const char* GapVerdictName(GapVerdict verdict) {

@@ -5,14 +5,14 @@
 #include <numeric>
 #include <vector>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 namespace {
 
 using Eigen::VectorXd;
 
 constexpr int kBins = 10;
-// Bin means of noise: chi^2 of kBins, 99.9 %, seven coordinates looked at.
-constexpr double kNoise = 35;
 
 // Sum over bins of (mean)^2 n, of y in the order of x.
 double ChiSquaredOfBins(const VectorXd& x, const VectorXd& y) {
@@ -57,7 +57,8 @@ Organisation OrganisedBy(const JointCourse& course) {
       {"load and direction", course.load.cwiseAbs(), against},
       {"time", course.time, r}};
   for (const Coordinate& coordinate : coordinates) {
-    const double excess = ChiSquaredOfBins(coordinate.x, coordinate.y) - kNoise;
+    const double excess =
+        ChiSquaredOfBins(coordinate.x, coordinate.y) - Limits().order;
     if (excess > best.excess) best = {coordinate.name, excess};
   }
   return best;

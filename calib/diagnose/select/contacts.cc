@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "model/dynamics/rigid_arm.h"
 
 namespace armcal {
@@ -13,10 +14,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kDeviations = 3;     // of the usual force, at most
-constexpr double kNearRest = 1;       // s, from a contact to a rest
-constexpr double kSamePosture = .02;  // rad or m
-constexpr double kUsualLever = .3;    // of the longest that a joint has
+constexpr double kDeviations = 3;  // of the usual force, at most
 
 // Thinned samples [begin, end) of a segment.
 struct Span {
@@ -46,7 +44,7 @@ std::vector<Span> SpansAbove(const GapRows& rows, const VectorXd& largest,
       while (span.begin > first && is_high(span.begin - 1)) --span.begin;
       while (span.end < last && is_high(span.end)) ++span.end;
       k = span.end;
-      span = Widened(rows, span, kExcessTime);
+      span = Widened(rows, span, Limits().shortest_push);
       if (!spans.empty() && spans.back().segment == s &&
           span.begin <= spans.back().end) {
         spans.back().end = span.end;
@@ -92,7 +90,7 @@ class RestingArm {
   // Whether the arm rested within its friction shortly before or after, where
   // it is at the peak.
   bool IsNear(const Span& span, int peak) const {
-    const Span around = Widened(rows_, span, kNearRest);
+    const Span around = Widened(rows_, span, Limits().near_rest);
     const auto same = [&](int k) {
       return rests_[k] && largest_[k] < 0 && IsSame(k, peak);
     };
@@ -104,7 +102,8 @@ class RestingArm {
 
  private:
   bool IsSame(int k, int other) const {
-    return (q_.row(k) - q_.row(other)).cwiseAbs().maxCoeff() < kSamePosture;
+    return (q_.row(k) - q_.row(other)).cwiseAbs().maxCoeff() <
+           Limits().same_posture;
   }
 
   const GapRows& rows_;
@@ -147,7 +146,8 @@ MatrixXd Levers(const Robot& robot, const VectorXd& q) {
 // whose levers are all shorter than usual is improbable.
 double UsualForce(const MatrixXd& lever, const VectorXd& torque) {
   return torque.cwiseAbs().maxCoeff() /
-         (kUsualLever * std::max(1e-9, lever.colwise().norm().maxCoeff()));
+         (Limits().usual_lever *
+          std::max(1e-9, lever.colwise().norm().maxCoeff()));
 }
 
 std::optional<Contact::Force> ForceBehind(const MatrixXd& lever,
@@ -262,7 +262,7 @@ std::vector<EffectEstimate> ContactEstimates(const Robot& robot,
       {"torque", EffortUnit(robot.links[j].joint.type), contact.torque[j]},
       {"time", "s", contact.time},
       {"width", "s", (contact.window.end - contact.window.begin) / 2}};
-  *stddev = {contact.stddev[j], kExcessTime, kExcessTime};
+  *stddev = {contact.stddev[j], Limits().shortest_push, Limits().shortest_push};
   if (!contact.force) return estimates;
   const Eigen::Vector3d& f = contact.force->value;
   const Matrix3d& C = contact.force->covariance;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/excess.h"
 #include "model/effects/effect.h"
 #include "model/log_files/time_base.h"
@@ -30,10 +31,6 @@ struct Contact {
   // A larger force at the tool would need levers shorter than is probable, N.
   double largest_force = 0;
 };
-
-// At most this share of logs without a contact has one found beyond friction,
-// by each search.
-inline constexpr double kFalseContacts = .01;
 
 // Where contacts are looked for: where the arm rests just before or after in
 // the same posture, held by friction; in motion where two joints at least feel

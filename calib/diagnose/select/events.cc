@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 namespace {
 
 using Eigen::VectorXd;
 using Search = EffectParameter::Search;
-
-// Of an event's width, how far to both sides it is taken out.
-constexpr double kEventReach = 2.5;
 
 }  // namespace
 
@@ -52,7 +51,8 @@ TimeRange WindowOf(const GapCandidate& candidate) {
     if (search == Search::kTime) time = candidate.p[k];
     if (search == Search::kDuration) width = candidate.p[k];
   }
-  return {time - kEventReach * width, time + kEventReach * width};
+  return {time - Limits().event_reach * width,
+          time + Limits().event_reach * width};
 }
 
 int RowsOf(const GapRows& rows, const GapEvent& event) {
@@ -70,7 +70,7 @@ double OneJointShare(const GapScreen& screen, const GapRows& rows,
                      const GapEvent& event) {
   const TimeRange& window = event.contact.window;
   const double centre = (window.begin + window.end) / 2;
-  const double width = (window.end - window.begin) / (2 * kEventReach);
+  const double width = (window.end - window.begin) / (2 * Limits().event_reach);
   VectorXd course = VectorXd::Zero(rows.num_thin());
   for (size_t i = 0; i < rows.segments().size(); ++i) {
     const int s = static_cast<int>(i);

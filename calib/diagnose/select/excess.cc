@@ -7,14 +7,13 @@
 #include <limits>
 #include <map>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kLongestBlock = 2;  // s
-constexpr double kFewestBlocks = 10;
 
 // Coulomb friction of a segment's joints, samples x n, N m or N.
 MatrixXd CoulombTorque(const GapBaseline& baseline, const VectorXd& x,
@@ -45,7 +44,6 @@ MatrixXd MovingMean(const MatrixXd& x, int size) {
 
 // Where a joint may be breaking away: from when it rests last to this long
 // after, the sign of the velocity it then has (rows x n); 0 elsewhere.
-constexpr double kBreakawayTime = .5;  // s
 
 MatrixXd BreakawayDirection(const MatrixXd& moves, const MatrixXd& velocity,
                             int rows_of_breakaway) {
@@ -61,24 +59,17 @@ MatrixXd BreakawayDirection(const MatrixXd& moves, const MatrixXd& velocity,
   return direction;
 }
 
-// Static friction over sliding friction: hard steel on hard steel, dry, has
-// coefficients of .78 and .42 (Marks' Standard Handbook for Mechanical
-// Engineers, coefficients of static and sliding friction).
-constexpr double kStaticFriction = .78 / .42;
-
 // Coulomb friction changes from day to day: by how much what is left of the
 // torque is against the motion, where that is clear, in the median, since a
 // push takes less than half of it. `friction`: as the model has it.
 double MoreFriction(const VectorXd& left, const VectorXd& friction,
                     double coulomb) {
-  constexpr double kClear = .9;  // of the Coulomb friction
-  constexpr size_t kLeast = 60;  // samples
   std::vector<double> against;
   for (int k = 0; k < left.size(); ++k) {
-    if (std::abs(friction[k]) < kClear * coulomb) continue;
+    if (std::abs(friction[k]) < Limits().clear_friction * coulomb) continue;
     against.push_back(friction[k] > 0 ? left[k] : -left[k]);
   }
-  if (against.size() < kLeast) return 0;
+  if (against.size() < Limits().noise_rows) return 0;
   const auto middle = against.begin() + against.size() / 2;
   std::nth_element(against.begin(), middle, against.end());
   return *middle;
@@ -106,8 +97,9 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
     const MatrixXd own = rows.Thin(s, CoulombTorque(baseline, x, segment));
     const MatrixXd moves =
         1 - rows.Pick(s, segment.still.cast<double>().matrix()).array();
-    const int size =
-        std::max(1, static_cast<int>(std::lround(kExcessTime / rows.step(s))));
+    const int size = std::max(
+        1,
+        static_cast<int>(std::lround(Limits().shortest_push / rows.step(s))));
     excess.torque.middleRows(begin, own.rows()) =
         MovingMean(residual.middleRows(begin, own.rows()) + own, size);
     excess.friction.middleRows(begin, own.rows()) =
@@ -115,7 +107,7 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
     breakaway.middleRows(begin, own.rows()) = MovingMean(
         BreakawayDirection(
             moves, rows.Pick(s, segment.motion.qd),
-            static_cast<int>(std::lround(kBreakawayTime / rows.step(s)))),
+            static_cast<int>(std::lround(Limits().breakaway / rows.step(s)))),
         size);
   }
   for (int j = 0; j < n; ++j) {
@@ -131,7 +123,7 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
     const Eigen::ArrayXd held =
         (excess.torque.col(j).array() * breakaway.col(j).array() > 0)
             .select(
-                kStaticFriction * excess.coulomb[j],
+                Limits().static_friction * excess.coulomb[j],
                 Eigen::ArrayXd::Constant(rows.num_thin(), excess.coulomb[j]));
     excess.deviations.col(j) =
         (excess.torque.col(j).cwiseAbs().array() - held) /
@@ -146,7 +138,8 @@ double BlockTime(const GapRows& rows) {
     const int s = static_cast<int>(i);
     time += (rows.thin_begin(s + 1) - rows.thin_begin(s)) * rows.step(s);
   }
-  return std::clamp(time / kFewestBlocks, 2 * kExcessTime, kLongestBlock);
+  return std::clamp<double>(time / Limits().fewest_blocks,
+                            2 * Limits().shortest_push, Limits().maxima_block);
 }
 
 std::vector<double> BlockMaxima(const GapRows& rows, double block,

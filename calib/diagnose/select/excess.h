@@ -5,6 +5,7 @@
 
 #include "calib/diagnose/data/baseline.h"
 #include "calib/diagnose/data/rows.h"
+#include "calib/diagnose/data/thresholds.h"
 
 namespace armcal {
 
@@ -12,7 +13,7 @@ namespace armcal {
 // at rest holds any torque up to its Coulomb friction, whatever the direction,
 // and so does one whose direction is doubtful: within it nothing is known.
 struct FrictionExcess {
-  // Thinned samples x n, means over kExcessTime, N m or N:
+  // Thinned samples x n, means over Limits().shortest_push, N m or N:
   Eigen::MatrixXd torque;    // recorded less the model's, friction left in it
   Eigen::MatrixXd friction;  // Coulomb, as the motion says; 0 at rest
   // (|torque| - friction) / the noise's standard deviation; the friction is
@@ -24,9 +25,6 @@ struct FrictionExcess {
   Eigen::VectorXd Largest() const { return deviations.rowwise().maxCoeff(); }
 };
 
-// The shortest push that is looked for, s.
-inline constexpr double kExcessTime = .15;
-
 // `residual`: recorded torque less that of the robot at x, friction included,
 // thinned samples x n.
 FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
@@ -34,7 +32,7 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
                                   const Eigen::MatrixXd& residual);
 
 // How long the blocks are that maxima are taken of: 2 s, and no longer than a
-// tenth of the rows' time, but twice kExcessTime.
+// tenth of the rows' time, but twice Limits().shortest_push.
 double BlockTime(const GapRows& rows);
 // The largest value in every block of every segment; `series`: thinned samples.
 std::vector<double> BlockMaxima(const GapRows& rows, double block,

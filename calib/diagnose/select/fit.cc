@@ -82,7 +82,7 @@ GapFit::NewContacts GapFit::ContactsBeside(
   found.usual = UsualExcess(found.excess, of_itself);
   for (const Contact& contact :
        FindContacts(baseline().robot(), rows(), found.excess,
-                    found.usual.Quantile(kFalseContacts), search)) {
+                    found.usual.Quantile(Limits().false_contacts), search)) {
     const bool known =
         std::any_of(events_.begin(), events_.end(), [&](const GapEvent& event) {
           return event.contact.log == contact.log &&
@@ -97,7 +97,7 @@ bool GapFit::TakeOut(const NewContacts& found, ContactSearch search) {
   for (const Contact& contact : found.contacts) {
     events_.push_back(EventBeyondFriction(rows(), found.excess, contact));
     events_.back().chance = found.usual.Chance(contact.deviations);
-      events_.back().at_rest = search == ContactSearch::kAtRest;
+    events_.back().at_rest = search == ContactSearch::kAtRest;
     data()->Mask(contact.log, contact.window);
   }
   return !found.contacts.empty();

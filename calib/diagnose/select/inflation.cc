@@ -6,14 +6,16 @@
 #include <map>
 #include <utility>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 std::pair<int, long> BlockOf(const GapRows::Place& place) {
-  constexpr double kBlock = 2;  // s
-  return {place.segment, static_cast<long>(std::floor(place.time / kBlock))};
+  return {place.segment,
+          static_cast<long>(std::floor(place.time / Limits().block))};
 }
 
 double Inflation(const GapScreen& screen, const GapRows& rows,

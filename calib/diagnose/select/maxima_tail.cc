@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 
 double MaximaTail::Chance(double further, double value) const {
@@ -39,9 +41,8 @@ MaximaTail TailOf(std::vector<double> maxima) {
 }
 
 MaximaTail UsualTailOf(std::vector<double> maxima) {
-  constexpr size_t kFewest = 8;
   MaximaTail tail;
-  if (maxima.size() < kFewest) return tail;
+  if (maxima.size() < Limits().fewest_maxima) return tail;
   std::sort(maxima.begin(), maxima.end());
   const size_t last = maxima.size() - 1;
   tail.median = maxima[last / 2];

@@ -9,6 +9,7 @@
 #include <random>
 #include <utility>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/inflation.h"
 
@@ -19,7 +20,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kDraws = 200;
-constexpr double kQuantile = .99;
 constexpr double kRounding = 1e-9;  // of a score
 constexpr double kLowest = -100;    // of scores that no candidate has
 
@@ -98,8 +98,9 @@ double ScoreByChance(const GapScreen& screen, const GapRows& rows,
     largest = largest.cwiseMax(Excess(best.col(place)).deviations);
   }
   const PlaceExcess own = Excess(best.col(joint + 1));
-  return std::min(Quantile(best.rowwise().maxCoeff(), kQuantile),
-                  own.median + own.scale * Quantile(largest, kQuantile));
+  return std::min(
+      Quantile(best.rowwise().maxCoeff(), Limits().chance_quantile),
+      own.median + own.scale * Quantile(largest, Limits().chance_quantile));
 }
 
 Selection WithoutChance(const GapScreen& screen, const GapRows& rows,

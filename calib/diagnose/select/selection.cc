@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/form_error.h"
 
@@ -15,9 +16,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// On simulated robots without effects such effects scored up to 40 to 60 where
-// others stayed below 25.
-constexpr double kNearZeroPrice = 20;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 // Of the joints that show it: what BIC asks of a parameter.
@@ -127,7 +125,7 @@ std::vector<std::vector<int>> Extended(
 double Price(const GapScreen& screen, const GapCandidate& candidate) {
   return candidate.linear.size() * LogOfRows(screen, candidate) +
          2 * std::log(candidate.tried) +
-         (candidate.effect->near_zero ? kNearZeroPrice : 0);
+         (candidate.effect->near_zero ? Limits().near_zero_price : 0);
 }
 
 double RefinedPrice(const GapScreen& screen, const GapCandidate& candidate,

@@ -1,16 +1,18 @@
 #pragma once
 
+#include "calib/diagnose/data/thresholds.h"
+
 namespace armcal {
 
 struct SelectionOptions {
-  int most_effects = 3;
+  int most_effects = static_cast<int>(Limits().most_effects);
   // An effect's score, drop of chi^2 - k ln N - 2 ln(shapes tried), has to
   // exceed this.
-  double threshold = 12;
+  double threshold = Limits().score;
   // A further effect has to explain this share of the strongest one's drop: on
   // a joint that has one already (whose form is never quite right), elsewhere.
-  double same_joint_share = 0.03;
-  double other_joint_share = 0.004;
+  double same_joint_share = Limits().same_joint_share;
+  double other_joint_share = Limits().other_joint_share;
   double inflation = 1;  // of noise variance: drops are divided by it
   bool events = true;    // whether something may have happened once
 };

@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""What each threshold of a diagnosis decides.
+
+  build/tests/write_blind_cases --set=calibration --seed=.. --cases=24 \\
+    --logs=CASES/plain/logs --labels=CASES/plain/labels --quiet=CASES/plain/quiet
+  (the same with --misfit into CASES/misfit)
+  python3 tests/blind/sensitivity.py --cases=CASES [--only=NAME,..] [--check]
+
+Diagnoses the cases of every folder of CASES with each threshold
+(calib/diagnose/data/thresholds.h) at half and at twice its value, a quantile with
+its remainder to 1 so, and writes docs/thresholds.md: how many answers change (the
+verdict, or what is claimed above 50 %), and how many more or fewer are right. It goes
+on where it stopped (CASES/sensitivity.json). --check: writes nothing, and fails where
+the page does not list the thresholds as they are.
+"""
+
+import argparse
+import json
+import os
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+PAGE = ROOT / "docs" / "thresholds.md"
+NAMED = .5
+FACTORS = {"half": .5, "twice": 2}
+
+
+def changed(threshold, factor):
+    value = threshold["value"]
+    if threshold["unit"] == "quantile":
+        return 1 - factor * (1 - value)
+    return factor * value
+
+
+def run(arguments, folder, setting):
+    """{case: diagnosis} with thresholds as `setting` says; None: no answer."""
+    name = setting or "as_they_are"
+    answers = folder / "answers" / name
+    program = Path(arguments.cases).resolve() / "program.sh"
+    program.write_text(f"#!/bin/sh\nexec {os.path.abspath(arguments.program)} "
+                       f"'{setting}' \"$@\"\n")
+    program.chmod(program.stat().st_mode | stat.S_IRWXU | stat.S_IRGRP |
+                  stat.S_IXGRP | stat.S_IROTH | stat.S_IXOTH)
+    subprocess.run([arguments.run_blind, f"--armcal={program}", "--forward=false",
+                    f"--logs={folder}/logs", f"--labels={folder}/labels",
+                    f"--answers={answers}"], check=True, stdout=subprocess.DEVNULL)
+    found = {}
+    for case in sorted(answers.iterdir()):
+        path = case / "diagnosis.json"
+        found[case.name] = json.loads(path.read_text()) if path.exists() else None
+    return found
+
+
+def claims(diagnosis):
+    return {(e["effect"], e["joint_index"]) for e in diagnosis["effects"]
+            if e["probability"] > NAMED}
+
+
+def said(diagnosis):
+    """What must not change: the verdict and the claims."""
+    return diagnosis and (diagnosis["verdict"], claims(diagnosis))
+
+
+def is_right(diagnosis, label):
+    """Nothing where there is nothing, else all that there is and no more; of what is
+    in no catalogue no name."""
+    if diagnosis is None:
+        return False
+    truth = {(e["effect"], e["joint_index"]) for e in label["effects"] if e["in_catalogue"]}
+    if label["effects"]:
+        return claims(diagnosis) == truth
+    return not diagnosis["effects"] and diagnosis["verdict"] not in (
+        "unknown", "partly_explained", "explained")
+
+
+def labels(folder):
+    return {path.stem: json.loads(path.read_text())
+            for path in (folder / "labels").glob("case_*.json")}
+
+
+def study(arguments, threshold, folders, before, truth):
+    """{"half": {"changed": .., "right": .., "value": ..}, "twice": ..}"""
+    row = {}
+    for word, factor in FACTORS.items():
+        value = changed(threshold, factor)
+        after = {f.name: run(arguments, f, f"{threshold['name']}={value:.12g}")
+                 for f in folders}
+        cases = [(f.name, case) for f in folders for case in truth[f.name]]
+        row[word] = {
+            "value": value,
+            "changed": sum(said(before[f][c]) != said(after[f][c]) for f, c in cases),
+            "right": sum(is_right(after[f][c], truth[f][c]) -
+                         is_right(before[f][c], truth[f][c]) for f, c in cases)}
+    return row
+
+
+def number(x):
+    return f"{x:.3g}"
+
+
+def page(thresholds, result):
+    tuned = [t for t in thresholds if t["kind"] == "tuned"]
+    count = result.get("cases", 0)
+    lines = [
+        "# Thresholds of a diagnosis", "",
+        f"Every number that decides what `armcal diagnose` says: {len(tuned)} that were "
+        f"chosen on data, and {len(thresholds) - len(tuned)} that follow from a law or a "
+        "convention. Written by `tests/blind/sensitivity.py` from "
+        "`calib/diagnose/data/thresholds.h`. Not here are the weights of a claim's "
+        "probability (`calib/diagnose/judge/evidence.cc`), the ranges of "
+        "[effects' parameters](effects/README.md), and the sizes of grids and caps on "
+        "rounds.", "",
+        f"*Half* and *twice*: how many of {count} calibration cases of the "
+        "[blind bench](../tests/blind/README.md) (half of them with structured misfit) get "
+        "another verdict or another claim above 50 % with half or twice the value (of a "
+        "quantile: of its remainder to 1), and, where that differs, how many more (+) or "
+        "fewer (-) are then right. These cases are of the set that many of the numbers were "
+        "chosen on: the figures say what a number decides, not how good it is.", "",
+        "| name | value | unit | meaning | half | twice | source |",
+        "|---|---|---|---|---|---|---|"]
+    for t in thresholds:
+        row = result["rows"].get(t["name"], {})
+        cells = []
+        for word in FACTORS:
+            entry = row.get(word)
+            text = "" if entry is None else str(entry["changed"])
+            if entry and entry["right"]:
+                text += f" ({entry['right']:+d})"
+            cells.append(text)
+        source = t["source"] if t["kind"] == "law" else "chosen on: " + t["source"]
+        lines.append(f"| `{t['name']}` | {number(t['value'])} | {t['unit']} | "
+                     f"{t['meaning']} | {cells[0]} | {cells[1]} | {source} |")
+    return "\n".join(lines) + "\n"
+
+
+def is_current(thresholds):
+    """Whether the page's rows are these thresholds with these values."""
+    rows = [[cell.strip() for cell in line.strip("|").split("|")]
+            for line in PAGE.read_text().splitlines() if line.startswith("| `")]
+    return [(row[0].strip("`"), row[1], row[2], row[3]) for row in rows] == [
+        (t["name"], number(t["value"]), t["unit"], t["meaning"]) for t in thresholds]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--cases", default="/tmp/sensitivity")
+    parser.add_argument("--program", default="build/tests/diagnose_with_thresholds")
+    parser.add_argument("--run_blind", default="build/tests/run_blind")
+    parser.add_argument("--only", default="")
+    parser.add_argument("--check", action="store_true")
+    arguments = parser.parse_args()
+    thresholds = json.loads(subprocess.run(
+        [arguments.program, "--list"], check=True, capture_output=True).stdout)
+    if arguments.check:
+        return 0 if is_current(thresholds) else f"{PAGE}: not of these thresholds"
+    folders = sorted(p for p in Path(arguments.cases).iterdir() if (p / "logs").exists())
+    truth = {f.name: labels(f) for f in folders}
+    saved = Path(arguments.cases) / "sensitivity.json"
+    result = json.loads(saved.read_text()) if saved.exists() else {"rows": {}}
+    result["cases"] = sum(len(t) for t in truth.values())
+    before = {f.name: run(arguments, f, "") for f in folders}
+    only = arguments.only.split(",") if arguments.only else None
+    for threshold in thresholds:
+        if threshold["name"] in result["rows"] or (
+                only and threshold["name"] not in only):
+            continue
+        row = study(arguments, threshold, folders, before, truth)
+        result["rows"][threshold["name"]] = row
+        saved.write_text(json.dumps(result, indent=1))
+        print(threshold["name"], {w: (e["changed"], e["right"]) for w, e in row.items()},
+              flush=True)
+    PAGE.write_text(page(thresholds, result))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
