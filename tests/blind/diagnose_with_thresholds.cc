@@ -9,23 +9,33 @@
 #include <string>
 
 #include "calib/diagnose/data/thresholds.h"
-#include "tools/commands/diagnose.h"
 #include "tools/flag_parser.h"
 #include "tools/output_folder.h"
+#include "tools/program/command_list.h"
 
 namespace armcal {
 namespace {
 
+const char* KindName(ThresholdInfo::Kind kind) {
+  switch (kind) {
+    case ThresholdInfo::Kind::kLaw:
+      return "law";
+    case ThresholdInfo::Kind::kDefinition:
+      return "definition";
+    case ThresholdInfo::Kind::kTuned:
+      break;
+  }
+  return "tuned";
+}
+
 nlohmann::json ThresholdsJson() {
   nlohmann::json all = nlohmann::json::array();
-  for (const NamedThreshold& named : ListThresholds()) {
-    const Threshold& threshold = Limits().*named.threshold;
-    const bool tuned = threshold.kind == Threshold::Kind::kTuned;
-    all.push_back({{"name", named.name},
-                   {"value", threshold.value},
+  for (const ThresholdInfo& threshold : ListThresholds()) {
+    all.push_back({{"name", threshold.name},
+                   {"value", Limits().*threshold.value},
                    {"unit", threshold.unit},
                    {"meaning", threshold.meaning},
-                   {"kind", tuned ? "tuned" : "law"},
+                   {"kind", KindName(threshold.kind)},
                    {"source", threshold.source}});
   }
   return all;
@@ -38,7 +48,7 @@ int Main(int argc, char** argv) {
     return 0;
   }
   SetThresholds(first);
-  const Command command = DiagnoseCommand();
+  const Command& command = *FindCommand("diagnose");
   CommandInput input;
   input.flags = ParseFlags(command, argc - 2, argv + 2).values;
   CommandOutcome outcome = command.run(input);

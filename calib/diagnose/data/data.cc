@@ -52,7 +52,7 @@ GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
     const int s = static_cast<int>(i), begin = rows_->thin_begin(s);
     auto here = usual.middleRows(begin, rows_->thin_begin(s + 1) - begin);
     const bool made = signals_->segments[i].made_torque;
-    here *= made ? Limits().reversal_doubt_of_made : Limits().reversal_doubt;
+    here *= Limits().reversal_doubt;
     if (made) here = Spread(here);
   }
   for (size_t i = 0; i < signals_->segments.size(); ++i) {

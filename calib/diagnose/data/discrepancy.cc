@@ -72,18 +72,18 @@ VectorXd Discrepancy::Spreads(int j, const Joint& joint) const {
     at += count;
   };
   for (int k = 0; k < kHarmonics; ++k) {
-    add(2, Limits().lacked_over_position * usual * HarmonicSize(k));
+    add(2, Limits().lacked * usual * HarmonicSize(k));
   }
   for (int k = 0; k < kHarmonics; k += kSignStep) {
-    add(2, Limits().lacked_over_position_and_sign * usual * HarmonicSize(k));
+    add(2, Limits().lacked_of_sign * usual * HarmonicSize(k));
   }
   add(kSpeedShares.size(),
       Limits().lacked_friction_curve * std::abs(joint.coulomb));
-  add(kLoadShapes, Limits().lacked_over_load * usual);
-  add(kStateShapes, Limits().lacked_over_state * usual);
+  add(kLoadShapes, Limits().lacked * usual);
+  add(kStateShapes, Limits().lacked * usual);
   // Of the model's torque: the recorded one would explain whatever is recorded.
   add(1, torque_constants_stddev_ * usual);
-  add(kTimeShapes * logs_, Limits().lacked_over_time * usual);
+  add(kTimeShapes * logs_, Limits().lacked_of_sign * usual);
   return spreads;
 }
 

@@ -286,9 +286,14 @@ std::vector<int> GapRows::SampleOfRow(int joint) const {
 void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
                  LogPart part, const LogSet& logs) {
   if (GapRows(segments, bandwidth_hz, part).num_rows() > 0) return;
+  // One run between the bent ends.
+  const double needed = std::max(
+      kShortestSegment,
+      (2 * kPeriodsAtEnds + kShortestRun / kRateOverBandwidth) / bandwidth_hz);
   throw InputError(logs.path(0), "", "",
-                   "no motion is left of it, expected a longer stretch without "
-                   "gap or standstill, or a higher " +
+                   "no motion is left of it, expected " +
+                       NumberText(std::ceil(10 * needed) / 10) +
+                       " s of it without gap or standstill, or a higher " +
                        OptionName("bandwidth") + " than " +
                        NumberText(bandwidth_hz) + " Hz");
 }

@@ -9,6 +9,9 @@
 
 namespace armcal {
 
+// What is shorter is left out, s.
+inline constexpr double kShortestSegment = 2;
+
 // A stretch of a log without gaps, in memory as a whole: what a diagnosis
 // works on, since effects with a memory (heat, bristles) run through all of it.
 struct GapSegment {

@@ -24,7 +24,6 @@ using Eigen::VectorXd;
 constexpr double kSmoothTemperatureHz = .2;
 // Of errors of stamps, which are known every second.
 constexpr double kSmoothStampHz = .3;
-constexpr double kShortest = 2;         // s
 constexpr double kMotionBandwidth = 5;  // of the torque's
 
 void AppendRows(const MatrixXd& rows, MatrixXd* to) {
@@ -142,7 +141,7 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                  AppendCore(trajectory, &segments.back());
                });
   const auto is_short = [](const GapSegment& segment) {
-    return segment.size() * segment.motion.dt < kShortest;
+    return segment.size() * segment.motion.dt < kShortestSegment;
   };
   segments.erase(std::remove_if(segments.begin(), segments.end(), is_short),
                  segments.end());

@@ -7,14 +7,256 @@
 namespace armcal {
 namespace {
 
+using T = Thresholds;
+using Kind = ThresholdInfo::Kind;
+
+const std::vector<ThresholdInfo> kAll = {
+    // What the model may vary
+    {"timing_with_reference", &T::timing_with_reference, "s",
+     "How far torque may lag behind position where a reference tells by "
+     "how much",
+     Kind::kTuned, "recorded logs of eight arms: 0 to 40 ms"},
+    {"reversal_of_made_torques", &T::reversal_of_made_torques, "s",
+     "When friction changes sign, beside a velocity whose low pass takes "
+     "a stop for a turn; torques made of commands",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"reversal_width", &T::reversal_width, "rad/s",
+     "Speed over which friction changes sign (0.3 of it in m/s), where "
+     "no calibration tells",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"width_mixture", &T::width_mixture, "Coulomb friction",
+     "How much of it may change sign over other speeds", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"offset_share", &T::offset_share, "usual torque",
+     "How well a torque's zero is known", Kind::kTuned,
+     "torque sensors and currents of the eight arms of tests/real"},
+    {"reversal_doubt", &T::reversal_doubt, "prior deviation",
+     "Of the ways through zero velocity, how much of them is doubt of "
+     "the samples next to it",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"made_torque_doubt", &T::made_torque_doubt, "usual torque",
+     "How well torques made of commands are known, at best", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    // What models lack as a rule
+    {"lacked", &T::lacked, "usual torque",
+     "Torque of position, of the joint's load, and of all positions and "
+     "velocities, rms each",
+     Kind::kTuned,
+     "90 simulated arms with and without misfit, and a KR300, a TX40 and "
+     "a UR10e"},
+    {"lacked_of_sign", &T::lacked_of_sign, "usual torque",
+     "Torque of position that turns with the direction of motion, and "
+     "torque of time, rms each",
+     Kind::kTuned,
+     "90 simulated arms with and without misfit, and a KR300, a TX40 and "
+     "a UR10e"},
+    {"lacked_friction_curve", &T::lacked_friction_curve, "Coulomb friction",
+     "How far its curve over speed may differ", Kind::kTuned,
+     "90 simulated arms with and without misfit, and a KR300, a TX40 and "
+     "a UR10e"},
+    {"lacked_cycles", &T::lacked_cycles, "1 per turn",
+     "Cycles over position, rms; higher ones are smaller", Kind::kTuned,
+     "90 simulated arms with and without misfit, and a KR300, a TX40 and "
+     "a UR10e"},
+    {"lacked_state_frequency", &T::lacked_state_frequency, "1",
+     "rms rad per unit of a state's standard deviation", Kind::kTuned,
+     "90 simulated arms with and without misfit, and a KR300, a TX40 and "
+     "a UR10e"},
+    // From day to day
+    {"told_of_day", &T::told_of_day, "prior variance",
+     "A joint's friction is told where less than this of its prior is "
+     "left",
+     Kind::kTuned, "seven arms with logs of several days"},
+    {"clear_of_many", &T::clear_of_many, "standard deviations",
+     "What is looked at on many joints or parameters at once is clear "
+     "beyond this",
+     Kind::kLaw, "5e-7 by chance"},
+    {"several_joints", &T::several_joints, "joints",
+     "So many joints changed together are another day", Kind::kDefinition,
+     "what another day is"},
+    // Noise of the torque
+    {"noise_rows", &T::noise_rows, "samples",
+     "The fewest that tell a joint's noise: its deviation to a tenth",
+     Kind::kLaw, "its standard error is 1 / sqrt(2 n): 9 %"},
+    {"shortest_period", &T::shortest_period, "s",
+     "Motion that repeats sooner is no repeat", Kind::kDefinition,
+     "a motion between two postures takes longer"},
+    {"ends_without_repeat", &T::ends_without_repeat, "log",
+     "What a log begins and ends with need not repeat", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"repeat_tolerance", &T::repeat_tolerance, "rms motion",
+     "Motion is the same again within this share", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"doubt_of_noise", &T::doubt_of_noise, "variance",
+     "By what share the noise told from repeats, a reference or "
+     "positions may be larger",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"doubt_of_rest", &T::doubt_of_rest, "variance",
+     "The same of what was told at rest: motion adds clocks and encoders",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"doubt_of_residual", &T::doubt_of_residual, "variance",
+     "The same of what a refit leaves", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"creep_speed", &T::creep_speed, "rad/s or m/s",
+     "Below it a joint whose command rests creeps", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"smooth_power", &T::smooth_power, "noise power",
+     "What is left of the torque above a low pass, over the noise's "
+     "power, where a delay is to be told from it",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"burst", &T::burst, "usual torque",
+     "A second whose torque above the bandwidth is beyond this rings",
+     Kind::kDefinition, "what a loop is that rings"},
+    {"burst_over_fast", &T::burst_over_fast, "middle second",
+     "and beyond this times what a joint's seconds have up there", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"burst_reach", &T::burst_reach, "s",
+     "Left out on both sides, per power of ten", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"position_only", &T::position_only, "inertial torque",
+     "Torque that a law of position alone leaves less of was computed, "
+     "not measured",
+     Kind::kTuned, "handguided log of a pendulum, and logs with torques"},
+    {"least_inertial", &T::least_inertial, "torque",
+     "A joint whose inertial share is less tells nothing of that", Kind::kTuned,
+     "handguided log of a pendulum, and logs with torques"},
+    // Choice
+    {"score", &T::score, "chi^2",
+     "An effect's drop of chi^2 less its price has to exceed it", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"same_joint_share", &T::same_joint_share, "drop",
+     "One more effect on a joint has to explain this share of the "
+     "strongest's drop: laws' forms are never quite right",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"other_joint_share", &T::other_joint_share, "drop", "The same elsewhere",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"most_effects", &T::most_effects, "effects", "More are not chosen",
+     Kind::kDefinition, "what a report can hold"},
+    {"near_zero_price", &T::near_zero_price, "chi^2",
+     "More for laws that act next to zero velocity only, where models of "
+     "friction err",
+     Kind::kTuned,
+     "simulated robots without effects: 40 to 60 where others stayed "
+     "below 25"},
+    {"chance_quantile", &T::chance_quantile, "quantile",
+     "Beyond what random signs of blocks give in this share of draws",
+     Kind::kLaw, "significance of 1 %"},
+    {"block", &T::block, "s",
+     "Torque that is left, and its maxima, are independent from block to "
+     "block",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    // Contacts
+    {"false_contacts", &T::false_contacts, "logs",
+     "At most this share of logs without a contact has one found", Kind::kLaw,
+     "significance of 1 %"},
+    {"odds_of_no_contact", &T::odds_of_no_contact, "1",
+     "Before the log is looked at", Kind::kTuned, "one log in ten has a touch"},
+    {"shortest_push", &T::shortest_push, "s", "Shorter ones are not looked for",
+     Kind::kDefinition, "what a contact is"},
+    {"fewest_blocks", &T::fewest_blocks, "blocks",
+     "Shorter blocks in short logs, to have so many; fewer tell no upper "
+     "quartile",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"breakaway", &T::breakaway, "s",
+     "How long after a rest a joint may still be breaking away", Kind::kTuned,
+     "dfki_simple_pendulum"},
+    {"static_friction", &T::static_friction, "sliding friction",
+     "What a joint holds that breaks away", Kind::kLaw,
+     "hard steel on hard steel, dry: Marks' Standard Handbook for "
+     "Mechanical Engineers"},
+    {"clear_friction", &T::clear_friction, "Coulomb friction",
+     "Where the model's friction is beyond this its sign is clear",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"near_rest", &T::near_rest, "s",
+     "A contact at rest has the arm at rest within this time", Kind::kTuned,
+     "pushes on a UR10e"},
+    {"same_posture", &T::same_posture, "rad or m",
+     "in a posture not farther away", Kind::kDefinition,
+     "what the same posture is"},
+    {"usual_lever", &T::usual_lever, "longest lever",
+     "A force with shorter levers about all joints is improbable", Kind::kTuned,
+     "isotropic directions"},
+    {"event_reach", &T::event_reach, "widths",
+     "How far to both sides an event is left out", Kind::kLaw,
+     "exp(-2.5^2): 0.2 % of its peak is left"},
+    // Probability and claims
+    {"temperature", &T::temperature, "1",
+     "Divides scores: neither noise nor catalogue nor forms are as a "
+     "score assumes",
+     Kind::kTuned, "the 95 % sets of 141 simulated cases held the truth"},
+    {"credible", &T::credible, "quantile", "Of the set of candidates",
+     Kind::kLaw, "the convention of intervals"},
+    {"least_claimed", &T::least_claimed, "1",
+     "Less probable effects are candidates, no more", Kind::kDefinition,
+     "what is named"},
+    {"likely", &T::likely, "1", "Likelier than not", Kind::kLaw, "even odds"},
+    {"likely_unseen", &T::likely_unseen, "1",
+     "The same of what held-out data do not show", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"form_error", &T::form_error, "drop",
+     "What the form of a law may have wrong of its drop", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"visible", &T::visible, "chi^2",
+     "Held-out data that should have more of an effect contradict it "
+     "where they have none",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"helps", &T::helps, "noise", "unless their mean square falls by this",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"confirmation", &T::confirmation, "chi^2",
+     "Held-out data that should have less of an effect tell little",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"seen_again", &T::seen_again, "1",
+     "Held-out data that have this share of what they should show it",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"untold", &T::untold, "1",
+     "What held-out data cannot tell is at most this probable", Kind::kLaw,
+     "indifference"},
+    {"tells", &T::tells, "drop",
+     "A joint that has less of a delay tells nothing of it", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    // Verdict
+    {"real", &T::real, "chi^2",
+     "What is left counts beyond this: it is not chance", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"left", &T::left, "gap",
+     "and this share of what was there; effects that leave more explain "
+     "in part",
+     Kind::kDefinition, "the verdicts `explained` and `unknown`"},
+    {"absorbed", &T::absorbed, "gap",
+     "A refit that leaves less than this has absorbed it", Kind::kDefinition,
+     "the verdict `absorbed`"},
+    {"louder_in_motion", &T::louder_in_motion, "variance",
+     "Noise that was told at rest may be so much louder in motion",
+     Kind::kTuned, "the blind bench's calibration cases"},
+    {"most_of_time", &T::most_of_time, "log",
+     "Windows that stand out in more of it were no touch", Kind::kDefinition,
+     "what a touch is"},
+    {"visible_share", &T::visible_share, "column's square",
+     "An effect of which the model leaves less cannot be told", Kind::kTuned,
+     "the blind bench's calibration cases"},
+    {"material", &T::material, "noise",
+     "nor one of usual size that is smaller, rms", Kind::kDefinition,
+     "what is `not testable`"},
+    {"far", &T::far, "standard deviations",
+     "A parameter that is farther from the file's is told", Kind::kLaw,
+     "95 % of a normal distribution"},
+    {"notable", &T::notable, "usual change", "One of a day is told beyond this",
+     Kind::kDefinition, "what is listed as `absorbed`"},
+    {"order", &T::order, "chi^2",
+     "Residuals are ordered by what their bins show beyond this", Kind::kLaw,
+     "chi^2 of 10 bins, 99.9 %, seven coordinates"},
+    {"fewest_logs", &T::fewest_logs, "logs", "A drift needs so many",
+     Kind::kLaw, "two points are a line"},
+};
+
 Thresholds& Own() {
   static Thresholds thresholds;
   return thresholds;
 }
 
-Threshold& Named(const std::string& name) {
-  for (const NamedThreshold& known : ListThresholds()) {
-    if (name == known.name) return Own().*known.threshold;
+double& Named(const std::string& name) {
+  for (const ThresholdInfo& known : ListThresholds()) {
+    if (name == known.name) return Own().*known.value;
   }
   throw std::invalid_argument("no threshold \"" + name +
                               "\" (docs/thresholds.md has all)");
@@ -38,89 +280,7 @@ double PositiveNumber(const std::string& text) {
 
 const Thresholds& Limits() { return Own(); }
 
-const std::vector<NamedThreshold>& ListThresholds() {
-  using T = Thresholds;
-  static const std::vector<NamedThreshold> all = {
-      {"timing_with_reference", &T::timing_with_reference},
-      {"reversal_of_made_torques", &T::reversal_of_made_torques},
-      {"reversal_width", &T::reversal_width},
-      {"width_mixture", &T::width_mixture},
-      {"offset_share", &T::offset_share},
-      {"reversal_doubt", &T::reversal_doubt},
-      {"reversal_doubt_of_made", &T::reversal_doubt_of_made},
-      {"made_torque_doubt", &T::made_torque_doubt},
-      {"lacked_over_position", &T::lacked_over_position},
-      {"lacked_over_position_and_sign", &T::lacked_over_position_and_sign},
-      {"lacked_over_load", &T::lacked_over_load},
-      {"lacked_over_state", &T::lacked_over_state},
-      {"lacked_over_time", &T::lacked_over_time},
-      {"lacked_friction_curve", &T::lacked_friction_curve},
-      {"lacked_cycles", &T::lacked_cycles},
-      {"lacked_state_frequency", &T::lacked_state_frequency},
-      {"told_of_day", &T::told_of_day},
-      {"clear_of_many", &T::clear_of_many},
-      {"several_joints", &T::several_joints},
-      {"noise_rows", &T::noise_rows},
-      {"shortest_period", &T::shortest_period},
-      {"ends_without_repeat", &T::ends_without_repeat},
-      {"repeat_tolerance", &T::repeat_tolerance},
-      {"doubt_of_noise", &T::doubt_of_noise},
-      {"doubt_of_rest", &T::doubt_of_rest},
-      {"doubt_of_residual", &T::doubt_of_residual},
-      {"creep_speed", &T::creep_speed},
-      {"smooth_power", &T::smooth_power},
-      {"burst", &T::burst},
-      {"burst_over_fast", &T::burst_over_fast},
-      {"burst_reach", &T::burst_reach},
-      {"position_only", &T::position_only},
-      {"least_inertial", &T::least_inertial},
-      {"score", &T::score},
-      {"same_joint_share", &T::same_joint_share},
-      {"other_joint_share", &T::other_joint_share},
-      {"most_effects", &T::most_effects},
-      {"near_zero_price", &T::near_zero_price},
-      {"chance_quantile", &T::chance_quantile},
-      {"block", &T::block},
-      {"false_contacts", &T::false_contacts},
-      {"odds_of_no_contact", &T::odds_of_no_contact},
-      {"shortest_push", &T::shortest_push},
-      {"maxima_block", &T::maxima_block},
-      {"fewest_blocks", &T::fewest_blocks},
-      {"breakaway", &T::breakaway},
-      {"static_friction", &T::static_friction},
-      {"clear_friction", &T::clear_friction},
-      {"near_rest", &T::near_rest},
-      {"same_posture", &T::same_posture},
-      {"usual_lever", &T::usual_lever},
-      {"event_reach", &T::event_reach},
-      {"fewest_maxima", &T::fewest_maxima},
-      {"temperature", &T::temperature},
-      {"credible", &T::credible},
-      {"least_claimed", &T::least_claimed},
-      {"likely", &T::likely},
-      {"likely_unseen", &T::likely_unseen},
-      {"form_error", &T::form_error},
-      {"visible", &T::visible},
-      {"helps", &T::helps},
-      {"confirmation", &T::confirmation},
-      {"seen_again", &T::seen_again},
-      {"untold", &T::untold},
-      {"most_odds", &T::most_odds},
-      {"tells", &T::tells},
-      {"real", &T::real},
-      {"left", &T::left},
-      {"absorbed", &T::absorbed},
-      {"louder_in_motion", &T::louder_in_motion},
-      {"most_of_time", &T::most_of_time},
-      {"visible_share", &T::visible_share},
-      {"material", &T::material},
-      {"far", &T::far},
-      {"notable", &T::notable},
-      {"order", &T::order},
-      {"fewest_logs", &T::fewest_logs},
-  };
-  return all;
-}
+const std::vector<ThresholdInfo>& ListThresholds() { return kAll; }
 
 void SetThresholds(const std::string& values) {
   std::istringstream list(values);
@@ -129,8 +289,7 @@ void SetThresholds(const std::string& values) {
     if (equals == std::string::npos) {
       throw std::invalid_argument("\"" + entry + "\" is not name=value");
     }
-    Named(entry.substr(0, equals)).value =
-        PositiveNumber(entry.substr(equals + 1));
+    Named(entry.substr(0, equals)) = PositiveNumber(entry.substr(equals + 1));
   }
 }
 

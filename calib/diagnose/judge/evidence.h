@@ -29,7 +29,6 @@ struct EffectEvidence {
   Confirmation confirmation;  // by them
   // What all effects leave there of the gap of its joint, or of all.
   double left = 0;
-  bool made_torque = false;  // of commands: their noise is of another kind
 };
 
 // The evidence for what a fit chose. Keeps references.

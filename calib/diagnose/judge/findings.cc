@@ -273,8 +273,7 @@ bool IsPossible(const FoundEffect& found) {
 bool IsContradicted(const FoundEffect& found) {
   const Confirmation& confirmation = found.evidence.confirmation;
   return confirmation.expected >
-             std::max<double>(Limits().visible,
-                              Limits().form_error * found.drop) &&
+             std::max(Limits().visible, Limits().form_error * found.drop) &&
          confirmation.explained < 0 && found.evidence.gain < Limits().helps;
 }
 
@@ -288,9 +287,7 @@ bool IsClaimed(const FoundEffect& found) {
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
   if (!IsSeenAgain(found)) {
-    return found.probability >= (found.evidence.made_torque
-                                     ? Limits().likely
-                                     : Limits().likely_unseen);
+    return found.probability >= Limits().likely_unseen;
   }
   return found.probability >= Limits().likely ||
          (found.probability >= Limits().least_claimed &&

@@ -10,9 +10,8 @@ double UnexplainedOf(const JointLeft& left) {
   // Without any order, it may be noise that is louder here than where it was
   // told: up to twice; in motion, where clocks and encoders err, to twice the
   // standard deviation at rest.
-  const double louder = left.floor == NoiseFloor::kStandstill
-                            ? Limits().louder_in_motion.value
-                            : 1;
+  const double louder =
+      left.floor == NoiseFloor::kStandstill ? Limits().louder_in_motion : 1;
   if (!left.is_ordered && left.excess < louder * left.rows) return 0;
   return left.excess;
 }

@@ -138,8 +138,8 @@ double BlockTime(const GapRows& rows) {
     const int s = static_cast<int>(i);
     time += (rows.thin_begin(s + 1) - rows.thin_begin(s)) * rows.step(s);
   }
-  return std::clamp<double>(time / Limits().fewest_blocks,
-                            2 * Limits().shortest_push, Limits().maxima_block);
+  return std::clamp(time / Limits().fewest_blocks, 2 * Limits().shortest_push,
+                    Limits().block);
 }
 
 std::vector<double> BlockMaxima(const GapRows& rows, double block,

@@ -42,7 +42,7 @@ MaximaTail TailOf(std::vector<double> maxima) {
 
 MaximaTail UsualTailOf(std::vector<double> maxima) {
   MaximaTail tail;
-  if (maxima.size() < Limits().fewest_maxima) return tail;
+  if (maxima.size() < Limits().fewest_blocks) return tail;
   std::sort(maxima.begin(), maxima.end());
   const size_t last = maxima.size() - 1;
   tail.median = maxima[last / 2];

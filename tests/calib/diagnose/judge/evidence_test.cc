@@ -4,26 +4,19 @@
 
 namespace armcal::evidence_test {
 
-// For torques that were recorded, or made of commands.
-class ProbabilityOfTest : public testing::TestWithParam<bool> {
- protected:
-  static EffectEvidence Clear();
-};
-
-EffectEvidence ProbabilityOfTest::Clear() {
+EffectEvidence Clear() {
   EffectEvidence evidence;
-  evidence.made_torque = GetParam();
   evidence.odds = 8;
   evidence.strength = 7;
   evidence.confirmation = {500, 500};
   return evidence;
 }
 
-TEST_P(ProbabilityOfTest, IsHighForWhatIsClear) {
+TEST(ProbabilityOf, IsHighForWhatIsClear) {
   EXPECT_GT(ProbabilityOf(Clear()), .95);
 }
 
-TEST_P(ProbabilityOfTest, FallsWithAllThatSpeaksAgainst) {
+TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainst) {
   const double clear = ProbabilityOf(Clear());
   const auto expect_less = [&](const char* what, auto change) {
     EffectEvidence evidence = Clear();
@@ -46,14 +39,11 @@ TEST_P(ProbabilityOfTest, FallsWithAllThatSpeaksAgainst) {
   expect_less("held-out data hardly see it", [](EffectEvidence* e) {
     e->confirmation = {5, 5};
   });
-  if (!GetParam()) return;
-  expect_less("much is left on its joint",
-              [](EffectEvidence* e) { e->left = .5; });
 }
 
 // What was held out has to say something: an effect that one stretch alone
 // shows is as likely something that happened there.
-TEST_P(ProbabilityOfTest, IsAtMostEvenWhereHeldOutDataCannotTell) {
+TEST(ProbabilityOf, IsAtMostEvenWhereHeldOutDataCannotTell) {
   EffectEvidence evidence = Clear();
   evidence.held_out = true;
   EXPECT_EQ(ProbabilityOf(evidence), ProbabilityOf(Clear()));
@@ -62,7 +52,7 @@ TEST_P(ProbabilityOfTest, IsAtMostEvenWhereHeldOutDataCannotTell) {
 }
 
 // Weaker ones may be what its form has wrong, and are nothing against it.
-TEST(ProbabilityTest, WeakerEffectsSayNothingAgainstARecordedOne) {
+TEST(ProbabilityOf, WeakerEffectsSayNothingAgainstARecordedOne) {
   EffectEvidence alone;
   alone.odds = 8;
   alone.strength = 7;
@@ -72,7 +62,7 @@ TEST(ProbabilityTest, WeakerEffectsSayNothingAgainstARecordedOne) {
   EXPECT_EQ(ProbabilityOf(alone), ProbabilityOf(beside_weaker));
 }
 
-TEST_P(ProbabilityOfTest, AContactFeltByOneJointManyTimesIsNone) {
+TEST(ProbabilityOf, AContactFeltByOneJointManyTimesIsNone) {
   EffectEvidence once = Clear();
   once.events = 1;
   once.one_joint = .3;
@@ -83,7 +73,5 @@ TEST_P(ProbabilityOfTest, AContactFeltByOneJointManyTimesIsNone) {
   EXPECT_LT(ProbabilityOf(often), ProbabilityOf(once));
   EXPECT_LT(ProbabilityOf(one_joint), ProbabilityOf(once));
 }
-
-INSTANTIATE_TEST_SUITE_P(Torques, ProbabilityOfTest, testing::Bool());
 
 }  // namespace armcal::evidence_test

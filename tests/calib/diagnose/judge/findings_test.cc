@@ -70,13 +70,6 @@ TEST_F(IsClaimedTest, WhatHeldOutDataDoNotShowIsLikelier) {
   EXPECT_FALSE(Claimed(.6, .01, 500, 50));
 }
 
-// Where torques are made of commands, its probability knows of that.
-TEST_F(IsClaimedTest, OfMadeTorquesWhatIsLikelyIsEnough) {
-  found_.evidence.made_torque = true;
-  EXPECT_FALSE(Claimed(.49, .01, 10, 2));
-  EXPECT_TRUE(Claimed(.5, .01, 10, 2));
-}
-
 TEST_F(IsClaimedTest, WhatHeldOutDataContradictIsNot) {
   EXPECT_FALSE(Claimed(.99, .01, 500, -20));
   // Its form is a little too large, and it helps.

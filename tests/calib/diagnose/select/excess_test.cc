@@ -82,8 +82,15 @@ TEST_F(ExcessOfAJoint, BreaksAwayFromStaticFriction) {
 }
 
 TEST_F(ExcessOfAJoint, HasMaximaOfBlocks) {
-  // 20 s without .4 s at both ends.
-  EXPECT_NEAR(BlockTime(*rows_), 1.92, .01);
+  EXPECT_EQ(BlockTime(*rows_), 2);
+  // 8 s without .4 s at both ends, in eight blocks.
+  GapSegment first = segments_[0];
+  first.motion.q.conservativeResize(800, 1);
+  first.motion.qd.conservativeResize(800, 1);
+  first.tau.conservativeResize(800, 1);
+  first.still.conservativeResize(800, 1);
+  const std::vector<GapSegment> short_log = {first};
+  EXPECT_NEAR(BlockTime(GapRows(short_log, 10)), .9, .01);
   const int size = rows_->num_thin();
   const std::vector<double> maxima =
       BlockMaxima(*rows_, 2, VectorXd::LinSpaced(size, 0, size - 1));
