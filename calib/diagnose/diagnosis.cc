@@ -220,13 +220,18 @@ GapFigures Diagnoser::FiguresOf(const HeldOut::Residuals& residuals) const {
 // Fits what is claimed again without what is not, so that every figure, file
 // and drawing is of what the verdict names. What nothing explains was told
 // before: what is fitted and not named is not without explanation, it has
-// several. Whether there was anything to leave out.
+// several. What alone makes held-out data worse for certain is not claimed
+// either. Whether there was anything to leave out.
 bool Diagnoser::ClaimNoMore(GapFindings* findings) {
   const size_t fitted = fit_->refined().effects.size();
-  FitClaimed(findings, &*fit_);
+  do {
+    FitClaimed(findings, &*fit_);
+    if (fit_->refined().effects.size() < fitted) {
+      result_.torque = FiguresOf(held_out_->AllResiduals());
+    }
+    SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
+  } while (result_.torque.ci95[1] < 0 && GiveUpWorst(findings));
   if (fit_->refined().effects.size() == fitted) return false;
-  result_.torque = FiguresOf(held_out_->AllResiduals());
-  SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
   if (result_.torque.joints.rows() > 0) {
     for (int j = 0; j < robot_.num_joints(); ++j) {
       result_.joints[j].after_rms =

@@ -50,6 +50,10 @@ const std::vector<ThresholdInfo> kAll = {
      Kind::kTuned,
      "90 simulated arms with and without misfit, and a KR300, a TX40 and "
      "a UR10e"},
+    {"least_lacked", &T::least_lacked, "lacked torque",
+     "The best of models lack no less than this share of it: a smaller effect "
+     "is none",
+     Kind::kDefinition, "the smallest discrepancy that a log can ask for"},
     {"lacked_friction_curve", &T::lacked_friction_curve, "Coulomb friction",
      "How far its curve over speed may differ", Kind::kTuned,
      "90 simulated arms with and without misfit, and a KR300, a TX40 and "

@@ -24,6 +24,7 @@ struct Thresholds {
   // What models lack as a rule
   double lacked = .01;
   double lacked_of_sign = .005;
+  double least_lacked = .1;
   double lacked_friction_curve = .1;
   double lacked_cycles = 4;
   double lacked_state_frequency = .6;

@@ -42,6 +42,23 @@ double RemovedPercent(double gain, const GapFigures& torque) {
   return 100 * gain / std::max(.1, torque.refit - 1);
 }
 
+// FoundEffect::size and FoundEffect::gap.
+double SizeOf(const GapFit& fit, const GapCandidate& effect) {
+  double size = 0;
+  const JointRows torque = fit.TorqueOf(effect);
+  for (size_t j = 0; j < torque.size(); ++j) {
+    if (torque[j].size() == 0) continue;
+    const double rms =
+        torque[j].norm() / std::sqrt(static_cast<double>(torque[j].size()));
+    if (rms > 0) size = std::max(size, rms / fit.scale().torque[j]);
+  }
+  return size;
+}
+double GapWhere(const GapFigures& torque, int joint) {
+  if (joint < 0 || joint >= torque.joints.rows()) return torque.refit;
+  return std::pow(torque.joints(joint, 1), 2);
+}
+
 // Whether b is what a file has a number for and a's law has a mean of.
 bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
   return a.joint >= 0 && a.joint == b.joint && HasMean(*a.effect, *b.effect);
@@ -93,6 +110,8 @@ FoundEffect Findings::Found(size_t k) const {
   found.fitted = {static_cast<int>(k)};
   found.score = fit_.selection().scores[k];
   found.drop = fit_.selection().drops[k];
+  found.size = SizeOf(fit_, effect);
+  found.gap = GapWhere(torque_, effect.joint);
   const std::vector<PlacedEffect> all = Alternatives(fit_, k);
   for (const PlacedEffect& other : CredibleSet(all)) {
     if (other.effect != found.effect || other.joint != found.joint) {
@@ -211,11 +230,18 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
   for (FoundEffect& found : result_.effects) {
     ShareTheRest(&found, &found == &result_.effects.front());
   }
+  const double doubt = VarianceDoubt(fit_.noise().source);
+  const auto unneeded = std::stable_partition(
+      result_.effects.begin(), result_.effects.end(),
+      [&](const FoundEffect& found) { return IsNeeded(found, doubt); });
+  result_.unnamed.assign(unneeded, result_.effects.end());
+  result_.effects.erase(unneeded, result_.effects.end());
   const auto unclaimed = std::stable_partition(
       result_.effects.begin(), result_.effects.end(), IsClaimed);
   result_.without_name = unclaimed == result_.effects.begin() &&
                          IsThereWithoutName(result_.effects, torque_);
-  result_.unnamed.assign(unclaimed, result_.effects.end());
+  result_.unnamed.insert(result_.unnamed.begin(), unclaimed,
+                         result_.effects.end());
   result_.effects.erase(unclaimed, result_.effects.end());
   // What is likelier than not is told first, however little it explains.
   std::stable_partition(result_.effects.begin(), result_.effects.end(),
@@ -254,6 +280,11 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 
 bool IsLikely(const FoundEffect& found) {
   return found.probability >= Limits().likely;
+}
+
+bool IsNeeded(const FoundEffect& found, double variance_doubt) {
+  return !(found.gap < 1 - variance_doubt) &&
+         found.size >= Limits().least_lacked * Limits().lacked;
 }
 
 bool IsSeenAgain(const FoundEffect& found) {
@@ -354,6 +385,22 @@ void FitClaimed(GapFindings* findings, GapFit* fit) {
                      CovarianceOf(fit->refined(), k), &found);
     }
   }
+}
+
+bool GiveUpWorst(GapFindings* findings) {
+  std::vector<FoundEffect>& effects = findings->effects;
+  auto worst = effects.end();
+  for (auto found = effects.begin(); found != effects.end(); ++found) {
+    if (found->fitted.empty()) continue;
+    if (worst == effects.end() ||
+        found->removed_percent < worst->removed_percent) {
+      worst = found;
+    }
+  }
+  if (worst == effects.end()) return false;
+  findings->unnamed.push_back(*worst);
+  effects.erase(worst);
+  return true;
 }
 
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,

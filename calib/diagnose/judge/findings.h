@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,12 @@ struct FoundEffect {
   std::vector<int> fitted;
   std::vector<EffectEstimate> estimates;
   std::vector<double> stddev;  // of the estimates
+  // rms of its torque over the joint's usual one, on the joint where that is
+  // most.
+  double size = std::numeric_limits<double>::infinity();
+  // What a refit without it leaves of held-out data where it acts, mean square
+  // over the noise's; NaN where nothing was held out.
+  double gap = std::numeric_limits<double>::quiet_NaN();
   // Others that these data cannot tell from it.
   std::vector<PlacedEffect> equivalent;
   // Of the held-out gap, by this one beside the others; NaN: not known.
@@ -44,6 +51,11 @@ struct FoundEffect {
 
 // Likelier than not.
 bool IsLikely(const FoundEffect& found);
+
+// Whether there is anything for it to explain: a refit without it leaves no
+// less than the noise, as well as that is known, and its torque is not smaller
+// than what the best of models lack.
+bool IsNeeded(const FoundEffect& found, double variance_doubt);
 
 // Whether held-out data have it as well, in part.
 bool IsSeenAgain(const FoundEffect& found);
@@ -99,6 +111,8 @@ GapFindings ListFindings(const Robot& robot, const GapFit& fit,
 // Keeps the claimed effects alone in the fit, and tells them as they are then;
 // what they remove is told by SetClaimedShares, once the figures are known.
 void FitClaimed(GapFindings* findings, GapFit* fit);
+// Does not claim the effect that removes least. Whether there was one.
+bool GiveUpWorst(GapFindings* findings);
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       const GapFigures& torque,
                       std::vector<FoundEffect>* effects);

@@ -72,6 +72,10 @@ class GapFit {
   // Whitened residual of joint j beside the refined effects: their torque as it
   // is, not as columns have it.
   const Eigen::VectorXd& Left(int joint) const { return left_[joint]; }
+  // Of an effect, per joint thinned samples, N m or N.
+  JointRows TorqueOf(const GapCandidate& effect) const {
+    return regression_.TorqueOf({effect});
+  }
   // The baseline's values beside other effects.
   Eigen::VectorXd BaselineBeside(
       const std::vector<GapCandidate>& effects) const;

@@ -1,10 +1,9 @@
 #include "calib/diagnose/select/regression.h"
 
-#include <array>
-
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/position_noise.h"
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/reference.h"
 
 namespace armcal {
@@ -108,13 +107,13 @@ void GapRegression::Refit() {
 }
 
 bool GapRegression::ChooseDiscrepancy(const std::vector<int>& columns) {
-  constexpr std::array<double, 2> kSmaller = {.3, .1};
+  const double least = Limits().least_lacked;
   const int first = baseline_.num_model_columns();
   if (discrepancy_chosen_ || first == baseline_.size()) return false;
   discrepancy_chosen_ = true;
   const GapScreen screen = screen_->Only(columns);
   double most = LogEvidence(screen, evidence_);
-  for (const double size : kSmaller) {
+  for (const double size : {3 * least, least}) {
     GapScreen scaled = screen;
     scaled.ScaleBaseline(first, size);
     const double evidence = LogEvidence(std::move(scaled), evidence_);

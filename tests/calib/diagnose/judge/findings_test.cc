@@ -43,6 +43,39 @@ TEST(IsThereWithoutName, WhereHeldOutDataHaveItAndGainByIt) {
   EXPECT_FALSE(IsThereWithoutName({seen, spoils}, held_out));
 }
 
+// A log that the model explains better than its noise lacks nothing there, and
+// what is smaller than what the best of models lack is none.
+TEST(IsNeeded, WhereThereIsMoreThanNoiseAndModelsLack) {
+  FoundEffect found = Found("vibration", 0, 10000);
+  EXPECT_TRUE(IsNeeded(found, .25));
+  found.gap = .8;
+  EXPECT_TRUE(IsNeeded(found, .25));
+  found.gap = .7;
+  EXPECT_FALSE(IsNeeded(found, .25));
+  EXPECT_TRUE(IsNeeded(found, 1)) << "noise that is hardly known";
+  found.gap = 2;
+  found.size = .0011;
+  EXPECT_TRUE(IsNeeded(found, .25));
+  found.size = .0009;
+  EXPECT_FALSE(IsNeeded(found, .25));
+}
+
+TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
+  GapFindings findings;
+  findings.effects = {Found("spring", 1, 9), Found("stribeck", 1, 8),
+                      Found("viscous_friction", -1, 7)};
+  findings.effects[0].fitted = {0};
+  findings.effects[0].removed_percent = 5;
+  findings.effects[1].fitted = {1};
+  findings.effects[1].removed_percent = -70;
+  findings.effects[2].removed_percent = -90;  // a change since the reference
+  EXPECT_TRUE(GiveUpWorst(&findings));
+  EXPECT_THAT(Names(findings.unnamed), ElementsAre("stribeck@2"));
+  EXPECT_TRUE(GiveUpWorst(&findings));
+  EXPECT_FALSE(GiveUpWorst(&findings));
+  EXPECT_THAT(Names(findings.effects), ElementsAre("viscous_friction@0"));
+}
+
 class IsClaimedTest : public testing::Test {
  protected:
   // chi^2 that held-out data should have of it, and have.
