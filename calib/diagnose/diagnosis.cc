@@ -9,6 +9,7 @@
 #include "calib/diagnose/data/segments.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/data/torque_bursts.h"
+#include "calib/diagnose/judge/claims.h"
 #include "calib/diagnose/judge/held_out.h"
 #include "calib/diagnose/select/fit.h"
 #include "calib/diagnose/select/reference.h"

@@ -29,37 +29,6 @@ std::vector<std::string> Sorted(std::vector<FoundEffect> effects) {
   return Names(effects);
 }
 
-TEST(IsThereWithoutName, WhereHeldOutDataHaveItAndGainByIt) {
-  FoundEffect seen = Found("delay", -1, 112), spoils = Found("spring", 1, 200);
-  seen.evidence.confirmation = {1300, 3800};
-  spoils.evidence.confirmation = {2500, -5000};
-  GapFigures held_out;
-  held_out.refit = 2;
-  held_out.after = 1.5;
-  EXPECT_TRUE(IsThereWithoutName({seen, spoils}, held_out));
-  EXPECT_FALSE(IsThereWithoutName({spoils}, held_out));
-  EXPECT_FALSE(IsThereWithoutName({}, held_out));
-  held_out.after = 4;
-  EXPECT_FALSE(IsThereWithoutName({seen, spoils}, held_out));
-}
-
-// A log that the model explains better than its noise lacks nothing there, and
-// what is smaller than what the best of models lack is none.
-TEST(IsNeeded, WhereThereIsMoreThanNoiseAndModelsLack) {
-  FoundEffect found = Found("vibration", 0, 10000);
-  EXPECT_TRUE(IsNeeded(found, .25));
-  found.gap = .8;
-  EXPECT_TRUE(IsNeeded(found, .25));
-  found.gap = .7;
-  EXPECT_FALSE(IsNeeded(found, .25));
-  EXPECT_TRUE(IsNeeded(found, 1)) << "noise that is hardly known";
-  found.gap = 2;
-  found.size = .0011;
-  EXPECT_TRUE(IsNeeded(found, .25));
-  found.size = .0009;
-  EXPECT_FALSE(IsNeeded(found, .25));
-}
-
 TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
   GapFindings findings;
   findings.effects = {Found("spring", 1, 9), Found("stribeck", 1, 8),
@@ -74,67 +43,6 @@ TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
   EXPECT_TRUE(GiveUpWorst(&findings));
   EXPECT_FALSE(GiveUpWorst(&findings));
   EXPECT_THAT(Names(findings.effects), ElementsAre("viscous_friction@0"));
-}
-
-class IsClaimedTest : public testing::Test {
- protected:
-  // chi^2 that held-out data should have of it, and have.
-  bool Claimed(double probability, double gain, double expected = 500,
-               double explained = 500) {
-    found_.probability = probability;
-    found_.evidence.gain = gain;
-    found_.evidence.confirmation = {expected, explained};
-    return IsClaimed(found_);
-  }
-
-  FoundEffect found_ = Found("spring", 1, 50);
-};
-
-TEST_F(IsClaimedTest, WhatIsLikelyOrHelps) {
-  EXPECT_TRUE(Claimed(.5, -.1));
-  EXPECT_TRUE(Claimed(.3, .01));
-  EXPECT_FALSE(Claimed(.49, 0));
-  EXPECT_FALSE(Claimed(.29, 1));
-}
-
-TEST_F(IsClaimedTest, WhatHeldOutDataDoNotShowIsLikelier) {
-  EXPECT_FALSE(Claimed(.6, .01, 10, 2));
-  EXPECT_TRUE(Claimed(.8, .01, 10, 2));
-  EXPECT_FALSE(Claimed(.6, .01, 500, 50));
-}
-
-TEST_F(IsClaimedTest, WhatHeldOutDataContradictIsNot) {
-  EXPECT_FALSE(Claimed(.99, .01, 500, -20));
-  // Its form is a little too large, and it helps.
-  EXPECT_TRUE(Claimed(.99, .1, 500, -20));
-  // Too little to tell.
-  EXPECT_TRUE(Claimed(.99, -.01, 20, -10));
-  // Less than a law's form is wrong by, of what was fitted.
-  found_.drop = 5000;
-  EXPECT_TRUE(Claimed(.99, -.01, 500, -20));
-  EXPECT_FALSE(Claimed(.99, -.01, 1500, -20));
-}
-
-TEST_F(IsClaimedTest, TouchesAreJudgedWhereTheyWere) {
-  found_.contacts.resize(1);
-  EXPECT_FALSE(Claimed(.49, 1, 0, 0));
-  EXPECT_TRUE(Claimed(.5, 0, 0, 0));
-}
-
-TEST_F(IsClaimedTest, WhatSwingsInTimeHelps) {
-  found_ = Found("vibration", 1, 50);
-  EXPECT_TRUE(Claimed(.9, .01));
-  EXPECT_FALSE(Claimed(.9, -.01));
-}
-
-TEST_F(IsClaimedTest, ALoadIsWithinReachOfTheTool) {
-  found_ = Found("payload", -1, 50);
-  found_.estimates = {{"mass", "kg", .1}, {"com_x", "m", .3}};
-  EXPECT_TRUE(Claimed(.9, .1));
-  found_.estimates[1].value = 1.8;
-  EXPECT_FALSE(Claimed(.9, .1));
-  found_.estimates[1].value = std::nan("");  // not seen
-  EXPECT_TRUE(Claimed(.9, .1));
 }
 
 TEST(SortFindings, ByDrop) {

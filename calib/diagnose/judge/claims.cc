@@ -1,0 +1,57 @@
+#include "calib/diagnose/judge/claims.h"
+
+#include <algorithm>
+
+#include "calib/diagnose/data/thresholds.h"
+#include "model/effects/effects.h"
+
+namespace armcal {
+
+bool IsLikely(const FoundEffect& found) {
+  return found.probability >= Limits().likely;
+}
+
+bool IsNeeded(const FoundEffect& found, double variance_doubt) {
+  return !(found.gap < 1 - variance_doubt) &&
+         found.size >= Limits().least_lacked * Limits().lacked;
+}
+
+bool IsSeenAgain(const FoundEffect& found) {
+  return found.evidence.confirmation.Share() > Limits().seen_again;
+}
+
+bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
+                        const GapFigures& held_out) {
+  return held_out.after < held_out.refit &&
+         std::any_of(effects.begin(), effects.end(), IsSeenAgain);
+}
+
+bool IsPossible(const FoundEffect& found) {
+  return !found.effect->plausible || found.effect->plausible(found.estimates);
+}
+
+bool IsContradicted(const FoundEffect& found) {
+  const Confirmation& confirmation = found.evidence.confirmation;
+  return confirmation.expected >
+             std::max(Limits().visible, Limits().form_error * found.drop) &&
+         confirmation.explained < 0 && found.evidence.gain < Limits().helps;
+}
+
+// Less than likely is nothing of what comes and goes, which may be anything,
+// nor of what does not help where nothing was chosen on.
+bool IsClaimed(const FoundEffect& found) {
+  if (found.of_another_day) return true;
+  if (!found.contacts.empty()) return found.probability >= Limits().likely;
+  if (!IsPossible(found) || IsContradicted(found)) return false;
+  if (!found.joints_agree) return false;
+  // At a frequency that other data do not have, it was a random torque.
+  if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
+  if (!IsSeenAgain(found)) {
+    return found.probability >= Limits().likely_unseen;
+  }
+  return found.probability >= Limits().likely ||
+         (found.probability >= Limits().least_claimed &&
+          found.evidence.gain > 0);
+}
+
+}  // namespace armcal

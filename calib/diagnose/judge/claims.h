@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/diagnose/judge/found_effect.h"
+#include "calib/diagnose/judge/removed_share.h"
+
+namespace armcal {
+
+// Likelier than not.
+bool IsLikely(const FoundEffect& found);
+
+// Whether there is anything for it to explain: a refit without it leaves no
+// less than the noise, as well as that is known, and its torque is not smaller
+// than what the best of models lack.
+bool IsNeeded(const FoundEffect& found, double variance_doubt);
+
+// Whether held-out data have it as well, in part.
+bool IsSeenAgain(const FoundEffect& found);
+
+// Whether something is there though none of its effects is claimed: held-out
+// data have one of them as well, and it does not only mend what others spoiled.
+bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
+                        const GapFigures& held_out);
+
+// Whether such a thing can be: a load is held by the tool.
+bool IsPossible(const FoundEffect& found);
+
+// Whether held-out data should show it, and have neither chi^2 nor the mean
+// square lower with it. A form that is a little too large raises chi^2 alone;
+// and what is small beside what it explained where it was fitted may be what
+// its form has wrong.
+bool IsContradicted(const FoundEffect& found);
+
+// Whether it is told as an effect; what is not is a candidate. It has to be
+// possible and likelier than not, or likely enough and of help on held-out
+// data, as what swings in time has to be anyway; what held-out data do not show
+// has to be likelier.
+bool IsClaimed(const FoundEffect& found);
+
+}  // namespace armcal

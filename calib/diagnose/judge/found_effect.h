@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/judge/evidence.h"
+#include "calib/diagnose/judge/probability.h"
+#include "calib/diagnose/select/contacts.h"
+
+namespace armcal {
+
+// One effect that was found.
+struct FoundEffect {
+  const Effect* effect = nullptr;
+  int joint = -1;  // from 0; -1: all joints or the whole robot
+  double probability = 0;
+  double score = 0;
+  double drop = 0;  // of chi^2 when it is left out
+  EffectEvidence evidence;
+  // Which of the fit's effects it is of: one, or a law and then its mean; none
+  // of what is no effect of the fit's.
+  std::vector<int> fitted;
+  std::vector<EffectEstimate> estimates;
+  std::vector<double> stddev;  // of the estimates
+  // rms of its torque over the joint's usual one, on the joint where that is
+  // most.
+  double size = std::numeric_limits<double>::infinity();
+  // What a refit without it leaves of held-out data where it acts, mean square
+  // over the noise's; NaN where nothing was held out.
+  double gap = std::numeric_limits<double>::quiet_NaN();
+  // Others that these data cannot tell from it.
+  std::vector<PlacedEffect> equivalent;
+  // Of the held-out gap, by this one beside the others; NaN: not known.
+  double removed_percent = NAN;
+  double ci95[2] = {NAN, NAN};
+  std::string separate_by;        // the experiment that would tell them apart
+  std::vector<Contact> contacts;  // of external_contact, in time's order
+  // Whether joints tell it alike, if it is of all of them.
+  bool joints_agree = true;
+  // Whether it is friction of several joints that is that of another day: one
+  // change, the estimates being each joint's, and no term of the model's.
+  bool of_another_day = false;
+};
+
+}  // namespace armcal
