@@ -112,7 +112,10 @@ FoundEffect Findings::Found(size_t k) const {
   found.score = fit_.selection().scores[k];
   found.drop = fit_.selection().drops[k];
   found.size = SizeOf(fit_, effect);
-  found.gap = GapWhere(torque_, effect.joint);
+  // Without a reference a refit may have taken up what is the effect's.
+  if (fit_.noise().source == NoiseFloor::kReference) {
+    found.gap = GapWhere(torque_, effect.joint);
+  }
   const std::vector<PlacedEffect> all = Alternatives(fit_, k);
   for (const PlacedEffect& other : CredibleSet(all)) {
     if (other.effect != found.effect || other.joint != found.joint) {

@@ -28,7 +28,8 @@ struct FoundEffect {
   // most.
   double size = std::numeric_limits<double>::infinity();
   // What a refit without it leaves of held-out data where it acts, mean square
-  // over the noise's; NaN where nothing was held out.
+  // over the noise's; NaN where nothing was held out or no reference tells the
+  // noise.
   double gap = std::numeric_limits<double>::quiet_NaN();
   // Others that these data cannot tell from it.
   std::vector<PlacedEffect> equivalent;
