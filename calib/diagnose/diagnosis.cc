@@ -229,8 +229,8 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
     FitClaimed(findings, &*fit_);
     if (fit_->refined().effects.size() < fitted) {
       result_.torque = FiguresOf(held_out_->AllResiduals());
+      SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
     }
-    SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
   } while (result_.torque.ci95[1] < 0 && GiveUpWorst(findings));
   if (fit_->refined().effects.size() == fitted) return false;
   if (result_.torque.joints.rows() > 0) {

@@ -117,7 +117,8 @@ def page(thresholds, result):
         "probability (`calib/diagnose/judge/evidence.cc`), the ranges of "
         "[effects' parameters](effects/README.md), and the sizes of grids and caps on "
         "rounds.", "",
-        f"*Half* and *twice*: how many of {count} calibration cases of the "
+        *(["The last two figures are not measured yet.", ""] if not count else []),
+        f"*Half* and *twice*: how many of {count or 'the'} calibration cases of the "
         "[blind bench](../tests/blind/README.md) (half of them with structured misfit) get "
         "another verdict or another claim above 50 % with half or twice the value (of a "
         "quantile: of its remainder to 1), and, where that differs, how many more (+) or "

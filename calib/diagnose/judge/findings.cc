@@ -38,9 +38,16 @@ MatrixXd CovarianceOf(const RefinedEffects& refined, size_t k) {
   return refined.covariance.block(begin, begin, size, size);
 }
 
-// Of the refit's held-out gap.
-double RemovedPercent(double gain, const GapFigures& torque) {
-  return 100 * gain / std::max(.1, torque.refit - 1);
+// Sets what a fitted effect removes of the refit's held-out gap: all that is
+// removed, with its interval, where it is the only one; else by its gain.
+void SetShare(const GapFit& fit, const GapFigures& torque, double gain,
+              FoundEffect* found) {
+  if (fit.refined().effects.size() == 1) {
+    found->removed_percent = torque.removed_percent;
+    std::copy(torque.ci95, torque.ci95 + 2, found->ci95);
+  } else if (torque.known()) {
+    found->removed_percent = 100 * gain / std::max(.1, torque.refit - 1);
+  }
 }
 
 // FoundEffect::size and FoundEffect::gap.
@@ -130,12 +137,7 @@ FoundEffect Findings::Found(size_t k) const {
                          !agreement.IsOfOneJoint();
   }
   found.probability = ProbabilityOf(found.evidence);
-  if (refined.effects.size() == 1) {
-    found.removed_percent = torque_.removed_percent;
-    std::copy(torque_.ci95, torque_.ci95 + 2, found.ci95);
-  } else if (torque_.known()) {
-    found.removed_percent = RemovedPercent(found.evidence.gain, torque_);
-  }
+  SetShare(fit_, torque_, found.evidence.gain, &found);
   found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
   return found;
 }
@@ -365,13 +367,8 @@ void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       std::vector<FoundEffect>* effects) {
   for (FoundEffect& found : *effects) {
     if (found.fitted.empty() || !torque.known()) continue;
-    if (fit.refined().effects.size() == 1) {
-      found.removed_percent = torque.removed_percent;
-      std::copy(torque.ci95, torque.ci95 + 2, found.ci95);
-    } else {
-      found.removed_percent = RemovedPercent(
-          held_out.MeritOf(found.fitted[0], torque.after).gain, torque);
-    }
+    SetShare(fit, torque, held_out.MeritOf(found.fitted[0], torque.after).gain,
+             &found);
   }
 }
 

@@ -23,11 +23,10 @@ struct PlacedEffect {
 // other as such, those of the others are of their grids.
 std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k);
 
-// Of something whose absence would give what was seen with this chance: where
-// it is there and where it is not were as likely before. The odds against it
-// are at least -e chance ln(chance) (Sellke, Bayarri and Berger 2001,
-// Calibration of p values for testing precise null hypotheses, eq. 3), times
-// `odds_before` against it.
+// That something is there without which what was seen has this chance: the odds
+// against it are at least -e chance ln(chance) times those before the data
+// (Sellke, Bayarri and Berger 2001, Calibration of p values for testing precise
+// null hypotheses, eq. 3).
 double ProbabilityBeyondChance(double chance, double odds_before);
 
 // The first ones, up to 95 % together.

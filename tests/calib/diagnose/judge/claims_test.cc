@@ -4,17 +4,9 @@
 
 #include <cmath>
 
-#include "model/effects/effects.h"
+#include "tests/fixtures/found_effect.h"
 
 namespace armcal::claims_test {
-
-FoundEffect Found(const std::string& name, int joint, double drop) {
-  FoundEffect found;
-  found.effect = FindEffect(name);
-  found.joint = joint;
-  found.drop = drop;
-  return found;
-}
 
 TEST(IsThereWithoutName, WhereHeldOutDataHaveItAndGainByIt) {
   FoundEffect seen = Found("delay", -1, 112), spoils = Found("spring", 1, 200);

@@ -2,19 +2,11 @@
 
 #include <gmock/gmock.h>
 
-#include "model/effects/effects.h"
+#include "tests/fixtures/found_effect.h"
 
 namespace armcal::findings_test {
 
 using testing::ElementsAre;
-
-FoundEffect Found(const std::string& name, int joint, double drop) {
-  FoundEffect found;
-  found.effect = FindEffect(name);
-  found.joint = joint;
-  found.drop = drop;
-  return found;
-}
 
 std::vector<std::string> Names(const std::vector<FoundEffect>& effects) {
   std::vector<std::string> names;
