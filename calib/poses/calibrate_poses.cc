@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "calib/numerics/median.h"
+#include "calib/poses/coupling.h"
 #include "calib/poses/fit.h"
+#include "calib/poses/misfit.h"
 #include "model/signals/dense_solvers.h"
 
 namespace armcal {
@@ -108,6 +110,32 @@ void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
   }
 }
 
+// What is left of all poses, of the inliers, which it returns, and of these
+// beside the instrument.
+std::vector<int> ReportErrors(const PoseFit& fit,
+                              const PoseMeasurements& measured,
+                              const PoseSolution& solution,
+                              PoseCalibration* result) {
+  const PoseUnknowns& at = solution.unknowns;
+  const std::vector<int> rows = fit.AllRows();
+  result->after = fit.Distances(rows, at);
+  result->rms = Rms(result->after);
+  result->median = Median(result->after);
+  result->max = *std::max_element(result->after.begin(), result->after.end());
+  result->outliers = FindOutliers(fit, at, rows);
+  std::vector<int> inliers;
+  std::set_difference(rows.begin(), rows.end(), result->outliers.begin(),
+                      result->outliers.end(), std::back_inserter(inliers));
+  if (!inliers.empty()) result->inlier_rms = Rms(fit.Distances(inliers, at));
+  result->inlier_motion = MotionShare(measured.q, inliers);
+  const auto unknowns =
+      std::count(solution.free.begin(), solution.free.end(), true) +
+      at.other.size();
+  result->misfit =
+      MeasureMisfit(fit, measured, at, inliers, static_cast<int>(unknowns));
+  return inliers;
+}
+
 }  // namespace
 
 PoseCalibration CalibratePoses(const Robot& robot,
@@ -127,28 +155,20 @@ PoseCalibration CalibratePoses(const Robot& robot,
   result.before_rms = solution.before.empty() ? 0 : Rms(solution.before);
   result.held = solution.held;
   if (!result.reason.empty()) return result;
-  const PoseUnknowns& unknowns = solution.unknowns;
-  const std::vector<bool>& free = solution.free;
-  const std::vector<int> rows = fit.AllRows();
   result.solved = true;
   result.reason = "solved";
   result.noise = fit.noise();
-  result.after = fit.Distances(rows, unknowns);
-  result.rms = Rms(result.after);
-  result.median = Median(result.after);
-  result.max = *std::max_element(result.after.begin(), result.after.end());
-  result.outliers = FindOutliers(fit, unknowns, rows);
-  std::vector<int> inliers;
-  std::set_difference(rows.begin(), rows.end(), result.outliers.begin(),
-                      result.outliers.end(), std::back_inserter(inliers));
-  if (!inliers.empty()) {
-    result.inlier_rms = Rms(fit.Distances(inliers, unknowns));
-  }
-  CrossValidate(fit, free, unknowns, options.loss, options.folds,
-                measured.size(), &result);
-  ReportParameters(fit, free, rows, unknowns, &result);
+  const std::vector<int> inliers =
+      ReportErrors(fit, measured, solution, &result);
+  result.coupling = FindCoupling(robot, measured, options);
+  CrossValidate(fit, solution.free, solution.unknowns, options.loss,
+                options.folds, measured.size(), &result);
+  // What Tukey's loss gives up tells nothing; the others let all poses pull.
+  const bool some = options.loss == RobustLoss::kTukey && !inliers.empty();
+  ReportParameters(fit, solution.free, some ? inliers : fit.AllRows(),
+                   solution.unknowns, &result);
   ArmGeometry refined = fit.geometry();
-  refined.SetValues(unknowns.geometry);
+  refined.SetValues(solution.unknowns.geometry);
   result.robot = refined.ApplyTo(robot);
   return result;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,29 @@ struct GeometryEstimate {
   bool identifiable;
 };
 
+// Joint `joint` turns by `factor` times the position of joint `by` beside what
+// was recorded for it: a coupling of two joints or, of one with itself, a gear
+// ratio.
+struct PoseCoupling {
+  int joint, by;
+  double factor;  // rad/rad, m/rad, rad/m or 1
+  double stddev;
+  // m, of all poses, both with the best geometry beside it.
+  double rms_before, rms_after;
+};
+
+// What is left beside the uncertainty that the file states for the instrument.
+struct PoseMisfit {
+  // Root mean square of coordinates, inliers alone, in the instrument's
+  // standard deviations; NaN where the file states none.
+  double instrument_ratio = std::numeric_limits<double>::quiet_NaN();
+  double instrument_u95 = 0;  // m, its median
+  // Of successive poses in the order of the file, inliers alone: 1 if each
+  // repeats the one before; and its standard deviation if none did.
+  double order_correlation = 0;
+  double order_stddev = 1;
+};
+
 // A calibration of the geometry from measured poses.
 struct PoseCalibration {
   bool solved = false;
@@ -40,7 +65,7 @@ struct PoseCalibration {
   std::vector<std::string> held;
   int count = 0;           // poses
   bool refined = false;    // the arm's own geometry too
-  Eigen::VectorXd travel;  // per joint, rad or m
+  Eigen::VectorXd travel;  // per joint, all poses, rad or m
   double extent = 0;       // m, rms of measured positions about their mean
   PoseNoise noise;
   // m, per pose and target: with only the frame fitted, with the estimate.
@@ -53,7 +78,12 @@ struct PoseCalibration {
   double held_out_rms = 0;  // cross-validated
   double held_out_median = 0;
   std::vector<int> outliers;  // poses that Tukey's loss gives up
-  Robot robot;                // with the refined geometry
+  // Per joint, the share of its motion (of its sum of squares about the mean)
+  // that is in poses which are no outliers.
+  Eigen::VectorXd inlier_motion;
+  PoseMisfit misfit;
+  std::optional<PoseCoupling> coupling;
+  Robot robot;  // with the refined geometry
 };
 
 }  // namespace armcal

@@ -74,6 +74,22 @@ MatrixXd PoseFit::Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
   return J;
 }
 
+VectorXd PoseFit::Residuals(const std::vector<int>& rows,
+                            const PoseUnknowns& at) const {
+  const MatrixXd position = PositionErrors(*geometry_, measured_, at);
+  const MatrixXd rotation = RotationErrors(*geometry_, measured_, at);
+  const Eigen::Index width = position.cols() + rotation.cols();
+  VectorXd r(static_cast<Eigen::Index>(rows.size()) * width);
+  for (size_t k = 0; k < rows.size(); ++k) {
+    auto own = r.segment(static_cast<Eigen::Index>(k) * width, width);
+    own.head(position.cols()) =
+        position.row(rows[k]).transpose() / noise_.position;
+    if (rotation.size() == 0) continue;
+    own.tail(3) = rotation.row(rows[k]).transpose() / noise_.rotation;
+  }
+  return r;
+}
+
 // Of parameters that the poses cannot tell apart the first is kept: the
 // instrument's, then joint zeros, then the others in the order of the arm.
 std::vector<bool> PoseFit::HoldUnseen(const std::vector<bool>& wanted,

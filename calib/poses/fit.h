@@ -28,6 +28,7 @@ class PoseFit {
 
   const ArmGeometry& geometry() const { return *geometry_; }
   const PoseNoise& noise() const { return noise_; }
+  void set_noise(const PoseNoise& noise) { noise_ = noise; }
   std::vector<int> AllRows() const;
   // Of the estimate's covariance over (J'J)^-1 (pose_problem.h).
   double VarianceFactor(const Eigen::VectorXd& residuals,
@@ -57,6 +58,9 @@ class PoseFit {
   // Of all unknowns, in noise units and without the loss.
   Eigen::MatrixXd Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
                            Eigen::VectorXd* residuals = nullptr) const;
+  // The same residuals, pose by pose: of position (or the wire), of rotation.
+  Eigen::VectorXd Residuals(const std::vector<int>& rows,
+                            const PoseUnknowns& at) const;
   // Adds the residuals of poses `rows`, whose blocks are those of `unknowns`.
   void AddResiduals(const std::vector<int>& rows, PoseUnknowns* unknowns,
                     ceres::Problem* problem) const {

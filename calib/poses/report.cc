@@ -6,6 +6,7 @@
 
 #include "calib/linear/verdict.h"
 #include "calib/numerics/json_figures.h"
+#include "calib/poses/misfit.h"
 #include "calib/poses/verdict.h"
 
 namespace armcal {
@@ -45,6 +46,37 @@ std::string OutlierText(const PoseMeasurements& measured,
   return text + "\n";
 }
 
+// What is left, beside the instrument and in the order of the poses.
+std::string MisfitText(const PoseMisfit& misfit) {
+  std::string text;
+  if (std::isfinite(misfit.instrument_ratio)) {
+    char line[128];
+    std::snprintf(line, sizeof(line),
+                  "instrument u95 %.3g mm (median); what is left of inliers is "
+                  "%.3g times its deviation\n",
+                  1e3 * misfit.instrument_u95, misfit.instrument_ratio);
+    text = line;
+  }
+  const std::string order = OrderSentence(misfit);
+  return order.empty() ? text : text + "order      " + order + "\n";
+}
+
+json CouplingJson(const Robot& robot, const PoseCalibration& result) {
+  if (!result.coupling) return nullptr;
+  const PoseCoupling& c = *result.coupling;
+  return {{"joint", robot.links[c.joint].joint.name},
+          {"by", robot.links[c.by].joint.name},
+          {"factor", c.factor},
+          {"stddev", JsonNumber(c.stddev)},
+          {"rms_before", c.rms_before},
+          {"rms_after", c.rms_after}};
+}
+
+json NotesJson(const PoseMisfit& misfit) {
+  const std::string order = OrderSentence(misfit);
+  return order.empty() ? json::array() : json::array({order});
+}
+
 }  // namespace
 
 std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
@@ -64,6 +96,7 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
                 1e3 * result.max, 1e3 * result.held_out_rms,
                 1e3 * result.held_out_median);
   std::string text = line + OutlierText(measured, result) +
+                     MisfitText(result.misfit) +
                      "\ngeometry                       file        estimate\n";
   for (const GeometryEstimate& p : result.parameters) text += Estimate(p);
   for (const std::string& sentence : result.held) {
@@ -85,6 +118,7 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
          {"prior_stddev", p.prior > 0 ? JsonNumber(p.prior) : json(nullptr)},
          {"identifiable", p.identifiable}});
   }
+  const double u95 = result.misfit.instrument_u95;
   for (const int k : result.outliers) outliers.push_back(measured.row[k]);
   return {{"format", "armcal calibration 1"},
           {"robot", robot.name},
@@ -103,7 +137,12 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
             {"cross_validated_rms", result.held_out_rms},
             {"cross_validated_median", result.held_out_median},
             {"noise_stddev", result.noise.position},
-            {"outlier_rows", outliers}}},
+            {"outlier_rows", outliers},
+            {"instrument_u95", u95 > 0 ? JsonNumber(u95) : json(nullptr)},
+            {"instrument_ratio", JsonNumber(result.misfit.instrument_ratio)},
+            {"order_correlation", result.misfit.order_correlation},
+            {"coupling", CouplingJson(robot, result)},
+            {"notes", NotesJson(result.misfit)}}},
           {"termination",
            {{"converged", result.solved}, {"reason", result.reason}}}};
 }

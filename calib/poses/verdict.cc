@@ -1,8 +1,10 @@
 #include "calib/poses/verdict.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "calib/linear/verdict.h"
+#include "calib/logs/encoder_noise.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -12,30 +14,104 @@ using Sentences = std::vector<std::string>;
 
 // Share of the poses' extent that the median deviation must not exceed.
 constexpr double kMostDeviation = 0.1;
+// Of what is left, in the instrument's standard deviations: beyond the root of
+// ten, nine tenths of its mean square are the arm's and not the instrument's.
+// By chance alone ten spare equations exceed it once in 10^16.
+const double kMostOfInstrument = std::sqrt(10.0);
+// Of the poses: routine data hold 1 to 10 % gross errors (Hampel et al. 1986,
+// section 1.2c). More are no gross errors but something that the model lacks.
+constexpr double kMostGrossErrors = 0.1;
+constexpr double kOneSided95 = 1.645;  // standard deviations
+// Of a joint's motion: with less among the inliers the deviation of what grows
+// with its position is more than three times (the root of ten) what all poses
+// seemed to promise.
+constexpr double kLeastMotion = 0.1;
 
-std::string Millimetres(double x) { return Format("%.3g", x); }
+std::string Millimetres(double x) { return Format("%.3g", 1e3 * x) + " mm"; }
+
+// More outliers than so many poses have by chance at the largest usual share.
+bool AreNoGrossErrors(int outliers, int poses) {
+  const double expected = kMostGrossErrors * poses;
+  return outliers >
+         expected + kOneSided95 * std::sqrt(expected * (1 - kMostGrossErrors));
+}
+
+void AddCoupling(const Robot& robot, const PoseCalibration& result,
+                 Sentences* sentences) {
+  if (!result.coupling) return;
+  const PoseCoupling& c = *result.coupling;
+  const std::string own = "q" + std::to_string(c.joint + 1);
+  const std::string k = "k = " + Format("%.5g", c.factor) + " +- " +
+                        Format("%.1g", c.stddev) + " leaves " +
+                        Millimetres(c.rms_after) + " rms instead of " +
+                        Millimetres(c.rms_before) +
+                        ": correct the joint positions beside the poses";
+  const std::string name = robot.links[c.joint].joint.name;
+  if (c.joint == c.by) {
+    sentences->push_back("gear ratio: " + name +
+                         " turns by another factor than "
+                         "it says: " +
+                         own + " (1 + k) with " + k);
+    return;
+  }
+  sentences->push_back("coupling: " + name + " follows " +
+                       robot.links[c.by].joint.name + ": " + own + " + k q" +
+                       std::to_string(c.by + 1) + " with " + k);
+}
+
+// Joints whose motion is given up with the outliers.
+void AddGivenUpMotion(const Robot& robot, const PoseCalibration& result,
+                      Sentences* sentences) {
+  for (int i = 0; i < result.inlier_motion.size(); ++i) {
+    if (result.travel[i] < kLeastTravel) continue;
+    if (result.inlier_motion[i] >= kLeastMotion) continue;
+    sentences->push_back(
+        robot.links[i].joint.name + " moves only in poses that are outliers (" +
+        Format("%.2g", 100 * result.inlier_motion[i]) +
+        " % of its motion is in others): the model does not explain how it "
+        "moves, and the others do not tell");
+  }
+}
+
+void AddOutliers(const PoseCalibration& result, Sentences* sentences) {
+  const int outliers = static_cast<int>(result.outliers.size());
+  if (!AreNoGrossErrors(outliers, result.count)) return;
+  sentences->push_back(
+      std::to_string(outliers) + " of " + std::to_string(result.count) +
+      " poses are outliers to the others: more than gross errors make (10 %)");
+}
+
+void AddBesideInstrument(const PoseCalibration& result, Sentences* sentences) {
+  const PoseMisfit& misfit = result.misfit;
+  if (!(misfit.instrument_ratio > kMostOfInstrument)) return;
+  sentences->push_back("geometry leaves " + Millimetres(result.inlier_rms) +
+                       " rms beside an instrument that is good to " +
+                       Millimetres(misfit.instrument_u95) +
+                       " (u95): " + Format("%.3g", misfit.instrument_ratio) +
+                       " times its standard deviation, at most " +
+                       Format("%.2g", kMostOfInstrument) +
+                       " can count as errors of measurement");
+}
 
 }  // namespace
 
 Sentences Shortcomings(const Robot& robot, const PoseCalibration& result) {
   if (!result.solved) return {result.reason};
   Sentences sentences;
+  AddCoupling(robot, result, &sentences);
   if (result.refined) {
     AddUnmoved(robot, result.travel, "its geometry is not determined",
                &sentences);
   }
+  AddGivenUpMotion(robot, result, &sentences);
   const double deviation = std::max(result.median, result.held_out_median);
   if (deviation > kMostDeviation * result.extent) {
     sentences.push_back("the poses do not follow the joints: they deviate by " +
-                        Millimetres(1e3 * deviation) +
-                        " mm (median) of an extent of " +
-                        Millimetres(1e3 * result.extent) + " mm");
+                        Millimetres(deviation) + " (median) of an extent of " +
+                        Millimetres(result.extent));
   }
-  if (2 * static_cast<int>(result.outliers.size()) > result.count) {
-    sentences.push_back(std::to_string(result.outliers.size()) + " of " +
-                        std::to_string(result.count) +
-                        " poses are outliers to the others");
-  }
+  AddOutliers(result, &sentences);
+  AddBesideInstrument(result, &sentences);
   return sentences;
 }
 

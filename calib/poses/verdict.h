@@ -9,8 +9,10 @@
 namespace armcal {
 
 // Sentences that say why a fit of poses does not give what was asked for: it
-// has no solution, a joint never moves, the poses do not follow the joints, or
-// most of them are outliers. None where all is well.
+// has no solution, joint positions are coupled, a joint never moves or only in
+// outliers, the poses do not follow the joints, too many of them are outliers,
+// or far more is left than the instrument's uncertainty. None where all is
+// well.
 std::vector<std::string> Shortcomings(const Robot& robot,
                                       const PoseCalibration& result);
 

@@ -1,0 +1,220 @@
+#include "calib/poses/coupling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "calib/logs/encoder_noise.h"
+#include "calib/poses/joint_terms_fit.h"
+#include "calib/poses/load_moment.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Twice the logarithm of a Bayes factor, by the criterion of Schwarz (1978):
+// above 10 is "very strong" (Kass and Raftery 1995, section 3.2).
+constexpr double kVeryStrong = 10;
+// Of the held-out mean square, in logarithms: more is explained than is left.
+const double kMostIsExplained = std::log(2.0);
+// Joint stiffnesses of industrial arms are 0.2 to 5 MN m/rad and their loads
+// some kN m (Abele, Weigold and Rothenbuecher 2007): they sag by some mrad.
+constexpr double kSag = 5e-3;  // rad, standard deviation
+// m: the weight turns no joint whose lever changes less between poses.
+constexpr double kLeastLever = 1e-2;
+// Relations that are fitted; to first order the others explain less.
+constexpr int kFitted = 6;
+constexpr int kFolds = 6;
+// Every n-th pose is enough to see a relation of all of them.
+constexpr int kMostPoses = 2000;
+// Without some to spare any model would fit.
+constexpr int kSpareEquations = 10;
+
+struct Relation {
+  int joint, by;
+  double gain;  // of chi^2, to first order
+};
+
+struct Fitted {
+  Relation relation;
+  PoseNoise noise;
+  JointTermsState state;
+  double deviance;  // -2 log likelihood but for a constant
+};
+
+PoseMeasurements EveryNth(const PoseMeasurements& measured) {
+  const int step = 1 + (measured.size() - 1) / kMostPoses;
+  if (step == 1) return measured;
+  std::vector<int> kept;
+  for (int k = 0; k < measured.size(); k += step) kept.push_back(k);
+  PoseMeasurements part;
+  part.q = measured.q(kept, Eigen::all);
+  for (const int k : kept) part.row.push_back(measured.row[k]);
+  for (const MatrixXd& target : measured.targets) {
+    part.targets.push_back(target(kept, Eigen::all));
+  }
+  if (measured.poses.size() > 0) part.poses = measured.poses(kept, Eigen::all);
+  if (measured.lengths.size() > 0) part.lengths = measured.lengths(kept);
+  return part;
+}
+
+// Joints that sag under weight on the tool, which each model has: to the poses
+// of one posture or two, sag looks like a gear ratio.
+std::vector<JointTerm> SagTerms(const Robot& robot,
+                                const PoseMeasurements& measured) {
+  const MatrixXd moments = LoadMoments(robot, measured.q);
+  std::vector<JointTerm> terms;
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const VectorXd lever = moments.col(i).array() - moments.col(i).mean();
+    const double rms = lever.norm() / std::sqrt(lever.size());
+    if (rms < kLeastLever) continue;
+    terms.push_back({i, lever / rms, kSag});
+  }
+  return terms;
+}
+
+// Errors of a pose's coordinates are one error here: they are not independent
+// where a model lacks something.
+double Deviance(const std::vector<double>& mean_squares, int poses) {
+  double sum = 0;
+  for (const double m : mean_squares) sum += std::log(std::max(1e-14, m));
+  return poses * sum;
+}
+
+class CouplingSearch {
+ public:
+  CouplingSearch(const Robot& robot, const PoseMeasurements& measured,
+                 const PoseCalibrationOptions& options)
+      : robot_(robot),
+        measured_(measured),
+        options_(options),
+        sag_(SagTerms(robot, measured)),
+        rows_(measured.size()) {
+    std::iota(rows_.begin(), rows_.end(), 0);
+  }
+
+  std::optional<PoseCoupling> Find() {
+    JointTermsFit plain(robot_, measured_, options_, sag_);
+    if (plain.SpareEquations() < kSpareEquations) return {};
+    Fitted without = {{-1, -1, 0}, {}, plain.Start(), 0};
+    if (!plain.SolveWithNoise(rows_, &without.state)) return {};
+    without.noise = plain.noise();
+    without.deviance =
+        Deviance(plain.MeanSquares(rows_, without.state), measured_.size());
+    std::vector<Fitted> fitted;
+    for (const Relation& relation : Likeliest(&plain, without.state)) {
+      AddFit(relation, without, &fitted);
+    }
+    std::sort(fitted.begin(), fitted.end(), [](const auto& a, const auto& b) {
+      return a.deviance < b.deviance;
+    });
+    if (!IsClear(without, fitted)) return {};
+    JointTermsFit with = WithRelation(fitted[0].relation);
+    with.set_noise(fitted[0].noise);
+    const JointTermsState& state = fitted[0].state;
+    return PoseCoupling{
+        fitted[0].relation.joint,
+        fitted[0].relation.by,
+        state.amounts.tail<1>()[0],
+        with.Stddev(static_cast<int>(sag_.size()), rows_, state),
+        plain.RmsDistance(rows_, without.state),
+        with.RmsDistance(rows_, state)};
+  }
+
+ private:
+  std::vector<Relation> Likeliest(JointTermsFit* plain,
+                                  const JointTermsState& at) const {
+    const MatrixXd gains = plain->Gains(rows_, measured_.q, at);
+    const VectorXd travel =
+        measured_.q.colwise().maxCoeff() - measured_.q.colwise().minCoeff();
+    std::vector<Relation> relations;
+    for (int i = 0; i < gains.rows(); ++i) {
+      for (int j = 0; j < gains.cols(); ++j) {
+        if (travel[j] < kLeastTravel || !(gains(i, j) > 0)) continue;
+        relations.push_back({i, j, gains(i, j)});
+      }
+    }
+    std::sort(
+        relations.begin(), relations.end(),
+        [](const Relation& a, const Relation& b) { return a.gain > b.gain; });
+    if (relations.size() > kFitted) relations.resize(kFitted);
+    return relations;
+  }
+
+  JointTermsFit WithRelation(const Relation& relation) const {
+    std::vector<JointTerm> terms = sag_;
+    terms.push_back({relation.joint, measured_.q.col(relation.by)});
+    return JointTermsFit(robot_, measured_, options_, terms);
+  }
+
+  void AddFit(const Relation& relation, const Fitted& without,
+              std::vector<Fitted>* fitted) const {
+    JointTermsFit fit = WithRelation(relation);
+    Fitted with = {relation, {}, without.state, 0};
+    with.state.amounts.conservativeResize(sag_.size() + 1);
+    with.state.amounts.tail<1>().setZero();
+    fit.set_noise(without.noise);
+    if (!fit.SolveWithNoise(rows_, &with.state)) return;
+    with.noise = fit.noise();
+    with.deviance =
+        Deviance(fit.MeanSquares(rows_, with.state), measured_.size());
+    fitted->push_back(with);
+  }
+
+  // Of a mean square on poses that were left out.
+  double HeldOut(JointTermsFit* fit, const Fitted& fitted) const {
+    std::vector<double> sums;
+    for (int fold = 0; fold < kFolds; ++fold) {
+      std::vector<int> kept, left_out;
+      for (const int k : rows_) {
+        (k % kFolds == fold ? left_out : kept).push_back(k);
+      }
+      if (left_out.empty()) continue;
+      JointTermsState state = fitted.state;
+      fit->set_noise(fitted.noise);
+      if (!fit->Solve(kept, &state)) return 0;
+      const std::vector<double> m = fit->MeanSquares(left_out, state);
+      sums.resize(m.size());
+      for (size_t k = 0; k < m.size(); ++k) {
+        sums[k] += m[k] * static_cast<double>(left_out.size());
+      }
+    }
+    for (double& sum : sums) sum /= static_cast<double>(measured_.size());
+    return Deviance(sums, 1);
+  }
+
+  bool IsClear(const Fitted& without, const std::vector<Fitted>& fitted) const {
+    if (fitted.empty()) return false;
+    const double models = static_cast<double>(measured_.q.cols()) *
+                          static_cast<double>(measured_.q.cols());
+    const double price = std::log(measured_.size()) + 2 * std::log(models);
+    const Fitted& best = fitted[0];
+    if (without.deviance - best.deviance - price < kVeryStrong) return false;
+    if (fitted.size() > 1 && fitted[1].deviance - best.deviance < kVeryStrong) {
+      return false;
+    }
+    JointTermsFit plain(robot_, measured_, options_, sag_);
+    JointTermsFit with = WithRelation(best.relation);
+    return HeldOut(&plain, without) - HeldOut(&with, best) > kMostIsExplained;
+  }
+
+  const Robot& robot_;
+  const PoseMeasurements& measured_;
+  const PoseCalibrationOptions& options_;
+  std::vector<JointTerm> sag_;
+  std::vector<int> rows_;
+};
+
+}  // namespace
+
+std::optional<PoseCoupling> FindCoupling(
+    const Robot& robot, const PoseMeasurements& measured,
+    const PoseCalibrationOptions& options) {
+  const PoseMeasurements some = EveryNth(measured);
+  return CouplingSearch(robot, some, options).Find();
+}
+
+}  // namespace armcal

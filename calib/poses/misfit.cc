@@ -1,0 +1,96 @@
+#include "calib/poses/misfit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/numerics/median.h"
+#include "model/text/format.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Half-width of a normal error's 95 % interval in standard deviations.
+constexpr double kNormal95 = 1.96;
+// In standard deviations: 3e-5 by chance, and one sided, since errors that
+// alternate are of no instrument.
+constexpr double kClear = 4;
+
+// Squares in standard deviations of the instrument, and how many; coordinates
+// without a stated uncertainty (0) are none.
+void CompareWithInstrument(const PoseFit& fit, const PoseMeasurements& measured,
+                           const PoseUnknowns& at,
+                           const std::vector<int>& inliers, int num_unknowns,
+                           PoseMisfit* misfit) {
+  if (measured.u95.size() == 0) return;
+  const MatrixXd errors = PositionErrors(fit.geometry(), measured, at);
+  std::vector<double> stated;
+  double squares = 0, count = 0;
+  for (const int k : inliers) {
+    for (Eigen::Index c = 0; c < errors.cols(); ++c) {
+      const double u95 =
+          measured.u95(k, std::min(c / fit.Width(), measured.u95.cols() - 1));
+      if (!(u95 > 0)) continue;
+      stated.push_back(u95);
+      const double normal = kNormal95 * errors(k, c) / u95;
+      squares += normal * normal;
+      count += 1;
+    }
+  }
+  // Of whole poses, half of the coordinates are rotations and determine their
+  // share of the unknowns.
+  const double taken = num_unknowns * (measured.poses.size() > 0 ? .5 : 1);
+  if (count <= taken) return;
+  misfit->instrument_ratio = std::sqrt(squares / (count - taken));
+  misfit->instrument_u95 = Median(stated);
+}
+
+}  // namespace
+
+PoseMisfit MeasureMisfit(const PoseFit& fit, const PoseMeasurements& measured,
+                         const PoseUnknowns& at,
+                         const std::vector<int>& inliers, int num_unknowns) {
+  PoseMisfit misfit;
+  if (inliers.size() < 3) return misfit;
+  CompareWithInstrument(fit, measured, at, inliers, num_unknowns, &misfit);
+  const VectorXd r = fit.Residuals(inliers, at);
+  const auto poses = r.reshaped(r.size() / inliers.size(), inliers.size());
+  double product = 0, before = 0, after = 0, pairs = 0;
+  for (size_t k = 0; k + 1 < inliers.size(); ++k) {
+    if (inliers[k + 1] != inliers[k] + 1) continue;
+    product += poses.col(k).dot(poses.col(k + 1));
+    before += poses.col(k).squaredNorm();
+    after += poses.col(k + 1).squaredNorm();
+    pairs += 1;
+  }
+  if (!(before * after > 0)) return misfit;
+  misfit.order_correlation = product / std::sqrt(before * after);
+  // As if a pose were one number: errors of its coordinates may be one error.
+  misfit.order_stddev = 1 / std::sqrt(pairs);
+  return misfit;
+}
+
+VectorXd MotionShare(const MatrixXd& q, const std::vector<int>& inliers) {
+  const auto squares = [](const MatrixXd& rows) -> VectorXd {
+    return (rows.rowwise() - rows.colwise().mean())
+        .colwise()
+        .squaredNorm()
+        .transpose();
+  };
+  if (inliers.empty()) return VectorXd::Zero(q.cols());
+  const VectorXd all = squares(q);
+  const VectorXd some = squares(q(inliers, Eigen::all));
+  return (all.array() > 0).select(some.cwiseQuotient(all), 1);
+}
+
+std::string OrderSentence(const PoseMisfit& misfit) {
+  if (misfit.order_correlation < kClear * misfit.order_stddev) return "";
+  return "what is left of successive poses is alike (correlation " +
+         Format("%.2f", misfit.order_correlation) +
+         "): something moved or drifted while they were measured, or the arm "
+         "does what its geometry lacks; standard deviations are too small";
+}
+
+}  // namespace armcal
