@@ -42,6 +42,7 @@ struct PoseCoupling {
   double stddev;
   // m, of all poses, both with the best geometry beside it.
   double rms_before, rms_after;
+  double angle_before = 0, angle_after = 0;  // rad, where poses were measured
 };
 
 // What is left beside the uncertainty that the file states for the instrument.

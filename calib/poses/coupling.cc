@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -92,42 +93,35 @@ class CouplingSearch {
         measured_(measured),
         options_(options),
         sag_(SagTerms(robot, measured)),
+        plain_(robot, measured, options, sag_),
         rows_(measured.size()) {
     std::iota(rows_.begin(), rows_.end(), 0);
   }
 
   std::optional<PoseCoupling> Find() {
-    JointTermsFit plain(robot_, measured_, options_, sag_);
-    if (plain.SpareEquations() < kSpareEquations) return {};
-    Fitted without = {{-1, -1, 0}, {}, plain.Start(), 0};
-    if (!plain.SolveWithNoise(rows_, &without.state)) return {};
-    without.noise = plain.noise();
+    Fitted without = {{-1, -1, 0}, {}, plain_.Start(), 0};
+    for (const auto what : {RefineGeometry::kNothing, RefineGeometry::kAll}) {
+      plain_.Free(what, without.state);
+      if (plain_.SpareEquations() < kSpareEquations) return {};
+      if (!plain_.SolveWithNoise(rows_, &without.state)) return {};
+    }
+    without.noise = plain_.noise();
     without.deviance =
-        Deviance(plain.MeanSquares(rows_, without.state), measured_.size());
+        Deviance(plain_.MeanSquares(rows_, without.state), measured_.size());
     std::vector<Fitted> fitted;
-    for (const Relation& relation : Likeliest(&plain, without.state)) {
+    for (const Relation& relation : Likeliest(without.state)) {
       AddFit(relation, without, &fitted);
     }
     std::sort(fitted.begin(), fitted.end(), [](const auto& a, const auto& b) {
       return a.deviance < b.deviance;
     });
     if (!IsClear(without, fitted)) return {};
-    JointTermsFit with = WithRelation(fitted[0].relation);
-    with.set_noise(fitted[0].noise);
-    const JointTermsState& state = fitted[0].state;
-    return PoseCoupling{
-        fitted[0].relation.joint,
-        fitted[0].relation.by,
-        state.amounts.tail<1>()[0],
-        with.Stddev(static_cast<int>(sag_.size()), rows_, state),
-        plain.RmsDistance(rows_, without.state),
-        with.RmsDistance(rows_, state)};
+    return Estimate(without, &fitted[0]);
   }
 
  private:
-  std::vector<Relation> Likeliest(JointTermsFit* plain,
-                                  const JointTermsState& at) const {
-    const MatrixXd gains = plain->Gains(rows_, measured_.q, at);
+  std::vector<Relation> Likeliest(const JointTermsState& at) {
+    const MatrixXd gains = plain_.Gains(rows_, measured_.q, at);
     const VectorXd travel =
         measured_.q.colwise().maxCoeff() - measured_.q.colwise().minCoeff();
     std::vector<Relation> relations;
@@ -144,23 +138,49 @@ class CouplingSearch {
     return relations;
   }
 
-  JointTermsFit WithRelation(const Relation& relation) const {
+  // With the parameters that show once the joints stand where they should.
+  std::optional<PoseCoupling> Estimate(const Fitted& without, Fitted* best) {
+    const auto with = WithRelation(best->relation);
+    with->set_noise(best->noise);
+    with->Free(RefineGeometry::kAll, best->state);
+    if (!with->SolveWithNoise(rows_, &best->state)) return {};
+    PoseCoupling found;
+    found.joint = best->relation.joint;
+    found.by = best->relation.by;
+    found.factor = best->state.amounts.tail<1>()[0];
+    found.stddev =
+        with->Stddev(static_cast<int>(sag_.size()), rows_, best->state);
+    found.rms_before = plain_.RmsDistance(rows_, without.state);
+    found.rms_after = with->RmsDistance(rows_, best->state);
+    if (measured_.poses.size() == 0) return found;
+    const auto angle = [&](JointTermsFit* fit, const JointTermsState& state) {
+      return std::sqrt(3 * fit->MeanSquares(rows_, state)[1]);
+    };
+    found.angle_before = angle(&plain_, without.state);
+    found.angle_after = angle(with.get(), best->state);
+    return found;
+  }
+
+  std::unique_ptr<JointTermsFit> WithRelation(const Relation& relation) const {
     std::vector<JointTerm> terms = sag_;
     terms.push_back({relation.joint, measured_.q.col(relation.by)});
-    return JointTermsFit(robot_, measured_, options_, terms);
+    auto fit =
+        std::make_unique<JointTermsFit>(robot_, measured_, options_, terms);
+    fit->FreeAlike(plain_);
+    return fit;
   }
 
   void AddFit(const Relation& relation, const Fitted& without,
               std::vector<Fitted>* fitted) const {
-    JointTermsFit fit = WithRelation(relation);
+    const auto fit = WithRelation(relation);
     Fitted with = {relation, {}, without.state, 0};
     with.state.amounts.conservativeResize(sag_.size() + 1);
     with.state.amounts.tail<1>().setZero();
-    fit.set_noise(without.noise);
-    if (!fit.SolveWithNoise(rows_, &with.state)) return;
-    with.noise = fit.noise();
+    fit->set_noise(without.noise);
+    if (!fit->SolveWithNoise(rows_, &with.state)) return;
+    with.noise = fit->noise();
     with.deviance =
-        Deviance(fit.MeanSquares(rows_, with.state), measured_.size());
+        Deviance(fit->MeanSquares(rows_, with.state), measured_.size());
     fitted->push_back(with);
   }
 
@@ -186,7 +206,7 @@ class CouplingSearch {
     return Deviance(sums, 1);
   }
 
-  bool IsClear(const Fitted& without, const std::vector<Fitted>& fitted) const {
+  bool IsClear(const Fitted& without, const std::vector<Fitted>& fitted) {
     if (fitted.empty()) return false;
     const double models = static_cast<double>(measured_.q.cols()) *
                           static_cast<double>(measured_.q.cols());
@@ -196,15 +216,16 @@ class CouplingSearch {
     if (fitted.size() > 1 && fitted[1].deviance - best.deviance < kVeryStrong) {
       return false;
     }
-    JointTermsFit plain(robot_, measured_, options_, sag_);
-    JointTermsFit with = WithRelation(best.relation);
-    return HeldOut(&plain, without) - HeldOut(&with, best) > kMostIsExplained;
+    return HeldOut(&plain_, without) -
+               HeldOut(WithRelation(best.relation).get(), best) >
+           kMostIsExplained;
   }
 
   const Robot& robot_;
   const PoseMeasurements& measured_;
   const PoseCalibrationOptions& options_;
   std::vector<JointTerm> sag_;
+  JointTermsFit plain_;  // without a relation
   std::vector<int> rows_;
 };
 

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 // rad or m: beside it, the rounding of a metre's difference is 1e-9.
 constexpr double kDifference = 1e-7;
-constexpr int kMostSteps = 30;
+constexpr int kMostSteps = 60;
 // A step that lowers chi^2 by less than this share of it was the last: what is
 // compared differs by percents.
 constexpr double kAtRest = 1e-5;
@@ -43,15 +43,17 @@ JointTermsFit::JointTermsFit(const Robot& robot,
       corrected_(measured),
       fit_(robot, corrected_, options),
       terms_(std::move(terms)),
-      nominal_(fit_.geometry().Values()) {
-  const JointTermsState start = Start();
+      nominal_(fit_.geometry().Values()) {}
+
+void JointTermsFit::Free(RefineGeometry what, const JointTermsState& at) {
+  Correct(at.amounts);
   const std::vector<bool> free =
-      fit_.HoldUnseen(fit_.Wanted(RefineGeometry::kAll), fit_.AllRows(),
-                      start.unknowns, nullptr);
+      fit_.HoldUnseen(fit_.Wanted(what), fit_.AllRows(), at.unknowns, nullptr);
+  free_.clear();
   for (int k = 0; k < fit_.geometry().size(); ++k) {
     if (free[k]) free_.push_back(k);
   }
-  for (int k = 0; k < start.unknowns.other.size(); ++k) {
+  for (int k = 0; k < at.unknowns.other.size(); ++k) {
     free_.push_back(fit_.geometry().size() + k);
   }
 }
@@ -158,7 +160,7 @@ bool JointTermsFit::Solve(const std::vector<int>& rows,
   for (int step = 0; step < kMostSteps; ++step) {
     const Equations e = Normal(rows, *state);
     double lower = cost;
-    for (; damping < 1e6; damping = std::max(1e-8, damping) * 10) {
+    for (; damping < 1e6; damping *= 10) {
       MatrixXd A = e.A;
       A.diagonal() += damping * (e.A.diagonal().array() + 1e-12).matrix();
       const JointTermsState moved = Moved(*state, A.ldlt().solve(e.b));
@@ -168,7 +170,7 @@ bool JointTermsFit::Solve(const std::vector<int>& rows,
       break;
     }
     if (!(lower <= cost)) return std::isfinite(cost);
-    damping /= 100;
+    damping = std::max(1e-8, damping / 100);
     const bool at_rest = cost - lower <= kAtRest * cost;
     cost = lower;
     if (at_rest) break;

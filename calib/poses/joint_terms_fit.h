@@ -40,6 +40,12 @@ class JointTermsFit {
 
   // The frame by alignment, the geometry as in the file, no amounts.
   JointTermsState Start();
+  // Lets those of the geometry's parameters vary that `what` asks for and all
+  // poses tell apart at `at`, where targets should be about where they are: on
+  // the tool's origin they do not show how the last link is turned.
+  void Free(RefineGeometry what, const JointTermsState& at);
+  // The same parameters as another fit of the same poses.
+  void FreeAlike(const JointTermsFit& other) { free_ = other.free_; }
   // Fits `rows` from *state on, at the noise that is set. False where no step
   // could be computed.
   bool Solve(const std::vector<int>& rows, JointTermsState* state);

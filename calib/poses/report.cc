@@ -69,7 +69,9 @@ json CouplingJson(const Robot& robot, const PoseCalibration& result) {
           {"factor", c.factor},
           {"stddev", JsonNumber(c.stddev)},
           {"rms_before", c.rms_before},
-          {"rms_after", c.rms_after}};
+          {"rms_after", c.rms_after},
+          {"angle_before", c.angle_before},
+          {"angle_after", c.angle_after}};
 }
 
 json NotesJson(const PoseMisfit& misfit) {

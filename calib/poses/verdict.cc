@@ -41,11 +41,15 @@ void AddCoupling(const Robot& robot, const PoseCalibration& result,
   if (!result.coupling) return;
   const PoseCoupling& c = *result.coupling;
   const std::string own = "q" + std::to_string(c.joint + 1);
-  const std::string k = "k = " + Format("%.5g", c.factor) + " +- " +
-                        Format("%.1g", c.stddev) + " leaves " +
-                        Millimetres(c.rms_after) + " rms instead of " +
-                        Millimetres(c.rms_before) +
-                        ": correct the joint positions beside the poses";
+  std::string k = "k = " + Format("%.5g", c.factor) + " +- " +
+                  Format("%.1g", c.stddev) + " leaves " +
+                  Millimetres(c.rms_after) + " rms instead of " +
+                  Millimetres(c.rms_before);
+  if (c.angle_before > 0) {
+    k += ", " + Format("%.3g", c.angle_after) + " rad instead of " +
+         Format("%.3g", c.angle_before) + " rad";
+  }
+  k += ": correct the joint positions beside the poses";
   const std::string name = robot.links[c.joint].joint.name;
   if (c.joint == c.by) {
     sentences->push_back("gear ratio: " + name +
@@ -67,7 +71,7 @@ void AddGivenUpMotion(const Robot& robot, const PoseCalibration& result,
     if (result.inlier_motion[i] >= kLeastMotion) continue;
     sentences->push_back(
         robot.links[i].joint.name + " moves only in poses that are outliers (" +
-        Format("%.2g", 100 * result.inlier_motion[i]) +
+        Format("%.1f", 100 * result.inlier_motion[i]) +
         " % of its motion is in others): the model does not explain how it "
         "moves, and the others do not tell");
   }
