@@ -28,11 +28,11 @@ constexpr double kSag = 5e-3;  // rad, standard deviation
 constexpr double kLeastLever = 1e-2;
 // Relations that are fitted; to first order the others explain less.
 constexpr int kFitted = 6;
-constexpr int kFolds = 6;
+constexpr int kCouplingFolds = 6;
 // Every n-th pose is enough to see a relation of all of them.
 constexpr int kMostPoses = 2000;
 // Without some to spare any model would fit.
-constexpr int kSpareEquations = 10;
+constexpr int kLeastSpare = 10;
 
 struct Relation {
   int joint, by;
@@ -102,7 +102,7 @@ class CouplingSearch {
     Fitted without = {{-1, -1, 0}, {}, plain_.Start(), 0};
     for (const auto what : {RefineGeometry::kNothing, RefineGeometry::kAll}) {
       plain_.Free(what, without.state);
-      if (plain_.SpareEquations() < kSpareEquations) return {};
+      if (plain_.SpareEquations() < kLeastSpare) return {};
       if (!plain_.SolveWithNoise(rows_, &without.state)) return {};
     }
     without.noise = plain_.noise();
@@ -187,10 +187,10 @@ class CouplingSearch {
   // Of a mean square on poses that were left out.
   double HeldOut(JointTermsFit* fit, const Fitted& fitted) const {
     std::vector<double> sums;
-    for (int fold = 0; fold < kFolds; ++fold) {
+    for (int fold = 0; fold < kCouplingFolds; ++fold) {
       std::vector<int> kept, left_out;
       for (const int k : rows_) {
-        (k % kFolds == fold ? left_out : kept).push_back(k);
+        (k % kCouplingFolds == fold ? left_out : kept).push_back(k);
       }
       if (left_out.empty()) continue;
       JointTermsState state = fitted.state;

@@ -15,8 +15,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // rad or m: beside it, the rounding of a metre's difference is 1e-9.
-constexpr double kDifference = 1e-7;
-constexpr int kMostSteps = 60;
+constexpr double kJointDifference = 1e-7;
+constexpr int kMostTermSteps = 60;
 // A step that lowers chi^2 by less than this share of it was the last: what is
 // compared differs by percents.
 constexpr double kAtRest = 1e-5;
@@ -109,8 +109,8 @@ VectorXd JointTermsFit::JointColumn(int joint, const std::vector<int>& rows,
                                     const JointTermsState& at,
                                     const VectorXd& residuals) {
   Correct(at.amounts);
-  corrected_.q.col(joint).array() += kDifference;
-  return (fit_.Residuals(rows, at.unknowns) - residuals) / kDifference;
+  corrected_.q.col(joint).array() += kJointDifference;
+  return (fit_.Residuals(rows, at.unknowns) - residuals) / kJointDifference;
 }
 
 MatrixXd JointTermsFit::Jacobian(const std::vector<int>& rows,
@@ -157,7 +157,7 @@ JointTermsState JointTermsFit::Moved(const JointTermsState& at,
 bool JointTermsFit::Solve(const std::vector<int>& rows,
                           JointTermsState* state) {
   double damping = 1e-8, cost = Cost(rows, *state);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostTermSteps; ++step) {
     const Equations e = Normal(rows, *state);
     double lower = cost;
     for (; damping < 1e6; damping *= 10) {

@@ -6,7 +6,6 @@
 
 #include "calib/linear/verdict.h"
 #include "calib/numerics/json_figures.h"
-#include "calib/poses/misfit.h"
 #include "calib/poses/verdict.h"
 
 namespace armcal {
@@ -46,8 +45,9 @@ std::string OutlierText(const PoseMeasurements& measured,
   return text + "\n";
 }
 
-// What is left, beside the instrument and in the order of the poses.
-std::string MisfitText(const PoseMisfit& misfit) {
+// What is left beside the instrument, and what else there is to say of it.
+std::string MisfitText(const PoseCalibration& result) {
+  const PoseMisfit& misfit = result.misfit;
   std::string text;
   if (std::isfinite(misfit.instrument_ratio)) {
     char line[128];
@@ -57,8 +57,10 @@ std::string MisfitText(const PoseMisfit& misfit) {
                   1e3 * misfit.instrument_u95, misfit.instrument_ratio);
     text = line;
   }
-  const std::string order = OrderSentence(misfit);
-  return order.empty() ? text : text + "order      " + order + "\n";
+  for (const std::string& note : PoseNotes(result)) {
+    text += "note       " + note + "\n";
+  }
+  return text;
 }
 
 json CouplingJson(const Robot& robot, const PoseCalibration& result) {
@@ -74,9 +76,10 @@ json CouplingJson(const Robot& robot, const PoseCalibration& result) {
           {"angle_after", c.angle_after}};
 }
 
-json NotesJson(const PoseMisfit& misfit) {
-  const std::string order = OrderSentence(misfit);
-  return order.empty() ? json::array() : json::array({order});
+json NotesJson(const PoseCalibration& result) {
+  json notes = json::array();
+  for (const std::string& note : PoseNotes(result)) notes.push_back(note);
+  return notes;
 }
 
 }  // namespace
@@ -97,8 +100,7 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
                 1e3 * result.before_rms, 1e3 * result.rms, 1e3 * result.median,
                 1e3 * result.max, 1e3 * result.held_out_rms,
                 1e3 * result.held_out_median);
-  std::string text = line + OutlierText(measured, result) +
-                     MisfitText(result.misfit) +
+  std::string text = line + OutlierText(measured, result) + MisfitText(result) +
                      "\ngeometry                       file        estimate\n";
   for (const GeometryEstimate& p : result.parameters) text += Estimate(p);
   for (const std::string& sentence : result.held) {
@@ -144,7 +146,7 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
             {"instrument_ratio", JsonNumber(result.misfit.instrument_ratio)},
             {"order_correlation", result.misfit.order_correlation},
             {"coupling", CouplingJson(robot, result)},
-            {"notes", NotesJson(result.misfit)}}},
+            {"notes", NotesJson(result)}}},
           {"termination",
            {{"converged", result.solved}, {"reason", result.reason}}}};
 }

@@ -5,6 +5,7 @@
 
 #include "calib/linear/verdict.h"
 #include "calib/logs/encoder_noise.h"
+#include "calib/poses/misfit.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -25,7 +26,7 @@ constexpr double kOneSided95 = 1.645;  // standard deviations
 // Of a joint's motion: with less among the inliers the deviation of what grows
 // with its position is more than three times (the root of ten) what all poses
 // seemed to promise.
-constexpr double kLeastMotion = 0.1;
+constexpr double kLeastInlierMotion = 0.1;
 
 std::string Millimetres(double x) { return Format("%.3g", 1e3 * x) + " mm"; }
 
@@ -68,7 +69,7 @@ void AddGivenUpMotion(const Robot& robot, const PoseCalibration& result,
                       Sentences* sentences) {
   for (int i = 0; i < result.inlier_motion.size(); ++i) {
     if (result.travel[i] < kLeastTravel) continue;
-    if (result.inlier_motion[i] >= kLeastMotion) continue;
+    if (result.inlier_motion[i] >= kLeastInlierMotion) continue;
     sentences->push_back(
         robot.links[i].joint.name + " moves only in poses that are outliers (" +
         Format("%.1f", 100 * result.inlier_motion[i]) +
@@ -117,6 +118,21 @@ Sentences Shortcomings(const Robot& robot, const PoseCalibration& result) {
   AddOutliers(result, &sentences);
   AddBesideInstrument(result, &sentences);
   return sentences;
+}
+
+Sentences PoseNotes(const PoseCalibration& result) {
+  Sentences notes;
+  if (!result.solved) return notes;
+  const std::string order = OrderSentence(result.misfit);
+  if (!order.empty()) notes.push_back(order);
+  if (result.refined && result.held_out_rms > result.before_rms) {
+    notes.push_back(
+        "on poses that were left out the refined geometry is worse (" +
+        Millimetres(result.held_out_rms) + " rms) than the file's (" +
+        Millimetres(result.before_rms) +
+        "): what it gives up as outliers is not explained by it");
+  }
+  return notes;
 }
 
 }  // namespace armcal

@@ -16,4 +16,8 @@ namespace armcal {
 std::vector<std::string> Shortcomings(const Robot& robot,
                                       const PoseCalibration& result);
 
+// Sentences on what is left that are no reason to fail: it depends on when it
+// was measured, or the refined geometry predicts poses worse than the file's.
+std::vector<std::string> PoseNotes(const PoseCalibration& result);
+
 }  // namespace armcal

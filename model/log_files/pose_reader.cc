@@ -118,6 +118,13 @@ void CheckValues(const std::string& path, const PoseMeasurements& measured) {
     if (length > 0) continue;
     refuse(k, "length1", TextOf(length), "expected a length above 0");
   }
+  for (Eigen::Index k = 0; k < measured.u95.rows(); ++k) {
+    for (Eigen::Index c = 0; c < measured.u95.cols(); ++c) {
+      if (measured.u95(k, c) >= 0) continue;
+      refuse(k, "u95_" + std::to_string(c + 1), TextOf(measured.u95(k, c)),
+             "expected an uncertainty of at least 0 (0: not stated)");
+    }
+  }
   for (Eigen::Index k = 0; k < measured.poses.rows(); ++k) {
     const Eigen::Vector4d q = measured.poses.row(k).tail<4>();
     if (std::abs(q.norm() - 1) < kQuaternionNorm) continue;

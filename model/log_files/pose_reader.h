@@ -18,8 +18,9 @@ struct PoseMeasurements {
   Eigen::MatrixXd poses;
   // Length (m) of a wire drawn from a fixed anchor to the tool.
   Eigen::VectorXd lengths;
-  // Per target (or one): half-width of the instrument's 95 % interval, m;
-  // poses x columns, empty where the file has none.
+  // Per target (or one): half-width of the instrument's 95 % interval of a
+  // coordinate or a length, m, 0 where it is not stated; poses x columns, empty
+  // where the file has none.
   Eigen::MatrixXd u95;
 
   int size() const { return static_cast<int>(q.rows()); }

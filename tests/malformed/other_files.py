@@ -318,6 +318,10 @@ POSE_FILES = Group("poses", "calibrate --robot=robot.yaml --poses=poses.csv --ou
         "point, not a comma"),
     Row("wire of negative length", written("poses.csv", "q1,q2,length1\n0,0,1\n0,1,-1\n"),
         "poses.csv: row 3, column length1: found '-1': expected a length above 0"),
+    Row("uncertainty below 0", written(
+        "poses.csv", "q1,q2,length1,u95_1\n0,0,1,0\n0,1,1,-0.1\n"),
+        "poses.csv: row 3, column u95_1: found '-0.1': expected an uncertainty of at least 0 "
+        "(0: not stated)"),
     Row("quaternion not of length 1", written(
         "poses.csv", "q1,q2,x,y,z,qw,qx,qy,qz\n0,0,0,0,0,1,0,0,0\n0,1,0,0,0,1,1,0,0\n"),
         "poses.csv: row 3, column qw: found '1 1 0 0': expected a unit quaternion"),

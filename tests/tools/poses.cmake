@@ -26,6 +26,35 @@ if(out MATCHES "forearm")
   fail("--geometry=known must leave the arm alone")
 endif()
 
+# A controller that counts the elbow from the base's axis, not from the upper arm.
+execute_process(COMMAND awk -F, -v OFS=, "NR > 1 {$2 += $1} {print}" ${DATA_DIR}/scara/poses.csv
+                OUTPUT_FILE ${WORK_DIR}/coupled.csv)
+run("coupled joints" calibrate --robot=${DATA_DIR}/scara/robot.yaml --poses=coupled.csv
+    --geometry=refine --out=coupled)
+expect_code(1)
+expect_text(out "failed     coupling: elbow follows shoulder: q2 + k q1 with k = -1 +- ")
+file(READ ${WORK_DIR}/coupled/calibration.json json)
+string(JSON joint GET "${json}" poses coupling joint)
+string(JSON factor GET "${json}" poses coupling factor)
+if(NOT joint STREQUAL elbow OR factor LESS -1.0001 OR factor GREATER -0.9999)
+  fail("the coupling of ${joint} has the factor ${factor}")
+endif()
+
+# An instrument that is said to be as good as these poses are, and a far better one.
+foreach(u95 1e-6 1e-12)
+  execute_process(COMMAND awk -F, -v OFS=, "{print $0, (NR > 1 ? \"${u95}\" : \"u95_1\")}"
+                          ${DATA_DIR}/scara/poses.csv OUTPUT_FILE ${WORK_DIR}/u95.csv)
+  run("an instrument of ${u95} m" calibrate --robot=${DATA_DIR}/scara/robot.yaml
+      --poses=u95.csv --geometry=refine)
+  if(u95 STREQUAL 1e-6)
+    expect_code(0)
+    expect_text(out "instrument u95 0.001 mm")
+  else()
+    expect_code(1)
+    expect_text(out "failed     geometry leaves" "beside an instrument")
+  endif()
+endforeach()
+
 file(READ ${DATA_DIR}/scara/poses.csv poses)
 string(REPLACE "y2" "why" broken "${poses}")
 file(WRITE ${WORK_DIR}/broken.csv "${broken}")
