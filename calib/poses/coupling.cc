@@ -24,6 +24,10 @@ const double kMostIsExplained = std::log(2.0);
 // Joint stiffnesses of industrial arms are 0.2 to 5 MN m/rad and their loads
 // some kN m (Abele, Weigold and Rothenbuecher 2007): they sag by some mrad.
 constexpr double kSag = 5e-3;  // rad, standard deviation
+// Joints bend and run eccentrically by some mrad whatever their drives do, and
+// over less than a turn that looks linear: a relation turns its joint by more.
+constexpr double kLeastTurn = kSag;   // rad, rms over the poses
+constexpr double kLeastShift = 1e-3;  // m, of prismatic joints: their play
 // m: the weight turns no joint whose lever changes less between poses.
 constexpr double kLeastLever = 1e-2;
 // Relations that are fitted; to first order the others explain less.
@@ -138,18 +142,28 @@ class CouplingSearch {
     return relations;
   }
 
-  // With the parameters that show once the joints stand where they should.
+  // With the levers and the parameters that show once the joints stand where
+  // they should.
   std::optional<PoseCoupling> Estimate(const Fitted& without, Fitted* best) {
-    const auto with = WithRelation(best->relation);
+    const Relation& relation = best->relation;
+    const VectorXd signal = measured_.q.col(relation.by);
+    const double factor = best->state.amounts.tail<1>()[0];
+    PoseMeasurements corrected = measured_;
+    corrected.q.col(relation.joint) += factor * signal;
+    std::vector<JointTerm> terms = SagTerms(robot_, corrected);
+    terms.push_back({relation.joint, signal});
+    const int last = static_cast<int>(terms.size()) - 1;
+    best->state.amounts = factor * VectorXd::Unit(last + 1, last);
+    const auto with =
+        std::make_unique<JointTermsFit>(robot_, measured_, options_, terms);
     with->set_noise(best->noise);
     with->Free(RefineGeometry::kAll, best->state);
     if (!with->SolveWithNoise(rows_, &best->state)) return {};
     PoseCoupling found;
-    found.joint = best->relation.joint;
-    found.by = best->relation.by;
+    found.joint = relation.joint;
+    found.by = relation.by;
     found.factor = best->state.amounts.tail<1>()[0];
-    found.stddev =
-        with->Stddev(static_cast<int>(sag_.size()), rows_, best->state);
+    found.stddev = with->Stddev(last, rows_, best->state);
     found.rms_before = plain_.RmsDistance(rows_, without.state);
     found.rms_after = with->RmsDistance(rows_, best->state);
     if (measured_.poses.size() == 0) return found;
@@ -184,6 +198,16 @@ class CouplingSearch {
     fitted->push_back(with);
   }
 
+  // Whether the relation moves its joint by more than joints do unasked.
+  bool IsLarge(const Fitted& fitted) const {
+    const VectorXd q = measured_.q.col(fitted.relation.by);
+    const double rms =
+        (q.array() - q.mean()).matrix().norm() / std::sqrt(q.size());
+    const Joint& joint = robot_.links[fitted.relation.joint].joint;
+    return std::abs(fitted.state.amounts.tail<1>()[0]) * rms >
+           (IsRotational(joint.type) ? kLeastTurn : kLeastShift);
+  }
+
   // Of a mean square on poses that were left out.
   double HeldOut(JointTermsFit* fit, const Fitted& fitted) const {
     std::vector<double> sums;
@@ -207,7 +231,7 @@ class CouplingSearch {
   }
 
   bool IsClear(const Fitted& without, const std::vector<Fitted>& fitted) {
-    if (fitted.empty()) return false;
+    if (fitted.empty() || !IsLarge(fitted[0])) return false;
     const double models = static_cast<double>(measured_.q.cols()) *
                           static_cast<double>(measured_.q.cols());
     const double price = std::log(measured_.size()) + 2 * std::log(models);

@@ -119,6 +119,41 @@ TEST(PoseCoupling, IsNotNamedWhereThereIsNone) {
   }
 }
 
+// Encoders that run eccentrically, by 1 mrad once in a turn, look like a gear
+// ratio over half a turn.
+TEST(PoseCoupling, IsNotNamedForAnEccentricJoint) {
+  for (int joint = 0; joint < 6; ++joint) {
+    Plant plant("UR5 6R", 80 + joint);
+    auto m = plant.Measure(Instrument::kTargets, 60, kNoise);
+    m.q.col(joint).array() -= 1e-3 * m.q.col(joint).array().sin();
+    EXPECT_FALSE(FindCoupling(plant.nominal, m, {})) << joint;
+  }
+}
+
+// What bends is no part of the factor, nor of what is left.
+TEST(PoseCoupling, IsNamedBesideSag) {
+  Plant plant("PUMA560 6R", 15);
+  auto m = plant.Measure(Instrument::kTargets, 60, kNoise);
+  m.q -= 5e-3 * LoadMoments(plant.robot, m.q);
+  Record({2, 1, -1}, &m);
+  const auto found = FindCoupling(plant.nominal, m, {});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->factor, -1, 3.5 * found->stddev);
+  EXPECT_LT(found->rms_after, 3 * kNoise);
+}
+
+// A gear ratio that is wrong by 1.5 % beside errors twice a turn of 20 mrad on
+// three joints: it is there, but what is left is larger.
+TEST(PoseCoupling, IsNotNamedWhereMoreIsLeft) {
+  Plant plant("PUMA560 6R", 8);
+  auto m = plant.Measure(Instrument::kTargets, 200, kNoise);
+  for (int j = 0; j < 3; ++j) {
+    m.q.col(j).array() -= .02 * (2 * m.q.col(j).array()).sin();
+  }
+  m.q.col(0) /= 1.015;
+  EXPECT_FALSE(FindCoupling(plant.nominal, m, {}));
+}
+
 // Two joints that were always moved alike cannot be told apart: none is named.
 TEST(PoseCoupling, IsNotNamedWhereAnotherJointMayDoIt) {
   Plant plant("PUMA560 6R", 7);
