@@ -68,10 +68,10 @@ PoseMeasurements EveryNth(const PoseMeasurements& measured) {
 
 // Joints that sag under weight on the tool, which each model has: to the poses
 // of one posture or two, sag looks like a gear ratio.
-std::vector<JointTerm> SagTerms(const Robot& robot,
-                                const PoseMeasurements& measured) {
+std::vector<JointCorrection> SagTerms(const Robot& robot,
+                                      const PoseMeasurements& measured) {
   const MatrixXd moments = LoadMoments(robot, measured.q);
-  std::vector<JointTerm> terms;
+  std::vector<JointCorrection> terms;
   for (int i = 0; i < robot.num_joints(); ++i) {
     const VectorXd lever = moments.col(i).array() - moments.col(i).mean();
     const double rms = lever.norm() / std::sqrt(lever.size());
@@ -150,7 +150,7 @@ class CouplingSearch {
     const double factor = best->state.amounts.tail<1>()[0];
     PoseMeasurements corrected = measured_;
     corrected.q.col(relation.joint) += factor * signal;
-    std::vector<JointTerm> terms = SagTerms(robot_, corrected);
+    std::vector<JointCorrection> terms = SagTerms(robot_, corrected);
     terms.push_back({relation.joint, signal});
     const int last = static_cast<int>(terms.size()) - 1;
     best->state.amounts = factor * VectorXd::Unit(last + 1, last);
@@ -176,7 +176,7 @@ class CouplingSearch {
   }
 
   std::unique_ptr<JointTermsFit> WithRelation(const Relation& relation) const {
-    std::vector<JointTerm> terms = sag_;
+    std::vector<JointCorrection> terms = sag_;
     terms.push_back({relation.joint, measured_.q.col(relation.by)});
     auto fit =
         std::make_unique<JointTermsFit>(robot_, measured_, options_, terms);
@@ -248,7 +248,7 @@ class CouplingSearch {
   const Robot& robot_;
   const PoseMeasurements& measured_;
   const PoseCalibrationOptions& options_;
-  std::vector<JointTerm> sag_;
+  std::vector<JointCorrection> sag_;
   JointTermsFit plain_;  // without a relation
   std::vector<int> rows_;
 };

@@ -38,7 +38,7 @@ VectorXd Weighted(const VectorXd& column, const std::vector<int>& rows,
 JointTermsFit::JointTermsFit(const Robot& robot,
                              const PoseMeasurements& measured,
                              const PoseCalibrationOptions& options,
-                             std::vector<JointTerm> terms)
+                             std::vector<JointCorrection> terms)
     : measured_(measured),
       corrected_(measured),
       fit_(robot, corrected_, options),

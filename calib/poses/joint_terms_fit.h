@@ -14,7 +14,7 @@ namespace armcal {
 
 // The joint stands where it was recorded plus an amount times `signal`, which
 // has a value for each pose.
-struct JointTerm {
+struct JointCorrection {
   int joint;
   Eigen::VectorXd signal;
   double prior = 0;  // standard deviation of the amount, 0: none
@@ -34,7 +34,7 @@ class JointTermsFit {
  public:
   JointTermsFit(const Robot& robot, const PoseMeasurements& measured,
                 const PoseCalibrationOptions& options,
-                std::vector<JointTerm> terms);
+                std::vector<JointCorrection> terms);
   JointTermsFit(const JointTermsFit&) = delete;  // fit_ refers to corrected_
   JointTermsFit& operator=(const JointTermsFit&) = delete;
 
@@ -99,7 +99,7 @@ class JointTermsFit {
   const PoseMeasurements& measured_;
   PoseMeasurements corrected_;
   PoseFit fit_;
-  std::vector<JointTerm> terms_;
+  std::vector<JointCorrection> terms_;
   std::vector<int> free_;  // columns of the geometry's and other unknowns
   Eigen::VectorXd nominal_;
 };
