@@ -102,7 +102,7 @@ void Diagnoser::FitBaseline(const LackedFamilies& lacked,
                             std::vector<GapSegment>* before) {
   BaselineOptions trust = options_.baseline;
   for (const LackedFamily& family : lacked.families) {
-    trust.fitted_terms.insert(family.term);
+    trust.missing_terms[family.term] = family.usual;
   }
   // How late a log's torque is, a reference tells.
   if (!before->empty()) trust.timing_s = Limits().timing_with_reference;
@@ -232,6 +232,7 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
       SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
     }
   } while (result_.torque.ci95[1] < 0 && GiveUpWorst(findings));
+  DoubtWhatDoesNotHelp(result_.torque, &findings->effects);
   if (fit_->refined().effects.size() == fitted) return false;
   if (result_.torque.joints.rows() > 0) {
     for (int j = 0; j < robot_.num_joints(); ++j) {

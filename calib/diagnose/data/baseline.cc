@@ -176,10 +176,10 @@ void GapBaseline::AddTerms(int j, const BaselineOptions& options,
                            double usual_torque) {
   const Joint& joint = robot_.links[j].joint;
   const auto add = [&](JointTerm term, double size) {
-    const double trust = options.fitted_terms.count(term) > 0
-                             ? options.trust_in_fitted
-                             : options.trust;
-    double spread = trust * std::abs(size);
+    const auto missing = options.missing_terms.find(term);
+    double spread = missing == options.missing_terms.end()
+                        ? options.trust * std::abs(size)
+                        : missing->second[j];
     // What a calibration found to be 0 is not known to be that.
     if (spread <= 0 && options.posterior != nullptr) {
       spread = options.posterior->Stddev(j, term);
@@ -192,7 +192,7 @@ void GapBaseline::AddTerms(int j, const BaselineOptions& options,
   add(JointTerm::kViscous, joint.viscous);
   add(JointTerm::kCoulomb, joint.coulomb);
   // A file that was made by measuring friction has its zero as well as that.
-  if (options.fitted_terms.empty()) {
+  if (options.missing_terms.empty()) {
     add(JointTerm::kOffset, std::max(std::abs(joint.coulomb),
                                      Limits().offset_share * usual_torque));
   } else {

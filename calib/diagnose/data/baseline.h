@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -26,10 +26,10 @@ namespace armcal {
 // file's inertial parameters, armature and friction.
 struct BaselineOptions {
   double trust = 0.05;
-  // The joint terms that are not the file's but were fitted, and the same of
-  // these.
-  std::set<JointTerm> fitted_terms;
-  double trust_in_fitted = 0.5;
+  // Joint terms that the file gives no joint, and that the robot has from a fit
+  // to a log: n standard deviations each, SI units of the term. The file does
+  // not say anything about them, so that these are as wide as a term can be.
+  std::map<JointTerm, Eigen::VectorXd> missing_terms;
   double timing_s = 5e-4;  // standard deviation, torque against position
   // The same of friction's change of sign against that of the velocity, whose
   // low pass takes a stop for a turn; 0: none.

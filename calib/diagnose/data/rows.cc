@@ -86,10 +86,9 @@ GapRows::Use GapRows::UseOf(int segment, int joint, int k) const {
     if (held_out != (part_ == LogPart::kHeldOut)) return Use::kNone;
     if (held_out && from_edge < guard) return Use::kNone;
   }
-  return segments_[segment].still(skip_[segment] + within * stride_[segment],
-                                  joint)
-             ? Use::kStill
-             : Use::kMoving;
+  const int sample = skip_[segment] + within * stride_[segment];
+  if (segments_[segment].BreaksAway(sample, joint)) return Use::kNone;
+  return segments_[segment].still(sample, joint) ? Use::kStill : Use::kMoving;
 }
 
 void GapRows::MakeRuns() {

@@ -21,6 +21,10 @@ struct GapSegment {
   // Where a joint stands still (model/signals/standstill.h) its friction is an
   // interval, not a value; samples x n.
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> still;
+  // Where a joint that rested has not yet moved by its bearings' presliding
+  // displacement (standstill.h): its friction is still on the way from that
+  // interval to the value of sliding; samples x n, empty: nowhere.
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> breaks_away;
 
   bool made_torque = false;    // of commands, by the law of the drives
   bool torque_drifts = false;  // torque_drift.h
@@ -33,6 +37,9 @@ struct GapSegment {
   std::vector<TimeRange> lost;
 
   int size() const { return motion.size(); }
+  bool BreaksAway(int sample, int joint) const {
+    return breaks_away.size() > 0 && breaks_away(sample, joint);
+  }
   bool IsLost(double t) const {
     return std::any_of(lost.begin(), lost.end(), [t](const TimeRange& range) {
       return range.Contains(t);

@@ -109,6 +109,29 @@ void FindStillJoints(GapSegment* segment) {
   }
 }
 
+// Joint by joint, once it is known where they stand still. A log that begins
+// without motion began in a rest. Torques that were made of commands tell of
+// friction by how far it keeps drives from these, which is most when a joint
+// leaves a rest.
+void FindBreakaway(GapSegment* segment) {
+  const Motion& motion = segment->motion;
+  segment->breaks_away.setConstant(motion.size(), motion.num_joints(), false);
+  const MatrixXd velocity = MeanVelocity(motion.q, motion.dt);
+  for (int j = 0; j < motion.num_joints(); ++j) {
+    bool breaks_away = std::abs(velocity(0, j)) < kStandstillSpeed;
+    double rest = motion.q(0, j);
+    for (int k = 0; k < motion.size(); ++k) {
+      if (segment->still(k, j)) {
+        breaks_away = true;
+        rest = motion.q(k, j);
+        continue;
+      }
+      breaks_away &= std::abs(motion.q(k, j) - rest) < kPreslidingDisplacement;
+      segment->breaks_away(k, j) = breaks_away;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
@@ -147,6 +170,7 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                  segments.end());
   for (GapSegment& segment : segments) {
     FindStillJoints(&segment);
+    if (!segment.made_torque) FindBreakaway(&segment);
     if (const MadeTorque* made = logs.made_torque(segment.log)) {
       AddErrors(*made, bandwidth_hz, &segment);
     }

@@ -8,6 +8,7 @@
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/judge/agreement.h"
 #include "calib/diagnose/judge/claims.h"
+#include "calib/diagnose/judge/description.h"
 #include "model/effects/effects.h"
 
 namespace armcal {
@@ -15,28 +16,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Sets estimates and deviations of one of the fit's effects.
-void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
-                    const MatrixXd& covariance, FoundEffect* found) {
-  const EffectSite site = {&fit.baseline().robot(), effect.joint, &fit.scale()};
-  const std::vector<EffectEstimate> estimates =
-      EstimatesOf(*effect.effect, site, effect.p);
-  const std::vector<double> stddev = EstimateDeviations(
-      *effect.effect, site, effect.p, covariance,
-      fit.baseline().discrepancy().torque_constants_stddev());
-  found->estimates.insert(found->estimates.end(), estimates.begin(),
-                          estimates.end());
-  found->stddev.insert(found->stddev.end(), stddev.begin(), stddev.end());
-}
-
-// Of the k-th refined effect's parameters.
-MatrixXd CovarianceOf(const RefinedEffects& refined, size_t k) {
-  Eigen::Index begin = 0;
-  for (size_t i = 0; i < k; ++i) begin += refined.effects[i].p.size();
-  const Eigen::Index size = refined.effects[k].p.size();
-  return refined.covariance.block(begin, begin, size, size);
-}
 
 // Sets what a fitted effect removes of the refit's held-out gap: all that is
 // removed, with its interval, where it is the only one; else by its gain.
@@ -176,18 +155,10 @@ void Findings::AddFamilies(const std::vector<LackedFamily>& families) {
   for (const LackedFamily& family : families) {
     FoundEffect found;
     found.effect = family.effect;
+    found.missing_term = family.term;
     found.probability = 1;
     found.score = found.drop = family.drop;
-    for (int j = 0; j < robot_.num_joints(); ++j) {
-      const Joint& joint = robot_.links[j].joint;
-      if (family.value[j] == 0) continue;
-      found.estimates.push_back({joint.name + "." + JointTermName(family.term),
-                                 JointTermUnit(family.term, joint.type),
-                                 family.value[j]});
-      const EffectEstimate& term = found.estimates.back();
-      found.stddev.push_back(WithTorqueScale(family.stddev[j], term.value,
-                                             term.unit, scale_stddev()));
-    }
+    DescribeMissingTerm(fit_, &found);
     result_.effects.push_back(found);
   }
 }
@@ -334,9 +305,10 @@ void FitClaimed(GapFindings* findings, GapFit* fit) {
   std::sort(kept.begin(), kept.end());
   fit->KeepOnly(kept);
   for (FoundEffect& found : findings->effects) {
-    if (found.fitted.empty()) continue;
+    if (found.fitted.empty() && !found.missing_term) continue;
     found.estimates.clear();
     found.stddev.clear();
+    if (found.missing_term) DescribeMissingTerm(*fit, &found);
     for (int& k : found.fitted) {
       k = static_cast<int>(std::lower_bound(kept.begin(), kept.end(), k) -
                            kept.begin());
@@ -369,6 +341,21 @@ void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
     if (found.fitted.empty() || !torque.known()) continue;
     SetShare(fit, torque, held_out.MeritOf(found.fitted[0], torque.after).gain,
              &found);
+  }
+}
+
+void DoubtWhatDoesNotHelp(const GapFigures& torque,
+                          std::vector<FoundEffect>* effects) {
+  if (std::isnan(torque.removed_percent)) return;
+  const auto fitted =
+      std::count_if(effects->begin(), effects->end(),
+                    [](const FoundEffect& f) { return !f.fitted.empty(); });
+  for (FoundEffect& found : *effects) {
+    if (found.fitted.empty()) continue;
+    const double removed =
+        fitted == 1 ? torque.removed_percent : found.removed_percent;
+    if (removed > 0) continue;
+    found.probability = std::min(found.probability, Limits().untold);
   }
 }
 

@@ -47,5 +47,10 @@ bool GiveUpWorst(GapFindings* findings);
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       const GapFigures& torque,
                       std::vector<FoundEffect>* effects);
+// What leaves no less of held-out data, where a refit leaves more than the
+// noise of them, is not seen there: it is at most as likely as not. (Where it
+// leaves the noise, they cannot tell.)
+void DoubtWhatDoesNotHelp(const GapFigures& torque,
+                          std::vector<FoundEffect>* effects);
 
 }  // namespace armcal

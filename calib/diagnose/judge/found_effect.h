@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct FoundEffect {
   // Whether it is friction of several joints that is that of another day: one
   // change, the estimates being each joint's, and no term of the model's.
   bool of_another_day = false;
+  // The term that the file gives no joint, where it is that of all joints: the
+  // estimates are each joint's.
+  std::optional<JointTerm> missing_term;
 };
 
 }  // namespace armcal

@@ -21,6 +21,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// EffectParameter::size, as a share of what the joint does.
+constexpr double kSizeThatMatters = .05;
+
 // Whether a calibration looked for the term, which the robot has then, if only
 // as none.
 bool IsCalibrated(JointTerm term, const BaselineOptions& options) {
@@ -160,7 +163,11 @@ class FamilyFit {
     LackedFamily family;
     family.effect = terms_[f];
     family.term = *terms_[f]->joint_term;
-    family.value = family.stddev = VectorXd::Zero(n);
+    family.value = family.stddev = family.usual = VectorXd::Zero(n);
+    for (int j = 0; j < n; ++j) {
+      family.usual[j] =
+          candidates_[CandidateOf(f, j)].size[0] / kSizeThatMatters;
+    }
     const GapScreen::Fit all = Solve(count);
     std::vector<int> others;
     const std::vector<int> members = Members(count);

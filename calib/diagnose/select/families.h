@@ -18,7 +18,10 @@ struct LackedFamily {
   // n, SI units of the term; 0 where it would be negative.
   Eigen::VectorXd value;
   Eigen::VectorXd stddev;  // with the noise that is left when all are fitted
-  double drop = 0;         // of chi^2 when it is left out
+  // The value at which the term alone would make the joint's usual torque: how
+  // large it may be where the file does not say.
+  Eigen::VectorXd usual;
+  double drop = 0;  // of chi^2 when it is left out
   // rms of what is left of each joint's torque with this and the families
   // before it, N m or N.
   Eigen::VectorXd left;

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "calib/diagnose/data/baseline.h"
-#include "calib/diagnose/data/noise.h"
 #include "calib/diagnose/data/segment.h"
 
 namespace armcal {
@@ -24,13 +23,6 @@ struct ReferenceModel {
 // been recorded without delay.
 ReferenceModel FitReference(const GapBaseline& baseline, double bandwidth_hz,
                             std::vector<GapSegment>* segments);
-
-// Noise of torques beside the model: as what a fit leaves, and as much larger
-// as it is in that third of the segments that a fit to the others explains
-// worst: other logs are motion that no fit has seen, and a model is not quite
-// right.
-GapNoise ReferenceNoise(const GapBaseline& baseline, double bandwidth_hz,
-                        const std::vector<GapSegment>& segments);
 
 // Undoes a delay of the recorded torque, s.
 void AdvanceTorque(double delay, std::vector<GapSegment>* segments);

@@ -4,7 +4,7 @@
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/position_noise.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/select/reference.h"
+#include "calib/diagnose/select/reference_noise.h"
 
 namespace armcal {
 namespace {

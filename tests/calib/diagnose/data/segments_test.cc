@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/rows.h"
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/temp_file.h"
 
@@ -102,6 +103,25 @@ TEST(GapSegments, KnowWhichJointStandsStill) {
     if (std::min(std::abs(t - 4), std::abs(t - 7)) < .3) continue;
     EXPECT_EQ(segment.still(k, 1), t > 4 && t < 7) << t;
   }
+}
+
+// Until its bearings slide, friction of a joint that leaves a rest is not told:
+// at .01 rad/s it has moved by 3 mrad after .3 s.
+TEST(GapSegments, KnowWhichJointLeavesARest) {
+  Log log = Swing(12);
+  for (int k = 0; k < log.size(); ++k) {
+    const double t = log.t[k];
+    if (t > 6 && t <= 8) log.q(k, 1) = .9 - .01 * (t - 6);
+  }
+  const GapSegment segment = Read({LogCsv(log)}).at(0);
+  for (int k = 0; k < segment.size(); ++k) {
+    const double t = segment.motion.time(k);
+    EXPECT_FALSE(segment.BreaksAway(k, 0)) << t;
+    if (std::abs(t - 6) < .15 || std::abs(t - 6.3) < .15) continue;
+    EXPECT_EQ(segment.BreaksAway(k, 1), t > 6 && t < 6.3) << t;
+  }
+  const GapRows rows({segment}, kBandwidth, LogPart::kAll);
+  EXPECT_EQ(rows.num_rows(0) > rows.num_rows(1), true);
 }
 
 // A joint that creeps stands still where its torque was made of commands.

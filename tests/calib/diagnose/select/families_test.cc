@@ -37,6 +37,31 @@ TEST_F(GapFamiliesTest, AFrictionlessFileLacksFrictionOnAllJoints) {
             .3 * ladder.families[0].left.norm());
 }
 
+// What a spring took for friction of the fit without it, friction gives back:
+// the file says nothing of it that the fit had to stay near to.
+TEST_F(GapFamiliesTest, AreToldAsTheyAreBesideTheEffects) {
+  Add("spring", 1, {12, 3});
+  const GapDiagnosis diagnosis = Diagnose(WithoutFriction(File()));
+  const auto told = [&](const std::string& effect) {
+    const auto found = std::find_if(
+        diagnosis.effects.begin(), diagnosis.effects.end(),
+        [&](const FoundEffect& f) { return f.effect->name == effect; });
+    EXPECT_NE(found, diagnosis.effects.end()) << effect;
+    return *found;
+  };
+  EXPECT_EQ(told("spring").joint, 1);
+  const FoundEffect coulomb = told("coulomb_friction");
+  const LackedFamilies& ladder = diagnosis.ladder;
+  const auto first = std::find_if(
+      ladder.families.begin(), ladder.families.end(),
+      [](const LackedFamily& f) { return f.term == JointTerm::kCoulomb; });
+  ASSERT_NE(first, ladder.families.end());
+  for (int j = 0; j < 2; ++j) {
+    ExpectEstimate(coulomb, File().links[j].joint.name + ".coulomb", 1.5, .05);
+  }
+  EXPECT_GT(std::abs(first->value[1] - 1.5), .15);
+}
+
 TEST_F(GapFamiliesTest, AFileWithFrictionLacksNone) {
   EXPECT_TRUE(Diagnose(File()).ladder.families.empty());
 }

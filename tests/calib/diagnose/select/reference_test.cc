@@ -1,6 +1,7 @@
 #include "calib/diagnose/select/reference.h"
 
 #include "calib/diagnose/data/segments.h"
+#include "calib/diagnose/select/reference_noise.h"
 #include "tests/fixtures/diagnosed_arm.h"
 
 namespace armcal::reference_test {

@@ -1,0 +1,55 @@
+#include "calib/diagnose/judge/description.h"
+
+#include <cmath>
+
+#include "calib/diagnose/data/estimate_deviations.h"
+#include "calib/diagnose/data/thresholds.h"
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
+                    const MatrixXd& covariance, FoundEffect* found) {
+  const EffectSite site = {&fit.baseline().robot(), effect.joint, &fit.scale()};
+  const std::vector<EffectEstimate> estimates =
+      EstimatesOf(*effect.effect, site, effect.p);
+  const std::vector<double> stddev = EstimateDeviations(
+      *effect.effect, site, effect.p, covariance,
+      fit.baseline().discrepancy().torque_constants_stddev());
+  found->estimates.insert(found->estimates.end(), estimates.begin(),
+                          estimates.end());
+  found->stddev.insert(found->stddev.end(), stddev.begin(), stddev.end());
+}
+
+void DescribeMissingTerm(const GapFit& fit, FoundEffect* found) {
+  const GapBaseline& baseline = fit.baseline();
+  const VectorXd& x = fit.model_after();
+  const MatrixXd covariance = fit.screen().BaselineCovariance();
+  const Robot robot = baseline.With(x);
+  const JointTerm term = *found->missing_term;
+  for (int c = 0; c < baseline.size(); ++c) {
+    const BaselineColumn& column = baseline.columns()[c];
+    if (column.kind != BaselineColumn::Kind::kTerm) continue;
+    if (static_cast<JointTerm>(column.index) != term) continue;
+    if (covariance(c, c) > Limits().told_of_day) continue;
+    const Joint& joint = robot.links[column.joint].joint;
+    const std::string unit = JointTermUnit(term, joint.type);
+    const double value = TermOf(term, joint);
+    found->estimates.push_back(
+        {joint.name + "." + JointTermName(term), unit, value});
+    found->stddev.push_back(WithTorqueScale(
+        std::sqrt(covariance(c, c)) * column.spread, value, unit,
+        baseline.discrepancy().torque_constants_stddev()));
+  }
+}
+
+MatrixXd CovarianceOf(const RefinedEffects& refined, size_t k) {
+  Eigen::Index begin = 0;
+  for (size_t i = 0; i < k; ++i) begin += refined.effects[i].p.size();
+  const Eigen::Index size = refined.effects[k].p.size();
+  return refined.covariance.block(begin, begin, size, size);
+}
+
+}  // namespace armcal

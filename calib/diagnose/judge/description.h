@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "calib/diagnose/judge/found_effect.h"
+#include "calib/diagnose/select/fit.h"
+
+namespace armcal {
+
+// Of the k-th refined effect's parameters.
+Eigen::MatrixXd CovarianceOf(const RefinedEffects& refined, size_t k);
+
+// Adds estimates and deviations of one of the fit's effects; covariance: of its
+// parameters.
+void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
+                    const Eigen::MatrixXd& covariance, FoundEffect* found);
+
+// Adds each joint's value of a term that the file gives no joint, as it is
+// beside the fit's effects, whose torque a fit without them had taken for it.
+// A joint that does not show it has none.
+void DescribeMissingTerm(const GapFit& fit, FoundEffect* found);
+
+}  // namespace armcal

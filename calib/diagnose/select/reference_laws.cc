@@ -1,0 +1,172 @@
+#include "calib/diagnose/select/reference_laws.h"
+
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/data/motion_scale.h"
+#include "calib/diagnose/data/noise.h"
+#include "calib/diagnose/data/screen.h"
+#include "calib/diagnose/select/chosen.h"
+#include "calib/diagnose/select/reference_fit.h"
+#include "calib/diagnose/select/reference_folds.h"
+#include "calib/diagnose/select/selection.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kChoices = 3;  // each with the noise that the last leaves
+constexpr int kMostKnown = 10;
+
+// Not what a log says of itself or of its day; nor what the baseline varies
+// anyway; nor a law that a linear model cannot have.
+bool CanBeInReference(const Effect& effect) {
+  return effect.nature == Effect::Nature::kLaw && effect.proportional;
+}
+
+// Laws that explain what the baseline leaves, on the shapes of their grids, of
+// logs that they were not fitted to as well; what they leave is the noise.
+class LawSearch {
+ public:
+  LawSearch(const GapBaseline& baseline,
+            const std::vector<GapSegment>& segments, GapData* data)
+      : baseline_(baseline), segments_(segments), data_(*data) {
+    const MatrixXd left = data_.ResidualWith(FitWithNoise(&data_));
+    scale_ = ScaleOf(baseline, data_.rows(), data_.torques());
+    for (GapCandidate& candidate :
+         ListCandidates(baseline, data_.rows(), scale_, left, {})) {
+      if (CanBeInReference(*candidate.effect)) {
+        candidates_.push_back(std::move(candidate));
+      }
+    }
+    EvaluateCandidates(baseline, data_.rows(), scale_, data_.torques(),
+                       &candidates_);
+  }
+
+  KnownEffects Run() {
+    std::vector<int> chosen;
+    GapScreen::Fit fit;
+    for (int round = 0; round < kChoices; ++round) {
+      const GapScreen screen = ScreenOf(data_);
+      SelectionOptions options;
+      options.most_effects = kMostKnown;
+      chosen = SelectEffects(screen, candidates_, options).chosen;
+      fit = screen.Solve(ColumnsOf(candidates_, chosen));
+      noise_ = ResidualNoise(data_.rows(), Left(screen, chosen, fit)).joints;
+      data_.SetNoise(noise_);
+    }
+    std::vector<GapCandidate> laws;
+    for (const int c : chosen) laws.push_back(std::move(candidates_[c]));
+    candidates_ = std::move(laws);
+    std::iota(chosen.begin(), chosen.end(), 0);
+    KeepWhatIsSeenAgain(&chosen);
+    GapScreen screen = ScreenOf(data_);
+    fit = screen.Solve(ColumnsOf(candidates_, chosen));
+    return {baseline_.robot(), Known(chosen, fit), scale_};
+  }
+
+ private:
+  GapScreen ScreenOf(const GapData& data) {
+    GapScreen screen = data.Screen();
+    AddCandidates(data.rows(), &candidates_, &screen);
+    screen.Factor();
+    return screen;
+  }
+
+  // Gives up laws, the worst first, without which fits to the other parts of
+  // the reference leave less of the part that each has not seen.
+  void KeepWhatIsSeenAgain(std::vector<int>* chosen) {
+    if (chosen->empty()) return;
+    std::vector<Unseen> parts;
+    for (const ReferenceFold& fold : FoldsOf(segments_)) {
+      auto others = std::make_unique<GapData>(data_, LogPart::kAll);
+      std::vector<int> left_out = LeaveOut(segments_, fold, others.get());
+      others->SetNoise(noise_);
+      parts.push_back({ScreenOf(*others), std::move(left_out)});
+    }
+    while (!chosen->empty()) {
+      const double all = LeftUnseen(parts, *chosen);
+      int worst = -1;
+      double least = all;
+      for (int k = 0; k < static_cast<int>(chosen->size()); ++k) {
+        const double left = LeftUnseen(parts, Without(*chosen, k));
+        if (left < least) least = left, worst = k;
+      }
+      if (worst < 0) return;
+      *chosen = Without(*chosen, worst);
+    }
+  }
+
+  // A fit to all but some samples, and these.
+  struct Unseen {
+    GapScreen screen;
+    std::vector<int> left_out;
+  };
+  // Sum of squares over the noise's variance that such fits leave.
+  double LeftUnseen(const std::vector<Unseen>& parts,
+                    const std::vector<int>& chosen) const {
+    double sum = 0;
+    for (const Unseen& part : parts) {
+      const GapScreen::Fit fit =
+          part.screen.Solve(ColumnsOf(candidates_, chosen));
+      const MatrixXd left =
+          Moving(data_.rows(), Left(part.screen, chosen, fit));
+      for (int j = 0; j < left.cols(); ++j) {
+        const double stddev = data_.rows().noise(j).stddev();
+        sum += left(part.left_out, j).squaredNorm() / (stddev * stddev);
+      }
+    }
+    return sum;
+  }
+
+  // Thinned samples x n, N m or N.
+  MatrixXd Left(const GapScreen& screen, const std::vector<int>& chosen,
+                const GapScreen::Fit& fit) const {
+    MatrixXd left = data_.ResidualWith(screen.Baseline(fit));
+    int at = 0;
+    for (const int c : chosen) {
+      for (const JointRows& torque : candidates_[c].torque) {
+        const double size = fit.coefficients[at++];
+        for (int j = 0; j < left.cols(); ++j) {
+          if (torque[j].size() > 0) left.col(j) -= size * torque[j];
+        }
+      }
+    }
+    return left;
+  }
+
+  std::vector<KnownEffect> Known(const std::vector<int>& chosen,
+                                 const GapScreen::Fit& fit) const {
+    std::vector<KnownEffect> known;
+    int at = 0;
+    for (const int c : chosen) {
+      const GapCandidate& law = candidates_[c];
+      known.push_back({law.effect, law.joint, law.p});
+      for (size_t k = 0; k < law.linear.size(); ++k) {
+        known.back().p[law.linear[k]] = fit.coefficients[at++] * law.size[k];
+      }
+    }
+    return known;
+  }
+
+  const GapBaseline& baseline_;
+  const std::vector<GapSegment>& segments_;
+  GapData& data_;
+  std::vector<Autoregression> noise_;
+  MotionScale scale_;
+  std::vector<GapCandidate> candidates_;
+};
+
+}  // namespace
+
+KnownEffects FindReferenceLaws(const GapBaseline& baseline,
+                               const std::vector<GapSegment>& segments,
+                               GapData* data) {
+  return LawSearch(baseline, segments, data).Run();
+}
+
+}  // namespace armcal

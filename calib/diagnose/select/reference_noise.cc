@@ -1,0 +1,89 @@
+#include "calib/diagnose/select/reference_noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/diagnose/data/data.h"
+#include "calib/diagnose/data/screen.h"
+#include "calib/diagnose/select/reference_fit.h"
+#include "calib/diagnose/select/reference_folds.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// What the fit leaves, divided by how much more than the noise (of `rows`) it
+// has to leave of samples that it has not seen, its parameters being uncertain.
+MatrixXd Unforeseen(const GapData& data, const GapRows& rows) {
+  GapScreen screen = data.Screen();
+  screen.Factor();
+  const JointRows none(data.rows().num_joints());
+  MatrixXd left = data.ResidualWith(screen.BaselineBeside(none));
+  const MatrixXd covariance = screen.BaselineCovariance();
+  for (int j = 0; j < left.cols(); ++j) {
+    const BaselineColumns& own = data.columns()[j];
+    const VectorXd variance = (own.values * covariance(own.which, own.which))
+                                  .cwiseProduct(own.values)
+                                  .rowwise()
+                                  .sum();
+    for (int k = 0; k < left.rows(); ++k) {
+      left(k, j) /= std::sqrt(1 + variance[k] / rows.variance(j, k));
+    }
+  }
+  return left;
+}
+
+// By how much what a fit leaves of samples that it has not seen is larger than
+// of those that it has, of each joint: between whole logs as it is over all of
+// them, which is what another log of such motion will have; between thirds of
+// one log as in the worst, since motion elsewhere is less alike than they are.
+VectorXd GrowthOfUnseen(const std::vector<GapSegment>& segments,
+                        const GapData& all,
+                        const std::vector<Autoregression>& noise,
+                        const MatrixXd& seen) {
+  const std::vector<ReferenceFold> folds = FoldsOf(segments);
+  MatrixXd before = MatrixXd::Zero(seen.cols(), folds.size()), after = before;
+  for (size_t f = 0; f < folds.size(); ++f) {
+    GapData others(all, LogPart::kAll);
+    others.SetNoise(noise);
+    const std::vector<int> left_out = LeaveOut(segments, folds[f], &others);
+    others.SetNoise(noise);
+    const MatrixXd unseen = Moving(all.rows(), Unforeseen(others, all.rows()));
+    before.col(f) = seen(left_out, Eigen::all).colwise().squaredNorm();
+    after.col(f) = unseen(left_out, Eigen::all).colwise().squaredNorm();
+  }
+  if (folds[0].log >= 0) {
+    before = before.rowwise().sum().eval();
+    after = after.rowwise().sum().eval();
+  }
+  VectorXd grows = VectorXd::Ones(seen.cols());
+  for (int j = 0; j < grows.size(); ++j) {
+    for (Eigen::Index f = 0; f < before.cols(); ++f) {
+      if (!(before(j, f) > 0)) continue;
+      grows[j] = std::max(grows[j], std::sqrt(after(j, f) / before(j, f)));
+    }
+  }
+  return grows;
+}
+
+}  // namespace
+
+GapNoise ReferenceNoise(const GapBaseline& baseline, double bandwidth_hz,
+                        const std::vector<GapSegment>& segments) {
+  GapData all(segments, baseline, bandwidth_hz);
+  const MatrixXd seen = all.ResidualWith(FitWithNoise(&all));
+  GapNoise noise = ResidualNoise(all.rows(), seen);
+  all.SetNoise(noise.joints);
+  const VectorXd grows =
+      GrowthOfUnseen(segments, all, noise.joints, Moving(all.rows(), seen));
+  for (int j = 0; j < grows.size(); ++j) {
+    noise.joints[j].sigma *= grows[j];
+    // Motion may as well be as unlike these parts as they are to each other.
+    noise.doubt.push_back(grows[j] * grows[j] - 1);
+  }
+  return noise;
+}
+
+}  // namespace armcal
