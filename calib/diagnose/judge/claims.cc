@@ -16,6 +16,10 @@ bool IsNeeded(const FoundEffect& found, double variance_doubt) {
          found.size >= Limits().least_lacked * Limits().lacked;
 }
 
+bool IsBeyondScatter(const FoundEffect& found) {
+  return found.scatter.IsBeyond(Limits().chance_quantile);
+}
+
 bool IsSeenAgain(const FoundEffect& found) {
   return found.evidence.confirmation.Share() > Limits().seen_again;
 }
@@ -23,7 +27,9 @@ bool IsSeenAgain(const FoundEffect& found) {
 bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
                         const GapFigures& held_out) {
   return held_out.after < held_out.refit &&
-         std::any_of(effects.begin(), effects.end(), IsSeenAgain);
+         std::any_of(effects.begin(), effects.end(), [](const auto& found) {
+           return IsSeenAgain(found) && IsBeyondScatter(found);
+         });
 }
 
 bool IsPossible(const FoundEffect& found) {
@@ -44,6 +50,7 @@ bool IsClaimed(const FoundEffect& found) {
   if (!found.contacts.empty()) return found.probability >= Limits().likely;
   if (!IsPossible(found) || IsContradicted(found)) return false;
   if (!found.joints_agree) return false;
+  if (!IsBeyondScatter(found)) return false;
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
   if (!IsSeenAgain(found)) {

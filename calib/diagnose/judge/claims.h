@@ -15,6 +15,9 @@ bool IsLikely(const FoundEffect& found);
 // than what the best of models lack.
 bool IsNeeded(const FoundEffect& found, double variance_doubt);
 
+// Whether it is more than the reference's logs differ by among each other.
+bool IsBeyondScatter(const FoundEffect& found);
+
 // Whether held-out data have it as well, in part.
 bool IsSeenAgain(const FoundEffect& found);
 

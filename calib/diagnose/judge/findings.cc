@@ -115,6 +115,10 @@ FoundEffect Findings::Found(size_t k) const {
     found.joints_agree = !agreement.Differ(found.drop, Limits().form_error) &&
                          !agreement.IsOfOneJoint();
   }
+  // What swings has a phase of its own in each log.
+  if (effect.log < 0 && !SwingsInTime(*effect.effect)) {
+    found.scatter = fit_.ScatterOf(effect);
+  }
   found.probability = ProbabilityOf(found.evidence);
   SetShare(fit_, torque_, found.evidence.gain, &found);
   found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;

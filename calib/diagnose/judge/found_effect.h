@@ -9,6 +9,7 @@
 #include "calib/diagnose/judge/evidence.h"
 #include "calib/diagnose/judge/probability.h"
 #include "calib/diagnose/select/contacts.h"
+#include "calib/diagnose/select/reference_scatter.h"
 
 namespace armcal {
 
@@ -41,6 +42,8 @@ struct FoundEffect {
   std::vector<Contact> contacts;  // of external_contact, in time's order
   // Whether joints tell it alike, if it is of all of them.
   bool joints_agree = true;
+  // How much of it the reference's logs show by themselves.
+  ReferenceScatter scatter;
   // Whether it is friction of several joints that is that of another day: one
   // change, the estimates being each joint's, and no term of the model's.
   bool of_another_day = false;

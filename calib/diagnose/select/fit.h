@@ -76,6 +76,9 @@ class GapFit {
   JointRows TorqueOf(const GapCandidate& effect) const {
     return regression_.TorqueOf({effect});
   }
+  ReferenceScatter ScatterOf(const GapCandidate& effect) const {
+    return regression_.ScatterOf(effect);
+  }
   // The baseline's values beside other effects.
   Eigen::VectorXd BaselineBeside(
       const std::vector<GapCandidate>& effects) const;

@@ -177,6 +177,12 @@ bool GapRegression::IsTheSameDayBeside(
   return !*another_day_;
 }
 
+ReferenceScatter GapRegression::ScatterOf(const GapCandidate& effect) const {
+  if (!reference_) return {};
+  return ScatterBetweenLogs(baseline_, scale_, effect, refit_,
+                            reference_.get());
+}
+
 JointRows GapRegression::TorqueOf(
     const std::vector<GapCandidate>& effects) const {
   return EffectTorque(baseline_, scale_, effects, data_.get());

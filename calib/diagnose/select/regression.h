@@ -12,6 +12,7 @@
 #include "calib/diagnose/data/noise.h"
 #include "calib/diagnose/data/screen.h"
 #include "calib/diagnose/select/evidence_noise.h"
+#include "calib/diagnose/select/reference_scatter.h"
 
 namespace armcal {
 
@@ -52,6 +53,8 @@ class GapRegression {
   const GapRows& rows() const { return data_->rows(); }
   GapData* data() const { return data_.get(); }
   const GapData* reference() const { return reference_.get(); }  // or null
+  // What the reference's logs differ by; of no logs where there is none.
+  ReferenceScatter ScatterOf(const GapCandidate& effect) const;
   // The baseline's values before these logs: the file's, or those of the
   // reference.
   const Eigen::VectorXd& before() const { return before_; }

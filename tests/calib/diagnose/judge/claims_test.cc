@@ -20,6 +20,9 @@ TEST(IsThereWithoutName, WhereHeldOutDataHaveItAndGainByIt) {
   EXPECT_FALSE(IsThereWithoutName({}, held_out));
   held_out.after = 4;
   EXPECT_FALSE(IsThereWithoutName({seen, spoils}, held_out));
+  held_out.after = 1.5;
+  seen.scatter = {5, 1};
+  EXPECT_FALSE(IsThereWithoutName({seen, spoils}, held_out));
 }
 
 // A log that the model explains better than its noise lacks nothing there, and
@@ -64,6 +67,13 @@ TEST_F(IsClaimedTest, WhatHeldOutDataDoNotShowIsLikelier) {
   EXPECT_FALSE(Claimed(.6, .01, 10, 2));
   EXPECT_TRUE(Claimed(.8, .01, 10, 2));
   EXPECT_FALSE(Claimed(.6, .01, 500, 50));
+}
+
+TEST_F(IsClaimedTest, WhatReferenceLogsDifferByIsNoChange) {
+  found_.scatter = {5, .3};
+  EXPECT_FALSE(Claimed(.99, 1));
+  found_.scatter = {5, .1};
+  EXPECT_TRUE(Claimed(.99, 1));
 }
 
 TEST_F(IsClaimedTest, WhatHeldOutDataContradictIsNot) {

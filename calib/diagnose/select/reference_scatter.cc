@@ -1,0 +1,65 @@
+#include "calib/diagnose/select/reference_scatter.h"
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <map>
+
+#include "calib/diagnose/candidates/refinement.h"
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kFewestLogs = 3;
+
+// Of one log.
+struct Products {
+  double of_effect = 0;  // c' c
+  double by_left = 0;    // c' r
+};
+
+}  // namespace
+
+bool ReferenceScatter::IsBeyond(double quantile) const {
+  if (logs < kFewestLogs) return true;
+  const boost::math::students_t t(logs - 1);
+  // A further log differs from the mean of these by more than they do.
+  const double usual = stddev * std::sqrt(1 + 1. / logs);
+  return usual * boost::math::quantile(t, (1 + quantile) / 2) < 1;
+}
+
+ReferenceScatter ScatterBetweenLogs(const GapBaseline& baseline,
+                                    const MotionScale& scale,
+                                    const GapCandidate& effect,
+                                    const VectorXd& x, GapData* reference) {
+  const GapRows& rows = reference->rows();
+  const JointRows torque =
+      WhitenEach(rows, EffectTorque(baseline, scale, {effect}, reference));
+  const MatrixXd left = reference->ResidualWith(x);
+  std::map<int, Products> logs;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    if (torque[j].size() == 0) continue;
+    const VectorXd r = rows.Whiten(j, left.col(j));
+    const auto places = rows.PlacesOfRows(j);
+    for (size_t k = 0; k < places.size(); ++k) {
+      Products& of = logs[rows.segments()[places[k].segment].log];
+      of.of_effect += torque[j][k] * torque[j][k];
+      of.by_left += torque[j][k] * r[k];
+    }
+  }
+  ReferenceScatter scatter;
+  double squares = 0;
+  for (const auto& [log, of] : logs) {
+    if (!(of.of_effect > 0)) continue;
+    ++scatter.logs;
+    squares += std::pow(of.by_left / of.of_effect, 2);
+  }
+  if (scatter.logs > 1)
+    scatter.stddev = std::sqrt(squares / (scatter.logs - 1));
+  return scatter;
+}
+
+}  // namespace armcal

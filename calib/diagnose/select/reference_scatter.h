@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/data/baseline.h"
+#include "calib/diagnose/data/data.h"
+
+namespace armcal {
+
+// How much of an effect the logs of a reference show by themselves, beside the
+// model that all of them have: robots are not the same from log to log (cables
+// lie otherwise, grease is warm), and an effect of that size is no change.
+struct ReferenceScatter {
+  int logs = 0;       // that move what the effect acts on
+  double stddev = 0;  // between them, in units of the effect
+
+  // Whether the effect, 1 in these units, is beyond what a further log shows:
+  // by Student's t of logs - 1 degrees of freedom at the `quantile` of its
+  // size. Two logs or fewer do not tell.
+  bool IsBeyond(double quantile) const;
+};
+
+// The effect's torque c at its parameters, and r, what the baseline at x leaves
+// of the reference, both whitened as its evidence is: log l shows
+//   b_l = c_l' r_l / (c_l' c_l)
+// of it, the model being that of all logs, and
+//   stddev^2 = sum_l b_l^2 / (logs - 1).
+ReferenceScatter ScatterBetweenLogs(const GapBaseline& baseline,
+                                    const MotionScale& scale,
+                                    const GapCandidate& effect,
+                                    const Eigen::VectorXd& x,
+                                    GapData* reference);
+
+}  // namespace armcal

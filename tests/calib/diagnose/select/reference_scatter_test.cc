@@ -1,0 +1,55 @@
+#include "calib/diagnose/select/reference_scatter.h"
+
+#include "calib/diagnose/data/motion_scale.h"
+#include "calib/diagnose/data/segments.h"
+#include "calib/diagnose/select/reference_fit.h"
+#include "tests/fixtures/diagnosed_arm.h"
+
+namespace armcal::reference_scatter_test {
+
+// Student's t of 4 degrees of freedom, 99 % of its size: 4.604 (tables), and a
+// sixth log differs from the mean of five by sqrt(1 + 1/5) of their deviation.
+TEST(ReferenceScatter, IsJudgedByStudentsT) {
+  const double limit = 1 / (4.604 * std::sqrt(1.2));
+  EXPECT_TRUE((ReferenceScatter{5, .99 * limit}.IsBeyond(.99)));
+  EXPECT_FALSE((ReferenceScatter{5, 1.01 * limit}.IsBeyond(.99)));
+}
+
+TEST(ReferenceScatter, OfTwoLogsTellsNothing) {
+  EXPECT_TRUE((ReferenceScatter{2, 10}.IsBeyond(.99)));
+  EXPECT_TRUE(ReferenceScatter().IsBeyond(.99));
+}
+
+using ReferenceScatterTest = DiagnosedArm<32>;
+
+// Three logs of an arm whose first joint has a cable that pulls by +1.5, 0 and
+// -1.5 N m/rad: a standard deviation of 1.5.
+TEST_F(ReferenceScatterTest, IsWhatLogsDifferBy) {
+  std::vector<std::string> paths;
+  for (const double stiffness : {1.5, 0., -1.5}) {
+    SimulatedRobot robot = before_;
+    AddTo("spring", 0, {stiffness, 0}, &robot);
+    paths.push_back(Record(robot, std::to_string(paths.size()) + ".csv"));
+  }
+  LogReaderOptions reader;
+  reader.joint_names = File().JointNames();
+  const LogSet logs(LogFiles(paths), reader, {});
+  const std::vector<GapSegment> segments = ReadSegments(6, {}, logs);
+  const GapBaseline baseline(File(), {}, UsualTorque(segments));
+  GapData data(segments, baseline, 6);
+  const Eigen::VectorXd x = FitWithNoise(&data);
+  const MotionScale scale = ScaleOf(baseline, data.rows(), data.torques());
+  GapCandidate spring;
+  spring.effect = FindEffect("spring");
+  spring.joint = 0;
+  spring.p = Eigen::Vector2d(.75, 0);
+  const ReferenceScatter scatter =
+      ScatterBetweenLogs(baseline, scale, spring, x, &data);
+  EXPECT_EQ(scatter.logs, 3);
+  EXPECT_NEAR(scatter.stddev, 2, .2);
+  // What acts on no log's motion is in none.
+  spring.p.setZero();
+  EXPECT_EQ(ScatterBetweenLogs(baseline, scale, spring, x, &data).logs, 0);
+}
+
+}  // namespace armcal::reference_scatter_test
