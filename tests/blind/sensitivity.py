@@ -107,7 +107,7 @@ def number(x):
 
 def page(thresholds, result):
     kinds = Counter(t["kind"] for t in thresholds)
-    count = result.get("cases", 0)
+    count, of = result.get("cases", 0), result.get("of", "")
     lines = [
         "# Thresholds of a diagnosis", "",
         f"Every number that decides what `armcal diagnose` says: {kinds['tuned']} that were "
@@ -119,11 +119,12 @@ def page(thresholds, result):
         "rounds.", "",
         *(["The last two figures are not measured yet.", ""] if not count else []),
         f"*Half* and *twice*: how many of {count or 'the'} calibration cases of the "
-        "[blind bench](../tests/blind/README.md) (half of them with structured misfit) get "
+        f"[blind bench](../tests/blind/README.md){of} get "
         "another verdict or another claim above 50 % with half or twice the value (of a "
         "quantile: of its remainder to 1), and, where that differs, how many more (+) or "
         "fewer (-) are then right. These cases are of the set that many of the numbers were "
-        "chosen on: the figures say what a number decides, not how good it is.", "",
+        "chosen on: the figures say what a number decides, not how good it is. Without figures: "
+        "not varied.", "",
         "| name | value | unit | meaning | half | twice | source |",
         "|---|---|---|---|---|---|---|"]
     for t in thresholds:
@@ -166,6 +167,7 @@ def main():
     saved = Path(arguments.cases) / "sensitivity.json"
     result = json.loads(saved.read_text()) if saved.exists() else {"rows": {}}
     result["cases"] = sum(len(t) for t in truth.values())
+    result["of"] = " (" + ", ".join(f"{len(t)} {name}" for name, t in truth.items()) + ")"
     before = {f.name: run(arguments, f, "") for f in folders}
     only = arguments.only.split(",") if arguments.only else None
     for threshold in thresholds:
