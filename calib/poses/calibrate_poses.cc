@@ -128,11 +128,8 @@ std::vector<int> ReportErrors(const PoseFit& fit,
                       result->outliers.end(), std::back_inserter(inliers));
   if (!inliers.empty()) result->inlier_rms = Rms(fit.Distances(inliers, at));
   result->inlier_motion = MotionShare(measured.q, inliers);
-  const auto unknowns =
-      std::count(solution.free.begin(), solution.free.end(), true) +
-      at.other.size();
-  result->misfit =
-      MeasureMisfit(fit, measured, at, inliers, static_cast<int>(unknowns));
+  result->misfit = MeasureMisfit(fit, measured, at, inliers,
+                                 PoseFit::NumUnknowns(solution.free, at));
   return inliers;
 }
 

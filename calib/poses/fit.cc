@@ -176,6 +176,12 @@ void PoseFit::EstimateNoise(const std::vector<bool>& free,
   if (rotation.size() > 0) noise_.rotation = spread(rotation);
 }
 
+int PoseFit::EquationsPerPose() const {
+  if (measured_.lengths.size() > 0) return 1;
+  if (measured_.poses.size() > 0) return 6;
+  return 3 * static_cast<int>(measured_.targets.size());
+}
+
 // Poses that repeat an arm position add nothing to the geometry.
 std::string PoseFit::WhyTooFew(const std::vector<bool>& free,
                                const PoseUnknowns& at) const {
@@ -189,12 +195,8 @@ std::string PoseFit::WhyTooFew(const std::vector<bool>& free,
         });
     if (!seen) different.push_back(k);
   }
-  const int per_pose = measured_.lengths.size() > 0 ? 1
-                       : measured_.poses.size() > 0
-                           ? 6
-                           : 3 * static_cast<int>(measured_.targets.size());
   const int poses = static_cast<int>(different.size());
-  const int equations = per_pose * poses;
+  const int equations = EquationsPerPose() * poses;
   const int unknowns = NumUnknowns(free, at);
   if (equations >= unknowns + kSpareEquations) return "";
   return std::to_string(poses) +

@@ -40,6 +40,13 @@ class PoseFit {
   int Width() const { return measured_.lengths.size() > 0 ? 1 : 3; }
   // Coordinates of a residual that share a loss.
   int Coordinates() const { return measured_.poses.size() > 0 ? 6 : Width(); }
+  // Of all targets of a pose.
+  int EquationsPerPose() const;
+  static int NumUnknowns(const std::vector<bool>& free,
+                         const PoseUnknowns& at) {
+    return static_cast<int>(std::count(free.begin(), free.end(), true) +
+                            at.other.size());
+  }
   // Standard deviation of the prior on parameter k; 0: none.
   double PriorOf(int k) const;
 
@@ -80,12 +87,6 @@ class PoseFit {
                                 const PoseUnknowns& at) const;
 
  private:
-  static int NumUnknowns(const std::vector<bool>& free,
-                         const PoseUnknowns& at) {
-    return static_cast<int>(std::count(free.begin(), free.end(), true) +
-                            at.other.size());
-  }
-
   const PoseMeasurements& measured_;
   const PoseCalibrationOptions& options_;
   std::shared_ptr<const ArmGeometry> geometry_;

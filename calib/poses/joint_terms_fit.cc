@@ -127,10 +127,8 @@ MatrixXd JointTermsFit::Jacobian(const std::vector<int>& rows,
   return J;
 }
 
-JointTermsFit::Equations JointTermsFit::Normal(const std::vector<int>& rows,
-                                               const JointTermsState& at) {
-  VectorXd r;
-  const MatrixXd J = Jacobian(rows, at, &r);
+JointTermsFit::Equations JointTermsFit::Normal(
+    const MatrixXd& J, const VectorXd& r, const JointTermsState& at) const {
   Equations e = {J.transpose() * J, -J.transpose() * r};
   for (Eigen::Index k = 0; k < J.cols(); ++k) {
     const auto [information, pull] = PriorOf(static_cast<int>(k), at);
@@ -158,7 +156,9 @@ bool JointTermsFit::Solve(const std::vector<int>& rows,
                           JointTermsState* state) {
   double damping = 1e-8, cost = Cost(rows, *state);
   for (int step = 0; step < kMostTermSteps; ++step) {
-    const Equations e = Normal(rows, *state);
+    VectorXd r;
+    const MatrixXd J = Jacobian(rows, *state, &r);
+    const Equations e = Normal(J, r, *state);
     double lower = cost;
     for (; damping < 1e6; damping *= 10) {
       MatrixXd A = e.A;
@@ -196,7 +196,7 @@ MatrixXd JointTermsFit::Gains(const std::vector<int>& rows,
                               const JointTermsState& at) {
   VectorXd r;
   const MatrixXd J = Jacobian(rows, at, &r);
-  const Equations e = Normal(rows, at);
+  const Equations e = Normal(J, r, at);
   const Eigen::LDLT<MatrixXd> factor(e.A);
   MatrixXd gains(measured_.q.cols(), signals.cols());
   for (Eigen::Index i = 0; i < gains.rows(); ++i) {
@@ -216,13 +216,14 @@ MatrixXd JointTermsFit::Gains(const std::vector<int>& rows,
 
 double JointTermsFit::Stddev(int term, const std::vector<int>& rows,
                              const JointTermsState& at) {
-  const Equations e = Normal(rows, at);
+  VectorXd r;
+  const MatrixXd J = Jacobian(rows, at, &r);
+  const Equations e = Normal(J, r, at);
   const Eigen::LDLT<MatrixXd> factor(e.A);
   const Eigen::Index k = static_cast<Eigen::Index>(free_.size()) + term;
   const VectorXd one = factor.solve(VectorXd::Unit(e.A.rows(), k));
   // Errors of a pose are one error in the sandwich (Liang and Zeger 1986).
-  VectorXd r;
-  const VectorXd influence = Jacobian(rows, at, &r) * one;
+  const VectorXd influence = J * one;
   const Eigen::Index per_pose = r.size() / rows.size();
   double variance = 0;
   for (size_t p = 0; p < rows.size(); ++p) {
@@ -258,11 +259,7 @@ double JointTermsFit::RmsDistance(const std::vector<int>& rows,
 }
 
 int JointTermsFit::SpareEquations() const {
-  const int per_pose = measured_.lengths.size() > 0 ? 1
-                       : measured_.poses.size() > 0
-                           ? 6
-                           : 3 * static_cast<int>(measured_.targets.size());
-  return per_pose * measured_.size() -
+  return fit_.EquationsPerPose() * measured_.size() -
          static_cast<int>(free_.size() + terms_.size());
 }
 

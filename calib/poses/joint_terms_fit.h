@@ -90,7 +90,9 @@ class JointTermsFit {
   // Of the free unknowns, terms last.
   Eigen::MatrixXd Jacobian(const std::vector<int>& rows,
                            const JointTermsState& at, Eigen::VectorXd* r);
-  Equations Normal(const std::vector<int>& rows, const JointTermsState& at);
+  // Of the Jacobian J and the residuals r at `at`.
+  Equations Normal(const Eigen::MatrixXd& J, const Eigen::VectorXd& r,
+                   const JointTermsState& at) const;
   JointTermsState Moved(const JointTermsState& at,
                         const Eigen::VectorXd& step) const;
   std::pair<double, double> PriorOf(int unknown,

@@ -91,10 +91,9 @@ void AddErrors(const MadeTorque& made, double bandwidth_hz,
 }
 
 // Joint by joint, on positions that are smooth already.
-void FindStillJoints(GapSegment* segment) {
+void FindStillJoints(const MatrixXd& velocity, GapSegment* segment) {
   const Motion& motion = segment->motion;
   segment->still.resize(motion.size(), motion.num_joints());
-  const MatrixXd velocity = MeanVelocity(motion.q, motion.dt);
   const int reach =
       static_cast<int>(std::ceil(kStandstillMeanTime / 2 / motion.dt));
   // Drives creep for a while when their command has come to rest: a torque that
@@ -113,10 +112,9 @@ void FindStillJoints(GapSegment* segment) {
 // without motion began in a rest. Torques that were made of commands tell of
 // friction by how far it keeps drives from these, which is most when a joint
 // leaves a rest.
-void FindBreakaway(GapSegment* segment) {
+void FindBreakaway(const MatrixXd& velocity, GapSegment* segment) {
   const Motion& motion = segment->motion;
   segment->breaks_away.setConstant(motion.size(), motion.num_joints(), false);
-  const MatrixXd velocity = MeanVelocity(motion.q, motion.dt);
   for (int j = 0; j < motion.num_joints(); ++j) {
     bool breaks_away = std::abs(velocity(0, j)) < kStandstillSpeed;
     double rest = motion.q(0, j);
@@ -169,8 +167,9 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
   segments.erase(std::remove_if(segments.begin(), segments.end(), is_short),
                  segments.end());
   for (GapSegment& segment : segments) {
-    FindStillJoints(&segment);
-    if (!segment.made_torque) FindBreakaway(&segment);
+    const MatrixXd velocity = MeanVelocity(segment.motion.q, segment.motion.dt);
+    FindStillJoints(velocity, &segment);
+    if (!segment.made_torque) FindBreakaway(velocity, &segment);
     if (const MadeTorque* made = logs.made_torque(segment.log)) {
       AddErrors(*made, bandwidth_hz, &segment);
     }

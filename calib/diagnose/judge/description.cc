@@ -23,10 +23,10 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
   found->stddev.insert(found->stddev.end(), stddev.begin(), stddev.end());
 }
 
-void DescribeMissingTerm(const GapFit& fit, FoundEffect* found) {
+void DescribeMissingTerm(const GapFit& fit, const MatrixXd& covariance,
+                         FoundEffect* found) {
   const GapBaseline& baseline = fit.baseline();
   const VectorXd& x = fit.model_after();
-  const MatrixXd covariance = fit.screen().BaselineCovariance();
   const Robot robot = baseline.With(x);
   const JointTerm term = *found->missing_term;
   for (int c = 0; c < baseline.size(); ++c) {

@@ -17,7 +17,8 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
 
 // Adds each joint's value of a term that the file gives no joint, as it is
 // beside the fit's effects, whose torque a fit without them had taken for it.
-// A joint that does not show it has none.
-void DescribeMissingTerm(const GapFit& fit, FoundEffect* found);
+// A joint that does not show it has none. `covariance`: of the baseline.
+void DescribeMissingTerm(const GapFit& fit, const Eigen::MatrixXd& covariance,
+                         FoundEffect* found);
 
 }  // namespace armcal

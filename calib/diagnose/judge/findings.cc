@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/estimate_deviations.h"
@@ -156,13 +157,15 @@ FoundEffect Findings::Contacts() const {
 
 // What the file gives no joint at all, as one effect each.
 void Findings::AddFamilies(const std::vector<LackedFamily>& families) {
+  if (families.empty()) return;
+  const MatrixXd covariance = fit_.screen().BaselineCovariance();
   for (const LackedFamily& family : families) {
     FoundEffect found;
     found.effect = family.effect;
     found.missing_term = family.term;
     found.probability = 1;
     found.score = found.drop = family.drop;
-    DescribeMissingTerm(fit_, &found);
+    DescribeMissingTerm(fit_, covariance, &found);
     result_.effects.push_back(found);
   }
 }
@@ -308,11 +311,15 @@ void FitClaimed(GapFindings* findings, GapFit* fit) {
   if (kept.size() == fit->refined().effects.size()) return;
   std::sort(kept.begin(), kept.end());
   fit->KeepOnly(kept);
+  std::optional<MatrixXd> covariance;  // of the baseline
   for (FoundEffect& found : findings->effects) {
     if (found.fitted.empty() && !found.missing_term) continue;
     found.estimates.clear();
     found.stddev.clear();
-    if (found.missing_term) DescribeMissingTerm(*fit, &found);
+    if (found.missing_term) {
+      if (!covariance) covariance = fit->screen().BaselineCovariance();
+      DescribeMissingTerm(*fit, *covariance, &found);
+    }
     for (int& k : found.fitted) {
       k = static_cast<int>(std::lower_bound(kept.begin(), kept.end(), k) -
                            kept.begin());
