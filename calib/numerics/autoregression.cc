@@ -155,6 +155,19 @@ Autoregression FitAutoregression(const std::vector<VectorXd>& stretches,
   return FromCovariance(r);
 }
 
+Autoregression FitYuleWalker(const std::vector<VectorXd>& stretches) {
+  VectorXd r = VectorXd::Zero(Autoregression::kOrder + 1);
+  double samples = 0;
+  for (const VectorXd& x : stretches) {
+    samples += x.size();
+    for (Eigen::Index lag = 0; lag < std::min(r.size(), x.size()); ++lag) {
+      const Eigen::Index overlap = x.size() - lag;
+      r[lag] += x.head(overlap).dot(x.tail(overlap));
+    }
+  }
+  return r[0] > 0 ? FromCovariance(r / samples) : Autoregression();
+}
+
 std::vector<Autoregression> WhiteNoise(const MatrixXd& x) {
   constexpr double kLeast = 1e-12;  // where there is none
   std::vector<Autoregression> noise(x.cols());

@@ -30,6 +30,11 @@ Autoregression PlusWhite(const Autoregression& noise, double stddev);
 Autoregression FitAutoregression(const std::vector<Eigen::VectorXd>& stretches,
                                  bool remove_mean);
 
+// The same by the covariances of all samples as they are (Yule and Walker),
+// with all that comes and goes in them and the slow part that windows of the
+// spectrum do not resolve: for what a model leaves, not for noise alone.
+Autoregression FitYuleWalker(const std::vector<Eigen::VectorXd>& stretches);
+
 // White noise as large as each column of x.
 std::vector<Autoregression> WhiteNoise(const Eigen::MatrixXd& x);
 

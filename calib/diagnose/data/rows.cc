@@ -72,23 +72,35 @@ double GapRows::ShortestSplit(double bandwidth_hz) {
 }
 
 // Blocks of a segment: of the held-out ones the edges are guarded.
-GapRows::Use GapRows::UseOf(int segment, int joint, int k) const {
+bool GapRows::IsInPart(int segment, int k) const {
+  if (part_ == LogPart::kAll) return true;
   const int within = k - thin_begin_[segment];
   const int size = thin_begin_[segment + 1] - thin_begin_[segment];
-  if (part_ != LogPart::kAll) {
-    const double guard = kPeriodsAtEnds / bandwidth_hz_ / 2 / step(segment);
-    const int blocks = blocks_[segment];
-    const double length = static_cast<double>(size) / blocks;
-    const int block = std::min(blocks - 1, static_cast<int>(within / length));
-    const bool held_out = block % 3 == 2;
-    const double from_edge =
-        std::min(within - block * length, (block + 1) * length - within);
-    if (held_out != (part_ == LogPart::kHeldOut)) return Use::kNone;
-    if (held_out && from_edge < guard) return Use::kNone;
-  }
-  const int sample = skip_[segment] + within * stride_[segment];
-  if (segments_[segment].BreaksAway(sample, joint)) return Use::kNone;
-  return segments_[segment].still(sample, joint) ? Use::kStill : Use::kMoving;
+  const double guard = kPeriodsAtEnds / bandwidth_hz_ / 2 / step(segment);
+  const int blocks = blocks_[segment];
+  const double length = static_cast<double>(size) / blocks;
+  const int block = std::min(blocks - 1, static_cast<int>(within / length));
+  const bool held_out = block % 3 == 2;
+  const double from_edge =
+      std::min(within - block * length, (block + 1) * length - within);
+  if (held_out != (part_ == LogPart::kHeldOut)) return false;
+  return !held_out || from_edge >= guard;
+}
+
+bool GapRows::IsHeld(int segment, int joint, int k) const {
+  const int sample =
+      skip_[segment] + (k - thin_begin_[segment]) * stride_[segment];
+  return segments_[segment].still(sample, joint) ||
+         segments_[segment].BreaksAway(sample, joint);
+}
+
+GapRows::Use GapRows::UseOf(int segment, int joint, int k) const {
+  if (!IsInPart(segment, k)) return Use::kNone;
+  if (!IsHeld(segment, joint, k)) return Use::kMoving;
+  const int sample =
+      skip_[segment] + (k - thin_begin_[segment]) * stride_[segment];
+  return segments_[segment].BreaksAway(sample, joint) ? Use::kNone
+                                                      : Use::kStill;
 }
 
 void GapRows::MakeRuns() {
@@ -115,6 +127,21 @@ void GapRows::MakeRuns() {
 
 double GapRows::step(int segment) const {
   return stride_[segment] * segments_[segment].motion.dt;
+}
+
+double GapRows::time() const {
+  double time = 0;
+  for (size_t i = 0; i < segments_.size(); ++i) {
+    const int s = static_cast<int>(i);
+    time += (thin_begin_[s + 1] - thin_begin_[s]) * step(s);
+  }
+  return time;
+}
+
+int GapRows::SegmentOf(int thin) const {
+  const auto after =
+      std::upper_bound(thin_begin_.begin(), thin_begin_.end(), thin);
+  return static_cast<int>(after - thin_begin_.begin()) - 1;
 }
 
 double GapRows::thin_time(int segment, int k) const {

@@ -36,9 +36,11 @@ class GapRows {
   double bandwidth_hz() const { return bandwidth_hz_; }
   const std::vector<GapSegment>& segments() const { return segments_; }
   double step(int segment) const;  // s, between thinned samples
+  double time() const;             // s, of all thinned samples
   // Thinned samples of all segments, one below the other.
   int num_thin() const { return thin_begin_.back(); }
   int thin_begin(int segment) const { return thin_begin_[segment]; }
+  int SegmentOf(int thin) const;
   double thin_time(int segment, int k) const;  // s since the log's first row
 
   // A fine signal (samples x any) of a segment, low-passed and thinned.
@@ -49,6 +51,13 @@ class GapRows {
   // A fine signal of each segment likewise, one below the other.
   Eigen::MatrixXd ThinAll(const std::vector<Eigen::MatrixXd>& signals) const;
   Eigen::MatrixXd PickAll(const std::vector<Eigen::MatrixXd>& signals) const;
+
+  // Whether a thinned sample is of the part of its segment that has rows, where
+  // joints move.
+  bool IsInPart(int segment, int k) const;
+  // Whether a joint does not slide there, so that its friction is not known:
+  // it rests, or breaks away from a rest.
+  bool IsHeld(int segment, int joint, int k) const;
 
   // Uninterrupted thinned samples, [begin, begin + size) of all, of a segment.
   struct Run {

@@ -36,6 +36,7 @@ void DescribeAgain(const Robot& robot, const GapRows& rows,
                    std::vector<GapEvent>* events) {
   SortByTime(events);
   for (GapEvent& event : *events) {
+    if (event.pulse) continue;
     const Contact before = event.contact;
     event.contact = DescribeContact(robot, rows, event.at_rest ? alone : beside,
                                     before.log, before.window);

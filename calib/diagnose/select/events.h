@@ -28,6 +28,8 @@ struct GapEvent {
   // Found at rest: what effects that were fitted to motion say of rest, it is
   // not told beside.
   bool at_rest = false;
+  // A pulse of torque on joints that move (pulse_events.h).
+  bool pulse = false;
   double drop = 0;  // of chi^2
   double score = 0;
   // The drop that a torque of the same course on one joint alone would bring,

@@ -133,13 +133,8 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
 }
 
 double BlockTime(const GapRows& rows) {
-  double time = 0;
-  for (size_t i = 0; i < rows.segments().size(); ++i) {
-    const int s = static_cast<int>(i);
-    time += (rows.thin_begin(s + 1) - rows.thin_begin(s)) * rows.step(s);
-  }
-  return std::clamp(time / Limits().fewest_blocks, 2 * Limits().shortest_push,
-                    Limits().block);
+  return std::clamp(rows.time() / Limits().fewest_blocks,
+                    2 * Limits().shortest_push, Limits().block);
 }
 
 std::vector<double> BlockMaxima(const GapRows& rows, double block,

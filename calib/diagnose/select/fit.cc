@@ -12,6 +12,7 @@
 #include "calib/diagnose/select/growth.h"
 #include "calib/diagnose/select/idle.h"
 #include "calib/diagnose/select/null.h"
+#include "calib/diagnose/select/pulse_events.h"
 #include "calib/diagnose/select/reference.h"
 #include "model/effects/effects.h"
 
@@ -116,6 +117,24 @@ bool GapFit::TakeOutContacts(ContactSearch search) {
         search);
   }
   return TakeOut(found, search);
+}
+
+// The same of pulses on joints.
+bool GapFit::TakeOutPulses() {
+  if (IsLeftOut(ContactEffect())) return false;
+  if (HaveNoiseOfPositions(rows().segments())) return false;
+  const std::vector<GapCandidate> effects = pool_.Fitted(selection_.chosen);
+  std::vector<GapEvent> found = FindPulses(regression_, effects);
+  if (!found.empty() && !effects.empty()) {
+    found = FindPulses(regression_, RefineEffects(screen(), baseline(), scale(),
+                                                  effects, -1, data())
+                                        .effects);
+  }
+  for (const GapEvent& event : found) {
+    data()->Mask(event.contact.log, event.contact.window);
+    events_.push_back(event);
+  }
+  return !found.empty();
 }
 
 void GapFit::MakeScreen() {
@@ -259,7 +278,7 @@ void GapFit::SelectWithEvents() {
       }
       TakeOutEvent(event - selection_.chosen.begin());
     } else if (!TakeOutContacts(ContactSearch::kOfTwoJoints) &&
-               !TakeOutContacts(ContactSearch::kInMotion)) {
+               !TakeOutContacts(ContactSearch::kInMotion) && !TakeOutPulses()) {
       break;
     }
   }

@@ -106,6 +106,7 @@ class GapFit {
   // Whether there were any.
   bool TakeOut(const NewContacts& found, ContactSearch search);
   bool TakeOutContacts(ContactSearch search);
+  bool TakeOutPulses();
   void TakeOutEvent(size_t k);
   double Cost(const Selection& selection) const;
   void ForgetTouches();

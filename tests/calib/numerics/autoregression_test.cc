@@ -159,4 +159,20 @@ TEST(Autoregression, OfAFewSamplesOnlyTheVarianceIsKnown) {
   EXPECT_EQ(FitAutoregression({}, false).sigma, 1);
 }
 
+// In closed form, at the precision of 2e5 samples.
+TEST(Autoregression, YuleWalkerIsThatOfAllSamples) {
+  std::mt19937_64 random(5);
+  const Autoregression noise =
+      FitYuleWalker({Ar2(&random, 150000), Ar2(&random, 50000)});
+  EXPECT_NEAR(noise.a[0], kA1, .01);
+  EXPECT_NEAR(noise.a[1], kA2, .01);
+  EXPECT_NEAR(noise.sigma, kSigma, .01);
+  // What comes and goes counts, unlike in what FitAutoregression hears.
+  VectorXd x = Ar2(&random, 20000);
+  x.segment(9000, 1000).array() += 20;
+  EXPECT_GT(FitYuleWalker({x}).stddev(), 3 * StddevOfAr2());
+  EXPECT_NEAR(FitAutoregression({x}, false).stddev() / StddevOfAr2(), 1, .1);
+  EXPECT_EQ(FitYuleWalker({}).sigma, 1);
+}
+
 }  // namespace armcal::autoregression_test

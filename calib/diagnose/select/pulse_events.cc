@@ -1,0 +1,166 @@
+#include "calib/diagnose/select/pulse_events.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/select/maxima_tail.h"
+#include "calib/diagnose/select/pulses.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// What the model alone leaves, without what models lack as a rule: that is
+// flexible enough to follow a push in a short log.
+class ModelOfPulses {
+ public:
+  ModelOfPulses(const GapRegression& regression, const JointRows& torque)
+      : x_(regression.ModelBeside(torque)),
+        robot_(regression.baseline().With(x_)),
+        columns_(regression.baseline().num_model_columns()),
+        covariance_(regression.screen().BaselineCovariance().topLeftCorner(
+            columns_, columns_)) {
+    const GapData& reference = *regression.reference();
+    const MatrixXd left = reference.ResidualWith(x_);
+    for (int j = 0; j < left.cols(); ++j) {
+      noise_.push_back(NoiseOf(reference.rows(), j, left.col(j)));
+    }
+  }
+
+  const Robot& robot() const { return robot_; }
+  PulseScan Scan(const GapData& data, const JointRows& torque) const {
+    PulseScan::Model model{data.columns(), covariance_, noise_};
+    for (BaselineColumns& own : model.columns) own.KeepFirst(columns_);
+    return PulseScan(data.rows(), model, data.ResidualWith(x_, torque),
+                     DoubtOf(data.rows()));
+  }
+
+ private:
+  // Of all that is seen in a log without a push, joints at rest included.
+  static Autoregression NoiseOf(const GapRows& rows, int joint,
+                                const VectorXd& left) {
+    std::vector<VectorXd> stretches;
+    const double most = 2 * std::pow(rows.noise(joint).stddev(), 2);
+    for (size_t i = 0; i < rows.segments().size(); ++i) {
+      const int s = static_cast<int>(i);
+      int begin = rows.thin_begin(s);
+      for (int k = begin; k <= rows.thin_begin(s + 1); ++k) {
+        if (k < rows.thin_begin(s + 1) && rows.IsInPart(s, k) &&
+            rows.variance(joint, k) < most) {
+          continue;
+        }
+        if (k > begin) stretches.push_back(left.segment(begin, k - begin));
+        begin = k + 1;
+      }
+    }
+    return FitYuleWalker(stretches);
+  }
+
+  // What rows are doubted by; and a joint that does not slide holds any torque
+  // up to its Coulomb friction, whose variance is a third of its square.
+  MatrixXd DoubtOf(const GapRows& rows) const {
+    MatrixXd doubt(rows.num_thin(), rows.num_joints());
+    for (int k = 0; k < rows.num_thin(); ++k) {
+      const int segment = rows.SegmentOf(k);
+      for (int j = 0; j < rows.num_joints(); ++j) {
+        const double holds = rows.IsHeld(segment, j, k) ? Friction(j) : 0;
+        const double own = std::pow(rows.noise(j).stddev(), 2);
+        doubt(k, j) = std::sqrt(std::max(0., rows.variance(j, k) - own) +
+                                holds * holds / 3);
+      }
+    }
+    return doubt;
+  }
+  double Friction(int joint) const {
+    return std::max(0., robot_.links[joint].joint.coulomb);
+  }
+
+  VectorXd x_;
+  Robot robot_;
+  int columns_;
+  MatrixXd covariance_;
+  std::vector<Autoregression> noise_;
+};
+
+// The largest squared deviations in as much time as the shortest push takes,
+// each: chi^2 of one degree, whose tail is nearly exponential as TailOf has it.
+// Nothing is looked for where nothing is seen.
+std::vector<double> Looks(const GapRows& rows, const PulseScan& scan) {
+  std::vector<double> looks =
+      BlockMaxima(rows, 2 * Limits().event_reach * Limits().shortest_push,
+                  scan.Largest().cwiseAbs2());
+  looks.erase(std::remove(looks.begin(), looks.end(), 0.), looks.end());
+  return looks;
+}
+
+GapEvent EventOf(const GapRows& rows, const Robot& robot, const PulseScan& scan,
+                 int sample, int joint) {
+  const double width = scan.widths()(sample, joint);
+  const int n = rows.num_joints(), segment = rows.SegmentOf(sample);
+  GapEvent event;
+  Contact& contact = event.contact;
+  contact.log = rows.segments()[segment].log;
+  contact.time = rows.thin_time(segment, sample);
+  contact.window = {contact.time - Limits().event_reach * width,
+                    contact.time + Limits().event_reach * width};
+  contact.joint = joint;
+  contact.deviations = std::abs(scan.deviations()(sample, joint));
+  contact.torque.resize(n);
+  contact.stddev.resize(n);
+  for (int j = 0; j < n; ++j) {
+    const Pulse pulse = scan.At(j, sample, width);
+    contact.torque[j] = pulse.torque;
+    contact.stddev[j] = std::isfinite(pulse.stddev)
+                            ? pulse.stddev
+                            : std::max(0., robot.links[j].joint.coulomb);
+    event.drop += pulse.deviations * pulse.deviations;
+  }
+  event.score = event.drop;
+  event.one_joint = std::pow(contact.deviations, 2) / event.drop;
+  event.pulse = event.beyond_friction = true;
+  return event;
+}
+
+void Forget(const GapRows& rows, const Contact& contact, MatrixXd* deviations) {
+  for (int k = 0; k < rows.num_thin(); ++k) {
+    const int segment = rows.SegmentOf(k);
+    if (rows.segments()[segment].log == contact.log &&
+        contact.window.Contains(rows.thin_time(segment, k))) {
+      deviations->row(k).setZero();
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<GapEvent> FindPulses(const GapRegression& regression,
+                                 const std::vector<GapCandidate>& effects) {
+  if (!regression.reference()) return {};
+  const GapRows& rows = regression.rows();
+  const JointRows none(rows.num_joints());
+  const JointRows torque = regression.TorqueOf(effects);
+  const ModelOfPulses model(regression, torque);
+  const PulseScan scan = model.Scan(*regression.data(), torque);
+  const GapData& reference = *regression.reference();
+  const UsualMaximum usual{
+      static_cast<double>(Looks(rows, scan).size()),
+      {TailOf(Looks(reference.rows(), model.Scan(reference, none)))}};
+  const double least = std::sqrt(usual.Quantile(Limits().false_contacts));
+  MatrixXd deviations = scan.deviations().cwiseAbs();
+  std::vector<GapEvent> events;
+  double time = 0;
+  for (int sample, joint; deviations.maxCoeff(&sample, &joint) > least;) {
+    events.push_back(EventOf(rows, model.robot(), scan, sample, joint));
+    Contact& contact = events.back().contact;
+    events.back().chance = usual.Chance(std::pow(contact.deviations, 2));
+    time += 2 * scan.widths()(sample, joint);
+    Forget(rows, contact, &deviations);
+  }
+  if (time > Limits().most_of_time * rows.time()) events.clear();
+  return events;
+}
+
+}  // namespace armcal

@@ -1,0 +1,136 @@
+#include "calib/diagnose/select/pulses.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "calib/diagnose/data/thresholds.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kOrder = Autoregression::kOrder;
+constexpr double kLeastSeen = .5;  // of a pulse's g'g
+
+// A matched filter is hardly worse for a pulse that is up to 1.4 times wider or
+// narrower: its response falls by the factor sqrt(2 r / (1 + r^2)) for widths
+// that differ by r, .97. What is wider than these is a hold, which a model's
+// own slow errors look like.
+std::vector<double> Widths() {
+  return {Limits().shortest_push, 2 * Limits().shortest_push};
+}
+
+// X C^(1/2) for the columns that act on one joint.
+MatrixXd TimesHalf(const BaselineColumns& columns, const MatrixXd& covariance) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> own(
+      covariance(columns.which, columns.which));
+  return columns.values * own.eigenvectors() *
+         own.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+}  // namespace
+
+PulseScan::PulseScan(const GapRows& rows, const Model& model,
+                     const MatrixXd& residual, const MatrixXd& doubt)
+    : rows_(rows), joints_(rows.num_joints()) {
+  widths_ = deviations_ = MatrixXd::Zero(rows.num_thin(), rows.num_joints());
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    Joint& joint = joints_[j];
+    const MatrixXd half =
+        rows.WithoutDrift(j, TimesHalf(model.columns[j], model.covariance));
+    joint.noise = model.noise[j];
+    joint.residual = joint.weight = VectorXd::Zero(rows.num_thin());
+    joint.half = MatrixXd::Zero(rows.num_thin(), half.cols());
+    for (size_t i = 0; i < rows.segments().size(); ++i) {
+      Whiten(static_cast<int>(i), residual.col(j), half, doubt.col(j), &joint);
+    }
+    for (const double width : Widths()) Scan(j, width);
+  }
+}
+
+// A sample is seen once as many as the noise remembers have been.
+void PulseScan::Whiten(int segment, const VectorXd& residual,
+                       const MatrixXd& half, const VectorXd& doubt,
+                       Joint* joint) const {
+  const int begin = rows_.thin_begin(segment) + kOrder;
+  const int end = rows_.thin_begin(segment + 1);
+  if (end <= begin) return;
+  const double variance = std::pow(joint->noise.stddev(), 2);
+  int seen = 0;  // uninterrupted
+  for (int k = begin - kOrder; k < end; ++k) {
+    seen = rows_.IsInPart(segment, k) ? seen + 1 : 0;
+    if (seen <= kOrder) continue;
+    joint->weight[k] = std::sqrt(variance / (variance + doubt[k] * doubt[k]));
+  }
+  const auto with_past = [begin, end](const MatrixXd& all) {
+    return all.middleRows(begin - kOrder, end - begin + kOrder);
+  };
+  const auto weight = joint->weight.segment(begin, end - begin).asDiagonal();
+  joint->residual.segment(begin, end - begin) =
+      weight * joint->noise.Whiten(with_past(residual));
+  joint->half.middleRows(begin, end - begin) =
+      weight * joint->noise.Whiten(with_past(half));
+}
+
+void PulseScan::Scan(int joint, double width) {
+  for (size_t i = 0; i < rows_.segments().size(); ++i) {
+    const int s = static_cast<int>(i);
+    const Course course = CourseOf(joint, rows_.step(s), width);
+    for (int k = rows_.thin_begin(s); k < rows_.thin_begin(s + 1); ++k) {
+      const double deviations = Fit(joint, s, k, course).deviations;
+      if (std::abs(deviations) <= std::abs(deviations_(k, joint))) continue;
+      deviations_(k, joint) = deviations;
+      widths_(k, joint) = width;
+    }
+  }
+}
+
+PulseScan::Course PulseScan::CourseOf(int joint, double step,
+                                      double width) const {
+  Course course;
+  course.reach =
+      static_cast<int>(std::ceil(Limits().event_reach * width / step));
+  // What whitening needs of the time before, and leaves of the time after.
+  VectorXd pulse = VectorXd::Zero(2 * course.reach + 1 + 2 * kOrder);
+  for (int k = -course.reach; k <= course.reach; ++k) {
+    pulse[kOrder + course.reach + k] = std::exp(-std::pow(k * step / width, 2));
+  }
+  course.white = joints_[joint].noise.Whiten(pulse);
+  return course;
+}
+
+Pulse PulseScan::Fit(int joint, int segment, int sample,
+                     const Course& course) const {
+  const Joint& own = joints_[joint];
+  const int first = sample - course.reach;
+  const int begin = std::max(rows_.thin_begin(segment), first);
+  const int end = std::min(rows_.thin_begin(segment + 1),
+                           first + static_cast<int>(course.white.size()));
+  const VectorXd g = course.white.segment(begin - first, end - begin)
+                         .cwiseProduct(own.weight.segment(begin, end - begin));
+  const double squared = g.squaredNorm();
+  Pulse pulse;
+  pulse.sample = sample;
+  pulse.stddev = std::numeric_limits<double>::infinity();
+  if (squared < kLeastSeen * course.white.squaredNorm()) return pulse;
+  const double errors =
+      (own.half.middleRows(begin, end - begin).transpose() * g).squaredNorm();
+  pulse.torque = -g.dot(own.residual.segment(begin, end - begin)) / squared;
+  pulse.stddev = std::sqrt((1 + errors / squared) / squared);
+  pulse.deviations = pulse.torque / pulse.stddev;
+  return pulse;
+}
+
+Pulse PulseScan::At(int joint, int sample, double width) const {
+  const int segment = rows_.SegmentOf(sample);
+  Pulse pulse =
+      Fit(joint, segment, sample, CourseOf(joint, rows_.step(segment), width));
+  pulse.width = width;
+  return pulse;
+}
+
+}  // namespace armcal

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/diagnose/data/baseline_columns.h"
+#include "calib/diagnose/data/rows.h"
+
+namespace armcal {
+
+// A torque on one joint that comes and goes,
+//   A exp(-((t - time) / width)^2).
+struct Pulse {
+  int sample = 0;     // thinned, of its time
+  double width = 0;   // s
+  double torque = 0;  // A, as the environment acts on the joint, N m or N
+  double stddev = 0;
+  double deviations = 0;  // torque / stddev
+};
+
+// A matched filter for pulses in what a fitted model leaves of the torque
+// (Turin 1960): with the whitened residual e and the whitened course g of a
+// pulse,
+//   A = -g'e / g'g,   var A = (1 + |h|^2 / g'g) / g'g,   h = C^(1/2) X'g,
+// where X are the whitened columns of the fit and C is the covariance of its
+// values. Their errors add to those of the noise as in a prediction, though
+// the samples were fitted as well: what looks like one of the columns is
+// hardly told from an error of it, and what a fit has taken up is not given
+// back.
+class PulseScan {
+ public:
+  struct Model {
+    std::vector<BaselineColumns> columns;  // per joint, of thinned samples
+    Eigen::MatrixXd covariance;            // of all columns' values
+    std::vector<Autoregression> noise;     // per joint, of what it leaves
+  };
+  // `residual`: recorded torque less the model's, thinned samples x n, N m or
+  // N; `doubt`: standard deviation of what else a sample of it may be off by.
+  PulseScan(const GapRows& rows, const Model& model,
+            const Eigen::MatrixXd& residual, const Eigen::MatrixXd& doubt);
+
+  // Of every thinned sample and joint (thinned samples x n) the width of the
+  // pulse that stands out most, and by how many standard deviations of either
+  // sign; 0 where less than half of any is seen.
+  const Eigen::MatrixXd& widths() const { return widths_; }
+  const Eigen::MatrixXd& deviations() const { return deviations_; }
+  // The largest of all joints, per thinned sample, without its sign.
+  Eigen::VectorXd Largest() const {
+    return deviations_.cwiseAbs().rowwise().maxCoeff();
+  }
+
+  // On a joint; of no torque and an infinite deviation where it is not seen.
+  Pulse At(int joint, int sample, double width) const;
+
+ private:
+  // Whitened, as many rows as thinned samples; weight 0 where one is not seen.
+  struct Joint {
+    Autoregression noise;
+    Eigen::VectorXd residual, weight;
+    Eigen::MatrixXd half;  // X C^(1/2)
+  };
+  // Whitened, without weights: from `reach` samples before its time on.
+  struct Course {
+    int reach = 0;
+    Eigen::VectorXd white;
+  };
+
+  void Whiten(int segment, const Eigen::VectorXd& residual,
+              const Eigen::MatrixXd& half, const Eigen::VectorXd& doubt,
+              Joint* joint) const;
+  void Scan(int joint, double width);
+  Course CourseOf(int joint, double step, double width) const;
+  Pulse Fit(int joint, int segment, int sample, const Course& course) const;
+
+  const GapRows& rows_;
+  std::vector<Joint> joints_;
+  Eigen::MatrixXd widths_, deviations_;
+};
+
+}  // namespace armcal

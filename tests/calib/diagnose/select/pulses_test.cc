@@ -1,0 +1,143 @@
+#include "calib/diagnose/select/pulses.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <optional>
+#include <random>
+
+namespace armcal::pulses_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kStep = .004, kBandwidth = 10;
+constexpr int kSize = 5000;  // samples: 20 s
+
+// Two joints that move all the time; what is left of the torque is given
+// sample by sample. Their noise is an autoregression; a fit had one column,
+// whose value is uncertain.
+class Pulses : public testing::Test {
+ protected:
+  Pulses() {
+    GapSegment segment;
+    Motion& motion = segment.motion;
+    motion.dt = kStep;
+    motion.q.setZero(kSize, 2);
+    motion.qd.setOnes(kSize, 2);
+    segment.tau.setZero(kSize, 2);
+    segment.still = motion.qd.array() == 0;
+    segments_ = {segment};
+    rows_.emplace(segments_, kBandwidth);
+    for (Autoregression& joint : noise_) {
+      joint.a << .5, .2, 0, 0;
+      joint.sigma = .3;
+    }
+    rows_->SetNoise(noise_, MatrixXd::Zero(size(), 2));
+    VectorXd course(size());
+    for (int k = 0; k < size(); ++k) course[k] = std::sin(time(k));
+    doubt_ = MatrixXd::Zero(size(), 2);
+    columns_ = {{{0}, course}, {{1}, course}};
+  }
+  int size() const { return rows_->num_thin(); }
+  double time(int k) const { return rows_->thin_time(0, k); }
+  int SampleAt(double t) const {
+    int k = 0;
+    while (time(k) < t) ++k;
+    return k;
+  }
+  // Noise, and the columns at values of the given standard deviation.
+  MatrixXd Draw(double stddev) {
+    std::normal_distribution<double> normal;
+    MatrixXd residual(size(), 2);
+    for (int j = 0; j < 2; ++j) {
+      VectorXd x = VectorXd::Zero(size() + 100);
+      for (int k = 4; k < x.size(); ++k) {
+        x[k] = .3 * normal(random_);
+        for (int i = 0; i < 4; ++i) x[k] += noise_[j].a[i] * x[k - 1 - i];
+      }
+      residual.col(j) =
+          x.tail(size()) + stddev * normal(random_) * columns_[j].values.col(0);
+    }
+    return residual;
+  }
+  void Push(int joint, double torque, double at, double width,
+            MatrixXd* residual) const {
+    for (int k = 0; k < size(); ++k) {
+      (*residual)(k, joint) -=
+          torque * std::exp(-std::pow((time(k) - at) / width, 2));
+    }
+  }
+  PulseScan Scan(const MatrixXd& residual, double stddev) const {
+    return PulseScan(
+        *rows_, {columns_, stddev * stddev * MatrixXd::Identity(2, 2), noise_},
+        residual, doubt_);
+  }
+
+  std::vector<GapSegment> segments_;
+  std::optional<GapRows> rows_;
+  std::vector<Autoregression> noise_ = std::vector<Autoregression>(2);
+  std::vector<BaselineColumns> columns_;
+  MatrixXd doubt_;
+  std::mt19937_64 random_{1};
+};
+
+// Of what the model says itself, whatever the value of the fit's column.
+TEST_F(Pulses, DeviationsAreThoseOfNoiseAndFit) {
+  constexpr int kDraws = 400;
+  for (const double stddev : {0., 3.}) {
+    double squares = 0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      const PulseScan scan = Scan(Draw(stddev), stddev);
+      squares += std::pow(scan.At(0, SampleAt(7.8), .3).deviations, 2);
+    }
+    // chi^2 of 400 degrees over 400: 1 +- .071.
+    EXPECT_NEAR(squares / kDraws, 1, 4 * .071) << stddev;
+  }
+}
+
+TEST_F(Pulses, TellsAPushOnOneJoint) {
+  MatrixXd residual = Draw(.2);
+  Push(1, -2.5, 11, .3, &residual);
+  const PulseScan scan = Scan(residual, .2);
+  int sample, joint;
+  scan.deviations().cwiseAbs().maxCoeff(&sample, &joint);
+  EXPECT_EQ(joint, 1);
+  EXPECT_NEAR(time(sample), 11, .15);
+  EXPECT_LT(scan.deviations()(sample, joint), -5);
+  const Pulse pulse = scan.At(1, SampleAt(11), .3);
+  EXPECT_NEAR(pulse.torque, -2.5, 4 * pulse.stddev);
+  EXPECT_LT(pulse.stddev, .5);
+  EXPECT_LT(std::abs(scan.At(0, SampleAt(11), .3).deviations), 4);
+}
+
+// A pulse that looks like what the fit may have wrong is not told from it.
+TEST_F(Pulses, ThatAnErrorOfTheFitExplainsDoNotStandOut) {
+  MatrixXd residual = Draw(0);
+  Push(0, 2.5, M_PI / 2, .6, &residual);
+  const int sample = SampleAt(M_PI / 2);
+  EXPECT_GT(Scan(residual, 0).At(0, sample, .6).deviations, 5);
+  EXPECT_LT(Scan(residual, 10).At(0, sample, .6).deviations, 1);
+}
+
+// A doubt lets a pulse stand out less, as far as its samples have it: half of
+// them doubted by ten times the noise tell next to nothing.
+TEST_F(Pulses, StandOutLessWhereSamplesAreDoubted) {
+  MatrixXd residual = Draw(0);
+  Push(0, 4, 11, .3, &residual);
+  const double clear = Scan(residual, 0).At(0, SampleAt(11), .3).deviations;
+  doubt_.col(0).segment(SampleAt(10), 50).setConstant(noise_[0].stddev() / 3);
+  const double doubted = Scan(residual, 0).At(0, SampleAt(11), .3).deviations;
+  EXPECT_GT(clear, 5);
+  EXPECT_NEAR(doubted, clear / std::sqrt(1 + 1. / 9), .15 * clear);
+  EXPECT_LT(doubted, clear);
+  doubt_.col(0).setConstant(1e3);
+  const PulseScan scan = Scan(residual, 0);
+  const Pulse pulse = scan.At(0, SampleAt(11), .3);
+  EXPECT_EQ(pulse.torque, 0);
+  EXPECT_TRUE(std::isinf(pulse.stddev));
+  EXPECT_EQ(scan.deviations().col(0).norm(), 0);
+  EXPECT_GT(scan.deviations().col(1).norm(), 0);
+}
+
+}  // namespace armcal::pulses_test
