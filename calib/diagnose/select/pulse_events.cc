@@ -13,16 +13,18 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// What the model alone leaves, without what models lack as a rule: that is
-// flexible enough to follow a push in a short log.
+// What the model alone leaves. What models lack as a rule (Discrepancy) is not
+// fitted, since it is flexible enough to follow a push in a short log: it is as
+// large as its prior says.
 class ModelOfPulses {
  public:
   ModelOfPulses(const GapRegression& regression, const JointRows& torque)
       : x_(regression.ModelBeside(torque)),
         robot_(regression.baseline().With(x_)),
-        columns_(regression.baseline().num_model_columns()),
-        covariance_(regression.screen().BaselineCovariance().topLeftCorner(
-            columns_, columns_)) {
+        covariance_(MatrixXd::Identity(x_.size(), x_.size())) {
+    const int fitted = regression.baseline().num_model_columns();
+    covariance_.topLeftCorner(fitted, fitted) =
+        regression.screen().BaselineCovariance().topLeftCorner(fitted, fitted);
     const GapData& reference = *regression.reference();
     const MatrixXd left = reference.ResidualWith(x_);
     for (int j = 0; j < left.cols(); ++j) {
@@ -31,9 +33,13 @@ class ModelOfPulses {
   }
 
   const Robot& robot() const { return robot_; }
-  PulseScan Scan(const GapData& data, const JointRows& torque) const {
+  // `growth`: how much larger the variance of what it leaves is, per joint.
+  PulseScan Scan(const GapData& data, const JointRows& torque,
+                 const VectorXd& growth) const {
     PulseScan::Model model{data.columns(), covariance_, noise_};
-    for (BaselineColumns& own : model.columns) own.KeepFirst(columns_);
+    for (int j = 0; j < growth.size(); ++j) {
+      model.noise[j].sigma *= std::sqrt(growth[j]);
+    }
     return PulseScan(data.rows(), model, data.ResidualWith(x_, torque),
                      DoubtOf(data.rows()));
   }
@@ -80,7 +86,6 @@ class ModelOfPulses {
 
   VectorXd x_;
   Robot robot_;
-  int columns_;
   MatrixXd covariance_;
   std::vector<Autoregression> noise_;
 };
@@ -94,6 +99,24 @@ std::vector<double> Looks(const GapRows& rows, const PulseScan& scan) {
                   scan.Largest().cwiseAbs2());
   looks.erase(std::remove(looks.begin(), looks.end(), 0.), looks.end());
   return looks;
+}
+
+// Of motion that no fit has seen (ReferenceNoise).
+VectorXd GrowthOf(const GapNoise& noise, int n) {
+  VectorXd growth = VectorXd::Ones(n);
+  for (size_t j = 0; j < noise.doubt.size(); ++j) growth[j] += noise.doubt[j];
+  return growth;
+}
+
+// How probable it is that noise alone gets as far in any of the time. What a
+// filter of this width makes of noise is correlated as exp(-(dt / width)^2 / 2)
+// and crosses +-d at the rate exp(-d^2 / 2) / (pi width) (Rice 1945).
+double ChanceOfNoise(const GapRows& rows, double deviations) {
+  double crossings = 0;
+  for (const double width : PulseScan::Widths()) {
+    crossings += rows.num_joints() * rows.time() / (M_PI * width);
+  }
+  return crossings * std::exp(-deviations * deviations / 2);
 }
 
 GapEvent EventOf(const GapRows& rows, const Robot& robot, const PulseScan& scan,
@@ -134,32 +157,68 @@ void Forget(const GapRows& rows, const Contact& contact, MatrixXd* deviations) {
   }
 }
 
+double VelocityAt(const GapRows& rows, const Contact& contact, int joint) {
+  for (const GapSegment& segment : rows.segments()) {
+    const Motion& motion = segment.motion;
+    const double k = (contact.time - motion.time(0)) / motion.dt;
+    if (segment.log != contact.log || k < 0 || k >= motion.size()) continue;
+    return motion.qd(static_cast<int>(k), joint);
+  }
+  return 0;
+}
+
+// Whether what acts on a joint is against its motion each time, which of pushes
+// is so by chance in 2^-k of k cases: friction that comes and goes is no touch.
+bool OnlyBrake(const GapRows& rows, const std::vector<GapEvent>& events) {
+  constexpr int kLeastCases = 5;  // 3 %
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    int with = 0, against = 0;
+    for (const GapEvent& event : events) {
+      if (event.contact.joint != j) continue;
+      const double power =
+          event.contact.torque[j] * VelocityAt(rows, event.contact, j);
+      (power < 0 ? against : with) += 1;
+    }
+    if (against >= kLeastCases && with == 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<GapEvent> FindPulses(const GapRegression& regression,
                                  const std::vector<GapCandidate>& effects) {
   if (!regression.reference()) return {};
   const GapRows& rows = regression.rows();
-  const JointRows none(rows.num_joints());
+  const int n = rows.num_joints();
+  const JointRows none(n);
   const JointRows torque = regression.TorqueOf(effects);
   const ModelOfPulses model(regression, torque);
-  const PulseScan scan = model.Scan(*regression.data(), torque);
+  const PulseScan scan =
+      model.Scan(*regression.data(), torque, GrowthOf(regression.noise(), n));
   const GapData& reference = *regression.reference();
   const UsualMaximum usual{
       static_cast<double>(Looks(rows, scan).size()),
-      {TailOf(Looks(reference.rows(), model.Scan(reference, none)))}};
-  const double least = std::sqrt(usual.Quantile(Limits().false_contacts));
+      {TailOf(Looks(reference.rows(),
+                    model.Scan(reference, none, VectorXd::Ones(n))))}};
+  const auto chance = [&](double deviations) {
+    return std::max(usual.Chance(deviations * deviations),
+                    ChanceOfNoise(rows, deviations));
+  };
   MatrixXd deviations = scan.deviations().cwiseAbs();
   std::vector<GapEvent> events;
   double time = 0;
-  for (int sample, joint; deviations.maxCoeff(&sample, &joint) > least;) {
+  int sample, joint;
+  while (chance(deviations.maxCoeff(&sample, &joint)) <
+         Limits().false_contacts) {
     events.push_back(EventOf(rows, model.robot(), scan, sample, joint));
-    Contact& contact = events.back().contact;
-    events.back().chance = usual.Chance(std::pow(contact.deviations, 2));
+    events.back().chance = chance(events.back().contact.deviations);
     time += 2 * scan.widths()(sample, joint);
-    Forget(rows, contact, &deviations);
+    Forget(rows, events.back().contact, &deviations);
   }
-  if (time > Limits().most_of_time * rows.time()) events.clear();
+  if (time > Limits().most_of_time * rows.time() || OnlyBrake(rows, events)) {
+    events.clear();
+  }
   return events;
 }
 

@@ -16,14 +16,6 @@ using Eigen::VectorXd;
 constexpr int kOrder = Autoregression::kOrder;
 constexpr double kLeastSeen = .5;  // of a pulse's g'g
 
-// A matched filter is hardly worse for a pulse that is up to 1.4 times wider or
-// narrower: its response falls by the factor sqrt(2 r / (1 + r^2)) for widths
-// that differ by r, .97. What is wider than these is a hold, which a model's
-// own slow errors look like.
-std::vector<double> Widths() {
-  return {Limits().shortest_push, 2 * Limits().shortest_push};
-}
-
 // X C^(1/2) for the columns that act on one joint.
 MatrixXd TimesHalf(const BaselineColumns& columns, const MatrixXd& covariance) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> own(
@@ -33,6 +25,14 @@ MatrixXd TimesHalf(const BaselineColumns& columns, const MatrixXd& covariance) {
 }
 
 }  // namespace
+
+// A matched filter is hardly worse for a pulse that is up to 1.4 times wider or
+// narrower: its response falls by the factor sqrt(2 r / (1 + r^2)) for widths
+// that differ by r, .97. What is wider than these is a hold, which a model's
+// own slow errors look like.
+std::vector<double> PulseScan::Widths() {
+  return {Limits().shortest_push, 2 * Limits().shortest_push};
+}
 
 PulseScan::PulseScan(const GapRows& rows, const Model& model,
                      const MatrixXd& residual, const MatrixXd& doubt)

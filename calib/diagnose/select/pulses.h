@@ -29,6 +29,9 @@ struct Pulse {
 // back.
 class PulseScan {
  public:
+  // s, of the pulses that are looked for.
+  static std::vector<double> Widths();
+
   struct Model {
     std::vector<BaselineColumns> columns;  // per joint, of thinned samples
     Eigen::MatrixXd covariance;            // of all columns' values
