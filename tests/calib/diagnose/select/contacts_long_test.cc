@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "calib/diagnose/diagnosis.h"
 #include "tests/fixtures/effect_plant.h"
 #include "tests/fixtures/temp_file.h"
@@ -93,6 +95,35 @@ TEST_F(PushedArm, IsFoundPushedAndHowHard) {
     const Vector3d error = contact.force->value - forces[k];
     EXPECT_LT(error.norm(), .05 * forces[k].norm())
         << contact.force->value.transpose();
+  }
+}
+
+// The motor's joint alone, such as a cable that catches: no force at the tool
+// does that.
+TEST_F(PushedArm, IsFoundPushedOnOneJoint) {
+  const std::vector<double> torques = {4, -4}, times = {13, 24};
+  pushed_.joint_laws.push_back(
+      {2, {}, true, [&](const ArmInstant& at, const double*, double*) {
+         double torque = 0;
+         for (int k = 0; k < 2; ++k) {
+           torque +=
+               torques[k] * std::exp(-std::pow((at.t - times[k]) / .2, 2));
+         }
+         return torque;
+       }});
+  const GapDiagnosis diagnosis = Diagnose();
+  ASSERT_EQ(diagnosis.effects.size(), 1u);
+  const FoundEffect& found = diagnosis.effects[0];
+  EXPECT_EQ(found.effect->name, "external_contact");
+  EXPECT_GT(found.probability, .9);
+  ASSERT_EQ(found.contacts.size(), 2u);
+  for (int k = 0; k < 2; ++k) {
+    const Contact& contact = found.contacts[k];
+    SCOPED_TRACE(k);
+    EXPECT_EQ(contact.joint, 2);
+    EXPECT_NEAR(contact.time, times[k], .1);
+    EXPECT_NEAR(contact.torque[2], torques[k], .15 * std::abs(torques[k]));
+    EXPECT_LT(contact.window.end - contact.window.begin, 1.6);
   }
 }
 
