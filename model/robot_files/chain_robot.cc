@@ -1,5 +1,7 @@
 #include "model/robot_files/chain_robot.h"
 
+#include <algorithm>
+#include <set>
 #include <utility>
 
 #include "model/robot/axis_rotation.h"
@@ -13,6 +15,43 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+// Refuses a fixed joint that was not read: where its link stands is unknown.
+void RequirePose(const RobotTree& tree, int link) {
+  const TreeJoint& joint = tree.joints[tree.links[link].parent_joint];
+  if (joint.error) throw InputError(*joint.error);
+}
+
+// The links that fixed joints put between the group's head and `link`.
+void RequirePoses(const RobotTree& tree, const RigidGroup& group, int link) {
+  for (; link != group.links.front();
+       link = tree.joints[tree.links[link].parent_joint].parent) {
+    RequirePose(tree, link);
+  }
+}
+
+// What the file says that was not read, as the robot has no use for it.
+void NoteUnread(const RobotTree& tree, const std::set<int>& used,
+                std::vector<std::string>* notes) {
+  constexpr size_t kMost = 5;
+  std::vector<std::string> unread;
+  for (size_t i = 0; i < tree.links.size(); ++i) {
+    const TreeLink& link = tree.links[i];
+    if (used.count(static_cast<int>(i)) > 0) continue;
+    if (link.error) unread.push_back(link.error->what());
+    if (link.parent_joint < 0) continue;
+    const auto& error = tree.joints[link.parent_joint].error;
+    if (error) unread.push_back(error->what());
+  }
+  for (size_t i = 0; i < std::min(unread.size(), kMost); ++i) {
+    notes->push_back("not read, as it lies outside the chain: " + unread[i]);
+  }
+  if (unread.size() > kMost) {
+    notes->push_back("not read either: " +
+                     std::to_string(unread.size() - kMost) +
+                     " more elements outside the chain");
+  }
+}
+
 // The link that `j` moves: joint frames and the lumped inertia of its group.
 Link MakeLink(const RobotTree& tree, int j, const RigidGroup& before,
               const RigidGroup& group) {
@@ -25,7 +64,8 @@ Link MakeLink(const RobotTree& tree, int j, const RigidGroup& before,
   link.X_ML = Isometry3d(R.transpose()) * joint.X_JL;
   for (size_t i = 0; i < group.links.size(); ++i) {
     const TreeLink& part = tree.links[group.links[i]];
-    if (part.inertial_error) throw InputError(*part.inertial_error);
+    if (part.error) throw InputError(*part.error);
+    if (i > 0) RequirePose(tree, group.links[i]);
     if (!part.has_inertial) continue;
     link.inertial += part.inertial.ReexpressIn(group.X_HLs[i]);
     link.has_inertial = true;
@@ -131,16 +171,24 @@ Robot MakeChainRobot(const std::string& path, const RobotTree& tree,
   robot.gravity = tree.gravity;
   RigidGroup group = FindGroup(tree, chain.base);
   NoteGroup(tree, group, true, &robot.notes);
+  std::set<int> used;
   for (const int j : chain.joints) {
     const RigidGroup before = std::move(group);
+    RequirePoses(tree, before, tree.joints[j].parent);
     NoteDropped(tree, before, j, &robot.notes);
     group = FindGroup(tree, tree.joints[j].child);
     const auto& notes = tree.joints[j].notes;
     robot.notes.insert(robot.notes.end(), notes.begin(), notes.end());
     NoteGroup(tree, group, false, &robot.notes);
     robot.links.push_back(MakeLink(tree, j, before, group));
+    used.insert(group.links.begin(), group.links.end());
   }
   NoteDropped(tree, group, -1, &robot.notes);
+  NoteUnread(tree, used, &robot.notes);
+  for (const TreeCoupling& coupling : tree.couplings) {
+    robot.notes.push_back("not used, as it lies outside the chain: " +
+                          coupling.what);
+  }
   SetTool(tree, group,
           options.tip.empty() ? std::nullopt : std::make_optional(chain.tip),
           &robot);

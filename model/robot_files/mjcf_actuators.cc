@@ -141,22 +141,4 @@ void ReadMjcfActuators(const XmlElement& root, const MjcfDefaults& defaults,
   for (const auto& [joint, offset] : constants) joint->joint.offset += offset;
 }
 
-void ReadMjcfConstraints(const XmlElement& root, RobotTree* tree) {
-  for (const XmlElement& section : root.Children("equality")) {
-    for (const XmlElement& element : section.Children(nullptr)) {
-      if (element.Has("active") && element.Text("active") == "false") continue;
-      if (element.tag() == "joint") {
-        FindJoint(element, "joint1", tree)->is_mimic = true;
-      } else {
-        tree->notes.push_back("not used: equality " + NameOf(element));
-      }
-    }
-  }
-  for (const XmlElement& section : root.Children("tendon")) {
-    for (const XmlElement& element : section.Children(nullptr)) {
-      tree->notes.push_back("not used: tendon " + NameOf(element));
-    }
-  }
-}
-
 }  // namespace armcal

@@ -13,8 +13,4 @@ namespace armcal {
 void ReadMjcfActuators(const XmlElement& root, const MjcfDefaults& defaults,
                        const MjcfSettings& settings, RobotTree* tree);
 
-// Joints that an equality ties to others are mimics; other constraints, and
-// tendons, are noted.
-void ReadMjcfConstraints(const XmlElement& root, RobotTree* tree);
-
 }  // namespace armcal

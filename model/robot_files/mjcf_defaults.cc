@@ -118,14 +118,28 @@ const std::vector<XmlElement>& MjcfDefaults::ClassOf(
                  "expected one of the default classes " + JoinNames(names));
 }
 
-MjcfElement MjcfDefaults::Of(const XmlElement& element,
-                             const std::string& childclass) const {
+MjcfElement MjcfDefaults::With(const XmlElement& element,
+                               const std::string& childclass,
+                               const std::string& tag) const {
   std::vector<XmlElement> holders = {element};
   for (const XmlElement& of_class : ClassOf(element, childclass)) {
-    const auto same = of_class.Children(element.tag().c_str());
+    const auto same = of_class.Children(tag.c_str());
     holders.insert(holders.end(), same.rbegin(), same.rend());
   }
   return MjcfElement(std::move(holders));
+}
+
+MjcfElement MjcfDefaults::Of(const XmlElement& element,
+                             const std::string& childclass) const {
+  return With(element, childclass, element.tag());
+}
+
+MjcfElement MjcfDefaults::OfEquality(const XmlElement& element) const {
+  return With(element, "", "equality");
+}
+
+MjcfElement MjcfDefaults::OfTendon(const XmlElement& element) const {
+  return With(element, "", "tendon");
 }
 
 MjcfElement MjcfDefaults::OfActuator(const XmlElement& element) const {

@@ -51,6 +51,10 @@ class MjcfDefaults {
                  const std::string& childclass) const;
   // All shortcuts (motor, position, ...) are one kind: general.
   MjcfElement OfActuator(const XmlElement& element) const;
+  // All kinds of equalities have their defaults in one: <equality>.
+  MjcfElement OfEquality(const XmlElement& element) const;
+  // And both kinds of tendons: <tendon>.
+  MjcfElement OfTendon(const XmlElement& element) const;
   // The childclass within `body`, `around` where it names none.
   std::string ChildClass(const XmlElement& body,
                          const std::string& around) const;
@@ -59,6 +63,8 @@ class MjcfDefaults {
   void AddClass(const XmlElement& element, std::vector<XmlElement> chain);
   const std::vector<XmlElement>& ClassOf(const XmlElement& element,
                                          const std::string& childclass) const;
+  MjcfElement With(const XmlElement& element, const std::string& childclass,
+                   const std::string& tag) const;
 
   // Per class its <default> element and those around it, inner ones first.
   std::map<std::string, std::vector<XmlElement>> classes_;

@@ -1,6 +1,7 @@
 #include "model/robot_files/mjcf_inertial.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "model/robot_files/mjcf_geom.h"
 #include "model/robot_files/mjcf_pose.h"
@@ -39,24 +40,27 @@ Matrix3d ReadMoments(const XmlElement& inertial) {
   return I;
 }
 
-// MuJoCo's compiler would change such a body.
-void RefuseChanges(const XmlElement& inertial, double mass, const Matrix3d& I,
-                   const MjcfSettings& settings) {
-  const Vector3d moments = I.selfadjointView<Eigen::Lower>().eigenvalues();
-  if (mass < settings.boundmass) {
-    inertial.Refuse("mass", inertial.Text("mass"),
-                    "expected at least the compiler's boundmass");
+// What MuJoCo's compiler makes of each body: raises its mass and principal
+// moments to bounds, and gives moments that no body has their mean.
+void ApplyBounds(const MjcfSettings& settings, TreeLink* link) {
+  if (settings.boundmass <= 0 && settings.boundinertia <= 0 &&
+      !settings.balanceinertia) {
+    return;
   }
-  if (moments[0] < settings.boundinertia) {
-    inertial.Refuse("", "",
-                    "expected moments of inertia of at least the "
-                    "compiler's boundinertia");
-  }
+  InertialParameters& V = link->inertial;
+  const Vector3d com =
+      V.mass > 0 ? Vector3d(V.first_moment / V.mass) : Vector3d::Zero();
+  const Matrix3d about_com = V.inertia - V.mass * (com.squaredNorm() * Matrix3d::Identity() - com * com.transpose());
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(about_com);
+  Vector3d moments = axes.eigenvalues().cwiseMax(settings.boundinertia);
   if (settings.balanceinertia && moments[0] + moments[1] < moments[2]) {
-    inertial.Refuse("", "",
-                    "expected an inertia that a body can have: balanceinertia "
-                    "would change it");
+    moments.setConstant(moments.mean());
   }
+  const double mass = std::max(V.mass, settings.boundmass);
+  const Matrix3d& R = axes.eigenvectors();
+  V = InertialParameters::FromCenterOfMass(
+      mass, com, R * moments.asDiagonal() * R.transpose());
+  link->has_inertial = mass > 0;
 }
 
 void ReadGiven(const XmlElement& inertial, const MjcfSettings& settings,
@@ -65,39 +69,47 @@ void ReadGiven(const XmlElement& inertial, const MjcfSettings& settings,
   inertial.Vector("pos", "m");  // required
   const Isometry3d X_LI = ReadMjcfPose(MjcfElement({inertial}), settings);
   const Matrix3d I = ReadMoments(inertial);
-  RefuseChanges(inertial, mass, I, settings);
   SetInertial(mass, I, X_LI, link);
 }
 
-void ReadGeoms(const XmlElement& body, const std::string& childclass,
-               const MjcfDefaults& defaults, const MjcfSettings& settings,
-               TreeLink* link) {
+void ReadGeoms(const std::vector<MjcfPart>& parts, const MjcfDefaults& defaults,
+               const MjcfSettings& settings, TreeLink* link) {
   InertialParameters total;
-  try {
-    for (const XmlElement& geom : body.Children("geom")) {
-      total += ReadMjcfGeom(defaults.Of(geom, childclass), settings);
-    }
-  } catch (const InputError& error) {
-    link->inertial_error = error;
-    return;
+  for (const MjcfPart& part : parts) {
+    if (part.element.tag() != "geom") continue;
+    const MjcfElement geom = defaults.Of(part.element, part.childclass);
+    total += ReadMjcfGeom(geom, settings).ReexpressIn(part.X_BF);
   }
   if (total.mass == 0) return;
   link->inertial = total;
   link->has_inertial = true;
 }
 
+const XmlElement* FindInertial(const std::vector<MjcfPart>& parts) {
+  const XmlElement* found = nullptr;
+  for (const MjcfPart& part : parts) {
+    if (part.element.tag() != "inertial") continue;
+    if (found != nullptr) {
+      part.element.Refuse("", "", "expected only one <inertial> element");
+    }
+    found = &part.element;
+  }
+  return found;
+}
+
 }  // namespace
 
-void ReadMjcfInertial(const XmlElement& body, const std::string& childclass,
+void ReadMjcfInertial(const std::vector<MjcfPart>& parts,
                       const MjcfDefaults& defaults,
                       const MjcfSettings& settings, TreeLink* link) {
-  const std::optional<XmlElement> inertial = body.Child("inertial");
+  const XmlElement* inertial = FindInertial(parts);
   const FromGeoms source = settings.inertia_from_geoms;
-  if (inertial && source != FromGeoms::kAlways) {
+  if (inertial != nullptr && source != FromGeoms::kAlways) {
     ReadGiven(*inertial, settings, link);
   } else if (source != FromGeoms::kNever) {
-    ReadGeoms(body, childclass, defaults, settings, link);
+    ReadGeoms(parts, defaults, settings, link);
   }
+  ApplyBounds(settings, link);
 }
 
 }  // namespace armcal

@@ -12,6 +12,7 @@ namespace {
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
+using Eigen::Matrix3d;
 using Eigen::Translation3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -25,14 +26,15 @@ void ReadType(const MjcfElement& element, TreeJoint* joint) {
   if (joint->type == "slide") joint->joint.type = JointType::kPrismatic;
 }
 
-void ReadAxis(const MjcfElement& element, TreeJoint* joint) {
+void ReadAxis(const MjcfElement& element, const Matrix3d& R_BF,
+              TreeJoint* joint) {
   const Vector3d axis = element.VectorOr("axis", "", Vector3d::UnitZ());
   if (axis.stableNorm() < kShortestAxis) {
     const XmlElement& holder = element.HolderOf("axis");
     holder.Refuse("axis", holder.Text("axis"),
                   "expected an axis that is not zero");
   }
-  SetAxis(axis, joint);
+  SetAxis(R_BF * axis, joint);
 }
 
 // A hinge without limits is a continuous joint.
@@ -79,6 +81,23 @@ void ReadDynamics(const MjcfElement& element, TreeJoint* tree_joint) {
                               " is not used: armcal's joints have none");
 }
 
+void ReadMotion(const MjcfElement& element, const Isometry3d& X_BF,
+                const MjcfSettings& settings, TreeJoint* joint) {
+  ReadAxis(element, X_BF.linear(), joint);
+  const Vector3d p = X_BF * element.VectorOr("pos", "m", Vector3d::Zero());
+  const double ref = element.NumberOr("ref", "", 0);
+  joint->X_PJ = joint->X_PJ * Translation3d(p);
+  if (joint->type == "hinge") {
+    joint->X_PJ.rotate(AngleAxisd(-MjcfAngle(ref, settings), joint->axis));
+  } else {
+    joint->X_PJ.translate(-ref * joint->axis);
+  }
+  joint->X_JL.translation() = -p;
+  ReadLimits(element, settings, joint);
+  ReadEffort(element, settings, &joint->joint);
+  ReadDynamics(element, joint);
+}
+
 }  // namespace
 
 bool IsMjcfLimited(const MjcfElement& element, const char* limited,
@@ -89,27 +108,19 @@ bool IsMjcfLimited(const MjcfElement& element, const char* limited,
 }
 
 TreeJoint ReadMjcfJoint(const MjcfElement& element, const Isometry3d& X_PB,
-                        const std::string& name, const MjcfSettings& settings) {
+                        const Isometry3d& X_BF, const std::string& name,
+                        const MjcfSettings& settings) {
   TreeJoint joint;
   joint.joint.name = name;
   joint.line = element.own().line();
   ReadType(element, &joint);
   joint.X_PJ = X_PB;
   if (!joint.is_supported) return joint;
-  ReadAxis(element, &joint);
-  const Vector3d p = element.VectorOr("pos", "m", Vector3d::Zero());
-  const double ref = element.NumberOr("ref", "", 0);
-  const bool hinge = joint.type == "hinge";
-  joint.X_PJ = X_PB * Translation3d(p);
-  if (hinge) {
-    joint.X_PJ.rotate(AngleAxisd(-MjcfAngle(ref, settings), joint.axis));
-  } else {
-    joint.X_PJ.translate(-ref * joint.axis);
+  try {
+    ReadMotion(element, X_BF, settings, &joint);
+  } catch (const InputError& error) {
+    joint.error = error;
   }
-  joint.X_JL.translation() = -p;
-  ReadLimits(element, settings, &joint);
-  ReadEffort(element, settings, &joint.joint);
-  ReadDynamics(element, &joint);
   return joint;
 }
 

@@ -6,7 +6,8 @@
 namespace armcal {
 
 Robot ReadMjcf(const Document& file, const RobotReaderOptions& options) {
-  return MakeChainRobot(file.name(), ReadMjcfTree(file), options);
+  return MakeChainRobot(file.name(), ReadMjcfTree(file, options.folder),
+                        options);
 }
 
 }  // namespace armcal

@@ -39,12 +39,11 @@ void ReadInertiaSource(const MjcfElement& compiler, MjcfSettings* settings) {
 void ReadCompiler(const MjcfElement& compiler, MjcfSettings* settings) {
   if (compiler.Choice("coordinate", {"local", "global"}) == "global") {
     compiler.own().Refuse("coordinate", "global",
-                          "expected local, as MuJoCo itself does since 2.3.4");
+                          "expected local, as MuJoCo itself does since 2.3.4; "
+                          "MuJoCo 2.3.3 saves a global model as a local one");
   }
-  if (compiler.NumberOr("settotalmass", "kg", -1) > 0) {
-    compiler.own().Refuse("settotalmass", compiler.Text("settotalmass"),
-                          "expected the masses of the bodies themselves");
-  }
+  settings->totalmass =
+      compiler.NumberOr("settotalmass", "kg", settings->totalmass);
   if (compiler.Has("angle")) {
     settings->degrees =
         compiler.Choice("angle", {"degree", "radian"}) == "degree";

@@ -22,6 +22,7 @@ struct MjcfSettings {
   double boundmass = 0;     // kg
   double boundinertia = 0;  // kg m^2
   bool balanceinertia = false;
+  double totalmass = -1;  // kg, that all bodies are scaled to; -1: none
   Eigen::Vector3d gravity{0, 0, -9.81};  // m/s^2
   std::vector<std::string> notes;
 };

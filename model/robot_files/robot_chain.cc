@@ -32,6 +32,23 @@ int ChooseBase(const std::string& path, const RobotTree& tree,
       "expected one root link: choose one with " + OptionName("base"));
 }
 
+// Where the ways to several tips part: what they share may be all that is
+// wanted.
+std::string SharedChain(const RobotTree& tree, int base) {
+  int link = base, count = 0;
+  RigidGroup group = FindGroup(tree, base);
+  for (; group.joints.size() == 1; ++count) {
+    link = tree.joints[group.joints.front()].child;
+    group = FindGroup(tree, link);
+  }
+  if (count == 0) return "";
+  const std::string name = OneLine(tree.links[link].name);
+  return ". It branches at " + Quoted(name) + ": " + OptionName("tip") + "=" +
+         name + " has the " +
+         (count == 1 ? "joint" : std::to_string(count) + " joints") +
+         " that all share";
+}
+
 int ChooseTip(const std::string& path, const RobotTree& tree, int base,
               const std::string& tip) {
   if (!tip.empty()) return RequireLink(path, tree, "tip", tip);
@@ -50,28 +67,60 @@ int ChooseTip(const std::string& path, const RobotTree& tree, int base,
   if (leaves.size() > 1) {
     throw InputError(
         path, "", JoinNames(names),
-        "expected one chain: choose its last link with " + OptionName("tip"));
+        "expected one chain: choose its last link with " + OptionName("tip") +
+            "; links that move beside the chain are left out" +
+            SharedChain(tree, base));
   }
   return leaves.front();
 }
 
 void RequireUsable(const std::string& path, const RobotTree& tree,
                    const TreeJoint& joint) {
-  const std::string place = "line " + std::to_string(joint.line) + ", joint " +
-                            Quoted(joint.joint.name);
-  if (!joint.is_supported) {
-    throw InputError(path, place, joint.type,
-                     "expected " + tree.joint_types + " in the chain; " +
-                         OptionName("base") + "=" +
-                         OneLine(tree.links[joint.child].name) +
-                         " starts behind it");
+  if (joint.error) throw InputError(*joint.error);
+  if (joint.is_supported) return;
+  throw InputError(path,
+                   "line " + std::to_string(joint.line) + ", joint " +
+                       Quoted(joint.joint.name),
+                   joint.type,
+                   "expected " + tree.joint_types + " in the chain; " +
+                       OptionName("base") + "=" +
+                       OneLine(tree.links[joint.child].name) +
+                       " starts behind it");
+}
+
+// Refuses a chain with joints that a coupling ties to others: fitted as an open
+// chain, their torques and bodies would be taken for what they are not.
+void RequireUncoupled(const std::string& path, const RobotTree& tree,
+                      const TreeCoupling& coupling,
+                      const std::vector<int>& chain) {
+  const auto is_tied = [&](int j) {
+    const auto& tied = coupling.joints;
+    return std::find(tied.begin(), tied.end(), j) != tied.end();
+  };
+  const auto first = std::find_if(chain.begin(), chain.end(), is_tied);
+  if (first == chain.end()) return;
+  const auto last = std::find_if(chain.rbegin(), chain.rend(), is_tied).base();
+  std::vector<std::string> names;
+  for (const int j : chain) {
+    if (is_tied(j)) names.push_back(tree.joints[j].joint.name);
   }
-  if (joint.is_mimic) {
-    throw InputError(path, place, "mimic",
-                     "expected joints that move on their own in the chain; end "
-                     "it before with " +
-                         OptionName("tip"));
+  std::string remedy;
+  if (first != chain.begin()) {
+    remedy += OptionName("tip") + "=" +
+              OneLine(tree.links[tree.joints[*first].parent].name) +
+              " ends it before them, ";
   }
+  if (last != chain.end()) {
+    remedy += OptionName("base") + "=" +
+              OneLine(tree.links[tree.joints[last[-1]].child].name) +
+              " starts it behind them, ";
+  }
+  throw InputError(path, coupling.what, JoinNames(names),
+                   "expected joints that move on their own in the chain: "
+                   "armcal's arms are open chains; " +
+                       remedy +
+                       "and where the real robot has no such part, take it out "
+                       "of the file");
 }
 
 // The moving joints from base to tip.
@@ -95,6 +144,9 @@ std::vector<int> FindChain(const std::string& path, const RobotTree& tree,
                          Quoted(tree.links[base].name));
   }
   for (const int j : chain) RequireUsable(path, tree, tree.joints[j]);
+  for (const TreeCoupling& coupling : tree.couplings) {
+    RequireUncoupled(path, tree, coupling, chain);
+  }
   if (chain.size() > kMaxJoints) {
     throw InputError(path, "", std::to_string(chain.size()) + " joints",
                      "expected at most " + std::to_string(kMaxJoints) +

@@ -52,7 +52,7 @@ RobotFileKind KindOfRobotFile(const Document& file) {
   }
   if (ending == ".yaml" || ending == ".yml") return RobotFileKind::kYaml;
   if (ending == ".xacro") {
-    throw InputError(path, "", "", "expected a plain URDF: run xacro first");
+    throw InputError(path, "", "", kRunXacro);
   }
   throw InputError(path, "", ending,
                    "expected a robot file that ends in .urdf, .xml or .mjcf "

@@ -12,6 +12,10 @@ struct RobotReaderOptions {
   // with a message that lists them.
   std::string base;
   std::string tip;
+  // MJCF: the folder within which files that the robot's file includes, and
+  // meshes that give inertia, must lie. Empty: the folder of the robot's file,
+  // with those in it.
+  std::string folder;
   // Overrides the file's gravity vector, in the base link's frame, m/s^2. URDF
   // has none: 0 0 -9.81 in the root link's frame. It is turned by the fixed
   // joints between root and base.

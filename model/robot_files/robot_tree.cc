@@ -1,6 +1,8 @@
 #include "model/robot_files/robot_tree.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "model/text/input_text.h"
 
@@ -11,6 +13,24 @@ std::optional<int> RobotTree::FindLink(const std::string& link_name) const {
     if (links[i].name == link_name) return static_cast<int>(i);
   }
   return std::nullopt;
+}
+
+std::vector<int> RobotTree::JointsAbove(int link) const {
+  std::vector<int> above;
+  for (int j = links[link].parent_joint; j >= 0;
+       j = links[joints[j].parent].parent_joint) {
+    if (!joints[j].is_fixed) above.push_back(j);
+  }
+  return above;
+}
+
+std::vector<int> RobotTree::JointsBetween(int link, int other) const {
+  std::vector<int> a = JointsAbove(link), b = JointsAbove(other), between;
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(),
+                                std::back_inserter(between));
+  return between;
 }
 
 void SetInertial(double mass, const Eigen::Matrix3d& inertia,

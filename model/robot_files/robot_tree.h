@@ -19,8 +19,9 @@ struct TreeLink {
   int line = 0;
   InertialParameters inertial;  // about Lo, expressed in L
   bool has_inertial = false;
-  // What is wrong with it: thrown where the robot has this link.
-  std::optional<InputError> inertial_error;
+  // What is wrong with it: thrown where the robot has this link, noted where it
+  // has not.
+  std::optional<InputError> error;
   int parent_joint = -1;
   std::vector<int> child_joints;
   std::vector<std::string> notes;  // for Robot::notes, if the robot has it
@@ -33,7 +34,7 @@ struct TreeJoint {
   int line = 0;
   bool is_fixed = false;
   bool is_supported = false;  // one of JointType
-  bool is_mimic = false;      // another joint moves it
+  std::optional<InputError> error;  // as that of a link
   Joint joint;                // of a fixed or unsupported joint only the name
   int parent = -1;
   int child = -1;
@@ -43,12 +44,21 @@ struct TreeJoint {
   std::vector<std::string> notes;
 };
 
+// What ties joints to each other, or to the world, beside the tree: a loop that
+// is closed, a joint that follows another, a tendon. Then the torque of one is
+// not its own, and the motions of several not independent.
+struct TreeCoupling {
+  std::string what;  // "line 12, equality <connect> 'rod'"
+  std::vector<int> joints;
+};
+
 using LinkIndex = std::unordered_map<std::string, int>;  // by name
 
 struct RobotTree {
   std::string name;
   std::vector<TreeLink> links;
   std::vector<TreeJoint> joints;
+  std::vector<TreeCoupling> couplings;
   std::vector<int> roots;  // links without a parent joint, at least one
   Eigen::Vector3d gravity{0, 0, -9.81};  // in the roots' frame, m/s^2
   std::vector<std::string> notes;        // of the file as a whole
@@ -56,6 +66,11 @@ struct RobotTree {
   std::string joint_types = "a revolute, continuous, prismatic or fixed joint";
 
   std::optional<int> FindLink(const std::string& name) const;
+  // The joints that move `link` relative to its root, the nearest first.
+  std::vector<int> JointsAbove(int link) const;
+  // Those that move one of the two links relative to the other: what connects
+  // these closes a loop over them.
+  std::vector<int> JointsBetween(int link, int other) const;
 };
 
 // A link's mass (kg) and inertia about the centre of mass, which is the origin

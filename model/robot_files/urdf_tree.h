@@ -3,6 +3,7 @@
 #include <string>
 
 #include "model/robot_files/robot_tree.h"
+#include "model/text/document.h"
 
 namespace armcal {
 
