@@ -70,6 +70,11 @@ Link MakeLink(const RobotTree& tree, int j, const RigidGroup& before,
     link.inertial += part.inertial.ReexpressIn(group.X_HLs[i]);
     link.has_inertial = true;
   }
+  // Moments alone are no body's.
+  if (link.inertial.mass == 0) {
+    link.inertial = InertialParameters();
+    link.has_inertial = false;
+  }
   return link;
 }
 

@@ -103,19 +103,33 @@ bool IsMassless(const MjcfElement& geom, const MjcfSettings& settings) {
                            : geom.NumberOr("density", "kg/m^3", 1000) == 0);
 }
 
+InertialParameters MeshGeom(const MjcfElement& geom,
+                            const MjcfSettings& settings, MjcfMeshes* meshes) {
+  InertialParameters V = meshes->Body(geom);
+  const double density = geom.Has("mass")
+                             ? geom.NonNegativeOr0("mass", "kg") / V.mass
+                             : geom.NumberOr("density", "", 1000);
+  V.mass *= density;
+  V.first_moment *= density;
+  V.inertia *= density;
+  return V.ReexpressIn(ReadMjcfPose(geom, settings));
+}
+
 }  // namespace
 
 InertialParameters ReadMjcfGeom(const MjcfElement& geom,
-                                const MjcfSettings& settings) {
+                                const MjcfSettings& settings,
+                                MjcfMeshes* meshes) {
   GeomShape shape;
   shape.type =
       geom.Choice("type", {"sphere", "capsule", "cylinder", "box", "ellipsoid",
                            "plane", "mesh", "hfield", "sdf"});
   if (shape.type == "plane" || IsMassless(geom, settings)) return {};
-  if (shape.type == "mesh" || shape.type == "hfield" || shape.type == "sdf") {
+  if (shape.type == "mesh") return MeshGeom(geom, settings, meshes);
+  if (shape.type == "hfield" || shape.type == "sdf" || geom.Has("mesh")) {
     geom.own().Refuse("", shape.type,
                       "expected an <inertial> of the body: armcal does not "
-                      "open the file that has this geom's shape");
+                      "compute this geom's shape");
   }
   if (geom.Text("shellinertia") == "true") {
     geom.HolderOf("shellinertia")

@@ -73,12 +73,13 @@ void ReadGiven(const XmlElement& inertial, const MjcfSettings& settings,
 }
 
 void ReadGeoms(const std::vector<MjcfPart>& parts, const MjcfDefaults& defaults,
-               const MjcfSettings& settings, TreeLink* link) {
+               const MjcfSettings& settings, MjcfMeshes* meshes,
+               TreeLink* link) {
   InertialParameters total;
   for (const MjcfPart& part : parts) {
     if (part.element.tag() != "geom") continue;
     const MjcfElement geom = defaults.Of(part.element, part.childclass);
-    total += ReadMjcfGeom(geom, settings).ReexpressIn(part.X_BF);
+    total += ReadMjcfGeom(geom, settings, meshes).ReexpressIn(part.X_BF);
   }
   if (total.mass == 0) return;
   link->inertial = total;
@@ -101,13 +102,14 @@ const XmlElement* FindInertial(const std::vector<MjcfPart>& parts) {
 
 void ReadMjcfInertial(const std::vector<MjcfPart>& parts,
                       const MjcfDefaults& defaults,
-                      const MjcfSettings& settings, TreeLink* link) {
+                      const MjcfSettings& settings, MjcfMeshes* meshes,
+                      TreeLink* link) {
   const XmlElement* inertial = FindInertial(parts);
   const FromGeoms source = settings.inertia_from_geoms;
   if (inertial != nullptr && source != FromGeoms::kAlways) {
     ReadGiven(*inertial, settings, link);
   } else if (source != FromGeoms::kNever) {
-    ReadGeoms(parts, defaults, settings, link);
+    ReadGeoms(parts, defaults, settings, meshes, link);
   }
   ApplyBounds(settings, link);
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "model/robot_files/mjcf_defaults.h"
+#include "model/robot_files/mjcf_meshes.h"
 #include "model/robot_files/mjcf_parts.h"
 #include "model/robot_files/mjcf_settings.h"
 #include "model/robot_files/robot_tree.h"
@@ -13,6 +14,7 @@ namespace armcal {
 // or always where the compiler says so, that of its geoms. Throws InputError.
 void ReadMjcfInertial(const std::vector<MjcfPart>& parts,
                       const MjcfDefaults& defaults,
-                      const MjcfSettings& settings, TreeLink* link);
+                      const MjcfSettings& settings, MjcfMeshes* meshes,
+                      TreeLink* link);
 
 }  // namespace armcal

@@ -13,6 +13,7 @@
 #include "model/robot_files/mjcf_includes.h"
 #include "model/robot_files/mjcf_inertial.h"
 #include "model/robot_files/mjcf_joint.h"
+#include "model/robot_files/mjcf_meshes.h"
 #include "model/robot_files/mjcf_parts.h"
 #include "model/robot_files/mjcf_pose.h"
 #include "model/robot_files/mjcf_settings.h"
@@ -51,8 +52,11 @@ InputError UnknownElement(const XmlElement& element) {
 
 class MjcfTreeReader {
  public:
-  MjcfTreeReader(const XmlElement& root, std::vector<std::string> notes)
-      : defaults_(root), settings_(ReadMjcfSettings(root)) {
+  MjcfTreeReader(const XmlElement& root, const ModelFolder& folder,
+                 std::vector<std::string> notes)
+      : defaults_(root),
+        settings_(ReadMjcfSettings(root)),
+        meshes_(root, defaults_, folder) {
     AddNames(root, &given_);
     tree_.notes = std::move(notes);
   }
@@ -76,6 +80,7 @@ class MjcfTreeReader {
 
   MjcfDefaults defaults_;
   MjcfSettings settings_;
+  MjcfMeshes meshes_;
   RobotTree tree_;
   std::set<std::string> given_;  // all names in the file
   LinkIndex links_, joint_lines_;
@@ -171,7 +176,7 @@ void MjcfTreeReader::ReadBody(const MjcfPart& part, int parent) {
   const std::vector<MjcfPart> parts =
       ReadMjcfParts(body, childclass, defaults_, settings_);
   try {
-    ReadMjcfInertial(parts, defaults_, settings_, &link);
+    ReadMjcfInertial(parts, defaults_, settings_, &meshes_, &link);
   } catch (const InputError& error) {
     link.error = error;
   }
@@ -241,6 +246,11 @@ RobotTree MjcfTreeReader::Read(const XmlElement& root) {
               0);
   }
   ScaleMasses();
+  if (!meshes_.read().empty()) {
+    tree_.notes.push_back("read as well, for inertia that the file does not "
+                          "give: " +
+                          JoinNames(meshes_.read()));
+  }
   ReadMjcfActuators(root, defaults_, settings_, &tree_);
   ReadMjcfCouplings(root, defaults_, names_, &tree_);
   return std::move(tree_);
@@ -249,14 +259,14 @@ RobotTree MjcfTreeReader::Read(const XmlElement& root) {
 }  // namespace
 
 RobotTree ReadMjcfTree(const Document& document, const std::string& folder) {
+  const ModelFolder files(document, folder);
   std::vector<std::string> notes;
-  const std::unique_ptr<XmlFile> file =
-      ReadMjcfXml(document, ModelFolder(document, folder), &notes);
+  const std::unique_ptr<XmlFile> file = ReadMjcfXml(document, files, &notes);
   const XmlElement root = file->root();
   if (root.tag() != "mujoco") {
     root.Refuse("", root.tag(), "expected the root element <mujoco>");
   }
-  return MjcfTreeReader(root, std::move(notes)).Read(root);
+  return MjcfTreeReader(root, files, std::move(notes)).Read(root);
 }
 
 }  // namespace armcal

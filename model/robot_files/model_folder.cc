@@ -54,13 +54,13 @@ fs::path ModelFolder::Find(const XmlElement& element, const char* attribute,
   }
   if (!Holds(path)) {
     element.Refuse(attribute, text,
-                   "expected a file in the folder " + OneLine(allowed_.string()) +
-                       "; " + OptionName("robot_folder") +
+                   "expected a file in the robot file's own folder; " +
+                       OptionName("robot_folder") +
                        "=DIR allows those in another");
   }
   if (!fs::is_regular_file(path, error)) {
     element.Refuse(attribute, text,
-                   "expected a file: there is no " + OneLine(path.string()));
+                   "expected a file that exists");
   }
   return path;
 }

@@ -36,16 +36,19 @@ std::vector<int> RobotTree::JointsBetween(int link, int other) const {
 void SetInertial(double mass, const Eigen::Matrix3d& inertia,
                  const Eigen::Isometry3d& X_LI, TreeLink* link) {
   if (mass == 0) {
-    link->notes.push_back("link " + Quoted(link->name) +
-                          " has mass 0, read as no inertia given");
-    return;
+    link->notes.push_back(
+        "link " + Quoted(link->name) +
+        (inertia.isZero(0) ? " has mass 0, read as no inertia given"
+                           : " has moments of inertia without a mass; they "
+                             "count where it is fixed to a link with one"));
+    if (inertia.isZero(0)) return;
   }
   link->has_inertial = true;
   link->inertial = InertialParameters::FromCenterOfMass(
                        mass, Eigen::Vector3d::Zero(), inertia)
                        .ReexpressIn(X_LI);
   const std::string why = WhyUnphysical(link->inertial);
-  if (why.empty()) return;
+  if (why.empty() || mass == 0) return;
   link->notes.push_back("the inertia of link " + Quoted(link->name) +
                         " is no rigid body's (" + why +
                         "); it serves as a start value only");

@@ -81,7 +81,8 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
         "robot: expected a robot file that ends in .urdf, .xml or .mjcf (URDF or MJCF) or "
         ".yaml or .yml (DH table or poses)", "calibrate --robot=robot --log=log.csv"),
     Row("xacro by name", written("robot.xacro", URDF),
-        "robot.xacro: expected a plain URDF: run xacro first", "calibrate --robot=robot.xacro --log=log.csv"),
+        "robot.xacro: expected a plain URDF: run xacro first "
+        "(xacro robot.urdf.xacro > robot.urdf)", "calibrate --robot=robot.xacro --log=log.csv"),
     Row("text", written("robot.urdf", "robot\n"),
         "robot.urdf: line 1: expected XML: elements, and no text around them"),
     Row("YAML", written("robot.urdf", "convention: standard\n"),
@@ -159,13 +160,16 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
 
     # Not plain URDF.
     Row("xacro element", added('<xacro:macro name="m"/>'),
-        "robot.urdf: line 25, <xacro:macro>: expected a plain URDF: run xacro first"),
+        "robot.urdf: line 25, <xacro:macro>: expected a plain URDF: run xacro first "
+        "(xacro robot.urdf.xacro > robot.urdf)"),
     Row("xacro value", urdf('value="2"', 'value="${mass}"'),
         "robot.urdf: line 7, <mass value> of link 'arm': found '${mass}': expected a plain "
-        "URDF: run xacro first"),
+        "URDF: run xacro first "
+        "(xacro robot.urdf.xacro > robot.urdf)"),
     Row("xacro substitution", urdf('value="2"', 'value="$(arg mass)"'),
         "robot.urdf: line 7, <mass value> of link 'arm': found '$(arg mass)': expected a "
-        "plain URDF: run xacro first"),
+        "plain URDF: run xacro first "
+        "(xacro robot.urdf.xacro > robot.urdf)"),
     Row("root of another name", both(urdf("<robot", "<robots"), urdf("</robot>", "</robots>")),
         "robot.urdf: line 2, <robots>: found 'robots': expected the root element <robot> "
         "(URDF) or <mujoco> (MJCF)"),

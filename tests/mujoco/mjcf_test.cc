@@ -24,7 +24,8 @@ constexpr int kStates = 20;
 // `principal` inertias are along axes that the file gives.
 class RandomMjcf {
  public:
-  RandomMjcf(int seed, bool principal) : random_(seed), principal_(principal) {}
+  RandomMjcf(int seed, bool principal, std::string compiler = "")
+      : random_(seed), principal_(principal), compiler_(std::move(compiler)) {}
 
   std::string Text() {
     degrees_ = Chance(.5);
@@ -36,7 +37,7 @@ class RandomMjcf {
     for (int i = 0; i < n; ++i) bodies += "</body>";
     return std::string("<mujoco model='random'><compiler angle='") +
            (degrees_ ? "degree" : "radian") + "' eulerseq='" + euler +
-           "'/><option gravity='" + Numbers(3, -9, 9) +
+           "' " + compiler_ + "/><option gravity='" + Numbers(3, -9, 9) +
            "'/><default><joint armature='0.1'/><geom density='700'/>"
            "<default class='a'><joint damping='0.5' axis='0 1 0'/>"
            "<default class='b'><joint frictionloss='0.3' armature='0.2'/>"
@@ -130,6 +131,7 @@ class RandomMjcf {
 
   std::mt19937_64 random_;
   bool principal_;
+  std::string compiler_;  // further attributes
   bool degrees_ = true;
   int joints_ = 0;
 };
@@ -202,8 +204,9 @@ void ExpectSameAsReferee(const Robot& robot, std::mt19937_64* random,
   }
 }
 
-void ExpectReadAsMujocoDoes(int seed, bool principal, double relative) {
-  RandomMjcf text(seed, principal);
+void ExpectReadAsMujocoDoes(int seed, bool principal, double relative,
+                            const std::string& compiler = "") {
+  RandomMjcf text(seed, principal, compiler);
   const std::string xml = text.Text();
   const Robot robot = ReadMjcf(WriteFile(xml, "random.xml"), {});
   Referee referee(xml, robot);
@@ -214,6 +217,17 @@ void ExpectReadAsMujocoDoes(int seed, bool principal, double relative) {
 TEST(MujocoMjcf, ReadsAsMujocoDoes) {
   for (int seed = 1; seed <= 60; ++seed) {
     ExpectReadAsMujocoDoes(seed, true, 1e-10);
+  }
+}
+
+// Side bodies of 0.3 kg and moments of 0.01 are below the bounds, others above.
+TEST(MujocoMjcf, ChangesBodiesAsTheCompilerDoes) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    for (const char* compiler :
+         {"boundmass='1.2'", "boundinertia='0.025'", "settotalmass='7'",
+          "boundmass='0.9' boundinertia='0.025' settotalmass='3'"}) {
+      ExpectReadAsMujocoDoes(seed, true, 1e-9, compiler);
+    }
   }
 }
 

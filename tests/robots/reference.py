@@ -54,16 +54,17 @@ class MujocoFile:
         for e in range(m.neq):
             if not m.eq_active0[e]:
                 continue
-            kind, a, b = m.eq_type[e], m.eq_obj1id[e], m.eq_obj2id[e]
-            if kind == mj.mjtEq.mjEQ_JOINT:
+            kind, a, b = (int(x[e]) for x in
+                          (m.eq_type, m.eq_obj1id, m.eq_obj2id))
+            if kind == int(mj.mjtEq.mjEQ_JOINT):
                 tied = [j for j in (a, b) if j >= 0]
-            elif kind in (mj.mjtEq.mjEQ_CONNECT, mj.mjtEq.mjEQ_WELD):
-                if m.eq_objtype[e] == mj.mjtObj.mjOBJ_SITE:
+            elif kind in (int(mj.mjtEq.mjEQ_CONNECT), int(mj.mjtEq.mjEQ_WELD)):
+                if int(m.eq_objtype[e]) == int(mj.mjtObj.mjOBJ_SITE):
                     a, b = m.site_bodyid[a], m.site_bodyid[b]
                 if max(m.body_mocapid[a], m.body_mocapid[b]) >= 0:
                     continue  # a handle of the simulation, not of the robot
                 tied = set(self.joints_above(a)) ^ set(self.joints_above(b))
-            elif kind == mj.mjtEq.mjEQ_TENDON:
+            elif kind == int(mj.mjtEq.mjEQ_TENDON):
                 tied = self.tendon_joints(a) | (
                     self.tendon_joints(b) if b >= 0 else set())
             else:
@@ -71,11 +72,16 @@ class MujocoFile:
             for j in tied:
                 coupled.setdefault(j, f"equality {e} {self.name('EQUALITY', e)}")
         for t in range(m.ntendon):
+            joints = self.tendon_joints(t)
+            # An actuator of one joint's tendon is that joint's own.
             acts = (m.tendon_stiffness[t] or m.tendon_damping[t] or
                     m.tendon_frictionloss[t] or m.tendon_armature[t] or
-                    any(m.actuator_trntype[k] == mj.mjtTrn.mjTRN_TENDON and
-                        m.actuator_trnid[k, 0] == t for k in range(m.nactuator)))
-            for j in self.tendon_joints(t) if acts else ():
+                    len(joints) > 1 and any(
+                        int(m.actuator_trntype[k]) ==
+                        int(mj.mjtTrn.mjTRN_TENDON) and
+                        m.actuator_trnid[k, 0] == t
+                        for k in range(m.nactuator)))
+            for j in joints if acts else ():
                 coupled.setdefault(j, f"tendon {self.name('TENDON', t)}")
         return coupled
 
@@ -83,12 +89,13 @@ class MujocoFile:
         m, mj = self.model, self.mj
         first, joints, bodies = m.tendon_adr[t], set(), []
         for w in range(first, first + m.tendon_num[t]):
-            kind, number = m.wrap_type[w], m.wrap_objid[w]
-            if kind == mj.mjtWrap.mjWRAP_JOINT:
+            kind, number = int(m.wrap_type[w]), int(m.wrap_objid[w])
+            if kind == int(mj.mjtWrap.mjWRAP_JOINT):
                 joints.add(number)
-            elif kind == mj.mjtWrap.mjWRAP_SITE:
+            elif kind == int(mj.mjtWrap.mjWRAP_SITE):
                 bodies.append(m.site_bodyid[number])
-            elif kind in (mj.mjtWrap.mjWRAP_SPHERE, mj.mjtWrap.mjWRAP_CYLINDER):
+            elif kind in (int(mj.mjtWrap.mjWRAP_SPHERE),
+                          int(mj.mjtWrap.mjWRAP_CYLINDER)):
                 bodies.append(m.geom_bodyid[number])
         for a, b in zip(bodies, bodies[1:]):
             joints |= set(self.joints_above(a)) ^ set(self.joints_above(b))
@@ -180,7 +187,16 @@ class PinocchioFile:
             if mimic is not None:
                 why = f"{joint.get('name')} mimics {mimic.get('joint')}"
                 self.coupled[joint.get("name")] = why
-                self.coupled.setdefault(mimic.get("joint"), why)
+                # A follower without mass loads its leader with nothing.
+                if self.moved_mass(joint.get("name")) > 0:
+                    self.coupled.setdefault(mimic.get("joint"), why)
+
+    def moved_mass(self, joint):
+        """Of all links beyond it, kg."""
+        if not self.model.existJointName(joint):
+            return 0
+        beyond = self.model.subtrees[self.model.getJointId(joint)]
+        return sum(self.model.inertias[j].mass for j in beyond)
 
     def joint_name(self, j):
         return self.model.names[j]

@@ -17,8 +17,10 @@ namespace {
 namespace py = pybind11;
 
 LoadedRobot ReadLoadedRobot(const Document& file, const std::string& base,
-                            const std::string& tip, const py::object& gravity) {
+                            const std::string& tip, const py::object& gravity,
+                            const std::string& folder) {
   RobotReaderOptions options;
+  options.folder = folder;
   options.base = base;
   options.tip = tip;
   if (!gravity.is_none()) {
@@ -29,8 +31,10 @@ LoadedRobot ReadLoadedRobot(const Document& file, const std::string& base,
 
 LoadedRobot ReadRobotFile(const std::filesystem::path& path,
                           const std::string& base, const std::string& tip,
-                          const py::object& gravity) {
-  return ReadLoadedRobot(path.string(), base, tip, gravity);
+                          const py::object& gravity,
+                          const std::filesystem::path& robot_folder) {
+  return ReadLoadedRobot(path.string(), base, tip, gravity,
+                         robot_folder.string());
 }
 
 // Named as a file of that format is, by which readers tell it.
@@ -39,7 +43,8 @@ LoadedRobot ReadRobotText(const std::string& text, const std::string& format,
                           const std::string& tip, const py::object& gravity) {
   for (const std::string known : {"urdf", "mjcf", "yaml"}) {
     if (format != known) continue;
-    return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity);
+    return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity,
+                           "");
   }
   throw py::value_error("format: found " + Quoted(format) +
                         ", expected urdf, mjcf or yaml");
@@ -88,10 +93,12 @@ void AddRobotReading(py::module_* module, py::class_<LoadedRobot>* robot) {
   AddOrigin(robot);
   module->def("read_robot", &ReadRobotFile, py::arg("path"),
               py::arg("base") = "", py::arg("tip") = "",
-              py::arg("gravity") = none, py::call_guard<DecimalPoint>(),
-              "The robot of a .urdf, or of a .yaml with a DH table; of a URDF "
-              "the chain from link base to link tip. gravity: (3,), m/s^2, "
-              "instead of the file's.");
+              py::arg("gravity") = none, py::arg("robot_folder") = "",
+              py::call_guard<DecimalPoint>(),
+              "The robot of a URDF, MJCF or YAML file; of the first two the "
+              "chain from link base to link tip. gravity: (3,), m/s^2, instead "
+              "of the file's. robot_folder: where files that an MJCF file names "
+              "may lie, instead of its own folder.");
 }
 
 }  // namespace armcal

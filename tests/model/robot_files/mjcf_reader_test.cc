@@ -104,13 +104,12 @@ TEST(MjcfReader, SaysWhatItDoesNotUse) {
   std::string text = kArm;
   text.replace(text.find("ref=\"90\""), 8, "stiffness=\"3\" ref=\"0\"");
   text.insert(text.find("</mujoco>"),
-              "<equality><weld name='w' body1='upper'/></equality>"
               "<tendon><fixed name='t'/></tendon>");
   const Robot robot = Read(text);
   EXPECT_THAT(robot.notes, Contains("the spring of joint 'elbow' is not used: "
                                     "armcal's joints have none"));
-  EXPECT_THAT(robot.notes, Contains("not used: equality <weld> 'w'"));
-  EXPECT_THAT(robot.notes, Contains("not used: tendon <fixed> 't'"));
+  EXPECT_THAT(robot.notes, Contains("not used: tendon <fixed> 't', which has no "
+                                    "spring, damper, friction or actuator"));
 }
 
 class MjcfRefusal : public testing::TestWithParam<Case> {};
@@ -151,10 +150,6 @@ INSTANTIATE_TEST_SUITE_P(
              "line 16, joint 'shoulder': found 'free': expected a hinge or "
              "slide joint, or none, in the chain; `base`=upper starts behind "
              "it"},
-        Case{"<light pos=\"0 0 1\"/>", "<include file=\"x.xml\"/>",
-             "line 12, <include file>: found 'x.xml': expected a file without "
-             "<include>, as armcal opens no other; MuJoCo's compile saves a "
-             "model as one"},
         Case{"class=\"small\" pos", "class=\"tiny\" pos",
              "line 20, <joint class> of joint 'elbow': found 'tiny': expected "
              "one of the default classes arm, main, small"},
@@ -167,10 +162,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"quat=\"1 0 0 0\"", "quat=\"1 0 0 0\" euler=\"0 0 0\"",
              "line 18, <body euler> of body 'lower': found '0 0 0': expected "
              "one orientation: there is quat already"},
-        Case{"<light pos=\"0 0 1\"/>", "<replicate count=\"3\"/>",
-             "line 12, <replicate>: found 'replicate': expected a body, "
-             "inertial, joint, geom, site, camera or light; what MuJoCo makes "
-             "bodies from, its compile turns into them"},
+        Case{"<body name=\"flange\" pos=\"0 0 1\"/>", "<replicate count=\"3\"/>",
+             "line 21, <replicate> of body 'lower': found 'replicate': expected "
+             "a body, inertial, joint, geom, site, camera, light or frame; what "
+             "MuJoCo makes bodies from, its compile turns into them"},
         Case{"joint=\"elbow\" gear", "joint=\"wrist\" gear",
              "line 29, <motor joint>: found 'wrist': expected one of the "
              "joints shoulder, elbow"},
@@ -180,9 +175,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"<inertial pos=\"0.1 0 0\" mass=\"2\" "
              "diaginertia=\"0.1 0.2 0.3\"/>",
              "",
-             "line 17, <geom> of body 'upper': found 'mesh': expected an "
-             "<inertial> of the body: armcal does not open the file that has "
-             "this geom's shape"}));
+             "line 17, <geom mesh> of body 'upper': found 'upper': expected a "
+             "mesh of the file's <asset>"}));
 
 TEST(MjcfReader, BaseAndTip) {
   RobotReaderOptions options;
@@ -196,6 +190,67 @@ TEST(MjcfReader, BaseAndTip) {
   options.tip = "";
   options.base = "upper";
   EXPECT_THAT(Read(kArm, options).JointNames(), ElementsAre("elbow"));
+}
+
+// As MuJoCo 4.0.0 compiles it: body "a" at 0.75 2.5 3, turned by a quarter about
+// z, with a joint along its x through 0.5 0 0 of it; geom 1 m along its -z, of 48
+// kg and moments 0.8, 1.6, 2.08 along its x, y and z.
+TEST(MjcfReader, Frames) {
+  const Robot robot = Read(R"(<mujoco><worldbody>
+    <frame pos="1 2 3" euler="0 0 90"><frame pos=".5 0 0">
+      <body name="a" pos="0 .25 0"><frame euler="0 90 0">
+        <joint axis="0 0 1" pos="0 0 .5"/>
+        <geom type="box" size=".1 .2 .3" pos="1 0 0"/>
+      </frame></body>
+    </frame></frame></worldbody></mujoco>)");
+  const Link& link = robot.links[0];
+  const Eigen::Isometry3d X = link.X_PL(0);
+  EXPECT_LE((X.translation() - Vector3d(.75, 2.5, 3)).norm(), 1e-14);
+  EXPECT_LE((X.linear().col(0) - Vector3d::UnitY()).norm(), 1e-14);
+  EXPECT_LE((link.X_PF.linear().col(2) - Vector3d::UnitY()).norm(), 1e-14);
+  EXPECT_NEAR(link.X_PF.translation()[0], .75, 1e-14);
+  EXPECT_NEAR(link.inertial.mass, 48, 1e-12);
+  EXPECT_LE((link.inertial.first_moment - Vector3d(0, 0, -48)).norm(), 1e-12);
+  EXPECT_LE((link.inertial.inertia.diagonal() -
+             Vector3d(.8 + 48, 1.6 + 48, 2.08))
+                .norm(),
+            1e-12);
+}
+
+// A frame gives what is in it a default class.
+TEST(MjcfReader, FramesHaveClasses) {
+  const Robot robot = Read(
+      "<mujoco><default><default class='c'><joint damping='7'/></default>"
+      "</default><worldbody><frame childclass='c'><body><joint/><geom "
+      "size='1'/></body></frame></worldbody></mujoco>");
+  EXPECT_EQ(robot.links[0].joint.viscous, 7);
+}
+
+// Moments that no body has become round, of the same sum.
+TEST(MjcfReader, BalancesInertia) {
+  const Robot robot = Read(
+      "<mujoco><compiler balanceinertia='true'/><worldbody><body><joint/>"
+      "<inertial pos='0 0 0' mass='1' diaginertia='1 2 6'/></body></worldbody>"
+      "</mujoco>");
+  EXPECT_LE((robot.links[0].inertial.inertia - 3 * Eigen::Matrix3d::Identity())
+                .norm(),
+            1e-14);
+}
+
+// What MuJoCo makes bodies from is unknown, and matters on the chain alone.
+TEST(MjcfReader, UnknownElementsOutsideTheChain) {
+  const std::string text =
+      "<mujoco><worldbody><composite/><body name='a'><joint/><geom size='1'/>"
+      "<body name='b'><joint/><attach/></body></body></worldbody></mujoco>";
+  RobotReaderOptions options;
+  options.tip = "a";
+  EXPECT_THAT(
+      Read(text, options).notes,
+      testing::IsSupersetOf({HasSubstr("<composite>: found 'composite'"),
+                             HasSubstr("<attach> of body 'b': found 'attach'")}));
+  options.tip = "b";
+  EXPECT_THAT(MessageOf<InputError>("", [&] { Read(text, options); }),
+              HasSubstr("<attach> of body 'b': found 'attach'"));
 }
 
 // The joint that an equality moves does not move by itself.

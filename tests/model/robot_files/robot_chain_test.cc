@@ -46,7 +46,9 @@ TEST(RobotChain, ChoosesAChain) {
               ElementsAre("lumped into link 'a' by fixed joints: a2",
                           "dropped, as joint 'g' moves them beside the chain: "
                           "finger, nail",
-                          "lumped into link 'b' by fixed joints: tool"));
+                          "lumped into link 'b' by fixed joints: tool",
+                          "not used, as it lies outside the chain: line 1, "
+                          "<mimic> of joint 'g'"));
   options.tip = "tool";
   robot = Read(Branched(), options);
   EXPECT_EQ(robot.tool_name, "tool");
@@ -55,7 +57,7 @@ TEST(RobotChain, ChoosesAChain) {
   robot = Read(Branched(), options);
   EXPECT_THAT(robot.JointNames(), ElementsAre("j1"));
   EXPECT_EQ(robot.tool_name, "a2");
-  EXPECT_EQ(robot.notes.size(), 3u);
+  EXPECT_EQ(robot.notes.size(), 4u);
 }
 
 TEST(RobotChain, GravityIsInTheBaseLinksFrame) {
@@ -106,14 +108,86 @@ INSTANTIATE_TEST_SUITE_P(
              "continuous, prismatic or fixed joint in the chain; `base`=fore "
              "starts behind it"},
         Case{"<origin xyz=\"0.4 0 0\"/>", "<mimic joint=\"shoulder\"/>",
-             "line 20, joint 'elbow': found 'mimic': expected joints that move "
-             "on their own in the chain; end it before with `tip`"},
+             "line 20, <mimic> of joint 'elbow': found 'elbow': expected "
+             "joints that move on their own in the chain: armcal's arms are "
+             "open chains; `tip`=upper ends it before them, and where the real "
+             "robot has no such part, take it out of the file"},
         Case{"<link name=\"fore\"/>",
              "<link name=\"fore\"/><link name=\"finger\"/>"
              "<joint name=\"grip\" type=\"prismatic\"><parent link=\"upper\"/>"
              "<child link=\"finger\"/></joint>",
              "found 'finger, fore': expected one chain: choose its last link "
-             "with `tip`"}));
+             "with `tip`; links that move beside the chain are left out. It "
+             "branches at 'upper': `tip`=upper has the joint that all share"}));
+
+// What is wrong outside the chain is no reason to refuse it.
+TEST(RobotChain, WhatLiesOutsideIsNotedAlone) {
+  const std::string wrong = LinkXml(
+      "finger", Inertial("xyz='0 0 0' rpy='0 0 0'", "-1", "1", "1", "1"));
+  const std::string arm =
+      LinkXml("base") + LinkXml("a") + LinkXml("b") + wrong +
+      JointXml("j1", "continuous", "base", "a") +
+      JointXml("j2", "continuous", "a", "b") +
+      JointXml("g", "prismatic", "b", "finger", "<axis xyz='0 0 0'/>");
+  RobotReaderOptions options;
+  options.tip = "b";
+  const Robot robot = Read(arm, options);
+  EXPECT_THAT(robot.JointNames(), ElementsAre("j1", "j2"));
+  EXPECT_THAT(robot.notes,
+              testing::IsSupersetOf(
+                  {testing::ContainsRegex(
+                       "not read, as it lies outside the chain: .*<mass value> "
+                       "of link 'finger': found '-1'"),
+                   testing::ContainsRegex(
+                       "not read, as it lies outside the chain: .*<axis xyz> "
+                       "of joint 'g': found '0 0 0'")}));
+  EXPECT_THAT(Refusal("<robot>" + arm + "</robot>"),
+              testing::HasSubstr("<axis xyz> of joint 'g'"));
+}
+
+// A fixed link whose place is unknown is part of the chain's links.
+TEST(RobotChain, WhatIsFixedToTheChainHasToBeRead) {
+  const auto arm = [](const std::string& parent) {
+    return "<robot>" + LinkXml("base") + LinkXml("a") + LinkXml("cover") +
+           JointXml("j1", "continuous", "base", "a") +
+           JointXml("f", "fixed", parent, "cover",
+                    "<origin xyz='1 nan 0'/>") +
+           "</robot>";
+  };
+  EXPECT_THAT(Refusal(arm("a")),
+              testing::HasSubstr("<origin xyz> of joint 'f': found '1 nan 0'"));
+  EXPECT_EQ(Refusal(arm("base")), "");
+}
+
+// Exporters write -5e-20 for 0.
+TEST(RobotChain, RoundingOfMoments) {
+  const auto refusal = [](const std::string& moment) {
+    return Refusal("<robot>" + LinkXml("base") +
+                   LinkXml("a", Inertial("xyz='0 0 0' rpy='0 0 0'", "2", moment,
+                                         "1e-3", "1e-3")) +
+                   JointXml("j1", "continuous", "base", "a") + "</robot>");
+  };
+  EXPECT_EQ(refusal("-5.42101e-20"), "");
+  EXPECT_THAT(refusal("-1e-6"), testing::HasSubstr("that is not negative"));
+}
+
+// A massless link with moments, on a fixed joint, is part of the one with mass;
+// alone it is no body.
+TEST(RobotChain, MomentsWithoutMass) {
+  const auto arm = [](const std::string& mass) {
+    return LinkXml("base") +
+           LinkXml("a", Inertial("xyz='0 0 0' rpy='0 0 0'", mass, "1", "2",
+                                 "2")) +
+           LinkXml("b",
+                   Inertial("xyz='5 0 0' rpy='0 0 0'", "0", ".1", ".1", ".1")) +
+           JointXml("j1", "continuous", "base", "a") +
+           JointXml("f", "fixed", "a", "b");
+  };
+  const Robot robot = Read(arm("3"));
+  EXPECT_EQ(robot.links[0].inertial.mass, 3);
+  EXPECT_EQ(robot.links[0].inertial.inertia(0, 0), 1.1);
+  EXPECT_FALSE(Read(arm("0")).links[0].has_inertial);
+}
 
 TEST(RobotChain, BaseAndTip) {
   const auto refusal = [](const std::string& base, const std::string& tip) {

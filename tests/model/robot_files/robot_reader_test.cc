@@ -22,7 +22,8 @@ std::string Refusal(const std::string& path) {
 
 TEST(RobotReader, GoesByTheEnding) {
   EXPECT_EQ(Refusal("arm.urdf.xacro"),
-            "arm.urdf.xacro: expected a plain URDF: run xacro first");
+            "arm.urdf.xacro: expected a plain URDF: run xacro first (xacro "
+            "robot.urdf.xacro > robot.urdf)");
   EXPECT_EQ(Refusal("arm.csv"),
             "arm.csv: found '.csv': expected a robot file that ends in .urdf, "
             ".xml or .mjcf (URDF or MJCF) or .yaml or .yml (DH table or "
