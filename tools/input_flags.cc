@@ -125,7 +125,8 @@ FlagGroup TorqueFlags() {
 }
 
 FlagGroup ChainFlags() {
-  return {"chain of the robot", {"base", "tip", "gravity", "robot_folder"}, false};
+  return {
+      "chain of the robot", {"base", "tip", "gravity", "robot_folder"}, false};
 }
 
 std::vector<std::string> SplitAtCommas(const std::string& text) {
@@ -243,7 +244,8 @@ void RefusePattern(const std::string& flag, const std::string& name) {
   }
   throw UsageError("--" + flag + ": found '" + name +
                    "', expected file names with commas between them: "
-                   "--" + flag + "=$(ls " + name + " | paste -sd,)");
+                   "--" +
+                   flag + "=$(ls " + name + " | paste -sd,)");
 }
 
 }  // namespace

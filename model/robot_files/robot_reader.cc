@@ -4,7 +4,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "model/robot_files/mjcf_reader.h"
+#include "model/robot_files/mjcf/mjcf_reader.h"
 #include "model/robot_files/urdf_reader.h"
 #include "model/robot_files/yaml_reader.h"
 #include "model/text/input_error.h"
@@ -35,6 +35,12 @@ RobotFileKind KindOfXml(const Document& document) {
   const std::string tag = file.root().tag();
   if (tag == "robot") return RobotFileKind::kUrdf;
   if (tag == "mujoco") return RobotFileKind::kMjcf;
+  if (tag == "sdf") {
+    file.root().Refuse("", tag,
+                       "expected URDF or MJCF, as armcal writes SDF but does "
+                       "not read it: take the URDF or xacro that it was made "
+                       "from");
+  }
   file.root().Refuse("", tag,
                      "expected the root element <robot> (URDF) or <mujoco> "
                      "(MJCF)");

@@ -38,10 +38,10 @@ bool MovesMass(const RobotTree& tree, int joint) {
 void AddMimic(const XmlElement& element, int follower, RobotTree* tree) {
   const std::optional<XmlElement> mimic = element.Child("mimic");
   if (!mimic || !tree->joints[follower].is_supported) return;
-  TreeCoupling coupling{
-      "line " + std::to_string(element.line()) + ", <mimic> of joint " +
-          Quoted(tree->joints[follower].joint.name),
-      {follower}};
+  TreeCoupling coupling{"line " + std::to_string(element.line()) +
+                            ", <mimic> of joint " +
+                            Quoted(tree->joints[follower].joint.name),
+                        {follower}};
   const int leader =
       mimic->Has("joint") ? FindJoint(*tree, mimic->Text("joint")) : -1;
   if (leader >= 0 && MovesMass(*tree, follower)) {
@@ -54,15 +54,15 @@ int RequireLink(const XmlElement& element, const std::string& name,
                 const LinkIndex& links, const RobotTree& tree) {
   const auto found = links.find(name);
   if (found != links.end()) return found->second;
-  element.Refuse("", name, "expected one of the links " + LinkNames(tree.links));
+  element.Refuse("", name,
+                 "expected one of the links " + LinkNames(tree.links));
 }
 
 void AddLoop(const XmlElement& element, int link, int other, RobotTree* tree) {
-  tree->couplings.push_back(
-      {Place(element) + ", which closes a loop from " +
-           Quoted(tree->links[link].name) + " to " +
-           Quoted(tree->links[other].name),
-       tree->JointsBetween(link, other)});
+  tree->couplings.push_back({Place(element) + ", which closes a loop from " +
+                                 Quoted(tree->links[link].name) + " to " +
+                                 Quoted(tree->links[other].name),
+                             tree->JointsBetween(link, other)});
 }
 
 // <link1 link="..."/> and <link2 link="..."/>.
@@ -70,8 +70,7 @@ void AddLoopJoint(const XmlElement& element, const LinkIndex& links,
                   RobotTree* tree) {
   int ends[2];
   for (int i = 0; i < 2; ++i) {
-    const XmlElement end =
-        element.RequiredChild(i == 0 ? "link1" : "link2");
+    const XmlElement end = element.RequiredChild(i == 0 ? "link1" : "link2");
     ends[i] = RequireLink(end, end.Name("link"), links, *tree);
   }
   AddLoop(element, ends[0], ends[1], tree);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/robot_files/robot_tree.h"
+#include "model/robot_tree/robot_tree.h"
 #include "model/text/xml_element.h"
 
 namespace armcal {

@@ -134,8 +134,7 @@ void RefuseXacroElements(const std::string& path,
 
 }  // namespace
 
-XmlElement::XmlElement(const XmlFile* file,
-                       const tinyxml2::XMLElement* element)
+XmlElement::XmlElement(const XmlFile* file, const tinyxml2::XMLElement* element)
     : file_(file), element_(element) {}
 
 void XmlElement::SetOwner(const std::string& owner) {
@@ -262,7 +261,8 @@ void XmlElement::Refuse(const std::string& attribute, const std::string& found,
   }
   what += owner_.empty() ? ">" : "> of " + owner_;
   if (attribute.empty() && is_owner_) what = owner_;
-  throw InputError(file_->path(), LinePlace(line, what), OneLine(found), expected);
+  throw InputError(file_->path(), LinePlace(line, what), OneLine(found),
+                   expected);
 }
 
 XmlFile::XmlFile(const Document& document)

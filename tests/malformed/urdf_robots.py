@@ -304,11 +304,13 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
         "robot.urdf: line 23, <dynamics friction> of joint 'elbow': found 'inf': expected a "
         "finite number in N m"),
     Row("mimic of itself", urdf("<dynamics", '<mimic joint="elbow"/><dynamics'),
-        "robot.urdf: line 20, joint 'elbow': found 'mimic': expected joints that move on "
-        "their own in the chain; end it before with --tip"),
+        "robot.urdf: line 20, <mimic> of joint 'elbow': found 'elbow': expected joints that move "
+        "on their own in the chain: armcal's arms are open chains; --tip=arm ends it before "
+        "them, and where the real robot has no such part, take it out of the file"),
     Row("mimic of no joint", urdf("<dynamics", '<mimic joint="wrist"/><dynamics'),
-        "robot.urdf: line 20, joint 'elbow': found 'mimic': expected joints that move on "
-        "their own in the chain; end it before with --tip"),
+        "robot.urdf: line 20, <mimic> of joint 'elbow': found 'elbow': expected joints that move "
+        "on their own in the chain: armcal's arms are open chains; --tip=arm ends it before "
+        "them, and where the real robot has no such part, take it out of the file"),
 
     # Trees.
     Row("loop", added(joint("back", "hand", "base", "fixed")),

@@ -14,6 +14,10 @@ import reference
 SECONDS = 120  # for one file
 STATES = 20
 LARGEST = 1e-9  # relative difference of torques
+# MuJoCo turns an inertia that the file does not give along principal axes (full
+# matrices, shapes, meshes) onto these, found to about the square root of a
+# double's rounding, 1.5e-8 rad; a few such angles are in a torque.
+LARGEST_BY_AXES = 1e-7
 
 
 def longest(chains):
@@ -64,9 +68,11 @@ def compare(source, path, chain, folder):
         return said | {"verdict": "wrong", "message":
                        f"joints {robot.joint_names}, expected {names}"}
     worst = differences(source, chain, robot)
-    good = all(value <= LARGEST for value in worst.values())
+    allowed = LARGEST_BY_AXES if source.version == "mujoco" else LARGEST
+    good = all(value <= allowed for value in worst.values())
     return said | {"verdict": "read" if good else "wrong",
                    "message": "" if good else str(worst), "notes": robot.notes,
+                   "coarse": max(worst.values()) > LARGEST,
                    "elsewhere": elsewhere, "differences": worst}
 
 

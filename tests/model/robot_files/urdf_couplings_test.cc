@@ -70,8 +70,9 @@ TEST(UrdfCouplings, LoopsThatUrdfItselfHasNot) {
   EXPECT_THAT(robot.notes,
               Contains(HasSubstr("not used, as it lies outside the chain: line "
                                  "1, <loop_joint> 'rod'")));
-  EXPECT_THAT(RefusalOfTip(Arm("", "", "<loop_joint><link1 link='x'/>"
-                                       "<link2 link='c'/></loop_joint>"),
+  EXPECT_THAT(RefusalOfTip(Arm("", "",
+                               "<loop_joint><link1 link='x'/>"
+                               "<link2 link='c'/></loop_joint>"),
                            "c"),
               HasSubstr("<link1>: found 'x': expected one of the links"));
 }
