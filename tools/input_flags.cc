@@ -12,7 +12,7 @@
 #include "tools/command.h"
 #include "tools/flag_choices.h"
 
-DEFINE_string(robot, "", "`FILE` robot: URDF, MJCF or YAML");
+DEFINE_string(robot, "", "`FILE` robot: URDF, MJCF, SDF or YAML");
 DEFINE_string(base, "",
               "`LINK` (body) that the arm starts at; default: the root");
 DEFINE_string(tip, "", "`LINK` that the arm ends at; default: the only one");

@@ -6,8 +6,9 @@
 
 namespace armcal {
 
-// By the ending, .yaml or .yml; of .urdf, .xml and .mjcf by the root element.
-enum class RobotFileKind { kUrdf, kMjcf, kYaml };
+// By the ending, .yaml or .yml; of .urdf, .xml, .mjcf and .sdf by the root
+// element.
+enum class RobotFileKind { kUrdf, kMjcf, kSdf, kYaml };
 RobotFileKind KindOfRobotFile(const Document& file);
 
 // Reads a robot file of any kind. Throws InputError with file, line and

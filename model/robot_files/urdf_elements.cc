@@ -27,17 +27,17 @@ Isometry3d ReadOrigin(const XmlElement& owner) {
 }
 
 // Exporters compute moments of bodies of some m in size to the 16 digits of a
-// double, sums of many parts to a few less. A moment (kg m^2) below 0 by no more
-// than this, times the largest of the three or the mass (kg) at 1 m, is the
-// rounding of 0.
+// double, sums of many parts to a few less. A moment (kg m^2) below 0 by no
+// more than this, times the largest of the three or the mass (kg) at 1 m, is
+// the rounding of 0.
 constexpr double kMomentRounding = 1e-14;
 
 Matrix3d ReadInertia(const XmlElement& inertia, double mass) {
   const auto get = [&](const char* name) {
     return inertia.Number(name, "kg m^2");
   };
-  const double largest = std::max({std::abs(get("ixx")), std::abs(get("iyy")),
-                                   std::abs(get("izz"))});
+  const double largest = std::max(
+      {std::abs(get("ixx")), std::abs(get("iyy")), std::abs(get("izz"))});
   const auto get_diagonal = [&](const char* name) {
     const double moment = get(name);
     if (std::abs(moment) <= kMomentRounding * std::max(largest, mass)) {

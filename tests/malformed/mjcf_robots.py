@@ -38,7 +38,7 @@ GROUPS = [Group("MJCF", COMMAND, {"robot.xml": MJCF, "log.csv": LOG}, [
         "file truncated?"),
     Row("another root", written("robot.xml", "<model/>"),
         "robot.xml: line 1, <model>: found 'model': expected the root element <robot> "
-        "(URDF) or <mujoco> (MJCF)"),
+        "(URDF), <mujoco> (MJCF) or <sdf>"),
     Row("no bodies", written("robot.xml", "<mujoco/>"),
         "robot.xml: expected a joint that moves a link of base link 'world'"),
     Row("33 MiB", padded("robot.xml", 33 << 20),

@@ -88,8 +88,11 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
     Row("YAML", written("robot.urdf", "convention: standard\n"),
         "robot.urdf: line 1: expected XML: elements, and no text around them"),
     Row("SDF", written("robot.urdf", '<sdf version="1.9"><model name="m"/></sdf>'),
-        "robot.urdf: line 1, <sdf>: found 'sdf': expected the root element <robot> (URDF) "
-        "or <mujoco> (MJCF)"),
+        "robot.urdf: line 1, <model>: expected at least one <link>"),
+    Row("SDF with others", written("robot.urdf", '<sdf version="1.9"><model name="m"><include>'
+                                   "<uri>file:///etc/passwd</uri></include></model></sdf>"),
+        "robot.urdf: line 1, <include>: expected a model that is one, of this file alone: gz sdf "
+        "-p FILE writes out what it includes"),
     Row("HTML", written("robot.urdf", "<!DOCTYPE html>\n<html><body>404</body></html>"),
         "robot.urdf: line 1: found '<!DOCTYPE': expected no DOCTYPE or entity declarations"),
     Row("gzip", written("robot.urdf", b"\x1f\x8b\x08\0\0\0\0\0\0\3abc"),
@@ -172,12 +175,12 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
         "(xacro robot.urdf.xacro > robot.urdf)"),
     Row("root of another name", both(urdf("<robot", "<robots"), urdf("</robot>", "</robots>")),
         "robot.urdf: line 2, <robots>: found 'robots': expected the root element <robot> "
-        "(URDF) or <mujoco> (MJCF)"),
+        "(URDF), <mujoco> (MJCF) or <sdf>"),
     Row("no links", written("robot.urdf", '<robot name="none"/>'),
         "robot.urdf: line 1, <robot>: expected at least one <link>"),
     Row("name in another namespace", both(urdf("<robot", "<r:robot"), urdf("</robot>", "</r:robot>")),
         "robot.urdf: line 2, <r:robot>: found 'r:robot': expected the root element <robot> "
-        "(URDF) or <mujoco> (MJCF)"),
+        "(URDF), <mujoco> (MJCF) or <sdf>"),
 
     # Links.
     Row("link without name", urdf('<link name="hand"', "<link"),
@@ -327,7 +330,8 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
         "robot.urdf: expected a joint that moves a link of base link 'base'"),
     Row("two tips", added('<link name="thumb"/>' + joint("grip", "arm", "thumb")),
         "robot.urdf: found 'hand, thumb': expected one chain: choose its last link with "
-        "--tip"),
+        "--tip; links that move beside the chain are left out. It branches at 'arm': --tip=arm has "
+        "the joint that all share"),
     Row("base that is no link", nothing,
         "robot.urdf: --base: found 'bas': expected one of the links base, arm, hand", COMMAND + " --base=bas"),
     Row("tip that is no link", nothing,

@@ -19,14 +19,12 @@ namespace armcal::mjcf_test {
 using Eigen::VectorXd;
 
 constexpr int kStates = 20;
-
-// Draws MJCF texts that use all the ways in which MJCF says the same. With
-// `principal` inertias are along axes that the file gives.
+// Draws MJCF that says the same in all ways. With `principal` inertias are
+// along axes that the file gives.
 class RandomMjcf {
  public:
   RandomMjcf(int seed, bool principal) : random_(seed), principal_(principal) {}
-
-  std::string Text() {
+  std::string Text(const std::string& compiler = "") {
     degrees_ = Chance(.5);
     std::string euler;
     for (int i = 0; i < 3; ++i) euler += "xyzXYZ"[Pick(6)];
@@ -36,7 +34,7 @@ class RandomMjcf {
     for (int i = 0; i < n; ++i) bodies += "</body>";
     return std::string("<mujoco model='random'><compiler angle='") +
            (degrees_ ? "degree" : "radian") + "' eulerseq='" + euler + "' " +
-           compiler_ + "/><option gravity='" + Numbers(3, -9, 9) +
+           compiler + "/><option gravity='" + Numbers(3, -9, 9) +
            "'/><default><joint armature='0.1'/><geom density='700'/>"
            "<default class='a'><joint damping='0.5' axis='0 1 0'/>"
            "<default class='b'><joint frictionloss='0.3' armature='0.2'/>"
@@ -44,7 +42,6 @@ class RandomMjcf {
            bodies + "</worldbody></mujoco>";
   }
   std::mt19937_64* random() { return &random_; }
-  std::string compiler;  // further attributes
 
  private:
   int Pick(int n) { return std::min(n - 1, int(Uniform(&random_, 0, n))); }
@@ -206,12 +203,11 @@ void ExpectSameAsReferee(const Robot& robot, std::mt19937_64* random,
 void ExpectReadAsMujocoDoes(int seed, bool principal, double relative,
                             const std::string& compiler = "") {
   RandomMjcf text(seed, principal);
-  text.compiler = compiler;
-  const std::string xml = text.Text();
+  const std::string xml = text.Text(compiler);
   const Robot robot = ReadMjcf(WriteFile(xml, "random.xml"), {});
   Referee referee(xml, robot);
   ExpectSameAsReferee(robot, text.random(), &referee, relative);
-  if (testing::Test::HasFailure()) FAIL() << "seed " << seed << "\n" << xml;
+  ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << seed << "\n" << xml;
 }
 
 TEST(MujocoMjcf, ReadsAsMujocoDoes) {
@@ -222,10 +218,9 @@ TEST(MujocoMjcf, ReadsAsMujocoDoes) {
 
 // Bodies of 0.3 kg and moments of 0.01 are below the bounds, others above.
 TEST(MujocoMjcf, ChangesBodiesAsTheCompilerDoes) {
+  const char kBounds[] = "boundmass='1.2' boundinertia='.025' settotalmass='3'";
   for (int seed = 1; seed <= 30; ++seed) {
-    ExpectReadAsMujocoDoes(seed, true, 1e-9, "boundmass='1.2'");
-    ExpectReadAsMujocoDoes(seed, true, 1e-9,
-                           "boundinertia='0.025' settotalmass='3'");
+    ExpectReadAsMujocoDoes(seed, true, 1e-9, kBounds);
   }
 }
 

@@ -41,12 +41,12 @@ LoadedRobot ReadRobotFile(const std::filesystem::path& path,
 LoadedRobot ReadRobotText(const std::string& text, const std::string& format,
                           const std::string& name, const std::string& base,
                           const std::string& tip, const py::object& gravity) {
-  for (const std::string known : {"urdf", "mjcf", "yaml"}) {
+  for (const std::string known : {"urdf", "mjcf", "sdf", "yaml"}) {
     if (format != known) continue;
     return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity, "");
   }
   throw py::value_error("format: found " + Quoted(format) +
-                        ", expected urdf, mjcf or yaml");
+                        ", expected urdf, mjcf, sdf or yaml");
 }
 
 std::string TextOf(const LoadedRobot& file) {
@@ -86,7 +86,7 @@ void AddRobotReading(py::module_* module, py::class_<LoadedRobot>* robot) {
       py::kw_only(), py::arg("name") = "robot", py::arg("base") = "",
       py::arg("tip") = "", py::arg("gravity") = none,
       py::call_guard<DecimalPoint>(),
-      "The robot of a text: urdf, mjcf or yaml. Messages and "
+      "The robot of a text: urdf, mjcf, sdf or yaml. Messages and "
       "reports call it name.format; base, tip and gravity as of "
       "read_robot.");
   AddOrigin(robot);
@@ -94,7 +94,7 @@ void AddRobotReading(py::module_* module, py::class_<LoadedRobot>* robot) {
       "read_robot", &ReadRobotFile, py::arg("path"), py::arg("base") = "",
       py::arg("tip") = "", py::arg("gravity") = none,
       py::arg("robot_folder") = "", py::call_guard<DecimalPoint>(),
-      "The robot of a URDF, MJCF or YAML file; of the first two the "
+      "The robot of a URDF, MJCF, SDF or YAML file; of the first three the "
       "chain from link base to link tip. gravity: (3,), m/s^2, instead "
       "of the file's. robot_folder: where files that an MJCF file names "
       "may lie, instead of its own folder.");
