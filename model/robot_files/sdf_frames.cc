@@ -33,10 +33,11 @@ std::string ReferenceOf(const XmlElement& element, const std::string& absent) {
 Isometry3d ReadSdfPose(const XmlElement& owner) {
   Isometry3d X = Isometry3d::Identity();
   const auto pose = owner.Child("pose");
-  if (!pose || pose->Content().empty()) return X;
+  const std::string text = pose ? pose->Content() : "";
+  if (text.empty()) return X;
   const bool quaternion = pose->Has("rotation_format") &&
                           pose->Text("rotation_format") == "quat_xyzw";
-  const auto words = SplitWords(pose->Content());
+  const auto words = SplitWords(text);
   const size_t count = quaternion ? 7 : 6;
   double v[7];
   bool good = words.size() == count;
@@ -44,7 +45,7 @@ Isometry3d ReadSdfPose(const XmlElement& owner) {
     good = WhyNotNumbers(words[i], 1, "", &v[i]).empty();
   }
   if (!good) {
-    pose->Refuse("", pose->Content(),
+    pose->Refuse("", text,
                  quaternion ? "expected x y z and a quaternion x y z w"
                             : "expected x y z in m and roll pitch yaw");
   }
@@ -52,8 +53,7 @@ Isometry3d ReadSdfPose(const XmlElement& owner) {
   if (quaternion) {
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     if (q.norm() < 1e-6) {
-      pose->Refuse("", pose->Content(),
-                   "expected a quaternion that is not zero");
+      pose->Refuse("", text, "expected a quaternion that is not zero");
     }
     X.linear() = q.normalized().toRotationMatrix();
     return X;

@@ -60,13 +60,13 @@ Matrix3d SecondMoment(const Triangle& t, double weight, MeshVolume volume) {
 // The origins matter for kAbsolute alone.
 InertialParameters MeshInertia(const TriangleMesh& mesh, MeshVolume volume) {
   const Vector3d origin = SurfaceCenter(mesh);
-  const double share = volume == MeshVolume::kShell ? 1 : .75;
   Vector3d sum = Vector3d::Zero();
   double total = 0;
   for (const auto& corners : mesh.triangles) {
     const Triangle triangle = TriangleOf(mesh, corners, origin);
     const double weight = Weight(triangle, volume);
-    sum += weight * share * triangle.center();
+    // Three quarters of the way from the tip; of a shell the sum is 0.
+    sum += weight * .75 * triangle.center();
     total += weight;
   }
   if (!(total > 0)) return {};

@@ -75,11 +75,12 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
     Row("endless noise", linked("robot.urdf", "/dev/urandom"),
         "robot.urdf: is larger than 32 MiB, the most that such a file may have"),
     Row("ending", written("robot.txt", URDF),
-        "robot.txt: found '.txt': expected a robot file that ends in .urdf, .xml or .mjcf "
-        "(URDF or MJCF) or .yaml or .yml (DH table or poses)", "calibrate --robot=robot.txt --log=log.csv"),
+        "robot.txt: found '.txt': expected a robot file that ends in .urdf, .xml, .mjcf or "
+        ".sdf (URDF, MJCF or SDF) or .yaml or .yml (DH table or poses)",
+        "calibrate --robot=robot.txt --log=log.csv"),
     Row("no ending", written("robot", URDF),
-        "robot: expected a robot file that ends in .urdf, .xml or .mjcf (URDF or MJCF) or "
-        ".yaml or .yml (DH table or poses)", "calibrate --robot=robot --log=log.csv"),
+        "robot: expected a robot file that ends in .urdf, .xml, .mjcf or .sdf (URDF, MJCF or "
+        "SDF) or .yaml or .yml (DH table or poses)", "calibrate --robot=robot --log=log.csv"),
     Row("xacro by name", written("robot.xacro", URDF),
         "robot.xacro: expected a plain URDF: run xacro first "
         "(xacro robot.urdf.xacro > robot.urdf)", "calibrate --robot=robot.xacro --log=log.csv"),

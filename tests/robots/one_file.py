@@ -76,6 +76,17 @@ def compare(source, path, chain, folder):
                    "elsewhere": elsewhere, "differences": worst}
 
 
+def without_base(path, chain, folder):
+    """What armcal says of a chain from a trunk that floats unless it is told to
+    begin there: the name of the base, or the robot that it makes of it."""
+    whole = reference.Chain("", chain.tip, [], {})
+    try:
+        robot, _ = read(path, whole, None, folder)
+    except armcal.InputError as error:
+        return {"verdict": "refused", "message": str(error)}
+    return {"verdict": "wrong", "message": f"reads {robot.joint_names}"}
+
+
 def survey(kind, path, folder):
     source, why = reference.load(kind, path)
     if source is None:
@@ -97,6 +108,7 @@ def survey(kind, path, folder):
         result["chain"] = compare(source, path, fixed, folder)
     elif free is not None:
         result["class"] = "floating"
+        result["without_base"] = without_base(path, free, folder)
         result["chain"] = compare(source, path, free, folder)
     else:
         result["class"] = "coupled"

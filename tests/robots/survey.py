@@ -86,12 +86,13 @@ def print_table(results):
 
 def print_failures(results):
     for r in results:
-        for what in ("chain", "coupled"):
+        for what in ("chain", "coupled", "without_base"):
             said = r.get(what)
             if said is None or said["verdict"] == "read":
                 continue
             print(f"{said['verdict']}, {what}, {r['path']} --base="
-                  f"{said['base']} --tip={said['tip']}: {said['message']}")
+                  f"{said.get('base', '')} --tip="
+                  f"{said.get('tip', r['chain']['tip'])}: {said['message']}")
         if r["class"] in ("crash", "no reference loads it"):
             print(f"{r['class']}, {r['path']}: {r['message']}")
 
@@ -121,9 +122,13 @@ def main():
         results, "MJCF", "serial")
     share = serial["read"] / max(1, sum(serial.values()))
     wrong = sum(r[what]["verdict"] == "wrong" for r in results
-                for what in ("chain", "coupled") if what in r)
+                for what in ("chain", "coupled", "without_base") if what in r)
     print(f"{serial['read']} of {sum(serial.values())} serial chains are read "
           f"({100 * share:.1f} %), {wrong} wrong")
+    floating = [r["without_base"]["message"] for r in results
+                if "without_base" in r]
+    print(f"{sum('starts behind' in m for m in floating)} of {len(floating)} "
+          "floating ones are refused without --base by a message that names it")
     chains = [r["chain"] for r in results if "chain" in r]
     print(f"of all chains {sum(c.get('elsewhere', False) for c in chains)} "
           "needed --robot_folder; "

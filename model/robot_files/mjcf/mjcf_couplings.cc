@@ -119,7 +119,8 @@ void CouplingReader::ReadTendon(const XmlElement& element) {
   const MjcfElement given = defaults_.OfTendon(element);
   for (const char* attribute :
        {"stiffness", "damping", "frictionloss", "armature"}) {
-    for (const auto& word : SplitWords(given.Text(attribute))) {
+    const std::string text = given.Text(attribute);
+    for (const auto& word : SplitWords(text)) {
       if (ParseNumber(word).value_or(1) != 0) tendon.acts = attribute;
     }
   }
