@@ -29,6 +29,7 @@ TEST(SdfReader, ReadsWhatDrakeReads) {
     std::mt19937_64 random(seed);
     Robot robot = RandomArm(2 + seed % 5, &random);
     SetRandomInertials(&random, &robot);
+    robot.gravity = Vector3d(0, 0, -9.81);  // which a model has not
     robot.links[0].joint.viscous = 2;
     robot.links[1].joint.coulomb = 3;
     robot.links[1].joint.armature = .25;
@@ -123,7 +124,7 @@ TEST(SdfReader, Refusals) {
         {"1 0 2 0 0", "1 0 2 0", "expected x y z in m and roll pitch yaw"},
         {">0 1 0<", ">0 0 0<", "expected an axis that is not zero"},
         {"<child>b", "<child>c", "found 'c': expected a link, joint or frame"},
-        {"attached_to=\"a\"", "attached_to=\"j\"",
+        {"<pose>1 0.5", "<pose relative_to=\"j\">1 0.5",
          "relative to each other in a circle"},
         {"<link name=\"a\"/>", "<link name=\"b\"/>",
          "expected a name that is not yet used"},
