@@ -83,8 +83,9 @@ def without_base(path, chain, folder):
     try:
         robot, _ = read(path, whole, None, folder)
     except armcal.InputError as error:
-        return {"verdict": "refused", "message": str(error)}
-    return {"verdict": "wrong", "message": f"reads {robot.joint_names}"}
+        return {"verdict": "refused", "tip": chain.tip, "message": str(error)}
+    return {"verdict": "wrong", "tip": chain.tip,
+            "message": f"reads {robot.joint_names}"}
 
 
 def survey(kind, path, folder):

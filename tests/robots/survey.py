@@ -92,7 +92,7 @@ def print_failures(results):
                 continue
             print(f"{said['verdict']}, {what}, {r['path']} --base="
                   f"{said.get('base', '')} --tip="
-                  f"{said.get('tip', r['chain']['tip'])}: {said['message']}")
+                  f"{said.get('tip', '')}: {said['message']}")
         if r["class"] in ("crash", "no reference loads it"):
             print(f"{r['class']}, {r['path']}: {r['message']}")
 
