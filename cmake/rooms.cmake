@@ -12,6 +12,8 @@ set(rooms
     model/simd          # the kernels, one table for each instruction set
     model/signals       # filtered, resampled, differentiated motion
     model/dynamics      # torques of motions, regressors, drives, forward dynamics
+    model/robot_tree    # links and joints of a file, the chain chosen from them
+    model/robot_files/mjcf  # MJCF in, as MuJoCo reads it
     model/robot_files   # URDF, MJCF, SDF, YAML in and out
     model/effects       # what rigid bodies lack: what a law is, and their list
     model/effects/friction   # one law a file, here and in the next three

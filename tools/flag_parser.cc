@@ -69,7 +69,7 @@ GivenFlags OfCommandLine(const Command& command, int argc, char** argv) {
     const std::string argument = argv[k];
     if (argument.size() < 2 || argument[0] != '-') {
       throw UsageError("'" + argument + "' is not a flag; flags look like " +
-                       "--log=FILE");
+                       "--log=FILE, several files like --log=FILE,FILE");
     }
     GivenFlag flag = SplitFlag(argument);
     const bool value_follows = !flag.has_value && Holds(names, flag.name) &&

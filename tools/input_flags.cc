@@ -4,19 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include "model/robot_files/robot_reader.h"
 #include "model/text/input_text.h"
 #include "tools/command.h"
 #include "tools/flag_choices.h"
 
-DEFINE_string(robot, "", "`FILE` robot: URDF, MJCF or YAML");
+DEFINE_string(robot, "", "`FILE` robot: URDF, MJCF, SDF or YAML");
 DEFINE_string(base, "",
               "`LINK` (body) that the arm starts at; default: the root");
 DEFINE_string(tip, "", "`LINK` that the arm ends at; default: the only one");
 DEFINE_string(gravity, "",
               "`X,Y,Z` gravity in the base frame, m/s^2; "
               "default: the robot file's, for URDF 0,0,-9.81");
+DEFINE_string(robot_folder, "",
+              "`DIR` that files which the robot's MJCF names may lie in; "
+              "default: its own folder");
 DEFINE_string(log, "", "`FILES` logs A[,B..]: CSV, ROS 2 bags, .npz, .mat");
 DEFINE_string(validate, "", "`FILES` logs held out to check the result");
 DEFINE_string(torque_constants, "",
@@ -120,7 +125,8 @@ FlagGroup TorqueFlags() {
 }
 
 FlagGroup ChainFlags() {
-  return {"chain of the robot", {"base", "tip", "gravity"}, false};
+  return {
+      "chain of the robot", {"base", "tip", "gravity", "robot_folder"}, false};
 }
 
 std::vector<std::string> SplitAtCommas(const std::string& text) {
@@ -193,6 +199,7 @@ Robot RobotFromFlags(const CommandInput& input) {
   RobotReaderOptions options;
   options.base = flags.Text("base");
   options.tip = flags.Text("tip");
+  options.folder = flags.Text("robot_folder");
   if (!flags.Text("gravity").empty()) {
     const std::vector<double> g =
         ParseNumbers("gravity", flags.Text("gravity"));
@@ -226,13 +233,32 @@ Document RobotFileFromFlags(const CommandInput& input) {
   return {input.flags.Text("robot")};
 }
 
+namespace {
+
+// A shell does not fill in --log=*.csv, as no file is called "--log=..".
+void RefusePattern(const std::string& flag, const std::string& name) {
+  std::error_code error;
+  if (name.find_first_of("*?") == std::string::npos ||
+      std::filesystem::exists(name, error)) {
+    return;
+  }
+  throw UsageError("--" + flag + ": found '" + name +
+                   "', expected file names with commas between them: "
+                   "--" +
+                   flag + "=$(ls " + name + " | paste -sd,)");
+}
+
+}  // namespace
+
 std::vector<std::string> FileNames(const std::string& flag,
                                    const std::string& value) {
   std::vector<std::string> names = SplitAtCommas(value);
   for (const std::string& name : names) {
-    if (!name.empty()) continue;
-    throw UsageError("--" + flag + ": found '" + value +
-                     "', expected file names with commas between them");
+    if (name.empty()) {
+      throw UsageError("--" + flag + ": found '" + value +
+                       "', expected file names with commas between them");
+    }
+    RefusePattern(flag, name);
   }
   return names;
 }

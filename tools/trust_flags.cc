@@ -9,8 +9,8 @@
 #include "tools/usage_error.h"
 
 DEFINE_double(trust, 0.5,
-              "relative standard deviation of the file's inertial "
-              "parameters, tying what logs do not show");
+              "relative standard deviation of the file's inertias (diagnose: "
+              "0.05 without --reference)");
 DEFINE_double(
     length_trust, 0.01,
     "`M` standard deviation of the robot file's lengths where they are "

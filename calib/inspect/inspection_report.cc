@@ -1,5 +1,6 @@
 #include "calib/inspect/inspection_report.h"
 
+#include "calib/inspect/robot_description.h"
 #include "calib/numerics/json_figures.h"
 #include "model/text/format.h"
 #include "model/text/option_name.h"
@@ -124,6 +125,8 @@ std::string FullReport(const Robot& robot,
                        const std::vector<LogInspection>& logs) {
   std::string text =
       Format("%s: %d joints\n", robot.name.c_str(), robot.num_joints());
+  // With logs the report is theirs.
+  if (logs.empty()) text += DescriptionText(robot);
   for (const InspectionFinding& finding : of_robot) {
     text += FindingText(finding);
   }
@@ -159,8 +162,9 @@ json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
                     {"coverage", CoverageJson(log.coverage)},
                     {"findings", FindingsJson(robot, log.findings)}});
   }
-  return {{"robot", {{"findings", FindingsJson(robot, of_robot)}}},
-          {"logs", list}};
+  json of_file = DescriptionJson(robot);
+  of_file["findings"] = FindingsJson(robot, of_robot);
+  return {{"robot", of_file}, {"logs", list}};
 }
 
 }  // namespace armcal

@@ -4,7 +4,8 @@
 #include <cctype>
 #include <filesystem>
 
-#include "model/robot_files/mjcf_reader.h"
+#include "model/robot_files/mjcf/mjcf_reader.h"
+#include "model/robot_files/sdf_reader.h"
 #include "model/robot_files/urdf_reader.h"
 #include "model/robot_files/yaml_reader.h"
 #include "model/text/input_error.h"
@@ -35,9 +36,10 @@ RobotFileKind KindOfXml(const Document& document) {
   const std::string tag = file.root().tag();
   if (tag == "robot") return RobotFileKind::kUrdf;
   if (tag == "mujoco") return RobotFileKind::kMjcf;
+  if (tag == "sdf") return RobotFileKind::kSdf;
   file.root().Refuse("", tag,
-                     "expected the root element <robot> (URDF) or <mujoco> "
-                     "(MJCF)");
+                     "expected the root element <robot> (URDF), <mujoco> "
+                     "(MJCF) or <sdf>");
 }
 
 }  // namespace
@@ -47,22 +49,25 @@ RobotFileKind KindOfRobotFile(const Document& file) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  if (ending == ".urdf" || ending == ".xml" || ending == ".mjcf") {
+  if (ending == ".urdf" || ending == ".xml" || ending == ".mjcf" ||
+      ending == ".sdf") {
     return KindOfXml(file);
   }
   if (ending == ".yaml" || ending == ".yml") return RobotFileKind::kYaml;
   if (ending == ".xacro") {
-    throw InputError(path, "", "", "expected a plain URDF: run xacro first");
+    throw InputError(path, "", "", kRunXacro);
   }
   throw InputError(path, "", ending,
-                   "expected a robot file that ends in .urdf, .xml or .mjcf "
-                   "(URDF or MJCF) or .yaml or .yml (DH table or poses)");
+                   "expected a robot file that ends in .urdf, .xml, .mjcf or "
+                   ".sdf (URDF, MJCF or SDF) or .yaml or .yml (DH table or "
+                   "poses)");
 }
 
 Robot ReadRobot(const Document& file, const RobotReaderOptions& options) {
   const RobotFileKind kind = KindOfRobotFile(file);
   const Robot robot = kind == RobotFileKind::kUrdf   ? ReadUrdf(file, options)
                       : kind == RobotFileKind::kMjcf ? ReadMjcf(file, options)
+                      : kind == RobotFileKind::kSdf  ? ReadSdf(file, options)
                                                      : ReadYaml(file, options);
   RefuseOverflow(file.name(), robot);
   return robot;

@@ -1,5 +1,6 @@
 #include "model/robot_files/urdf_elements.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,11 +26,23 @@ Isometry3d ReadOrigin(const XmlElement& owner) {
   return X;
 }
 
-Matrix3d ReadInertia(const XmlElement& inertia) {
+// Exporters compute moments of bodies of some m in size to the 16 digits of a
+// double, sums of many parts to a few less. A moment (kg m^2) below 0 by no
+// more than this, times the largest of the three or the mass (kg) at 1 m, is
+// the rounding of 0.
+constexpr double kMomentRounding = 1e-14;
+
+Matrix3d ReadInertia(const XmlElement& inertia, double mass) {
   const auto get = [&](const char* name) {
     return inertia.Number(name, "kg m^2");
   };
+  const double largest = std::max(
+      {std::abs(get("ixx")), std::abs(get("iyy")), std::abs(get("izz"))});
   const auto get_diagonal = [&](const char* name) {
+    const double moment = get(name);
+    if (std::abs(moment) <= kMomentRounding * std::max(largest, mass)) {
+      return std::max(moment, 0.);
+    }
     return inertia.NonNegative(name, "kg m^2");
   };
   const double xx = get_diagonal("ixx"), yy = get_diagonal("iyy"),
@@ -43,7 +56,7 @@ Matrix3d ReadInertia(const XmlElement& inertia) {
 void ReadInertial(const XmlElement& inertial, TreeLink* link) {
   const double mass = inertial.RequiredChild("mass").NonNegative("value", "kg");
   const Isometry3d X_LI = ReadOrigin(inertial);
-  const Matrix3d inertia = ReadInertia(inertial.RequiredChild("inertia"));
+  const Matrix3d inertia = ReadInertia(inertial.RequiredChild("inertia"), mass);
   SetInertial(mass, inertia, X_LI, link);
 }
 
@@ -142,6 +155,16 @@ void ReadType(const XmlElement& element, TreeJoint* joint) {
                  "planar");
 }
 
+void ReadMotion(const XmlElement& element, TreeJoint* joint) {
+  joint->X_PJ = ReadOrigin(element);
+  // Exporters write zero axes and limits to fixed joints, where they mean
+  // nothing.
+  if (!joint->is_supported) return;
+  ReadAxis(element, joint);
+  ReadLimit(element, joint);
+  ReadDynamics(element, &joint->joint);
+}
+
 int ReadLinkOfJoint(const XmlElement& element, const char* tag,
                     const std::vector<TreeLink>& links,
                     const LinkIndex& index) {
@@ -161,8 +184,12 @@ TreeLink ReadUrdfLink(XmlElement element) {
   link.name = element.Name("name");
   link.line = element.line();
   element.SetOwner("link " + Quoted(link.name));
-  if (const auto inertial = element.Child("inertial")) {
-    ReadInertial(*inertial, &link);
+  try {
+    if (const auto inertial = element.Child("inertial")) {
+      ReadInertial(*inertial, &link);
+    }
+  } catch (const InputError& error) {
+    link.error = error;
   }
   return link;
 }
@@ -176,14 +203,11 @@ TreeJoint ReadUrdfJoint(XmlElement element, const std::vector<TreeLink>& links,
   ReadType(element, &joint);
   joint.parent = ReadLinkOfJoint(element, "parent", links, index);
   joint.child = ReadLinkOfJoint(element, "child", links, index);
-  joint.X_PJ = ReadOrigin(element);
-  joint.is_mimic = element.Child("mimic").has_value();
-  // Exporters write zero axes and limits to fixed joints, where they mean
-  // nothing.
-  if (!joint.is_supported) return joint;
-  ReadAxis(element, &joint);
-  ReadLimit(element, &joint);
-  ReadDynamics(element, &joint.joint);
+  try {
+    ReadMotion(element, &joint);
+  } catch (const InputError& error) {
+    joint.error = error;
+  }
   return joint;
 }
 

@@ -1,7 +1,7 @@
 #include "model/robot_files/urdf_reader.h"
 
-#include "model/robot_files/chain_robot.h"
 #include "model/robot_files/urdf_tree.h"
+#include "model/robot_tree/chain_robot.h"
 
 namespace armcal {
 

@@ -3,6 +3,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "model/robot_files/urdf_couplings.h"
 #include "model/robot_files/urdf_elements.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
@@ -103,6 +104,7 @@ RobotTree ReadUrdfTree(const Document& document) {
     }
   }
   RefuseLoops(document.name(), tree);
+  ReadUrdfCouplings(root, index, &tree);
   return tree;
 }
 

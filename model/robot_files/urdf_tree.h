@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "model/robot_files/robot_tree.h"
+#include "model/robot_tree/robot_tree.h"
+#include "model/text/document.h"
 
 namespace armcal {
 

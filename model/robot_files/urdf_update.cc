@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "model/robot_files/robot_chain.h"
 #include "model/robot_files/urdf_tree.h"
 #include "model/robot_files/urdf_values.h"
+#include "model/robot_tree/robot_chain.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 

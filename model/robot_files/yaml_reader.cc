@@ -6,8 +6,8 @@
 #include <set>
 
 #include "model/robot/axis_rotation.h"
-#include "model/robot_files/robot_tree.h"
 #include "model/robot_files/yaml_pose.h"
+#include "model/robot_tree/robot_tree.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 #include "model/text/option_name.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/robot/robot.h"
-#include "model/robot_files/robot_reader_options.h"
+#include "model/robot_tree/robot_reader_options.h"
 #include "model/text/document.h"
 
 namespace armcal {

@@ -64,6 +64,9 @@ std::string_view Trim(std::string_view text, std::string_view of) {
 
 std::optional<double> ParseNumber(std::string_view text) {
   text = Trim(text, kBlanks);
+  // A plus sign is what from_chars alone does not know; "+-1" is no number.
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-')
+    text.remove_prefix(1);
   double value = 0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);

@@ -114,7 +114,7 @@ void RefuseXacro(const std::string& path, const tinyxml2::XMLElement& element) {
   if (tag.rfind("xacro:", 0) == 0) {
     throw InputError(path,
                      LinePlace(element.GetLineNum(), "<" + OneLine(tag) + ">"),
-                     "", "expected a plain URDF: run xacro first");
+                     "", kRunXacro);
   }
 }
 
@@ -134,8 +134,7 @@ void RefuseXacroElements(const std::string& path,
 
 }  // namespace
 
-XmlElement::XmlElement(const std::string* file,
-                       const tinyxml2::XMLElement* element)
+XmlElement::XmlElement(const XmlFile* file, const tinyxml2::XMLElement* element)
     : file_(file), element_(element) {}
 
 void XmlElement::SetOwner(const std::string& owner) {
@@ -148,11 +147,17 @@ int XmlElement::line() const { return element_->GetLineNum(); }
 
 std::vector<XmlElement> XmlElement::Children(const char* tag) const {
   std::vector<XmlElement> children;
-  for (auto* child = element_->FirstChildElement(tag); child != nullptr;
-       child = child->NextSiblingElement(tag)) {
-    children.emplace_back(file_, child);
-    children.back().owner_ = owner_;
+  for (auto* child = element_->FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (const XmlFile* other = file_->IncludedAt(child)) {
+      for (const XmlElement& inner : other->root().Children(tag)) {
+        children.push_back(inner);
+      }
+    } else if (tag == nullptr || std::string_view(child->Name()) == tag) {
+      children.emplace_back(file_, child);
+    }
   }
+  for (XmlElement& child : children) child.owner_ = owner_;
   return children;
 }
 
@@ -186,7 +191,7 @@ std::string XmlElement::Text(const char* attribute) const {
   const std::string text = value;
   if (text.find("${") != std::string::npos ||
       text.find("$(") != std::string::npos) {
-    Refuse(attribute, text, "expected a plain URDF: run xacro first");
+    Refuse(attribute, text, kRunXacro);
   }
   return text;
 }
@@ -201,6 +206,11 @@ std::string XmlElement::Name(const char* attribute) const {
   }
   if (SplitWords(name).empty()) Refuse(attribute, name, "expected a name");
   return name;
+}
+
+std::string XmlElement::Content() const {
+  const char* text = element_->GetText();
+  return text == nullptr ? "" : std::string(Trim(text, " \t\r\n"));
 }
 
 double XmlElement::Number(const char* attribute,
@@ -251,7 +261,8 @@ void XmlElement::Refuse(const std::string& attribute, const std::string& found,
   }
   what += owner_.empty() ? ">" : "> of " + owner_;
   if (attribute.empty() && is_owner_) what = owner_;
-  throw InputError(*file_, LinePlace(line, what), OneLine(found), expected);
+  throw InputError(file_->path(), LinePlace(line, what), OneLine(found),
+                   expected);
 }
 
 XmlFile::XmlFile(const Document& document)
@@ -276,8 +287,17 @@ XmlFile::XmlFile(const Document& document)
 
 XmlFile::~XmlFile() = default;
 
+void XmlFile::Include(const XmlElement& at, std::unique_ptr<XmlFile> other) {
+  included_[at.element_] = std::move(other);
+}
+
+const XmlFile* XmlFile::IncludedAt(const tinyxml2::XMLElement* element) const {
+  const auto found = included_.find(element);
+  return found == included_.end() ? nullptr : found->second.get();
+}
+
 XmlElement XmlFile::root() const {
-  return XmlElement(&path_, document_->RootElement());
+  return XmlElement(this, document_->RootElement());
 }
 
 }  // namespace armcal

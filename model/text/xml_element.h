@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,19 +16,30 @@ class XMLElement;
 
 namespace armcal {
 
+class XmlFile;
+
+// What to do about a file with macros that were not expanded.
+inline constexpr char kRunXacro[] =
+    "expected a plain URDF: run xacro first (xacro robot.urdf.xacro > "
+    "robot.urdf)";
+
 // An element of an XmlFile, which must outlive it. Reading is strict: what is
 // not as asked throws InputError with line, element, attribute and value.
 class XmlElement {
  public:
-  XmlElement(const std::string* file, const tinyxml2::XMLElement* element);
+  XmlElement(const XmlFile* file, const tinyxml2::XMLElement* element);
 
   // Says in messages whose element this and its children are: "link 'arm'".
   void SetOwner(const std::string& owner);
   const std::string& owner() const { return owner_; }
   std::string tag() const;
   int line() const;
+  const XmlFile& file() const { return *file_; }
+  // Whether they are the same element of the same file.
+  bool Is(const XmlElement& other) const { return element_ == other.element_; }
 
-  // Of that tag; null: all.
+  // Of that tag; null: all. In the place of an element where a file is included
+  // stand that file's.
   std::vector<XmlElement> Children(const char* tag) const;
   // The child of that tag, if any; two are refused.
   std::optional<XmlElement> Child(const char* tag) const;
@@ -37,6 +49,8 @@ class XmlElement {
   std::string Text(const char* attribute) const;
   // A text that is not empty and has no control characters.
   std::string Name(const char* attribute) const;
+  // The text between its tags, without blanks around it.
+  std::string Content() const;
   // A finite number; `unit` ("kg") is for messages.
   double Number(const char* attribute, const std::string& unit) const;
   // The same, and not less than 0.
@@ -56,7 +70,8 @@ class XmlElement {
                            const std::string& expected) const;
 
  private:
-  const std::string* file_;
+  friend class XmlFile;
+  const XmlFile* file_;
   const tinyxml2::XMLElement* element_;
   std::string owner_;
   bool is_owner_ = false;
@@ -69,11 +84,19 @@ class XmlFile {
  public:
   explicit XmlFile(const Document& document);
   ~XmlFile();
+  const std::string& path() const { return path_; }
   XmlElement root() const;
+
+  // From now on the children of the root of `other` stand in the place of the
+  // element `at` of this file.
+  void Include(const XmlElement& at, std::unique_ptr<XmlFile> other);
+  // The file that stands in the place of an element, if any.
+  const XmlFile* IncludedAt(const tinyxml2::XMLElement* element) const;
 
  private:
   std::string path_;
   std::unique_ptr<tinyxml2::XMLDocument> document_;
+  std::map<const tinyxml2::XMLElement*, std::unique_ptr<XmlFile>> included_;
 };
 
 }  // namespace armcal

@@ -38,7 +38,7 @@ GROUPS = [Group("MJCF", COMMAND, {"robot.xml": MJCF, "log.csv": LOG}, [
         "file truncated?"),
     Row("another root", written("robot.xml", "<model/>"),
         "robot.xml: line 1, <model>: found 'model': expected the root element <robot> "
-        "(URDF) or <mujoco> (MJCF)"),
+        "(URDF), <mujoco> (MJCF) or <sdf>"),
     Row("no bodies", written("robot.xml", "<mujoco/>"),
         "robot.xml: expected a joint that moves a link of base link 'world'"),
     Row("33 MiB", padded("robot.xml", 33 << 20),
@@ -48,11 +48,22 @@ GROUPS = [Group("MJCF", COMMAND, {"robot.xml": MJCF, "log.csv": LOG}, [
     Row("entity", mjcf("<mujoco", '<!DOCTYPE mujoco [<!ENTITY m SYSTEM "/etc/passwd">]>\n<mujoco'),
         "robot.xml: line 1: found '<!DOCTYPE': expected no DOCTYPE or entity declarations"),
     Row("include", mjcf("<worldbody>", '<include file="../../../etc/passwd"/><worldbody>'),
-        "robot.xml: line 6, <include file>: found '../../../etc/passwd': expected a file "
-        "without <include>, as armcal opens no other; MuJoCo's compile saves a model as one"),
+        "robot.xml: line 6, <include file>: found '../../../etc/passwd': expected a file in the "
+        "robot file's own folder; --robot_folder=DIR allows those in another"),
+    Row("include by an absolute path", mjcf("<worldbody>", '<include file="/dev/zero"/><worldbody>'),
+        "robot.xml: line 6, <include file>: found '/dev/zero': expected a file in the "
+        "robot file's own folder; --robot_folder=DIR allows those in another"),
+    Row("include of a device", mjcf("<worldbody>", '<include file="/dev/zero"/><worldbody>'),
+        "robot.xml: line 6, <include file>: found '/dev/zero': expected a file that exists",
+        COMMAND + " --robot_folder=/"),
+    Row("mesh of a device", written("robot.xml", MJCF.replace(
+        '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>', '<geom type="mesh" mesh="m"/>').replace(
+            "<worldbody>", '<asset><mesh name="m" file="/dev/zero"/></asset><worldbody>')),
+        "robot.xml: line 6, <mesh file>: found '/dev/zero': expected a file in the robot file's "
+        "own folder; --robot_folder=DIR allows those in another"),
     Row("include of itself", mjcf("<worldbody>", '<include file="robot.xml"/><worldbody>'),
-        "robot.xml: line 6, <include file>: found 'robot.xml': expected a file without "
-        "<include>, as armcal opens no other; MuJoCo's compile saves a model as one"),
+        "robot.xml: line 6, <include file>: found 'robot.xml': expected a file that is not "
+        "included already"),
     Row("100000 nested bodies", written("robot.xml", nested(100000)),
         "robot.xml: line 1: elements are nested too deeply"),
     Row("20000 bodies in a row", written("robot.xml", lambda: MJCF.replace(
@@ -61,7 +72,7 @@ GROUPS = [Group("MJCF", COMMAND, {"robot.xml": MJCF, "log.csv": LOG}, [
         "robot.xml: found 'hand, b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, "
         "b13, b14, b15, b16, b17, b18, b19, b20, b21, b22, b23, b24, b25, b26, b27, b28, "
         "b29, b30, b31, b32, b33, b34, b35, b36, b37, b38 and 19961 more': expected one "
-        "chain: choose its last link with --tip"),
+        "chain: choose its last link with --tip; links that move beside the chain are left out"),
     Row("20000 joints of a body", mjcf('<joint name="elbow"', "".join(
         f'<joint name="j{k}"/>\n' for k in range(20000)) + '<joint name="elbow"'),
         "robot.xml: found '20002 joints': expected at most 64 moving joints in the chain"),
@@ -69,27 +80,28 @@ GROUPS = [Group("MJCF", COMMAND, {"robot.xml": MJCF, "log.csv": LOG}, [
         f'<default class="c{k}">' for k in range(300)) + "</default>" * 300
         + '<default class="strong">'),
         "robot.xml: line 4: elements are nested too deeply"),
-    Row("plugin", mjcf("<worldbody>", '<extension><plugin plugin="x"/></extension><worldbody>'
-                       '<replicate count="1000000000"><geom size="1"/></replicate>'),
-        "robot.xml: line 6, <replicate>: found 'replicate': expected a body, inertial, "
-        "joint, geom, site, camera or light; what MuJoCo makes bodies from, its compile "
-        "turns into them"),
+    Row("plugin", mjcf('<geom name="ball"', '<replicate count="1000000000"><geom size="1"/></replicate>'
+                       '<geom name="ball"'),
+        "robot.xml: line 13, <replicate> of body 'hand': found 'replicate': expected a body, "
+        "inertial, joint, geom, site, camera, light or frame; what MuJoCo makes bodies from, "
+        "its compile turns into them"),
 
     # What MuJoCo would make of it is not what armcal can.
-    Row("composite", mjcf("</worldbody>", '<composite type="rope"/></worldbody>'),
-        "robot.xml: line 16, <composite>: found 'composite': expected a body, inertial, "
-        "joint, geom, site, camera or light; what MuJoCo makes bodies from, its compile "
-        "turns into them"),
-    Row("attach", mjcf("</worldbody>", '<attach model="x" prefix="y"/></worldbody>'),
-        "robot.xml: line 16, <attach>: found 'attach': expected a body, inertial, joint, "
-        "geom, site, camera or light; what MuJoCo makes bodies from, its compile turns into "
-        "them"),
+    Row("composite", mjcf('<geom name="ball"', '<composite type="rope"/><geom name="ball"'),
+        "robot.xml: line 13, <composite> of body 'hand': found 'composite': expected a body, "
+        "inertial, joint, geom, site, camera, light or frame; what MuJoCo makes bodies from, "
+        "its compile turns into them"),
+    Row("attach", mjcf('<geom name="ball"', '<attach model="x" prefix="y"/><geom name="ball"'),
+        "robot.xml: line 13, <attach> of body 'hand': found 'attach': expected a body, "
+        "inertial, joint, geom, site, camera, light or frame; what MuJoCo makes bodies from, "
+        "its compile turns into them"),
     Row("global coordinates", mjcf('angle="radian"', 'coordinate="global"'),
         "robot.xml: line 2, <compiler coordinate>: found 'global': expected local, as "
-        "MuJoCo itself does since 2.3.4"),
-    Row("total mass", mjcf('angle="radian"', 'settotalmass="3"'),
-        "robot.xml: line 2, <compiler settotalmass>: found '3': expected the masses of the "
-        "bodies themselves"),
+        "MuJoCo itself does since 2.3.4; MuJoCo 2.3.3 saves a global model as a local one"),
+    Row("loop", mjcf("</worldbody>", '</worldbody><equality><connect body1="hand"/></equality>'),
+        "robot.xml: line 16, equality <connect>, which closes a loop: found 'shoulder, elbow': "
+        "expected joints that move on their own in the chain: armcal's arms are open chains; "
+        "and where the real robot has no such part, take it out of the file"),
     Row("Euler sequence", mjcf('angle="radian"', 'eulerseq="xyw"'),
         "robot.xml: line 2, <compiler eulerseq>: found 'xyw': expected three of the letters "
         "xyzXYZ"),
@@ -177,7 +189,7 @@ GROUPS = [Group("MJCF", COMMAND, {"robot.xml": MJCF, "log.csv": LOG}, [
         "true or false"),
     Row("two tips", mjcf("</worldbody>", '<body name="other"><joint name="x"/></body></worldbody>'),
         "robot.xml: found 'hand, other': expected one chain: choose its last link with "
-        "--tip"),
+        "--tip; links that move beside the chain are left out"),
     Row("motor of no joint", mjcf("</worldbody>", '</worldbody><actuator><motor joint="wrist"/></actuator>'),
         "robot.xml: line 16, <motor joint>: found 'wrist': expected one of the joints "
         "shoulder, elbow"),
@@ -185,7 +197,7 @@ GROUPS = [Group("MJCF", COMMAND, {"robot.xml": MJCF, "log.csv": LOG}, [
         "robot.xml: --tip: found 'finger': expected one of the links world, arm, hand", COMMAND + " --tip=finger"),
 ]),
 
-    # No mesh is opened: this one has no end.
+    # Bodies that have an inertia need no mesh: this one has no end.
     Group("MJCF with meshes", COMMAND, {"log.csv": LOG, "robot.xml": MJCF.replace(
         "<worldbody>", '<asset> <mesh name="skin" file="/dev/zero"/> </asset>\n<worldbody>'
     ).replace("<geom ", '<geom type="mesh" mesh="skin"/> <geom ')}, [])]

@@ -75,20 +75,25 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
     Row("endless noise", linked("robot.urdf", "/dev/urandom"),
         "robot.urdf: is larger than 32 MiB, the most that such a file may have"),
     Row("ending", written("robot.txt", URDF),
-        "robot.txt: found '.txt': expected a robot file that ends in .urdf, .xml or .mjcf "
-        "(URDF or MJCF) or .yaml or .yml (DH table or poses)", "calibrate --robot=robot.txt --log=log.csv"),
+        "robot.txt: found '.txt': expected a robot file that ends in .urdf, .xml, .mjcf or "
+        ".sdf (URDF, MJCF or SDF) or .yaml or .yml (DH table or poses)",
+        "calibrate --robot=robot.txt --log=log.csv"),
     Row("no ending", written("robot", URDF),
-        "robot: expected a robot file that ends in .urdf, .xml or .mjcf (URDF or MJCF) or "
-        ".yaml or .yml (DH table or poses)", "calibrate --robot=robot --log=log.csv"),
+        "robot: expected a robot file that ends in .urdf, .xml, .mjcf or .sdf (URDF, MJCF or "
+        "SDF) or .yaml or .yml (DH table or poses)", "calibrate --robot=robot --log=log.csv"),
     Row("xacro by name", written("robot.xacro", URDF),
-        "robot.xacro: expected a plain URDF: run xacro first", "calibrate --robot=robot.xacro --log=log.csv"),
+        "robot.xacro: expected a plain URDF: run xacro first "
+        "(xacro robot.urdf.xacro > robot.urdf)", "calibrate --robot=robot.xacro --log=log.csv"),
     Row("text", written("robot.urdf", "robot\n"),
         "robot.urdf: line 1: expected XML: elements, and no text around them"),
     Row("YAML", written("robot.urdf", "convention: standard\n"),
         "robot.urdf: line 1: expected XML: elements, and no text around them"),
     Row("SDF", written("robot.urdf", '<sdf version="1.9"><model name="m"/></sdf>'),
-        "robot.urdf: line 1, <sdf>: found 'sdf': expected the root element <robot> (URDF) "
-        "or <mujoco> (MJCF)"),
+        "robot.urdf: line 1, <model>: expected at least one <link>"),
+    Row("SDF with others", written("robot.urdf", '<sdf version="1.9"><model name="m"><include>'
+                                   "<uri>file:///etc/passwd</uri></include></model></sdf>"),
+        "robot.urdf: line 1, <include>: expected a model that is one, of this file alone: gz sdf "
+        "-p FILE writes out what it includes"),
     Row("HTML", written("robot.urdf", "<!DOCTYPE html>\n<html><body>404</body></html>"),
         "robot.urdf: line 1: found '<!DOCTYPE': expected no DOCTYPE or entity declarations"),
     Row("gzip", written("robot.urdf", b"\x1f\x8b\x08\0\0\0\0\0\0\3abc"),
@@ -159,21 +164,24 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
 
     # Not plain URDF.
     Row("xacro element", added('<xacro:macro name="m"/>'),
-        "robot.urdf: line 25, <xacro:macro>: expected a plain URDF: run xacro first"),
+        "robot.urdf: line 25, <xacro:macro>: expected a plain URDF: run xacro first "
+        "(xacro robot.urdf.xacro > robot.urdf)"),
     Row("xacro value", urdf('value="2"', 'value="${mass}"'),
         "robot.urdf: line 7, <mass value> of link 'arm': found '${mass}': expected a plain "
-        "URDF: run xacro first"),
+        "URDF: run xacro first "
+        "(xacro robot.urdf.xacro > robot.urdf)"),
     Row("xacro substitution", urdf('value="2"', 'value="$(arg mass)"'),
         "robot.urdf: line 7, <mass value> of link 'arm': found '$(arg mass)': expected a "
-        "plain URDF: run xacro first"),
+        "plain URDF: run xacro first "
+        "(xacro robot.urdf.xacro > robot.urdf)"),
     Row("root of another name", both(urdf("<robot", "<robots"), urdf("</robot>", "</robots>")),
         "robot.urdf: line 2, <robots>: found 'robots': expected the root element <robot> "
-        "(URDF) or <mujoco> (MJCF)"),
+        "(URDF), <mujoco> (MJCF) or <sdf>"),
     Row("no links", written("robot.urdf", '<robot name="none"/>'),
         "robot.urdf: line 1, <robot>: expected at least one <link>"),
     Row("name in another namespace", both(urdf("<robot", "<r:robot"), urdf("</robot>", "</r:robot>")),
         "robot.urdf: line 2, <r:robot>: found 'r:robot': expected the root element <robot> "
-        "(URDF) or <mujoco> (MJCF)"),
+        "(URDF), <mujoco> (MJCF) or <sdf>"),
 
     # Links.
     Row("link without name", urdf('<link name="hand"', "<link"),
@@ -300,11 +308,13 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
         "robot.urdf: line 23, <dynamics friction> of joint 'elbow': found 'inf': expected a "
         "finite number in N m"),
     Row("mimic of itself", urdf("<dynamics", '<mimic joint="elbow"/><dynamics'),
-        "robot.urdf: line 20, joint 'elbow': found 'mimic': expected joints that move on "
-        "their own in the chain; end it before with --tip"),
+        "robot.urdf: line 20, <mimic> of joint 'elbow': found 'elbow': expected joints that move "
+        "on their own in the chain: armcal's arms are open chains; --tip=arm ends it before "
+        "them, and where the real robot has no such part, take it out of the file"),
     Row("mimic of no joint", urdf("<dynamics", '<mimic joint="wrist"/><dynamics'),
-        "robot.urdf: line 20, joint 'elbow': found 'mimic': expected joints that move on "
-        "their own in the chain; end it before with --tip"),
+        "robot.urdf: line 20, <mimic> of joint 'elbow': found 'elbow': expected joints that move "
+        "on their own in the chain: armcal's arms are open chains; --tip=arm ends it before "
+        "them, and where the real robot has no such part, take it out of the file"),
 
     # Trees.
     Row("loop", added(joint("back", "hand", "base", "fixed")),
@@ -321,7 +331,8 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
         "robot.urdf: expected a joint that moves a link of base link 'base'"),
     Row("two tips", added('<link name="thumb"/>' + joint("grip", "arm", "thumb")),
         "robot.urdf: found 'hand, thumb': expected one chain: choose its last link with "
-        "--tip"),
+        "--tip; links that move beside the chain are left out. It branches at 'arm': --tip=arm has "
+        "the joint that all share"),
     Row("base that is no link", nothing,
         "robot.urdf: --base: found 'bas': expected one of the links base, arm, hand", COMMAND + " --base=bas"),
     Row("tip that is no link", nothing,

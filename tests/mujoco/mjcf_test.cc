@@ -9,7 +9,7 @@
 
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/robot/kinematics.h"
-#include "model/robot_files/mjcf_reader.h"
+#include "model/robot_files/mjcf/mjcf_reader.h"
 #include "model/robot_files/mjcf_writer.h"
 #include "tests/fixtures/sample_robots.h"
 #include "tests/mujoco/mujoco_model.h"
@@ -19,14 +19,12 @@ namespace armcal::mjcf_test {
 using Eigen::VectorXd;
 
 constexpr int kStates = 20;
-
-// Draws MJCF texts that use all the ways in which MJCF says the same. With
-// `principal` inertias are along axes that the file gives.
+// Draws MJCF that says the same in all ways. With `principal` inertias are
+// along axes that the file gives.
 class RandomMjcf {
  public:
   RandomMjcf(int seed, bool principal) : random_(seed), principal_(principal) {}
-
-  std::string Text() {
+  std::string Text(const std::string& compiler = "") {
     degrees_ = Chance(.5);
     std::string euler;
     for (int i = 0; i < 3; ++i) euler += "xyzXYZ"[Pick(6)];
@@ -35,8 +33,8 @@ class RandomMjcf {
     for (int i = 0; i < n; ++i) bodies += Body(i);
     for (int i = 0; i < n; ++i) bodies += "</body>";
     return std::string("<mujoco model='random'><compiler angle='") +
-           (degrees_ ? "degree" : "radian") + "' eulerseq='" + euler +
-           "'/><option gravity='" + Numbers(3, -9, 9) +
+           (degrees_ ? "degree" : "radian") + "' eulerseq='" + euler + "' " +
+           compiler + "/><option gravity='" + Numbers(3, -9, 9) +
            "'/><default><joint armature='0.1'/><geom density='700'/>"
            "<default class='a'><joint damping='0.5' axis='0 1 0'/>"
            "<default class='b'><joint frictionloss='0.3' armature='0.2'/>"
@@ -202,18 +200,27 @@ void ExpectSameAsReferee(const Robot& robot, std::mt19937_64* random,
   }
 }
 
-void ExpectReadAsMujocoDoes(int seed, bool principal, double relative) {
+void ExpectReadAsMujocoDoes(int seed, bool principal, double relative,
+                            const std::string& compiler = "") {
   RandomMjcf text(seed, principal);
-  const std::string xml = text.Text();
+  const std::string xml = text.Text(compiler);
   const Robot robot = ReadMjcf(WriteFile(xml, "random.xml"), {});
   Referee referee(xml, robot);
   ExpectSameAsReferee(robot, text.random(), &referee, relative);
-  if (testing::Test::HasFailure()) FAIL() << "seed " << seed << "\n" << xml;
+  ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << seed << "\n" << xml;
 }
 
 TEST(MujocoMjcf, ReadsAsMujocoDoes) {
   for (int seed = 1; seed <= 60; ++seed) {
     ExpectReadAsMujocoDoes(seed, true, 1e-10);
+  }
+}
+
+// Bodies of 0.3 kg and moments of 0.01 are below the bounds, others above.
+TEST(MujocoMjcf, ChangesBodiesAsTheCompilerDoes) {
+  const char kBounds[] = "boundmass='1.2' boundinertia='.025' settotalmass='3'";
+  for (int seed = 1; seed <= 30; ++seed) {
+    ExpectReadAsMujocoDoes(seed, true, 1e-9, kBounds);
   }
 }
 

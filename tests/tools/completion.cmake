@@ -23,7 +23,7 @@ complete("armcal calibrate --po" "--poses=")
 complete("armcal calibrate --sel" "--select")
 complete("armcal calibrate --fi" "")
 complete("armcal inspect --fi" "--fix")
-complete("armcal calibrate --robot=x --rob" "")
+complete("armcal calibrate --robot=x --rob" "--robot_folder=")
 complete("armcal calibrate --geometry=l" "--geometry=lengths")
 complete("armcal calibrate --geometry=" "--geometry=all_lengths --geometry=known \
 --geometry=lengths --geometry=offsets --geometry=refine")

@@ -23,6 +23,15 @@ Simbody 3\\.[0-9.]+\nzlib 1\\.[0-9.]+, zstd ${number}, LZ4 ${number}, SQLite \
   fail("armcal X.Y and the versions of its libraries expected")
 endif()
 
+set(version "${out}")
+run("the same by a word" version)
+if(NOT out STREQUAL version)
+  fail("armcal version differs from armcal --version")
+endif()
+run("all help of no command" --helpfull)
+expect_code(0)
+expect_text(out "usage: armcal COMMAND --flags")
+
 run("help of a command" calibrate --help)
 expect_code(0)
 expect_text(out "usage: armcal calibrate --flags" "--robot=FILE " "--log=FILES "
@@ -89,6 +98,9 @@ run("a flag of glog" calibrate --logtostderr=1)
 expect_refusal(2 "unknown flag --logtostderr")
 run("a word that is no flag" calibrate ${robot} ${log} more)
 expect_refusal(2 "'more' is not a flag")
+
+run("a pattern that no shell filled in" calibrate ${robot} "--log=*.csv")
+expect_refusal(2 "--log: found '*.csv', expected file names" "paste -sd,")
 
 run("no robot" calibrate)
 expect_refusal(2 "--robot=FILE is needed")

@@ -43,7 +43,9 @@ CommandOutcome RunInspect(const CommandInput& input) {
     logs = LogInputFromFlags(input).logs;
   }
   CommandOutcome outcome =
-      OutcomeOf(input, robot, Inspect(robot, logs, options), {});
+      OutcomeOf(input, robot, Inspect(robot, logs, options),
+                // With logs the report is theirs.
+                logs.empty() ? robot.notes : std::vector<std::string>());
   outcome.output.verdict = "";
   return outcome;
 }

@@ -43,11 +43,12 @@ bool IsOneOf(const std::string& word, const Words& words) {
 }
 
 const Words kHelp = {"-h", "-help", "--help", "help"};
+const Words kVersion = {"--version", "-version", "version"};
 const Words kFullHelp = {"--helpfull", "-helpfull", "--all"};
 
 const Command& CommandNamed(const std::string& name) {
   if (const Command* command = FindCommand(name)) return *command;
-  Words names = {"completion", "help"};
+  Words names = {"completion", "help", "version"};
   for (const Command& command : Commands()) names.push_back(command.name);
   throw UsageError("unknown command '" + name + "'" + DidYouMean(name, names) +
                    "; see armcal --help");
@@ -107,12 +108,17 @@ int Main(int argc, char** argv) {
   const Words words(argv + 1, argv + argc);
   const Words rest(words.begin() + 1, words.end());
   if (IsOneOf(words[0], kHelp)) return Help(rest);
-  if (words[0] == "--version") {
+  if (IsOneOf(words[0], kVersion)) {
     PrintText(VersionText());
     return kExitOk;
   }
   if (words[0] == "completion") {
     PrintText(Completion(Commands(), rest));
+    return kExitOk;
+  }
+  // All flags of all commands would be too many at once.
+  if (IsOneOf(words[0], kFullHelp)) {
+    PrintText(GeneralHelp(Commands()));
     return kExitOk;
   }
   CheckLibraryVersions();

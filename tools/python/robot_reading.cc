@@ -17,8 +17,10 @@ namespace {
 namespace py = pybind11;
 
 LoadedRobot ReadLoadedRobot(const Document& file, const std::string& base,
-                            const std::string& tip, const py::object& gravity) {
+                            const std::string& tip, const py::object& gravity,
+                            const std::string& folder) {
   RobotReaderOptions options;
+  options.folder = folder;
   options.base = base;
   options.tip = tip;
   if (!gravity.is_none()) {
@@ -29,20 +31,22 @@ LoadedRobot ReadLoadedRobot(const Document& file, const std::string& base,
 
 LoadedRobot ReadRobotFile(const std::filesystem::path& path,
                           const std::string& base, const std::string& tip,
-                          const py::object& gravity) {
-  return ReadLoadedRobot(path.string(), base, tip, gravity);
+                          const py::object& gravity,
+                          const std::filesystem::path& robot_folder) {
+  return ReadLoadedRobot(path.string(), base, tip, gravity,
+                         robot_folder.string());
 }
 
 // Named as a file of that format is, by which readers tell it.
 LoadedRobot ReadRobotText(const std::string& text, const std::string& format,
                           const std::string& name, const std::string& base,
                           const std::string& tip, const py::object& gravity) {
-  for (const std::string known : {"urdf", "mjcf", "yaml"}) {
+  for (const std::string known : {"urdf", "mjcf", "sdf", "yaml"}) {
     if (format != known) continue;
-    return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity);
+    return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity, "");
   }
   throw py::value_error("format: found " + Quoted(format) +
-                        ", expected urdf, mjcf or yaml");
+                        ", expected urdf, mjcf, sdf or yaml");
 }
 
 std::string TextOf(const LoadedRobot& file) {
@@ -82,16 +86,18 @@ void AddRobotReading(py::module_* module, py::class_<LoadedRobot>* robot) {
       py::kw_only(), py::arg("name") = "robot", py::arg("base") = "",
       py::arg("tip") = "", py::arg("gravity") = none,
       py::call_guard<DecimalPoint>(),
-      "The robot of a text: urdf, mjcf or yaml. Messages and "
+      "The robot of a text: urdf, mjcf, sdf or yaml. Messages and "
       "reports call it name.format; base, tip and gravity as of "
       "read_robot.");
   AddOrigin(robot);
-  module->def("read_robot", &ReadRobotFile, py::arg("path"),
-              py::arg("base") = "", py::arg("tip") = "",
-              py::arg("gravity") = none, py::call_guard<DecimalPoint>(),
-              "The robot of a .urdf, or of a .yaml with a DH table; of a URDF "
-              "the chain from link base to link tip. gravity: (3,), m/s^2, "
-              "instead of the file's.");
+  module->def(
+      "read_robot", &ReadRobotFile, py::arg("path"), py::arg("base") = "",
+      py::arg("tip") = "", py::arg("gravity") = none,
+      py::arg("robot_folder") = "", py::call_guard<DecimalPoint>(),
+      "The robot of a URDF, MJCF, SDF or YAML file; of the first three the "
+      "chain from link base to link tip. gravity: (3,), m/s^2, instead "
+      "of the file's. robot_folder: where files that an MJCF file names "
+      "may lie, instead of its own folder.");
 }
 
 }  // namespace armcal

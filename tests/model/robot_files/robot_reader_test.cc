@@ -22,11 +22,12 @@ std::string Refusal(const std::string& path) {
 
 TEST(RobotReader, GoesByTheEnding) {
   EXPECT_EQ(Refusal("arm.urdf.xacro"),
-            "arm.urdf.xacro: expected a plain URDF: run xacro first");
+            "arm.urdf.xacro: expected a plain URDF: run xacro first (xacro "
+            "robot.urdf.xacro > robot.urdf)");
   EXPECT_EQ(Refusal("arm.csv"),
             "arm.csv: found '.csv': expected a robot file that ends in .urdf, "
-            ".xml or .mjcf (URDF or MJCF) or .yaml or .yml (DH table or "
-            "poses)");
+            ".xml, .mjcf or .sdf (URDF, MJCF or SDF) or .yaml or .yml (DH "
+            "table or poses)");
   EXPECT_EQ(Refusal("no/arm.URDF"),
             "no/arm.URDF: cannot be opened: No such file or directory");
 }
@@ -49,10 +50,12 @@ TEST(RobotReader, LooksIntoXml) {
     EXPECT_EQ(KindOfRobotFile(path), RobotFileKind::kUrdf);
     EXPECT_EQ(ReadRobot(path, {}).name, "u");
     std::ofstream(path) << "<sdf/>";
+    EXPECT_EQ(KindOfRobotFile(path), RobotFileKind::kSdf);
+    std::ofstream(path) << "<world/>";
     EXPECT_EQ(Refusal(path), path +
-                                 ": line 1, <sdf>: found 'sdf': expected the "
-                                 "root element <robot> (URDF) or <mujoco> "
-                                 "(MJCF)");
+                                 ": line 1, <world>: found 'world': expected "
+                                 "the root element <robot> (URDF), <mujoco> "
+                                 "(MJCF) or <sdf>");
     std::remove(path.c_str());
   }
 }

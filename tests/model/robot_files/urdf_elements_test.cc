@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"\"2\"", "\"two\"", MASS "found 'two': expected a number in kg"},
         Case{"\"2\"", "\"2kg\"", MASS "found '2kg': expected a number in kg"},
-        Case{"\"2\"", "\"+2\"", MASS "found '+2': expected a number in kg"},
+        Case{"\"2\"", "\"+-2\"", MASS "found '+-2': expected a number in kg"},
         Case{"\"2\"", "\"0x2\"", MASS "found '0x2': expected a number in kg"},
         Case{"\"2\"", "\"2 3\"", MASS "found '2 3': expected a number in kg"},
         Case{"\"2\"", "\"\"", MASS "expected a number in kg"},
@@ -40,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"\"2\"", "\"-2\"",
              MASS "found '-2': expected a number in kg that is not negative"},
         Case{"\"2\"", "\"${m}\"",
-             MASS "found '${m}': expected a plain URDF: run xacro first"},
+             MASS "found '${m}': expected a plain URDF: run xacro first (xacro "
+                  "robot.urdf.xacro > robot.urdf)"},
         Case{"value=\"2\"", "",
              "line 7, <mass> of link 'upper': expected an attribute 'value'"},
         Case{"ixx=\"0.1\"", "ixx=\"-0.1\"",

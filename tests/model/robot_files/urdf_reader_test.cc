@@ -171,7 +171,8 @@ TEST(UrdfReader, LimitsFrictionAndStartValues) {
   EXPECT_THAT(
       robot.notes,
       ElementsAre(
-          "link 'b' has mass 0, read as no inertia given",
+          "link 'b' has moments of inertia without a mass; they count where "
+          "it is fixed to a link with one",
           "joint 'j2' has the effort limit 0, read as not given",
           "joint 'j2' has equal lower and upper limits, read as none",
           "the inertia of link 'c' is no rigid body's (principal moments about "

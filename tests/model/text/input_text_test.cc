@@ -9,9 +9,12 @@ namespace armcal::input_text_test {
 TEST(ParseNumber, TakesAllOfTheTextOrNothing) {
   EXPECT_EQ(ParseNumber("0.1"), 0.1);
   EXPECT_EQ(ParseNumber(" -2e-3\t"), -2e-3);
+  EXPECT_EQ(ParseNumber("+1"), 1);
+  EXPECT_EQ(ParseNumber("1."), 1);
+  EXPECT_EQ(ParseNumber("+.5"), .5);
   EXPECT_TRUE(std::isnan(*ParseNumber("nan")));
-  for (const char* text : {"", " ", "2kg", "2,5", "1 2", "+1", "0x1p3", "1e",
-                           "--1", "1e400", "1d3", "pi/2"}) {
+  for (const char* text : {"", " ", "2kg", "2,5", "1 2", "+-1", "++1", "+",
+                           "0x1p3", "1e", "--1", "1e400", "1d3", "pi/2"}) {
     EXPECT_EQ(ParseNumber(text), std::nullopt) << text;
   }
 }

@@ -27,7 +27,8 @@ INSTANTIATE_TEST_SUITE_P(
              "line 2: found '<!DOCTYPE': expected no DOCTYPE or entity "
              "declarations"},
         Case{"<link name=\"base\"/>", "<xacro:macro name=\"m\"/>",
-             "line 3, <xacro:macro>: expected a plain URDF: run xacro first"},
+             "line 3, <xacro:macro>: expected a plain URDF: run xacro first "
+             "(xacro robot.urdf.xacro > robot.urdf)"},
         Case{"value=\"2\"", "value=\"2\" value=\"3\"",
              "line 7: an attribute is malformed or given twice"},
         Case{"</robot>", "</robot>\n<robot/>",

@@ -75,8 +75,8 @@ def calibrate(
                          parameters only), auto (refined where the file has
                          masses) (default auto)
     trust                float: relative standard deviation of the file's
-                         inertial parameters, tying what logs do not show
-                         (default 0.5)
+                         inertias (diagnose: 0.05 without --reference) (default
+                         0.5)
     poses                Path: CSV of measured poses: q1.. and x1 y1 z1 [x2
                          ..], x y z qw qx qy qz, or length1 (draw wire)
     crop                 Range: of --log to use, s since its first row;
@@ -250,8 +250,8 @@ def diagnose(
     crop                 Range: of --log to use, s since its first row;
                          default: all (standstill is left out by itself)
     trust                float: relative standard deviation of the file's
-                         inertial parameters, tying what logs do not show
-                         (default 0.5)
+                         inertias (diagnose: 0.05 without --reference) (default
+                         0.5)
     without              Union[str, Sequence[str]]: effects that are not
                          considered
     forward              bool: simulate the held-out logs as well: along their
@@ -459,8 +459,8 @@ def excite(
                          joint's usual torque, one number or one per joint
                          (default 0.01)
     trust                float: relative standard deviation of the file's
-                         inertial parameters, tying what logs do not show
-                         (default 0.5)
+                         inertias (diagnose: 0.05 without --reference) (default
+                         0.5)
     length_trust         float, m: standard deviation of the robot file's
                          lengths where they are refined, m (default 0.01)
     seed                 int: of everything that is drawn at random (default 0)

@@ -26,7 +26,7 @@ Logs = Union[LogLike, List[LogLike], Tuple[LogLike, ...]]
 Progress = Optional[Callable[[str, float], None]]
 
 # They say where the robot is from, which its object knows.
-_ROBOT_FLAGS = ("robot", "base", "tip", "gravity")
+_ROBOT_FLAGS = ("robot", "base", "tip", "gravity", "robot_folder")
 # They say what is printed, which here is nothing.
 _PRINT_FLAGS = ("json", "quiet")
 
