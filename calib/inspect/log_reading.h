@@ -40,7 +40,9 @@ struct ReadingChange {
   Kind kind;
   int joint = -1, other = -1;  // from 0
   double gain = 0;             // nats of TorqueFit::Misfit
-  double probability = 1;      // against the other changes that were tried
+  // What a fit leaves of torques that it has not seen, before and after.
+  double held_out_before = 0, held_out_after = 0;  // %
+  double probability = 1;  // against the other changes that were tried
   // Of a position's or torque's sign: whether that of the other would do as
   // well, since nothing tells which way the joint turns.
   bool or_other_sign = false;
@@ -54,7 +56,12 @@ struct ReadingFinding {
 
 // Reads a log as its torques fit the robot best: up to four changes, one after
 // the other, each of which has to explain much more than chance and a model's
-// own errors do (`kLeastGain` nats of some hundred samples).
-ReadingFinding FindReading(const Robot& robot, const UniformSeries& series);
+// own errors do: `kLeastGain` nats of some hundred samples, and, of torques that
+// the fit has not seen, what IsClearlyBetter and IsBetterForAll say. Of signs
+// and order nothing is asked of joints that hardly move, nor of those whose
+// torque `tells` nothing (empty: all tell); of gravity nothing where one of
+// several joints moves.
+ReadingFinding FindReading(const Robot& robot, const UniformSeries& series,
+                           const std::vector<bool>& tells = {});
 
 }  // namespace armcal
