@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "calib/inspect/held_out_fit.h"
@@ -21,7 +22,7 @@ constexpr double kLeastDelay = .0125;  // s; filters and drives have less
 constexpr double kLeastTilt = 5;       // degrees
 constexpr int kMostChanges = 4;
 constexpr int kHeldOutSamples = 500;
-constexpr int kMostAsked = 5;    // candidates that are tried on held-out data
+constexpr int kMostAsked = 2;    // of a kind, that are tried on held-out data
 constexpr double kMoving = .02;  // rad/s or m/s
 constexpr double kLeastMotion = 1;  // s, of a joint whose sign is asked for
 
@@ -110,12 +111,13 @@ class Reader {
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),
               [&](size_t a, size_t b) { return misfits[a] < misfits[b]; });
-    for (size_t i = 0; i < std::min<size_t>(kMostAsked, order.size()); ++i) {
-      const size_t k = order[i];
+    std::map<Kind, int> asked;
+    for (const size_t k : order) {
       if (!(misfits[k] < least_ - kLeastGain)) return false;
+      if (asked[all[k].change.kind]++ >= kMostAsked) continue;
       const HeldOutFit held_out = HeldOut(all[k].reading);
       if (!Confirms(all[k].change, held_out)) continue;
-      NoteOtherSign(misfits, k, &all);
+      NoteOtherSign(misfits, held_out, k, &all);
       double sum = 0;
       for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
       Accept(all[k], misfits[k], std::min(1., 1 / sum), held_out);
@@ -139,9 +141,10 @@ class Reader {
     return IsClearlyBetter(held_out_, held_out, of);
   }
 
-  // Whether the sign of the joint's other signal would do as well, or is
-  // confirmed, too: what the model misses may decide between them.
-  void NoteOtherSign(const std::vector<double>& misfits, size_t k,
+  // Whether the sign of the joint's other signal would do as well, or nearly
+  // so: then what the model misses may decide between them.
+  void NoteOtherSign(const std::vector<double>& misfits,
+                     const HeldOutFit& held_out, size_t k,
                      std::vector<Candidate>* all) const {
     ReadingChange& change = (*all)[k].change;
     for (size_t i = 0; i < all->size(); ++i) {
@@ -150,8 +153,10 @@ class Reader {
           !IsOneSign(change.kind)) {
         continue;
       }
+      const HeldOutFit fit = HeldOut((*all)[i].reading);
       if (misfits[i] < misfits[k] + kLeastGain ||
-          Confirms(other, HeldOut((*all)[i].reading))) {
+          (Confirms(other, fit) &&
+           !IsClearlyBetter(fit, held_out, {change.joint}))) {
         change.or_other_sign = true;
       }
     }

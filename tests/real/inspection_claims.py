@@ -20,7 +20,25 @@ DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 UR10E = "--torque_constants=14.87,13.26,11.13,10.62,11.03,11.47"
 
 # (log, finding with joint, why it is true)
-TRUE = []
+TRUE = [
+    ("dfki_acrobot/.*", "saturated@1",
+     "TRUTH: tau is the command of a controller; it is 0.5 N m exactly, its largest value"),
+    ("dfki_double_pendulum/C1_sysid_0[568]", "quantised@[12]",
+     "SOURCE: the torque's quantum is 5.9e-3 N m, and this drive idles at .03 N m rms"),
+    ("dfki_simple_pendulum/handguided", "computed_torque@0",
+     "SOURCE: the torque is computed from q"),
+    ("dfki_simple_pendulum/swing_C", "outliers@1",
+     "the log: single rows of 3 to 18 N m between rows of about .5"),
+    ("innopolis_pendubot/.*", "no_torque@2", "SOURCE: joint 2 passive, tau2 = 0, column kept"),
+    ("innopolis_pendubot/position_A_1p2_v_0p05", "holes@0", "SOURCE: one 0.24 s hole"),
+    ("innopolis_pendubot/position_A_1p2_v_0p(01|4|5)", "holes@0",
+     "the log: steps of 32 ms and more in its own stamps, of 10 ms"),
+    ("innopolis_pendubot/.*", "velocity_delay@[12]",
+     "the log: qd is most like the slope of q 30 to 32 ms before (cross-correlation)"),
+    ("innopolis_pendubot/position_A_1p2_v_0p1", "velocity@1",
+     "the log: q1 jumps by .79 rad and back within one row, at 1.78 s"),
+    ("panda_set2/log", "clock@0", "TRUTH: mean period 1.022 ms, stamps of 1 ms, holes"),
+]
 
 
 def logs():
