@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 // neighbours, and each joint goes both ways in both halves.
 constexpr int kStretches = 32;
 // Of the torque's squares: no model leaves less than 1 % of the torque.
-constexpr double kLeast = 1e-4;
+constexpr double kLeastRelative = 1e-4;
 // Of squares. What is claimed has to explain more than it leaves: structured
 // errors of a model that is read rightly trade with each other below that.
 constexpr double kHalf = .5;
@@ -23,8 +23,8 @@ constexpr double kHalf = .5;
 constexpr double kTenth = .1;
 // Nats per sample by which `changed` leaves less, half the log of squares.
 double Gain(const HeldOutFit& as_is, const HeldOutFit& changed, int row) {
-  return .5 * ((as_is.joints.row(row).array() + kLeast).log() -
-               (changed.joints.row(row).array() + kLeast).log())
+  return .5 * ((as_is.joints.row(row).array() + kLeastRelative).log() -
+               (changed.joints.row(row).array() + kLeastRelative).log())
                   .sum();
 }
 
@@ -77,8 +77,8 @@ bool IsClearlyBetter(const HeldOutFit& as_is, const HeldOutFit& changed,
   for (int row = 0; row < 3; ++row) {
     double before = 0, after = 0;
     for (const int j : of) {
-      before += as_is.joints(row, j) + kLeast;
-      after += changed.joints(row, j) + kLeast;
+      before += as_is.joints(row, j) + kLeastRelative;
+      after += changed.joints(row, j) + kLeastRelative;
       if (!(changed.joints(row, j) < kHalf)) return false;
     }
     const bool of_all =
@@ -99,7 +99,7 @@ bool IsBetterForAll(const HeldOutFit& as_is, const HeldOutFit& changed) {
     // Nor may one joint leave half more than before.
     for (Eigen::Index j = 0; j < as_is.joints.cols(); ++j) {
       if (changed.joints(row, j) >
-          (1 + kHalf) * (as_is.joints(row, j) + kLeast)) {
+          (1 + kHalf) * (as_is.joints(row, j) + kLeastRelative)) {
         return false;
       }
     }

@@ -22,9 +22,9 @@ constexpr double kLeastDelay = .0125;  // s; filters and drives have less
 constexpr double kLeastTilt = 5;       // degrees
 constexpr int kMostChanges = 4;
 constexpr int kHeldOutSamples = 500;
-constexpr int kMostAsked = 2;    // of a kind, that are tried on held-out data
-constexpr double kMoving = .02;  // rad/s or m/s
-constexpr double kLeastMotion = 1;  // s, of a joint whose sign is asked for
+constexpr int kMostAsked = 2;  // of a kind, that are tried on held-out data
+constexpr double kAskedSpeed = .02;  // rad/s or m/s
+constexpr double kLeastAsked = 1;    // s, of a joint whose sign is asked for
 
 using Kind = ReadingChange::Kind;
 
@@ -40,12 +40,13 @@ class Reader {
         series_(series),
         samples_(kSamplesOfReading * 7 / std::max(7, robot.num_joints())),
         best_(robot) {
-    const Eigen::VectorXd moving = (series.motion().qd.array().abs() > kMoving)
-                                       .cast<double>()
-                                       .colwise()
-                                       .sum();
+    const Eigen::VectorXd moving =
+        (series.motion().qd.array().abs() > kAskedSpeed)
+            .cast<double>()
+            .colwise()
+            .sum();
     for (int j = 0; j < robot.num_joints(); ++j) {
-      const bool moves = moving[j] * series.dt() > kLeastMotion;
+      const bool moves = moving[j] * series.dt() > kLeastAsked;
       num_moving_ += moves;
       asked_.push_back(moves && (tells.empty() || tells[j]));
     }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "calib/inspect/log_reading.h"
+#include "calib/inspect/reading_change.h"
 
 namespace armcal {
 

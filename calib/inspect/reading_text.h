@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calib/inspect/log_reading.h"
+#include "calib/inspect/reading_change.h"
 #include "calib/logs/inspection_finding.h"
 #include "model/robot/robot.h"
 

@@ -13,10 +13,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kRounds = 8;           // of signs and parameters
+constexpr int kSignRounds = 8;       // of signs and parameters
 constexpr double kLeastTurned = .1;  // of the samples
 // Of squares, before and after: more is explained than is left.
-constexpr double kMostLeft = .5;
+constexpr double kMostLeftOfSize = .5;
 
 VectorXd SignsOf(const VectorXd& x) {
   return x.unaryExpr([](double value) { return value < 0 ? -1. : 1.; });
@@ -49,7 +49,7 @@ VectorXd FitWithSigns(const HeldOutHalves& halves, int half, int j) {
   double least = std::numeric_limits<double>::infinity();
   for (VectorXd signs : FirstSigns(halves.half(half).motion, size, j)) {
     VectorXd x;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kSignRounds; ++round) {
       tau.col(j) = signs.cwiseProduct(size);
       x = fit.Parameters(tau);
       signs = SignsOf(fit.Torque(x).col(j));
@@ -80,7 +80,7 @@ std::optional<UnsignedTorque> Ask(const HeldOutHalves& halves, int j) {
     samples += static_cast<double>(unseen.size());
   }
   found.turned /= samples;
-  if (!(after < kMostLeft * before)) return std::nullopt;
+  if (!(after < kMostLeftOfSize * before)) return std::nullopt;
   if (std::min(found.turned, 1 - found.turned) < kLeastTurned) {
     return std::nullopt;
   }

@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kWindow = .1;   // s: the period of the 10 Hz to which torques
+constexpr double kRateWindow =
+    .1;                          // s: the period of the 10 Hz to which torques
                                  // are compared, so what a fit sees of a clock
 constexpr int kLeastSteps = 10;  // in a window
 // What a rate has to be off by to be told, and to be known to. Inertias go with
@@ -140,8 +141,8 @@ class ClockEstimate {
 
   void MakeWindows() {
     const double length = steps_.dt.sum();
-    const double least =
-        std::max(kWindow, kLeastSteps * length / static_cast<double>(size_));
+    const double least = std::max(
+        kRateWindow, kLeastSteps * length / static_cast<double>(size_));
     double time = 0;
     Window window{0, 0, {}};
     for (Eigen::Index k = 0; k < size_; ++k) {
@@ -199,6 +200,22 @@ class ClockEstimate {
     clock_.wander = std::sqrt(std::max(0., shared));
     clock_.uneven = clock_.wander > kLeastRate && clock_.correlation > 0 &&
                     clock_.correlation * clock_.correlation > kExplained;
+    if (!clock_.uneven && !JointsAgree(off)) clock_.wrong_rate = false;
+  }
+
+  // Whether each joint that knows its own gain well has the rate's: of an even
+  // clock all have, where scaled velocities of some joints would be a mean of
+  // theirs and others'.
+  bool JointsAgree(double off) const {
+    for (const int j : joints_) {
+      const double way = steps_.v.col(j).cwiseProduct(steps_.dt).norm();
+      const double known = kSurely * std::sqrt(variance_[j]) / way;
+      const double apart = std::abs(steps_.laws[j].gain - 1 - off);
+      if (known < .5 * std::abs(off) && apart > .5 * std::abs(off)) {
+        return false;
+      }
+    }
+    return true;
   }
 
   // The variance of steps beside the mean rate that both groups share.

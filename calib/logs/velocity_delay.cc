@@ -11,12 +11,12 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr double kStretch = .05;       // s
-constexpr double kLeastDelay = .0125;  // s; filters and drives have less
-constexpr double kAlike = .3;          // of both halves' delays, of their mean
-constexpr double kMostLeft = .5;       // of squares, with and without a delay
-constexpr int kParts = 8;              // every second one is a half
-constexpr int kLeastStretches = 10;    // of a half
+constexpr double kStretch = .05;          // s
+constexpr double kLeastLateness = .0125;  // s; filters and drives have less
+constexpr double kAlike = .3;        // of both halves' delays, of their mean
+constexpr double kMostLeft = .5;     // of squares, with and without a delay
+constexpr int kParts = 8;            // every second one is a half
+constexpr int kLeastStretches = 10;  // of a half
 
 struct Stretches {
   MatrixXd columns;  // integral of qd, change of qd
@@ -62,7 +62,7 @@ std::optional<double> VelocityDelay(const Log& log, int j) {
     delays[half] = law[1] / law[0];
   }
   const double mean = .5 * (delays[0] + delays[1]);
-  if (!(std::abs(mean) > kLeastDelay)) return {};
+  if (!(std::abs(mean) > kLeastLateness)) return {};
   if (std::abs(delays[0] - delays[1]) > kAlike * std::abs(mean)) return {};
   return mean;
 }

@@ -12,13 +12,13 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 // Beyond it qd is of another unit or joint: the channel audit says so.
-constexpr double kLeastGain = .7, kMostGain = 1.4;
+constexpr double kLeastVelocityGain = .7, kMostVelocityGain = 1.4;
 // Of frequency times delay. The series for a late velocity ends after its
 // second order; what it leaves out is of this size to the third power over 6,
 // 2e-4 of the velocity at .1, far below the 1 % that a clock is blamed for.
 constexpr double kMostPhase = .1;
 
-double Rms(const VectorXd& x) {
+double RmsOf(const VectorXd& x) {
   return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
 }
 
@@ -57,9 +57,9 @@ VelocityLaw FitLaw(const VectorXd& dt, const VectorXd& v, const VectorXd& dq,
   *change -= columns.rightCols(2) * x.tail(2);
   law.gain = x[0];
   law.delay = x[1];
-  law.frequency = Rms(columns.col(1)) / Rms(columns.col(0));
+  law.frequency = RmsOf(columns.col(1)) / RmsOf(columns.col(0));
   law.correlation = columns.col(0).dot(dq) / (scale[0] * dq.norm() + 1e-300);
-  law.usable = law.gain > kLeastGain && law.gain < kMostGain &&
+  law.usable = law.gain > kLeastVelocityGain && law.gain < kMostVelocityGain &&
                std::abs(law.delay) * law.frequency < kMostPhase;
   return law;
 }
