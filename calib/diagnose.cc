@@ -4,11 +4,13 @@
 
 #include "calib/diagnose/diagnosis.h"
 #include "calib/diagnose/report.h"
+#include "calib/log_clocks.h"
 #include "calib/logs/drawn_torques.h"
 #include "calib/made_torques.h"
 #include "calib/refine/calibration_reader.h"
 #include "calib/refine/parameter_posterior.h"
 #include "calib/robot_outputs.h"
+#include "model/effects/effects.h"
 #include "model/robot_files/controller_reader.h"
 #include "model/text/option_name.h"
 
@@ -91,6 +93,17 @@ DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
   return fit;
 }
 
+// Of a log whose clock was wrong, and whose time is an estimate, no law is told
+// beyond the terms of joints that any file may lack and errors of a recording:
+// where time is off by a little, any law of motion seems to fit a little.
+void LeaveOutLaws(std::vector<std::string>* without) {
+  for (const Effect& effect : Effects()) {
+    const bool told =
+        effect.joint_term || effect.nature == Effect::Nature::kRecording;
+    if (!told) without->push_back(effect.name);
+  }
+}
+
 DrawnTorques Draw(const GapDiagnosis& diagnosis, const LogSet& held_out) {
   DrawnTorques drawn;
   drawn.labels = {diagnosis.has_reference     ? "as in the reference"
@@ -145,10 +158,13 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   reading.joint_names = robot.JointNames();
   reading.want_temperature = true;
   if (options.progress) options.progress("opening the logs", -1);
+  std::vector<DataFinding> clocks =
+      MendClocks(AllLogs(logs, options), &reading);
   if (!options.controller.empty()) {
     MakeTorques(robot, options.controller, AllLogs(logs, options), &reading);
   }
   DiagnosisOptions fit = FitOptions(options);
+  if (!clocks.empty()) LeaveOutLaws(&fit.without);
   const std::optional<CalibratedRobot> calibrated =
       Calibrated(robot, options.calibration, &fit.baseline);
   const LogSet training(logs.logs, reading, logs.crop);
@@ -160,6 +176,7 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   const LogSet* before = reference ? &*reference : nullptr;
   auto details = std::make_shared<GapDiagnosis>(DiagnoseGap(
       calibrated ? calibrated->robot : robot, fit, training, held_out, before));
+  details->data.insert(details->data.begin(), clocks.begin(), clocks.end());
   if (calibrated) {
     NoteCalibration(*calibrated, {&training, held_out, before}, &details->data);
   }

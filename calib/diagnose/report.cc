@@ -314,9 +314,13 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
 }  // namespace
 
 std::string BriefReport(const GapDiagnosis& diagnosis) {
+  std::string text;
+  for (const DataFinding& finding : diagnosis.data) {
+    if (finding.leads) text += "First: " + finding.finding + ". ";
+  }
   const std::string changed = FrictionChanged(diagnosis);
-  return changed.empty() ? BriefVerdict(diagnosis)
-                         : changed + " " + BriefVerdict(diagnosis);
+  if (!changed.empty()) text += changed + " ";
+  return text + BriefVerdict(diagnosis);
 }
 
 std::string FullReport(const GapDiagnosis& diagnosis, bool verbose) {

@@ -3,7 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/inspect/held_out_fit.h"
+#include "calib/inspect/reading_text.h"
 #include "calib/inspect/torque_scale.h"
+#include "calib/inspect/unsigned_torque.h"
+#include "calib/logs/clock_text.h"
+#include "calib/logs/held_values.h"
+#include "calib/logs/velocity_delay.h"
 #include "model/robot/axis_rotation.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
@@ -13,7 +19,6 @@ namespace armcal {
 namespace {
 
 using Eigen::VectorXd;
-using Kind = ReadingChange::Kind;
 
 constexpr int kMostRows = 1 << 20;
 constexpr int kSamples = 400;
@@ -44,12 +49,18 @@ class Inspector {
     result_.stamps = AuditStamps(log_);
     log_.t = (result_.stamps.unit * (log_.t.array() - log_.t[0])).eval();
     result_.findings = AuditChannels(robot_, log_, result_.stamps);
+    const auto held = AuditHeldValues(robot_, log_);
+    result_.findings.insert(result_.findings.end(), held.begin(), held.end());
+    AddVelocityDelays();
+    AddClock();
     result_.duration = log_.t[log_.size() - 1];
     DescribeMotion();
     // What stands still for no reason would be explained by anything.
-    const bool stuck = std::any_of(
-        result_.findings.begin(), result_.findings.end(),
-        [](const InspectionFinding& f) { return f.finding == "stuck"; });
+    const bool stuck =
+        std::any_of(result_.findings.begin(), result_.findings.end(),
+                    [](const InspectionFinding& f) {
+                      return f.finding == "stuck" || f.finding == "no_torque";
+                    });
     if (result_.stamps.mean_step > 0 && !stuck) ReadTorques();
     return result_;
   }
@@ -62,10 +73,53 @@ class Inspector {
         (log_.qref - log_.q).colwise().norm() / std::sqrt(log_.size());
   }
 
-  void ReadTorques() {
+  UniformSeries Series() const {
     const double dt = std::max(result_.stamps.mean_step, .002);
     const double hz = std::min(kBandwidth, .2 / dt);
-    const UniformSeries series(log_, dt, std::max(.25 / hz, 3 * dt), hz);
+    return {log_, dt, std::max(.25 / hz, 3 * dt), hz};
+  }
+
+  // What a fit leaves of torques held out, read as they are.
+  HeldOutFit HeldOut() const {
+    return FitHeldOut(
+        robot_, SamplesAs(LogReading(robot_), robot_, Series(), kSamples));
+  }
+
+  // The time that the joints tell is offered only where torques that are held
+  // out fit better with it, or, without torques, where rows are not at the
+  // stamps' times.
+  void AddClock() {
+    result_.clock = EstimateSampleClock(log_);
+    const SampleClock& clock = result_.clock;
+    if (!clock.wrong()) return;
+    InspectionFinding finding{"clock", ClockSentence(clock),
+                              ClockEvidence(clock),
+                              "log each sample's own time"};
+    bool better = clock.uneven;
+    const Eigen::VectorXd stamps = log_.t;
+    if (log_.tau.size() > 0 && Series().num_moving() >= kLeastMoving) {
+      const HeldOutFit before = HeldOut();
+      log_.t = clock.t;
+      const HeldOutFit after = HeldOut();
+      better = after.all[0] < before.all[0] && after.all[1] < before.all[1];
+      finding.evidence += Format(
+          "; of torques held out a fit leaves %.3g %% by the stamps and %.3g "
+          "%% by that time",
+          before.residual_percent, after.residual_percent);
+      finding.held_out_before = before.residual_percent;
+      finding.held_out_after = after.residual_percent;
+    }
+    result_.rebuilds_time = better;
+    log_.t = better ? clock.t : stamps;
+    if (better) {
+      finding.remedy = OptionName("fix") + " writes the log with that time";
+    }
+    result_.findings.push_back(finding);
+  }
+
+  void ReadTorques() {
+    const UniformSeries series = Series();
+    const double dt = series.dt();
     result_.top_speed = series.motion().qd.cwiseAbs().colwise().maxCoeff();
     result_.moving_share = static_cast<double>(series.num_moving()) /
                            static_cast<double>(series.motion().size());
@@ -80,88 +134,67 @@ class Inspector {
       result_.coverage.reason = "no torque is logged";
       return;
     }
-    const ReadingFinding found = FindReading(robot_, series);
+    const ReadingFinding found = FindReading(robot_, series, Tells());
     result_.reading = found.reading;
-    result_.as_it_is = found.changes.empty();
+    result_.as_it_is = found.changes.empty() && !result_.clock.wrong();
     result_.residual_percent = found.residual_percent;
-    for (const ReadingChange& change : found.changes) Add(change, found);
+    for (const ReadingChange& change : found.changes) {
+      result_.findings.push_back(FindingOf(change, found.reading, robot_));
+    }
+    AddUnsigned(series);
     AddScale(SamplesAs(found.reading, robot_, series, kSamples));
   }
 
-  std::string Joint(int j) const { return robot_.links[j].joint.name; }
-
-  void Add(const ReadingChange& change, const ReadingFinding& found) {
-    InspectionFinding finding;
-    finding.joint = change.joint;
-    finding.probability = change.probability;
-    finding.evidence = Format(
-        "torques fit the arm to %.3g %% as logged and to %.3g %% so (%.0f "
-        "nats)",
-        found.residual_percent_as_is, found.residual_percent, change.gain);
-    finding.remedy = OptionName("fix") + " writes the log so";
-    switch (change.kind) {
-      case Kind::kExchanged:
-        finding.finding = "joint_order";
-        finding.sentence = "the columns of " + Joint(change.joint) + " and " +
-                           Joint(change.other) + " are exchanged";
-        break;
-      case Kind::kPositionSign:
-        finding.finding = "position_sign";
-        finding.sentence =
-            "the position of " + Joint(change.joint) + " has the wrong sign";
-        if (change.or_other_sign) finding.sentence += ", or its torque";
-        break;
-      case Kind::kTorqueSign:
-        finding.finding = "torque_sign";
-        finding.sentence =
-            "the torque of " + Joint(change.joint) + " has the wrong sign";
-        if (change.or_other_sign) finding.sentence += ", or its position";
-        break;
-      case Kind::kJointSign:
-        finding.finding = "joint_sign";
-        finding.sentence = Joint(change.joint) +
-                           " turns the other way than the robot file says";
-        break;
-      case Kind::kDegrees:
-        finding.finding = "position_unit";
-        finding.sentence = "positions are in degrees, not in rad";
-        finding.remedy =
-            "name the columns q1[deg] ..., or " + OptionName("fix");
-        break;
-      case Kind::kGravity:
-        AddGravity(found.reading.gravity, &finding);
-        break;
-      case Kind::kDelay:
-        finding.finding = "delay";
-        finding.sentence =
-            Format("torques are recorded %.1f ms %s the positions",
-                   1e3 * std::abs(found.reading.delay),
-                   found.reading.delay > 0 ? "after" : "before");
-        break;
+  // Which joints' torques have the values to tell a sign by.
+  std::vector<bool> Tells() const {
+    std::vector<bool> tells(robot_.num_joints(), true);
+    for (const InspectionFinding& f : result_.findings) {
+      if (f.finding == "quantised") tells[f.joint] = false;
     }
-    result_.findings.push_back(finding);
+    return tells;
   }
 
-  void AddGravity(const Eigen::Vector3d& gravity, InspectionFinding* finding) {
-    if (gravity.norm() == 0) {
-      finding->finding = "gravity_compensated";
-      finding->sentence = "the torques hold no gravity";
-      finding->remedy =
-          OptionName("gravity") + "=0,0,0, or log torques that hold it";
-      return;
+  void AddVelocityDelays() {
+    if (log_.qd.size() == 0) return;
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      const auto delay = VelocityDelay(log_, j);
+      if (!delay) continue;
+      result_.findings.push_back(
+          {"velocity_delay",
+           Format("the velocity of %s is recorded %.1f ms %s its position",
+                  robot_.links[j].joint.name.c_str(), 1e3 * std::abs(*delay),
+                  *delay > 0 ? "after" : "before"),
+           "as the position changes in two halves of the log",
+           "armcal differentiates positions; other tools should, too", j});
     }
-    const double angle =
-        std::acos(std::clamp(
-            gravity.normalized().dot(robot_.gravity.normalized()), -1., 1.)) /
-        kDegree;
-    finding->finding = "gravity";
-    finding->sentence = Format(
-        "gravity points %.0f degrees away from where the robot file "
-        "has it",
-        angle);
-    finding->remedy =
-        OptionName("gravity") +
-        Format("=%.3g,%.3g,%.3g", gravity[0], gravity[1], gravity[2]);
+  }
+
+  void AddUnsigned(const UniformSeries& series) {
+    std::vector<int> joints;
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      const double low = log_.tau.col(j).minCoeff();
+      const double high = log_.tau.col(j).maxCoeff();
+      if (low < high && low * high >= 0) joints.push_back(j);
+    }
+    Robot robot = robot_;
+    robot.gravity = result_.reading.gravity;
+    const WiringSamples samples =
+        SamplesAs(result_.reading, robot_, series, kSamples);
+    for (const UnsignedTorque& lost :
+         FindUnsignedTorques(robot, samples, joints)) {
+      InspectionFinding finding{
+          "unsigned_torque",
+          "the torque of " + robot_.links[lost.joint].joint.name +
+              " has lost its sign",
+          Format("of its size, held out, a fit leaves %.3g %% as logged and "
+                 "%.3g %% with both signs, the other in %.0f %% of the samples",
+                 lost.before, lost.after,
+                 100 * std::min(lost.turned, 1 - lost.turned)),
+          "log the torque with its sign", lost.joint};
+      finding.held_out_before = lost.before;
+      finding.held_out_after = lost.after;
+      result_.findings.push_back(finding);
+    }
   }
 
   // What is far from 1 for all joints that tell is a matter of units.
@@ -213,7 +246,8 @@ LogInspection InspectLog(const Robot& robot, const LogSource& log,
 Log Mended(const Robot& robot, const Log& log,
            const LogInspection& inspection) {
   Log mended = log;
-  mended.t = inspection.stamps.unit * log.t;
+  mended.t = inspection.rebuilds_time ? inspection.clock.t
+                                      : inspection.stamps.unit * log.t;
   const LogReading& reading = inspection.reading;
   for (int j = 0; j < robot.num_joints(); ++j) {
     const int from = reading.wiring.column[j];

@@ -8,6 +8,7 @@
 #include "calib/inspect/log_reading.h"
 #include "calib/logs/channel_audit.h"
 #include "calib/logs/inspection_finding.h"
+#include "calib/logs/sample_clock.h"
 #include "model/log_files/log_reader.h"
 #include "model/robot/robot.h"
 
@@ -20,9 +21,11 @@ struct LogInspection {
   bool whole = true;    // false: only the first rows were looked at
   double duration = 0;  // s
   StampFigures stamps;
-  std::string torque_source;  // empty: none, but commands
-  Eigen::VectorXd travel;     // per joint, rad or m
-  Eigen::VectorXd top_speed;  // rad/s or m/s
+  SampleClock clock;
+  bool rebuilds_time = false;  // the log fits better by the clock's time
+  std::string torque_source;   // empty: none, but commands
+  Eigen::VectorXd travel;      // per joint, rad or m
+  Eigen::VectorXd top_speed;   // rad/s or m/s
   // Rms of command minus position, rad or m; empty where no command is logged.
   Eigen::VectorXd tracking_rms;
   double moving_share = 0;      // of the time
@@ -39,7 +42,7 @@ struct LogInspection {
 LogInspection InspectLog(const Robot& robot, const LogSource& log,
                          const LogReaderOptions& options);
 
-// The log as the reading has it, with its time in s.
+// The log as the reading has it, with its time in s, or the clock's time.
 Log Mended(const Robot& robot, const Log& log, const LogInspection& inspection);
 
 }  // namespace armcal

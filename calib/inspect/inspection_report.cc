@@ -101,6 +101,24 @@ std::string LogText(const Robot& robot, const LogInspection& log) {
   return text;
 }
 
+json HeldOutJson(const InspectionFinding& finding) {
+  if (finding.held_out_before == 0) return nullptr;
+  return {{"before", JsonNumber(finding.held_out_before)},
+          {"after", JsonNumber(finding.held_out_after)}};
+}
+
+// Null where nothing is told.
+json ClockJson(const SampleClock& clock) {
+  if (clock.period == 0) return nullptr;
+  return {{"period", JsonNumber(clock.period)},
+          {"period_stddev", JsonNumber(clock.period_stddev)},
+          {"rate", JsonNumber(clock.rate)},
+          {"wander", JsonNumber(clock.wander)},
+          {"correlation", JsonNumber(clock.correlation)},
+          {"repeated", clock.repeated},
+          {"skipped", clock.skipped}};
+}
+
 json FindingsJson(const Robot& robot,
                   const std::vector<InspectionFinding>& findings) {
   json list = json::array();
@@ -113,7 +131,8 @@ json FindingsJson(const Robot& robot,
          {"joint",
           finding.joint < 0 ? "" : robot.links[finding.joint].joint.name},
          {"joint_index", finding.joint + 1},
-         {"probability", JsonNumber(finding.probability)}});
+         {"probability", JsonNumber(finding.probability)},
+         {"held_out", HeldOutJson(finding)}});
   }
   return list;
 }
@@ -155,6 +174,7 @@ json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
                     {"longest_step", JsonNumber(log.stamps.longest_gap)},
                     {"lost_share", JsonNumber(log.stamps.lost_share)},
                     {"duplicates", log.stamps.duplicates},
+                    {"clock", ClockJson(log.clock)},
                     {"moving_share", JsonNumber(log.moving_share)},
                     {"torque", log.torque_source},
                     {"residual_percent", JsonNumber(log.residual_percent)},

@@ -1,6 +1,7 @@
 #include "calib/inspect/log_coverage.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "calib/diagnose/data/audit.h"
 #include "calib/diagnose/data/rows.h"
@@ -11,6 +12,7 @@
 #include "calib/linear/calibration_report.h"
 #include "calib/linear/outlier_report.h"
 #include "calib/logs/prepared_logs.h"
+#include "calib/numerics/median.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
 
@@ -55,11 +57,28 @@ std::vector<std::vector<double>> Reversals(const LogSet& logs,
   return times;
 }
 
+// Whether an outlier lies apart from the rows around it: gross errors do. Where
+// a command jumps, or the arm is pushed, the rows after it stay there.
+bool LiesApart(const Log& log, const TorqueOutlier& outlier) {
+  constexpr int kReach = 8;    // rows to both sides
+  constexpr double kFar = 10;  // mean deviations of the rows around
+  const auto row = static_cast<int>(outlier.row - log.first_row);
+  std::vector<double> around, off;
+  for (int k = std::max(0, row - kReach);
+       k <= std::min(log.size() - 1, row + kReach); ++k) {
+    around.push_back(log.tau(k, outlier.joint));
+  }
+  const double middle = Median(around);
+  for (const double x : around) off.push_back(std::abs(x - middle));
+  return std::abs(outlier.recorded - middle) > kFar * Median(off);
+}
+
 // Gross errors per joint but for those where the joint turns round: there
 // friction jumps, and a model whose transition is a little off leaves samples
 // as large. Positions low-passed at f Hz tell where that is to half a period.
 std::vector<long> ErrorsInMotion(const LinearCalibration& result,
-                                 const LogSet& logs, int num_joints) {
+                                 const LogSet& logs, const Log& recorded,
+                                 int num_joints) {
   std::vector<long> counts(num_joints, 0);
   if (CountOutliers(result) == 0) return counts;
   const double f = result.preparation.bandwidth_hz;
@@ -69,7 +88,8 @@ std::vector<long> ErrorsInMotion(const LinearCalibration& result,
     const std::vector<double>& of_joint = turns[o.joint];
     const auto next =
         std::lower_bound(of_joint.begin(), of_joint.end(), o.time - near);
-    if (next == of_joint.end() || *next > o.time + near) ++counts[o.joint];
+    if (next != of_joint.end() && *next <= o.time + near) continue;
+    if (LiesApart(recorded, o)) ++counts[o.joint];
   }
   return counts;
 }
@@ -114,7 +134,9 @@ LogCoverage CoverageOf(const Robot& robot, const LogSource& log,
     for (int j = 0; j < robot.num_joints(); ++j) {
       coverage.outliers.push_back(CountOutliers(result, j));
     }
-    AddOutliers(robot, ErrorsInMotion(result, logs, robot.num_joints()),
+    AddOutliers(robot,
+                ErrorsInMotion(result, logs, ReadWholeLog(log, options),
+                               robot.num_joints()),
                 logs.time_bases()[0].samples, &coverage);
     coverage.advice =
         AdviceText(robot, AdviseMotions(robot, result, linear, logs), id.total);

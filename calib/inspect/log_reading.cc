@@ -3,8 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <map>
+#include <numeric>
 
+#include "calib/inspect/held_out_fit.h"
+#include "calib/inspect/reading_candidates.h"
 #include "model/robot/axis_rotation.h"
 
 namespace armcal {
@@ -18,46 +21,12 @@ constexpr double kLeastGain = 15;      // nats
 constexpr double kLeastDelay = .0125;  // s; filters and drives have less
 constexpr double kLeastTilt = 5;       // degrees
 constexpr int kMostChanges = 4;
+constexpr int kHeldOutSamples = 500;
+constexpr int kMostAsked = 2;  // of a kind, that are tried on held-out data
+constexpr double kAskedSpeed = .02;  // rad/s or m/s
+constexpr double kLeastAsked = 1;    // s, of a joint whose sign is asked for
 
 using Kind = ReadingChange::Kind;
-
-struct Candidate {
-  LogReading reading;
-  ReadingChange change;
-};
-
-std::vector<Candidate> WiringCandidates(const LogReading& from) {
-  std::vector<Candidate> all;
-  const auto n = static_cast<int>(from.wiring.column.size());
-  for (int j = 0; j < n; ++j) {
-    for (int k = j + 1; k < n; ++k) {
-      all.push_back({from, {Kind::kExchanged, j, k}});
-      std::vector<int>& column = all.back().reading.wiring.column;
-      std::swap(column[j], column[k]);
-    }
-    for (const Kind kind :
-         {Kind::kPositionSign, Kind::kTorqueSign, Kind::kJointSign}) {
-      all.push_back({from, {kind, j}});
-      Wiring& wiring = all.back().reading.wiring;
-      if (kind != Kind::kTorqueSign) wiring.position_sign[j] *= -1;
-      if (kind != Kind::kPositionSign) wiring.torque_sign[j] *= -1;
-    }
-  }
-  return all;
-}
-
-std::vector<Candidate> GravityCandidates(const LogReading& from,
-                                         double magnitude) {
-  std::vector<Candidate> all = {{from, {Kind::kGravity}}};
-  all[0].reading.gravity.setZero();
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double sign : {-1., 1.}) {
-      all.push_back({from, {Kind::kGravity}});
-      all.back().reading.gravity = sign * magnitude * Vector3d::Unit(axis);
-    }
-  }
-  return all;
-}
 
 bool IsOneSign(Kind kind) {
   return kind == Kind::kPositionSign || kind == Kind::kTorqueSign;
@@ -65,13 +34,26 @@ bool IsOneSign(Kind kind) {
 
 class Reader {
  public:
-  Reader(const Robot& robot, const UniformSeries& series)
+  Reader(const Robot& robot, const UniformSeries& series,
+         const std::vector<bool>& tells)
       : robot_(robot),
         series_(series),
         samples_(kSamplesOfReading * 7 / std::max(7, robot.num_joints())),
-        best_(robot) {}
+        best_(robot) {
+    const Eigen::VectorXd moving =
+        (series.motion().qd.array().abs() > kAskedSpeed)
+            .cast<double>()
+            .colwise()
+            .sum();
+    for (int j = 0; j < robot.num_joints(); ++j) {
+      const bool moves = moving[j] * series.dt() > kLeastAsked;
+      num_moving_ += moves;
+      asked_.push_back(moves && (tells.empty() || tells[j]));
+    }
+  }
 
   ReadingFinding Run() {
+    held_out_ = HeldOut(best_);
     ReadingFinding finding{best_, {}, 0, 0};
     least_ = Misfit(best_, &finding.residual_percent_as_is);
     while (static_cast<int>(changes_.size()) < kMostChanges && Improve()) {
@@ -84,10 +66,17 @@ class Reader {
   }
 
  private:
-  TorqueFit FitOf(const LogReading& reading) const {
+  Robot RobotOf(const LogReading& reading) const {
     Robot robot = robot_;
     robot.gravity = reading.gravity;
-    return {robot, SamplesOf(reading).motion};
+    return robot;
+  }
+  TorqueFit FitOf(const LogReading& reading) const {
+    return {RobotOf(reading), SamplesOf(reading).motion};
+  }
+  HeldOutFit HeldOut(const LogReading& reading) const {
+    return FitHeldOut(RobotOf(reading),
+                      SamplesAs(reading, robot_, series_, kHeldOutSamples));
   }
   WiringSamples SamplesOf(const LogReading& reading) const {
     return SamplesAs(reading, robot_, series_, samples_);
@@ -96,49 +85,99 @@ class Reader {
     return FitOf(reading).Misfit(SamplesOf(reading).tau, percent);
   }
 
-  // One discrete change, the best; false where none is worth it.
-  bool Improve() {
-    std::vector<Candidate> all = WiringCandidates(best_);
+  std::vector<Candidate> Candidates() const {
+    std::vector<Candidate> all = WiringCandidates(best_, asked_);
     const double magnitude =
         robot_.gravity.norm() > 0 ? robot_.gravity.norm() : 9.81;
     for (const Candidate& candidate : GravityCandidates(best_, magnitude)) {
-      if (candidate.reading.gravity != best_.gravity) all.push_back(candidate);
+      if (AsksGravity() && candidate.reading.gravity != best_.gravity) {
+        all.push_back(candidate);
+      }
     }
     all.push_back({best_, {Kind::kDegrees}});
     all.back().reading.degrees = !best_.degrees;
     all.push_back(BestDelay());
+    return all;
+  }
+
+  // One discrete change, the best that held-out torques confirm; false where
+  // there is none.
+  bool Improve() {
+    std::vector<Candidate> all = Candidates();
     std::vector<double> misfits;
     for (const Candidate& candidate : all) {
       misfits.push_back(Misfit(candidate.reading));
     }
-    const size_t k =
-        std::min_element(misfits.begin(), misfits.end()) - misfits.begin();
-    if (!(misfits[k] < least_ - kLeastGain)) return false;
-    double sum = 0;
-    for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
-    for (size_t i = 0; i < all.size(); ++i) {
-      const bool other_sign = all[i].change.joint == all[k].change.joint &&
-                              IsOneSign(all[i].change.kind) &&
-                              IsOneSign(all[k].change.kind) && i != k;
-      if (other_sign && misfits[i] < misfits[k] + kLeastGain) {
-        all[k].change.or_other_sign = true;
-      }
+    std::vector<size_t> order(all.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](size_t a, size_t b) { return misfits[a] < misfits[b]; });
+    std::map<Kind, int> asked;
+    for (const size_t k : order) {
+      if (!(misfits[k] < least_ - kLeastGain)) return false;
+      if (asked[all[k].change.kind]++ >= kMostAsked) continue;
+      const HeldOutFit held_out = HeldOut(all[k].reading);
+      if (!Confirms(all[k].change, held_out)) continue;
+      NoteOtherSign(misfits, held_out, k, &all);
+      double sum = 0;
+      for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
+      Accept(all[k], misfits[k], std::min(1., 1 / sum), held_out);
+      return true;
     }
-    Accept(all[k], misfits[k], 1 / sum);
-    return true;
+    return false;
   }
 
-  void Accept(Candidate candidate, double misfit, double probability) {
+  // The offsets and first moments of one joint that moves alone say the same as
+  // gravity's direction.
+  bool AsksGravity() const {
+    return num_moving_ > 1 || robot_.num_joints() == 1;
+  }
+
+  bool Confirms(const ReadingChange& change, const HeldOutFit& held_out) const {
+    if (change.kind == Kind::kDelay) return IsBetterForAll(held_out_, held_out);
+    std::vector<int> of;
+    for (const int j : {change.joint, change.other}) {
+      if (j >= 0) of.push_back(j);
+    }
+    return IsClearlyBetter(held_out_, held_out, of);
+  }
+
+  // Whether the sign of the joint's other signal would do as well, or nearly
+  // so: then what the model misses may decide between them.
+  void NoteOtherSign(const std::vector<double>& misfits,
+                     const HeldOutFit& held_out, size_t k,
+                     std::vector<Candidate>* all) const {
+    ReadingChange& change = (*all)[k].change;
+    for (size_t i = 0; i < all->size(); ++i) {
+      const ReadingChange& other = (*all)[i].change;
+      if (i == k || other.joint != change.joint || !IsOneSign(other.kind) ||
+          !IsOneSign(change.kind)) {
+        continue;
+      }
+      const HeldOutFit fit = HeldOut((*all)[i].reading);
+      if (misfits[i] < misfits[k] + kLeastGain ||
+          (Confirms(other, fit) &&
+           !IsClearlyBetter(fit, held_out, {change.joint}))) {
+        change.or_other_sign = true;
+      }
+    }
+  }
+
+  void Accept(Candidate candidate, double misfit, double probability,
+              const HeldOutFit& held_out) {
     candidate.change.gain = least_ - misfit;
     candidate.change.probability = probability;
+    candidate.change.held_out_before = held_out_.residual_percent;
+    candidate.change.held_out_after = held_out.residual_percent;
     changes_.push_back(candidate.change);
     best_ = candidate.reading;
     least_ = misfit;
+    held_out_ = held_out;
   }
 
   // A tilt about the world's horizontal axes, by ever smaller steps.
   void RefineGravity() {
-    if (best_.gravity.norm() == 0) return;
+    if (best_.gravity.norm() == 0 || !AsksGravity()) return;
     LogReading at = best_;
     double misfit = least_;
     const Vector3d down = best_.gravity.normalized();
@@ -164,13 +203,16 @@ class Reader {
     const double tilt =
         std::acos(std::min(1., at.gravity.normalized().dot(down))) / kDegree;
     if (tilt < kLeastTilt || misfit > least_ - kLeastGain) return;
+    const HeldOutFit held_out = HeldOut(at);
     // One change of gravity, not two.
     const auto before = std::find_if(
         changes_.begin(), changes_.end(),
         [](const ReadingChange& c) { return c.kind == Kind::kGravity; });
     if (before == changes_.end()) {
-      Accept({at, {Kind::kGravity}}, misfit, 1);
-    } else {
+      if (!Confirms({Kind::kGravity}, held_out)) return;
+      Accept({at, {Kind::kGravity}}, misfit, 1, held_out);
+    } else if (held_out.residual_percent < held_out_.residual_percent) {
+      before->held_out_after = held_out.residual_percent;
       before->gain += least_ - misfit;
       best_ = at;
       least_ = misfit;
@@ -207,6 +249,9 @@ class Reader {
   const int samples_;
   LogReading best_;
   double least_ = 0;
+  HeldOutFit held_out_;      // of best_
+  std::vector<bool> asked_;  // of columns as logged, whether signs are asked
+  int num_moving_ = 0;
   std::vector<ReadingChange> changes_;
 };
 
@@ -225,8 +270,9 @@ WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
   return samples;
 }
 
-ReadingFinding FindReading(const Robot& robot, const UniformSeries& series) {
-  return Reader(robot, series).Run();
+ReadingFinding FindReading(const Robot& robot, const UniformSeries& series,
+                           const std::vector<bool>& tells) {
+  return Reader(robot, series, tells).Run();
 }
 
 }  // namespace armcal

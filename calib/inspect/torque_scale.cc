@@ -27,6 +27,10 @@ VectorXd TorqueScale(const Robot& robot, const WiringSamples& samples) {
   const double most = needed.colwise().norm().maxCoeff();
   for (int j = 0; j < n; ++j) {
     if (!(needed.col(j).norm() > kHardlyAny * most)) continue;
+    // What a joint at rest needs follows from the others' motion alone.
+    if (!(motion.qd.col(j).norm() > kTransition * std::sqrt(motion.size()))) {
+      continue;
+    }
     MatrixXd others(motion.size(), 4);
     others << motion.qd.col(j),
         (motion.qd.col(j).array() / kTransition).tanh().matrix(),

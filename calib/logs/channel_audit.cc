@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "model/text/format.h"
@@ -17,6 +18,11 @@ constexpr double kStuckTime = 1;  // s of motion
 constexpr double kLostShare = .1;
 constexpr double kAtLimit = .02;  // share of samples
 constexpr int kFewValues = 40;
+// s: a quarter of the period of the 8 Hz to which torques are compared. Motion
+// is not known over a longer hole.
+constexpr double kHole = .03125;
+constexpr double kJump = 5;     // usual steps, of 1 s of motion that was missed
+constexpr double kQuanta = 10;  // of position, that a velocity goes through
 
 std::vector<double> Steps(const Log& log) {
   std::vector<double> steps;
@@ -99,6 +105,13 @@ class ChannelAudit {
                   100 * stamps_.lost_share, 1e3 * stamps_.step),
            "log without losses; single losses are interpolated"});
     }
+    if (stamps_.holes > 0) {
+      findings_.push_back(
+          {"holes", "the stamps have holes",
+           Format("%ld of together %.3g s, the longest of %.3g s",
+                  stamps_.holes, stamps_.hole_time, stamps_.longest_gap),
+           "log without losses; the log is split there"});
+    }
   }
 
   // A column that does not change although the others of its joint do.
@@ -110,6 +123,14 @@ class ChannelAudit {
         slope.array().abs() > kMoving;
     if (low < high) {
       counts = counts && tau.array() > low && tau.array() < high;
+    }
+    if (low == 0 && high == 0) {
+      findings_.push_back({"no_torque", Name("torque", j) + " is zero",
+                           "0 in all samples",
+                           "leave the joint out if nothing drives it, or log "
+                           "its torque",
+                           j});
+      return;
     }
     const double torque = LongestConstant(log_, tau, counts);
     if (torque > kStuckTime)
@@ -124,17 +145,63 @@ class ChannelAudit {
         Stuck("command", j, command, "while the joint moves");
       }
     }
-    if (log_.qd.size() == 0) return;
+    if (log_.qd.size() == 0) {
+      AddStuckUntilJump(j);
+      return;
+    }
     const double velocity = LongestConstant(
         log_, log_.qd.col(j), moves && log_.qd.col(j).array() != 0);
     if (velocity > kStuckTime) {
       Stuck("velocity", j, velocity, "while its position changes");
     }
-    const double position = LongestConstant(
-        log_, log_.q.col(j), log_.qd.col(j).array().abs() > kMoving);
+    const double position = LongestStill(j);
     if (position > kStuckTime) {
       Stuck("position", j, position, "while its velocity does not vanish");
     }
+  }
+
+  // Without velocities: a position that stands still and then, in one row, is
+  // somewhere that its usual steps do not reach.
+  void AddStuckUntilJump(int j) {
+    std::vector<double> steps;
+    for (int k = 0; k + 1 < log_.size(); ++k) {
+      steps.push_back(std::abs(log_.q(k + 1, j) - log_.q(k, j)));
+    }
+    const double usual = Quantile(steps, .99);
+    double still = 0, longest = 0;
+    for (int k = 0; k + 1 < log_.size(); ++k) {
+      if (steps[k] > kJump * usual) longest = std::max(longest, still);
+      still = steps[k] == 0 ? still + log_.t[k + 1] - log_.t[k] : 0;
+    }
+    if (longest > kStuckTime) {
+      Stuck("position", j, longest, "and then it is far away in one row");
+    }
+  }
+
+  // The longest time for which a position has one value although its velocity,
+  // summed over that time, goes through many of the position's quanta and is
+  // that of motion: noise of a velocity at rest sums to nothing.
+  double LongestStill(int j) const {
+    const VectorXd q = log_.q.col(j), qd = log_.qd.col(j);
+    double quantum = std::numeric_limits<double>::infinity();
+    for (int k = 0; k + 1 < log_.size(); ++k) {
+      const double change = std::abs(q[k + 1] - q[k]);
+      if (change > 0) quantum = std::min(quantum, change);
+    }
+    if (!std::isfinite(quantum)) quantum = 0;  // it never changes
+    double longest = 0, time = 0, path = 0, way = 0;
+    for (int k = 0; k + 1 < log_.size(); ++k) {
+      const double dt = log_.t[k + 1] - log_.t[k];
+      if (q[k + 1] != q[k]) time = path = way = 0;
+      if (q[k + 1] != q[k]) continue;
+      time += dt;
+      way += .5 * (qd[k] + qd[k + 1]) * dt;
+      path = std::max(path, std::abs(way));
+      if (path > std::max(kQuanta * quantum, kMoving * time)) {
+        longest = std::max(longest, time);
+      }
+    }
+    return longest;
   }
   void Stuck(const char* signal, int j, double time, const char* although) {
     findings_.push_back(
@@ -216,6 +283,11 @@ StampFigures AuditStamps(const Log& log) {
   constexpr double kSlowest = .25;
   while (figures.step * figures.unit > kSlowest && figures.unit > 1e-9) {
     figures.unit /= 1000;
+  }
+  for (const double step : steps) {
+    if (step <= 3 * figures.step || step * figures.unit <= kHole) continue;
+    ++figures.holes;
+    figures.hole_time += step * figures.unit;
   }
   long periods = 0, lost = 0;
   for (const double step : steps) {

@@ -16,6 +16,9 @@ struct StampFigures {
   double lost_share = 0;  // of samples, where steps are multiples of `step`
   long duplicates = 0;
   double longest_gap = 0;  // s
+  // Steps over three usual ones and over kHole: they split the log.
+  long holes = 0;
+  double hole_time = 0;  // s, of all of them
   // By which stamps have to be multiplied to be seconds: 1, or 1e-3, 1e-6, 1e-9
   // where no arm is logged that slowly.
   double unit = 1;

@@ -122,31 +122,54 @@ void TorqueFit::HoldNegative(const VectorXd& x, std::vector<bool>* held) const {
   }
 }
 
-double TorqueFit::Misfit(const MatrixXd& tau, double* residual_percent) const {
+TorqueFit::Fitted TorqueFit::FitTo(const MatrixXd& tau) const {
   constexpr int kRounds = 3;  // of the joints' noise
   const auto n = static_cast<int>(columns_.size());
   const auto samples = static_cast<double>(tau.rows());
-  VectorXd variance(n), rms(n);
+  VectorXd variance(n);
   for (int j = 0; j < n; ++j)
     variance[j] = std::pow(.1 * RootMeanSquare(tau.col(j)), 2);
   std::vector<bool> held(nominal_.size(), false);
-  double misfit = 0;
+  Fitted fitted;
   for (int round = 0; round < kRounds; ++round) {
-    const VectorXd x = Solve(tau, variance, held);
-    HoldNegative(x, &held);
-    const VectorXd off = x - nominal_;
-    misfit = .5 * off.dot(prior_ * off);
+    fitted.x = Solve(tau, variance, held);
+    HoldNegative(fitted.x, &held);
+    const VectorXd off = fitted.x - nominal_;
+    fitted.misfit = .5 * off.dot(prior_ * off);
+    fitted.squares = Squares(fitted.x, tau);
     for (int j = 0; j < n; ++j) {
-      rms[j] = RootMeanSquare(tau.col(j) - columns_[j] * x);
       const double least = kLeastShare * RootMeanSquare(tau.col(j)) + 1e-9;
-      variance[j] = rms[j] * rms[j] + least * least;
-      misfit += .5 * samples * std::log(variance[j]);
+      variance[j] = fitted.squares[j] / samples + least * least;
+      fitted.misfit += .5 * samples * std::log(variance[j]);
     }
   }
+  return fitted;
+}
+
+double TorqueFit::Misfit(const MatrixXd& tau, double* residual_percent) const {
+  const Fitted fitted = FitTo(tau);
   if (residual_percent != nullptr) {
-    *residual_percent = 100 * rms.norm() * std::sqrt(samples) / tau.norm();
+    *residual_percent = 100 * std::sqrt(fitted.squares.sum()) / tau.norm();
   }
-  return misfit;
+  return fitted.misfit;
+}
+
+VectorXd TorqueFit::Parameters(const MatrixXd& tau) const {
+  return FitTo(tau).x;
+}
+
+MatrixXd TorqueFit::Torque(const VectorXd& parameters) const {
+  const auto n = static_cast<Eigen::Index>(columns_.size());
+  MatrixXd torque(columns_[0].rows(), n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    torque.col(j) = columns_[j] * parameters;
+  }
+  return torque;
+}
+
+VectorXd TorqueFit::Squares(const VectorXd& parameters,
+                            const MatrixXd& tau) const {
+  return (tau - Torque(parameters)).colwise().squaredNorm();
 }
 
 }  // namespace armcal

@@ -40,7 +40,21 @@ class TorqueFit {
   double Misfit(const Eigen::MatrixXd& tau,
                 double* residual_percent = nullptr) const;
 
+  // The fitted inertias and joint terms; Squares asks another motion's fit what
+  // they leave of torques there: their sums of squares, (N m)^2, per joint.
+  Eigen::VectorXd Parameters(const Eigen::MatrixXd& tau) const;
+  Eigen::VectorXd Squares(const Eigen::VectorXd& parameters,
+                          const Eigen::MatrixXd& tau) const;
+  // samples x n, N m or N.
+  Eigen::MatrixXd Torque(const Eigen::VectorXd& parameters) const;
+
  private:
+  // What the rounds of a fit come to.
+  struct Fitted {
+    Eigen::VectorXd x, squares;  // parameters; per joint, as Squares has them
+    double misfit = 0;           // nats
+  };
+  Fitted FitTo(const Eigen::MatrixXd& tau) const;
   Eigen::VectorXd Solve(const Eigen::MatrixXd& tau,
                         const Eigen::VectorXd& variance,
                         const std::vector<bool>& held) const;

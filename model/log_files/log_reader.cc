@@ -45,6 +45,8 @@ struct LogReader::Impl {
         time_column(columns.FindTime(&time_decimals)),
         row(path, columns, time_column) {
     CheckTorqueFactors(options);
+    const auto timed = options.sample_times.find(path);
+    if (timed != options.sample_times.end()) sample_times = timed->second;
     q = row.Use(columns.Find(Signal::kPosition));
     if (options.want_velocity && columns.HasAll(Signal::kVelocity)) {
       qd = row.Use(columns.Find(Signal::kVelocity));
@@ -210,7 +212,9 @@ struct LogReader::Impl {
     }
     if (times.empty()) return false;
     const int rows = static_cast<int>(times.size());
-    log->t = Eigen::Map<const Eigen::VectorXd>(times.data(), rows);
+    log->t = sample_times != nullptr
+                 ? SampleTimes(rows)
+                 : Eigen::Map<const Eigen::VectorXd>(times.data(), rows);
     log->q = Signals(q);
     log->qd = Signals(qd);
     log->qdd = Signals(qdd);
@@ -228,18 +232,25 @@ struct LogReader::Impl {
         .middleCols(place, joints);
   }
 
-  // Of the next `count` rows.
+  // Both of the next `count` rows.
   Eigen::MatrixXd MadeTorques(int count) {
-    if (next_made + count > made->tau.rows()) {
-      throw InputError(path, "", "",
-                       "expected a log that does not grow while it is read");
-    }
+    RefuseGrowth(next_made + count > made->tau.rows());
     next_made += count;
     return made->tau.middleRows(next_made - count, count);
   }
+  Eigen::VectorXd SampleTimes(int count) {
+    RefuseGrowth(next_sample + count > sample_times->size());
+    next_sample += count;
+    return sample_times->segment(next_sample - count, count);
+  }
+  void RefuseGrowth(bool grown) const {
+    if (!grown) return;
+    throw InputError(path, "", "",
+                     "expected a log that does not grow while it is read");
+  }
 
   void Rewind() {
-    next_made = 0;
+    next_made = next_sample = 0;
     source->Rewind();
     Header();
     lines.clear();
@@ -262,7 +273,8 @@ struct LogReader::Impl {
   std::string torque_source;
   double torque_constants_stddev = 0;
   std::shared_ptr<const MadeTorque> made;
-  long next_made = 0;  // row of it
+  std::shared_ptr<const Eigen::VectorXd> sample_times;  // null: the stamps
+  long next_made = 0, next_sample = 0;                  // rows of both
 
   std::vector<std::string_view> lines;  // that the source has given
   size_t next_line = 0;

@@ -49,6 +49,9 @@ struct LogReaderOptions {
   bool commands_do = false;
   // By path: what such logs have instead.
   std::map<std::string, std::shared_ptr<const MadeTorque>> made_torque;
+  // By path: the time of each row, s since the first, for a log whose stamps
+  // are known to be wrong.
+  std::map<std::string, std::shared_ptr<const Eigen::VectorXd>> sample_times;
   // Columns that are in the log and not wanted are not looked at.
   bool want_velocity = false;
   bool want_acceleration = false;

@@ -12,7 +12,8 @@ namespace armcal {
 struct DataFinding {
   std::string finding;
   std::string evidence;
-  std::string flag;  // what to change, or empty
+  std::string flag;    // what to change, or empty
+  bool leads = false;  // the diagnosis begins with it
 };
 
 // Whether the recorded torque was computed from the recorded positions, as a

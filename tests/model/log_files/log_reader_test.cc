@@ -206,6 +206,29 @@ TEST(LogReader, CommandsDoWhereThereIsNoTorque) {
   EXPECT_EQ(log.tau(0, 1), 18);
 }
 
+// A log whose stamps are wrong is read with the times that are given for it.
+TEST(LogReader, ReadsOtherTimes) {
+  const std::string path =
+      WriteFile("t,q1,q2\n0,1,2\n1,1,2\n2,1,2\n", "timed.csv");
+  LogReaderOptions options = TwoJoints();
+  const Eigen::Vector3d times(0, .5, .7);
+  options.sample_times[path] = std::make_shared<const Eigen::VectorXd>(times);
+  LogReader reader(path, options);
+  Log log;
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_TRUE(reader.Read(1, &log));
+      EXPECT_EQ(log.t[0], times[k]);
+    }
+    EXPECT_FALSE(reader.Read(1, &log));
+    reader.Rewind();
+  }
+  options.sample_times[path] =
+      std::make_shared<const Eigen::VectorXd>(times.head(2));
+  LogReader short_reader(path, options);
+  EXPECT_THROW(short_reader.Read(3, &log), InputError);
+}
+
 TEST(LogReader, RefusesBadFiles) {
   const auto refusal = [](const std::string& bytes) {
     const std::string path = WriteFile(bytes);

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/logs/wiring.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// Samples in two halves, each of which judges a fit (TorqueFit) to the other:
+// they are cut into 32 stretches, of which every second one is a half.
+class HeldOutHalves {
+ public:
+  HeldOutHalves(const Robot& robot, const WiringSamples& samples);
+
+  const WiringSamples& half(int h) const { return halves_[h]; }
+  const TorqueFit& fit(int h) const { return fits_[h]; }
+  // The half's rows of something that has one for each sample.
+  Eigen::MatrixXd Rows(const Eigen::MatrixXd& of_samples, int h) const {
+    return of_samples(rows_[h], Eigen::all);
+  }
+
+ private:
+  std::vector<int> rows_[2];
+  std::vector<WiringSamples> halves_;
+  std::vector<TorqueFit> fits_;
+};
+
+// What a fit of the arm leaves of torques: of each half by the fit to the
+// other, which has not seen it, and of all samples by the fit to them. Squares
+// over those of the torque.
+struct HeldOutFit {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> joints;  // per joint
+  Eigen::Vector3d all;                              // of all joints together
+  double residual_percent = 0;  // rms over rms torque, of both halves
+};
+HeldOutFit FitHeldOut(const Robot& robot, const WiringSamples& samples);
+
+// Whether another reading fits clearly better, in both halves and all samples:
+// what is wrong with the columns of some joints (`of`), from what all have.
+bool IsClearlyBetter(const HeldOutFit& as_is, const HeldOutFit& changed,
+                     const std::vector<int>& of);
+// The same of something that concerns all joints alike, such as a delay.
+bool IsBetterForAll(const HeldOutFit& as_is, const HeldOutFit& changed);
+
+}  // namespace armcal

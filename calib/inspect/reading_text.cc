@@ -1,0 +1,98 @@
+#include "calib/inspect/reading_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "model/robot/axis_rotation.h"
+#include "model/text/format.h"
+#include "model/text/option_name.h"
+
+namespace armcal {
+namespace {
+
+using Kind = ReadingChange::Kind;
+
+void SayGravity(const Eigen::Vector3d& gravity, const Robot& robot,
+                InspectionFinding* finding) {
+  if (gravity.norm() == 0) {
+    finding->finding = "gravity_compensated";
+    finding->sentence = "the torques hold no gravity";
+    finding->remedy =
+        OptionName("gravity") + "=0,0,0, or log torques that hold it";
+    return;
+  }
+  const double angle =
+      std::acos(std::clamp(gravity.normalized().dot(robot.gravity.normalized()),
+                           -1., 1.)) /
+      kDegree;
+  finding->finding = "gravity";
+  finding->sentence = Format(
+      "gravity points %.0f degrees away from where the robot file has it",
+      angle);
+  finding->remedy =
+      OptionName("gravity") +
+      Format("=%.3g,%.3g,%.3g", gravity[0], gravity[1], gravity[2]);
+}
+
+void SaySign(const ReadingChange& change, const char* signal, const char* other,
+             const std::string& joint, InspectionFinding* finding) {
+  finding->finding = std::string(signal) + "_sign";
+  finding->sentence =
+      std::string("the ") + signal + " of " + joint + " has the wrong sign";
+  if (change.or_other_sign)
+    finding->sentence += std::string(", or its ") + other;
+}
+
+}  // namespace
+
+InspectionFinding FindingOf(const ReadingChange& change,
+                            const LogReading& reading, const Robot& robot) {
+  const auto name = [&](int j) { return robot.links[j].joint.name; };
+  InspectionFinding finding;
+  finding.joint = change.joint;
+  finding.probability = change.probability;
+  finding.held_out_before = change.held_out_before;
+  finding.held_out_after = change.held_out_after;
+  finding.evidence = Format(
+      "of torques held out a fit leaves %.3g %% as logged and %.3g %% so (%.0f "
+      "nats)",
+      change.held_out_before, change.held_out_after, change.gain);
+  finding.remedy = OptionName("fix") + " writes the log so";
+  switch (change.kind) {
+    case Kind::kExchanged:
+      finding.finding = "joint_order";
+      finding.sentence = "the columns of " + name(change.joint) + " and " +
+                         name(change.other) + " are exchanged";
+      break;
+    case Kind::kPositionSign:
+      SaySign(change, "position", "torque", name(change.joint), &finding);
+      break;
+    case Kind::kTorqueSign:
+      SaySign(change, "torque", "position", name(change.joint), &finding);
+      break;
+    case Kind::kJointSign:
+      finding.finding = "joint_sign";
+      finding.sentence =
+          name(change.joint) + " turns the other way than the robot file says";
+      break;
+    case Kind::kDegrees:
+      finding.finding = "position_unit";
+      finding.sentence = "positions are in degrees, not in rad";
+      finding.remedy = "name the columns q1[deg] ..., or " + OptionName("fix");
+      break;
+    case Kind::kGravity:
+      SayGravity(reading.gravity, robot, &finding);
+      break;
+    case Kind::kDelay:
+      finding.finding = "delay";
+      finding.sentence = Format("torques are recorded %.1f ms %s the positions",
+                                1e3 * std::abs(reading.delay),
+                                reading.delay > 0 ? "after" : "before");
+      finding.remedy = "shift the torques by that time";
+      break;
+  }
+  return finding;
+}
+
+}  // namespace armcal

@@ -1,0 +1,108 @@
+#include "calib/inspect/unsigned_torque.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "calib/inspect/held_out_fit.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kSignRounds = 8;       // of signs and parameters
+constexpr double kLeastTurned = .1;  // of the samples
+// Of squares, before and after: more is explained than is left.
+constexpr double kMostLeftOfSize = .5;
+
+VectorXd SignsOf(const VectorXd& x) {
+  return x.unaryExpr([](double value) { return value < 0 ? -1. : 1.; });
+}
+
+// What may have had the torque's sign: friction has the velocity's, inertia the
+// acceleration's, gravity that of the position's side of where the torque is
+// least.
+std::vector<VectorXd> FirstSigns(const Motion& motion, const VectorXd& size,
+                                 int j) {
+  Eigen::Index least = 0;
+  size.minCoeff(&least);
+  const VectorXd side = motion.q.col(j).array() - motion.q(least, j);
+  std::vector<VectorXd> signs;
+  for (const VectorXd& x :
+       {VectorXd(motion.qd.col(j)), VectorXd(motion.qdd.col(j)), side}) {
+    signs.push_back(SignsOf(x));
+    signs.push_back(-signs.back());
+  }
+  return signs;
+}
+
+// Parameters fitted to one half with joint j's signs as the fit has them, by
+// the best of all starts.
+VectorXd FitWithSigns(const HeldOutHalves& halves, int half, int j) {
+  MatrixXd tau = halves.half(half).tau;
+  const TorqueFit& fit = halves.fit(half);
+  const VectorXd size = tau.col(j).cwiseAbs();
+  VectorXd best;
+  double least = std::numeric_limits<double>::infinity();
+  for (VectorXd signs : FirstSigns(halves.half(half).motion, size, j)) {
+    VectorXd x;
+    for (int round = 0; round < kSignRounds; ++round) {
+      tau.col(j) = signs.cwiseProduct(size);
+      x = fit.Parameters(tau);
+      signs = SignsOf(fit.Torque(x).col(j));
+    }
+    const VectorXd torque = fit.Torque(x).col(j);
+    const double left = (torque.cwiseAbs() - size).squaredNorm();
+    if (left >= least) continue;
+    least = left;
+    best = x;
+  }
+  return best;
+}
+
+std::optional<UnsignedTorque> Ask(const HeldOutHalves& halves, int j) {
+  UnsignedTorque found{j};
+  double before = 0, after = 0, all = 0, samples = 0;
+  for (int half = 0; half < 2; ++half) {
+    const VectorXd unseen = halves.half(1 - half).tau.col(j);
+    const TorqueFit& judge = halves.fit(1 - half);
+    const VectorXd as_logged =
+        judge.Torque(halves.fit(half).Parameters(halves.half(half).tau)).col(j);
+    const VectorXd free = judge.Torque(FitWithSigns(halves, half, j)).col(j);
+    before += (as_logged - unseen).squaredNorm();
+    after += (free.cwiseAbs() - unseen.cwiseAbs()).squaredNorm();
+    found.turned +=
+        static_cast<double>((free.array() * unseen.array() < 0).count());
+    all += unseen.squaredNorm();
+    samples += static_cast<double>(unseen.size());
+  }
+  found.turned /= samples;
+  if (!(after < kMostLeftOfSize * before)) return std::nullopt;
+  if (std::min(found.turned, 1 - found.turned) < kLeastTurned) {
+    return std::nullopt;
+  }
+  found.before = 100 * std::sqrt(before / all);
+  found.after = 100 * std::sqrt(after / all);
+  return found;
+}
+
+}  // namespace
+
+std::vector<UnsignedTorque> FindUnsignedTorques(
+    const Robot& robot, const WiringSamples& samples,
+    const std::vector<int>& joints) {
+  std::vector<UnsignedTorque> found;
+  if (joints.empty()) return found;
+  const HeldOutHalves halves(robot, samples);
+  for (const int j : joints) {
+    if (const auto unsigned_torque = Ask(halves, j)) {
+      found.push_back(*unsigned_torque);
+    }
+  }
+  return found;
+}
+
+}  // namespace armcal

@@ -1,0 +1,300 @@
+#!/usr/bin/env python3
+"""Twelve kinds of faults planted in ten real logs: how many `armcal inspect` names.
+
+Reads ../shared/data, writes to a temporary folder. Each kind is planted once in each
+log that can hold it (a clock is told by recorded velocities, so it is planted where there
+are some; a lost sign where a torque has two). Joints, places and sizes are drawn from a
+seed that is the names of log and kind. Logs are split: those of BUILD were looked at
+while the inspection was written, those of FINAL once, at the end.
+
+    python3 tests/real/planted_faults.py --armcal=build/armcal --part=final
+"""
+import argparse
+import csv
+import gzip
+import json
+import random
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
+UR10E = ("--torque_constants=14.87,13.26,11.13,10.62,11.03,11.47",)
+# (folder, log, robot, flags)
+BUILD = [("panda", "log.csv", "robot.urdf", ()),
+         ("ur10e_free", "id_20s.csv", "robot.urdf", UR10E),
+         ("dvrk_psm", "reference.csv.gz", "robot.urdf", ()),
+         ("schunk_lwa4p", "run_080.csv.gz", "robot.urdf", ()),
+         ("tx40", "log.csv.gz", "robot.urdf", ())]
+FINAL = [("ur10e_free", "id_50s.csv", "robot.urdf", UR10E),
+         ("dvrk_psm", "log_C.csv.gz", "robot.urdf", ()),
+         ("schunk_lwa4p", "run_090.csv.gz", "robot.urdf", ()),
+         ("kr300", "log_C.csv.gz", "robot.urdf", ()),
+         ("dfki_double_pendulum", "A0_sysid_01.csv", "robot_A.urdf", ())]
+LEAST_SHARE = .95
+
+
+class Log:
+    """Columns of a log, in rows: t and, per joint, q, qd (or None) and torque."""
+
+    def __init__(self, path):
+        opened = gzip.open if path.suffix == ".gz" else open
+        with opened(path, "rt", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        header = rows[0]
+        table = [[float(x) for x in row] for row in rows[1:]]
+        column = {name: [row[k] for row in table] for k, name in enumerate(header)}
+        self.torque = "tau" if "tau1" in column else "i"
+        self.joints = sum(1 for name in column if name[0] == "q" and name[1:].isdigit())
+        self.t = column["t"]
+        self.columns = {s: [column[f"{s}{j + 1}"] for j in range(self.joints)]
+                        for s in ("q", "qd", self.torque) if f"{s}1" in column}
+
+    def size(self):
+        return len(self.t)
+
+    def signals(self, j):
+        return [self.columns[s][j] for s in self.columns]
+
+    def keep(self, rows):
+        self.t = [self.t[k] for k in rows]
+        for columns in self.columns.values():
+            columns[:] = [[x[k] for k in rows] for x in columns]
+
+    def speed(self, j):
+        """rms, of the positions over stretches of about 20 ms"""
+        q = self.columns["q"][j]
+        reach = max(1, round(.02 * self.size() / (self.t[-1] - self.t[0])))
+        slopes = [(q[k + reach] - q[k]) / (self.t[k + reach] - self.t[k])
+                  for k in range(0, self.size() - reach, reach)]
+        return (sum(s * s for s in slopes) / len(slopes)) ** .5
+
+    def moving(self):
+        """Joints that move at a fifth of the fastest one's speed at least."""
+        speeds = [self.speed(j) for j in range(self.joints)]
+        return [j for j in range(self.joints) if speeds[j] > .2 * max(speeds)]
+
+    def late(self, x, delay):
+        """The column as it was `delay` s ago."""
+        k, values = 0, []
+        for t in self.t:
+            at = max(self.t[0], t - delay)
+            while k + 2 < self.size() and self.t[k + 1] < at:
+                k += 1
+            step = self.t[k + 1] - self.t[k]
+            share = min(1, max(0, (at - self.t[k]) / step)) if step > 0 else 0
+            values.append((1 - share) * x[k] + share * x[k + 1])
+        return values
+
+    def write(self, path):
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file)
+            names = [f"{s}{j + 1}" for s in self.columns for j in range(self.joints)]
+            writer.writerow(["t"] + names)
+            all_columns = [x for s in self.columns for x in self.columns[s]]
+            writer.writerows([format(t, ".9g")] + [format(x[k], ".9g") for x in all_columns]
+                             for k, t in enumerate(self.t))
+
+
+def negate(x):
+    x[:] = [-value for value in x]
+
+
+def fast_clock(log, _):
+    """Stamps of a clock that is 3 % fast."""
+    log.t = [1.03 * t for t in log.t]
+
+
+def hidden_holes(log, draw):
+    """4 % of the rows lost in bursts of 2 to 8, and stamps that go on as if none were."""
+    stamps, lost = list(log.t), set()
+    while len(lost) < .04 * log.size():
+        begin = draw.randrange(1, log.size() - 9)
+        lost.update(range(begin, begin + draw.randint(2, 8)))
+    log.keep([k for k in range(log.size()) if k not in lost])
+    log.t = stamps[:log.size()]
+
+
+def position_sign(log, draw):
+    j = draw.choice(log.moving())
+    for signal in ("q", "qd"):
+        if signal in log.columns:
+            negate(log.columns[signal][j])
+    return j
+
+
+def torque_sign(log, draw):
+    j = draw.choice(log.moving())
+    negate(log.columns[log.torque][j])
+    return j
+
+
+def exchanged(log, draw):
+    a, b = sorted(draw.sample(log.moving(), 2))
+    for columns in log.columns.values():
+        columns[a], columns[b] = columns[b], columns[a]
+    return a
+
+
+def late_torques(log, _):
+    columns = log.columns[log.torque]
+    columns[:] = [log.late(x, .03) for x in columns]
+
+
+def late_velocity(log, draw):
+    j = draw.choice(log.moving())
+    log.columns["qd"][j] = log.late(log.columns["qd"][j], .03)
+    return j
+
+
+def repeated_rows(log, draw):
+    """3 rows of 10 are the row before."""
+    rows = [0]
+    for k in range(1, log.size()):
+        rows.append(rows[-1] if draw.random() < .3 else k)
+    stamps = log.t
+    log.keep(rows)
+    log.t = stamps
+
+
+def held_torque(log, draw):
+    """One joint's torque is new in every fourth row."""
+    j = draw.choice(log.moving())
+    x = log.columns[log.torque][j]
+    x[:] = [x[k - k % 4] for k in range(log.size())]
+    return j
+
+
+def stuck_position(log, draw):
+    """2.5 s, or four tenths of a shorter log, while the joint moves as it mostly does."""
+    j = draw.choice(log.moving())
+    q = log.columns["q"][j]
+    rows = round(min(2.5, .4 * (log.t[-1] - log.t[0])) * log.size() /
+                 (log.t[-1] - log.t[0]))
+    begins = [draw.randrange(log.size() - rows) for _ in range(9)]
+    travel = sorted((max(q[b:b + rows]) - min(q[b:b + rows]), b) for b in begins)
+    begin = travel[draw.randint(4, 8)][1]
+    q[begin:begin + rows] = [q[begin]] * rows
+    return j
+
+
+def two_signs(log):
+    """Moving joints whose torque has either sign for a fifth of the time."""
+    def share(x):
+        return sum(1 for value in x if value < 0) / len(x)
+    columns = log.columns[log.torque]
+    return [j for j in log.moving() if .2 < share(columns[j]) < .8]
+
+
+def lost_sign(log, draw):
+    j = draw.choice(two_signs(log))
+    x = log.columns[log.torque][j]
+    x[:] = [abs(value) for value in x]
+    return j
+
+
+def holes(log, draw):
+    """Four stretches of .15 to .3 s are missing, and the stamps say so."""
+    lost = [(at, at + draw.uniform(.15, .3)) for at in
+            (draw.uniform(log.t[0], log.t[-1] - .3) for _ in range(4))]
+    log.keep([k for k in range(log.size())
+              if not any(begin < log.t[k] < end for begin, end in lost)])
+
+
+def has_velocity(log):
+    return "qd" in log.columns
+
+
+def any_log(_):
+    return True
+
+
+def has_two(log):
+    return len(log.moving()) > 1
+
+
+# kind: (what plants it, where it can be, findings that name it)
+KINDS = {
+    "clock 3 % fast": (fast_clock, lambda log: has_velocity(log) and has_two(log), {"clock"}),
+    "holes that stamps hide": (hidden_holes,
+                               lambda log: has_velocity(log) and has_two(log), {"clock"}),
+    "sign of a position": (position_sign, any_log, {"position_sign"}),
+    "sign of a torque": (torque_sign, any_log, {"torque_sign"}),
+    "two joints exchanged": (exchanged, has_two, {"joint_order"}),
+    "torques 30 ms late": (late_torques, any_log, {"delay"}),
+    "a velocity 30 ms late": (late_velocity, has_velocity, {"velocity", "velocity_delay"}),
+    "rows repeated": (repeated_rows, any_log, {"repeated_rows"}),
+    "a torque held": (held_torque, any_log, {"held"}),
+    "a position stuck": (stuck_position, any_log, {"stuck"}),
+    "a torque without its sign": (lost_sign, lambda log: bool(two_signs(log)),
+                                  {"unsigned_torque"}),
+    "holes in the stamps": (holes, any_log, {"holes"}),
+}
+
+
+def named(finding, names, joint):
+    """Position or torque: the other's sign counts where either is said to do."""
+    either = (", or its " in finding["sentence"] and
+              names & {"position_sign", "torque_sign"} and
+              finding["finding"] in {"position_sign", "torque_sign"})
+    return ((finding["finding"] in names or bool(either)) and
+            (joint is None or finding["joint_index"] == joint + 1))
+
+
+def inspect(armcal, case, path, work):
+    folder, _, robot, flags = case
+    out = work / (path.stem + "_out")
+    result = subprocess.run(
+        [armcal, "inspect", f"--robot={DATA / folder / robot}", f"--log={path}", *flags,
+         f"--out={out}"], capture_output=True, text=True, check=False)
+    if result.returncode > 1:
+        raise RuntimeError(f"{path.name}: {result.stderr.strip()}")
+    return json.loads((out / "inspect.json").read_text())["logs"][0]["findings"]
+
+
+def words(findings):
+    return ", ".join(f"{f['finding']}@{f['joint_index']}" for f in findings) or "nothing"
+
+
+def plant(job):
+    armcal, case, kind, work = job
+    make, can, names = KINDS[kind]
+    log = Log(DATA / case[0] / case[1])
+    if not can(log):
+        return case, kind, None, ""
+    joint = make(log, random.Random(f"{case[0]}/{case[1]}/{kind}"))
+    path = work / f"{case[0]}_{case[1].split('.')[0]}_{kind.replace(' ', '_')}.csv"
+    log.write(path)
+    findings = inspect(armcal, case, path, work)
+    found = any(named(f, names, joint) for f in findings)
+    place = "" if joint is None else f"@{joint + 1}"
+    return case, kind, found, f"{place}: {words(findings)}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--armcal", required=True)
+    parser.add_argument("--part", choices=("build", "final", "all"), default="all")
+    parser.add_argument("--kind", default="", help="only kinds whose name holds this")
+    parser.add_argument("--log", default="", help="only logs whose name holds this")
+    arguments = parser.parse_args()
+    if not DATA.exists():
+        print("no ../shared/data: skipped")
+        return 77
+    cases = {"build": BUILD, "final": FINAL, "all": BUILD + FINAL}[arguments.part]
+    armcal = Path(arguments.armcal).resolve()
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
+        jobs = [(armcal, case, kind, Path(folder)) for case in cases for kind in KINDS
+                if arguments.kind in kind and arguments.log in "/".join(case[:2])]
+        results = [r for r in pool.map(plant, jobs) if r[2] is not None]
+    for case, kind, found, text in results:
+        print(f"{'found ' if found else 'MISSED'} {case[0]}/{case[1]}, {kind}{text}")
+    found = sum(r[2] for r in results)
+    print(f"{found} of {len(results)} found ({100 * found / max(1, len(results)):.1f} %)")
+    return 0 if found >= LEAST_SHARE * len(results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
