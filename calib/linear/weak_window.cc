@@ -60,8 +60,8 @@ double NoiseWindow(const EncoderNoise& noise, double bandwidth_hz) {
   for (Eigen::Index j = 0; j < noise.density.size(); ++j) {
     if (noise.travel[j] < kLeastTravel || noise.density[j] <= 0) continue;
     if (noise.mean_square_acceleration[j] <= 0) return kLongest;
-    worst = std::max(worst,
-                     noise.density[j] / noise.mean_square_acceleration[j]);
+    worst =
+        std::max(worst, noise.density[j] / noise.mean_square_acceleration[j]);
   }
   const double scale = worst * std::pow(bandwidth_hz, 5);
   const auto is_enough = [&](double window) {
@@ -85,9 +85,8 @@ double DefaultWindow(double bandwidth_hz, const LogSet& logs) {
   }
   // Noise asks for none that is longer: spare the look at it.
   if (window >= kLongest) return window;
-  return std::max(
-      window,
-      NoiseWindow(MeasureEncoderNoise(logs, bandwidth_hz), bandwidth_hz));
+  return std::max(window, NoiseWindow(MeasureEncoderNoise(logs, bandwidth_hz),
+                                      bandwidth_hz));
 }
 
 }  // namespace armcal
