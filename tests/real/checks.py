@@ -1,7 +1,7 @@
 """Checks that several sets of the scoreboard share: functions of the runs, whose
 docstring is what a right answer says."""
 
-from reading import claim, claims, told
+from reading import claim, claims, friction_of, told
 
 
 def names_only(run, allowed=(), says="nothing is named"):
@@ -35,4 +35,19 @@ def no_success(run, says):
         code = runs.code(run)
         return code == 1, f"exit code {code}, {runs[run]['verdict']}"[:110]
     check.__doc__ = f"{run}: {says}"
+    return check
+
+
+def weak_is_differential(weak, differential):
+    """Of two calibrations of one log, whose models ask for the same numbers."""
+    def check(runs):
+        a, b = friction_of(runs[weak]), friction_of(runs[differential])
+        apart = {name: abs(a[name][0] - b[name][0]) / a[name][1]
+                 for name in sorted(a.keys() & b.keys())}
+        worst = max(apart, key=apart.get)
+        return (apart[worst] <= 2,
+                f"{worst} {a[worst][0]:.3f} +- {a[worst][1]:.3f} and "
+                f"{b[worst][0]:.3f}, {apart[worst]:.1f} deviations apart")
+    check.__doc__ = (f"{weak}: Coulomb and viscous friction by the weak model are within "
+                     "two deviations of the differential model's")
     return check

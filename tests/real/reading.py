@@ -43,3 +43,10 @@ def model_parameters(calibration, quantity, count):
     """Of joints 1 to `count`: "coulomb[1]", ..."""
     found = {p["name"]: p["value"] for p in calibration["model_parameters"]}
     return [found[f"{quantity}[{j + 1}]"] for j in range(count)]
+
+
+def friction_of(calibration):
+    """{name: (value, stddev)} of Coulomb and viscous friction that the log tells."""
+    return {p["name"]: (p["value"], p["stddev"])
+            for p in calibration["model_parameters"]
+            if p["name"].split("[")[0] in ("coulomb", "viscous") and p["stddev"]}

@@ -48,11 +48,14 @@ std::vector<EffectParameter> CoupledParameters() {
                     return std::vector<double>{-2 * r, -r, -.5 * r,
                                                .5 * r, r,  2 * r};
                   }),
-          // Dry, or of a lubricated seal.
+          // Dry, or of a lubricated seal, whose friction grows until half the
+          // usual speed; but no wider than Coulomb friction is anywhere.
           Gridded("width", "P/s", [](const EffectSite& site) {
             const double dry = site.scale->width[site.joint];
-            return std::vector<double>{
-                dry, std::max(.5 * SpeedScale(site), 2 * dry)};
+            const double wide =
+                std::min(.5 * SpeedScale(site),
+                         CoulombTransition::kWidestVelocity * Radian(site));
+            return std::vector<double>{dry, std::max(wide, 2 * dry)};
           })};
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calib/linear/calibration_model.h"
+#include "model/signals/low_pass.h"
 #include "tests/fixtures/calibrate_logs.h"
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
@@ -19,44 +20,67 @@ EncoderNoise Noise(double density, double mean_square_acceleration) {
           ArrayXd::Constant(1, 1.)};
 }
 
-// What white noise of density S makes of int phi'' q dt, summed sample by
-// sample for a test function differenced numerically, is 1e-4 of the
-// acceleration.
-TEST(WeakWindow, NoiseIsATenThousandthOfTheAcceleration) {
-  constexpr double kDensity = 1e-14, kAcceleration = 3;
-  const double w = NoiseWindow(Noise(kDensity, kAcceleration));
-  ASSERT_GT(w, .01);
-  ASSERT_LT(w, .3);
-  constexpr int kSteps = 4000;
+constexpr double kBandwidth = 20;
+
+// phi(t) of weak_rows.h at 0, dt, .. of a window of `steps`, int phi dt = 1.
+ArrayXd Bump(int steps, double dt) {
+  const ArrayXd s = ArrayXd::LinSpaced(steps + 1, -1, 1);
+  const ArrayXd bump = (1 - s.square()).pow(4);
+  return bump / (bump.sum() * dt);
+}
+
+// What white noise of density S makes of int phi'' q dt, q low-passed as logs
+// are, is 2e-4 of the acceleration: the sum of squares of what one sample makes
+// of all rows, by the filter itself and a test function differenced
+// numerically.
+TEST(WeakWindow, NoiseIsASmallShareOfTheAcceleration) {
+  constexpr double kDensity = 1e-11, kAcceleration = 3;
+  const double w = NoiseWindow(Noise(kDensity, kAcceleration), kBandwidth);
+  ASSERT_GT(w, .02);
+  ASSERT_LT(w, .29);
+  constexpr int kSteps = 200, kSize = 4000;
   const double dt = w / kSteps;
-  const auto bump = [](int k) {
-    const double s = 2. * k / kSteps - 1;
-    return std::pow(1 - s * s, 4);
-  };
-  double area = 0, power = 0;
-  for (int k = 1; k < kSteps; ++k) {
-    area += bump(k) * dt;
-    const double bend = (bump(k + 1) - 2 * bump(k) + bump(k - 1)) / (dt * dt);
-    power += bend * bend * dt;
+  const ArrayXd bump = Bump(kSteps, dt);
+  ArrayXd bend = ArrayXd::Zero(kSteps + 1);
+  bend.segment(1, kSteps - 1) =
+      (bump.tail(kSteps - 1) - 2 * bump.segment(1, kSteps - 1) +
+       bump.head(kSteps - 1)) /
+      (dt * dt);
+  Eigen::MatrixXd one = Eigen::MatrixXd::Zero(kSize, 1);
+  one(kSize / 2) = 1;
+  const ArrayXd q = ZeroPhaseLowPass(one, 1 / dt, kBandwidth).array();
+  double power = 0;
+  for (int k = 0; k + kSteps < kSize; ++k) {
+    const double row = (bend * q.segment(k, kSteps + 1)).sum() * dt;
+    power += row * row;
   }
-  EXPECT_NEAR(kDensity * power / (area * area) / (1e-4 * kAcceleration), 1,
-              1e-3);
+  EXPECT_NEAR(kDensity / dt * power / (2e-4 * kAcceleration), 1, .01);
 }
 
 TEST(WeakWindow, TheJointThatNeedsTheLongestDecides) {
-  EncoderNoise two = Noise(1e-14, 3);
-  two.density = ArrayXd::Constant(2, 1e-14);
-  two.mean_square_acceleration = Eigen::Array2d(3, 3. / 32);
+  EncoderNoise two = Noise(1e-11, 3);
+  two.density = ArrayXd::Constant(2, 1e-11);
+  two.mean_square_acceleration = Eigen::Array2d(3, 1);
   two.travel = ArrayXd::Constant(2, 1.);
-  EXPECT_NEAR(NoiseWindow(two) / NoiseWindow(Noise(1e-14, 3)), 2, 1e-9);
+  const auto window = [](const EncoderNoise& noise) {
+    return NoiseWindow(noise, kBandwidth);
+  };
+  EXPECT_GT(window(two), 1.1 * window(Noise(1e-11, 3)));
+  EXPECT_DOUBLE_EQ(window(two), window(Noise(1e-11, 1)));
   two.travel[1] = 1e-3;  // it does not move
-  EXPECT_DOUBLE_EQ(NoiseWindow(two), NoiseWindow(Noise(1e-14, 3)));
+  EXPECT_DOUBLE_EQ(window(two), window(Noise(1e-11, 3)));
+}
+
+// Noise that the low pass takes away asks for no window.
+TEST(WeakWindow, TheLowPassMayBeEnough) {
+  EXPECT_EQ(NoiseWindow(Noise(1e-14, 3), kBandwidth), 0);
+  EXPECT_GT(NoiseWindow(Noise(1e-14, 3), 10 * kBandwidth), 0);
 }
 
 TEST(WeakWindow, IsNoLongerThanATransitionAllows) {
-  EXPECT_EQ(NoiseWindow(Noise(1, 1)), .3);
-  EXPECT_EQ(NoiseWindow(Noise(1e-14, 0)), .3);
-  EXPECT_EQ(NoiseWindow(Noise(0, 1)), 0);
+  EXPECT_EQ(NoiseWindow(Noise(1, 1), kBandwidth), .3);
+  EXPECT_EQ(NoiseWindow(Noise(1e-14, 0), kBandwidth), .3);
+  EXPECT_EQ(NoiseWindow(Noise(0, 1), kBandwidth), 0);
 }
 
 LogSet SetOf(const Robot& robot, const Log& log) {
@@ -65,8 +89,17 @@ LogSet SetOf(const Robot& robot, const Log& log) {
   return LogSet({WriteFile(LogCsv(log))}, reader, TimeRange());
 }
 
-// Windows are 1.5 periods of the bandwidth where encoders are good; long where
-// they are not; as long as was asked for.
+// |int phi exp(-2 pi i f t) dt|^2 of a window; it is symmetric.
+double PowerAt(double f, double window) {
+  constexpr int kSteps = 2000;
+  const double dt = window / kSteps;
+  const ArrayXd t = ArrayXd::LinSpaced(kSteps + 1, -window / 2, window / 2);
+  const double gain = (Bump(kSteps, dt) * (2 * M_PI * f * t).cos()).sum() * dt;
+  return gain * gain;
+}
+
+// Windows pass half of the power at the bandwidth where encoders are good; they
+// are long where they are not; as long as was asked for.
 TEST(WeakWindow, FollowsTheBandwidthUnlessEncodersAreNoisy) {
   std::mt19937_64 random(3);
   const Robot robot = SampleRobot("2R planar (vertical plane)");
@@ -78,7 +111,7 @@ TEST(WeakWindow, FollowsTheBandwidthUnlessEncodersAreNoisy) {
     return MakeRowOptions(options, SetOf(robot, log)).window_s;
   };
   AddNoise(&random, Eigen::VectorXd::Constant(2, 1e-7), &log.q);
-  EXPECT_DOUBLE_EQ(window(), 1.5 / 20);
+  EXPECT_NEAR(PowerAt(20, window()), .5, .001);
   AddNoise(&random, Eigen::VectorXd::Constant(2, 1e-2), &log.q);
   EXPECT_DOUBLE_EQ(window(), .3);
   options.window_s = .12;

@@ -1,6 +1,6 @@
 """Staubli TX40: joints 5 and 6 share a drive, whose friction follows qd5 + qd6
 (TRUTH.md: published friction of every joint)."""
-from checks import names_none
+from checks import names_none, weak_is_differential
 from reading import claim, claims, held_out_share, model_parameters, told
 from runs import calibrate, diagnose
 
@@ -9,7 +9,12 @@ RUNS = {"log": diagnose("--robot=robot.urdf", "--log=log.csv.gz"),
         "log_40_hz": diagnose("--robot=robot.urdf", "--log=log.csv.gz",
                               "--bandwidth=40"),
         "calibrate": calibrate("--robot=robot.urdf", "--log=log.csv.gz",
-                               "--bandwidth=40")}
+                               "--bandwidth=40"),
+        "weak": calibrate("--robot=robot.urdf", "--log=log.csv.gz",
+                          "--estimate=linear"),
+        "differential": calibrate("--robot=robot.urdf", "--log=log.csv.gz",
+                                  "--estimate=linear",
+                                  "--identification=differential")}
 VISCOUS = [8.05, 5.53, 1.97, 1.11]
 COULOMB = [7.14, 8.26, 6.34, 2.48]
 GIVEN = ["viscous_friction", "coulomb_friction", "armature", "torque_offset"]
@@ -51,4 +56,5 @@ def friction_of(quantity, truth):
 
 CHECKS = [coupled_of("log"), coupled_of("log_40_hz"), size, removed,
           names_none("log_40_hz", {"delay"}, "no delay is named (one rig, one clock)"),
-          friction_of("viscous", VISCOUS), friction_of("coulomb", COULOMB)]
+          friction_of("viscous", VISCOUS), friction_of("coulomb", COULOMB),
+          weak_is_differential("weak", "differential")]

@@ -39,6 +39,21 @@ TEST_F(GapCoordinatesTest, WhatIsVaried) {
   EXPECT_EQ(Of("coupled_friction").size(), 4u);
 }
 
+// Friction that grows until a robot is fast is viscous, not dry: on a fast
+// joint the width of a coupling ends where that of calibrate's Coulomb friction
+// does, .3 rad/s (docs/calibrate.md).
+TEST_F(GapCoordinatesTest, NoDryFrictionIsWide) {
+  const auto widest = [&](double speed) {
+    arm_.scale.speed.setConstant(speed);
+    GapCandidate effect = OfOnes("coupled_friction");
+    effect.joint = 0;
+    effect.p[4] = .1;
+    return ListCoordinates(baseline_, arm_.scale, {effect}, 0).back().high;
+  };
+  EXPECT_DOUBLE_EQ(widest(5), .3);
+  EXPECT_DOUBLE_EQ(widest(.4), .2);
+}
+
 // Where stamps are even, unevenness says nothing.
 TEST_F(GapCoordinatesTest, WhatHasNoTorqueIsNotVaried) {
   GapCandidate clock = OfOnes("time_base");
