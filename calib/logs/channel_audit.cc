@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "calib/numerics/median.h"
 #include "model/text/format.h"
 #include "model/text/option_name.h"
 
@@ -30,12 +31,6 @@ std::vector<double> Steps(const Log& log) {
     steps.push_back(log.t[k + 1] - log.t[k]);
   }
   return steps;
-}
-
-double Quantile(std::vector<double> x, double share) {
-  const auto k = static_cast<size_t>(share * static_cast<double>(x.size() - 1));
-  std::nth_element(x.begin(), x.begin() + k, x.end());
-  return x[k];
 }
 
 // Positions' slope over a few steps around each sample.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/numerics/median.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -58,12 +59,6 @@ double ShareOf(const std::vector<bool>& repeats) {
   return static_cast<double>(held) / static_cast<double>(std::max(1L, steps));
 }
 
-double Quantile(std::vector<double> x, size_t tenths) {
-  const size_t k = x.size() * tenths / 10;
-  std::nth_element(x.begin(), x.begin() + k, x.end());
-  return x[k];
-}
-
 // Whether the changes of a column after repeats vary as those of a motion, and
 // are larger than the others: they are of the time that has gone since.
 bool GoesOn(const VectorXd& x, const std::vector<bool>& repeats) {
@@ -73,9 +68,9 @@ bool GoesOn(const VectorXd& x, const std::vector<bool>& repeats) {
     if (change > 0) (repeats[k - 1] ? after : others).push_back(change);
   }
   if (after.size() < kLeastChanges) return false;
-  return Quantile(after, 9) > kVaried * Quantile(after, 1) &&
+  return Quantile(after, .9) > kVaried * Quantile(after, .1) &&
          (others.size() < kLeastChanges ||
-          Quantile(after, 5) > kLarger * Quantile(others, 5));
+          Quantile(after, .5) > kLarger * Quantile(others, .5));
 }
 
 }  // namespace

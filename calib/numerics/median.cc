@@ -12,6 +12,13 @@ double Median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+double Quantile(std::vector<double> values, double share) {
+  const auto k =
+      static_cast<size_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + k, values.end());
+  return values[k];
+}
+
 double Rms(const std::vector<double>& values) {
   double sum = 0;
   for (const double x : values) sum += x * x;
