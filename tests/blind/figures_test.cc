@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "calib/numerics/median.h"
 #include "model/text/input_error.h"
 #include "tests/blind/binomial_interval.h"
 #include "tests/blind/blind_label.h"

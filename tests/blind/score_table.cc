@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "calib/numerics/median.h"
 #include "tests/blind/binomial_interval.h"
 
 namespace armcal {
@@ -49,15 +50,6 @@ json CellJson(const ScoreTable::Cell& cell) {
 }
 
 }  // namespace
-
-double Quantile(std::vector<double> values, double q) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const double at = q * (values.size() - 1);
-  const size_t below = static_cast<size_t>(at);
-  const size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (at - below) * (values[above] - values[below]);
-}
 
 ScoreTable::Cell& ScoreTable::Make(const std::string& row,
                                    const std::string& column) {

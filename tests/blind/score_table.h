@@ -8,10 +8,6 @@
 
 namespace armcal {
 
-// The q-quantile of values, linear between neighbours (type 7 of Hyndman and
-// Fan 1996); NaN of none.
-double Quantile(std::vector<double> values, double q);
-
 // A table of a score: rows by their names, columns in the order in which they
 // first come. A cell counts hits or collects values.
 class ScoreTable {
