@@ -59,6 +59,9 @@ double NoiseWindow(const EncoderNoise& noise, double bandwidth_hz) {
   double worst = 0;  // noise over motion, s^5
   for (Eigen::Index j = 0; j < noise.density.size(); ++j) {
     if (noise.travel[j] < kLeastTravel || noise.density[j] <= 0) continue;
+    // A joint without a motor: the columns of its equation add up to nothing,
+    // so that others leave of each no more than the noise.
+    if (noise.torque.size() > 0 && noise.torque[j] == 0) return kLongest;
     if (noise.mean_square_acceleration[j] <= 0) return kLongest;
     worst =
         std::max(worst, noise.density[j] / noise.mean_square_acceleration[j]);

@@ -14,7 +14,8 @@ double DefaultWindow(double bandwidth_hz, const LogSet& logs);
 // The length, s, at which white noise of positions, low-passed at
 // `bandwidth_hz` > 0 as logs are, makes 2e-4 of the mean square acceleration
 // that a row sees, of the joint that needs the longest; 0 where the low pass is
-// enough, at most 0.3. Joints that do not move do not count.
+// enough, at most 0.3, as where a joint moves that no motor drives. Joints that
+// do not move do not count.
 double NoiseWindow(const EncoderNoise& noise, double bandwidth_hz);
 
 }  // namespace armcal

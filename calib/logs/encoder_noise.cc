@@ -17,10 +17,12 @@ using Eigen::ArrayXd;
 // median of 60000 is known to a percent.
 constexpr long kMostSamples = 60000;
 
-// Times and positions of a log's first samples within the crop.
+// Times and positions of a log's first samples within the crop, and the largest
+// torques.
 struct RecordedPositions {
   std::vector<double> t;
-  Eigen::MatrixXd q;  // samples x n
+  Eigen::MatrixXd q;      // samples x n
+  Eigen::ArrayXd torque;  // n, or none
 };
 
 RecordedPositions ReadPositions(const TimeRange& crop, long most,
@@ -31,6 +33,12 @@ RecordedPositions ReadPositions(const TimeRange& crop, long most,
   const long limit = std::max(8L, most);
   while (const Log* block = rows->Next()) {
     n = block->q.cols();
+    if (block->tau.rows() > 0) {
+      const ArrayXd most =
+          block->tau.cwiseAbs().colwise().maxCoeff().transpose().array();
+      read.torque =
+          read.torque.size() > 0 ? read.torque.max(most).eval() : most;
+    }
     for (Eigen::Index k = 0; k < block->q.rows(); ++k) {
       const double t = block->t[k];
       if (t < crop.begin || static_cast<long>(read.t.size()) >= limit) continue;
@@ -71,7 +79,7 @@ ArrayXd MeanSquareAcceleration(const RecordedPositions& read, double dt,
 
 // Sums over logs, weighted by the seconds that were read.
 struct Sums {
-  ArrayXd density, acceleration, low, high;
+  ArrayXd density, acceleration, low, high, torque;
   double seconds = 0;
 
   void Add(const RecordedPositions& read, double dt, double bandwidth_hz) {
@@ -89,6 +97,9 @@ struct Sums {
     acceleration += length * MeanSquareAcceleration(read, dt, lag, variance);
     low = low.min(read.q.colwise().minCoeff().transpose().array());
     high = high.max(read.q.colwise().maxCoeff().transpose().array());
+    if (read.torque.size() > 0) {
+      torque = torque.size() > 0 ? torque.max(read.torque).eval() : read.torque;
+    }
     seconds += length;
   }
 };
@@ -107,7 +118,7 @@ EncoderNoise MeasureEncoderNoise(const LogSet& logs, double bandwidth_hz) {
   }
   if (sums.seconds == 0) return {};
   return {sums.density / sums.seconds, sums.acceleration / sums.seconds,
-          sums.high - sums.low};
+          sums.high - sums.low, sums.torque};
 }
 
 }  // namespace armcal

@@ -20,6 +20,8 @@ struct EncoderNoise {
   // noise makes of it.
   Eigen::ArrayXd mean_square_acceleration;
   Eigen::ArrayXd travel;  // largest position less smallest, rad or m
+  // Largest recorded torque, N m or N; empty where none is recorded.
+  Eigen::ArrayXd torque;
 };
 
 // Accelerations are second differences over a quarter period of

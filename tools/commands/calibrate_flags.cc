@@ -28,7 +28,7 @@ DEFINE_string(coulomb_width, "auto",
               "speed such as 0.02rad/s, or a displacement such as 0.001rad, "
               "for all joints");
 DEFINE_string(window, "",
-              "`S` length of the weak form's test functions, s; default: 1.5 "
+              "`S` length of the weak form's test functions, s; default: .87 "
               "periods of the bandwidth, to 0.3 for noise");
 DEFINE_string(
     intervals, "",

@@ -13,7 +13,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kOrder = Autoregression::kOrder;
+constexpr int kMemory = Autoregression::kOrder;
 constexpr double kLeastSeen = .5;  // of a pulse's g'g
 
 // X C^(1/2) for the columns that act on one joint.
@@ -56,18 +56,18 @@ PulseScan::PulseScan(const GapRows& rows, const Model& model,
 void PulseScan::Whiten(int segment, const VectorXd& residual,
                        const MatrixXd& half, const VectorXd& doubt,
                        Joint* joint) const {
-  const int begin = rows_.thin_begin(segment) + kOrder;
+  const int begin = rows_.thin_begin(segment) + kMemory;
   const int end = rows_.thin_begin(segment + 1);
   if (end <= begin) return;
   const double variance = std::pow(joint->noise.stddev(), 2);
   int seen = 0;  // uninterrupted
-  for (int k = begin - kOrder; k < end; ++k) {
+  for (int k = begin - kMemory; k < end; ++k) {
     seen = rows_.IsInPart(segment, k) ? seen + 1 : 0;
-    if (seen <= kOrder) continue;
+    if (seen <= kMemory) continue;
     joint->weight[k] = std::sqrt(variance / (variance + doubt[k] * doubt[k]));
   }
   const auto with_past = [begin, end](const MatrixXd& all) {
-    return all.middleRows(begin - kOrder, end - begin + kOrder);
+    return all.middleRows(begin - kMemory, end - begin + kMemory);
   };
   const auto weight = joint->weight.segment(begin, end - begin).asDiagonal();
   joint->residual.segment(begin, end - begin) =
@@ -95,9 +95,10 @@ PulseScan::Course PulseScan::CourseOf(int joint, double step,
   course.reach =
       static_cast<int>(std::ceil(Limits().event_reach * width / step));
   // What whitening needs of the time before, and leaves of the time after.
-  VectorXd pulse = VectorXd::Zero(2 * course.reach + 1 + 2 * kOrder);
+  VectorXd pulse = VectorXd::Zero(2 * course.reach + 1 + 2 * kMemory);
   for (int k = -course.reach; k <= course.reach; ++k) {
-    pulse[kOrder + course.reach + k] = std::exp(-std::pow(k * step / width, 2));
+    pulse[kMemory + course.reach + k] =
+        std::exp(-std::pow(k * step / width, 2));
   }
   course.white = joints_[joint].noise.Whiten(pulse);
   return course;

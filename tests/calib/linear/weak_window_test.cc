@@ -17,7 +17,8 @@ using Eigen::ArrayXd;
 EncoderNoise Noise(double density, double mean_square_acceleration) {
   return {ArrayXd::Constant(1, density),
           ArrayXd::Constant(1, mean_square_acceleration),
-          ArrayXd::Constant(1, 1.)};
+          ArrayXd::Constant(1, 1.),
+          {}};
 }
 
 constexpr double kBandwidth = 20;
@@ -83,6 +84,16 @@ TEST(WeakWindow, IsNoLongerThanATransitionAllows) {
   EXPECT_EQ(NoiseWindow(Noise(0, 1), kBandwidth), 0);
 }
 
+TEST(WeakWindow, AJointWithoutAMotorAsksForTheLongest) {
+  EncoderNoise noise = Noise(1e-14, 3);
+  noise.torque = Eigen::ArrayXd::Constant(1, .2);
+  EXPECT_EQ(NoiseWindow(noise, kBandwidth), 0);
+  noise.torque[0] = 0;
+  EXPECT_EQ(NoiseWindow(noise, kBandwidth), .3);
+  noise.travel[0] = 1e-3;  // it does not move
+  EXPECT_EQ(NoiseWindow(noise, kBandwidth), 0);
+}
+
 LogSet SetOf(const Robot& robot, const Log& log) {
   LogReaderOptions reader;
   reader.joint_names = robot.JointNames();
@@ -104,7 +115,7 @@ TEST(WeakWindow, FollowsTheBandwidthUnlessEncodersAreNoisy) {
   std::mt19937_64 random(3);
   const Robot robot = SampleRobot("2R planar (vertical plane)");
   Log log = RecordMotion(RandomMultisine(&random, 2), 20, .002);
-  AddTorque(robot, &log);
+  log.tau.setOnes(log.size(), 2);  // each joint has a motor
   LinearCalibrationOptions options;
   options.bandwidth_hz = 20;
   const auto window = [&] {
@@ -123,7 +134,7 @@ TEST(WeakWindow, HoldsSamplesEnough) {
   std::mt19937_64 random(3);
   const Robot robot = SampleRobot("2R planar (vertical plane)");
   Log log = RecordMotion(RandomMultisine(&random, 2), 20, .01);
-  AddTorque(robot, &log);
+  log.tau.setOnes(log.size(), 2);  // each joint has a motor
   EXPECT_NEAR(DefaultWindow(20, SetOf(robot, log)), .16, 1e-12);
 }
 

@@ -128,7 +128,7 @@ def calibrate(
                          displacement such as 0.001rad, for all joints (default
                          auto)
     window               float, s: length of the weak form's test functions, s;
-                         default: 1.5 periods of the bandwidth, to 0.3 for
+                         default: .87 periods of the bandwidth, to 0.3 for
                          noise
     interval             float, s: integral model: length of intervals (default
                          0.5)
@@ -608,7 +608,7 @@ def reduce(
                          displacement such as 0.001rad, for all joints (default
                          auto)
     window               float, s: length of the weak form's test functions, s;
-                         default: 1.5 periods of the bandwidth, to 0.3 for
+                         default: .87 periods of the bandwidth, to 0.3 for
                          noise
     interval             float, s: integral model: length of intervals (default
                          0.5)
