@@ -6,6 +6,7 @@
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/maxima_tail.h"
 #include "calib/diagnose/select/pulses.h"
+#include "calib/numerics/median.h"
 
 namespace armcal {
 namespace {
@@ -147,6 +148,25 @@ GapEvent EventOf(const GapRows& rows, const Robot& robot, const PulseScan& scan,
   return event;
 }
 
+// How far pulses stand out from what is usual in the log itself, where joints
+// slide: motion unlike the reference's leaves more, all the time, than that
+// told. A joint's scale is its median over that of |N(0, 1)| (Hampel 1974), at
+// least 1; what comes and goes in less than half of the time leaves it.
+MatrixXd OverTheUsual(const GapRows& rows, const PulseScan& scan) {
+  constexpr double kNormalMedian = .6745;
+  MatrixXd deviations = scan.deviations().cwiseAbs();
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    std::vector<double> sliding;
+    for (int k = 0; k < rows.num_thin(); ++k) {
+      if (deviations(k, j) > 0 && !rows.IsHeld(rows.SegmentOf(k), j, k)) {
+        sliding.push_back(deviations(k, j));
+      }
+    }
+    deviations.col(j) /= std::max(1., Median(sliding) / kNormalMedian);
+  }
+  return deviations;
+}
+
 void Forget(const GapRows& rows, const Contact& contact, MatrixXd* deviations) {
   for (int k = 0; k < rows.num_thin(); ++k) {
     const int segment = rows.SegmentOf(k);
@@ -205,14 +225,14 @@ std::vector<GapEvent> FindPulses(const GapRegression& regression,
     return std::max(usual.Chance(deviations * deviations),
                     ChanceOfNoise(rows, deviations));
   };
-  MatrixXd deviations = scan.deviations().cwiseAbs();
+  MatrixXd deviations = OverTheUsual(rows, scan);
   std::vector<GapEvent> events;
   double time = 0;
   int sample, joint;
   while (chance(deviations.maxCoeff(&sample, &joint)) <
          Limits().false_contacts) {
     events.push_back(EventOf(rows, model.robot(), scan, sample, joint));
-    events.back().chance = chance(events.back().contact.deviations);
+    events.back().chance = chance(deviations(sample, joint));
     time += 2 * scan.widths()(sample, joint);
     Forget(rows, events.back().contact, &deviations);
   }
