@@ -178,6 +178,13 @@ const std::vector<ThresholdInfo> kAll = {
     {"event_reach", &T::event_reach, "widths",
      "How far to both sides an event is left out", Kind::kLaw,
      "exp(-2.5^2): 0.2 % of its peak is left"},
+    {"usual_motion", &T::usual_motion, "quantile",
+     "Of a reference's speeds and accelerations: pulses are looked for where "
+     "none is beyond",
+     Kind::kDefinition,
+     "a reference's usual motion: what it has 5 % of the "
+     "time tells the noise there, a jump of an encoder "
+     "does not"},
     // Probability and claims
     {"temperature", &T::temperature, "1",
      "Divides scores: neither noise nor catalogue nor forms are as a "

@@ -71,6 +71,7 @@ struct Thresholds {
   double same_posture = .02;
   double usual_lever = .3;
   double event_reach = 2.5;
+  double usual_motion = .95;
 
   // Probability and claims
   double temperature = 4;

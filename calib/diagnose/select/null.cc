@@ -12,6 +12,7 @@
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/inflation.h"
+#include "calib/numerics/median.h"
 
 namespace armcal {
 namespace {
@@ -46,10 +47,8 @@ MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
   return screen.Gradients(residual, numbers, count);
 }
 
-double Quantile(VectorXd x, double share) {
-  const auto nth = x.begin() + static_cast<int>(share * x.size());
-  std::nth_element(x.begin(), nth, x.end());
-  return *nth;
+double QuantileOf(const VectorXd& x, double share) {
+  return Quantile(std::vector<double>(x.begin(), x.end()), share);
 }
 
 // Scores of one place over the draws, in units of their own upper tail: what
@@ -61,8 +60,8 @@ struct PlaceExcess {
 
 PlaceExcess Excess(const VectorXd& scores) {
   PlaceExcess excess;
-  excess.median = Quantile(scores, .5);
-  excess.scale = std::max(1., Quantile(scores, .9) - excess.median);
+  excess.median = QuantileOf(scores, .5);
+  excess.scale = std::max(1., QuantileOf(scores, .9) - excess.median);
   excess.deviations = (scores.array() - excess.median) / excess.scale;
   return excess;
 }
@@ -99,8 +98,8 @@ double ScoreByChance(const GapScreen& screen, const GapRows& rows,
   }
   const PlaceExcess own = Excess(best.col(joint + 1));
   return std::min(
-      Quantile(best.rowwise().maxCoeff(), Limits().chance_quantile),
-      own.median + own.scale * Quantile(largest, Limits().chance_quantile));
+      QuantileOf(best.rowwise().maxCoeff(), Limits().chance_quantile),
+      own.median + own.scale * QuantileOf(largest, Limits().chance_quantile));
 }
 
 Selection WithoutChance(const GapScreen& screen, const GapRows& rows,

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/maxima_tail.h"
+#include "calib/diagnose/select/motion_range.h"
 #include "calib/diagnose/select/pulses.h"
-#include "calib/numerics/median.h"
 
 namespace armcal {
 namespace {
@@ -22,6 +23,7 @@ class ModelOfPulses {
   ModelOfPulses(const GapRegression& regression, const JointRows& torque)
       : x_(regression.ModelBeside(torque)),
         robot_(regression.baseline().With(x_)),
+        range_(regression.reference()->rows()),
         covariance_(MatrixXd::Identity(x_.size(), x_.size())) {
     const int fitted = regression.baseline().num_model_columns();
     covariance_.topLeftCorner(fitted, fitted) =
@@ -67,8 +69,13 @@ class ModelOfPulses {
   }
 
   // What rows are doubted by; and a joint that does not slide holds any torque
-  // up to its Coulomb friction, whose variance is a third of its square.
+  // up to its Coulomb friction, whose variance is a third of its square. What
+  // the model leaves is not known of motion that the reference does not have,
+  // nor of joints without a motor, whose torque is told in no unit.
   MatrixXd DoubtOf(const GapRows& rows) const {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    const Eigen::Array<bool, Eigen::Dynamic, 1> known = range_.Contains(rows);
+    const VectorXd usual = UsualTorque(rows.segments());
     MatrixXd doubt(rows.num_thin(), rows.num_joints());
     for (int k = 0; k < rows.num_thin(); ++k) {
       const int segment = rows.SegmentOf(k);
@@ -77,6 +84,7 @@ class ModelOfPulses {
         const double own = std::pow(rows.noise(j).stddev(), 2);
         doubt(k, j) = std::sqrt(std::max(0., rows.variance(j, k) - own) +
                                 holds * holds / 3);
+        if (!known[k] || usual[j] == 0) doubt(k, j) = kUnknown;
       }
     }
     return doubt;
@@ -87,6 +95,7 @@ class ModelOfPulses {
 
   VectorXd x_;
   Robot robot_;
+  MotionRange range_;
   MatrixXd covariance_;
   std::vector<Autoregression> noise_;
 };
@@ -148,25 +157,6 @@ GapEvent EventOf(const GapRows& rows, const Robot& robot, const PulseScan& scan,
   return event;
 }
 
-// How far pulses stand out from what is usual in the log itself, where joints
-// slide: motion unlike the reference's leaves more, all the time, than that
-// told. A joint's scale is its median over that of |N(0, 1)| (Hampel 1974), at
-// least 1; what comes and goes in less than half of the time leaves it.
-MatrixXd OverTheUsual(const GapRows& rows, const PulseScan& scan) {
-  constexpr double kNormalMedian = .6745;
-  MatrixXd deviations = scan.deviations().cwiseAbs();
-  for (int j = 0; j < rows.num_joints(); ++j) {
-    std::vector<double> sliding;
-    for (int k = 0; k < rows.num_thin(); ++k) {
-      if (deviations(k, j) > 0 && !rows.IsHeld(rows.SegmentOf(k), j, k)) {
-        sliding.push_back(deviations(k, j));
-      }
-    }
-    deviations.col(j) /= std::max(1., Median(sliding) / kNormalMedian);
-  }
-  return deviations;
-}
-
 void Forget(const GapRows& rows, const Contact& contact, MatrixXd* deviations) {
   for (int k = 0; k < rows.num_thin(); ++k) {
     const int segment = rows.SegmentOf(k);
@@ -225,7 +215,7 @@ std::vector<GapEvent> FindPulses(const GapRegression& regression,
     return std::max(usual.Chance(deviations * deviations),
                     ChanceOfNoise(rows, deviations));
   };
-  MatrixXd deviations = OverTheUsual(rows, scan);
+  MatrixXd deviations = scan.deviations().cwiseAbs();
   std::vector<GapEvent> events;
   double time = 0;
   int sample, joint;
