@@ -69,23 +69,31 @@ double LawDifference(double v, double width) {
          ZeroVelocitySign(v, width);
 }
 
+// Joints are the driven ones, from 0: a hidden effect may have put others under
+// the base, which shift nothing counted from the tip.
+int FromTheTip(const SimulatedRobot& robot, int joint) {
+  return robot.robot.num_joints() - robot.num_passive - joint;
+}
+
 void AddFrictionLaw(int j, double zero_velocity, SimulatedRobot* robot) {
-  const Joint& joint = robot->robot.links[j].joint;
+  const int index = robot->num_passive + j;
+  const Joint& joint = robot->robot.links[index].joint;
   const double coulomb = joint.coulomb;
   const double width = zero_velocity * Radian(joint.type);
-  const int k = robot->robot.num_joints() - j;
+  const int k = FromTheTip(*robot, j);
   robot->joint_laws.push_back(
-      {j, {}, true, [=](const ArmInstant& at, const double*, double*) {
+      {index, {}, true, [=](const ArmInstant& at, const double*, double*) {
          return -coulomb * LawDifference(FromTip(at.velocity, k), width);
        }});
 }
 
 void AddTorques(int j, const JointMisfit& joint, const VectorXd& drift,
                 double duration, SimulatedRobot* robot) {
-  const JointType type = robot->robot.links[j].joint.type;
-  const int k = robot->robot.num_joints() - j;
+  const int index = robot->num_passive + j;
+  const JointType type = robot->robot.links[index].joint.type;
+  const int k = FromTheTip(*robot, j);
   robot->joint_laws.push_back(
-      {j, {}, false, [=](const ArmInstant& at, const double*, double*) {
+      {index, {}, false, [=](const ArmInstant& at, const double*, double*) {
          return -RippleTorque(joint, type, FromTip(at.position, k)) -
                 DriftTorque(drift, at.t / duration);
        }});
@@ -100,7 +108,8 @@ void AddTorqueFactors(const StructuredMisfit& misfit, SimulatedRobot* robot) {
   robot->actuators.push_back(
       {{},
        [factor](const ArmInstant&, const double*, double*, VectorXd* torque) {
-         *torque = torque->cwiseQuotient(factor);
+         auto driven = torque->tail(factor.size());
+         driven = driven.cwiseQuotient(factor);
        }});
 }
 

@@ -113,6 +113,29 @@ double LawTorque(const SimulatedRobot& robot, int j, double q, double qd) {
   return torque;
 }
 
+// What a stand that sways puts under the base is no driven joint.
+TEST(StructuredMisfit, IsOfTheDrivenJoints) {
+  const MisfitCase drawn(8);
+  const auto plant = PlantMisfit(*drawn.with.misfit, 0, 10);
+  SimulatedRobot fixed, sways;
+  fixed.robot = sways.robot = drawn.with.robot;
+  sways.robot.links.insert(sways.robot.links.begin(), Link());
+  sways.num_passive = 1;
+  plant(&fixed);
+  plant(&sways);
+  const int n = drawn.with.robot.num_joints();
+  VectorXd torque = VectorXd::Ones(n), with_base = VectorXd::Ones(n + 1);
+  fixed.actuators[0].apply({}, nullptr, nullptr, &torque);
+  sways.actuators[0].apply({}, nullptr, nullptr, &with_base);
+  ASSERT_EQ(with_base.size(), n + 1);
+  EXPECT_EQ(with_base[0], 1);
+  EXPECT_EQ(with_base.tail(n), torque);
+  EXPECT_EQ(LawTorque(sways, 0, .7, .3), 0);
+  for (int j = 0; j < n; ++j) {
+    EXPECT_EQ(LawTorque(sways, j + 1, .7, .3), LawTorque(fixed, j, .7, .3));
+  }
+}
+
 TEST(StructuredMisfit, IsTheRobotsInAllLogsExceptTheDrift) {
   const MisfitCase drawn(8);
   const int n = drawn.with.robot.num_joints();

@@ -11,9 +11,10 @@ namespace armcal {
 // Pushes on joints that move, one joint or several, as pulses of torque
 // (PulseScan) beside the baseline and `effects`. Only a reference, in which
 // nothing touched the arm, tells what pulses a model leaves by itself, of
-// motion as it has (MotionRange): one of the log has to stand out from them. None where there is no reference, nor
-// where they would take more of the time than contacts do: that is no touch
-// but what the model lacks. Times that are masked already have none.
+// motion as it has (MotionRange): one of the log has to stand out from them.
+// None where there is no reference, nor where they would take more of the time
+// than contacts do: that is no touch but what the model lacks. Times that are
+// masked already have none.
 std::vector<GapEvent> FindPulses(const GapRegression& regression,
                                  const std::vector<GapCandidate>& effects);
 
