@@ -1,5 +1,6 @@
 #include "calib/diagnose.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "calib/diagnose/diagnosis.h"
@@ -104,6 +105,24 @@ void LeaveOutLaws(std::vector<std::string>* without) {
   }
 }
 
+void AddClocks(const std::vector<WrongClock>& clocks,
+               const std::vector<LogSource>& logs,
+               const DiagnoseOptions& options, GapDiagnosis* diagnosis) {
+  for (auto clock = clocks.rbegin(); clock != clocks.rend(); ++clock) {
+    diagnosis->data.insert(diagnosis->data.begin(), clock->finding);
+  }
+  const std::optional<FoundEffect> effect = FoundClock(clocks, logs);
+  const auto& without = options.without;
+  if (!effect ||
+      std::count(without.begin(), without.end(), effect->effect->name) > 0) {
+    return;
+  }
+  diagnosis->effects.insert(diagnosis->effects.begin(), *effect);
+  diagnosis->candidates.insert(
+      diagnosis->candidates.begin(),
+      {effect->effect, effect->joint, effect->probability, effect->score});
+}
+
 DrawnTorques Draw(const GapDiagnosis& diagnosis, const LogSet& held_out) {
   DrawnTorques drawn;
   drawn.labels = {diagnosis.has_reference     ? "as in the reference"
@@ -158,7 +177,7 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   reading.joint_names = robot.JointNames();
   reading.want_temperature = true;
   if (options.progress) options.progress("opening the logs", -1);
-  std::vector<DataFinding> clocks =
+  const std::vector<WrongClock> clocks =
       MendClocks(AllLogs(logs, options), &reading);
   if (!options.controller.empty()) {
     MakeTorques(robot, options.controller, AllLogs(logs, options), &reading);
@@ -176,7 +195,7 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   const LogSet* before = reference ? &*reference : nullptr;
   auto details = std::make_shared<GapDiagnosis>(DiagnoseGap(
       calibrated ? calibrated->robot : robot, fit, training, held_out, before));
-  details->data.insert(details->data.begin(), clocks.begin(), clocks.end());
+  AddClocks(clocks, logs.logs, options, details.get());
   if (calibrated) {
     NoteCalibration(*calibrated, {&training, held_out, before}, &details->data);
   }

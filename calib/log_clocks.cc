@@ -1,17 +1,20 @@
 #include "calib/log_clocks.h"
 
+#include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "calib/logs/clock_text.h"
 #include "calib/logs/sample_clock.h"
+#include "model/effects/effects.h"
 #include "model/log_files/log_reader.h"
 
 namespace armcal {
 
-std::vector<DataFinding> MendClocks(const std::vector<LogSource>& logs,
-                                    LogReaderOptions* reading) {
+std::vector<WrongClock> MendClocks(const std::vector<LogSource>& logs,
+                                   LogReaderOptions* reading) {
   constexpr int kMostRows = 1 << 20;
-  std::vector<DataFinding> findings;
+  std::vector<WrongClock> wrong;
   for (const LogSource& source : logs) {
     LogReaderOptions wanted = *reading;
     wanted.want_velocity = true;
@@ -37,9 +40,32 @@ std::vector<DataFinding> MendClocks(const std::vector<LogSource>& logs,
       reading->sample_times[source.name] =
           std::make_shared<const Eigen::VectorXd>(std::move(clock.t));
     }
-    findings.push_back(std::move(finding));
+    wrong.push_back({source.name, std::move(finding), 1 / clock.rate - 1,
+                     clock.period_stddev / clock.period / clock.rate,
+                     clock.wrong_rate});
   }
-  return findings;
+  return wrong;
+}
+
+// Beyond five deviations, as SampleClock has it: what is left is that all
+// velocities are in another unit alike.
+std::optional<FoundEffect> FoundClock(const std::vector<WrongClock>& clocks,
+                                      const std::vector<LogSource>& logs) {
+  constexpr double kOtherUnit = .01;
+  for (const WrongClock& clock : clocks) {
+    const bool is_of_these = std::any_of(
+        logs.begin(), logs.end(),
+        [&](const LogSource& source) { return source.name == clock.log; });
+    if (!is_of_these || !clock.wrong_rate) continue;
+    FoundEffect found;
+    found.effect = &ClockEffect();
+    found.probability = 1 - kOtherUnit;
+    found.of_the_stamps = true;
+    found.estimates = {{"rate", "1", clock.rate}};
+    found.stddev = {clock.rate_stddev};
+    return found;
+  }
+  return std::nullopt;
 }
 
 }  // namespace armcal

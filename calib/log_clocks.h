@@ -1,19 +1,37 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "calib/diagnose/data/audit.h"
+#include "calib/diagnose/judge/found_effect.h"
 #include "model/log_files/log_reader_options.h"
 #include "model/log_files/log_source.h"
 
 namespace armcal {
 
-// Of logs whose stamps are not when their samples were taken, as positions and
-// velocities of all joints tell (EstimateSampleClock), a finding each, which
-// leads a diagnosis. They are read with the time that their joints tell from
-// then on (LogReaderOptions::sample_times), but for logs of more than 2^20
-// rows.
-std::vector<DataFinding> MendClocks(const std::vector<LogSource>& logs,
-                                    LogReaderOptions* reading);
+// A log whose stamps are not when its samples were taken, as positions and
+// velocities of all joints tell (EstimateSampleClock).
+struct WrongClock {
+  std::string log;
+  DataFinding finding;  // leads a diagnosis
+  // What stamps grow by per second of true time, less 1.
+  double rate = 0;
+  double rate_stddev = 0;
+  bool wrong_rate = false;  // SampleClock's; else stamps are uneven alone
+};
+
+// Of those logs whose clock is wrong. They are read with the time that their
+// joints tell from then on (LogReaderOptions::sample_times), but for logs of
+// more than 2^20 rows.
+std::vector<WrongClock> MendClocks(const std::vector<LogSource>& logs,
+                                   LogReaderOptions* reading);
+
+// The first of these logs' clocks that runs at another rate as an effect
+// (ClockEffect); none where all run at theirs. Of motion in the mended time
+// there is nothing of it left to fit, so that it removes nothing there.
+std::optional<FoundEffect> FoundClock(const std::vector<WrongClock>& clocks,
+                                      const std::vector<LogSource>& logs);
 
 }  // namespace armcal

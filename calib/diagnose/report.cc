@@ -202,7 +202,8 @@ std::string Findings(const GapDiagnosis& diagnosis) {
   std::vector<std::string> names;
   double least = 1;
   for (const FoundEffect& found : diagnosis.effects) {
-    if (found.of_another_day) continue;  // FrictionChanged() says so
+    // FrictionChanged() and the data's findings say so.
+    if (found.of_another_day || found.of_the_stamps) continue;
     const size_t times = found.contacts.size();
     if (times > 0) {
       touched = "Something touched the arm " +

@@ -31,5 +31,10 @@ const Effect& ContactEffect() {
                        [](const Effect& effect) { return effect.is_contact; });
 }
 
+const Effect& ClockEffect() {
+  return *std::find_if(Effects().begin(), Effects().end(),
+                       [](const Effect& effect) { return effect.is_clock; });
+}
+
 }  // namespace effects
 }  // namespace armcal

@@ -15,6 +15,8 @@ const std::vector<Effect>& Effects();
 const Effect* FindEffect(const std::string& name);
 // What contacts are reported as.
 const Effect& ContactEffect();
+// What a clock of another rate is reported as.
+const Effect& ClockEffect();
 
 }  // namespace effects
 }  // namespace armcal

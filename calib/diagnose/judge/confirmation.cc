@@ -10,14 +10,13 @@ double Confirmation::Share() const {
   return std::clamp(explained / (expected + Limits().confirmation), -1., 1.);
 }
 
-Confirmation Confirm(const JointRows& without, const JointRows& with) {
-  Confirmation confirmation;
+Confirmation Confirm(const PredictedChi2& chi2, const JointRows& without,
+                     const JointRows& with) {
+  JointRows change;
   for (size_t j = 0; j < with.size(); ++j) {
-    if (with[j].size() == 0) continue;
-    confirmation.expected += (without[j] - with[j]).squaredNorm();
-    confirmation.explained += without[j].squaredNorm() - with[j].squaredNorm();
+    change.push_back(without[j] - with[j]);
   }
-  return confirmation;
+  return {chi2.Of(change), chi2.Of(without) - chi2.Of(with)};
 }
 
 }  // namespace armcal

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "calib/diagnose/data/screen.h"
+#include "calib/diagnose/judge/predicted_chi2.h"
 
 namespace armcal {
 
-// Whether residuals that nothing was chosen on are what an effect says. Both in
-// units of their variance.
+// Whether residuals that nothing was chosen on are what an effect says, as
+// PredictedChi2 has them.
 struct Confirmation {
   double expected = 0;   // chi^2 by which it changes what is predicted
   double explained = 0;  // by which chi^2 is lower with it
@@ -20,6 +20,7 @@ struct Confirmation {
 
 // From whitened residuals per joint with and without the effect, each beside
 // the baseline that was fitted so.
-Confirmation Confirm(const JointRows& without, const JointRows& with);
+Confirmation Confirm(const PredictedChi2& chi2, const JointRows& without,
+                     const JointRows& with);
 
 }  // namespace armcal

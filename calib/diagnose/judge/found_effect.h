@@ -47,6 +47,9 @@ struct FoundEffect {
   // Whether it is friction of several joints that is that of another day: one
   // change, the estimates being each joint's, and no term of the model's.
   bool of_another_day = false;
+  // Whether the stamps of a log say it, which were mended before anything was
+  // fitted: the data's finding tells it, no term of the model's.
+  bool of_the_stamps = false;
   // The term that the file gives no joint, where it is that of all joints: the
   // estimates are each joint's.
   std::optional<JointTerm> missing_term;

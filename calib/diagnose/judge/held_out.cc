@@ -193,15 +193,24 @@ JointRows HeldOut::Whitened(const MatrixXd& residual) const {
   return white;
 }
 
+const PredictedChi2& HeldOut::chi2() const {
+  if (!chi2_) {
+    chi2_ = std::make_unique<PredictedChi2>(data_->WhitenedColumns(),
+                                            fit_.screen().BaselineCovariance());
+  }
+  return *chi2_;
+}
+
 // What the model leaves tells by how much the gap shrinks; whether the effect
 // is there again is asked beside what models lack as a rule.
 HeldOut::Merit HeldOut::MeritOf(size_t k, double after) const {
   const RefinedEffects& refined = fit_.refined();
   const std::vector<GapCandidate> others = AllBut(refined.effects, k);
   const MatrixXd left = Residual(others, fit_.ModelBeside(others));
-  return {MeanSquare(Deviations(left).cwiseAbs2()) - after,
-          Confirm(Whitened(Residual(others, fit_.BaselineBeside(others))),
-                  Whitened(Residual(refined.effects, refined.baseline)))};
+  return {
+      MeanSquare(Deviations(left).cwiseAbs2()) - after,
+      Confirm(chi2(), Whitened(Residual(others, fit_.BaselineBeside(others))),
+              Whitened(Residual(refined.effects, refined.baseline)))};
 }
 
 }  // namespace armcal

@@ -54,12 +54,14 @@ class HeldOut {
   Eigen::MatrixXd Residual(const std::vector<GapCandidate>& effects,
                            const Eigen::VectorXd& baseline) const;
   JointRows Whitened(const Eigen::MatrixXd& residual) const;
+  const PredictedChi2& chi2() const;
   // Over their standard deviations; NaN where a joint stands.
   Eigen::MatrixXd Deviations(const Eigen::MatrixXd& residual) const;
 
   const GapFit& fit_;
   bool other_logs_;
   std::unique_ptr<GapData> data_;
+  mutable std::unique_ptr<PredictedChi2> chi2_;  // once it is asked for
 };
 
 }  // namespace armcal

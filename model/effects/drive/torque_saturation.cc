@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "model/effects/effect_parts.h"
 
@@ -19,6 +21,17 @@ struct SoftClip {
   double limit, w, most;
 };
 
+// Within the torques that were asked for. A loop that winds up at its limit
+// asks for far more than that: limits reach down to what is usual.
+std::vector<double> LimitsBelow(double top, double usual) {
+  constexpr double kStep = 1.15;
+  const double highest = .95 * top;
+  const double lowest = std::min(.5 * top, 1.5 * usual);
+  const int steps = static_cast<int>(
+      std::ceil(std::log(highest / lowest) / std::log(kStep)));
+  return GeometricGrid(lowest, highest, steps + 1);
+}
+
 }  // namespace
 
 // given = commanded - share (commanded - clip(commanded, limit)), share about
@@ -36,13 +49,12 @@ Effect TorqueSaturation() {
       Linear(
           "share", "1", [](const EffectSite&) { return 1.; },
           EffectParameter::Sign::kPositive),
-      // Within the torques that were asked for.
       Gridded("limit", "E",
               [](const EffectSite& site) {
                 const Eigen::VectorXd& tops = site.scale->top_torque;
-                const double top =
-                    tops.size() > 0 ? tops[site.joint] : 2 * TorqueScale(site);
-                return GeometricGrid(.5 * top, .95 * top, 6);
+                return LimitsBelow(
+                    tops.size() > 0 ? tops[site.joint] : 2 * TorqueScale(site),
+                    TorqueScale(site));
               }),
       Gridded("knee", "1", [](const EffectSite&) {
         return std::vector<double>{.02, .08};

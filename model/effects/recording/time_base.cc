@@ -10,6 +10,7 @@ Effect TimeBase() {
   effect.name = "time_base";
   effect.scope = Effect::Scope::kRobot;
   effect.nature = Effect::Nature::kRecording;
+  effect.is_clock = true;
   effect.law = "tau = ID((1 + rate) qd, (1 + rate)^2 qdd) - ID(qd, qdd)";
   effect.shows = "fast motion, against a robot whose masses are known";
   effect.parameters = {

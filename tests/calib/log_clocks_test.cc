@@ -1,0 +1,55 @@
+#include "calib/log_clocks.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/inspected_arm.h"
+
+namespace armcal::log_clocks_test {
+
+// An arm that is recorded every 10 ms, its positions with noise of 2e-5 rad,
+// by two clocks: a right one, and one that runs 3 % slow.
+class LogClocks : public testing::Test {
+ protected:
+  LogClocks() : right_("right", InspectedArm().log), slow_(right_) {
+    Log log = InspectedArm().log;
+    std::mt19937_64 random(11);
+    AddNoise(&random, Eigen::VectorXd::Constant(log.q.cols(), 2e-5), &log.q);
+    right_ = LogSource("right", log);
+    log.t /= 1.03;
+    slow_ = LogSource("slow", log);
+    for (int j = 0; j < log.q.cols(); ++j) {
+      reading_.joint_names.push_back("j" + std::to_string(j + 1));
+    }
+  }
+
+  LogSource right_, slow_;
+  LogReaderOptions reading_;
+};
+
+TEST_F(LogClocks, OfAnotherRateIsATimeBase) {
+  const std::vector<WrongClock> clocks = MendClocks({right_, slow_}, &reading_);
+  ASSERT_EQ(clocks.size(), 1);
+  EXPECT_EQ(clocks[0].log, "slow");
+  EXPECT_TRUE(clocks[0].finding.leads);
+  EXPECT_EQ(reading_.sample_times.count("slow"), 1);
+  EXPECT_EQ(reading_.sample_times.count("right"), 0);
+  const std::optional<FoundEffect> effect = FoundClock(clocks, {slow_});
+  ASSERT_TRUE(effect);
+  EXPECT_EQ(effect->effect->name, "time_base");
+  ASSERT_EQ(effect->estimates.size(), 1);
+  EXPECT_NEAR(effect->estimates[0].value, 1 / 1.03 - 1, .001);
+  EXPECT_NEAR(effect->estimates[0].value, 1 / 1.03 - 1, 4 * effect->stddev[0]);
+}
+
+// A reference's clock is no effect of the log that is diagnosed, nor are stamps
+// that are uneven at the right rate.
+TEST_F(LogClocks, OfOtherLogsOrAtTheRightRateIsNone) {
+  std::vector<WrongClock> clocks = MendClocks({right_, slow_}, &reading_);
+  ASSERT_EQ(clocks.size(), 1);
+  EXPECT_FALSE(FoundClock(clocks, {right_}));
+  EXPECT_FALSE(FoundClock({}, {slow_}));
+  clocks[0].wrong_rate = false;
+  EXPECT_FALSE(FoundClock(clocks, {slow_}));
+}
+
+}  // namespace armcal::log_clocks_test
