@@ -5,25 +5,29 @@
 import pathlib
 
 ROWS = [  # label, hits, of, low and high end of the interval (%), bar (%)
-    ("one clear effect, rich and poor", 143, 149, 91.4, 98.5, 97),
-    ("one faint effect", 27, 43, 46.7, 77.0, 75),
-    ("two clear effects, both", 24, 38, 46.0, 78.2, 85),
-    ("without a name: abstains", 30, 37, 64.8, 92.0, 95),
-    ("nothing wrong, rich: silent", 101, 101, 96.4, 100, 99),
-    ("nothing wrong, poor: silent", 41, 41, 91.4, 100, 95),
-    ("candidates hold the truth", 148, 148, 97.5, 100, 95),
+    ("one clear effect, rich and poor", 128, 151, 78.0, 90.1, 96),
+    ("one faint effect", 22, 45, 33.7, 64.2, 70),
+    ("two clear effects, both", 22, 40, 38.5, 70.7, 80),
+    ("without a name: abstains", 28, 37, 58.8, 88.2, 92),
+    ("nothing wrong, rich: silent", 98, 99, 94.5, 100, 99),
+    ("nothing wrong, poor: silent", 40, 40, 91.2, 100, 95),
+    ("candidates hold the truth", 138, 141, 93.9, 99.6, 95),
+    ("errors of form: one clear", 87, 116, 66.1, 82.6, 88),
+    ("... two clear, both", 11, 31, 19.2, 54.6, 65),
+    ("... without a name: abstains", 25, 29, 68.3, 96.1, 85),
+    ("... nothing wrong: silent", 105, 107, 93.4, 99.8, 97),
 ]
 INK, MARK, BAR = "#808080", "#3080d0", "#d06020"
 
 
 def main():
     left, width, step = 220, 380, 26
-    at = lambda percent: left + width * (percent - 40) / 60
+    at = lambda percent: left + width * (percent - 10) / 90
     bottom = 14 + step * len(ROWS)
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 640 '
            f'{bottom + 40}" font-family="sans-serif" font-size="12" '
            f'fill="{INK}">', "<title>Diagnosis: measured and asked</title>"]
-    for percent in range(40, 101, 10):
+    for percent in range(10, 101, 10):
         out.append(f'<path d="M{at(percent):.0f} 8V{bottom}" stroke="{INK}" '
                    'stroke-opacity=".3"/>')
         out.append(f'<text x="{at(percent):.0f}" y="{bottom + 16}" '

@@ -10,33 +10,34 @@ namespace {
 using T = Thresholds;
 using Kind = ThresholdInfo::Kind;
 
-constexpr const char* kByHand = "data that nobody noted, by hand";
-
 const std::vector<ThresholdInfo> kAll = {
     // What the model may vary
     {"timing_with_reference", &T::timing_with_reference, "s",
      "How far torque may lag behind position where a reference tells by "
      "how much",
-     Kind::kTuned, kByHand},
+     Kind::kTuned, "a UR10e whose torque is 18 ms late, three times that"},
     {"reversal_of_made_torques", &T::reversal_of_made_torques, "s",
      "When friction changes sign, beside a velocity whose low pass takes "
      "a stop for a turn; torques made of commands",
-     Kind::kTuned, kByHand},
+     Kind::kTuned, "the 618 cases of seed 850757257, after their evaluation"},
     {"reversal_width", &T::reversal_width, "rad/s",
      "Speed over which friction changes sign (0.3 of it in m/s), where "
      "no calibration tells",
-     Kind::kTuned, kByHand},
+     Kind::kTuned, "a prototype's simulated arms, of 5 to 12 mrad/s"},
     {"width_mixture", &T::width_mixture, "Coulomb friction",
-     "How much of it may change sign over other speeds", Kind::kTuned, kByHand},
+     "How much of it may change sign over other speeds", Kind::kTuned,
+     "a prototype's simulated arms, of 5 to 12 mrad/s"},
     {"offset_share", &T::offset_share, "usual torque",
-     "How well a torque's zero is known", Kind::kTuned, kByHand},
+     "How well a torque's zero is known", Kind::kTuned,
+     "nothing that was noted, on 2026-11-20"},
     {"reversal_doubt", &T::reversal_doubt, "prior deviation",
      "Of the ways through zero velocity, how much of them is doubt of "
      "the samples next to it",
-     Kind::kTuned, kByHand},
+     Kind::kTuned, "107 calibration cases of seed 301 and a UR10e"},
     {"made_torque_doubt", &T::made_torque_doubt, "usual torque",
      "How well torques made of commands are known, at best", Kind::kTuned,
-     kByHand},
+     "the 618 cases of seed 850757257, after their evaluation, and seed 93: "
+     ".005 and .002 were tried"},
     // What models lack as a rule
     {"lacked", &T::lacked, "usual torque",
      "Torque of position, of the joint's load, and of all positions and "
@@ -70,7 +71,9 @@ const std::vector<ThresholdInfo> kAll = {
     {"told_of_day", &T::told_of_day, "prior variance",
      "A joint's friction is told where less than this of its prior is "
      "left",
-     Kind::kTuned, kByHand},
+     Kind::kTuned,
+     "calibration cases of seeds 3301 and 3302 and the building sets of real "
+     "robots"},
     {"clear_of_many", &T::clear_of_many, "standard deviations",
      "What is looked at on many joints or parameters at once is clear "
      "beyond this",
@@ -86,32 +89,44 @@ const std::vector<ThresholdInfo> kAll = {
      "Motion that repeats sooner is no repeat", Kind::kDefinition,
      "a motion between two postures takes longer"},
     {"ends_without_repeat", &T::ends_without_repeat, "log",
-     "What a log begins and ends with need not repeat", Kind::kTuned, kByHand},
+     "What a log begins and ends with need not repeat", Kind::kTuned,
+     "nothing that was noted, on 2026-11-20"},
     {"repeat_tolerance", &T::repeat_tolerance, "rms motion",
-     "Motion is the same again within this share", Kind::kTuned, kByHand},
+     "Motion is the same again within this share", Kind::kTuned,
+     "nothing that was noted, on 2026-11-20"},
     {"doubt_of_noise", &T::doubt_of_noise, "variance",
      "By what share the noise told from repeats, a reference or "
      "positions may be larger",
-     Kind::kTuned, kByHand},
+     Kind::kTuned,
+     "107 calibration cases of seed 301; 250 independent rows tell a variance "
+     "so well"},
     {"doubt_of_rest", &T::doubt_of_rest, "variance",
      "The same of what was told at rest: motion adds clocks and encoders",
-     Kind::kTuned, kByHand},
+     Kind::kTuned, "107 calibration cases of seed 301"},
     {"doubt_of_residual", &T::doubt_of_residual, "variance",
-     "The same of what a refit leaves", Kind::kTuned, kByHand},
+     "The same of what a refit leaves", Kind::kTuned,
+     "107 calibration cases of seed 301"},
     {"creep_speed", &T::creep_speed, "rad/s or m/s",
-     "Below it a joint whose command rests creeps", Kind::kTuned, kByHand},
+     "Below it a joint whose command rests creeps", Kind::kTuned,
+     "calibration cases of seeds 91 to 94: 4 of 5 false alarms were contacts "
+     "made of creep"},
     {"smooth_power", &T::smooth_power, "noise power",
      "What is left of the torque above a low pass, over the noise's "
      "power, where a delay is to be told from it",
-     Kind::kTuned, kByHand},
+     Kind::kTuned,
+     "177 cases of elasticity and delay of seeds 839538295, 1917308019 and "
+     "641418970"},
     {"burst", &T::burst, "usual torque",
      "A second whose torque above the bandwidth is beyond this rings",
      Kind::kDefinition, "what a loop is that rings"},
     {"burst_over_fast", &T::burst_over_fast, "middle second",
      "and beyond this times what a joint's seconds have up there", Kind::kTuned,
-     kByHand},
+     "177 cases of elasticity and delay of seeds 839538295, 1917308019 and "
+     "641418970"},
     {"burst_reach", &T::burst_reach, "s",
-     "Left out on both sides, per power of ten", Kind::kTuned, kByHand},
+     "Left out on both sides, per power of ten", Kind::kTuned,
+     "177 cases of elasticity and delay of seeds 839538295, 1917308019 and "
+     "641418970"},
     {"position_only", &T::position_only, "inertial torque",
      "Torque that a law of position alone leaves less of was computed, "
      "not measured",
@@ -122,13 +137,14 @@ const std::vector<ThresholdInfo> kAll = {
     // Choice
     {"score", &T::score, "chi^2",
      "An effect's drop of chi^2 less its price has to exceed it", Kind::kTuned,
-     kByHand},
+     "the misses and false alarms of calibration cases of seeds 303 and 304: "
+     "25 before"},
     {"same_joint_share", &T::same_joint_share, "drop",
      "One more effect on a joint has to explain this share of the "
      "strongest's drop: laws' forms are never quite right",
-     Kind::kTuned, kByHand},
+     Kind::kTuned, "a prototype's simulated arm of six joints"},
     {"other_joint_share", &T::other_joint_share, "drop", "The same elsewhere",
-     Kind::kTuned, kByHand},
+     Kind::kTuned, "a prototype's simulated arm of six joints"},
     {"most_effects", &T::most_effects, "effects", "More are not chosen",
      Kind::kDefinition, "what a report can hold"},
     {"near_zero_price", &T::near_zero_price, "chi^2",
@@ -143,7 +159,7 @@ const std::vector<ThresholdInfo> kAll = {
     {"block", &T::block, "s",
      "Torque that is left, and its maxima, are independent from block to "
      "block",
-     Kind::kTuned, kByHand},
+     Kind::kTuned, "107 calibration cases of seed 301"},
     // Contacts
     {"false_contacts", &T::false_contacts, "logs",
      "At most this share of logs without a contact has one found", Kind::kLaw,
@@ -155,7 +171,9 @@ const std::vector<ThresholdInfo> kAll = {
     {"fewest_blocks", &T::fewest_blocks, "blocks",
      "Shorter blocks in short logs, to have so many; fewer tell no upper "
      "quartile",
-     Kind::kTuned, kByHand},
+     Kind::kTuned,
+     "nothing that was noted, on 2026-11-20; two of eight are beyond the upper "
+     "quartile"},
     {"breakaway", &T::breakaway, "s",
      "How long after a rest a joint may still be breaking away", Kind::kTuned,
      "dfki_simple_pendulum"},
@@ -165,10 +183,10 @@ const std::vector<ThresholdInfo> kAll = {
      "Mechanical Engineers"},
     {"clear_friction", &T::clear_friction, "Coulomb friction",
      "Where the model's friction is beyond this its sign is clear",
-     Kind::kTuned, kByHand},
+     Kind::kTuned, "nothing that was noted, on 2026-11-20"},
     {"near_rest", &T::near_rest, "s",
      "A contact at rest has the arm at rest within this time", Kind::kTuned,
-     kByHand},
+     "nothing that was noted, on 2026-11-20"},
     {"same_posture", &T::same_posture, "rad or m",
      "in a posture not farther away", Kind::kDefinition,
      "what the same posture is"},
@@ -197,32 +215,39 @@ const std::vector<ThresholdInfo> kAll = {
      "what is named"},
     {"likely", &T::likely, "1", "Likelier than not", Kind::kLaw, "even odds"},
     {"likely_unseen", &T::likely_unseen, "1",
-     "The same of what held-out data do not show", Kind::kTuned, kByHand},
+     "The same of what held-out data do not show", Kind::kTuned,
+     "the 618 cases of seed 567429353, after their evaluation"},
     {"form_error", &T::form_error, "drop",
      "What the form of a law may have wrong of its drop", Kind::kTuned,
-     kByHand},
+     "cases 938 and 426 of seed 962768770, after their evaluation"},
     {"visible", &T::visible, "chi^2",
      "Held-out data that should have more of an effect contradict it "
      "where they have none",
-     Kind::kTuned, kByHand},
+     Kind::kLaw,
+     "explained is N(E, 4 E) of an effect that is there: below 0 in 1 % where "
+     "E = 4 (2.33)^2"},
     {"helps", &T::helps, "noise", "unless their mean square falls by this",
-     Kind::kTuned, kByHand},
+     Kind::kTuned,
+     "the false alarms of the 618 cases of seed 1720681888, after their "
+     "evaluation"},
     {"confirmation", &T::confirmation, "chi^2",
-     "Held-out data that should have less of an effect tell little",
-     Kind::kTuned, kByHand},
+     "Held-out data that should have less of an effect tell little", Kind::kLaw,
+     "explained / expected is the share within 2 / sqrt(expected); its "
+     "mean given N(0, 1) before"},
     {"seen_again", &T::seen_again, "1",
      "Held-out data that have this share of what they should show it",
-     Kind::kTuned, kByHand},
+     Kind::kTuned, "the 618 cases of seed 567429353, after their evaluation"},
     {"untold", &T::untold, "1",
      "What held-out data cannot tell is at most this probable", Kind::kLaw,
      "indifference"},
     {"tells", &T::tells, "drop",
      "A joint that has less of a delay tells nothing of it", Kind::kTuned,
-     kByHand},
+     "calibration cases of seeds 3301 and 3302 and the building sets of real "
+     "robots"},
     // Verdict
     {"real", &T::real, "chi^2",
      "What is left counts beyond this: it is not chance", Kind::kTuned,
-     kByHand},
+     "a prototype's simulated arm: an effect of .32 of the noise in 1000 rows"},
     {"left", &T::left, "gap",
      "and this share of what was there; effects that leave more explain "
      "in part",
@@ -232,13 +257,14 @@ const std::vector<ThresholdInfo> kAll = {
      "the verdict `absorbed`"},
     {"louder_in_motion", &T::louder_in_motion, "variance",
      "Noise that was told at rest may be so much louder in motion",
-     Kind::kTuned, kByHand},
+     Kind::kTuned,
+     "calibration cases of seed 303 and 78 withheld ones of seed 1"},
     {"most_of_time", &T::most_of_time, "log",
      "Windows that stand out in more of it were no touch", Kind::kDefinition,
      "what a touch is"},
     {"visible_share", &T::visible_share, "column's square",
      "An effect of which the model leaves less cannot be told", Kind::kTuned,
-     kByHand},
+     "a prototype's simulated arm of six joints"},
     {"material", &T::material, "noise",
      "nor one of usual size that is smaller, rms", Kind::kDefinition,
      "what is `not testable`"},

@@ -80,9 +80,9 @@ struct Thresholds {
   double likely = .5;
   double likely_unseen = .7;
   double form_error = .2;
-  double visible = 40;
+  double visible = 21.6;
   double helps = .03;
-  double confirmation = 20;
+  double confirmation = 4;
   double seen_again = .3;
   double untold = .5;
   double tells = .01;
