@@ -27,8 +27,8 @@ std::vector<double> LimitsBelow(double top, double usual) {
   constexpr double kStep = 1.15;
   const double highest = .95 * top;
   const double lowest = std::min(.5 * top, 1.5 * usual);
-  const int steps = static_cast<int>(
-      std::ceil(std::log(highest / lowest) / std::log(kStep)));
+  const int steps =
+      static_cast<int>(std::ceil(std::log(highest / lowest) / std::log(kStep)));
   return GeometricGrid(lowest, highest, steps + 1);
 }
 
