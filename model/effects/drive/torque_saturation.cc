@@ -22,11 +22,12 @@ struct SoftClip {
 };
 
 // Within the torques that were asked for. A loop that winds up at its limit
-// asks for far more than that: limits reach down to what is usual.
+// asks for far more than that: limits reach down to what is usual. Where
+// nothing was asked for any limit will do.
 std::vector<double> LimitsBelow(double top, double usual) {
   constexpr double kStep = 1.15, kHighest = .95, kLeast = .02;  // of the top
-  const double lowest =
-      top > 0 ? std::clamp(1.5 * usual / top, kLeast, .5) : .5;
+  if (!(top > 0)) return {1};
+  const double lowest = std::clamp(1.5 * usual / top, kLeast, .5);
   const int steps = static_cast<int>(
       std::ceil(std::log(kHighest / lowest) / std::log(kStep)));
   return GeometricGrid(lowest * top, kHighest * top, steps + 1);
