@@ -109,7 +109,8 @@ struct Effect {
   // Whether it is a push of the surroundings on the arm: what the search for
   // contacts finds is reported as this effect. Exactly one is.
   bool is_contact = false;
-  // What a clock that runs at another rate than time is reported as.
+  // What a clock that runs at another rate than time is reported as. Exactly
+  // one is.
   bool is_clock = false;
   // How it is made visible: the experiment a report proposes.
   std::string experiment;

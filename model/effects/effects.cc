@@ -11,6 +11,16 @@ inline namespace effects {
 ARMCAL_EFFECTS(ARMCAL_DECLARE)
 #undef ARMCAL_DECLARE
 
+namespace {
+
+// The one that is so.
+const Effect& The(bool Effect::*is) {
+  return *std::find_if(Effects().begin(), Effects().end(),
+                       [is](const Effect& effect) { return effect.*is; });
+}
+
+}  // namespace
+
 const std::vector<Effect>& Effects() {
 #define ARMCAL_CALL(function) function(),
   static const std::vector<Effect>* const kEffects =
@@ -26,15 +36,9 @@ const Effect* FindEffect(const std::string& name) {
   return nullptr;
 }
 
-const Effect& ContactEffect() {
-  return *std::find_if(Effects().begin(), Effects().end(),
-                       [](const Effect& effect) { return effect.is_contact; });
-}
+const Effect& ContactEffect() { return The(&Effect::is_contact); }
 
-const Effect& ClockEffect() {
-  return *std::find_if(Effects().begin(), Effects().end(),
-                       [](const Effect& effect) { return effect.is_clock; });
-}
+const Effect& ClockEffect() { return The(&Effect::is_clock); }
 
 }  // namespace effects
 }  // namespace armcal

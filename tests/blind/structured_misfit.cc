@@ -69,34 +69,23 @@ double LawDifference(double v, double width) {
          ZeroVelocitySign(v, width);
 }
 
-// Joints are the driven ones, from 0: a hidden effect may have put others under
-// the base, which shift nothing counted from the tip.
-int FromTheTip(const SimulatedRobot& robot, int joint) {
-  return robot.robot.num_joints() - robot.num_passive - joint;
+void AddFrictionLaw(const EffectSite& site, double zero_velocity) {
+  const double coulomb = site.link().joint.coulomb;
+  const double width = zero_velocity * site.radian();
+  const int k = site.from_tip();
+  site.AddFriction([=](const ArmInstant& at, const double*, double*) {
+    return -coulomb * LawDifference(FromTip(at.velocity, k), width);
+  });
 }
 
-void AddFrictionLaw(int j, double zero_velocity, SimulatedRobot* robot) {
-  const int index = robot->num_passive + j;
-  const Joint& joint = robot->robot.links[index].joint;
-  const double coulomb = joint.coulomb;
-  const double width = zero_velocity * Radian(joint.type);
-  const int k = FromTheTip(*robot, j);
-  robot->joint_laws.push_back(
-      {index, {}, true, [=](const ArmInstant& at, const double*, double*) {
-         return -coulomb * LawDifference(FromTip(at.velocity, k), width);
-       }});
-}
-
-void AddTorques(int j, const JointMisfit& joint, const VectorXd& drift,
-                double duration, SimulatedRobot* robot) {
-  const int index = robot->num_passive + j;
-  const JointType type = robot->robot.links[index].joint.type;
-  const int k = FromTheTip(*robot, j);
-  robot->joint_laws.push_back(
-      {index, {}, false, [=](const ArmInstant& at, const double*, double*) {
-         return -RippleTorque(joint, type, FromTip(at.position, k)) -
-                DriftTorque(drift, at.t / duration);
-       }});
+void AddTorques(const EffectSite& site, const JointMisfit& joint,
+                const VectorXd& drift, double duration) {
+  const JointType type = site.type();
+  const int k = site.from_tip();
+  site.AddTorque([=](const ArmInstant& at, const double*, double*) {
+    return -RippleTorque(joint, type, FromTip(at.position, k)) -
+           DriftTorque(drift, at.t / duration);
+  });
 }
 
 // given = commanded / factor.
@@ -173,8 +162,9 @@ std::function<void(SimulatedRobot*)> PlantMisfit(const StructuredMisfit& misfit,
   return [=](SimulatedRobot* robot) {
     const MatrixXd drift = DriftOf(misfit, run);
     for (int j = 0; j < drift.rows(); ++j) {
-      AddFrictionLaw(j, misfit.zero_velocity, robot);
-      AddTorques(j, misfit.joints[j], drift.row(j), duration, robot);
+      const EffectSite site = {robot, j, VectorXd(), nullptr};
+      AddFrictionLaw(site, misfit.zero_velocity);
+      AddTorques(site, misfit.joints[j], drift.row(j), duration);
     }
     AddTorqueFactors(misfit, robot);
   };

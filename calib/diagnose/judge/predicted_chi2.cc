@@ -1,10 +1,10 @@
 #include "calib/diagnose/judge/predicted_chi2.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <utility>
 
 #include "calib/diagnose/data/inner_products.h"
+#include "calib/numerics/posterior.h"
 
 namespace armcal {
 
@@ -19,12 +19,10 @@ PredictedChi2::PredictedChi2(std::vector<BaselineColumns> columns,
   for (const BaselineColumns& own : columns_) {
     information(own.which, own.which) += InnerProducts(own.values, own.values);
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(covariance);
-  const MatrixXd L = eigen.eigenvectors() *
-                     eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  MatrixXd B = L.transpose() * information * L;
+  const MatrixXd root = SquareRoot(covariance);  // L'
+  MatrixXd B = root * information * root.transpose();
   B.diagonal().array() += 1;
-  half_ = B.llt().matrixL().solve(L.transpose());
+  half_ = B.llt().matrixL().solve(root);
 }
 
 double PredictedChi2::Of(const JointRows& residual) const {

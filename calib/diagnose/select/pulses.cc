@@ -1,11 +1,11 @@
 #include "calib/diagnose/select/pulses.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "calib/diagnose/data/thresholds.h"
+#include "calib/numerics/posterior.h"
 
 namespace armcal {
 namespace {
@@ -18,10 +18,8 @@ constexpr double kLeastSeen = .5;  // of a pulse's g'g
 
 // X C^(1/2) for the columns that act on one joint.
 MatrixXd TimesHalf(const BaselineColumns& columns, const MatrixXd& covariance) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> own(
-      covariance(columns.which, columns.which));
-  return columns.values * own.eigenvectors() *
-         own.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  return columns.values *
+         SquareRoot(covariance(columns.which, columns.which)).transpose();
 }
 
 }  // namespace

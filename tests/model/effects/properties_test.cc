@@ -22,6 +22,13 @@ TEST(ContactEffect, IsTheOnlyPush) {
             1);
 }
 
+TEST(ClockEffect, IsTheOnlyClock) {
+  EXPECT_EQ(ClockEffect().name, "time_base");
+  EXPECT_EQ(std::count_if(Effects().begin(), Effects().end(),
+                          [](const Effect& e) { return e.is_clock; }),
+            1);
+}
+
 class PropertiesOf : public EveryEffect {};
 
 TEST_P(PropertiesOf, HappensOnceIfItIsAnEvent) {
