@@ -117,8 +117,8 @@ void BaselineFit::Weigh(const VectorXd& factor) {
   weight_ = weight_.cwiseProduct(factor);
 }
 
-void BaselineFit::Scale(int first, double factor) {
-  scale_.tail(size() - first) *= factor;
+void BaselineFit::Scale(const std::vector<int>& which, double factor) {
+  scale_(which) *= factor;
 }
 
 VectorXd BaselineFit::ScaleOf(int joint) const {

@@ -45,8 +45,8 @@ class BaselineFit {
                 const JointRows& target);
   // Multiplies joint j's rows by factor[j].
   void Weigh(const Eigen::VectorXd& factor);
-  // Multiplies columns from `first` on.
-  void Scale(int first, double factor);
+  // Multiplies these columns.
+  void Scale(const std::vector<int>& which, double factor);
   // After any of these.
   void Factor();
 

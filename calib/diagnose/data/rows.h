@@ -34,6 +34,7 @@ class GapRows {
 
   int num_joints() const { return static_cast<int>(runs_.size()); }
   double bandwidth_hz() const { return bandwidth_hz_; }
+  LogPart part() const { return part_; }
   const std::vector<GapSegment>& segments() const { return segments_; }
   double step(int segment) const;  // s, between thinned samples
   double time() const;             // s, of all thinned samples

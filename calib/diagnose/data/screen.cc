@@ -82,8 +82,8 @@ void GapScreen::Weigh(const VectorXd& factor) {
   if (factored_ >= 0) Project(0);
 }
 
-void GapScreen::ScaleBaseline(int first, double factor) {
-  baseline_.Scale(first, factor);
+void GapScreen::ScaleBaseline(const std::vector<int>& which, double factor) {
+  baseline_.Scale(which, factor);
   if (factored_ >= 0) Project(0);
 }
 

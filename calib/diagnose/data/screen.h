@@ -35,9 +35,9 @@ class GapScreen {
   void Weigh(const Eigen::VectorXd& factor);
   // The same rows with these columns alone, factored.
   GapScreen Only(const std::vector<int>& columns) const;
-  // Multiplies the baseline's columns from `first` on, as if they were so much
-  // more uncertain.
-  void ScaleBaseline(int first, double factor);
+  // Multiplies these columns of the baseline, as if they were so much more
+  // uncertain.
+  void ScaleBaseline(const std::vector<int>& which, double factor);
   // Solves with the columns that there are; what was solved with those before
   // is kept.
   void Factor();

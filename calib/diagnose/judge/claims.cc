@@ -12,7 +12,7 @@ bool IsLikely(const FoundEffect& found) {
 }
 
 bool IsNeeded(const FoundEffect& found, double variance_doubt) {
-  return !(found.gap < 1 - variance_doubt) &&
+  return (!(found.gap < 1 - variance_doubt) || IsSeenAgain(found)) &&
          found.size >= Limits().least_lacked * Limits().lacked;
 }
 
@@ -21,7 +21,9 @@ bool IsBeyondScatter(const FoundEffect& found) {
 }
 
 bool IsSeenAgain(const FoundEffect& found) {
-  return found.evidence.confirmation.Share() > Limits().seen_again;
+  const Confirmation& confirmation = found.evidence.confirmation;
+  return confirmation.IsTold() ? confirmation.Share() > Limits().seen_again
+                               : found.evidence.shrinks;
 }
 
 bool IsThereWithoutName(const std::vector<FoundEffect>& effects,

@@ -11,14 +11,16 @@ namespace armcal {
 bool IsLikely(const FoundEffect& found);
 
 // Whether there is anything for it to explain: a refit without it leaves no
-// less than the noise, as well as that is known, and its torque is not smaller
-// than what the best of models lack.
+// less than the noise, as well as that is known, unless held-out data have it
+// as well (what is far below noise that is white is seen all the same); and its
+// torque is not smaller than what the best of models lack.
 bool IsNeeded(const FoundEffect& found, double variance_doubt);
 
 // Whether it is more than the reference's logs differ by among each other.
 bool IsBeyondScatter(const FoundEffect& found);
 
-// Whether held-out data have it as well, in part.
+// Whether held-out data have it as well, in part: by chi^2, or by the interval
+// of what it removes where chi^2 would not change.
 bool IsSeenAgain(const FoundEffect& found);
 
 // Whether something is there though none of its effects is claimed: held-out

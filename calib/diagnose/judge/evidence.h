@@ -29,6 +29,13 @@ struct EffectEvidence {
   Confirmation confirmation;  // by them
   // What all effects leave there of the gap of its joint, or of all.
   double left = 0;
+  // Whether the interval of the share of the held-out gap that it removes is
+  // above 0, where it is alone: what is large may do so though chi^2 (that
+  // leaves the baseline free) hardly changes.
+  bool shrinks = false;
+
+  // Whether held-out data tell of it at all.
+  bool IsTold() const { return confirmation.IsTold() || shrinks; }
 };
 
 // The evidence for what a fit chose. Keeps references.

@@ -14,6 +14,7 @@
 #include "calib/diagnose/select/null.h"
 #include "calib/diagnose/select/pulse_events.h"
 #include "calib/diagnose/select/reference.h"
+#include "calib/diagnose/select/unknown_law.h"
 #include "model/effects/effects.h"
 
 namespace armcal {
@@ -283,6 +284,25 @@ void GapFit::SelectWithEvents() {
     }
   }
   if (lasting < Cost(selection_)) ForgetTouches();
+  ForgetPulsesOfALaw();
+}
+
+// Selects again without the pulses of joints that are likelier to lack a law.
+void GapFit::ForgetPulsesOfALaw() {
+  std::vector<GapEvent> pulses, kept;
+  for (const GapEvent& event : events_) {
+    if (event.pulse) pulses.push_back(event);
+  }
+  if (pulses.empty()) return;
+  const std::vector<int> joints = JointsWithUnknownLaw(
+      regression_, pool_.Fitted(selection_.chosen), pulses);
+  if (joints.empty()) return;
+  for (const GapEvent& event : events_) {
+    const bool of_law =
+        std::count(joints.begin(), joints.end(), event.contact.joint) > 0;
+    if (!event.pulse || !of_law) kept.push_back(event);
+  }
+  SelectBeside(kept);
 }
 
 void GapFit::FindEvents(const std::vector<GapEvent>& known) {

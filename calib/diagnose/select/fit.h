@@ -110,6 +110,7 @@ class GapFit {
   void TakeOutEvent(size_t k);
   double Cost(const Selection& selection) const;
   void ForgetTouches();
+  void ForgetPulsesOfALaw();
   void SelectBeside(const std::vector<GapEvent>& events);
   void TakeAsKnown(const std::vector<GapEvent>& events);
   void SelectWithEvents();

@@ -1,5 +1,7 @@
 #include "calib/diagnose/select/regression.h"
 
+#include <numeric>
+
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/position_noise.h"
@@ -112,10 +114,12 @@ bool GapRegression::ChooseDiscrepancy(const std::vector<int>& columns) {
   if (discrepancy_chosen_ || first == baseline_.size()) return false;
   discrepancy_chosen_ = true;
   const GapScreen screen = screen_->Only(columns);
+  std::vector<int> lacked(baseline_.size() - first);
+  std::iota(lacked.begin(), lacked.end(), first);
   double most = LogEvidence(screen, evidence_);
   for (const double size : {3 * least, least}) {
     GapScreen scaled = screen;
-    scaled.ScaleBaseline(first, size);
+    scaled.ScaleBaseline(lacked, size);
     const double evidence = LogEvidence(std::move(scaled), evidence_);
     if (evidence <= most) continue;
     most = evidence;

@@ -266,7 +266,7 @@ TEST_F(GapScreenTest, SomeColumnsAreAsIfThereWereNoOthers) {
 // times as much.
 TEST_F(GapScreenTest, BaselinesAreAsUncertainAsTheirColumnsAreLarge) {
   GapScreen scaled = Screen();
-  scaled.ScaleBaseline(3, .2);
+  scaled.ScaleBaseline({3, 4}, .2);
   for (MatrixXd& A : baseline_) A.rightCols(2) *= .2;
   const GapScreen expected = Screen();
   EXPECT_LT((scaled.G() - expected.G()).norm(), kTight);

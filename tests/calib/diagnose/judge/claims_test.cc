@@ -35,11 +35,24 @@ TEST(IsNeeded, WhereThereIsMoreThanNoiseAndModelsLack) {
   found.gap = .7;
   EXPECT_FALSE(IsNeeded(found, .25));
   EXPECT_TRUE(IsNeeded(found, 1)) << "noise that is hardly known";
+  found.evidence.confirmation = {50, 40};
+  EXPECT_TRUE(IsNeeded(found, .25)) << "small, and seen again";
   found.gap = 2;
   found.size = .0011;
   EXPECT_TRUE(IsNeeded(found, .25));
   found.size = .0009;
   EXPECT_FALSE(IsNeeded(found, .25));
+}
+
+// By chi^2 where it would change, else by what is removed.
+TEST(IsSeenAgain, ByChiSquaredOrByWhatIsRemoved) {
+  FoundEffect found = Found("torque_saturation", 0, 1600);
+  found.evidence.confirmation = {.04, .04};
+  EXPECT_FALSE(IsSeenAgain(found));
+  found.evidence.shrinks = true;
+  EXPECT_TRUE(IsSeenAgain(found));
+  found.evidence.confirmation = {50, -20};
+  EXPECT_FALSE(IsSeenAgain(found));
 }
 
 class IsClaimedTest : public testing::Test {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "tests/fixtures/sample_motion.h"
@@ -93,7 +94,9 @@ TEST_F(EvidenceNoiseTest, EvidenceTellsTheSizeOfNuisances) {
     screen.Factor();
     const EvidenceNoise noise = SettleNoise(screen, VectorXd::Ones(1));
     GapScreen smaller = screen;
-    smaller.ScaleBaseline(0, .1);
+    std::vector<int> all(kBaseline);
+    std::iota(all.begin(), all.end(), 0);
+    smaller.ScaleBaseline(all, .1);
     const double odds =
         LogEvidence(screen, noise) - LogEvidence(std::move(smaller), noise);
     EXPECT_EQ(odds > 0, size == 1) << odds;

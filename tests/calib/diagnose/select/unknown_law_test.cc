@@ -1,0 +1,104 @@
+#include "calib/diagnose/select/unknown_law.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "tests/fixtures/sample_motion.h"
+
+namespace armcal::unknown_law_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kRows = 2000, kShapes = 20;
+constexpr double kRoutine = .1, kPlaces = 1000;
+
+// One joint whose noise is 1: what models lack is a few slow waves.
+class UnknownLawTest : public testing::Test {
+ protected:
+  UnknownLawTest() : shapes_(kRows, kShapes), lacked_(kShapes) {
+    for (int k = 0; k < kShapes; ++k) {
+      for (int i = 0; i < kRows; ++i) {
+        shapes_(i, k) = kRoutine * std::cos(M_PI * (k + 1) * i / kRows);
+      }
+    }
+    std::iota(lacked_.begin(), lacked_.end(), 0);
+  }
+  VectorXd Noise() {
+    return VectorXd::NullaryExpr(kRows, [&] { return Normal(&random_); });
+  }
+  // Of so many times the routine size.
+  VectorXd Law(double size) {
+    return shapes_ * VectorXd::NullaryExpr(
+                         kShapes, [&] { return size * Normal(&random_); });
+  }
+  static VectorXd Pulse(int at) {
+    VectorXd pulse(kRows);
+    for (int i = 0; i < kRows; ++i) {
+      pulse[i] = std::exp(-std::pow((i - at) / 15., 2));
+    }
+    return pulse;
+  }
+  GapScreen Screen(const VectorXd& target) const {
+    GapScreen screen(OnEachJoint({shapes_}), kShapes, {target});
+    screen.Factor();
+    return screen;
+  }
+  double Odds(const VectorXd& target, double usual_size,
+              const std::vector<int>& times) const {
+    const GapScreen screen = Screen(target);
+    std::vector<JointRows> pulses;
+    for (const int at : times) pulses.push_back({10 * Pulse(at)});
+    return UnknownLawOdds(screen, lacked_, usual_size, pulses, kPlaces,
+                          VectorXd::Ones(1));
+  }
+
+  MatrixXd shapes_;
+  std::vector<int> lacked_;
+  std::mt19937_64 random_{3};
+};
+
+TEST_F(UnknownLawTest, EvidenceTellsHowMuchIsLacked) {
+  for (const double size : {1., 10., 30.}) {
+    const GapScreen screen = Screen(Law(size) + Noise());
+    EXPECT_EQ(LackedSize(screen, lacked_, VectorXd::Ones(1)), size);
+  }
+}
+
+TEST_F(UnknownLawTest, PulsesAreNoLaw) {
+  const VectorXd pushed = 10 * Pulse(500) - 8 * Pulse(900) + Law(1) + Noise();
+  EXPECT_LT(Odds(pushed, 1, {500, 900}), -50);
+}
+
+// Where waves are highest, pulses explain much of them, not the rest.
+TEST_F(UnknownLawTest, ALawIsNoPulses) {
+  const VectorXd law = Law(30);
+  int highest, lowest;
+  law.maxCoeff(&highest);
+  law.minCoeff(&lowest);
+  EXPECT_GT(Odds(law + Noise(), 1, {highest, lowest}), 50);
+}
+
+// A model that lacks as much without any push is no reason to deny one.
+TEST_F(UnknownLawTest, WhatTheReferenceLacksAsWellSaysNothing) {
+  const VectorXd pushed = 10 * Pulse(500) + Law(10) + Noise();
+  EXPECT_GT(Odds(pushed, 1, {500}), 0);
+  EXPECT_LT(Odds(pushed, 10, {500}), -20);
+}
+
+// Noise that looks like a pulse somewhere is none: there are many places.
+TEST_F(UnknownLawTest, APulseHasToOutweighItsPlaces) {
+  const VectorXd weak = 1.2 * Pulse(500) + Noise();
+  const GapScreen screen = Screen(weak);
+  const VectorXd noise = VectorXd::Ones(1);
+  const double few =
+      UnknownLawOdds(screen, lacked_, 1, {{Pulse(500)}}, 1, noise);
+  const double many =
+      UnknownLawOdds(screen, lacked_, 1, {{Pulse(500)}}, kPlaces, noise);
+  EXPECT_NEAR(many - few, 2 * std::log(kPlaces), 1e-9);
+}
+
+}  // namespace armcal::unknown_law_test
