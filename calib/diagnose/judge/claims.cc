@@ -12,7 +12,9 @@ bool IsLikely(const FoundEffect& found) {
 }
 
 bool IsNeeded(const FoundEffect& found, double variance_doubt) {
-  return (!(found.gap < 1 - variance_doubt) || IsSeenAgain(found)) &&
+  const bool has_gap = !(found.gap < 1 - variance_doubt);
+  const bool is_seen = IsSeenAgain(found) && !SwingsInTime(*found.effect);
+  return (has_gap || is_seen) &&
          found.size >= Limits().least_lacked * Limits().lacked;
 }
 

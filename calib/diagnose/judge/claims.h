@@ -12,8 +12,9 @@ bool IsLikely(const FoundEffect& found);
 
 // Whether there is anything for it to explain: a refit without it leaves no
 // less than the noise, as well as that is known, unless held-out data have it
-// as well (what is far below noise that is white is seen all the same); and its
-// torque is not smaller than what the best of models lack.
+// as well (what is far below white noise is seen all the same; but what swings
+// in time has its phase from each log, and is no confirmation); and its torque
+// is not smaller than what the best of models lack.
 bool IsNeeded(const FoundEffect& found, double variance_doubt);
 
 // Whether it is more than the reference's logs differ by among each other.

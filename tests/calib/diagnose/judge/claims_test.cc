@@ -28,7 +28,7 @@ TEST(IsThereWithoutName, WhereHeldOutDataHaveItAndGainByIt) {
 // A log that the model explains better than its noise lacks nothing there, and
 // what is smaller than what the best of models lack is none.
 TEST(IsNeeded, WhereThereIsMoreThanNoiseAndModelsLack) {
-  FoundEffect found = Found("vibration", 0, 10000);
+  FoundEffect found = Found("spring", 0, 10000);
   EXPECT_TRUE(IsNeeded(found, .25));
   found.gap = .8;
   EXPECT_TRUE(IsNeeded(found, .25));
@@ -37,6 +37,9 @@ TEST(IsNeeded, WhereThereIsMoreThanNoiseAndModelsLack) {
   EXPECT_TRUE(IsNeeded(found, 1)) << "noise that is hardly known";
   found.evidence.confirmation = {50, 40};
   EXPECT_TRUE(IsNeeded(found, .25)) << "small, and seen again";
+  found.effect = Found("vibration", 0, 1).effect;
+  EXPECT_FALSE(IsNeeded(found, .25)) << "of a phase of its own in each log";
+  found.effect = Found("spring", 0, 1).effect;
   found.gap = 2;
   found.size = .0011;
   EXPECT_TRUE(IsNeeded(found, .25));
