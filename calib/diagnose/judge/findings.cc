@@ -113,8 +113,8 @@ FoundEffect Findings::Found(size_t k) const {
   // A clock is one for all joints; what lags differently is none.
   if (effect.joint < 0 && effect.effect->nature == Effect::Nature::kRecording) {
     const Agreement agreement = AgreementOn(fit_, k);
-    found.joints_agree = !agreement.Differ(found.drop, Limits().form_error) &&
-                         !agreement.IsOfOneJoint();
+    found.joints_agree =
+        !agreement.Differ(Limits().form_error) && !agreement.IsOfOneJoint();
   }
   // What swings has a phase of its own in each log.
   if (effect.log < 0 && !SwingsInTime(*effect.effect)) {
