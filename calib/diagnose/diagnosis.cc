@@ -222,7 +222,7 @@ GapFigures Diagnoser::FiguresOf(const HeldOut::Residuals& residuals) const {
 // and drawing is of what the verdict names. What nothing explains was told
 // before: what is fitted and not named is not without explanation, it has
 // several. What alone makes held-out data worse for certain is not claimed
-// either. Whether there was anything to leave out.
+// either, unless chi^2 sees it there. Whether there was anything to leave out.
 bool Diagnoser::ClaimNoMore(GapFindings* findings) {
   const size_t fitted = fit_->refined().effects.size();
   do {

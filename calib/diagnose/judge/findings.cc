@@ -333,7 +333,7 @@ bool GiveUpWorst(GapFindings* findings) {
   std::vector<FoundEffect>& effects = findings->effects;
   auto worst = effects.end();
   for (auto found = effects.begin(); found != effects.end(); ++found) {
-    if (found->fitted.empty()) continue;
+    if (found->fitted.empty() || IsSeenAgain(*found)) continue;
     if (worst == effects.end() ||
         found->removed_percent < worst->removed_percent) {
       worst = found;

@@ -42,7 +42,10 @@ GapFindings ListFindings(const Robot& robot, const GapFit& fit,
 // Keeps the claimed effects alone in the fit, and tells them as they are then;
 // what they remove is told by SetClaimedShares, once the figures are known.
 void FitClaimed(GapFindings* findings, GapFit* fit);
-// Does not claim the effect that removes least. Whether there was one.
+// Does not claim the effect that removes least, of those that chi^2 does not
+// see in held-out data: the mean square of these may be larger with an effect
+// that is there, by the errors of other values that it was fitted with. Whether
+// there was one.
 bool GiveUpWorst(GapFindings* findings);
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       const GapFigures& torque,

@@ -30,11 +30,16 @@ TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
   findings.effects[1].fitted = {1};
   findings.effects[1].removed_percent = -70;
   findings.effects[2].removed_percent = -90;  // a change since the reference
+  findings.effects.push_back(Found("armature", 0, 6));
+  findings.effects[3].fitted = {2};
+  findings.effects[3].removed_percent = -80;
+  findings.effects[3].evidence.confirmation = {50, 40};  // seen all the same
   EXPECT_TRUE(GiveUpWorst(&findings));
   EXPECT_THAT(Names(findings.unnamed), ElementsAre("stribeck@2"));
   EXPECT_TRUE(GiveUpWorst(&findings));
   EXPECT_FALSE(GiveUpWorst(&findings));
-  EXPECT_THAT(Names(findings.effects), ElementsAre("viscous_friction@0"));
+  EXPECT_THAT(Names(findings.effects),
+              ElementsAre("viscous_friction@0", "armature@1"));
 }
 
 // A name for what left-out data do not show is at most as likely as not.
