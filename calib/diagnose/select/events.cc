@@ -67,8 +67,7 @@ int RowsOf(const GapRows& rows, const GapEvent& event) {
   return count;
 }
 
-double OneJointShare(const GapScreen& screen, const GapRows& rows,
-                     const GapEvent& event) {
+VectorXd CourseOf(const GapRows& rows, const GapEvent& event) {
   const TimeRange& window = event.contact.window;
   const double centre = (window.begin + window.end) / 2;
   const double width = (window.end - window.begin) / (2 * Limits().event_reach);
@@ -81,6 +80,12 @@ double OneJointShare(const GapScreen& screen, const GapRows& rows,
           std::exp(-std::pow((rows.thin_time(s, k) - centre) / width, 2));
     }
   }
+  return course;
+}
+
+double OneJointShare(const GapScreen& screen, const GapRows& rows,
+                     const GapEvent& event) {
+  const VectorXd course = CourseOf(rows, event);
   double most = 0;
   for (int j = 0; j < rows.num_joints(); ++j) {
     JointRows column(rows.num_joints());

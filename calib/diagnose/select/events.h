@@ -52,6 +52,10 @@ TimeRange WindowOf(const GapCandidate& candidate);
 // Rows that are not believed once the event is taken out.
 int RowsOf(const GapRows& rows, const GapEvent& event);
 
+// The course in time of an event of known window, 1 at its centre, per thinned
+// sample: exp(-((t - centre) / width)^2), 0 in other logs.
+Eigen::VectorXd CourseOf(const GapRows& rows, const GapEvent& event);
+
 // GapEvent::one_joint of an event whose window and drop are known.
 double OneJointShare(const GapScreen& screen, const GapRows& rows,
                      const GapEvent& event);

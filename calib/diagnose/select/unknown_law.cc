@@ -43,28 +43,12 @@ std::vector<int> LackedOf(const GapBaseline& baseline, int joint) {
   return lacked;
 }
 
-double UsualSize(const GapData& reference, const std::vector<int>& lacked) {
-  GapScreen screen = reference.Screen();
-  screen.Factor();
-  return LackedSize(screen, lacked, reference.rows().evidence());
-}
-
-// exp(-((t - time) / width)^2) on the pulse's joint, whitened.
+// A pulse's course on its joint, whitened.
 JointRows ColumnOf(const GapRows& rows, const VectorXd& usual_torque,
                    const GapEvent& event) {
-  const Contact& contact = event.contact;
-  const int j = contact.joint;
-  const double width =
-      (contact.window.end - contact.window.begin) / (2 * Limits().event_reach);
-  VectorXd course = VectorXd::Zero(rows.num_thin());
-  for (int k = 0; k < rows.num_thin(); ++k) {
-    const int segment = rows.SegmentOf(k);
-    if (rows.segments()[segment].log != contact.log) continue;
-    const double since = rows.thin_time(segment, k) - contact.time;
-    course[k] = std::exp(-std::pow(since / width, 2));
-  }
+  const int j = event.contact.joint;
   JointRows column(rows.num_joints());
-  column[j] = rows.Whiten(j, usual_torque[j] * course);
+  column[j] = rows.Whiten(j, usual_torque[j] * CourseOf(rows, event));
   return column;
 }
 
@@ -120,6 +104,9 @@ std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
   unmasked.Refit();
   const GapRows& rows = unmasked.rows();
   const VectorXd usual_torque = UsualTorque(rows.segments());
+  const GapData& reference = *unmasked.reference();
+  GapScreen before = reference.Screen();
+  before.Factor();
   std::set<int> joints;
   for (const GapEvent& event : pulses) joints.insert(event.contact.joint);
   std::vector<int> found;
@@ -133,10 +120,11 @@ std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
           .push_back(ColumnOf(rows, usual_torque, event));
     }
     const std::vector<int> lacked = LackedOf(unmasked.baseline(), joint);
+    const double usual_size =
+        LackedSize(before, lacked, reference.rows().evidence());
     const double odds =
         UnknownLawOdds(WithColumns(unmasked.screen(), lasting), lacked,
-                       UsualSize(*unmasked.reference(), lacked), own,
-                       PlacesOfPulses(rows), rows.evidence());
+                       usual_size, own, PlacesOfPulses(rows), rows.evidence());
     if (odds > 0) found.push_back(joint);
   }
   return found;
