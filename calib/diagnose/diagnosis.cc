@@ -207,7 +207,9 @@ void Diagnoser::Fit(const std::vector<GapSegment>& segments,
   for (const GapEvent& event : all.events()) {
     const bool fitted =
         2 * RowsOf(fit_->rows(), event) >= RowsOf(all.rows(), event);
-    if (!fitted && !Overlaps(events, event)) events.push_back(event);
+    if ((!fitted || event.beyond_friction) && !Overlaps(events, event)) {
+      events.push_back(event);
+    }
   }
   SortByTime(&events);
   if (events.size() > fit_->events().size()) fit_->ChooseBeside(events);

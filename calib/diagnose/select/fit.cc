@@ -26,6 +26,13 @@ using Eigen::VectorXd;
 constexpr int kMostEvents = 12;
 constexpr std::uint64_t kSeed = 1;  // of what chance would give
 
+std::vector<GapEvent> BeyondFriction(const std::vector<GapEvent>& events) {
+  std::vector<GapEvent> contacts;
+  std::copy_if(events.begin(), events.end(), std::back_inserter(contacts),
+               [](const GapEvent& event) { return event.beyond_friction; });
+  return contacts;
+}
+
 }  // namespace
 
 GapFit::GapFit(const GapBaseline& baseline, const GapFitOptions& options,
@@ -237,12 +244,25 @@ double GapFit::Cost(const Selection& selection) const {
   return cost;
 }
 
-// Selects again as if nothing had happened while the arm moved.
-void GapFit::ForgetTouches() {
-  std::vector<GapEvent> contacts;
-  std::copy_if(events_.begin(), events_.end(), std::back_inserter(contacts),
-               [](const GapEvent& event) { return event.beyond_friction; });
-  SelectBeside(contacts);
+// Whether effects that last explain more than touches that were taken out while
+// the arm moved: what lasts may look like a series of these. Both are weighed
+// by the noise that the larger model leaves, which has the touches; noise of
+// their own would make the cost of the better one the larger.
+bool GapFit::LastsRatherThanTouches() {
+  const std::vector<GapEvent> all = events_, contacts = BeyondFriction(all);
+  if (contacts.size() == all.size()) return false;
+  const double touches = Cost(selection_);
+  const VectorXd noise = rows().evidence();
+  TakeAsKnown(contacts);
+  MakeScreen();
+  regression_.WeighBy(noise);
+  SelectionOptions options = options_.selection;
+  options.events = false;
+  const double lasting = Cost(SelectEffects(screen(), candidates(), options));
+  TakeAsKnown(all);
+  MakeScreen();
+  Select();
+  return lasting < touches;
 }
 
 void GapFit::TakeAsKnown(const std::vector<GapEvent>& events) {
@@ -260,10 +280,8 @@ void GapFit::SelectBeside(const std::vector<GapEvent>& events) {
   Select();
 }
 
-// Effects, and events one by one: what lasts may look like a series of
-// touches, and has to explain more than they do.
+// Effects, and events one by one.
 void GapFit::SelectWithEvents() {
-  double lasting = std::numeric_limits<double>::infinity();
   while (true) {
     MakeScreen();
     Select();
@@ -272,31 +290,25 @@ void GapFit::SelectWithEvents() {
                      [&](int c) { return candidates()[c].log >= 0; });
     if (event != selection_.chosen.end() &&
         static_cast<int>(events_.size()) < kMostEvents) {
-      if (std::isinf(lasting)) {
-        SelectionOptions options = options_.selection;
-        options.events = false;
-        lasting = Cost(SelectEffects(screen(), candidates(), options));
-      }
       TakeOutEvent(event - selection_.chosen.begin());
     } else if (!TakeOutContacts(ContactSearch::kOfTwoJoints) &&
                !TakeOutContacts(ContactSearch::kInMotion) && !TakeOutPulses()) {
       break;
     }
   }
-  if (lasting < Cost(selection_)) ForgetTouches();
+  if (LastsRatherThanTouches()) SelectBeside(BeyondFriction(events_));
   ForgetPulsesOfALaw();
+  ConfirmTouches(regression_, pool_.Fitted(selection_.chosen), &events_);
 }
 
 // Selects again without the pulses of joints that are likelier to lack a law.
 void GapFit::ForgetPulsesOfALaw() {
-  std::vector<GapEvent> pulses, kept;
-  for (const GapEvent& event : events_) {
-    if (event.pulse) pulses.push_back(event);
-  }
-  if (pulses.empty()) return;
+  const auto is_pulse = [](const GapEvent& event) { return event.pulse; };
+  if (std::none_of(events_.begin(), events_.end(), is_pulse)) return;
   const std::vector<int> joints = JointsWithUnknownLaw(
-      regression_, pool_.Fitted(selection_.chosen), pulses);
+      regression_, pool_.Fitted(selection_.chosen), events_);
   if (joints.empty()) return;
+  std::vector<GapEvent> kept;
   for (const GapEvent& event : events_) {
     const bool of_law =
         std::count(joints.begin(), joints.end(), event.contact.joint) > 0;

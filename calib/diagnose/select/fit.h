@@ -109,7 +109,7 @@ class GapFit {
   bool TakeOutPulses();
   void TakeOutEvent(size_t k);
   double Cost(const Selection& selection) const;
-  void ForgetTouches();
+  bool LastsRatherThanTouches();
   void ForgetPulsesOfALaw();
   void SelectBeside(const std::vector<GapEvent>& events);
   void TakeAsKnown(const std::vector<GapEvent>& events);

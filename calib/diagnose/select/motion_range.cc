@@ -1,5 +1,6 @@
 #include "calib/diagnose/select/motion_range.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "calib/diagnose/data/thresholds.h"
@@ -9,38 +10,61 @@ namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
-// Thinned samples x 2 n: speeds of all joints, then accelerations.
-MatrixXd SpeedsAndAccelerations(const GapRows& rows) {
-  std::vector<MatrixXd> both;
+// Thinned samples x n, without signs.
+MatrixXd Speeds(const GapRows& rows) {
+  std::vector<MatrixXd> all;
   for (const GapSegment& segment : rows.segments()) {
-    const Motion& motion = segment.motion;
-    both.emplace_back(motion.size(), 2 * motion.num_joints());
-    both.back() << motion.qd, motion.qdd;
+    all.push_back(segment.motion.qd);
   }
-  return rows.ThinAll(both).cwiseAbs();
+  return rows.ThinAll(all).cwiseAbs();
+}
+MatrixXd Accelerations(const GapRows& rows) {
+  std::vector<MatrixXd> all;
+  for (const GapSegment& segment : rows.segments()) {
+    all.push_back(segment.motion.qdd);
+  }
+  return rows.ThinAll(all).cwiseAbs();
 }
 
-}  // namespace
-
-MotionRange::MotionRange(const GapRows& rows) {
-  const MatrixXd all = SpeedsAndAccelerations(rows);
-  largest_.resize(all.cols());
+// Of each column, of samples that are in the part.
+VectorXd UsualLargest(const GapRows& rows, const MatrixXd& all) {
+  VectorXd largest = VectorXd::Zero(all.cols());
   for (int i = 0; i < all.cols(); ++i) {
     std::vector<double> seen;
     for (int k = 0; k < rows.num_thin(); ++k) {
       if (rows.IsInPart(rows.SegmentOf(k), k)) seen.push_back(all(k, i));
     }
-    largest_[i] = seen.empty() ? 0 : Quantile(seen, Limits().usual_motion);
+    if (!seen.empty()) largest[i] = Quantile(seen, Limits().usual_motion);
   }
+  return largest;
 }
 
-Eigen::Array<bool, Eigen::Dynamic, 1> MotionRange::Contains(
-    const GapRows& rows) const {
-  return (SpeedsAndAccelerations(rows).rowwise() - largest_.transpose())
-             .rowwise()
-             .maxCoeff()
-             .array() <= 0;
+// The largest of a row's values over their range; a joint that does not move in
+// either has none.
+Eigen::ArrayXd LargestRatio(const MatrixXd& all, const VectorXd& range) {
+  Eigen::ArrayXd largest = Eigen::ArrayXd::Zero(all.rows());
+  for (int i = 0; i < all.cols(); ++i) {
+    for (int k = 0; k < all.rows(); ++k) {
+      if (all(k, i) > 0)
+        largest[k] = std::max(largest[k], all(k, i) / range[i]);
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+MotionRange::MotionRange(const GapRows& rows)
+    : speeds_(UsualLargest(rows, Speeds(rows))),
+      accelerations_(UsualLargest(rows, Accelerations(rows))) {}
+
+Eigen::ArrayXd MotionRange::Growth(const GapRows& rows) const {
+  return LargestRatio(Speeds(rows), speeds_)
+      .square()
+      .max(LargestRatio(Accelerations(rows), accelerations_))
+      .max(1.);
 }
 
 }  // namespace armcal

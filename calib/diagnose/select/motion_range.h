@@ -6,18 +6,21 @@
 
 namespace armcal {
 
-// Speeds and accelerations up to which a log has each joint moved. What a model
-// leaves of a torque grows with both: noise that was told by this log is that
-// of motion within them.
+// Speeds and accelerations up to which a log has each joint moved. Noise that
+// was told by this log is that of motion within them.
 class MotionRange {
  public:
   explicit MotionRange(const GapRows& rows);
 
-  // Of each thinned sample whether all joints are within it.
-  Eigen::Array<bool, Eigen::Dynamic, 1> Contains(const GapRows& rows) const;
+  // By which factor what a model leaves of a torque may be larger in each
+  // thinned sample of a log, 1 within the range: errors of inertias grow with
+  // the accelerations, those of Coriolis terms and of drag with the square of
+  // the speeds, so that it is the largest of (speed / range)^2 and
+  // acceleration / range of all joints.
+  Eigen::ArrayXd Growth(const GapRows& rows) const;
 
  private:
-  Eigen::VectorXd largest_;  // speeds of all joints, then accelerations
+  Eigen::VectorXd speeds_, accelerations_;  // per joint
 };
 
 }  // namespace armcal

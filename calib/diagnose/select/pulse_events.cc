@@ -44,7 +44,7 @@ class ModelOfPulses {
       model.noise[j].sigma *= std::sqrt(growth[j]);
     }
     return PulseScan(data.rows(), model, data.ResidualWith(x_, torque),
-                     DoubtOf(data.rows()));
+                     DoubtOf(data.rows(), model.noise));
   }
 
  private:
@@ -68,29 +68,29 @@ class ModelOfPulses {
     return FitYuleWalker(stretches);
   }
 
-  // What rows are doubted by; and a joint that does not slide holds any torque
-  // up to its Coulomb friction, whose variance is a third of its square. What
-  // the model leaves is not known of motion that the reference does not have,
-  // nor of joints without a motor, whose torque is told in no unit.
-  MatrixXd DoubtOf(const GapRows& rows) const {
+  // What rows are doubted by. Where the motion is beyond what the reference
+  // has, the model leaves more than the `noise` that was told there. A joint
+  // that does not slide holds any torque up to its Coulomb friction, and the
+  // torque of joints without a motor is told in no unit.
+  MatrixXd DoubtOf(const GapRows& rows,
+                   const std::vector<Autoregression>& noise) const {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
-    const Eigen::Array<bool, Eigen::Dynamic, 1> known = range_.Contains(rows);
+    const Eigen::ArrayXd growth = range_.Growth(rows);
     const VectorXd usual = UsualTorque(rows.segments());
     MatrixXd doubt(rows.num_thin(), rows.num_joints());
-    for (int k = 0; k < rows.num_thin(); ++k) {
-      const int segment = rows.SegmentOf(k);
-      for (int j = 0; j < rows.num_joints(); ++j) {
-        const double holds = rows.IsHeld(segment, j, k) ? Friction(j) : 0;
-        const double own = std::pow(rows.noise(j).stddev(), 2);
-        doubt(k, j) = std::sqrt(std::max(0., rows.variance(j, k) - own) +
-                                holds * holds / 3);
-        if (!known[k] || usual[j] == 0) doubt(k, j) = kUnknown;
+    for (int j = 0; j < rows.num_joints(); ++j) {
+      const double own = std::pow(rows.noise(j).stddev(), 2);
+      const double left = std::pow(noise[j].stddev(), 2);
+      const bool sticks = robot_.links[j].joint.coulomb > 0;
+      for (int k = 0; k < rows.num_thin(); ++k) {
+        const bool holds = sticks && rows.IsHeld(rows.SegmentOf(k), j, k);
+        doubt(k, j) = holds || usual[j] == 0
+                          ? kUnknown
+                          : std::sqrt(std::max(0., rows.variance(j, k) - own) +
+                                      left * (growth[k] * growth[k] - 1));
       }
     }
     return doubt;
-  }
-  double Friction(int joint) const {
-    return std::max(0., robot_.links[joint].joint.coulomb);
   }
 
   VectorXd x_;
@@ -194,42 +194,102 @@ bool OnlyBrake(const GapRows& rows, const std::vector<GapEvent>& events) {
   return false;
 }
 
+// Pulses in logs, and what of them a reference has by itself.
+class PulseSearch {
+ public:
+  PulseSearch(const GapRegression& regression,
+              const std::vector<GapCandidate>& effects)
+      : rows_(regression.rows()),
+        torque_(regression.TorqueOf(effects)),
+        model_(regression, torque_),
+        scan_(model_.Scan(*regression.data(), torque_,
+                          GrowthOf(regression.noise(), rows_.num_joints()))) {
+    const int n = rows_.num_joints();
+    const GapData& reference = *regression.reference();
+    usual_ = {
+        static_cast<double>(Looks(rows_, scan_).size()),
+        {TailOf(Looks(reference.rows(), model_.Scan(reference, JointRows(n),
+                                                    VectorXd::Ones(n))))}};
+  }
+  // Of one as large anywhere in the log, without a contact.
+  double Chance(double deviations) const {
+    return std::max(usual_.Chance(deviations * deviations),
+                    ChanceOfNoise(rows_, deviations));
+  }
+  // Each of them, from the largest on.
+  std::vector<GapEvent> Find() const {
+    MatrixXd deviations = scan_.deviations().cwiseAbs();
+    std::vector<GapEvent> events;
+    int sample, joint;
+    while (true) {
+      const double chance = Chance(deviations.maxCoeff(&sample, &joint));
+      if (!(chance < Limits().false_contacts)) return events;
+      events.push_back(EventOf(rows_, model_.robot(), scan_, sample, joint));
+      events.back().chance = chance;
+      Forget(rows_, events.back().contact, &deviations);
+    }
+  }
+  // Deviations of the largest within a window.
+  double LargestIn(const Contact& contact) const {
+    const VectorXd all = scan_.Largest();
+    double largest = 0;
+    for (int k = 0; k < rows_.num_thin(); ++k) {
+      const int segment = rows_.SegmentOf(k);
+      if (rows_.segments()[segment].log == contact.log &&
+          contact.window.Contains(rows_.thin_time(segment, k))) {
+        largest = std::max(largest, all[k]);
+      }
+    }
+    return largest;
+  }
+
+ private:
+  const GapRows& rows_;
+  JointRows torque_;
+  ModelOfPulses model_;
+  PulseScan scan_;
+  UsualMaximum usual_;
+};
+
 }  // namespace
 
 std::vector<GapEvent> FindPulses(const GapRegression& regression,
                                  const std::vector<GapCandidate>& effects) {
   if (!regression.reference()) return {};
   const GapRows& rows = regression.rows();
-  const int n = rows.num_joints();
-  const JointRows none(n);
-  const JointRows torque = regression.TorqueOf(effects);
-  const ModelOfPulses model(regression, torque);
-  const PulseScan scan =
-      model.Scan(*regression.data(), torque, GrowthOf(regression.noise(), n));
-  const GapData& reference = *regression.reference();
-  const UsualMaximum usual{
-      static_cast<double>(Looks(rows, scan).size()),
-      {TailOf(Looks(reference.rows(),
-                    model.Scan(reference, none, VectorXd::Ones(n))))}};
-  const auto chance = [&](double deviations) {
-    return std::max(usual.Chance(deviations * deviations),
-                    ChanceOfNoise(rows, deviations));
-  };
-  MatrixXd deviations = scan.deviations().cwiseAbs();
-  std::vector<GapEvent> events;
+  std::vector<GapEvent> events = PulseSearch(regression, effects).Find();
   double time = 0;
-  int sample, joint;
-  while (chance(deviations.maxCoeff(&sample, &joint)) <
-         Limits().false_contacts) {
-    events.push_back(EventOf(rows, model.robot(), scan, sample, joint));
-    events.back().chance = chance(deviations(sample, joint));
-    time += 2 * scan.widths()(sample, joint);
-    Forget(rows, events.back().contact, &deviations);
+  for (const GapEvent& event : events) {
+    time += (event.contact.window.end - event.contact.window.begin) /
+            Limits().event_reach;
   }
   if (time > Limits().most_of_time * rows.time() || OnlyBrake(rows, events)) {
     events.clear();
   }
   return events;
+}
+
+void ConfirmTouches(const GapRegression& regression,
+                    const std::vector<GapCandidate>& effects,
+                    std::vector<GapEvent>* events) {
+  const bool any =
+      std::any_of(events->begin(), events->end(),
+                  [](const GapEvent& event) { return !event.beyond_friction; });
+  if (!any || !regression.reference()) return;
+  GapRegression unmasked(regression, regression.rows().part());
+  for (const GapEvent& event : *events) {
+    if (!event.beyond_friction) continue;
+    unmasked.data()->Mask(event.contact.log, event.contact.window);
+  }
+  unmasked.Refit();
+  const PulseSearch search(unmasked, effects);
+  for (GapEvent& event : *events) {
+    if (event.beyond_friction) continue;
+    const double chance = search.Chance(search.LargestIn(event.contact));
+    if (!(chance < Limits().false_contacts)) continue;
+    event.beyond_friction = true;
+    event.chance = chance;
+  }
 }
 
 }  // namespace armcal

@@ -18,4 +18,12 @@ namespace armcal {
 std::vector<GapEvent> FindPulses(const GapRegression& regression,
                                  const std::vector<GapCandidate>& effects);
 
+// Touches that were fitted as a force, and of which one joint's pulse alone
+// stands out as FindPulses asks of it, are as probable contacts as that says:
+// they become events beyond friction, with the chance of the pulse. Others stay
+// as they are.
+void ConfirmTouches(const GapRegression& regression,
+                    const std::vector<GapCandidate>& effects,
+                    std::vector<GapEvent>* events);
+
 }  // namespace armcal

@@ -109,13 +109,15 @@ Pulse PulseScan::Fit(int joint, int segment, int sample,
   const int begin = std::max(rows_.thin_begin(segment), first);
   const int end = std::min(rows_.thin_begin(segment + 1),
                            first + static_cast<int>(course.white.size()));
-  const VectorXd g = course.white.segment(begin - first, end - begin)
-                         .cwiseProduct(own.weight.segment(begin, end - begin));
+  const auto white = course.white.segment(begin - first, end - begin);
+  const auto weight = own.weight.segment(begin, end - begin);
+  const VectorXd g = white.cwiseProduct(weight);
   const double squared = g.squaredNorm();
+  const double seen = (weight.array() > 0).select(white, 0).squaredNorm();
   Pulse pulse;
   pulse.sample = sample;
   pulse.stddev = std::numeric_limits<double>::infinity();
-  if (squared < kLeastSeen * course.white.squaredNorm()) return pulse;
+  if (seen < kLeastSeen * course.white.squaredNorm()) return pulse;
   const double errors =
       (own.half.middleRows(begin, end - begin).transpose() * g).squaredNorm();
   pulse.torque = -g.dot(own.residual.segment(begin, end - begin)) / squared;

@@ -38,7 +38,8 @@ class PulseScan {
     std::vector<Autoregression> noise;     // per joint, of what it leaves
   };
   // `residual`: recorded torque less the model's, thinned samples x n, N m or
-  // N; `doubt`: standard deviation of what else a sample of it may be off by.
+  // N; `doubt`: standard deviation of what else a sample of it may be off by,
+  // infinite where it is not seen.
   PulseScan(const GapRows& rows, const Model& model,
             const Eigen::MatrixXd& residual, const Eigen::MatrixXd& doubt);
 

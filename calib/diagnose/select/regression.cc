@@ -136,10 +136,15 @@ bool GapRegression::ChooseDiscrepancy(const std::vector<int>& columns) {
 
 void GapRegression::SettleEvidence(const std::vector<int>& columns) {
   if (noise_.source == NoiseFloor::kPositions) return;
+  evidence_ = SettleNoise(screen_->Only(columns), data_->rows().evidence());
+  WeighBy(evidence_.stddev());
+}
+
+void GapRegression::WeighBy(const VectorXd& stddev) {
+  if (noise_.source == NoiseFloor::kPositions) return;
   const VectorXd before = data_->rows().evidence();
-  evidence_ = SettleNoise(screen_->Only(columns), before);
-  data_->ScaleEvidence(evidence_.stddev().cwiseQuotient(before));
-  screen_->Weigh(before.cwiseQuotient(evidence_.stddev()));
+  data_->ScaleEvidence(stddev.cwiseQuotient(before));
+  screen_->Weigh(before.cwiseQuotient(stddev));
   refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
 }
 

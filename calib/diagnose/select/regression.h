@@ -40,6 +40,8 @@ class GapRegression {
   // evidence from now on; the screen's rows are weighed anew. Torques that were
   // made of commands keep the noise of their positions.
   void SettleEvidence(const std::vector<int>& columns);
+  // The same with this noise, per joint (N m or N), of another fit.
+  void WeighBy(const Eigen::VectorXd& stddev);
   // Gives what models lack as a rule the size, of the routine one and smaller
   // ones, that is the most likely beside these columns; once, before the next
   // Refit. Whether that changed it.

@@ -99,8 +99,16 @@ double UnknownLawOdds(const GapScreen& screen, const std::vector<int>& lacked,
 
 std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
                                       const std::vector<GapCandidate>& effects,
-                                      const std::vector<GapEvent>& pulses) {
+                                      const std::vector<GapEvent>& events) {
   GapRegression unmasked(regression, regression.rows().part());
+  std::vector<GapEvent> pulses;
+  for (const GapEvent& event : events) {
+    if (event.pulse) {
+      pulses.push_back(event);
+    } else {
+      unmasked.data()->Mask(event.contact.log, event.contact.window);
+    }
+  }
   unmasked.Refit();
   const GapRows& rows = unmasked.rows();
   const VectorXd usual_torque = UsualTorque(rows.segments());

@@ -34,11 +34,11 @@ double UnknownLawOdds(const GapScreen& screen, const std::vector<int>& lacked,
                       double usual_size, const std::vector<JointRows>& pulses,
                       double places, const Eigen::VectorXd& stddev);
 
-// The joints of these pulses of which a law is the likelier cause: beside
-// effects that last, and beside more of what models lack than the reference
-// shows. `regression` has a reference.
+// The joints of the pulses among these events of which a law is the likelier
+// cause: beside effects that last, and beside more of what models lack than the
+// reference shows, where no other event was. `regression` has a reference.
 std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
                                       const std::vector<GapCandidate>& effects,
-                                      const std::vector<GapEvent>& pulses);
+                                      const std::vector<GapEvent>& events);
 
 }  // namespace armcal

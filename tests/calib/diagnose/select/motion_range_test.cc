@@ -50,10 +50,8 @@ class Swing {
     if (!rows_) rows_.emplace(segments_, kBandwidth);
     return *rows_;
   }
-  // Share of the other's time that is within this one's motion.
-  double ShareOf(Swing other) {
-    const auto within = MotionRange(rows()).Contains(other.rows());
-    return within.cast<double>().mean();
+  Eigen::ArrayXd GrowthOf(Swing other) {
+    return MotionRange(rows()).Growth(other.rows());
   }
 
  private:
@@ -61,31 +59,34 @@ class Swing {
   std::optional<GapRows> rows_;
 };
 
-TEST(MotionRange, HoldsItsOwnMotionButForTheFastestSamples) {
-  const double own = Swing({1, 1}).ShareOf(Swing({1, 1}));
-  EXPECT_GT(own, .85);
-  EXPECT_LT(own, 1);
-  EXPECT_EQ(Swing({1, 1}).ShareOf(Swing({.9, .9})), 1);
+TEST(MotionRange, IsThatOfAllButTheFastestSamples) {
+  const Eigen::ArrayXd own = Swing({1, 1}).GrowthOf(Swing({1, 1}));
+  EXPECT_GT((own == 1).cast<double>().mean(), .85);
+  EXPECT_GT(own.maxCoeff(), 1);
+  EXPECT_LT(own.maxCoeff(), 1.02);
+  EXPECT_EQ(Swing({1, 1}).GrowthOf(Swing({.9, .9})).maxCoeff(), 1);
 }
 
-// |2 cos 2t| is below 1 in a third of the time, and |4 sin 2t| in a sixth, but
-// never both at once.
-TEST(MotionRange, HasNothingOfMotionThatIsFasterOrHarder) {
-  EXPECT_EQ(Swing({1, 1}).ShareOf(Swing({1, 2})), 0);
-  EXPECT_EQ(Swing({1, 1}).ShareOf(Swing({2, 1})), 0);
-}
-
-// |1.4 cos| < 1 leaves the speed in half of the time, where the acceleration
-// 1.96 |sin| is beyond 1 already.
-TEST(MotionRange, AsksForSpeedAndAcceleration) {
-  EXPECT_LT(Swing({1}).ShareOf(Swing({1.4})), .05);
-  EXPECT_EQ(Swing({2}).ShareOf(Swing({1.4})), 1);
+// |2 cos 2t|^2 and |4 sin 2t| are 4 at most, where the other is 0; the larger
+// of both is least where cos^2 = sin, which is the golden section.
+TEST(MotionRange, GrowsWithTheSquareOfSpeedAndWithAcceleration) {
+  const double least = 4 * (std::sqrt(5.) - 1) / 2;
+  for (const Swing& faster : {Swing({1, 2}), Swing({2, 1})}) {
+    const Eigen::ArrayXd growth = Swing({1, 1}).GrowthOf(faster);
+    EXPECT_NEAR(growth.minCoeff(), least, .05 * least);
+    EXPECT_NEAR(growth.maxCoeff(), 4, .05 * 4);
+  }
 }
 
 TEST(MotionRange, DoesNotFollowAJumpOfAnEncoder) {
   Swing jumps({1, 1});
   jumps.WithAJump(0);
-  EXPECT_EQ(jumps.ShareOf(Swing({2, 1})), 0);
+  EXPECT_GT(jumps.GrowthOf(Swing({2, 1})).minCoeff(), 2);
+}
+
+TEST(MotionRange, OfAJointThatRestedIsNone) {
+  const Eigen::ArrayXd growth = Swing({1, 0}).GrowthOf(Swing({1, 1}));
+  EXPECT_TRUE(std::isinf(growth.minCoeff()));
 }
 
 }  // namespace armcal::motion_range_test

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <random>
 
@@ -120,8 +121,9 @@ TEST_F(Pulses, ThatAnErrorOfTheFitExplainsDoNotStandOut) {
   EXPECT_LT(Scan(residual, 10).At(0, sample, .6).deviations, 1);
 }
 
-// A doubt lets a pulse stand out less, as far as its samples have it: half of
-// them doubted by ten times the noise tell next to nothing.
+// A doubt lets a pulse stand out less, as far as its samples have it. What is
+// doubted a thousandfold says as little as that, and what is doubted without
+// bound is not seen.
 TEST_F(Pulses, StandOutLessWhereSamplesAreDoubted) {
   MatrixXd residual = Draw(0);
   Push(0, 4, 11, .3, &residual);
@@ -131,7 +133,10 @@ TEST_F(Pulses, StandOutLessWhereSamplesAreDoubted) {
   EXPECT_GT(clear, 5);
   EXPECT_NEAR(doubted, clear / std::sqrt(1 + 1. / 9), .15 * clear);
   EXPECT_LT(doubted, clear);
-  doubt_.col(0).setConstant(1e3);
+  doubt_.col(0).setConstant(1e3 * noise_[0].stddev());
+  EXPECT_LT(std::abs(Scan(residual, 0).At(0, SampleAt(11), .3).deviations),
+            .05);
+  doubt_.col(0).setConstant(std::numeric_limits<double>::infinity());
   const PulseScan scan = Scan(residual, 0);
   const Pulse pulse = scan.At(0, SampleAt(11), .3);
   EXPECT_EQ(pulse.torque, 0);
