@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/select/chosen.h"
+#include "calib/diagnose/select/contact_events.h"
 #include "calib/diagnose/select/form_error.h"
 #include "calib/diagnose/select/growth.h"
 #include "calib/diagnose/select/idle.h"
@@ -48,68 +48,18 @@ GapFit::GapFit(const GapFit& other, LogPart part)
       regression_(other.regression_, part),
       pool_(&regression_, other.pool_) {}
 
-// What the baseline and effects leave of the torque beyond friction.
-FrictionExcess GapFit::ExcessBeside(
-    const std::vector<GapCandidate>& effects) const {
-  const JointRows torque = regression_.TorqueOf(effects);
-  const VectorXd x = regression_.BaselineBeside(torque);
-  return ExcessOverFriction(baseline(), x, rows(),
-                            data()->ResidualWith(x, torque));
-}
-
-// How large the excess of a log without a contact gets: of the reference, and
-// of the log itself but for a few windows.
-UsualMaximum GapFit::UsualExcess(const FrictionExcess& excess,
-                                 bool of_itself) const {
-  const GapData* reference = regression_.reference();
-  const GapRows& before = reference ? reference->rows() : rows();
-  const double block = BlockTime(before);
-  const std::vector<double> own = BlockMaxima(rows(), block, excess.Largest());
-  UsualMaximum usual{static_cast<double>(own.size()), {}};
-  if (of_itself) usual.tails.push_back(UsualTailOf(own));
-  if (!reference) return usual;
-  const FrictionExcess known = ExcessOverFriction(
-      baseline(), refit(), before, reference->ResidualWith(refit()));
-  usual.tails.push_back(TailOf(BlockMaxima(before, block, known.Largest())));
-  return usual;
-}
-
-// Contacts that were not known, beside effects. They stand out from all that
-// friction does when nothing touches the arm, which only a reference tells.
-// What one joint alone feels in motion may be its own: where the arm has no
-// other, it has to stand out from the rest of the log as well. Torques that are
-// made of commands have the drives' integrals in them, which wind up where
-// friction holds.
-GapFit::NewContacts GapFit::ContactsBeside(
+std::vector<GapEvent> GapFit::NewContacts(
     const std::vector<GapCandidate>& effects, ContactSearch search) const {
-  const bool of_itself = search == ContactSearch::kInMotion;
   if (IsLeftOut(ContactEffect())) return {};
-  if (HaveNoiseOfPositions(rows().segments())) return {};
-  if (of_itself ? rows().num_joints() > 1 : !regression_.reference()) return {};
-  NewContacts found;
-  found.excess = ExcessBeside(effects);
-  found.usual = UsualExcess(found.excess, of_itself);
-  for (const Contact& contact :
-       FindContacts(baseline().robot(), rows(), found.excess,
-                    found.usual.Quantile(Limits().false_contacts), search)) {
-    const bool known =
-        std::any_of(events_.begin(), events_.end(), [&](const GapEvent& event) {
-          return event.contact.log == contact.log &&
-                 event.contact.window.Contains(contact.time);
-        });
-    if (!known) found.contacts.push_back(contact);
-  }
-  return found;
+  return ContactsBeside(regression_, effects, events_, search);
 }
 
-bool GapFit::TakeOut(const NewContacts& found, ContactSearch search) {
-  for (const Contact& contact : found.contacts) {
-    events_.push_back(EventBeyondFriction(rows(), found.excess, contact));
-    events_.back().chance = found.usual.Chance(contact.deviations);
-    events_.back().at_rest = search == ContactSearch::kAtRest;
-    data()->Mask(contact.log, contact.window);
+bool GapFit::TakeOut(const std::vector<GapEvent>& found) {
+  for (const GapEvent& event : found) {
+    data()->Mask(event.contact.log, event.contact.window);
+    events_.push_back(event);
   }
-  return !found.contacts.empty();
+  return !found.empty();
 }
 
 // Beside the chosen effects. Columns are of small effects on a grid of shapes:
@@ -117,14 +67,14 @@ bool GapFit::TakeOut(const NewContacts& found, ContactSearch search) {
 // have to be there beside the fitted effects as well.
 bool GapFit::TakeOutContacts(ContactSearch search) {
   const std::vector<GapCandidate> effects = pool_.Fitted(selection_.chosen);
-  NewContacts found = ContactsBeside(effects, search);
-  if (!found.contacts.empty() && !effects.empty()) {
-    found = ContactsBeside(
+  std::vector<GapEvent> found = NewContacts(effects, search);
+  if (!found.empty() && !effects.empty()) {
+    found = NewContacts(
         RefineEffects(screen(), baseline(), scale(), effects, -1, data())
             .effects,
         search);
   }
-  return TakeOut(found, search);
+  return TakeOut(found);
 }
 
 // The same of pulses on joints.
@@ -138,18 +88,13 @@ bool GapFit::TakeOutPulses() {
                                                   effects, -1, data())
                                         .effects);
   }
-  for (const GapEvent& event : found) {
-    data()->Mask(event.contact.log, event.contact.window);
-    events_.push_back(event);
-  }
-  return !found.empty();
+  return TakeOut(found);
 }
 
 void GapFit::MakeScreen() {
   regression_.Refit();
   constexpr ContactSearch kAtRest = ContactSearch::kAtRest;
-  while (options_.selection.events &&
-         TakeOut(ContactsBeside({}, kAtRest), kAtRest)) {
+  while (options_.selection.events && TakeOut(NewContacts({}, kAtRest))) {
     regression_.Refit();
   }
   pool_.List();
@@ -214,8 +159,9 @@ void GapFit::TakeOutEvent(size_t k) {
       RefineEffects(screen(), baseline(), scale(),
                     {pool_.Fitted(selection_.chosen)[k]}, -1, data());
   const GapCandidate& fitted = refined.effects[0];
-  event.contact = DescribeContact(baseline().robot(), rows(), ExcessBeside({}),
-                                  fitted.log, WindowOf(fitted));
+  event.contact =
+      DescribeContact(baseline().robot(), rows(), ExcessBeside(regression_, {}),
+                      fitted.log, WindowOf(fitted));
   event.contact.window = WindowOf(fitted);
   if (fitted.p.head<3>().norm() < event.contact.largest_force) {
     event.fitted = {fitted, refined.covariance};
@@ -323,8 +269,9 @@ void GapFit::FindEvents(const std::vector<GapEvent>& known) {
   if (regression_.IsTheSameDayBeside(pool_.Fitted(selection_.chosen))) {
     SelectWithEvents();
   }
-  DescribeAgain(baseline().robot(), rows(), ExcessBeside({}),
-                ExcessBeside(pool_.Fitted(selection_.chosen)), &events_);
+  DescribeAgain(baseline().robot(), rows(), ExcessBeside(regression_, {}),
+                ExcessBeside(regression_, pool_.Fitted(selection_.chosen)),
+                &events_);
 }
 
 void GapFit::Choose() {

@@ -96,15 +96,10 @@ class GapFit {
   void MakeScreen();
   void Select();
   void SelectWithTheirNoise();
-  struct NewContacts {
-    FrictionExcess excess;
-    UsualMaximum usual;
-    std::vector<Contact> contacts;
-  };
-  NewContacts ContactsBeside(const std::vector<GapCandidate>& effects,
-                             ContactSearch search) const;
+  std::vector<GapEvent> NewContacts(const std::vector<GapCandidate>& effects,
+                                    ContactSearch search) const;
   // Whether there were any.
-  bool TakeOut(const NewContacts& found, ContactSearch search);
+  bool TakeOut(const std::vector<GapEvent>& found);
   bool TakeOutContacts(ContactSearch search);
   bool TakeOutPulses();
   void TakeOutEvent(size_t k);
@@ -117,8 +112,6 @@ class GapFit {
   void Finish();
   void Refine();
   void FitModels();
-  UsualMaximum UsualExcess(const FrictionExcess& excess, bool of_itself) const;
-  FrictionExcess ExcessBeside(const std::vector<GapCandidate>& effects) const;
 
   GapFitOptions options_;
   GapRegression regression_;

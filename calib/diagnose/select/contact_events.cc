@@ -1,0 +1,72 @@
+#include "calib/diagnose/select/contact_events.h"
+
+#include <algorithm>
+
+#include "calib/diagnose/data/position_noise.h"
+#include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/select/maxima_tail.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::VectorXd;
+
+// How large the excess of a log without a contact gets: of the reference, and
+// of the log itself but for a few windows.
+UsualMaximum UsualExcess(const GapRegression& regression,
+                         const FrictionExcess& excess, bool of_itself) {
+  const GapData* reference = regression.reference();
+  const GapRows& rows = regression.rows();
+  const GapRows& before = reference ? reference->rows() : rows;
+  const double block = BlockTime(before);
+  const std::vector<double> own = BlockMaxima(rows, block, excess.Largest());
+  UsualMaximum usual{static_cast<double>(own.size()), {}};
+  if (of_itself) usual.tails.push_back(UsualTailOf(own));
+  if (!reference) return usual;
+  const VectorXd& x = regression.refit();
+  const FrictionExcess known = ExcessOverFriction(
+      regression.baseline(), x, before, reference->ResidualWith(x));
+  usual.tails.push_back(TailOf(BlockMaxima(before, block, known.Largest())));
+  return usual;
+}
+
+bool IsKnown(const std::vector<GapEvent>& events, const Contact& contact) {
+  return std::any_of(events.begin(), events.end(), [&](const GapEvent& event) {
+    return event.contact.log == contact.log &&
+           event.contact.window.Contains(contact.time);
+  });
+}
+
+}  // namespace
+
+FrictionExcess ExcessBeside(const GapRegression& regression,
+                            const std::vector<GapCandidate>& effects) {
+  const JointRows torque = regression.TorqueOf(effects);
+  const VectorXd x = regression.BaselineBeside(torque);
+  return ExcessOverFriction(regression.baseline(), x, regression.rows(),
+                            regression.data()->ResidualWith(x, torque));
+}
+
+std::vector<GapEvent> ContactsBeside(const GapRegression& regression,
+                                     const std::vector<GapCandidate>& effects,
+                                     const std::vector<GapEvent>& known,
+                                     ContactSearch search) {
+  const GapRows& rows = regression.rows();
+  const bool of_itself = search == ContactSearch::kInMotion;
+  if (HaveNoiseOfPositions(rows.segments())) return {};
+  if (of_itself ? rows.num_joints() > 1 : !regression.reference()) return {};
+  const FrictionExcess excess = ExcessBeside(regression, effects);
+  const UsualMaximum usual = UsualExcess(regression, excess, of_itself);
+  std::vector<GapEvent> events;
+  for (const Contact& contact :
+       FindContacts(regression.baseline().robot(), rows, excess,
+                    usual.Quantile(Limits().false_contacts), search)) {
+    if (IsKnown(known, contact)) continue;
+    events.push_back(EventBeyondFriction(rows, excess, contact));
+    events.back().chance = usual.Chance(contact.deviations);
+    events.back().at_rest = search == ContactSearch::kAtRest;
+  }
+  return events;
+}
+
+}  // namespace armcal

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/select/contacts.h"
+#include "calib/diagnose/select/events.h"
+#include "calib/diagnose/select/excess.h"
+#include "calib/diagnose/select/regression.h"
+
+namespace armcal {
+
+// What the baseline and effects leave of the torque beyond friction.
+FrictionExcess ExcessBeside(const GapRegression& regression,
+                            const std::vector<GapCandidate>& effects);
+
+// Contacts beside effects, in windows in which nothing is known yet. They
+// stand out from all that friction does when nothing touches the arm, which
+// only a reference tells. What one joint alone feels in motion may be its own:
+// where the arm has no other, it has to stand out from the rest of the log as
+// well. None of torques that are made of commands: these have the drives'
+// integrals in them, which wind up where friction holds.
+std::vector<GapEvent> ContactsBeside(const GapRegression& regression,
+                                     const std::vector<GapCandidate>& effects,
+                                     const std::vector<GapEvent>& known,
+                                     ContactSearch search);
+
+}  // namespace armcal
