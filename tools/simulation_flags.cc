@@ -10,7 +10,8 @@ DEFINE_uint64(seed, 0, "of everything that is drawn at random");
 DEFINE_string(
     controller, "",
     "`FILE` YAML with the controller's law (pd, p, cascade), rate, gains, "
-    "limits, delay, lag; default: pd of 8 Hz per joint");
+    "limits, delay, lag; default: pd of 8 Hz per joint, slower where simulate "
+    "would reach torque limits");
 
 namespace armcal {
 
@@ -20,11 +21,12 @@ uint64_t SeedFromFlags(const FlagValues& flags) {
 
 ControllerOptions ControllerFromFlags(const FlagValues& flags,
                                       const Robot& robot,
-                                      const Eigen::VectorXd& q) {
+                                      const Eigen::VectorXd& q,
+                                      double bandwidth_hz) {
   if (!flags.Text("controller").empty()) {
     return ReadController(flags.Text("controller"), robot, q);
   }
-  return DefaultController(robot, q, kUsualBandwidthHz);
+  return DefaultController(robot, q, bandwidth_hz);
 }
 
 // One number for all joints, or one for each; none of them negative.

@@ -13,10 +13,11 @@ namespace armcal {
 // The flags that commands which simulate share. Throw UsageError for a value
 // that is not what the flag takes.
 uint64_t SeedFromFlags(const FlagValues& flags);  // --seed
-// --controller, or one that suits the robot at q.
+// --controller, or the default one of that bandwidth at q.
 ControllerOptions ControllerFromFlags(const FlagValues& flags,
                                       const Robot& robot,
-                                      const Eigen::VectorXd& q);
+                                      const Eigen::VectorXd& q,
+                                      double bandwidth_hz);
 
 // One number for all of n joints, or one for each; none of them negative.
 Eigen::VectorXd ParsePerJoint(const std::string& flag, const std::string& text,

@@ -14,15 +14,19 @@
 namespace armcal {
 namespace {
 
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
 // Friction that changes sign takes as many, or an arm that no feedback holds
 // (a motor at its limit) is off by more than 3e-7 rad after 2 s.
 constexpr int kFewestSubsteps = 6;
 constexpr int kMostSubsteps = 64;
+// Of steps that are implicit in friction.
+constexpr int kImplicitSubsteps = 16;
 
 }  // namespace
 
-ArmSimulator::ArmSimulator(const SimulatedRobot& robot,
-                           const Eigen::VectorXd& q0,
+ArmSimulator::ArmSimulator(const SimulatedRobot& robot, const VectorXd& q0,
                            const ArmSimulatorOptions& options,
                            ArmDynamics* dynamics)
     : robot_(robot),
@@ -40,19 +44,18 @@ ArmSimulator::ArmSimulator(const SimulatedRobot& robot,
   for (const WrenchLaw& law : robot.wrenches) {
     attachments_.push_back(law.attachment);
   }
-  dynamics->Evaluate(q0, Eigen::VectorXd::Zero(n_), attachments_, &end_);
+  dynamics->Evaluate(q0, VectorXd::Zero(n_), attachments_, &end_);
   begin_ = middle_ = end_;
   x_ = layout_.StateAtRest(robot, q0, end_);
   instant_.load = end_.bias;
-  qdd_ = jerk_ = commanded_ = Eigen::VectorXd::Zero(n_);
+  qdd_ = jerk_ = commanded_ = VectorXd::Zero(n_);
   ReadInstant(x_, begin_time_);
   substeps_ = options.substeps > 0 ? options.substeps : NeededSubsteps();
 }
 
-void ArmSimulator::SetMotors(const Eigen::VectorXd& q,
-                             const Eigen::VectorXd& qd) {
+void ArmSimulator::SetMotors(const VectorXd& q, const VectorXd& qd) {
   CHECK(q.size() == n_ && qd.size() == n_);
-  Eigen::VectorXd link_q = q, link_qd = qd;
+  VectorXd link_q = q, link_qd = qd;
   for (size_t k = 0; k < robot_.transmissions.size(); ++k) {
     const int j = robot_.transmissions[k].joint;
     const auto motor = x_.segment<2>(layout_.motors + 2 * k);
@@ -84,7 +87,7 @@ void ArmSimulator::SetArmature() {
   }
 }
 
-void ArmSimulator::ReadInstant(const Eigen::VectorXd& x, double t) {
+void ArmSimulator::ReadInstant(const VectorXd& x, double t) {
   instant_.t = t;
   instant_.link_position = x.head(n_);
   instant_.link_velocity = x.segment(n_, n_);
@@ -98,7 +101,7 @@ void ArmSimulator::ReadInstant(const Eigen::VectorXd& x, double t) {
   instant_.temperature = x.tail(n_);
 }
 
-void ArmSimulator::AddActuators(const Eigen::VectorXd& x) {
+void ArmSimulator::AddActuators(const VectorXd& x) {
   motor_torque_ = commanded_;
   int at = layout_.actuators;
   for (const ActuatorMap& map : robot_.actuators) {
@@ -109,7 +112,7 @@ void ArmSimulator::AddActuators(const Eigen::VectorXd& x) {
   motor_torque_.head(robot_.num_passive).setZero();
 }
 
-void ArmSimulator::AddJointLaws(const Eigen::VectorXd& x) {
+void ArmSimulator::AddJointLaws(const VectorXd& x) {
   heat_.setZero(n_);
   int at = layout_.joint_laws;
   for (const JointLaw& law : robot_.joint_laws) {
@@ -128,7 +131,7 @@ void ArmSimulator::AddJointLaws(const Eigen::VectorXd& x) {
   }
 }
 
-void ArmSimulator::AddTransmissions(const Eigen::VectorXd& x) {
+void ArmSimulator::AddTransmissions(const VectorXd& x) {
   link_torque_ = motor_torque_;
   int at = layout_.transmissions;
   for (size_t k = 0; k < robot_.transmissions.size(); ++k) {
@@ -147,7 +150,7 @@ void ArmSimulator::AddTransmissions(const Eigen::VectorXd& x) {
   next_load_ = link_torque_;
 }
 
-void ArmSimulator::AddWrenches(const Eigen::VectorXd& x, double t) {
+void ArmSimulator::AddWrenches(const VectorXd& x, double t) {
   int at = layout_.wrenches;
   for (size_t k = 0; k < robot_.wrenches.size(); ++k) {
     const WrenchLaw& law = robot_.wrenches[k];
@@ -164,8 +167,7 @@ void ArmSimulator::AddWrenches(const Eigen::VectorXd& x, double t) {
   }
 }
 
-void ArmSimulator::Derivative(const Eigen::VectorXd& x, double t,
-                              double share) {
+void ArmSimulator::Derivative(const VectorXd& x, double t, double share) {
   rate_.setZero(layout_.size);
   ReadInstant(x, t);
   InterpolateTerms(begin_, middle_, end_, share, &now_);
@@ -181,41 +183,76 @@ void ArmSimulator::Derivative(const Eigen::VectorXd& x, double t,
   rate_.segment(n_, n_) = qdd_;
 }
 
+// What laws of rigid joints take of their joint's own velocity at the instant,
+// N m s/rad or N s/m; 0 where that would drive it.
+VectorXd ArmSimulator::JointDamping() const {
+  constexpr double kStep = 1e-7;  // rad/s or m/s
+  VectorXd damping = VectorXd::Zero(n_), rate = rate_;
+  ArmInstant at = instant_;
+  int state = layout_.joint_laws;
+  for (const JointLaw& law : robot_.joint_laws) {
+    const int j = law.joint;
+    const double v = instant_.velocity[j];
+    double torque[2];
+    for (const int side : {0, 1}) {
+      at.velocity[j] = v + (side == 0 ? -kStep : kStep);
+      torque[side] = law.torque(at, x_.data() + state, rate.data() + state);
+    }
+    at.velocity[j] = v;
+    damping[j] += (torque[0] - torque[1]) / (2 * kStep);
+    state += law.initial_state.size();
+  }
+  for (const Transmission& law : robot_.transmissions) damping[law.joint] = 0;
+  return damping.cwiseMax(0.);
+}
+
+// From the rates of a stage to those of the W-method (implicit_stages.h).
+void ArmSimulator::MakeImplicit(int stage, double h) {
+  if (stage == 0) {
+    damping_ = JointDamping();
+    MatrixXd inertia = now_.mass_matrix;
+    inertia.diagonal() += WMethod::kGamma * h * damping_;
+    implicit_cholesky_.compute(inertia);
+  }
+  VectorXd sum = WMethod::kGamma * k_[stage].segment(n_, n_);
+  for (int j = 0; j < stage; ++j) {
+    sum += WMethod::kImplicit[stage][j] * k_[j].segment(n_, n_);
+  }
+  k_[stage].segment(n_, n_) -=
+      implicit_cholesky_.solve(h * damping_.cwiseProduct(sum));
+}
+
 void ArmSimulator::Substep(double t, double share, double h) {
-  const double half = h / 2, ds = h / step_;
-  Derivative(x_, t, share);
-  const Eigen::VectorXd load = next_load_;
-  k1_ = rate_;
-  x_stage_ = x_ + half * k1_;
-  Derivative(x_stage_, t + half, share + ds / 2);
-  k2_ = rate_;
-  x_stage_ = x_ + half * k2_;
-  Derivative(x_stage_, t + half, share + ds / 2);
-  k3_ = rate_;
-  x_stage_ = x_ + h * k3_;
-  Derivative(x_stage_, t + h, share + ds);
-  x_ += h / 6 * (k1_ + 2 * (k2_ + k3_) + rate_);
+  VectorXd load;
+  for (int i = 0; i < WMethod::kStages; ++i) {
+    const double node = WMethod::kNode[i];
+    x_stage_ = i == 0 ? x_ : x_ + node * h * k_[i - 1];
+    Derivative(x_stage_, t + node * h, share + node * h / step_);
+    if (i == 0) load = next_load_;
+    k_[i] = rate_;
+    if (implicit_) MakeImplicit(i, h);
+  }
+  x_ += h / 6 * (k_[0] + 2 * (k_[1] + k_[2]) + k_[3]);
   // Held over a substep, so that its four stages are of one law.
   instant_.load = load;
 }
 
 // The engine's terms `ahead` of the step's begin, where constant jerk leads.
-void ArmSimulator::Predict(double ahead, const Eigen::VectorXd& qdd,
-                           ArmTerms* terms) {
+void ArmSimulator::Predict(double ahead, const VectorXd& qdd, ArmTerms* terms) {
   const double h = ahead;
   const auto q = x_.head(n_), qd = x_.segment(n_, n_);
   dynamics_->Evaluate(q + h * (qd + h / 2 * (qdd + h / 3 * jerk_)),
                       qd + h * (qdd + h / 2 * jerk_), attachments_, terms);
 }
 
-void ArmSimulator::Step(const Eigen::VectorXd& commanded) {
+void ArmSimulator::Step(const VectorXd& commanded) {
   const int passive = robot_.num_passive;
   CHECK_EQ(commanded.size(), n_ - passive);
   commanded_.tail(n_ - passive) = commanded;
   const double t = begin_time_ + step_index_ * step_;
   std::swap(begin_, end_);
   Derivative(x_, t, 0);
-  const Eigen::VectorXd qdd = qdd_;
+  const VectorXd qdd = qdd_;
   Predict(step_ / 2, qdd, &middle_);
   Predict(step_, qdd, &end_);
   for (int k = 0; k < substeps_; ++k) {
@@ -236,22 +273,34 @@ int ArmSimulator::JointOf(Eigen::Index state) const {
                                              : -1;
 }
 
-// At the start: of dampers and springs between motors, links and ground,
-// linearised at rest.
-ArmSimulator::Mode ArmSimulator::FastestMode() {
+// d rate / d state at the start, by differences.
+MatrixXd ArmSimulator::RatesAtRest() {
   begin_ = middle_ = end_;
   const double dx = 1e-7;
   Derivative(x_, begin_time_, 0);
-  const Eigen::VectorXd rate = rate_;
-  Eigen::MatrixXd A(layout_.size, layout_.size);
+  const VectorXd rate = rate_;
+  MatrixXd A(layout_.size, layout_.size);
   for (int k = 0; k < layout_.size; ++k) {
-    Eigen::VectorXd x = x_;
+    VectorXd x = x_;
     x[k] += dx;
     Derivative(x, begin_time_, 0);
     A.col(k) = (rate_ - rate) / dx;
   }
   ReadInstant(x_, begin_time_);
-  const Eigen::EigenSolver<Eigen::MatrixXd> modes(A);
+  return A;
+}
+
+// At the start: of dampers and springs between motors, links and ground,
+// linearised at rest, but for the dampers that steps are implicit in.
+ArmSimulator::Mode ArmSimulator::FastestMode() {
+  MatrixXd A = RatesAtRest();
+  if (implicit_) {
+    MatrixXd inertia = end_.mass_matrix;
+    inertia.diagonal() += rigid_armature_;
+    A.block(n_, n_, n_, n_) +=
+        inertia.llt().solve(MatrixXd(JointDamping().asDiagonal()));
+  }
+  const Eigen::EigenSolver<MatrixXd> modes(A);
   if (modes.info() != Eigen::Success) return {HUGE_VAL, -1};
   Eigen::Index fastest, state;
   const double fastest_rate = modes.eigenvalues().cwiseAbs().maxCoeff(&fastest);
@@ -262,9 +311,9 @@ ArmSimulator::Mode ArmSimulator::FastestMode() {
 // Of those that laws declare but the start does not show: motor and link on the
 // stiffest spring between them.
 ArmSimulator::Mode ArmSimulator::FastestDeclaredMode() {
-  Eigen::MatrixXd inertia = end_.mass_matrix;
+  MatrixXd inertia = end_.mass_matrix;
   inertia.diagonal() += rigid_armature_;
-  const Eigen::MatrixXd mobility = inertia.inverse();
+  const MatrixXd mobility = inertia.inverse();
   Mode fastest{0, -1};
   for (const Transmission& law : robot_.transmissions) {
     const int j = law.joint;
@@ -276,11 +325,19 @@ ArmSimulator::Mode ArmSimulator::FastestDeclaredMode() {
 }
 
 int ArmSimulator::NeededSubsteps() {
-  const Mode shown = FastestMode(), declared = FastestDeclaredMode();
-  const Mode fastest = declared.rate > shown.rate ? declared : shown;
   // Fourth-order Runge-Kutta is stable to 2.78 along the real axis. The arm's
   // inertia elsewhere may be smaller than at the start.
-  const double wanted = std::ceil(step_ * fastest.rate / 1.2);
+  constexpr double kMostPerStep = 1.2;
+  const Mode declared = FastestDeclaredMode();
+  Mode fastest;
+  double wanted = HUGE_VAL;
+  for (const bool implicit : {false, true}) {
+    implicit_ = implicit;
+    const Mode shown = FastestMode();
+    fastest = declared.rate > shown.rate ? declared : shown;
+    wanted = std::ceil(step_ * fastest.rate / kMostPerStep);
+    if (wanted <= kMostSubsteps) break;
+  }
   if (!(wanted <= kMostSubsteps)) {
     const std::string joint =
         fastest.joint < 0
@@ -291,7 +348,8 @@ int ArmSimulator::NeededSubsteps() {
                      "constants above 0.02 steps; give joints more armature "
                      "or friction a wider transition through zero velocity");
   }
-  return std::max(kFewestSubsteps, static_cast<int>(wanted));
+  return std::max(implicit_ ? kImplicitSubsteps : kFewestSubsteps,
+                  static_cast<int>(wanted));
 }
 
 }  // namespace armcal

@@ -6,6 +6,7 @@
 #include "model/dynamics/arm_dynamics.h"
 #include "model/dynamics/simulated_robot.h"
 #include "model/plant/simulator_layout.h"
+#include "model/simd/motion/w_method.h"
 
 namespace armcal {
 
@@ -28,8 +29,8 @@ class ArmSimulator {
   // Starts at rest with the links at q0 (all joints, passive ones included).
   // Keeps references to both; `dynamics` is of robot.robot. A copy goes on from
   // the same state with the same engine. Throws InputError
-  // where a transmission's joint has no armature, or a law is too stiff for 64
-  // substeps.
+  // where a transmission's joint has no armature, or a law other than friction
+  // of a joint without one is too stiff for 64 substeps.
   ArmSimulator(const SimulatedRobot& robot, const Eigen::VectorXd& q0,
                const ArmSimulatorOptions& options, ArmDynamics* dynamics);
 
@@ -54,6 +55,9 @@ class ArmSimulator {
   void SetArmature();
   int NeededSubsteps();
   Mode FastestMode();
+  Eigen::MatrixXd RatesAtRest();
+  Eigen::VectorXd JointDamping() const;
+  void MakeImplicit(int stage, double h);
   Mode FastestDeclaredMode();
   int JointOf(Eigen::Index state) const;
   void ReadInstant(const Eigen::VectorXd& x, double t);
@@ -69,6 +73,7 @@ class ArmSimulator {
   ArmDynamics* dynamics_;
   double step_, begin_time_;
   int substeps_;
+  bool implicit_ = false;
   int n_;
   std::vector<Attachment> attachments_;
   Eigen::VectorXd armature_;        // n
@@ -86,8 +91,9 @@ class ArmSimulator {
   // Scratch of Derivative.
   Eigen::VectorXd motor_torque_, link_torque_, heat_, rate_;
   Eigen::VectorXd next_load_;
-  Eigen::VectorXd k1_, k2_, k3_, x_stage_;
-  Eigen::LLT<Eigen::MatrixXd> cholesky_;
+  Eigen::VectorXd k_[WMethod::kStages], x_stage_;
+  Eigen::LLT<Eigen::MatrixXd> cholesky_, implicit_cholesky_;
+  Eigen::VectorXd damping_;  // n, of the substep's begin
 };
 
 }  // namespace armcal

@@ -8,6 +8,7 @@
 #include "tools/command.h"
 #include "tools/commands/simulate_effects.h"
 #include "tools/commands/simulate_flags.h"
+#include "tools/commands/simulate_loop.h"
 #include "tools/input_flags.h"
 #include "tools/output_folder.h"
 #include "tools/simulation_flags.h"
@@ -33,7 +34,9 @@ std::string TrackingText(const ScenarioRun& run) {
   return text;
 }
 
-std::string Report(const Scenario& scenario, const ScenarioRun& run) {
+std::string Report(const ChosenRun& chosen) {
+  const Scenario& scenario = chosen.scenario;
+  const ScenarioRun& run = chosen.run;
   const Log& log = run.run.log;
   std::string text = "simulated " + scenario.model.name + ": " +
                      std::to_string(log.size()) + " samples, " +
@@ -50,6 +53,7 @@ std::string Report(const Scenario& scenario, const ScenarioRun& run) {
     }
     text += "\n";
   }
+  text += chosen.text;
   if (run.run.saturated_share > 0) {
     text += "a torque is at its limit in " +
             NumberText(100 * run.run.saturated_share) + " % of the time; " +
@@ -87,7 +91,7 @@ CommandOutcome Simulate(const CommandInput& input) {
     outcome.output = {EffectListJson(), EffectList(), "", true, {}};
     return outcome;
   }
-  Scenario scenario = ScenarioFromFlags(input);
+  const Scenario scenario = ScenarioFromFlags(input);
   if (!LogRateFits(scenario.loop)) {
     throw UsageError("--log_rate: found '" +
                      NumberText(scenario.loop.sensors.log_rate_hz) +
@@ -98,18 +102,16 @@ CommandOutcome Simulate(const CommandInput& input) {
   const LogWriterOptions writer =
       WriterFromFlags(flags, scenario.model.num_joints());
   input.Begin("simulating");
-  scenario.loop.progress = [&input](double share) {
-    if (input.progress) input.progress("simulating", share);
-  };
-  ScenarioRun run = RunScenario(scenario);
+  ChosenRun chosen = RunWithUsualLoop(input);
+  ScenarioRun& run = chosen.run;
   if (!flags.Switch("temperature")) run.run.log.temperature.resize(0, 0);
   OutputFolder out(OutFromFlags(flags)), secret(flags.Text("truth"), "--truth");
   run.run.log.simulated = true;
   out.Add("log.csv", LogText(run.run.log, writer));
-  const std::string truth = TruthJson(scenario, run).dump(2) + "\n";
+  const std::string truth = TruthJson(chosen.scenario, run).dump(2) + "\n";
   (flags.Text("truth").empty() ? out : secret).Add("truth.json", truth);
   outcome.folders = {secret, out};
-  outcome.output = {truth, Report(scenario, run), "", run.run.finite, {}};
+  outcome.output = {truth, Report(chosen), "", run.run.finite, {}};
   return outcome;
 }
 

@@ -74,11 +74,12 @@ std::vector<int> MovingJoints(const FlagValues& flags, int n) {
   return joints;
 }
 
-ReferenceMotion MotionFromFlags(const FlagValues& flags, const Robot& robot) {
+ReferenceMotion MotionFromFlags(const FlagValues& flags, const Robot& robot,
+                                double speed) {
   MotionOptions options;
   options.duration = Within(flags, "duration", .1, kLongest);
   options.size = Within(flags, "size", 0, 1);
-  options.speed = Within(flags, "speed", 0, 1);
+  options.speed = speed * Within(flags, "speed", 0, 1);
   options.joints = MovingJoints(flags, robot.num_joints());
   options.seed = SeedFromFlags(flags);
   options.run = flags.Natural("run");
@@ -136,16 +137,16 @@ void RequireMasses(const CommandInput& input, const Robot& robot) {
 
 }  // namespace
 
-Scenario ScenarioFromFlags(const CommandInput& input) {
+Scenario ScenarioFromFlags(const CommandInput& input, const UsualLoop& loop) {
   const FlagValues& flags = input.flags;
   Scenario scenario;
   scenario.model = RobotFromFlags(input);
   RequireMasses(input, scenario.model);
   scenario.robot_error = Within(flags, "robot_error", 0, .5);
   scenario.zero_velocity = Within(flags, "friction_width", 1e-4, 1);
-  scenario.motion = MotionFromFlags(flags, scenario.model);
-  scenario.loop.controller =
-      ControllerFromFlags(flags, scenario.model, scenario.motion.at(0).q);
+  scenario.motion = MotionFromFlags(flags, scenario.model, loop.speed);
+  scenario.loop.controller = ControllerFromFlags(
+      flags, scenario.model, scenario.motion.at(0).q, loop.bandwidth_hz);
   scenario.loop.sensors = SensorsFromFlags(flags, scenario.model);
   scenario.loop.step = Within(flags, "step", 1e-5, .01);
   scenario.seed = SeedFromFlags(flags);

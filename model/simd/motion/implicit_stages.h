@@ -2,24 +2,18 @@
 
 #include "model/simd/motion/inertia_factor.h"
 #include "model/simd/motion/joint_friction.h"
+#include "model/simd/motion/w_method.h"
 
 namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 
-// The classical Runge-Kutta method, whose stages are made implicit in what
-// friction and springs of the joints add where these are fast: a W-method
-// (Hairer, Wanner, Solving Ordinary Differential Equations II, IV.7). Stage i
-// of y' = f(y) is
-//   k_i = f(y + h sum_j<i a_ij k_j) + h A sum_j<=i c_ij k_j
-// with A = -M^-1 times the joints' slopes at the step's begin, whose factors
-// all stages share. The c_ij meet the order conditions for any A up to order 3
-// (without such terms the step is the classical one, of order 4) and make it
-// A- and L-stable: b'(a + c)^-1 1 = 1.
-constexpr int kStages = 4;
-constexpr double kNode[kStages] = {0, .5, .5, 1};
-constexpr double kWeight[kStages] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
-constexpr double kGamma = .25;  // c_ii
-constexpr double kImplicit[kStages][kStages - 1] = {
-    {}, {-3. / 20}, {43. / 320, -47. / 64}, {1. / 32, 29. / 96, -1. / 3}};
+// Steps of WMethod that are implicit in what friction and springs of the joints
+// add where these are fast: A = -M^-1 times the joints' slopes at the step's
+// begin, whose factors all stages share.
+constexpr int kStages = WMethod::kStages;
+constexpr auto& kNode = WMethod::kNode;
+constexpr auto& kWeight = WMethod::kWeight;
+constexpr double kGamma = WMethod::kGamma;
+constexpr auto& kImplicit = WMethod::kImplicit;
 // What decays by less than this in a step is left to explicit ones, which are
 // of order 4 and stable up to 2.7: twice that, as the rate is estimated from
 // the joints one by one.

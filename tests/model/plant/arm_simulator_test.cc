@@ -201,7 +201,7 @@ TEST(ArmSimulator, RefusesWhatItCannotIntegrate) {
   SimulatedRobot robot = Flywheel(.5);
   robot.joint_laws.push_back(
       {0, VectorXd(), true, [](const ArmInstant& at, const double*, double*) {
-         return -1e6 * at.velocity[0];
+         return -1e10 * at.position[0];
        }});
   EXPECT_THAT([&] { Simulate(robot, One(0), One(0), .1); },
               testing::ThrowsMessage<InputError>(testing::HasSubstr(

@@ -1,0 +1,83 @@
+#include "tools/commands/simulate_loop.h"
+
+#include <utility>
+#include <vector>
+
+#include "model/text/input_text.h"
+
+namespace armcal {
+namespace {
+
+// Of the time: a motor that is at its limit more often follows no command.
+constexpr double kHardly = .01;
+
+bool Suits(const ScenarioRun& run) {
+  return run.run.finite && run.run.saturated_share <= kHardly;
+}
+
+bool IsBetter(const ScenarioRun& run, const ScenarioRun& than) {
+  if (run.run.finite != than.run.finite) return run.run.finite;
+  return run.run.saturated_share < than.run.saturated_share;
+}
+
+ChosenRun RunWith(const CommandInput& input, const UsualLoop& loop) {
+  ChosenRun chosen;
+  chosen.scenario = ScenarioFromFlags(input, loop);
+  chosen.scenario.loop.progress = [&input](double share) {
+    if (input.progress) input.progress("simulating", share);
+  };
+  chosen.run = RunScenario(chosen.scenario);
+  return chosen;
+}
+
+// Takes a slower loop where it is better; whether it suits.
+bool Try(const CommandInput& input, const UsualLoop& slower, UsualLoop* loop,
+         ChosenRun* chosen) {
+  ChosenRun next = RunWith(input, slower);
+  if (IsBetter(next.run, chosen->run)) {
+    *loop = slower;
+    *chosen = std::move(next);
+  }
+  return Suits(chosen->run);
+}
+
+std::string Text(const UsualLoop& loop, double usual_share) {
+  std::string text;
+  if (loop.bandwidth_hz != kUsualBandwidthHz) {
+    text = "loops of " + NumberText(loop.bandwidth_hz) + " Hz";
+  }
+  if (loop.speed != 1) {
+    text += (text.empty() ? "" : " and ") + NumberText(100 * loop.speed) +
+            " % of the usual speed";
+  }
+  if (text.empty()) return "";
+  return text + ": with loops of " + NumberText(kUsualBandwidthHz) +
+         " Hz at usual speed a torque was at its limit in " +
+         NumberText(100 * usual_share) + " % of the time\n";
+}
+
+}  // namespace
+
+ChosenRun RunWithUsualLoop(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
+  UsualLoop loop;
+  ChosenRun chosen = RunWith(input, loop);
+  bool suits = Suits(chosen.run);
+  const double usual_share = chosen.run.run.saturated_share;
+  if (flags.Text("controller").empty()) {
+    for (double hz = kUsualBandwidthHz / 2; !suits && hz >= 1; hz /= 2) {
+      suits = Try(input, {hz, 1}, &loop, &chosen);
+    }
+  }
+  const bool drawn =
+      flags.Text("motion") == "fourier" || flags.Text("motion") == "points";
+  if (drawn && flags.IsDefault("speed")) {
+    for (double speed = .5; !suits && speed >= .25; speed /= 2) {
+      suits = Try(input, {loop.bandwidth_hz, speed}, &loop, &chosen);
+    }
+  }
+  chosen.text = Text(loop, usual_share);
+  return chosen;
+}
+
+}  // namespace armcal
