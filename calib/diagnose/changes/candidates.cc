@@ -50,25 +50,37 @@ struct ScatterGrid {
   VectorXd log_prior;
 };
 
-// Sizes from a sixteenth of what is estimated (of a third of the usual, where
-// that is more) to eight times it, by steps of the square root of 2; the prior
-// is half-Cauchy in size, so that of the size's logarithm is that times it.
+// Sizes of a hypothesis's own components from a tenth of what is estimated (of
+// a third of the usual, where that is more) to four times it, each with the
+// other components that are not friction as they are and at a quarter, since a
+// change that is not in the fit yet is spread over all that is like it. The
+// prior is that of the size times it, as the grid is one of its logarithm.
 ScatterGrid MakeGrid(const SeriesProblem& problem, const Scatter& scatter,
                      const std::vector<int>& own) {
   constexpr int kDown = 5, kUp = 3;
+  constexpr double kGridStep = .7;  // of the logarithm to base 2
   ScatterGrid grid;
-  grid.log_prior.resize(kDown + kUp + 1);
-  for (int step = -kDown; step <= kUp; ++step) {
-    const double factor = std::pow(2., .7 * step);
-    Scatter at = scatter;
-    double size = 0;  // beside the usual, mean
-    for (const int k : own) {
-      const double usual = problem.components[k].usual;
-      at.stddev[k] = factor * std::max(scatter.stddev[k], usual / 3);
-      size += at.stddev[k] / usual / static_cast<double>(own.size());
+  grid.log_prior.resize(2 * (kDown + kUp + 1));
+  for (const double others : {1., .25}) {
+    Scatter from = scatter;
+    for (size_t k = 0; k < problem.components.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      if (!problem.components[k].is_friction) from.stddev[i] *= others;
     }
-    grid.at.push_back(at);
-    grid.log_prior[step + kDown] = std::log(size / (1 + size * size));
+    for (int step = -kDown; step <= kUp; ++step) {
+      Scatter at = from;
+      double size = 0;  // beside the usual, mean
+      for (const int k : own) {
+        const double usual = problem.components[k].usual;
+        at.stddev[k] = std::exp2(kGridStep * step) *
+                       std::max(scatter.stddev[k], usual / 3);
+        size += at.stddev[k] / usual / static_cast<double>(own.size());
+      }
+      grid.log_prior[static_cast<Eigen::Index>(grid.at.size())] =
+          std::log(size) - .5 * (kScatterFreedom + 1) *
+                               std::log1p(size * size / kScatterFreedom);
+      grid.at.push_back(at);
+    }
   }
   return grid;
 }
@@ -134,7 +146,7 @@ ChangeCandidates JudgeCandidates(const SeriesProblem& problem,
                                  const Scatter& scatter,
                                  const LogColumns& columns,
                                  const VectorXd& prior) {
-  constexpr size_t kLookedInto = 8;  // hypotheses
+  constexpr size_t kLookedInto = 6;  // hypotheses
   ScatterGrid as_is;
   as_is.at = {scatter};
   as_is.log_prior = VectorXd::Zero(1);

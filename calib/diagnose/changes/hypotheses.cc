@@ -276,10 +276,11 @@ std::vector<ScatterComponent> MakeScatter(const LogSeries& series,
     for (int j = 0; j < series.parameters.num_joints(); ++j) {
       const int k = TermIndex(series.parameters, j, term);
       if (k < 0) continue;
+      components[k].is_friction = true;
       components[k].usual = std::max(
           kUsualScatter, share * std::abs(level[k]) / series.torque[k]);
     }
-    components.push_back({FrictionDirection(series, level, term), share});
+    components.push_back({FrictionDirection(series, level, term), share, true});
   }
   return components;
 }

@@ -77,9 +77,12 @@ class ChangeSelection {
     scatter_ = FitScatter(logs_, components_, columns, Prior(), scatter_,
                           fit_inflation_);
   }
+  // Beside all changes taken; then it stays, or it would take the place of a
+  // change that is taken out.
   void FitInflation() {
     fit_inflation_ = true;
     Refit();
+    fit_inflation_ = false;
   }
   const Scatter& scatter() const { return scatter_; }
   VectorXd Level() const {

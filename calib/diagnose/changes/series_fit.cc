@@ -142,7 +142,9 @@ Scatter SeriesFit::Better(const std::vector<ScatterComponent>& components,
   for (Eigen::Index k = 0; k < size; ++k) {
     const double variance = std::pow(scatter_.stddev[k], 2);
     const double usual = std::pow(components[k].usual, 2);
-    const double slope = std::max(expected[k], 0.) + 2 / (usual + variance);
+    const double slope =
+        std::max(expected[k], 0.) +
+        (kScatterFreedom + 1) / (kScatterFreedom * usual + variance);
     better.stddev[k] =
         std::max(kLeastScatter * components[k].usual,
                  std::sqrt(variance * std::sqrt(found[k] / slope)));
@@ -155,8 +157,8 @@ Scatter FitScatter(const std::vector<LogEquations>& logs,
                    const std::vector<ScatterComponent>& components,
                    const LogColumns& columns, const VectorXd& prior,
                    const Scatter& start, bool fit_inflation) {
-  constexpr int kMostSteps = 60;
-  constexpr double kSettled = .01;  // relative, beside the usual scatter
+  constexpr int kMostSteps = 100;
+  constexpr double kSettled = .003;  // relative, beside the usual scatter
   Scatter scatter = start;
   for (int step = 0; step < kMostSteps; ++step) {
     const Scatter last = scatter;

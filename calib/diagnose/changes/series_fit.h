@@ -19,7 +19,14 @@ struct LogEquations {
 struct ScatterComponent {
   Eigen::VectorXd direction;
   double usual;
+  bool is_friction = false;  // which differs from day to day by itself
 };
+
+// The prior of a component's standard deviation is half of Student's t with so
+// many degrees of freedom and the scale `usual` (Gelman 2006): sizes up to that
+// are alike, several times that are rare. With one degree (Cauchy's) a change
+// that only four logs tell never beats days that could be anything.
+inline constexpr double kScatterFreedom = 3;
 
 struct Scatter {
   Eigen::VectorXd stddev;  // of each component
@@ -71,8 +78,7 @@ class SeriesFit {
   Eigen::MatrixXd Covariance() const;
 
   // The scatter that is likelier: a step of the MM algorithm of Zhou, Hu, Qiao,
-  // Cho and Zhou (2019) for variance components, with half-Cauchy priors of the
-  // scales `usual` (Gelman 2006), which draw small ones to no size.
+  // Cho and Zhou (2019) for variance components.
   // The inflation stays unless it is to be fitted.
   Scatter Better(const std::vector<ScatterComponent>& components,
                  bool fit_inflation) const;
