@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "calib/numerics/json_figures.h"
 #include "model/text/format.h"
@@ -89,12 +88,10 @@ std::string ChangeLines(const std::vector<NamedChange>& changes,
                         const std::vector<std::string>& logs) {
   std::string text;
   for (const NamedChange& change : changes) {
-    const std::string log =
-        std::filesystem::path(logs[change.found.log]).filename();
     text += Format("  %3.0f %%  ", 100 * change.found.probability) +
             ChangeText(change) + " " + ChangeTime(change, logs.size()) + ", " +
-            log + "\n         " + AmountsText(change) + "; " + change.reading +
-            "\n";
+            logs[change.found.log] + "\n         " + AmountsText(change) +
+            "; " + change.reading + "\n";
     for (size_t k = 0; k < change.rivals.size(); ++k) {
       text +=
           Format("         or %.0f %% ", 100 * change.rival_probability[k]) +

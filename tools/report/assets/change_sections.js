@@ -5,7 +5,7 @@ const changeSections = (data) => {
   const {html, svg, number, isNumber, table, percent, plusMinus, note, heading} = charts;
   const told = data.result.changes;
 
-  const shortName = (path) => String(path).split('/').pop();
+  const shortName = (path) => String(path).split('/').slice(-2).join('/');
   const amount = (a) => {
     if (!isNumber(a.value)) return `${a.name} not seen`;
     if (a.unit === '1') return `${a.name} ${plusMinus(100 * a.value, 100 * a.stddev)} %`;
@@ -29,7 +29,7 @@ const changeSections = (data) => {
     const ends = [];
     p.value.forEach((v, l) => {
       ends.push(p.model[l] - 2 * p.scatter, p.model[l] + 2 * p.scatter);
-      if (isNumber(v) && isNumber(p.stddev[l])) ends.push(v);
+      if (isNumber(v) && isNumber(p.stddev[l])) ends.push(v - p.stddev[l], v + p.stddev[l]);
     });
     const low = Math.min(...ends), high = Math.max(...ends);
     const margin = .12 * (high - low) || Math.abs(high) || 1;
@@ -43,7 +43,10 @@ const changeSections = (data) => {
       parts.push(svg('path', {d: `M${x(mark - .5)} ${top}V${height - bottom}`, 'stroke-dasharray': '3 3',
                               style: 'stroke: var(--c2); stroke-width: 1.5'}));
     }
-    parts.push(svg('path', {d: 'M' + p.model.map((v, l) => `${x(l).toFixed(1)} ${y(v).toFixed(1)}`).join('L'),
+    // A step lies between two logs.
+    const line = p.model.map((v, l) => (l === 0 ? 'M' : marks.includes(l)
+        ? `H${x(l - .5).toFixed(1)}V${y(v).toFixed(1)}L` : 'L') + `${x(l).toFixed(1)} ${y(v).toFixed(1)}`).join('');
+    parts.push(svg('path', {d: line,
                             style: 'stroke: var(--c2); stroke-width: 2; fill: none'}));
     p.value.forEach((v, l) => {
       if (!isNumber(v) || !isNumber(p.stddev[l])) return;
