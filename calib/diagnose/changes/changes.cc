@@ -123,12 +123,17 @@ std::vector<ParameterSeries> ParametersOver(const LogSeries& series,
     model += series.torque.asDiagonal() * directions * found.value *
              CourseOf(found.form, found.log, times).transpose();
   }
+  VectorXd variance = VectorXd::Zero(level.size());
+  for (size_t c = 0; c < told.components.size(); ++c) {
+    const double size = told.found.scatter.stddev[static_cast<Eigen::Index>(c)];
+    variance += (size * told.components[c].direction).cwiseAbs2();
+  }
   std::vector<ParameterSeries> parameters;
   for (int k = 0; k < series.parameters.size(); ++k) {
     const ModelParameter& p = series.parameters.parameters()[k];
     parameters.push_back({p.name, p.unit, p.block, p.is_joint_term, own.row(k),
                           stddev.row(k), model.row(k),
-                          series.torque[k] * told.found.scatter.stddev[k]});
+                          series.torque[k] * std::sqrt(variance[k])});
   }
   return parameters;
 }
