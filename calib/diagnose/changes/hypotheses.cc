@@ -137,7 +137,6 @@ void Maker::AddAllFriction(const std::vector<JointTerm>& terms) {
       const int k = TermIndex(series_.parameters, j, terms[t]);
       if (k < 0) continue;
       directions(k, at) = directions(k, t);
-      named.change.scatter.push_back(k);
     }
   }
   named.units.assign(named.names.size(), "1");
