@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "calib/diagnose/changes/changes.h"
+#include "calib/diagnose/changes/report.h"
 #include "calib/diagnose/diagnosis.h"
 #include "calib/diagnose/report.h"
 #include "calib/log_clocks.h"
@@ -13,6 +15,7 @@
 #include "calib/robot_outputs.h"
 #include "model/effects/effects.h"
 #include "model/robot_files/controller_reader.h"
+#include "model/text/input_error.h"
 #include "model/text/option_name.h"
 
 namespace armcal {
@@ -137,7 +140,38 @@ DrawnTorques Draw(const GapDiagnosis& diagnosis, const LogSet& held_out) {
   return drawn;
 }
 
+// From log to log; nothing where there are too few.
+std::optional<LogChanges> ChangesOf(const Robot& robot, const LogInput& logs,
+                                    const LogReaderOptions& reading,
+                                    const DiagnoseOptions& options) {
+  if (!options.changes ||
+      static_cast<int>(logs.logs.size()) < kFewestLogsOfChanges) {
+    return std::nullopt;
+  }
+  try {
+    return FindLogChanges(robot, logs.logs, reading, logs.crop,
+                          options.bandwidth_hz, options.progress);
+  } catch (const InputError& error) {
+    // The diagnosis stands without it: a log that is too short by itself.
+    LogChanges none;
+    none.logs = NamesOf(logs.logs);
+    none.refusal = error.what();
+    return none;
+  }
+}
+
+void AddChanges(const LogChanges& changes, nlohmann::json* json,
+                DiagnoseSummary* summary) {
+  const std::string brief = BriefChanges(changes);
+  const std::string before = brief.empty() ? "" : brief + " ";
+  (*json)["changes"] = ToJson(changes);
+  (*json)["sentence"] = before + std::string((*json)["sentence"]);
+  summary->brief = before + summary->brief;
+  summary->report = before + summary->report + FullChanges(changes);
+}
+
 DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
+                          const std::optional<LogChanges>& changes,
                           const GapDiagnosis& diagnosis) {
   DiagnoseSummary summary;
   const RobotExport corrected = ExportCorrectedRobot(
@@ -147,14 +181,16 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
   json["not_in_urdf"] = corrected.losses;
   json["calibration"] = nullptr;
   if (!options.calibration.empty()) json["calibration"] = options.calibration;
+  json["changes"] = nullptr;
   const std::string losses =
       AddRobotFiles(corrected.files, &json, &summary.files);
+  summary.report = FullReport(diagnosis, options.verbose) + losses;
+  summary.brief = BriefReport(diagnosis);
+  if (changes) AddChanges(*changes, &json, &summary);
   summary.json = json.dump(2) + "\n";
   summary.files.push_back({"diagnosis.json", summary.json});
   summary.files.push_back({"robot.urdf", corrected.urdf});
   summary.files.push_back({"effects.json", corrected.effects.dump(2) + "\n"});
-  summary.report = FullReport(diagnosis, options.verbose) + losses;
-  summary.brief = BriefReport(diagnosis);
   summary.positive = diagnosis.verdict != GapVerdict::kNotTestable;
   summary.verdict = GapVerdictName(diagnosis.verdict);
   for (const FoundEffect& found : diagnosis.effects) {
@@ -199,7 +235,11 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   if (calibrated) {
     NoteCalibration(*calibrated, {&training, held_out, before}, &details->data);
   }
-  DiagnoseSummary summary = Summarise(robot, options, *details);
+  const std::optional<LogChanges> changes =
+      ChangesOf(robot, logs, reading, options);
+  // They hold what is told of friction and offsets in fewer logs.
+  if (changes && changes->refusal.empty()) details->drifts.clear();
+  DiagnoseSummary summary = Summarise(robot, options, changes, *details);
   if (options.draw_torques) {
     summary.torques = std::make_shared<DrawnTorques>(
         Draw(*details, validation ? *validation : training));

@@ -44,6 +44,8 @@ struct DiagnoseOptions {
   // Path of the drives' law (docs/simulate.md); also makes the torques of logs
   // that have none. Empty: none.
   std::string controller;
+  // Whether four logs or more are also told which parameters changed when.
+  bool changes = true;
   std::uint64_t seed = 0;
   std::vector<std::string> exports;  // formats beside URDF: "mjcf", "sdf" ..
   RobotSource source;                // of the robot

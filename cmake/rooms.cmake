@@ -34,6 +34,7 @@ set(rooms
     calib/fleet         # many logs and robots by their factor files
     calib/verify        # the estimate against Simbody
     calib/diagnose/data        # what a diagnosis is made from
+    calib/diagnose/changes     # which parameters changed from log to log
     calib/diagnose/candidates  # effects that could explain a gap
     calib/diagnose/select      # which of them do
     calib/diagnose/judge       # what held-out data say of them

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "calib/fleet/factor_calibration.h"
-#include "calib/numerics/median.h"
+#include "calib/fleet/log_evidence.h"
 
 namespace armcal {
 namespace {
@@ -26,25 +26,6 @@ Reduction OfUnit(const Reduction& all, const std::string& unit) {
   return own;
 }
 
-// Each unit's variances, drawn to the median of all as if that were an estimate
-// of kFleet degrees of freedom.
-void ShrinkNoise(const VectorXd& freedom, MatrixXd* noise) {
-  constexpr double kFleet = 20;
-  for (Eigen::Index i = 0; i < noise->cols(); ++i) {
-    std::vector<double> known;
-    for (Eigen::Index u = 0; u < noise->rows(); ++u) {
-      if (freedom[u] > 0) known.push_back(std::pow((*noise)(u, i), 2));
-    }
-    if (known.empty()) continue;
-    const double median = Median(known);
-    for (Eigen::Index u = 0; u < noise->rows(); ++u) {
-      const double own = freedom[u] > 0 ? std::pow((*noise)(u, i), 2) : 0;
-      (*noise)(u, i) = std::sqrt((kFleet * median + freedom[u] * own) /
-                                 (kFleet + freedom[u]));
-    }
-  }
-}
-
 // Each unit by itself; returns the degrees of freedom that a joint's noise has.
 VectorXd CalibrateUnits(const Robot& robot, const Reduction& reduction,
                         const Progress& progress, FleetCalibration* fleet) {
@@ -63,31 +44,9 @@ VectorXd CalibrateUnits(const Robot& robot, const Reduction& reduction,
     fleet->own_stddev.row(u) = own.stddev.transpose();
     if (!own.solved) continue;
     fleet->noise.row(u) = own.noise.transpose();
-    const double inflation = Inflations(logs).mean();
-    const double spent =
-        static_cast<double>(own.parameters.size()) / robot.num_joints();
-    freedom[u] = std::max(0., (static_cast<double>(own.equations) - spent) /
-                                  inflation / inflation);
+    freedom[u] = NoiseFreedom(own, Inflations(logs).mean());
   }
   return freedom;
-}
-
-// Of one log's equations that are used.
-UnitEvidence EvidenceOf(const BlockTriangularFactor& factor,
-                        const std::vector<bool>& used, const VectorXd& noise,
-                        double inflation) {
-  const int m = factor.num_parameters();
-  UnitEvidence evidence{0, 0, MatrixXd::Zero(m, m), VectorXd::Zero(m)};
-  for (int i = 0; i < factor.num_joints(); ++i) {
-    if (!used[i]) continue;
-    const std::vector<int>& columns = factor.columns(i);
-    const auto k = static_cast<Eigen::Index>(columns.size());
-    const MatrixXd R = factor.Triangle(i) / (noise[i] * inflation);
-    evidence.information(columns, columns) +=
-        R.leftCols(k).transpose() * R.leftCols(k);
-    evidence.right(columns) += R.leftCols(k).transpose() * R.col(k);
-  }
-  return evidence;
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "calib/linear/calibration_checks.h"
 #include "calib/linear/calibration_model.h"
 #include "calib/linear/factor_solution.h"
-#include "calib/linear/log_factors.h"
 #include "calib/linear/row_covariance.h"
 #include "calib/linear/used_equations.h"
 #include "model/text/input_error.h"
@@ -17,23 +16,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-LogFactors FactorsOf(const ModelParameters& parameters,
-                     const Reduction& reduction) {
-  const int n = parameters.num_joints();
-  std::vector<BlockTriangularFactor> factors;
-  Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(n);
-  VectorXd travel = VectorXd::Zero(n);
-  double samples = 0;
-  for (const ReducedLog& log : reduction.logs) {
-    factors.push_back(FactorOf(parameters, log));
-    const auto count = static_cast<double>(log.samples);
-    squares += count * log.mean_square_speed;
-    samples += count;
-    travel = travel.cwiseMax(log.travel);
-  }
-  return {std::move(factors), squares / std::max(1., samples), travel};
-}
 
 // What of a log's equations is used.
 BlockTriangularFactor Used(const LogFactors& factors,
@@ -107,6 +89,23 @@ ModelParameters ParametersOf(const Robot& robot, const ReductionModel& model,
 BlockTriangularFactor FactorOf(const ModelParameters& parameters,
                                const ReducedLog& log) {
   return {parameters, log.factors};
+}
+
+LogFactors FactorsOf(const ModelParameters& parameters,
+                     const Reduction& reduction) {
+  const int n = parameters.num_joints();
+  std::vector<BlockTriangularFactor> factors;
+  Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(n);
+  VectorXd travel = VectorXd::Zero(n);
+  double samples = 0;
+  for (const ReducedLog& log : reduction.logs) {
+    factors.push_back(FactorOf(parameters, log));
+    const auto count = static_cast<double>(log.samples);
+    squares += count * log.mean_square_speed;
+    samples += count;
+    travel = travel.cwiseMax(log.travel);
+  }
+  return {std::move(factors), squares / std::max(1., samples), travel};
 }
 
 VectorXd Inflations(const Reduction& reduction) {

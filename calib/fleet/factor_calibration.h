@@ -2,6 +2,7 @@
 
 #include "calib/fleet/reduction.h"
 #include "calib/linear/calibration.h"
+#include "calib/linear/log_factors.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
@@ -14,6 +15,10 @@ ModelParameters ParametersOf(const Robot& robot, const ReductionModel& model,
 // The joints' factors of a log.
 BlockTriangularFactor FactorOf(const ModelParameters& parameters,
                                const ReducedLog& log);
+
+// Those of all logs.
+LogFactors FactorsOf(const ModelParameters& parameters,
+                     const Reduction& reduction);
 
 // How much more a log's standard deviations are than those of its factor: its
 // own measure, or where it was too short for one, the median of all that have

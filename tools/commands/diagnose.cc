@@ -11,6 +11,9 @@
 #include "tools/simulation_flags.h"
 #include "tools/trust_flags.h"
 
+DEFINE_bool(changes, true,
+            "with four logs or more, say which parameters changed from log to "
+            "log, in the order they are given");
 DEFINE_bool(forward, true,
             "simulate the held-out logs as well: along their commands with "
             "--controller, else over windows of 0.5 s");
@@ -40,6 +43,7 @@ DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
   for (const Effect* effect : ParseEffects("without", flags.Text("without"))) {
     options.without.push_back(effect->name);
   }
+  options.changes = flags.Switch("changes");
   options.forward = flags.Switch("forward");
   options.verbose = flags.Switch("verbose");
   options.controller = flags.Text("controller");
@@ -83,7 +87,8 @@ Command DiagnoseCommand() {
             {"robot", "calibration", "log", "reference", "validate",
              "bandwidth", "crop"}},
            {"diagnosis",
-            {"trust", "without", "forward", "verbose", "controller", "seed"}},
+            {"trust", "without", "changes", "forward", "verbose", "controller",
+             "seed"}},
            {"more of the logs", {"validate_crop"}, false},
            TorqueFlags(),
            {"robot files", {"export"}, false},

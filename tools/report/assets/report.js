@@ -130,9 +130,10 @@
 
   const {torques, positions, maps, spectra} = torqueSections(data);
   const {driveGains, jointTable, positionTable, geometry, poses, parameters, correlation, rank} = calibrationSections(data);
+  const {changes} = changeSections(data);
   const {dataFindings, effects, absorbed, gap, where, untestable} = diagnosisSections(data);
   const sections = [
-    ['The data', dataFindings], ['Which effect', effects], ['What was only a wrong parameter', absorbed],
+    ['The data', dataFindings], ['What changed from log to log', changes], ['Which effect', effects], ['What was only a wrong parameter', absorbed],
     ['How far the gap shrinks', gap], ['Where it lies', where],
     ['Torque per current', driveGains], ['Joints', jointTable], ['Positions, in closed loop', positionTable], ['Checks', checks], ['Simulated from the log', rollouts],
     ['The motion', motion], ['The postures', postures], ['What it will tell', predicted], ['Assumed', assumed],

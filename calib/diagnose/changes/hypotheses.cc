@@ -1,0 +1,287 @@
+#include "calib/diagnose/changes/hypotheses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "calib/diagnose/data/day_shares.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Changes of a series, by what is thought of them before: the temperature of
+// all friction, one joint's friction, a mass (half of them on the last link),
+// everything else.
+constexpr double kShareOfAllFriction = .25, kShareOfFriction = .3,
+                 kShareOfMass = .25, kShareOfOther = .2;
+// Standard deviations of changes: of friction relative to itself; of all else
+// (and of friction that there is none of) beside the joint's usual torque.
+constexpr double kFrictionChange = .5, kTorqueChange = .2, kNewFriction = .05;
+// By which joints' factors differ where all friction changes: a fifth of it, as
+// the joints of a warming arm do (-20 to -25 %, shared/data/schunk_lwa4p).
+constexpr double kOwnFactor = .1;
+// Scatter that is usual, beside the joint's torque: what models lack as a rule
+// is a per cent or less of it (discrepancy.h).
+constexpr double kUsualScatter = .005;
+
+const std::pair<JointTerm, double> kFrictions[] = {kShareOfDays[0],
+                                                   kShareOfDays[1]};
+
+// All joints' friction, as a direction of parameters: a factor on it is a
+// number times this.
+VectorXd FrictionDirection(const LogSeries& series, const VectorXd& level,
+                           JointTerm term) {
+  VectorXd direction = VectorXd::Zero(level.size());
+  for (int j = 0; j < series.parameters.num_joints(); ++j) {
+    const int k = TermIndex(series.parameters, j, term);
+    if (k >= 0) {
+      direction[k] = std::max(0., level[k]) / series.torque[k];
+    }
+  }
+  return direction;
+}
+
+// One for each part of each joint.
+void SetFamily(NamedHypothesis* named) {
+  constexpr int kParts = 10;
+  named->change.family =
+      kParts * (named->joint + 1) + static_cast<int>(named->part);
+}
+
+// What makes a hypothesis of directions in the parameters.
+class Maker {
+ public:
+  Maker(const Robot& robot, const LogSeries& series, const VectorXd& level,
+        std::vector<NamedHypothesis>* all)
+      : robot_(robot), series_(series), level_(level), all_(all) {
+    nominal_ = series.parameters.Values(robot);
+  }
+
+  // What a change of the robot does, per unit of it.
+  VectorXd Direction(const std::function<void(Robot*)>& change) const {
+    Robot changed = robot_;
+    change(&changed);
+    return (series_.parameters.Values(changed) - nominal_)
+        .cwiseQuotient(series_.torque);
+  }
+  // Adds a hypothesis of such directions.
+  void Add(NamedHypothesis named, const MatrixXd& directions) {
+    for (const LogEquations& log : series_.equations) {
+      named.change.columns.push_back(log.root * directions);
+    }
+    if (named.change.scatter.empty()) {
+      for (Eigen::Index k = 0; k < directions.rows(); ++k) {
+        if (directions.row(k).norm() > 1e-9) {
+          named.change.scatter.push_back(static_cast<int>(k));
+        }
+      }
+    }
+    named.directions = directions;
+    if (named.told.size() == 0) {
+      named.told = MatrixXd::Identity(directions.cols(), directions.cols());
+    }
+    SetFamily(&named);
+    if (directions.norm() > 0) all_->push_back(std::move(named));
+  }
+  // Amounts that make kTorqueChange of the torque.
+  static VectorXd UsualAmounts(const MatrixXd& directions) {
+    return directions.colwise().norm().transpose().unaryExpr(
+        [](double size) { return size > 0 ? kTorqueChange / size : 1; });
+  }
+
+  void AddAllFriction(const std::vector<JointTerm>& terms);
+  void AddFriction(int joint);
+  void AddTerm(int joint, JointTerm term, ChangedPart part);
+  void AddScale(int joint);
+  void AddMass(int link);
+
+ private:
+  const Robot& robot_;
+  const LogSeries& series_;
+  const VectorXd& level_;
+  std::vector<NamedHypothesis>* all_;
+  VectorXd nominal_;
+};
+
+// All joints' friction of these terms by about one factor each: a number for
+// the factor, and one for each joint by which its own differs.
+void Maker::AddAllFriction(const std::vector<JointTerm>& terms) {
+  NamedHypothesis named{ChangedPart::kAllFriction, -1, {}, {}, {}, {}, {}};
+  const int joints = robot_.num_joints();
+  const auto size = static_cast<Eigen::Index>(terms.size());
+  MatrixXd directions = MatrixXd::Zero(level_.size(), size * (joints + 1));
+  named.change.prior = VectorXd::Constant(directions.cols(), kOwnFactor);
+  named.told = MatrixXd::Zero(size * (joints + 1), directions.cols());
+  for (Eigen::Index t = 0; t < size; ++t) {
+    const VectorXd all = FrictionDirection(series_, level_, terms[t]);
+    if ((all.array() > 0).count() < 2) return;
+    directions.col(t) = all;
+    named.change.prior[t] = kFrictionChange;
+    named.names.emplace_back(JointTermName(terms[t]));
+    named.change.scatter.push_back(static_cast<int>(level_.size()) +
+                                   (terms[t] == JointTerm::kViscous ? 0 : 1));
+    named.told(t, t) = 1;
+    named.told.row(t)
+        .segment(size + t * joints, joints)
+        .setConstant(1. / joints);
+  }
+  for (Eigen::Index t = 0; t < size; ++t) {
+    for (int j = 0; j < joints; ++j) {
+      const Eigen::Index at = size + t * joints + j;
+      named.told(at, t) = named.told(at, at) = 1;
+      named.names.push_back(std::string(JointTermName(terms[t])) + " of " +
+                            robot_.links[j].joint.name);
+      const int k = TermIndex(series_.parameters, j, terms[t]);
+      if (k < 0) continue;
+      directions(k, at) = directions(k, t);
+    }
+  }
+  named.units.assign(named.names.size(), "1");
+  named.change.share = kShareOfAllFriction / 3;
+  Add(named, directions);
+}
+
+void Maker::AddFriction(int joint) {
+  const auto add = [&](const std::vector<JointTerm>& terms) {
+    NamedHypothesis named{ChangedPart::kFriction, joint, {}, {}, {}, {}, {}};
+    MatrixXd directions = MatrixXd::Zero(
+        series_.pooled.size(), static_cast<Eigen::Index>(terms.size()));
+    named.change.prior.resize(directions.cols());
+    for (Eigen::Index c = 0; c < directions.cols(); ++c) {
+      const JointTerm term = terms[c];
+      const int k = TermIndex(series_.parameters, joint, term);
+      if (k < 0) return;
+      directions(k, c) = 1 / series_.torque[k];
+      named.names.emplace_back(JointTermName(term));
+      named.units.push_back(
+          JointTermUnit(term, robot_.links[joint].joint.type));
+      named.change.prior[c] = std::max(kFrictionChange * std::abs(level_[k]),
+                                       kNewFriction * series_.torque[k]);
+    }
+    named.change.share = kShareOfFriction / 3 / robot_.num_joints();
+    Add(named, directions);
+  };
+  add({JointTerm::kViscous});
+  add({JointTerm::kCoulomb});
+  add({JointTerm::kViscous, JointTerm::kCoulomb});
+}
+
+void Maker::AddTerm(int joint, JointTerm term, ChangedPart part) {
+  NamedHypothesis named{part, joint, {}, {JointTermName(term)}, {}, {}, {}};
+  named.units.push_back(JointTermUnit(term, robot_.links[joint].joint.type));
+  const MatrixXd direction = Direction(
+      [&](Robot* robot) { *TermOf(term, &robot->links[joint].joint) += 1; });
+  named.change.prior = UsualAmounts(direction);
+  named.change.share = kShareOfOther / 3 / robot_.num_joints();
+  Add(named, direction);
+}
+
+void Maker::AddScale(int joint) {
+  NamedHypothesis named{
+      ChangedPart::kTorqueScale, joint, {}, {"scale"}, {"1"}, {}, {}};
+  named.change.columns = series_.by_scale[joint];
+  named.change.prior = VectorXd::Constant(1, kTorqueChange);
+  named.change.share = kShareOfOther / 3 / robot_.num_joints();
+  named.change.scatter = series_.parameters.row_columns(joint);
+  named.directions = MatrixXd::Zero(level_.size(), 1);
+  named.told = MatrixXd::Identity(1, 1);
+  SetFamily(&named);
+  all_->push_back(std::move(named));
+}
+
+void Maker::AddMass(int link) {
+  const bool last = link + 1 == robot_.num_joints();
+  const double others = std::max(1, robot_.num_joints() - 1);
+  const bool alone = robot_.num_joints() == 1;
+  for (const int count : {4, 10}) {  // mass and moments; and inertia
+    NamedHypothesis named{ChangedPart::kMass, link, {}, {}, {}, {}, {}};
+    MatrixXd directions(series_.pooled.size(), count);
+    for (int c = 0; c < count; ++c) {
+      named.names.emplace_back(InertialName(c));
+      named.units.emplace_back(InertialUnit(c));
+      directions.col(c) = Direction([&](Robot* robot) {
+        InertialParameters& body = robot->links[link].inertial;
+        Vector10d V = body.ToVector();
+        V[c] += 1;
+        body = InertialParameters::FromVector(V);
+      });
+    }
+    named.change.prior = UsualAmounts(directions);
+    named.change.share = kShareOfMass / 2 *
+                         (alone  ? 1
+                          : last ? .5
+                                 : .5 / others);
+    Add(named, directions);
+  }
+}
+
+}  // namespace
+
+const char* ChangedPartName(ChangedPart part) {
+  switch (part) {
+    case ChangedPart::kAllFriction:
+      return "all_friction";
+    case ChangedPart::kFriction:
+      return "friction";
+    case ChangedPart::kOffset:
+      return "offset";
+    case ChangedPart::kArmature:
+      return JointTermName(JointTerm::kArmature);
+    case ChangedPart::kTorqueScale:
+      return "torque_scale";
+    case ChangedPart::kMass:
+      return "mass";
+  }
+  return "";
+}
+
+int TermIndex(const ModelParameters& parameters, int joint, JointTerm term) {
+  for (int k = 0; k < parameters.size(); ++k) {
+    const ModelParameter& p = parameters.parameters()[k];
+    if (p.is_joint_term && p.block == joint && p.term == term) return k;
+  }
+  return -1;
+}
+
+std::vector<NamedHypothesis> MakeHypotheses(const Robot& robot,
+                                            const LogSeries& series,
+                                            const VectorXd& level) {
+  std::vector<NamedHypothesis> all;
+  Maker maker(robot, series, level, &all);
+  maker.AddAllFriction({JointTerm::kViscous});
+  maker.AddAllFriction({JointTerm::kCoulomb});
+  maker.AddAllFriction({JointTerm::kViscous, JointTerm::kCoulomb});
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    maker.AddFriction(j);
+    maker.AddTerm(j, JointTerm::kOffset, ChangedPart::kOffset);
+    maker.AddTerm(j, JointTerm::kArmature, ChangedPart::kArmature);
+    maker.AddScale(j);
+    maker.AddMass(j);
+  }
+  return all;
+}
+
+std::vector<ScatterComponent> MakeScatter(const LogSeries& series,
+                                          const VectorXd& level) {
+  const Eigen::Index size = series.pooled.size();
+  std::vector<ScatterComponent> components;
+  for (Eigen::Index k = 0; k < size; ++k) {
+    components.push_back({VectorXd::Unit(size, k), kUsualScatter});
+  }
+  for (const auto& [term, share] : kFrictions) {
+    for (int j = 0; j < series.parameters.num_joints(); ++j) {
+      const int k = TermIndex(series.parameters, j, term);
+      if (k < 0) continue;
+      components[k].is_friction = true;
+      components[k].usual = std::max(
+          kUsualScatter, share * std::abs(level[k]) / series.torque[k]);
+    }
+    components.push_back({FrictionDirection(series, level, term), share, true});
+  }
+  return components;
+}
+
+}  // namespace armcal

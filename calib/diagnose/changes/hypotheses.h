@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/changes/hypothesis.h"
+#include "calib/diagnose/changes/series.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// What of a robot changes together.
+enum class ChangedPart {
+  kAllFriction,  // about one factor for all: temperature, lubricant
+  kFriction,     // of one joint
+  kOffset,
+  kArmature,
+  kTorqueScale,  // of one joint: its torque constant, its sensor
+  kMass          // fixed to a link, or off it
+};
+// "friction of all joints".
+const char* ChangedPartName(ChangedPart part);
+
+struct NamedHypothesis {
+  ChangedPart part;
+  int joint = -1;  // or the link that it moves; -1: all
+  ChangeHypothesis change;
+  // What is told of it: amounts with names and units, told times the numbers
+  // of the hypothesis.
+  std::vector<std::string> names, units;
+  Eigen::MatrixXd told;
+  // What each number makes of the parameters (LogSeries::torque is 1); of a
+  // torque's scale, which changes no parameter of the arm, nothing.
+  Eigen::MatrixXd directions;
+};
+
+// All that is looked for in a series, competing with each other. Viscous and
+// Coulomb friction change by themselves or together; a mass by its moments, or
+// also by its inertia. `level`: the parameters that friction is relative to.
+std::vector<NamedHypothesis> MakeHypotheses(const Robot& robot,
+                                            const LogSeries& series,
+                                            const Eigen::VectorXd& level);
+
+// By what logs of a robot that does not change differ: every parameter by
+// itself, and all joints' friction by a factor.
+std::vector<ScatterComponent> MakeScatter(const LogSeries& series,
+                                          const Eigen::VectorXd& level);
+// Where a joint's term is among the parameters; -1: not by itself.
+int TermIndex(const ModelParameters& parameters, int joint, JointTerm term);
+
+}  // namespace armcal
