@@ -45,7 +45,7 @@ struct DiagnoseOptions {
   // that have none. Empty: none.
   std::string controller;
   // Whether four logs or more are also told which parameters changed when.
-  bool changes = true;
+  bool changes = false;
   std::uint64_t seed = 0;
   std::vector<std::string> exports;  // formats beside URDF: "mjcf", "sdf" ..
   RobotSource source;                // of the robot

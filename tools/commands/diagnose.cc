@@ -11,9 +11,9 @@
 #include "tools/simulation_flags.h"
 #include "tools/trust_flags.h"
 
-DEFINE_bool(changes, true,
-            "with four logs or more, say which parameters changed from log to "
-            "log, in the order they are given");
+DEFINE_bool(changes, false,
+            "of four logs or more of one kind of motion, in the order they were "
+            "recorded: which parameters changed when");
 DEFINE_bool(forward, true,
             "simulate the held-out logs as well: along their commands with "
             "--controller, else over windows of 0.5 s");
