@@ -5,17 +5,17 @@
 import pathlib
 
 ROWS = [  # label, hits, of, low and high end of the interval (%), bar (%)
-    ("one clear effect, rich and poor", 128, 151, 78.0, 90.1, 96),
-    ("one faint effect", 22, 45, 33.7, 64.2, 70),
-    ("two clear effects, both", 22, 40, 38.5, 70.7, 80),
-    ("without a name: abstains", 28, 37, 58.8, 88.2, 92),
-    ("nothing wrong, rich: silent", 98, 99, 94.5, 100, 99),
-    ("nothing wrong, poor: silent", 40, 40, 91.2, 100, 95),
-    ("candidates hold the truth", 138, 141, 93.9, 99.6, 95),
-    ("errors of form: one clear", 87, 116, 66.1, 82.6, 88),
-    ("... two clear, both", 11, 31, 19.2, 54.6, 65),
-    ("... without a name: abstains", 25, 29, 68.3, 96.1, 85),
-    ("... nothing wrong: silent", 105, 107, 93.4, 99.8, 97),
+    ("one clear effect, rich and poor", 72, 75, 88.8, 99.2, 96),
+    ("one faint effect", 12, 23, 30.6, 73.2, 70),
+    ("two clear effects, both", 12, 20, 36.1, 80.9, 80),
+    ("without a name: abstains", 17, 19, 66.9, 98.7, 92),
+    ("nothing wrong, rich: silent", 50, 50, 92.9, 100, 99),
+    ("nothing wrong, poor: silent", 20, 20, 83.2, 100, 95),
+    ("candidates hold the truth", 73, 73, 95.1, 100, 95),
+    ("errors of form: one clear", 57, 74, 65.8, 86.0, 88),
+    ("... two clear, both", 6, 20, 11.9, 54.3, 65),
+    ("... without a name: abstains", 18, 20, 68.3, 98.8, 85),
+    ("... nothing wrong: silent", 70, 70, 94.9, 100, 97),
 ]
 INK, MARK, BAR = "#808080", "#3080d0", "#d06020"
 
