@@ -4,6 +4,7 @@
 
 #include "calib/diagnose.h"
 #include "tools/command_report.h"
+#include "tools/commands/diagnose_poses.h"
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/log_flags.h"
@@ -52,6 +53,7 @@ DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
 }
 
 CommandOutcome RunDiagnose(const CommandInput& input) {
+  if (DiagnosesPoses(input)) return RunDiagnosePoses(input);
   const LogInput logs = LogInputFromFlags(input);
   const Robot robot = RobotFromFlags(input);
   const DiagnoseOptions options = DiagnoseOptionsFromFlags(input, robot);
@@ -78,13 +80,15 @@ CommandOutcome RunDiagnose(const CommandInput& input) {
 Command DiagnoseCommand() {
   return {"diagnose",
           "where the sim-to-real gap lies, which effect causes it, and how far "
-          "it shrinks once that effect is in the model",
+          "it shrinks once that effect is in the model; of torques in logs, or "
+          "of the geometry in measured poses",
           {{"robot and logs",
             {"robot", "calibration", "log", "reference", "validate",
-             "bandwidth", "crop"}},
+             "bandwidth", "crop", "poses"}},
            {"diagnosis",
             {"trust", "without", "forward", "verbose", "controller", "seed"}},
            {"more of the logs", {"validate_crop"}, false},
+           {"geometry", {"length_trust", "angle_trust"}, false},
            TorqueFlags(),
            {"robot files", {"export"}, false},
            ChainFlags()},
@@ -92,6 +96,7 @@ Command DiagnoseCommand() {
            "--reference=january.csv",
            "armcal diagnose --robot=arm.urdf --log=today.csv "
            "--calibration=calibrated",
+           "armcal diagnose --robot=arm.urdf --poses=tracker.csv",
            "armcal diagnose --robot=arm.urdf --log=today.csv --json | "
            "jq .verdict"},
           &RunDiagnose};
