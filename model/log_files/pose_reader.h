@@ -32,8 +32,8 @@ struct PoseMeasurements {
 // Reads a table of poses, CSV or another format (line_source.h): joint
 // positions like a log's (q1.. or shoulder/position, with units), and x1 y1 z1
 // [x2 y2 z2 ...] for targets, or x y z qw qx qy qz, or length1; optional u95_1
-// [u95_2 ...] and pose, a number. Lengths in m unless a suffix [mm] says otherwise. Throws
-// InputError.
+// [u95_2 ...] and pose, a number. Lengths in m unless a suffix [mm] says
+// otherwise. Throws InputError.
 PoseMeasurements ReadPoses(const std::string& path,
                            const std::vector<std::string>& joint_names);
 

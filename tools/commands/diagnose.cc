@@ -80,15 +80,15 @@ CommandOutcome RunDiagnose(const CommandInput& input) {
 Command DiagnoseCommand() {
   return {"diagnose",
           "where the sim-to-real gap lies, which effect causes it, and how far "
-          "it shrinks once that effect is in the model; of torques in logs, or "
-          "of the geometry in measured poses",
+          "it shrinks once that effect is in the model, in logs or poses",
           {{"robot and logs",
             {"robot", "calibration", "log", "reference", "validate",
              "bandwidth", "crop", "poses"}},
            {"diagnosis",
             {"trust", "without", "forward", "verbose", "controller", "seed"}},
-           {"more of the logs", {"validate_crop"}, false},
-           {"geometry", {"length_trust", "angle_trust"}, false},
+           {"more of the input",
+            {"validate_crop", "length_trust", "angle_trust"},
+            false},
            TorqueFlags(),
            {"robot files", {"export"}, false},
            ChainFlags()},
@@ -96,9 +96,7 @@ Command DiagnoseCommand() {
            "--reference=january.csv",
            "armcal diagnose --robot=arm.urdf --log=today.csv "
            "--calibration=calibrated",
-           "armcal diagnose --robot=arm.urdf --poses=tracker.csv",
-           "armcal diagnose --robot=arm.urdf --log=today.csv --json | "
-           "jq .verdict"},
+           "armcal diagnose --robot=arm.urdf --poses=tracker.csv"},
           &RunDiagnose};
 }
 

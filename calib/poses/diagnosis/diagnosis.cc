@@ -23,6 +23,11 @@ namespace {
 // 1989, whose examples have 3 to 6).
 constexpr double kHeavyTails = 5;
 
+// Searches of whole poses, and how far the ratio of the errors of positions and
+// rotations may be from the one they were weighed by: efficiency falls by less
+// than a tenth.
+constexpr int kMostWeighings = 3;
+constexpr double kSameWeight = 1.5;
 // Rivals that take an effect's place; each is better than the one before.
 constexpr int kMostExchanges = 4;
 
@@ -143,11 +148,20 @@ void SetUnconfirmed(const PoseStudy& study, const PoseSelection& selection,
   const PoseModel& best = selection.models[0];
   std::string names;
   for (const PlacedPoseEffect& placed : best.effects) {
-    const auto& has = model.effects;
-    if (std::find(has.begin(), has.end(), placed) != has.end()) continue;
+    const bool named =
+        std::any_of(model.effects.begin(), model.effects.end(),
+                    [&](const PlacedPoseEffect& has) {
+                      return has.effect == placed.effect &&
+                             has.place.joint == placed.place.joint &&
+                             has.place.by == placed.place.by;
+                    });
+    if (named) continue;
     names += (names.empty() ? "" : " + ") +
              PlacedName(*placed.effect, best.campaign, placed.place);
   }
+  // What held-out poses speak against is not there.
+  const std::vector<int> folds = InterleavedFolds(study.equations.poses());
+  if (!(CompareHeldOut(study, model, best, folds).deviance > 0)) return;
   result->unconfirmed = names;
   if (names.empty()) return;
   result->unconfirmed_evidence =
@@ -171,15 +185,60 @@ PoseGap GapOf(const PoseStudy& study, const PoseModel& alone,
   return gap;
 }
 
+// Ratio of the errors of positions to those of rotations that a model leaves,
+// from medians: what it lacks may be in either.
+double RotationLength(const PoseStudy& study, const PoseModel& model) {
+  std::vector<double> positions, rotations;
+  const VectorXd& r = model.estimate.linear.r;
+  for (Eigen::Index k = 0; k < r.size(); ++k) {
+    (k % 6 < 3 ? positions : rotations).push_back(std::abs(r[k]));
+  }
+  return study.equations.rotation_length() * Median(positions) /
+         std::max(1e-12, Median(rotations));
+}
+
+struct PoseSearch {
+  PoseModel alone, model;
+  PoseSelection selection;
+};
+
+// Of whole poses the search is done again where it turns out that positions and
+// rotations were weighed by what it has explained since.
+PoseSearch SearchEffects(const PoseState& start, PoseStudy* study) {
+  PoseSearch search;
+  for (int round = 0; round < kMostWeighings; ++round) {
+    search.alone = FitGeometryAlone(*study, start);
+    search.selection = SelectEffects(*study, search.alone);
+    search.model = ConfirmedModel(*study, search.selection);
+    if (study->measured.poses.size() == 0) break;
+    const double length = RotationLength(*study, search.model);
+    const double change = length / study->equations.rotation_length();
+    if (std::max(change, 1 / change) < kSameWeight) break;
+    study->equations.set_rotation_length(length);
+  }
+  return search;
+}
+
+// Confirms once more what rivals have changed.
+std::vector<PoseRivals> SettleRivals(const PoseStudy& study, PoseModel* model,
+                                     double* design_effect) {
+  std::vector<PoseRivals> rivals = WeighRivals(study, model, design_effect);
+  PoseModel confirmed = ConfirmedPart(study, *model);
+  if (confirmed.effects == model->effects) return rivals;
+  *model = std::move(confirmed);
+  *design_effect = DesignEffect(study, *model);
+  rivals.clear();
+  for (size_t e = 0; e < model->effects.size(); ++e) {
+    rivals.push_back(FindRivals(study, *model, e, *design_effect));
+  }
+  return rivals;
+}
+
 }  // namespace
 
 PoseDiagnosis DiagnosePoseGap(const Robot& robot,
                               const PoseMeasurements& measured,
                               const PoseDiagnosisOptions& options) {
-  const auto tell = [&](const char* what) {
-    if (options.progress) options.progress(what, -1);
-  };
-  tell("fitting the geometry");
   PoseCalibrationOptions plain = options.geometry;
   plain.loss = RobustLoss::kSquared;  // none is given up before effects are
   PoseFit fit(robot, measured, plain);
@@ -192,25 +251,14 @@ PoseDiagnosis DiagnosePoseGap(const Robot& robot,
   study.equations.SetFree(solution.free);
   study.equations.set_rotation_length(fit.noise().position /
                                       fit.noise().rotation);
-  PoseModel alone = FitGeometryAlone(study, {solution.unknowns, VectorXd()});
-  tell("looking for effects");
-  const PoseSelection selection = SelectEffects(study, alone);
-  tell("asking held-out poses");
-  PoseModel model = ConfirmedModel(study, selection);
+  if (options.progress) options.progress("looking for effects", -1);
+  auto [alone, model, selection] =
+      SearchEffects({solution.unknowns, VectorXd()}, &study);
   SetUnconfirmed(study, selection, model, &result);
   SetErrors(&study, &model, &alone);
   result.design_effect = DesignEffect(study, model);
-  tell("weighing rivals");
-  auto rivals = WeighRivals(study, &model, &result.design_effect);
-  PoseModel confirmed = ConfirmedPart(study, model);
-  if (confirmed.effects != model.effects) {
-    model = std::move(confirmed);
-    result.design_effect = DesignEffect(study, model);
-    rivals.clear();
-    for (size_t e = 0; e < model.effects.size(); ++e) {
-      rivals.push_back(FindRivals(study, model, e, result.design_effect));
-    }
-  }
+  if (options.progress) options.progress("weighing rivals", -1);
+  const auto rivals = SettleRivals(study, &model, &result.design_effect);
   result.findings = FindingsOf(study, model, rivals, result.design_effect);
   result.gap = GapOf(study, alone, model);
   result.gap.file = Rms(solution.before);

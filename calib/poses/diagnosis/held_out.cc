@@ -14,7 +14,7 @@ namespace {
 // Standard deviations: one-sided 2.3 % by chance, for what the evidence in
 // sample has already chosen. Effects that few poses show have no more.
 constexpr double kClearGain = 2;
-// Of the mean square of distances. What removes less is a third of the noise or
+// Of the mean square. What removes less is a third of the noise or
 // of what else is missing, and told by what that happens to be.
 constexpr double kLeastRemoved = .1;
 
@@ -110,8 +110,7 @@ HeldOutGain CompareHeldOut(const PoseStudy& study, const PoseModel& without,
   result.deviance = gain.sum();
   result.stddev = std::sqrt((gain.array() - gain.mean()).square().sum() *
                             poses / std::max(1.0, poses - 1));
-  const double ratio = RmsDistance(study, after) / RmsDistance(study, before);
-  result.removed_share = 1 - ratio * ratio;
+  result.removed_share = 1 - after.squaredNorm() / before.squaredNorm();
   return result;
 }
 

@@ -28,9 +28,10 @@ Eigen::VectorXd HeldOutDeviance(const PoseStudy& study, const PoseModel& model,
 
 // What held-out poses say of a model against a smaller one.
 struct HeldOutGain {
-  double deviance = 0;       // by how much -2 log p falls
-  double stddev = 0;         // of that, from its scatter over the poses
-  double removed_share = 0;  // of the mean square of distances
+  double deviance = 0;  // by how much -2 log p falls
+  double stddev = 0;    // of that, from its scatter over the poses
+  // Of the mean square of positions or lengths, and of rotations beside them.
+  double removed_share = 0;
   // Clearly likelier, and no further from what was measured.
   bool IsClear() const;
 };

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "calib/poses/diagnosis/diagnosis.h"
+#include "calib/poses/diagnosis/finding.h"
 
 namespace armcal {
 

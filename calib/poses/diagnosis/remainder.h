@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calib/poses/diagnosis/diagnosis.h"
+#include "calib/poses/diagnosis/finding.h"
 
 namespace armcal {
 

@@ -9,7 +9,7 @@ namespace armcal {
 namespace {
 
 // Amounts of an effect that a screen has room for.
-constexpr size_t kAmountsShown = 6;
+constexpr size_t kAmountsShown = 3;
 // Poses that are named of those that fit badly.
 constexpr size_t kRowsShown = 12;
 
@@ -63,15 +63,14 @@ std::string EquivalentText(const PoseFinding& finding) {
   }
   if (text.empty()) return text;
   const PoseEquivalent& first = finding.equivalents[0];
-  text += "         told apart by ";
   if (first.told_apart_at.size() == 0) {
-    return text + finding.placed.effect->separate_by + "\n";
+    return text + "         told apart by " +
+           finding.placed.effect->separate_by + "\n";
   }
-  text += "q =";
+  text += "         told apart at q =";
   for (const double q : first.told_apart_at) text += Format(" %.2f", q);
-  return text + ", where the first two differ by " +
-         InMillimetres(first.differ) + ", or " +
-         finding.placed.effect->separate_by + "\n";
+  return text + " (the first two differ by " + InMillimetres(first.differ) +
+         " there)\n";
 }
 
 std::string FindingText(const PoseFinding& finding,
@@ -120,11 +119,10 @@ std::string LeftText(const PoseMeasurements& measured,
   text += Format("\n  successive poses correlate by %.2f +- %.2f\n",
                  misfit.order_correlation, misfit.order_stddev);
   if (!diagnosis.unconfirmed.empty()) {
-    text += "  the poses speak for " + diagnosis.unconfirmed +
-            " too, but held-out poses do not confirm it\n";
+    text += "  held-out poses do not confirm " + diagnosis.unconfirmed + "\n";
   }
   if (diagnosis.outliers.empty()) return text;
-  text += Format("  %zu poses fit badly, rows", diagnosis.outliers.size());
+  text += Format("  %zu fit badly, rows", diagnosis.outliers.size());
   for (size_t k = 0; k < std::min(diagnosis.outliers.size(), kRowsShown); ++k) {
     text += Format(" %ld", measured.row[diagnosis.outliers[k]]);
   }

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "calib/poses/diagnosis/diagnosis.h"
+#include "calib/poses/diagnosis/finding.h"
 
 namespace armcal {
 

@@ -6,8 +6,8 @@
 namespace armcal {
 namespace {
 
-// m: below what any instrument resolves; data without noise have some scale.
-constexpr double kLeastScale = 1e-9;
+// m: rounding of a metre; data without noise have some scale.
+constexpr double kLeastScale = 1e-15;
 constexpr int kScaleRounds = 200;
 constexpr double kScaleAtRest = 1e-9;  // relative
 
