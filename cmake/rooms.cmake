@@ -27,6 +27,8 @@ set(rooms
     calib/logs          # passes over sets of logs and what is left after a fit
     calib/linear        # model parameters by linear least squares
     calib/poses         # geometry from measured poses
+    calib/poses/effects    # what geometry lacks: one effect a file, their list
+    calib/poses/diagnosis  # which of these a campaign of measured poses shows
     calib/refine        # the refinement by Ceres and its covariance
     calib/excite        # motions that show what is not known yet
     calib/closed_loop   # estimation from commands and positions alone

@@ -9,6 +9,7 @@
 #include "calib/logs/encoder_noise.h"
 #include "calib/poses/joint_terms_fit.h"
 #include "calib/poses/load_moment.h"
+#include "calib/poses/some_poses.h"
 
 namespace armcal {
 namespace {
@@ -49,22 +50,6 @@ struct Fitted {
   JointTermsState state;
   double deviance;  // -2 log likelihood but for a constant
 };
-
-PoseMeasurements EveryNth(const PoseMeasurements& measured) {
-  const int step = 1 + (measured.size() - 1) / kMostPoses;
-  if (step == 1) return measured;
-  std::vector<int> kept;
-  for (int k = 0; k < measured.size(); k += step) kept.push_back(k);
-  PoseMeasurements part;
-  part.q = measured.q(kept, Eigen::all);
-  for (const int k : kept) part.row.push_back(measured.row[k]);
-  for (const MatrixXd& target : measured.targets) {
-    part.targets.push_back(target(kept, Eigen::all));
-  }
-  if (measured.poses.size() > 0) part.poses = measured.poses(kept, Eigen::all);
-  if (measured.lengths.size() > 0) part.lengths = measured.lengths(kept);
-  return part;
-}
 
 // Joints that sag under weight on the tool, which each model has: to the poses
 // of one posture or two, sag looks like a gear ratio.
@@ -258,7 +243,7 @@ class CouplingSearch {
 std::optional<PoseCoupling> FindCoupling(
     const Robot& robot, const PoseMeasurements& measured,
     const PoseCalibrationOptions& options) {
-  const PoseMeasurements some = EveryNth(measured);
+  const PoseMeasurements some = SomePoses(measured, kMostPoses);
   return CouplingSearch(robot, some, options).Find();
 }
 

@@ -1,5 +1,6 @@
 #include "model/log_files/pose_reader.h"
 
+#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string_view>
@@ -68,6 +69,22 @@ struct Places {
   int num_u95 = 0;
   std::vector<int> targets;
 };
+
+// The whole number in a field of a row; 0 where there is none.
+long WholeNumber(std::string_view line, char separator, int field) {
+  for (; field > 0; --field) {
+    const std::size_t end = line.find(separator);
+    if (end == std::string_view::npos) return 0;
+    line.remove_prefix(end + 1);
+  }
+  const std::string_view text = Trim(line.substr(0, line.find(separator)));
+  long number = 0;
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole =
+      error == std::errc() && end == text.data() + text.size() && number > 0;
+  return whole ? number : 0;
+}
 
 Places ChooseColumns(const std::string& path, const LogColumns& columns,
                      LogRow* row) {
@@ -148,6 +165,10 @@ PoseMeasurements ReadPoses(const std::string& path,
   const LogColumns columns(path, line, joint_names);
   LogRow row(path, columns, -1);
   const Places places = ChooseColumns(path, columns, &row);
+  int numbers = -1;
+  for (int k = 0; k < columns.size(); ++k) {
+    if (Trim(columns.name(k)) == "pose") numbers = k;
+  }
   std::vector<double> values;
   std::string_view no_time;
   PoseMeasurements result;
@@ -164,7 +185,12 @@ PoseMeasurements ReadPoses(const std::string& path,
       row.Refuse(line, source->row(), source->cut());
     }
     result.row.push_back(source->row());
+    if (numbers < 0) continue;
+    const long number = WholeNumber(line, columns.separator(), numbers);
+    if (number == 0) numbers = -1;
+    result.number.push_back(number);
   }
+  if (numbers < 0) result.number.clear();
   if (result.row.empty()) {
     throw InputError(path, "", "", "the file has a header and no rows");
   }

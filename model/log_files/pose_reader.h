@@ -11,6 +11,9 @@ namespace armcal {
 struct PoseMeasurements {
   Eigen::MatrixXd q;      // rad or m, poses x joints
   std::vector<long> row;  // line of the file, header = 1
+  // What the file's column `pose` calls each; empty where it has none, or no
+  // whole numbers in it.
+  std::vector<long> number;
   // Positions (m) of targets on the tool in the frame of the instrument, a
   // matrix of poses x 3 per target.
   std::vector<Eigen::MatrixXd> targets;
@@ -29,8 +32,8 @@ struct PoseMeasurements {
 // Reads a table of poses, CSV or another format (line_source.h): joint
 // positions like a log's (q1.. or shoulder/position, with units), and x1 y1 z1
 // [x2 y2 z2 ...] for targets, or x y z qw qx qy qz, or length1; optional u95_1
-// [u95_2 ...]. Lengths in m unless a suffix [mm] says otherwise. Throws
-// InputError.
+// [u95_2 ...] and pose, a number. Lengths in m unless a suffix [mm] says
+// otherwise. Throws InputError.
 PoseMeasurements ReadPoses(const std::string& path,
                            const std::vector<std::string>& joint_names);
 

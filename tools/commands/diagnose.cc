@@ -4,6 +4,7 @@
 
 #include "calib/diagnose.h"
 #include "tools/command_report.h"
+#include "tools/commands/diagnose_poses.h"
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/log_flags.h"
@@ -11,9 +12,10 @@
 #include "tools/simulation_flags.h"
 #include "tools/trust_flags.h"
 
-DEFINE_bool(changes, false,
-            "of four logs or more of one kind of motion, in the order they were "
-            "recorded: which parameters changed when");
+DEFINE_bool(
+    changes, false,
+    "of four logs or more of one kind of motion, in the order they were "
+    "recorded: which parameters changed when");
 DEFINE_bool(forward, true,
             "simulate the held-out logs as well: along their commands with "
             "--controller, else over windows of 0.5 s");
@@ -56,6 +58,7 @@ DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
 }
 
 CommandOutcome RunDiagnose(const CommandInput& input) {
+  if (DiagnosesPoses(input)) return RunDiagnosePoses(input);
   const LogInput logs = LogInputFromFlags(input);
   const Robot robot = RobotFromFlags(input);
   const DiagnoseOptions options = DiagnoseOptionsFromFlags(input, robot);
@@ -82,14 +85,15 @@ CommandOutcome RunDiagnose(const CommandInput& input) {
 Command DiagnoseCommand() {
   return {"diagnose",
           "where the sim-to-real gap lies, which effect causes it, and how far "
-          "it shrinks once that effect is in the model",
+          "it shrinks once that effect is in the model, in logs or poses",
           {{"robot and logs",
             {"robot", "calibration", "log", "reference", "validate",
-             "bandwidth", "crop"}},
+             "bandwidth", "crop", "poses"}},
            {"diagnosis",
-            {"trust", "without", "changes", "forward", "verbose", "controller",
-             "seed"}},
-           {"more of the logs", {"validate_crop"}, false},
+            {"trust", "without", "forward", "verbose", "controller", "seed"}},
+           {"more of the input",
+            {"changes", "validate_crop", "length_trust", "angle_trust"},
+            false},
            TorqueFlags(),
            {"robot files", {"export"}, false},
            ChainFlags()},
@@ -97,8 +101,7 @@ Command DiagnoseCommand() {
            "--reference=january.csv",
            "armcal diagnose --robot=arm.urdf --log=today.csv "
            "--calibration=calibrated",
-           "armcal diagnose --robot=arm.urdf --log=today.csv --json | "
-           "jq .verdict"},
+           "armcal diagnose --robot=arm.urdf --poses=tracker.csv"},
           &RunDiagnose};
 }
 

@@ -125,4 +125,12 @@ TEST(PoseReader, ReadsPosesAndWires) {
   EXPECT_EQ(wire.u95.size(), 0);
 }
 
+// Rows that are left out of a file keep the others' numbers; names are none.
+TEST(PoseReader, TakesNumbersOfPosesWhereTheFileHasThem) {
+  EXPECT_EQ(Read("pose,q1,q2,length1\n3,0,0,1\n7,0,0,1\n").number,
+            (std::vector<long>{3, 7}));
+  EXPECT_TRUE(Read("pose,q1,q2,length1\nhome,0,0,1\n7,0,0,1\n").number.empty());
+  EXPECT_TRUE(Read("q1,q2,length1\n0,0,1\n").number.empty());
+}
+
 }  // namespace armcal::pose_reader_test

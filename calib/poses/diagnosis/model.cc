@@ -1,0 +1,183 @@
+#include "calib/poses/diagnosis/model.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// An arm has a given effect of the list in one of twenty campaigns.
+constexpr double kPriorProbability = .05;
+// rad or m: signals are made again where joints turn out to stand elsewhere.
+constexpr double kStandsElsewhere = .02;
+// Of a column's square: what is less is explained by the others.
+constexpr double kUnseen = 1e-6;
+
+void MakeTerms(PoseModel* model) {
+  model->terms.clear();
+  model->begin = {0};
+  for (const PlacedPoseEffect& placed : model->effects) {
+    for (PoseTerm& term : placed.effect->terms(model->campaign, placed.place)) {
+      model->terms.push_back(std::move(term));
+    }
+    model->begin.push_back(static_cast<int>(model->terms.size()));
+  }
+}
+
+// Correlation of successive values, of poses that follow each other.
+double OrderCorrelation(const MatrixXd& by_pose) {
+  double product = 0, square = 0;
+  for (Eigen::Index k = 0; k + 1 < by_pose.cols(); ++k) {
+    product += by_pose.col(k).dot(by_pose.col(k + 1));
+    square +=
+        .5 * (by_pose.col(k).squaredNorm() + by_pose.col(k + 1).squaredNorm());
+  }
+  return square > 0 ? product / square : 0;
+}
+
+}  // namespace
+
+std::string PoseModel::Name() const {
+  std::string name;
+  for (const PlacedPoseEffect& placed : effects) {
+    name += (name.empty() ? "" : " + ") +
+            PlacedName(*placed.effect, campaign, placed.place);
+  }
+  return name;
+}
+
+PoseModel FitGeometryAlone(const PoseStudy& study, const PoseState& start) {
+  PoseModel model;
+  model.campaign = MakeCampaign(study.robot, study.measured, study.measured.q);
+  model.begin = {0};
+  model.estimate = EstimatePoses(study.equations, {}, study.nu, start);
+  return model;
+}
+
+PoseModel FitPoseModel(const PoseStudy& study,
+                       const std::vector<PlacedPoseEffect>& effects,
+                       const PoseModel& from, const VectorXd& amounts) {
+  PoseModel model;
+  model.effects = effects;
+  model.campaign = from.campaign;
+  MakeTerms(&model);
+  PoseState start = from.estimate.state;
+  const Eigen::Index known = start.amounts.size();
+  start.amounts.conservativeResize(model.terms.size());
+  start.amounts.tail(start.amounts.size() - known) = amounts;
+  model.estimate = EstimatePoses(study.equations, model.terms, study.nu, start);
+  const MatrixXd standing =
+      study.equations.Standing(model.terms, model.estimate.state.amounts);
+  const double elsewhere =
+      (standing - model.campaign.standing).cwiseAbs().maxCoeff();
+  if (elsewhere < kStandsElsewhere) return model;
+  model.campaign = MakeCampaign(study.robot, study.measured, standing);
+  MakeTerms(&model);
+  model.estimate = EstimatePoses(study.equations, model.terms, study.nu,
+                                 model.estimate.state);
+  return model;
+}
+
+PoseModel FitWithout(const PoseStudy& study, const PoseModel& model,
+                     size_t out) {
+  std::vector<PlacedPoseEffect> effects = model.effects;
+  effects.erase(effects.begin() + static_cast<long>(out));
+  PoseModel from = model;
+  VectorXd kept(model.begin.back() - model.begin[out + 1] + model.begin[out]);
+  kept << model.estimate.state.amounts.head(model.begin[out]),
+      model.estimate.state.amounts.tail(model.begin.back() -
+                                        model.begin[out + 1]);
+  from.estimate.state.amounts.resize(0);
+  return FitPoseModel(study, effects, from, kept);
+}
+
+bool IsPossible(const PoseModel& model) {
+  for (size_t e = 0; e < model.effects.size(); ++e) {
+    const PoseEffect& effect = *model.effects[e].effect;
+    if (effect.most_amount <= 0) continue;
+    const double amount = model.estimate.state.amounts[model.begin[e]];
+    double away = std::abs(amount);
+    for (const double far : effect.far_amounts) {
+      away = std::min(away, std::abs(amount - far));
+    }
+    if (away > effect.most_amount) return false;
+  }
+  return true;
+}
+
+double DesignEffect(const PoseStudy& study, const PoseModel& model) {
+  const int width = study.equations.width(), poses = study.equations.poses();
+  const MatrixXd r = WeightedRows(model.estimate, model.estimate.linear.r)
+                         .reshaped(width, poses);
+  const double chance = 2 / std::sqrt(static_cast<double>(poses));
+  const int targets = static_cast<int>(study.measured.targets.size());
+  double effect = 1;
+  if (targets > 1) {
+    VectorXd sum = VectorXd::Zero(3 * poses);
+    for (int t = 0; t < targets; ++t) {
+      sum += r.middleRows(3 * t, 3).reshaped();
+    }
+    const double alike =
+        (sum.squaredNorm() / r.squaredNorm() - 1) / (targets - 1);
+    if (alike > chance) effect *= 1 + (targets - 1) * alike;
+  }
+  const double order = std::min(.98, OrderCorrelation(r));
+  if (order > chance) effect *= (1 + order) / (1 - order);
+  return effect;
+}
+
+double PriorPrice(const PoseCampaign& campaign, const PoseEffect& effect) {
+  const double count =
+      effect.count != nullptr
+          ? effect.count(campaign)
+          : static_cast<double>(effect.places(campaign).size());
+  return 2 * std::log(std::max(1.0, count) / kPriorProbability);
+}
+
+MatrixXd AmountsInformation(const PoseStudy& study, const PoseModel& model) {
+  const MatrixXd columns =
+      study.equations.Columns(model.estimate.linear, model.terms);
+  const MatrixXd A = PoseInformation(study.equations, model.estimate, columns);
+  const Eigen::Index g = study.equations.num_free(), q = columns.cols();
+  const MatrixXd shared = A.topRightCorner(g, q);
+  return A.bottomRightCorner(q, q) -
+         shared.transpose() * A.topLeftCorner(g, g).ldlt().solve(shared);
+}
+
+double EvidenceOf(const PoseStudy& study, const PoseModel& model,
+                  double design_effect) {
+  const PoseEstimate& at = model.estimate;
+  MatrixXd A = WeightedRows(at, at.linear.geometry);
+  A = (A.transpose() * A / design_effect).eval();
+  A.diagonal() += study.equations.Precision();
+  A.diagonal().array() += 1e-12;
+  const VectorXd pivots = A.ldlt().vectorD();
+  double score = at.errors.deviance / design_effect + at.prior +
+                 pivots.array().max(1e-300).log().sum();
+  const double equations = static_cast<double>(at.linear.r.size());
+  const double count = (equations - at.parameters) / design_effect;
+  if (!model.terms.empty()) {
+    const MatrixXd own = study.equations.Columns(at.linear, model.terms);
+    const MatrixXd S = AmountsInformation(study, model);
+    const VectorXd size =
+        WeightedRows(at, own).colwise().norm().cwiseMax(1e-30);
+    const MatrixXd relative =
+        size.cwiseInverse().asDiagonal() * S * size.cwiseInverse().asDiagonal();
+    const VectorXd seen =
+        Eigen::SelfAdjointEigenSolver<MatrixXd>(relative).eigenvalues();
+    score += std::log(std::max(2.0, count)) *
+             static_cast<double>((seen.array() > kUnseen).count());
+  }
+  for (const PlacedPoseEffect& placed : model.effects) {
+    score += PriorPrice(model.campaign, *placed.effect);
+  }
+  return score;
+}
+
+}  // namespace armcal

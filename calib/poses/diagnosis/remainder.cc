@@ -1,0 +1,123 @@
+#include "calib/poses/diagnosis/remainder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/numerics/median.h"
+
+namespace armcal {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kNormalHalfWidth95 = 1.96;  // in standard deviations
+// Beyond the root of ten, nine tenths of the mean square are not the
+// instrument's (as in calib/poses/verdict.cc).
+const double kMostRatio = std::sqrt(10.0);
+// Twice the logarithm of a Bayes factor (Kass and Raftery 1995, section 3.2).
+constexpr double kVeryStrongEvidence = 10;
+constexpr double kClearOrder = 4;  // standard deviations: 3e-5 by chance
+// Of a pose, beside 1 of one that fits well.
+constexpr double kGivenUp = .1;
+
+// Squares of coordinates in the instrument's standard deviations.
+void SetInstrument(const PoseStudy& study, const PoseModel& model,
+                   PoseMisfit* misfit) {
+  const MatrixXd& u95 = study.measured.u95;
+  if (u95.size() == 0) return;
+  const int width = study.equations.width();
+  const int point = study.measured.lengths.size() > 0 ? 1 : 3;
+  const int coordinates = study.measured.poses.size() > 0 ? 3 : width;
+  std::vector<double> stated;
+  double squares = 0, count = 0;
+  for (int k = 0; k < study.equations.poses(); ++k) {
+    for (int c = 0; c < coordinates; ++c) {
+      const double half =
+          u95(k, std::min<Eigen::Index>(c / point, u95.cols() - 1));
+      if (!(half > 0)) continue;
+      const double normal =
+          kNormalHalfWidth95 * model.estimate.linear.r[k * width + c] / half;
+      squares += normal * normal;
+      count += 1;
+      stated.push_back(half);
+    }
+  }
+  const double taken =
+      (model.estimate.parameters + model.terms.size()) * coordinates / width;
+  if (count <= taken) return;
+  misfit->instrument_ratio = std::sqrt(squares / (count - taken));
+  misfit->instrument_u95 = Median(stated);
+}
+
+void SetOrder(const PoseStudy& study, const PoseModel& model,
+              PoseMisfit* misfit) {
+  const MatrixXd r =
+      WeightedRows(model.estimate, model.estimate.linear.r)
+          .reshaped(study.equations.width(), study.equations.poses());
+  double product = 0, square = 0;
+  for (Eigen::Index k = 0; k + 1 < r.cols(); ++k) {
+    product += r.col(k).dot(r.col(k + 1));
+    square += .5 * (r.col(k).squaredNorm() + r.col(k + 1).squaredNorm());
+  }
+  if (!(square > 0)) return;
+  misfit->order_correlation = product / square;
+  misfit->order_stddev = 1 / std::sqrt(static_cast<double>(r.cols() - 1));
+}
+
+bool IsMoreThanNoise(const PoseMisfit& misfit) {
+  if (misfit.instrument_ratio > kMostRatio) return true;
+  return misfit.order_correlation > kClearOrder * misfit.order_stddev;
+}
+
+}  // namespace
+
+const char* PoseVerdictName(PoseVerdict verdict) {
+  switch (verdict) {
+    case PoseVerdict::kNoiseFloor:
+      return "noise_floor";
+    case PoseVerdict::kExplained:
+      return "explained";
+    case PoseVerdict::kPartlyExplained:
+      return "partly_explained";
+    case PoseVerdict::kUnknown:
+      return "unknown";
+    case PoseVerdict::kNotTestable:
+      break;
+  }
+  return "not_testable";
+}
+
+void JudgeRemainder(const PoseStudy& study, PoseDiagnosis* diagnosis) {
+  const PoseModel& model = diagnosis->model;
+  SetInstrument(study, model, &diagnosis->misfit);
+  SetOrder(study, model, &diagnosis->misfit);
+  const VectorXd& r = model.estimate.linear.r;
+  const int width = study.equations.width();
+  const int point = study.measured.lengths.size() > 0 ? 1 : 3;
+  const int coordinates = study.measured.poses.size() > 0 ? 3 : width;
+  double squares = 0;
+  for (int k = 0; k < study.equations.poses(); ++k) {
+    squares += r.segment(k * width, coordinates).squaredNorm();
+    for (int c = 0; c < coordinates; c += point) {
+      diagnosis->distances.push_back(r.segment(k * width + c, point).norm());
+    }
+    if (model.estimate.errors.weights[k] < kGivenUp) {
+      diagnosis->outliers.push_back(k);
+    }
+  }
+  diagnosis->coordinate_rms =
+      std::sqrt(squares / (study.equations.poses() * coordinates));
+  diagnosis->unknowns =
+      study.equations.num_free() + static_cast<int>(model.terms.size());
+  const bool found = !diagnosis->findings.empty();
+  const bool left = IsMoreThanNoise(diagnosis->misfit) ||
+                    diagnosis->unconfirmed_evidence > kVeryStrongEvidence;
+  diagnosis->verdict = found && left ? PoseVerdict::kPartlyExplained
+                       : found       ? PoseVerdict::kExplained
+                       : left        ? PoseVerdict::kUnknown
+                                     : PoseVerdict::kNoiseFloor;
+}
+
+}  // namespace armcal

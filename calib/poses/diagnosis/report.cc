@@ -1,0 +1,209 @@
+#include "calib/poses/diagnosis/report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/text/format.h"
+
+namespace armcal {
+namespace {
+
+// Amounts of an effect that a screen has room for.
+constexpr size_t kAmountsShown = 3;
+// Poses that are named of those that fit badly.
+constexpr size_t kRowsShown = 12;
+
+std::string InMillimetres(double x) { return Format("%.3g mm", 1e3 * x); }
+
+std::string AmountText(const PoseAmount& amount) {
+  double scale = 1;
+  std::string unit = amount.unit;
+  if (unit == "1" || unit == "rad/rad") {
+    unit.clear();
+  } else {
+    scale = 1e3;
+    unit = unit == "m" ? " mm" : " m" + unit;
+  }
+  return amount.name + Format(" %.5g", scale * amount.value) +
+         (std::isfinite(amount.half_width)
+              ? Format(" +- %.2g", scale * amount.half_width)
+              : std::string(" +- ?")) +
+         unit;
+}
+
+std::string AmountsText(const PoseFinding& finding) {
+  std::string text;
+  const size_t shown = std::min(finding.amounts.size(), kAmountsShown);
+  for (size_t k = 0; k < shown; ++k) {
+    text += (k > 0 ? ", " : "") + AmountText(finding.amounts[k]);
+  }
+  if (shown < finding.amounts.size()) {
+    text += Format(", and %zu more", finding.amounts.size() - shown);
+  }
+  return text;
+}
+
+std::string SharePercent(double share) {
+  return Format("%.4g %%", std::max(-999.0, 100 * share));
+}
+
+std::string SideText(const char* name, const int range[2],
+                     const PoseCampaign& campaign, int shift) {
+  if (range[0] < 0 || range[0] == range[1]) return "";
+  return Format("; %s between pose %ld and %ld", name,
+                campaign.number[range[0] - shift],
+                campaign.number[range[1] - shift]);
+}
+
+std::string EquivalentText(const PoseFinding& finding) {
+  std::string text;
+  for (const PoseEquivalent& other : finding.equivalents) {
+    text += Format("         or %2.0f %%  ", 100 * other.probability) +
+            other.name + "\n";
+  }
+  if (text.empty()) return text;
+  const PoseEquivalent& first = finding.equivalents[0];
+  if (first.told_apart_at.size() == 0) {
+    return text + "         told apart by " +
+           finding.placed.effect->separate_by + "\n";
+  }
+  text += "         told apart at q =";
+  for (const double q : first.told_apart_at) text += Format(" %.2f", q);
+  return text + " (the first two differ by " + InMillimetres(first.differ) +
+         " there)\n";
+}
+
+std::string FindingText(const PoseFinding& finding,
+                        const PoseCampaign& campaign) {
+  return Format("  %3.0f %%  ", 100 * finding.probability) + finding.name +
+         ": " + AmountsText(finding) + "\n         " +
+         finding.placed.effect->means + "; moves " +
+         InMillimetres(finding.displacement_rms) + " rms, " +
+         InMillimetres(finding.displacement_max) + " at most; removes " +
+         SharePercent(finding.interleaved.removed_share) +
+         SideText("begins", finding.begin, campaign, 0) +
+         SideText("ends", finding.end, campaign, 1) + "\n" +
+         EquivalentText(finding);
+}
+
+std::string GapLine(const char* name, double file, double geometry,
+                    double after) {
+  return Format("%-34s", name) +
+         (file > 0 ? Format("%12.4g", 1e3 * file) : std::string(12, ' ')) +
+         Format("%12.4g%12.4g\n", 1e3 * geometry, 1e3 * after);
+}
+
+std::string GapText(const PoseGap& gap) {
+  return "\ndistances, mm rms                         frame    geometry     "
+         "effects\n" +
+         GapLine("  fitted", gap.file, gap.geometry, gap.after) +
+         GapLine("  held out, every sixth pose", 0, gap.held_out_geometry,
+                 gap.held_out_after) +
+         GapLine("  held out, a sixth of the order", 0, gap.stretches_geometry,
+                 gap.stretches_after);
+}
+
+std::string LeftText(const PoseMeasurements& measured,
+                     const PoseDiagnosis& diagnosis) {
+  const PoseMisfit& misfit = diagnosis.misfit;
+  std::string text = "\nwhat is left\n  " +
+                     InMillimetres(diagnosis.coordinate_rms) +
+                     " rms of a coordinate";
+  if (misfit.instrument_u95 > 0) {
+    text += Format(", %.3g times the standard deviation of the instrument",
+                   misfit.instrument_ratio) +
+            " (u95 " + InMillimetres(misfit.instrument_u95) + ")";
+  } else {
+    text += "; the file states no uncertainty of the instrument (u95_1)";
+  }
+  text += Format("\n  successive poses correlate by %.2f +- %.2f\n",
+                 misfit.order_correlation, misfit.order_stddev);
+  if (!diagnosis.unconfirmed.empty()) {
+    text += "  held-out poses do not confirm " + diagnosis.unconfirmed + "\n";
+  }
+  if (diagnosis.outliers.empty()) return text;
+  text += Format("  %zu fit badly, rows", diagnosis.outliers.size());
+  for (size_t k = 0; k < std::min(diagnosis.outliers.size(), kRowsShown); ++k) {
+    text += Format(" %ld", measured.row[diagnosis.outliers[k]]);
+  }
+  return text + (diagnosis.outliers.size() > kRowsShown ? " ...\n" : "\n");
+}
+
+std::string NextText(const PoseDiagnosis& diagnosis) {
+  bool order = false, posture = false;
+  for (const PoseFinding& finding : diagnosis.findings) {
+    (finding.placed.effect->in_order ? order : posture) = true;
+  }
+  std::string text;
+  if (order) {
+    text +=
+        "  fix what moved and measure again, or calibrate each stretch of "
+        "poses by itself\n";
+  }
+  if (posture) {
+    text +=
+        "  correct the joint positions by the amounts above before poses "
+        "are calibrated or commanded\n";
+  }
+  const bool more = diagnosis.verdict == PoseVerdict::kPartlyExplained ||
+                    diagnosis.verdict == PoseVerdict::kUnknown;
+  if (more) {
+    text +=
+        "  what is left is no effect of the list: measure the first poses "
+        "again at the end, and\n  others in another order and with "
+        "another payload\n";
+  }
+  return text.empty() ? text : "\nnext\n" + text;
+}
+
+}  // namespace
+
+std::string PoseSentence(const PoseDiagnosis& diagnosis) {
+  if (diagnosis.verdict == PoseVerdict::kNotTestable) {
+    return "Not testable: " + diagnosis.reason + ".";
+  }
+  const PoseGap& gap = diagnosis.gap;
+  const std::string left = InMillimetres(gap.held_out_after);
+  std::string names;
+  const size_t count = diagnosis.findings.size();
+  for (size_t k = 0; k < count; ++k) {
+    names += (k == 0           ? ""
+              : k + 1 == count ? " and "
+                               : ", ") +
+             diagnosis.findings[k].name;
+  }
+  switch (diagnosis.verdict) {
+    case PoseVerdict::kNoiseFloor:
+      return "The poses show no effect beyond the geometry, which leaves " +
+             left + " of held-out poses.";
+    case PoseVerdict::kUnknown:
+      return "The geometry leaves " + left +
+             " of held-out poses, which is more than noise, and no effect of "
+             "the list explains it.";
+    default:
+      break;
+  }
+  return "The geometry lacks " + names + ": held-out poses are " + left +
+         " rms away instead of " + InMillimetres(gap.held_out_geometry) +
+         (diagnosis.verdict == PoseVerdict::kPartlyExplained
+              ? ", which is still more than noise."
+              : ".");
+}
+
+std::string PoseDiagnosisReport(const Robot& robot,
+                                const PoseMeasurements& measured,
+                                const PoseDiagnosis& diagnosis) {
+  if (diagnosis.verdict == PoseVerdict::kNotTestable) {
+    return PoseSentence(diagnosis) + "\n";
+  }
+  const PoseCampaign campaign = MakeCampaign(robot, measured, measured.q);
+  std::string text = PoseSentence(diagnosis) + "\n";
+  if (!diagnosis.findings.empty()) text += "\nwhich effect\n";
+  for (const PoseFinding& finding : diagnosis.findings) {
+    text += FindingText(finding, campaign);
+  }
+  return text + GapText(diagnosis.gap) + LeftText(measured, diagnosis) +
+         NextText(diagnosis);
+}
+
+}  // namespace armcal

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/log_files/pose_reader.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// What effects of geometry are made from: an arm, and where its joints stood in
+// each of the measured poses (rows), in the order of the file.
+struct PoseCampaign {
+  Robot robot;
+  Eigen::MatrixXd recorded;  // rad or m, as the file has them
+  Eigen::MatrixXd standing;  // the same, corrected by effects found so far
+  Eigen::VectorXd travel;    // per joint, of `recorded`
+  // Moments (m) about each joint of a unit weight at the tool, and of one that
+  // is spread evenly over the origins of the further links.
+  Eigen::MatrixXd tool_moment, link_moment;
+  std::vector<long> number;  // of each pose, for people
+  int targets = 0;           // 0: whole poses or a wire
+  bool whole_poses = false;
+  bool wire = false;
+
+  int size() const { return static_cast<int>(recorded.rows()); }
+  int joints() const { return static_cast<int>(recorded.cols()); }
+  // Whether a joint turns enough for what grows with its position to be seen.
+  bool Moves(int joint) const;
+  bool Turns(int joint) const;  // and is a rotational one
+  // Whether rotations of a body that carries the targets are seen.
+  bool ShowsRotation() const { return whole_poses || targets > 2; }
+};
+
+// `standing`: rows of joint positions.
+PoseCampaign MakeCampaign(const Robot& robot, const PoseMeasurements& measured,
+                          const Eigen::MatrixXd& standing);
+
+}  // namespace armcal

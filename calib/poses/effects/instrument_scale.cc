@@ -1,0 +1,23 @@
+#include "calib/poses/effects/effect.h"
+
+namespace armcal {
+
+// The instrument's metre is another one (a marker's size, a focal length), or
+// all of the arm is longer than its file.
+PoseEffect InstrumentScale() {
+  PoseEffect effect;
+  effect.name = "scale";
+  effect.means = "all distances are longer by a share of themselves";
+  effect.separate_by = "a length that is known, measured by the instrument";
+  effect.places = [](const PoseCampaign&) {
+    return std::vector<PosePlace>{{}};
+  };
+  effect.terms = [](const PoseCampaign& campaign, const PosePlace&) {
+    return std::vector<PoseTerm>{{PoseTerm::Acts::kScale, 0,
+                                  Eigen::VectorXd::Ones(campaign.size()),
+                                  "share", "1"}};
+  };
+  return effect;
+}
+
+}  // namespace armcal

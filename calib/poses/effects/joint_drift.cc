@@ -1,0 +1,33 @@
+#include <utility>
+
+#include "calib/poses/effects/effect.h"
+#include "calib/poses/effects/order_signals.h"
+
+namespace armcal {
+
+// A joint's zero moves (a slipping coupling, a warming gear) little by little.
+PoseEffect JointDrift() {
+  PoseEffect effect;
+  effect.name = "joint_drift";
+  effect.means = "the joint's zero is another one over the order of poses";
+  effect.in_order = true;
+  effect.separate_by = kRepeatEarlyPoses;
+  effect.places = [](const PoseCampaign& campaign) {
+    std::vector<int> joints;
+    for (int i = 0; i < campaign.joints(); ++i) {
+      if (campaign.Moves(i)) joints.push_back(i);
+    }
+    std::vector<PosePlace> places = DriftPlaces(campaign, joints, {1, 2});
+    for (PosePlace& place : places) std::swap(place.joint, place.parts);
+    return places;
+  };
+
+  effect.terms = [](const PoseCampaign& campaign, const PosePlace& place) {
+    return std::vector<PoseTerm>{{PoseTerm::Acts::kJoint, place.joint,
+                                  DriftSignals(campaign.size(), place).col(0),
+                                  "zero", "rad"}};
+  };
+  return effect;
+}
+
+}  // namespace armcal

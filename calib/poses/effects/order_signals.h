@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calib/poses/effects/effect.h"
+
+namespace armcal {
+
+inline constexpr char kRepeatEarlyPoses[] =
+    "the first poses again at the end, and others in another order";
+
+// Places of a step at a grid of poses, of a window between two of them, for
+// each of `parts`; searches refine them pose by pose.
+std::vector<PosePlace> StepPlaces(const PoseCampaign& campaign,
+                                  const std::vector<int>& parts);
+std::vector<PosePlace> WindowPlaces(const PoseCampaign& campaign,
+                                    const std::vector<int>& parts);
+// In how many places a step or a window can be.
+double StepCount(const PoseCampaign& campaign);
+double WindowCount(const PoseCampaign& campaign);
+// A drift that is linear between `knots` poses evenly over the order, or with 1
+// one that settles, 1 - exp(-4 t), over the order t from 0 to 1, as what warms.
+std::vector<PosePlace> DriftPlaces(const PoseCampaign& campaign,
+                                   const std::vector<int>& parts,
+                                   const std::vector<int>& knots);
+
+// 1 from place.begin on, and up to place.end where it has one; else 0.
+Eigen::VectorXd WindowSignal(int poses, const PosePlace& place);
+// A column per knot but the first, which is where all begins: hat functions
+// over the order, 1 at their knot.
+Eigen::MatrixXd DriftSignals(int poses, const PosePlace& place);
+
+// What can move of a tool: its place, its pose, each target alone (-1, ...).
+std::vector<int> ToolParts(const PoseCampaign& campaign);
+
+// Terms along three axes and about them with 6 `parts`, for each column of
+// `signals`; of a single target with `parts` -1, -2, ...
+std::vector<PoseTerm> MovedBody(PoseTerm::Acts acts, int parts,
+                                const Eigen::MatrixXd& signals);
+
+}  // namespace armcal

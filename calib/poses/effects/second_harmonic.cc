@@ -1,0 +1,25 @@
+#include "calib/poses/effects/each_joint.h"
+#include "calib/poses/effects/effect.h"
+
+namespace armcal {
+
+// a sin 2q + b cos 2q: two reading heads of an eccentric encoder cancel its
+// first harmonic and leave the second, as an oval wheel has it.
+PoseEffect SecondHarmonic() {
+  PoseEffect effect;
+  effect.name = "second_harmonic";
+  effect.means = "the joint's position errs twice in a turn";
+  effect.separate_by = "poses over more of the joint's range";
+  effect.places = [](const PoseCampaign& campaign) {
+    return EachJoint(campaign, &PoseCampaign::Turns);
+  };
+  effect.terms = [](const PoseCampaign& campaign, const PosePlace& place) {
+    const Eigen::ArrayXd angle = 2 * campaign.standing.col(place.joint);
+    return std::vector<PoseTerm>{
+        {PoseTerm::Acts::kJoint, place.joint, angle.sin(), "sine", "rad"},
+        {PoseTerm::Acts::kJoint, place.joint, angle.cos(), "cosine", "rad"}};
+  };
+  return effect;
+}
+
+}  // namespace armcal

@@ -1,0 +1,140 @@
+// Campaigns with an effect in a law of its own (tests/fixtures/hidden_poses.h):
+// it is named with its place and size, and nothing is where there is none.
+
+#include "calib/poses/diagnosis/diagnosis.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/fixtures/hidden_poses.h"
+
+namespace armcal::diagnosis_test {
+
+HiddenPoseEffect Hidden(const std::string& name, double size, int joint = -1,
+                        int by = -1) {
+  HiddenPoseEffect effect;
+  effect.name = name;
+  effect.size = size;
+  effect.joint = joint;
+  effect.by = by;
+  effect.direction = Eigen::Vector3d(1, 2, -2) / 3;
+  effect.phase = 1;
+  return effect;
+}
+
+HiddenPoseEffect Stretch(HiddenPoseEffect effect, int begin, int end = -1) {
+  effect.begin = begin;
+  effect.end = end;
+  return effect;
+}
+
+PoseDiagnosis Diagnose(const HiddenPoses& arm,
+                       const std::vector<HiddenPoseEffect>& effects) {
+  return DiagnosePoseGap(arm.nominal(), arm.Measure(effects, kNoise, 5), {});
+}
+
+const PoseFinding* Find(const PoseDiagnosis& diagnosis,
+                        const HiddenPoseEffect& effect) {
+  for (const PoseFinding& finding : diagnosis.findings) {
+    const PosePlace& place = finding.placed.place;
+    if (finding.placed.effect->name == effect.name &&
+        place.joint == effect.joint && place.by == effect.by) {
+      return &finding;
+    }
+  }
+  return nullptr;
+}
+
+TEST(PoseDiagnosis, NamesOneEffectWithItsSize) {
+  const HiddenPoses arm("PUMA560 6R", Instrument::kTargets, 1, 60, 11);
+  for (const auto& effect :
+       {Hidden("coupling", .005, 4, 3), Hidden("gear_ratio", -.003, 1),
+        Hidden("eccentricity", .002, 2)}) {
+    SCOPED_TRACE(effect.name);
+    const PoseDiagnosis diagnosis = Diagnose(arm, {effect});
+    ASSERT_EQ(diagnosis.findings.size(), 1u);
+    const PoseFinding* found = Find(diagnosis, effect);
+    ASSERT_NE(found, nullptr) << diagnosis.findings[0].name;
+    EXPECT_GT(found->probability, .9);
+    EXPECT_EQ(diagnosis.verdict, PoseVerdict::kExplained);
+    EXPECT_LT(diagnosis.gap.held_out_after, 3 * kNoise);
+    const PoseAmount& first = found->amounts[0];
+    // a sin q of s sin(q + phase) is s cos(phase).
+    const bool harmonic = found->amounts.size() == 2;
+    const double truth = effect.size * (harmonic ? std::cos(effect.phase) : 1);
+    // Twice the half-width of 95 %: 1e-4 by chance.
+    EXPECT_NEAR(first.value, truth, 2 * first.half_width);
+    EXPECT_LT(first.half_width, .2 * std::abs(effect.size));
+  }
+}
+
+// Sag and a step each look like a smear as long as the other is not fitted.
+TEST(PoseDiagnosis, NamesTwoThatHideEachOther) {
+  const HiddenPoses arm("UR5 6R", Instrument::kTargets, 1, 80, 12);
+  const auto step = Stretch(Hidden("tool_step", 2e-3), 25);
+  const auto sag = Hidden("sag", -2e-3);
+  const PoseDiagnosis diagnosis = Diagnose(arm, {sag, step});
+  const PoseFinding* found = Find(diagnosis, step);
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->placed.place.begin, 25);
+  EXPECT_NEAR(found->displacement_max, 2e-3, 2e-4);
+  EXPECT_NE(Find(diagnosis, sag), nullptr);
+  EXPECT_LT(diagnosis.gap.held_out_after, .1 * diagnosis.gap.held_out_geometry);
+}
+
+TEST(PoseDiagnosis, NamesTheStretchOfAMovedTarget) {
+  const HiddenPoses arm("PUMA560 6R", Instrument::kPoses, 0, 70, 13);
+  const auto window = Stretch(Hidden("tool_window", 1e-3), 20, 44);
+  const PoseDiagnosis diagnosis = Diagnose(arm, {window});
+  const PoseFinding* found = Find(diagnosis, window);
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->placed.place.begin, 20);
+  EXPECT_EQ(found->placed.place.end, 44);
+  EXPECT_GT(found->interleaved.removed_share, .9);
+}
+
+// An elbow counted from the ground, which few poses show.
+TEST(PoseDiagnosis, GivesNoPosesUpThatACouplingExplains) {
+  Plant plant("PUMA560 6R", 3);
+  Eigen::VectorXd held = Eigen::VectorXd::Constant(6, std::nan(""));
+  held[1] = .3;
+  auto m = plant.Measure(Instrument::kTargets, 40, kNoise, held);
+  const auto moved = plant.Measure(Instrument::kTargets, 8, kNoise);
+  m.q.conservativeResize(48, Eigen::NoChange);
+  m.q.bottomRows(8) = moved.q;
+  for (int t = 0; t < 3; ++t) {
+    m.targets[t].conservativeResize(48, Eigen::NoChange);
+    m.targets[t].bottomRows(8) = moved.targets[t];
+  }
+  m.row.resize(48, 2);
+  m.q.col(2) += m.q.col(1);
+  const auto diagnosis = DiagnosePoseGap(plant.nominal, m, {});
+  ASSERT_FALSE(diagnosis.findings.empty());
+  const PoseFinding& found = diagnosis.findings[0];
+  EXPECT_EQ(found.placed.effect->name, "coupling");
+  EXPECT_EQ(found.placed.place.joint, 2);
+  EXPECT_EQ(found.placed.place.by, 1);
+  EXPECT_NEAR(found.amounts[0].value, -1, 2 * found.amounts[0].half_width);
+  EXPECT_LT(diagnosis.gap.held_out_after, 5 * kNoise);
+}
+
+TEST(PoseDiagnosis, NamesNothingWhereGeometryIsAllThereIs) {
+  for (const auto instrument :
+       {Instrument::kTargets, Instrument::kPoses, Instrument::kWire}) {
+    const bool wire = instrument == Instrument::kWire;
+    const HiddenPoses arm("UR5 6R", instrument, 1, wire ? 120 : 50, 14);
+    auto m = arm.Measure({}, kNoise, 6);
+    auto wrong = m;  // a gross error is one pose, and no effect
+    if (wire) wrong.lengths[7] += .1;
+    for (auto& target : wrong.targets) target(7, 0) += .1;
+    if (wrong.poses.size() > 0) wrong.poses(7, 0) += .1;
+    for (const PoseMeasurements& campaign : {m, wrong}) {
+      const auto diagnosis = DiagnosePoseGap(arm.nominal(), campaign, {});
+      EXPECT_TRUE(diagnosis.findings.empty());
+      EXPECT_EQ(diagnosis.verdict, PoseVerdict::kNoiseFloor);
+    }
+  }
+}
+
+}  // namespace armcal::diagnosis_test

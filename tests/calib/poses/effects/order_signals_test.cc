@@ -1,0 +1,42 @@
+#include "calib/poses/effects/order_signals.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace armcal::order_signals_test {
+
+TEST(OrderSignals, AreOneWithinTheirPoses) {
+  PosePlace place;
+  place.begin = 2;
+  Eigen::VectorXd step(5);
+  step << 0, 0, 1, 1, 1;
+  EXPECT_EQ(WindowSignal(5, place), step);
+  place.end = 4;
+  step[4] = 0;
+  EXPECT_EQ(WindowSignal(5, place), step);
+}
+
+// Hat functions add up to 1 from the second knot on, and draw any line.
+TEST(OrderSignals, DriftIsLinearBetweenKnots) {
+  PosePlace place;
+  place.knots = 3;
+  const Eigen::MatrixXd signals = DriftSignals(9, place);
+  ASSERT_EQ(signals.cols(), 2);
+  const Eigen::VectorXd line = signals * Eigen::Vector2d(.5, 1);
+  EXPECT_LT((line - Eigen::VectorXd::LinSpaced(9, 0, 1)).norm(), 1e-14);
+  place.knots = 1;
+  EXPECT_NEAR(DriftSignals(9, place)(8, 0), 1 - std::exp(-4), 1e-14);
+}
+
+TEST(PoseEffects, AreThereWithAllThatOthersAsk) {
+  for (const PoseEffect& effect : PoseEffects()) {
+    SCOPED_TRACE(effect.name);
+    EXPECT_FALSE(effect.means.empty());
+    EXPECT_FALSE(effect.separate_by.empty());
+    EXPECT_NE(effect.places, nullptr);
+    EXPECT_NE(effect.terms, nullptr);
+  }
+}
+
+}  // namespace armcal::order_signals_test

@@ -1,0 +1,41 @@
+#include "tools/commands/diagnose_poses.h"
+
+#include "calib/diagnose_poses.h"
+#include "tools/command_report.h"
+#include "tools/input_flags.h"
+#include "tools/trust_flags.h"
+#include "tools/usage_error.h"
+
+namespace armcal {
+
+bool DiagnosesPoses(const CommandInput& input) {
+  return !input.flags.Text("poses").empty();
+}
+
+CommandOutcome RunDiagnosePoses(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
+  for (const char* other : {"log", "reference", "validate", "calibration",
+                            "controller", "export"}) {
+    if (flags.Text(other).empty()) continue;
+    throw UsageError("--poses and --" + std::string(other) +
+                     ": expected one of them; a diagnosis is of measured "
+                     "poses or of logs");
+  }
+  const Robot robot = RobotFromFlags(input);
+  const std::string file = flags.Text("poses");
+  const PoseMeasurements measured = ReadPoses(file, robot.JointNames());
+  DiagnosePosesOptions options;
+  const ArmTrust trust = TrustFromFlags(flags);
+  options.geometry.prior_length = trust.length;
+  options.geometry.prior_angle = trust.angle;
+  options.without = SplitAtCommas(flags.Text("without"));
+  options.progress = input.progress;
+  const DiagnosePosesSummary summary = DiagnosePoses(robot, measured, options);
+  CommandOutcome outcome = OutcomeOf(input, robot, summary, {});
+  outcome.output.verdict = summary.brief;
+  AddReport(input, "diagnose", robot, summary.json, {file}, nullptr,
+            &outcome.folders[0]);
+  return outcome;
+}
+
+}  // namespace armcal
