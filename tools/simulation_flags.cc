@@ -10,8 +10,7 @@ DEFINE_uint64(seed, 0, "of everything that is drawn at random");
 DEFINE_string(
     controller, "",
     "`FILE` YAML with the controller's law (pd, p, cascade), rate, gains, "
-    "limits, delay, lag; default: pd of 8 Hz per joint, slower where simulate "
-    "would reach torque limits");
+    "limits, delay, lag; default: pd of 8 Hz per joint");
 
 namespace armcal {
 

@@ -163,9 +163,6 @@ void SetUnconfirmed(const PoseStudy& study, const PoseSelection& selection,
   const std::vector<int> folds = InterleavedFolds(study.equations.poses());
   if (!(CompareHeldOut(study, model, best, folds).deviance > 0)) return;
   result->unconfirmed = names;
-  if (names.empty()) return;
-  result->unconfirmed_evidence =
-      EvidenceOf(study, model, selection.design_effect) - selection.evidence[0];
 }
 
 PoseGap GapOf(const PoseStudy& study, const PoseModel& alone,

@@ -63,10 +63,8 @@ struct PoseDiagnosis {
   PoseVerdict verdict = PoseVerdict::kNotTestable;
   std::string reason;  // of kNotTestable
   std::vector<PoseFinding> findings;
-  // The likeliest effects that held-out poses do not confirm, and by how much
-  // twice the logarithm of the evidence is for them.
+  // The likeliest effects that held-out poses do not confirm.
   std::string unconfirmed;
-  double unconfirmed_evidence = 0;
   PoseGap gap;
   PoseMisfit misfit;              // what the effects leave
   double coordinate_rms = 0;      // of it, m

@@ -16,8 +16,6 @@ constexpr double kNormalHalfWidth95 = 1.96;  // in standard deviations
 // Beyond the root of ten, nine tenths of the mean square are not the
 // instrument's (as in calib/poses/verdict.cc).
 const double kMostRatio = std::sqrt(10.0);
-// Twice the logarithm of a Bayes factor (Kass and Raftery 1995, section 3.2).
-constexpr double kVeryStrongEvidence = 10;
 constexpr double kClearOrder = 4;  // standard deviations: 3e-5 by chance
 // Of a pose, beside 1 of one that fits well.
 constexpr double kGivenUp = .1;
@@ -112,8 +110,7 @@ void JudgeRemainder(const PoseStudy& study, PoseDiagnosis* diagnosis) {
   diagnosis->unknowns =
       study.equations.num_free() + static_cast<int>(model.terms.size());
   const bool found = !diagnosis->findings.empty();
-  const bool left = IsMoreThanNoise(diagnosis->misfit) ||
-                    diagnosis->unconfirmed_evidence > kVeryStrongEvidence;
+  const bool left = IsMoreThanNoise(diagnosis->misfit);
   diagnosis->verdict = found && left ? PoseVerdict::kPartlyExplained
                        : found       ? PoseVerdict::kExplained
                        : left        ? PoseVerdict::kUnknown
