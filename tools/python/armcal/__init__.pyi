@@ -215,14 +215,18 @@ def diagnose(
     calibration: Union[Calibration, str, 'os.PathLike[str]', None] = None,
     progress: Progress = None,
     bandwidth: Optional[float] = None,
-    crop: Optional[Range] = None,
+    poses: Optional[Path] = None,
     trust: float = 0.5,
     without: Optional[Union[str, Sequence[str]]] = None,
     forward: bool = True,
     verbose: bool = False,
     controller: Optional[Path] = None,
     seed: int = 0,
+    crop: Optional[Range] = None,
     validate_crop: Optional[Range] = None,
+    changes: bool = False,
+    length_trust: float = 0.01,
+    angle_trust: float = 0.02,
     torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
     torque_constants_stddev: Optional[float] = None,
@@ -247,8 +251,8 @@ def diagnose(
     bandwidth            float, Hz: cutoff of the zero-phase low pass; 0: data
                          as they are; default: 10 times the motion's frequency,
                          8 to 20 Hz
-    crop                 Range: of --log to use, s since its first row;
-                         default: all (standstill is left out by itself)
+    poses                Path: CSV of measured poses: q1.. and x1 y1 z1 [x2
+                         ..], x y z qw qx qy qz, or length1 (draw wire)
     trust                float: relative standard deviation of the file's
                          inertias (diagnose: 0.05 without --reference) (default
                          0.5)
@@ -263,7 +267,17 @@ def diagnose(
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
                          per joint
     seed                 int: of everything that is drawn at random (default 0)
+    crop                 Range: of --log to use, s since its first row;
+                         default: all (standstill is left out by itself)
     validate_crop        Range: of the logs held out to use; default: all
+    changes              bool: of four logs or more of one kind of motion, in
+                         the order they were recorded: which parameters changed
+                         when
+    length_trust         float, m: standard deviation of the robot file's
+                         lengths where they are refined, m (default 0.01)
+    angle_trust          float, rad: standard deviation of the robot file's
+                         angles where they are refined, and of the base's tilt,
+                         rad (default 0.02)
     torque_kind          str: what the log's torque is: auto, link, motor
                          (motor side, times gear ratio), current, command
                          (default auto)
