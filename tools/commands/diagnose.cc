@@ -20,9 +20,8 @@ DEFINE_bool(forward, true,
             "simulate the held-out logs as well: along their commands with "
             "--controller, else over windows of 0.5 s");
 DEFINE_string(reference, "",
-              "`FILES` logs of the same robot from before: the model is "
-              "fitted to it "
-              "first, and the diagnosis says what has changed since");
+              "`FILES` logs of the same robot from before: the diagnosis says "
+              "what has changed since");
 DEFINE_string(without, "", "`A[,B..]` effects that are not considered");
 
 DEFINE_bool(verbose, false,

@@ -65,8 +65,8 @@ TEST(RealCampaigns, SlippedReflector) {
   EXPECT_GT(diagnosis.misfit.instrument_ratio, 10);
 }
 
-// A wire whose zero is another one for a third of the poses: by 3.35 mm if it is
-// one block alone, of which the middle is off by more and the begin by less.
+// A wire whose zero is another one for a third of the poses: by 3.35 mm if it
+// is one block alone, of which the middle is off by more and the begin by less.
 TEST(RealCampaigns, MovedWire) {
   SKIP_WITHOUT("geo_irb120_cable");
   const auto diagnosis = DiagnoseSet("geo_irb120_cable", "poses.csv");
