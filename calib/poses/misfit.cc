@@ -26,28 +26,37 @@ void CompareWithInstrument(const PoseFit& fit, const PoseMeasurements& measured,
                            PoseMisfit* misfit) {
   if (measured.u95.size() == 0) return;
   const MatrixXd errors = PositionErrors(fit.geometry(), measured, at);
-  std::vector<double> stated;
-  double squares = 0, count = 0;
+  InstrumentErrors all;
   for (const int k : inliers) {
     for (Eigen::Index c = 0; c < errors.cols(); ++c) {
-      const double u95 =
-          measured.u95(k, std::min(c / fit.Width(), measured.u95.cols() - 1));
-      if (!(u95 > 0)) continue;
-      stated.push_back(u95);
-      const double normal = kNormal95 * errors(k, c) / u95;
-      squares += normal * normal;
-      count += 1;
+      all.Add(errors(k, c), measured.u95(k, std::min(c / fit.Width(),
+                                                     measured.u95.cols() - 1)));
     }
   }
   // Of whole poses, half of the coordinates are rotations and determine their
   // share of the unknowns.
-  const double taken = num_unknowns * (measured.poses.size() > 0 ? .5 : 1);
-  if (count <= taken) return;
-  misfit->instrument_ratio = std::sqrt(squares / (count - taken));
-  misfit->instrument_u95 = Median(stated);
+  all.Tell(num_unknowns * (measured.poses.size() > 0 ? .5 : 1), misfit);
 }
 
 }  // namespace
+
+void InstrumentErrors::Add(double error, double u95) {
+  if (!(u95 > 0)) return;
+  const double normal = kNormal95 * error / u95;
+  squares_ += normal * normal;
+  stated_.push_back(u95);
+}
+
+void InstrumentErrors::Tell(double taken, PoseMisfit* misfit) const {
+  const auto count = static_cast<double>(stated_.size());
+  if (count <= taken) return;
+  misfit->instrument_ratio = std::sqrt(squares_ / (count - taken));
+  misfit->instrument_u95 = Median(stated_);
+}
+
+bool IsAlikeInOrder(const PoseMisfit& misfit) {
+  return misfit.order_correlation > kClear * misfit.order_stddev;
+}
 
 PoseMisfit MeasureMisfit(const PoseFit& fit, const PoseMeasurements& measured,
                          const PoseUnknowns& at,
@@ -86,7 +95,7 @@ VectorXd MotionShare(const MatrixXd& q, const std::vector<int>& inliers) {
 }
 
 std::string OrderSentence(const PoseMisfit& misfit) {
-  if (misfit.order_correlation < kClear * misfit.order_stddev) return "";
+  if (!IsAlikeInOrder(misfit)) return "";
   return "what is left of successive poses is alike (correlation " +
          Format("%.2f", misfit.order_correlation) +
          "): something moved or drifted while they were measured, or the arm "

@@ -15,10 +15,6 @@ using Sentences = std::vector<std::string>;
 
 // Share of the poses' extent that the median deviation must not exceed.
 constexpr double kMostDeviation = 0.1;
-// Of what is left, in the instrument's standard deviations: beyond the root of
-// ten, nine tenths of its mean square are the arm's and not the instrument's.
-// By chance alone ten spare equations exceed it once in 10^16.
-const double kMostOfInstrument = std::sqrt(10.0);
 // Of the poses: routine data hold 1 to 10 % gross errors (Hampel et al. 1986,
 // section 1.2c). More are no gross errors but something that the model lacks.
 constexpr double kMostGrossErrors = 0.1;

@@ -2,6 +2,8 @@
 
 #include <gflags/gflags.h>
 
+#include <utility>
+
 #include "model/log_files/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
 #include "model/text/input_text.h"
@@ -91,7 +93,7 @@ CommandOutcome Simulate(const CommandInput& input) {
     outcome.output = {EffectListJson(), EffectList(), "", true, {}};
     return outcome;
   }
-  const Scenario scenario = ScenarioFromFlags(input);
+  Scenario scenario = ScenarioFromFlags(input);
   if (!LogRateFits(scenario.loop)) {
     throw UsageError("--log_rate: found '" +
                      NumberText(scenario.loop.sensors.log_rate_hz) +
@@ -102,7 +104,7 @@ CommandOutcome Simulate(const CommandInput& input) {
   const LogWriterOptions writer =
       WriterFromFlags(flags, scenario.model.num_joints());
   input.Begin("simulating");
-  ChosenRun chosen = RunWithUsualLoop(input);
+  ChosenRun chosen = RunWithUsualLoop(input, std::move(scenario));
   ScenarioRun& run = chosen.run;
   if (!flags.Switch("temperature")) run.run.log.temperature.resize(0, 0);
   OutputFolder out(OutFromFlags(flags)), secret(flags.Text("truth"), "--truth");

@@ -1,7 +1,6 @@
 #include "tools/commands/simulate_loop.h"
 
 #include <utility>
-#include <vector>
 
 #include "model/text/input_text.h"
 
@@ -20,9 +19,9 @@ bool IsBetter(const ScenarioRun& run, const ScenarioRun& than) {
   return run.run.saturated_share < than.run.saturated_share;
 }
 
-ChosenRun RunWith(const CommandInput& input, const UsualLoop& loop) {
+ChosenRun RunWith(const CommandInput& input, Scenario scenario) {
   ChosenRun chosen;
-  chosen.scenario = ScenarioFromFlags(input, loop);
+  chosen.scenario = std::move(scenario);
   chosen.scenario.loop.progress = [&input](double share) {
     if (input.progress) input.progress("simulating", share);
   };
@@ -33,7 +32,7 @@ ChosenRun RunWith(const CommandInput& input, const UsualLoop& loop) {
 // Takes a slower loop where it is better; whether it suits.
 bool Try(const CommandInput& input, const UsualLoop& slower, UsualLoop* loop,
          ChosenRun* chosen) {
-  ChosenRun next = RunWith(input, slower);
+  ChosenRun next = RunWith(input, ScenarioFromFlags(input, slower));
   if (IsBetter(next.run, chosen->run)) {
     *loop = slower;
     *chosen = std::move(next);
@@ -58,10 +57,10 @@ std::string Text(const UsualLoop& loop, double usual_share) {
 
 }  // namespace
 
-ChosenRun RunWithUsualLoop(const CommandInput& input) {
+ChosenRun RunWithUsualLoop(const CommandInput& input, Scenario usual) {
   const FlagValues& flags = input.flags;
   UsualLoop loop;
-  ChosenRun chosen = RunWith(input, loop);
+  ChosenRun chosen = RunWith(input, std::move(usual));
   bool suits = Suits(chosen.run);
   const double usual_share = chosen.run.run.saturated_share;
   if (flags.Text("controller").empty()) {

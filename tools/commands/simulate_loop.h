@@ -23,6 +23,7 @@ struct ChosenRun {
 // Gains are each joint's own, for the inertia that it has with the others held.
 // A light wrist whose robot file knows no motor's inertia has far less of it
 // while the others are free, so that a fast loop of it swings.
-ChosenRun RunWithUsualLoop(const CommandInput& input);
+// `usual`: ScenarioFromFlags(input).
+ChosenRun RunWithUsualLoop(const CommandInput& input, Scenario usual);
 
 }  // namespace armcal

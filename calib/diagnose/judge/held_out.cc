@@ -60,9 +60,7 @@ HeldOut::HeldOut(const GapFit& fit)
     : fit_(fit),
       other_logs_(false),
       data_(std::make_unique<GapData>(*fit.data(), LogPart::kHeldOut)) {
-  for (const GapEvent& event : fit.events()) {
-    data_->Mask(event.contact.log, event.contact.window);
-  }
+  armcal::MaskEvents(fit.events(), data_.get());
   SetNoise();
 }
 

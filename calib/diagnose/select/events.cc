@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "calib/diagnose/data/thresholds.h"
 
@@ -65,6 +66,19 @@ int RowsOf(const GapRows& rows, const GapEvent& event) {
     }
   }
   return count;
+}
+
+std::vector<GapEvent> BeyondFriction(const std::vector<GapEvent>& events) {
+  std::vector<GapEvent> contacts;
+  std::copy_if(events.begin(), events.end(), std::back_inserter(contacts),
+               [](const GapEvent& event) { return event.beyond_friction; });
+  return contacts;
+}
+
+void MaskEvents(const std::vector<GapEvent>& events, GapData* data) {
+  for (const GapEvent& event : events) {
+    data->Mask(event.contact.log, event.contact.window);
+  }
 }
 
 VectorXd CourseOf(const GapRows& rows, const GapEvent& event) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/data/data.h"
 #include "calib/diagnose/data/screen.h"
 #include "calib/diagnose/select/contacts.h"
 #include "model/log_files/time_base.h"
@@ -51,6 +52,11 @@ TimeRange WindowOf(const GapCandidate& candidate);
 
 // Rows that are not believed once the event is taken out.
 int RowsOf(const GapRows& rows, const GapEvent& event);
+
+// Those whose chance is known (GapEvent::chance).
+std::vector<GapEvent> BeyondFriction(const std::vector<GapEvent>& events);
+// Takes their windows out of the rows that are believed.
+void MaskEvents(const std::vector<GapEvent>& events, GapData* data);
 
 // The course in time of an event of known window, 1 at its centre, per thinned
 // sample: exp(-((t - centre) / width)^2), 0 in other logs.

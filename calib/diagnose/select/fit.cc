@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/motion_scale.h"
@@ -26,13 +25,6 @@ using Eigen::VectorXd;
 constexpr int kMostEvents = 12;
 constexpr std::uint64_t kSeed = 1;  // of what chance would give
 
-std::vector<GapEvent> BeyondFriction(const std::vector<GapEvent>& events) {
-  std::vector<GapEvent> contacts;
-  std::copy_if(events.begin(), events.end(), std::back_inserter(contacts),
-               [](const GapEvent& event) { return event.beyond_friction; });
-  return contacts;
-}
-
 }  // namespace
 
 GapFit::GapFit(const GapBaseline& baseline, const GapFitOptions& options,
@@ -55,10 +47,8 @@ std::vector<GapEvent> GapFit::NewContacts(
 }
 
 bool GapFit::TakeOut(const std::vector<GapEvent>& found) {
-  for (const GapEvent& event : found) {
-    data()->Mask(event.contact.log, event.contact.window);
-    events_.push_back(event);
-  }
+  MaskEvents(found, data());
+  events_.insert(events_.end(), found.begin(), found.end());
   return !found.empty();
 }
 
@@ -190,13 +180,14 @@ double GapFit::Cost(const Selection& selection) const {
   return cost;
 }
 
-// Whether effects that last explain more than touches that were taken out while
-// the arm moved: what lasts may look like a series of these. Both are weighed
-// by the noise that the larger model leaves, which has the touches; noise of
-// their own would make the cost of the better one the larger.
-bool GapFit::LastsRatherThanTouches() {
+// Selects again as if nothing had been a touch while the arm moved, where
+// effects that last explain more than touches do: what lasts may look like a
+// series of these. Both are weighed by the noise that the larger model leaves,
+// which has the touches; noise of their own would make the cost of the better
+// one the larger.
+void GapFit::ForgetTouchesOfWhatLasts() {
   const std::vector<GapEvent> all = events_, contacts = BeyondFriction(all);
-  if (contacts.size() == all.size()) return false;
+  if (contacts.size() == all.size()) return;
   const double touches = Cost(selection_);
   const VectorXd noise = rows().evidence();
   TakeAsKnown(contacts);
@@ -204,19 +195,19 @@ bool GapFit::LastsRatherThanTouches() {
   regression_.WeighBy(noise);
   SelectionOptions options = options_.selection;
   options.events = false;
-  const double lasting = Cost(SelectEffects(screen(), candidates(), options));
-  TakeAsKnown(all);
-  MakeScreen();
-  Select();
-  return lasting < touches;
+  if (Cost(SelectEffects(screen(), candidates(), options)) < touches) {
+    SelectBeside(contacts);
+  } else {
+    TakeAsKnown(all);
+    MakeScreen();
+    Select();
+  }
 }
 
 void GapFit::TakeAsKnown(const std::vector<GapEvent>& events) {
   events_ = events;
   data()->Unmask();
-  for (const GapEvent& event : events_) {
-    data()->Mask(event.contact.log, event.contact.window);
-  }
+  MaskEvents(events_, data());
 }
 
 void GapFit::SelectBeside(const std::vector<GapEvent>& events) {
@@ -242,7 +233,7 @@ void GapFit::SelectWithEvents() {
       break;
     }
   }
-  if (LastsRatherThanTouches()) SelectBeside(BeyondFriction(events_));
+  ForgetTouchesOfWhatLasts();
   ForgetPulsesOfALaw();
   ConfirmTouches(regression_, pool_.Fitted(selection_.chosen), &events_);
 }

@@ -104,7 +104,7 @@ class GapFit {
   bool TakeOutPulses();
   void TakeOutEvent(size_t k);
   double Cost(const Selection& selection) const;
-  bool LastsRatherThanTouches();
+  void ForgetTouchesOfWhatLasts();
   void ForgetPulsesOfALaw();
   void SelectBeside(const std::vector<GapEvent>& events);
   void TakeAsKnown(const std::vector<GapEvent>& events);

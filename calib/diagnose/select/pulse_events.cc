@@ -157,14 +157,17 @@ GapEvent EventOf(const GapRows& rows, const Robot& robot, const PulseScan& scan,
   return event;
 }
 
-void Forget(const GapRows& rows, const Contact& contact, MatrixXd* deviations) {
+// Thinned samples of a contact's window.
+std::vector<int> SamplesOf(const GapRows& rows, const Contact& contact) {
+  std::vector<int> samples;
   for (int k = 0; k < rows.num_thin(); ++k) {
     const int segment = rows.SegmentOf(k);
     if (rows.segments()[segment].log == contact.log &&
         contact.window.Contains(rows.thin_time(segment, k))) {
-      deviations->row(k).setZero();
+      samples.push_back(k);
     }
   }
+  return samples;
 }
 
 double VelocityAt(const GapRows& rows, const Contact& contact, int joint) {
@@ -226,19 +229,17 @@ class PulseSearch {
       if (!(chance < Limits().false_contacts)) return events;
       events.push_back(EventOf(rows_, model_.robot(), scan_, sample, joint));
       events.back().chance = chance;
-      Forget(rows_, events.back().contact, &deviations);
+      for (const int k : SamplesOf(rows_, events.back().contact)) {
+        deviations.row(k).setZero();
+      }
     }
   }
   // Deviations of the largest within a window.
   double LargestIn(const Contact& contact) const {
     const VectorXd all = scan_.Largest();
     double largest = 0;
-    for (int k = 0; k < rows_.num_thin(); ++k) {
-      const int segment = rows_.SegmentOf(k);
-      if (rows_.segments()[segment].log == contact.log &&
-          contact.window.Contains(rows_.thin_time(segment, k))) {
-        largest = std::max(largest, all[k]);
-      }
+    for (const int k : SamplesOf(rows_, contact)) {
+      largest = std::max(largest, all[k]);
     }
     return largest;
   }
@@ -277,10 +278,7 @@ void ConfirmTouches(const GapRegression& regression,
                   [](const GapEvent& event) { return !event.beyond_friction; });
   if (!any || !regression.reference()) return;
   GapRegression unmasked(regression, regression.rows().part());
-  for (const GapEvent& event : *events) {
-    if (!event.beyond_friction) continue;
-    unmasked.data()->Mask(event.contact.log, event.contact.window);
-  }
+  MaskEvents(BeyondFriction(*events), unmasked.data());
   unmasked.Refit();
   const PulseSearch search(unmasked, effects);
   for (GapEvent& event : *events) {

@@ -101,14 +101,11 @@ std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
                                       const std::vector<GapCandidate>& effects,
                                       const std::vector<GapEvent>& events) {
   GapRegression unmasked(regression, regression.rows().part());
-  std::vector<GapEvent> pulses;
+  std::vector<GapEvent> pulses, others;
   for (const GapEvent& event : events) {
-    if (event.pulse) {
-      pulses.push_back(event);
-    } else {
-      unmasked.data()->Mask(event.contact.log, event.contact.window);
-    }
+    (event.pulse ? pulses : others).push_back(event);
   }
+  MaskEvents(others, unmasked.data());
   unmasked.Refit();
   const GapRows& rows = unmasked.rows();
   const VectorXd usual_torque = UsualTorque(rows.segments());

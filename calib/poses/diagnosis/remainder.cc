@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/numerics/median.h"
+#include "calib/poses/misfit.h"
 
 namespace armcal {
 
@@ -12,11 +12,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kNormalHalfWidth95 = 1.96;  // in standard deviations
-// Beyond the root of ten, nine tenths of the mean square are not the
-// instrument's (as in calib/poses/verdict.cc).
-const double kMostRatio = std::sqrt(10.0);
-constexpr double kClearOrder = 4;  // standard deviations: 3e-5 by chance
 // Of a pose, beside 1 of one that fits well.
 constexpr double kGivenUp = .1;
 
@@ -28,25 +23,16 @@ void SetInstrument(const PoseStudy& study, const PoseModel& model,
   const int width = study.equations.width();
   const int point = study.measured.lengths.size() > 0 ? 1 : 3;
   const int coordinates = study.measured.poses.size() > 0 ? 3 : width;
-  std::vector<double> stated;
-  double squares = 0, count = 0;
+  InstrumentErrors errors;
   for (int k = 0; k < study.equations.poses(); ++k) {
     for (int c = 0; c < coordinates; ++c) {
-      const double half =
-          u95(k, std::min<Eigen::Index>(c / point, u95.cols() - 1));
-      if (!(half > 0)) continue;
-      const double normal =
-          kNormalHalfWidth95 * model.estimate.linear.r[k * width + c] / half;
-      squares += normal * normal;
-      count += 1;
-      stated.push_back(half);
+      errors.Add(model.estimate.linear.r[k * width + c],
+                 u95(k, std::min<Eigen::Index>(c / point, u95.cols() - 1)));
     }
   }
-  const double taken =
-      (model.estimate.parameters + model.terms.size()) * coordinates / width;
-  if (count <= taken) return;
-  misfit->instrument_ratio = std::sqrt(squares / (count - taken));
-  misfit->instrument_u95 = Median(stated);
+  errors.Tell(
+      (model.estimate.parameters + model.terms.size()) * coordinates / width,
+      misfit);
 }
 
 void SetOrder(const PoseStudy& study, const PoseModel& model,
@@ -65,8 +51,7 @@ void SetOrder(const PoseStudy& study, const PoseModel& model,
 }
 
 bool IsMoreThanNoise(const PoseMisfit& misfit) {
-  if (misfit.instrument_ratio > kMostRatio) return true;
-  return misfit.order_correlation > kClearOrder * misfit.order_stddev;
+  return misfit.instrument_ratio > kMostOfInstrument || IsAlikeInOrder(misfit);
 }
 
 }  // namespace

@@ -19,4 +19,17 @@ inline std::vector<PosePlace> EachJoint(const PoseCampaign& campaign,
   return places;
 }
 
+// Each of `places` on each joint that moves.
+inline std::vector<PosePlace> OnEachMoving(
+    const PoseCampaign& campaign, const std::vector<PosePlace>& places) {
+  std::vector<PosePlace> all;
+  for (const PosePlace& joint : EachJoint(campaign, &PoseCampaign::Moves)) {
+    for (PosePlace place : places) {
+      place.joint = joint.joint;
+      all.push_back(place);
+    }
+  }
+  return all;
+}
+
 }  // namespace armcal

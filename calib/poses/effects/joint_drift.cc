@@ -1,5 +1,4 @@
-#include <utility>
-
+#include "calib/poses/effects/each_joint.h"
 #include "calib/poses/effects/effect.h"
 #include "calib/poses/effects/order_signals.h"
 
@@ -13,13 +12,7 @@ PoseEffect JointDrift() {
   effect.in_order = true;
   effect.separate_by = kRepeatEarlyPoses;
   effect.places = [](const PoseCampaign& campaign) {
-    std::vector<int> joints;
-    for (int i = 0; i < campaign.joints(); ++i) {
-      if (campaign.Moves(i)) joints.push_back(i);
-    }
-    std::vector<PosePlace> places = DriftPlaces(campaign, joints, {1, 2});
-    for (PosePlace& place : places) std::swap(place.joint, place.parts);
-    return places;
+    return OnEachMoving(campaign, DriftPlaces(campaign, {-1}, {1, 2}));
   };
 
   effect.terms = [](const PoseCampaign& campaign, const PosePlace& place) {

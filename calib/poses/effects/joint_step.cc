@@ -1,5 +1,4 @@
-#include <utility>
-
+#include "calib/poses/effects/each_joint.h"
 #include "calib/poses/effects/effect.h"
 #include "calib/poses/effects/order_signals.h"
 
@@ -14,13 +13,7 @@ PoseEffect JointStep() {
   effect.in_order = true;
   effect.separate_by = kRepeatEarlyPoses;
   effect.places = [](const PoseCampaign& campaign) {
-    std::vector<int> joints;
-    for (int i = 0; i < campaign.joints(); ++i) {
-      if (campaign.Moves(i)) joints.push_back(i);
-    }
-    std::vector<PosePlace> places = StepPlaces(campaign, joints);
-    for (PosePlace& place : places) std::swap(place.joint, place.parts);
-    return places;
+    return OnEachMoving(campaign, StepPlaces(campaign, {-1}));
   };
   effect.count = [](const PoseCampaign& campaign) {
     return StepCount(campaign) * campaign.joints();
