@@ -17,6 +17,7 @@
   X(Elasticity)           \
   X(Backlash)             \
   X(Spring)               \
+  X(Counterbalance)       \
   X(Cable)                \
   X(TorqueRipple)         \
   X(TorqueGain)           \

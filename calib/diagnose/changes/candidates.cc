@@ -13,15 +13,18 @@ using Eigen::VectorXd;
 constexpr double kExpectedChanges = .5;
 // How they are shared: a drift in half of the cases from the first log on.
 constexpr double kShareOfSteps = .55, kShareOfDrifts = .35, kShareOfOnce = .1;
+// What goes with motion is thought as likely as all of these together: it may
+// be either that makes logs of other motions differ.
+constexpr double kShareOfMotion = 1;
 
 struct Place {
   ChangeForm form;
-  int log;
+  int log;       // of kMotion, the measure
   double prior;  // of a change, to be of this form and place
 };
 
 // A step has two logs or more on both sides, a drift four logs or more.
-std::vector<Place> Places(int logs) {
+std::vector<Place> Places(int logs, const ChangeHypothesis& own) {
   std::vector<Place> places;
   for (int l = 2; l + 2 <= logs; ++l) {
     places.push_back({ChangeForm::kStep, l, kShareOfSteps / (logs - 3)});
@@ -33,6 +36,10 @@ std::vector<Place> Places(int logs) {
   for (int l = 0; l <= later; ++l) {
     const double share = later == 0 ? 1 : l == 0 ? .5 : .5 / later;
     places.push_back({ChangeForm::kDrift, l, kShareOfDrifts * share});
+  }
+  for (int m = 0; m < own.motion.cols(); ++m) {
+    places.push_back(
+        {ChangeForm::kMotion, m, kShareOfMotion / kMotionMeasures});
   }
   return places;
 }
@@ -92,7 +99,7 @@ ChangeCandidates JudgeOverGrid(const SeriesProblem& problem, int hypothesis,
                                const VectorXd& prior) {
   const ChangeHypothesis& own = problem.hypotheses[hypothesis];
   const std::vector<Place> places =
-      Places(static_cast<int>(problem.logs.size()));
+      Places(static_cast<int>(problem.logs.size()), own);
   const auto sizes = static_cast<Eigen::Index>(grid.at.size());
   VectorXd without = grid.log_prior;
   std::vector<std::vector<Gain>> gains(places.size());
@@ -102,9 +109,9 @@ ChangeCandidates JudgeOverGrid(const SeriesProblem& problem, int hypothesis,
     without[g] += fit.log_evidence();
     const ColumnSums sums = fit.Sums(own.columns);
     for (size_t k = 0; k < places.size(); ++k) {
-      gains[k].push_back(
-          fit.Add(sums, CourseOf(places[k].form, places[k].log, problem.times),
-                  own.prior));
+      gains[k].push_back(fit.Add(
+          sums, own.Course(places[k].form, places[k].log, problem.times),
+          own.prior));
     }
   }
   ChangeCandidates candidates;

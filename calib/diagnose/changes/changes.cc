@@ -9,6 +9,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// A change is told where it is 19 times as likely as none that goes with how
+// the robot moved: an interval of 95 %.
+constexpr double kMayBeMotion = .05;
+
 // What was looked for, and found.
 struct SeriesSearch {
   std::vector<NamedHypothesis> hypotheses;
@@ -83,8 +87,11 @@ NamedChange NameChange(const Robot& robot, const LogSeries& series,
   change.what = told.hypotheses[found.hypothesis];
   change.found = found;
   change.place = ChangePlace(robot, change.what);
-  change.reading = ChangeReading(change.what, found,
-                                 change.what.joint + 1 == robot.num_joints());
+  change.reading =
+      found.form == ChangeForm::kMotion
+          ? "no change of the robot: its model is not that of all motions"
+          : ChangeReading(change.what, found,
+                          change.what.joint + 1 == robot.num_joints());
   const MatrixXd& told_of = change.what.told;
   change.value = told_of * found.value;
   change.stddev =
@@ -119,9 +126,9 @@ std::vector<ParameterSeries> ParametersOver(const LogSeries& series,
       VectorXd::LinSpaced(series.size(), 0, series.size() - 1);
   MatrixXd model = level * VectorXd::Ones(series.size()).transpose();
   for (const FoundChange& found : told.found.changes) {
-    const MatrixXd& directions = told.hypotheses[found.hypothesis].directions;
-    model += series.torque.asDiagonal() * directions * found.value *
-             CourseOf(found.form, found.log, times).transpose();
+    const NamedHypothesis& what = told.hypotheses[found.hypothesis];
+    model += series.torque.asDiagonal() * what.directions * found.value *
+             what.change.Course(found.form, found.log, times).transpose();
   }
   VectorXd variance = VectorXd::Zero(level.size());
   for (size_t c = 0; c < told.components.size(); ++c) {
@@ -155,7 +162,9 @@ LogChanges FindLogChanges(const Robot& robot, const LogSeries& series) {
     level = series.pooled + series.torque.cwiseProduct(told.found.level);
   }
   for (const FoundChange& found : told.found.changes) {
-    (found.form == ChangeForm::kOnce ? result.single_logs : result.changes)
+    (found.with_motion > kMayBeMotion  ? result.with_motion
+     : found.form == ChangeForm::kOnce ? result.single_logs
+                                       : result.changes)
         .push_back(NameChange(robot, series, told, level, found));
   }
   result.parameters = ParametersOver(series, told, level);

@@ -52,6 +52,10 @@ struct LogChanges {
   // What single logs differ by: their motion, a day, or in the first and the
   // last log a change as well.
   std::vector<NamedChange> single_logs;
+  // What goes with how the robot moved, or may do so: the amounts of kMotion
+  // are those of a motion with e times as much of the measure. Logs in the
+  // order of their speed cannot tell that from a drift.
+  std::vector<NamedChange> with_motion;
   std::vector<ParameterSeries> parameters;
   // By which logs differ beside the changes, relative, all joints together.
   double viscous_scatter = 0, coulomb_scatter = 0;

@@ -80,11 +80,20 @@ class Maker {
       }
     }
     named.directions = directions;
+    named.change.motion = MotionOf(named.part, named.joint);
     if (named.told.size() == 0) {
       named.told = MatrixXd::Identity(directions.cols(), directions.cols());
     }
     SetFamily(&named);
     if (directions.norm() > 0) all_->push_back(std::move(named));
+  }
+  // Of the joint; of all where all change; of a mass those that move its link.
+  MatrixXd MotionOf(ChangedPart part, int joint) const {
+    const bool whole = joint < 0, mass = part == ChangedPart::kMass;
+    const int first = whole || mass ? 0 : joint;
+    const int last = whole ? robot_.num_joints() - 1 : joint;
+    return MotionMeasures(series_.speed.middleCols(first, last - first + 1),
+                          series_.travel.middleCols(first, last - first + 1));
   }
   // Amounts that make kTorqueChange of the torque.
   static VectorXd UsualAmounts(const MatrixXd& directions) {
@@ -186,6 +195,7 @@ void Maker::AddScale(int joint) {
   named.change.prior = VectorXd::Constant(1, kTorqueChange);
   named.change.share = kShareOfOther / 3 / robot_.num_joints();
   named.change.scatter = series_.parameters.row_columns(joint);
+  named.change.motion = MotionOf(named.part, joint);
   named.directions = MatrixXd::Zero(level_.size(), 1);
   named.told = MatrixXd::Identity(1, 1);
   SetFamily(&named);

@@ -44,6 +44,9 @@ std::string ChangeTime(const NamedChange& change, size_t logs) {
     case ChangeForm::kDrift:
       text = Format("drifts from log %d to log %zu", found.log + 1, logs);
       break;
+    case ChangeForm::kMotion:
+      return std::string("goes with the ") + MotionMeasureName(found.log) +
+             " of the motion";
   }
   if (found.logs.size() > 1) {
     text += Format(" (from %d to %d)", found.logs.front() + 1,
@@ -84,13 +87,19 @@ std::string AmountsText(const NamedChange& change) {
   return text;
 }
 
+std::string FirstLog(const NamedChange& change,
+                     const std::vector<std::string>& logs) {
+  if (change.found.form == ChangeForm::kMotion) return ", e times as much:";
+  return ", " + logs[change.found.log];
+}
+
 std::string ChangeLines(const std::vector<NamedChange>& changes,
                         const std::vector<std::string>& logs) {
   std::string text;
   for (const NamedChange& change : changes) {
     text += Format("  %3.0f %%  ", 100 * change.found.probability) +
-            ChangeText(change) + " " + ChangeTime(change, logs.size()) + ", " +
-            logs[change.found.log] + "\n         " + AmountsText(change) +
+            ChangeText(change) + " " + ChangeTime(change, logs.size()) +
+            FirstLog(change, logs) + "\n         " + AmountsText(change) +
             "; " + change.reading + "\n";
     for (size_t k = 0; k < change.rivals.size(); ++k) {
       text +=
@@ -119,28 +128,38 @@ json AmountsJson(const NamedChange& change) {
   return list;
 }
 
+// Where in the logs, or with what of their motion, it goes.
+json CourseJson(const FoundChange& found, const LogChanges& changes) {
+  if (found.form == ChangeForm::kMotion) {
+    return {{"measure", MotionMeasureName(found.log)}};
+  }
+  json logs = json::array();
+  for (const int log : found.logs) logs.push_back(log + 1);
+  return {{"log", found.log + 1},
+          {"log_name", changes.logs[found.log]},
+          {"logs", logs}};
+}
+
 json ChangeJson(const NamedChange& change, const LogChanges& changes) {
-  json rivals = json::array(), logs = json::array();
+  json rivals = json::array();
   for (size_t k = 0; k < change.rivals.size(); ++k) {
     rivals.push_back(
         {{"change", change.rivals[k]},
          {"probability", JsonNumber(change.rival_probability[k])}});
   }
-  for (const int log : change.found.logs) logs.push_back(log + 1);
-  return {{"kind", ChangeFormName(change.found.form)},
-          {"part", ChangedPartName(change.what.part)},
-          {"place", change.place},
-          {"joint_index", change.what.joint + 1},
-          {"sentence",
-           ChangeText(change) + " " + ChangeTime(change, changes.logs.size())},
-          {"log", change.found.log + 1},
-          {"log_name", changes.logs[change.found.log]},
-          {"logs", logs},
-          {"amounts", AmountsJson(change)},
-          {"any_probability", JsonNumber(change.found.any)},
-          {"probability", JsonNumber(change.found.probability)},
-          {"reading", change.reading},
-          {"rivals", rivals}};
+  json told = {{"kind", ChangeFormName(change.found.form)},
+               {"part", ChangedPartName(change.what.part)},
+               {"place", change.place},
+               {"joint_index", change.what.joint + 1},
+               {"sentence", ChangeText(change) + " " +
+                                ChangeTime(change, changes.logs.size())},
+               {"amounts", AmountsJson(change)},
+               {"any_probability", JsonNumber(change.found.any)},
+               {"probability", JsonNumber(change.found.probability)},
+               {"reading", change.reading},
+               {"rivals", rivals}};
+  told.update(CourseJson(change.found, changes));
+  return told;
 }
 
 json SeriesJson(const Eigen::VectorXd& values) {
@@ -171,19 +190,29 @@ std::string FullChanges(const LogChanges& changes) {
       "together by %.2g %%, Coulomb by %.2g %%\n",
       changes.changes.empty() ? "" : "  all this",
       100 * changes.viscous_scatter, 100 * changes.coulomb_scatter);
-  if (changes.single_logs.empty()) return text;
-  return text + "  single logs, by their motion or their day\n" +
-         ChangeLines(changes.single_logs, changes.logs);
+  if (!changes.single_logs.empty()) {
+    text += "  single logs, by their motion or their day\n" +
+            ChangeLines(changes.single_logs, changes.logs);
+  }
+  if (!changes.with_motion.empty()) {
+    text +=
+        "  may go with how the robot moved in these logs, and be no change\n" +
+        ChangeLines(changes.with_motion, changes.logs);
+  }
+  return text;
+}
+
+json ChangesJson(const std::vector<NamedChange>& list,
+                 const LogChanges& changes) {
+  json all = json::array();
+  for (const NamedChange& change : list) {
+    all.push_back(ChangeJson(change, changes));
+  }
+  return all;
 }
 
 json ToJson(const LogChanges& changes) {
-  json list = json::array(), single = json::array(), series = json::array();
-  for (const NamedChange& change : changes.changes) {
-    list.push_back(ChangeJson(change, changes));
-  }
-  for (const NamedChange& change : changes.single_logs) {
-    single.push_back(ChangeJson(change, changes));
-  }
+  json series = json::array();
   for (const ParameterSeries& parameter : changes.parameters) {
     series.push_back({{"name", parameter.name},
                       {"unit", parameter.unit},
@@ -196,8 +225,9 @@ json ToJson(const LogChanges& changes) {
   }
   return {{"reason", changes.refusal},
           {"logs", changes.logs},
-          {"changes", list},
-          {"single_logs", single},
+          {"changes", ChangesJson(changes.changes, changes)},
+          {"single_logs", ChangesJson(changes.single_logs, changes)},
+          {"with_motion", ChangesJson(changes.with_motion, changes)},
           {"series", series},
           {"scatter",
            {{"viscous", JsonNumber(changes.viscous_scatter)},

@@ -97,8 +97,10 @@ class ChangeSelection {
       MatrixXd all(logs_[l].root.rows(), Prior().size());
       Eigen::Index at = 0;
       for (const ChangeCandidate& taken : taken_) {
-        const MatrixXd& own = hypotheses_[taken.hypothesis].columns[l];
-        const VectorXd course = CourseOf(taken.form, taken.log, times_);
+        const ChangeHypothesis& hypothesis = hypotheses_[taken.hypothesis];
+        const MatrixXd& own = hypothesis.columns[l];
+        const VectorXd course =
+            hypothesis.Course(taken.form, taken.log, times_);
         all.middleCols(at, own.cols()) =
             course[static_cast<Eigen::Index>(l)] * own;
         at += own.cols();
@@ -192,6 +194,9 @@ FoundChange ToldBeside(const ChangeCandidates& all,
   found.covariance = best.covariance;
   for (const FamilyShare& share : SharesOf(all, hypotheses)) {
     found.any += share.of.probability;
+    if (share.of.form == ChangeForm::kMotion) {
+      found.with_motion += share.of.probability;
+    }
     if (share.family == hypotheses[best.hypothesis].family &&
         share.of.form == best.form) {
       found.probability = share.of.probability;

@@ -138,7 +138,7 @@ LogSeries MakeSeries(const Robot& robot, const Reduction& reduction,
                      const std::vector<std::string>& logs) {
   const LinearCalibration pooled = CalibrateFromFactors(robot, reduction);
   const int joints = robot.num_joints();
-  LogSeries series{pooled.parameters, logs, pooled.x, {}, {}, {}, {}};
+  LogSeries series{pooled.parameters, logs, pooled.x, {}, {}, {}, {}, {}, {}};
   series.by_scale.resize(joints);
   if (!pooled.solved) return series;
   series.torque = TorqueUnits(series.parameters, reduction);
@@ -146,6 +146,13 @@ LogSeries MakeSeries(const Robot& robot, const Reduction& reduction,
   series.noise.resize(joints);
   for (int j = 0; j < joints; ++j) {
     series.noise[j] = Median({noise.col(j).begin(), noise.col(j).end()});
+  }
+  series.speed.resize(series.size(), joints);
+  series.travel.resize(series.size(), joints);
+  for (int l = 0; l < series.size(); ++l) {
+    const ReducedLog& log = reduction.logs[l];
+    series.speed.row(l) = log.mean_square_speed.cwiseSqrt().transpose();
+    series.travel.row(l) = log.travel.transpose();
   }
   const VectorXd inflations = Inflations(reduction);
   for (int l = 0; l < series.size(); ++l) {

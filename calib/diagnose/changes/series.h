@@ -22,6 +22,8 @@ struct LogSeries {
   Eigen::VectorXd pooled;  // parameters, from all logs together
   Eigen::VectorXd torque;  // the parameter that makes a joint's torque
   Eigen::VectorXd noise;   // per joint, of equations, median of the logs
+  Eigen::MatrixXd speed;   // logs x joints, rms, rad/s or m/s
+  Eigen::MatrixXd travel;  // logs x joints, rad or m
   // Of (parameters - pooled) / torque.
   std::vector<LogEquations> equations;
   // [joint]: what all of its torque once more would add to the right sides.

@@ -61,6 +61,28 @@ TEST(LogChanges, DaysAloneAreNoChange) {
   EXPECT_LT(changes.viscous_scatter, .15);
 }
 
+// Drag that no model has makes friction of fast logs larger than that of slow
+// ones: in whatever order they come, no change of the robot is told.
+void ExpectFasterIsNoChange(const Eigen::VectorXd& speed) {
+  std::mt19937_64 random(14);
+  const Robot robot = ArmWithFriction(2, &random);
+  const SimulatedSeries simulated =
+      SimulateSeries(robot, static_cast<int>(speed.size()), {.02, .02}, {},
+                     &random, {speed, .5});
+  const LogChanges changes = FindLogChanges(robot, simulated.series);
+  EXPECT_TRUE(changes.changes.empty()) << FullChanges(changes);
+  EXPECT_FALSE(changes.with_motion.empty());
+}
+
+TEST(LogChanges, FrictionOfFasterLogsIsNoChange) {
+  const Eigen::VectorXd rising = Eigen::VectorXd::LinSpaced(12, .5, 2);
+  ExpectFasterIsNoChange(rising);
+  ExpectFasterIsNoChange(rising.reverse());
+  Eigen::VectorXd mixed = rising;
+  for (int l = 0; l < 12; ++l) mixed[l] = rising[5 * l % 12];
+  ExpectFasterIsNoChange(mixed);
+}
+
 TEST(LogChanges, ReportsHaveWhatWasFound) {
   std::mt19937_64 random(13);
   const Robot robot = ArmWithFriction(2, &random);
