@@ -18,28 +18,32 @@ constexpr double kShareOfSteps = .55, kShareOfDrifts = .35, kShareOfOnce = .1;
 constexpr double kShareOfMotion = 1;
 
 struct Place {
-  ChangeForm form;
-  int log;       // of kMotion, the measure
-  double prior;  // of a change, to be of this form and place
+  ChangeCourse course;
+  double prior;  // of a change, to have this course
 };
 
-// A step has two logs or more on both sides, a drift four logs or more.
+// A step has two logs or more on both sides, a drift four logs or more; what
+// settles does so from the first log on.
 std::vector<Place> Places(int logs, const ChangeHypothesis& own) {
   std::vector<Place> places;
   for (int l = 2; l + 2 <= logs; ++l) {
-    places.push_back({ChangeForm::kStep, l, kShareOfSteps / (logs - 3)});
+    places.push_back({{ChangeForm::kStep, l, 0}, kShareOfSteps / (logs - 3)});
   }
   for (int l = 0; l < logs; ++l) {
-    places.push_back({ChangeForm::kOnce, l, kShareOfOnce / logs});
+    places.push_back({{ChangeForm::kOnce, l, 0}, kShareOfOnce / logs});
   }
   const int later = logs - 4;
   for (int l = 0; l <= later; ++l) {
     const double share = later == 0 ? 1 : l == 0 ? .5 : .5 / later;
-    places.push_back({ChangeForm::kDrift, l, kShareOfDrifts * share});
+    const int shapes = l == 0 ? kDriftShapes : 1;
+    for (int shape = 0; shape < shapes; ++shape) {
+      places.push_back(
+          {{ChangeForm::kDrift, l, shape}, kShareOfDrifts * share / shapes});
+    }
   }
-  for (int m = 0; m < own.motion.cols(); ++m) {
+  for (int measure = 0; measure < own.motion.cols(); ++measure) {
     places.push_back(
-        {ChangeForm::kMotion, m, kShareOfMotion / kMotionMeasures});
+        {{ChangeForm::kMotion, 0, measure}, kShareOfMotion / kMotionMeasures});
   }
   return places;
 }
@@ -109,9 +113,9 @@ ChangeCandidates JudgeOverGrid(const SeriesProblem& problem, int hypothesis,
     without[g] += fit.log_evidence();
     const ColumnSums sums = fit.Sums(own.columns);
     for (size_t k = 0; k < places.size(); ++k) {
-      gains[k].push_back(fit.Add(
-          sums, own.Course(places[k].form, places[k].log, problem.times),
-          own.prior));
+      gains[k].push_back(
+          fit.Add(sums, CourseOf(places[k].course, problem.times, own.motion),
+                  own.prior));
     }
   }
   ChangeCandidates candidates;
@@ -132,7 +136,7 @@ ChangeCandidates JudgeOverGrid(const SeriesProblem& problem, int hypothesis,
       square += weight * (gains[k][g].covariance + x * x.transpose());
     }
     candidates.push_back(
-        {hypothesis, places[k].form, places[k].log,
+        {hypothesis, places[k].course,
          all - LogSum(without) +
              std::log(kExpectedChanges * own.share * places[k].prior),
          value, square - value * value.transpose()});

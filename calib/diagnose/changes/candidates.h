@@ -8,11 +8,10 @@
 
 namespace armcal {
 
-// A change of one hypothesis, form and first log.
+// A change of one hypothesis and course.
 struct ChangeCandidate {
   int hypothesis;
-  ChangeForm form;
-  int log;
+  ChangeCourse course;
   double log_odds;  // against none, prior and Bayes factor
   Eigen::VectorXd value;
   Eigen::MatrixXd covariance;

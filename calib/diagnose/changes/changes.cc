@@ -1,6 +1,7 @@
 #include "calib/diagnose/changes/changes.h"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace armcal {
@@ -21,9 +22,10 @@ struct SeriesSearch {
 };
 
 SeriesSearch SearchSeries(const Robot& robot, const LogSeries& series,
-                          const VectorXd& level) {
-  SeriesSearch told{
-      MakeHypotheses(robot, series, level), MakeScatter(series, level), {}};
+                          const MatrixXd& levels) {
+  SeriesSearch told{MakeHypotheses(robot, series, levels),
+                    MakeScatter(series, levels.col(0)),
+                    {}};
   std::vector<ChangeHypothesis> changes;
   for (const NamedHypothesis& named : told.hypotheses) {
     changes.push_back(named.change);
@@ -47,7 +49,7 @@ std::string ChangeReading(const NamedHypothesis& what, const FoundChange& found,
     case ChangedPart::kAllFriction:
       return "temperature or lubricant";
     case ChangedPart::kFriction:
-      if (found.form != ChangeForm::kDrift) {
+      if (found.course.form != ChangeForm::kDrift) {
         return "this joint's seal, brake, bearing or lubricant";
       }
       return found.value.sum() > 0 ? "wear" : "running in, or warming";
@@ -57,6 +59,8 @@ std::string ChangeReading(const NamedHypothesis& what, const FoundChange& found,
       return "rotor or gear";
     case ChangedPart::kTorqueScale:
       return "torque constant or torque sensor";
+    case ChangedPart::kAllScales:
+      return "temperature of the motors, supply or units";
     case ChangedPart::kMass:
       return last_link ? "tool or load"
                        : "something fixed to this link or taken off it";
@@ -88,7 +92,7 @@ NamedChange NameChange(const Robot& robot, const LogSeries& series,
   change.found = found;
   change.place = ChangePlace(robot, change.what);
   change.reading =
-      found.form == ChangeForm::kMotion
+      found.course.form == ChangeForm::kMotion
           ? "no change of the robot: its model is not that of all motions"
           : ChangeReading(change.what, found,
                           change.what.joint + 1 == robot.num_joints());
@@ -116,20 +120,34 @@ NamedChange NameChange(const Robot& robot, const LogSeries& series,
   return change;
 }
 
+// Each log's parameters (parameters x logs) with some of the changes; `level`:
+// those of the first.
+MatrixXd LevelsWith(const LogSeries& series, const SeriesSearch& told,
+                    const VectorXd& level,
+                    const std::function<bool(const NamedHypothesis&)>& counts) {
+  const VectorXd times =
+      VectorXd::LinSpaced(series.size(), 0, series.size() - 1);
+  MatrixXd levels = level.replicate(1, series.size());
+  for (const FoundChange& found : told.found.changes) {
+    const NamedHypothesis& what = told.hypotheses[found.hypothesis];
+    if (!counts(what)) continue;
+    const VectorXd course = CourseOf(found.course, times, what.change.motion);
+    for (int l = 0; l < series.size(); ++l) {
+      levels.col(l) += course[l] * series.torque.cwiseProduct(
+                                       what.directions[l] * found.value);
+    }
+  }
+  return levels;
+}
+
 // Each log's parameters, as its own equations have them and with the changes.
 std::vector<ParameterSeries> ParametersOver(const LogSeries& series,
                                             const SeriesSearch& told,
                                             const VectorXd& level) {
   MatrixXd stddev;
   const MatrixXd own = series.Own(told.found.scatter.inflation, &stddev);
-  const VectorXd times =
-      VectorXd::LinSpaced(series.size(), 0, series.size() - 1);
-  MatrixXd model = level * VectorXd::Ones(series.size()).transpose();
-  for (const FoundChange& found : told.found.changes) {
-    const NamedHypothesis& what = told.hypotheses[found.hypothesis];
-    model += series.torque.asDiagonal() * what.directions * found.value *
-             what.change.Course(found.form, found.log, times).transpose();
-  }
+  const MatrixXd model = LevelsWith(
+      series, told, level, [](const NamedHypothesis&) { return true; });
   VectorXd variance = VectorXd::Zero(level.size());
   for (size_t c = 0; c < told.components.size(); ++c) {
     const double size = told.found.scatter.stddev[static_cast<Eigen::Index>(c)];
@@ -154,17 +172,22 @@ LogChanges FindLogChanges(const Robot& robot, const LogSeries& series) {
     result.refusal = "the logs together do not tell the robot's parameters";
     return result;
   }
-  SeriesSearch told = SearchSeries(robot, series, series.pooled);
+  SeriesSearch told =
+      SearchSeries(robot, series, series.pooled.replicate(1, series.size()));
   VectorXd level = series.pooled + series.torque.cwiseProduct(told.found.level);
   if (!told.found.changes.empty()) {
-    // Friction relative to what it was before it changed.
-    told = SearchSeries(robot, series, level);
+    // Friction relative to what it was before it changed; a factor on all of
+    // it, to what it is after the other changes.
+    const auto other = [](const NamedHypothesis& what) {
+      return what.part != ChangedPart::kAllFriction;
+    };
+    told = SearchSeries(robot, series, LevelsWith(series, told, level, other));
     level = series.pooled + series.torque.cwiseProduct(told.found.level);
   }
   for (const FoundChange& found : told.found.changes) {
-    (found.with_motion > kMayBeMotion  ? result.with_motion
-     : found.form == ChangeForm::kOnce ? result.single_logs
-                                       : result.changes)
+    (found.with_motion > kMayBeMotion         ? result.with_motion
+     : found.course.form == ChangeForm::kOnce ? result.single_logs
+                                              : result.changes)
         .push_back(NameChange(robot, series, told, level, found));
   }
   result.parameters = ParametersOver(series, told, level);

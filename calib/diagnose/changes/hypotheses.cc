@@ -23,6 +23,9 @@ constexpr double kFrictionChange = .5, kTorqueChange = .2, kNewFriction = .05;
 // By which joints' factors differ where all friction changes: a fifth of it, as
 // the joints of a warming arm do (-20 to -25 %, shared/data/schunk_lwa4p).
 constexpr double kOwnFactor = .1;
+// All torques: the field of magnets that warm by 50 K falls by 5 to 10 %, units
+// and supplies make more; motors of one arm differ little.
+constexpr double kAllScalesChange = .1, kOwnScale = .02;
 // Scatter that is usual, beside the joint's torque: what models lack as a rule
 // is a per cent or less of it (discrepancy.h).
 constexpr double kUsualScatter = .005;
@@ -54,9 +57,13 @@ void SetFamily(NamedHypothesis* named) {
 // What makes a hypothesis of directions in the parameters.
 class Maker {
  public:
-  Maker(const Robot& robot, const LogSeries& series, const VectorXd& level,
+  Maker(const Robot& robot, const LogSeries& series, const MatrixXd& levels,
         std::vector<NamedHypothesis>* all)
-      : robot_(robot), series_(series), level_(level), all_(all) {
+      : robot_(robot),
+        series_(series),
+        levels_(levels),
+        level_(levels.col(0)),
+        all_(all) {
     nominal_ = series.parameters.Values(robot);
   }
 
@@ -67,11 +74,17 @@ class Maker {
     return (series_.parameters.Values(changed) - nominal_)
         .cwiseQuotient(series_.torque);
   }
-  // Adds a hypothesis of such directions.
+  // Adds a hypothesis of such directions, the same in all logs.
   void Add(NamedHypothesis named, const MatrixXd& directions) {
-    for (const LogEquations& log : series_.equations) {
-      named.change.columns.push_back(log.root * directions);
+    named.directions.assign(series_.equations.size(), directions);
+    Add(std::move(named));
+  }
+  void Add(NamedHypothesis named) {
+    for (size_t l = 0; l < series_.equations.size(); ++l) {
+      named.change.columns.push_back(series_.equations[l].root *
+                                     named.directions[l]);
     }
+    const MatrixXd& directions = named.directions[0];
     if (named.change.scatter.empty()) {
       for (Eigen::Index k = 0; k < directions.rows(); ++k) {
         if (directions.row(k).norm() > 1e-9) {
@@ -79,7 +92,6 @@ class Maker {
         }
       }
     }
-    named.directions = directions;
     named.change.motion = MotionOf(named.part, named.joint);
     if (named.told.size() == 0) {
       named.told = MatrixXd::Identity(directions.cols(), directions.cols());
@@ -92,8 +104,7 @@ class Maker {
     const bool whole = joint < 0, mass = part == ChangedPart::kMass;
     const int first = whole || mass ? 0 : joint;
     const int last = whole ? robot_.num_joints() - 1 : joint;
-    return MotionMeasures(series_.speed.middleCols(first, last - first + 1),
-                          series_.travel.middleCols(first, last - first + 1));
+    return MotionMeasures(series_.motions, first, last);
   }
   // Amounts that make kTorqueChange of the torque.
   static VectorXd UsualAmounts(const MatrixXd& directions) {
@@ -101,56 +112,90 @@ class Maker {
         [](double size) { return size > 0 ? kTorqueChange / size : 1; });
   }
 
+  void TellFactors(const std::vector<std::string>& names,
+                   const std::pair<double, double>& stddev,
+                   NamedHypothesis* named) const;
+  MatrixXd AllFriction(const std::vector<JointTerm>& terms,
+                       const VectorXd& level) const;
   void AddAllFriction(const std::vector<JointTerm>& terms);
   void AddFriction(int joint);
   void AddTerm(int joint, JointTerm term, ChangedPart part);
   void AddScale(int joint);
+  void AddAllScales();
   void AddMass(int link);
 
  private:
   const Robot& robot_;
   const LogSeries& series_;
-  const VectorXd& level_;
+  const MatrixXd& levels_;
+  const VectorXd level_;  // in the first log
   std::vector<NamedHypothesis>* all_;
   VectorXd nominal_;
 };
+
+// Says of numbers that they are factors on something of all joints, one for
+// each name, then joint by joint what each one's own differs by. `stddev`: of
+// these and of those. Told are the joints' mean and each joint's.
+void Maker::TellFactors(const std::vector<std::string>& names,
+                        const std::pair<double, double>& stddev,
+                        NamedHypothesis* named) const {
+  const int joints = robot_.num_joints();
+  const auto size = static_cast<Eigen::Index>(names.size());
+  const Eigen::Index numbers = size * (joints + 1);
+  named->change.prior = VectorXd::Constant(numbers, stddev.second);
+  named->change.prior.head(size).setConstant(stddev.first);
+  named->told = MatrixXd::Zero(numbers, numbers);
+  named->names = names;
+  for (Eigen::Index t = 0; t < size; ++t) {
+    named->told(t, t) = 1;
+    named->told.row(t)
+        .segment(size + t * joints, joints)
+        .setConstant(1. / joints);
+    for (int j = 0; j < joints; ++j) {
+      const Eigen::Index at = size + t * joints + j;
+      named->told(at, t) = named->told(at, at) = 1;
+      named->names.push_back(names[t] + " of " + robot_.links[j].joint.name);
+    }
+  }
+  named->units.assign(named->names.size(), "1");
+}
+
+// Factors on these terms of all joints' friction, one each, then joint by joint
+// (parameters x terms (1 + joints)).
+MatrixXd Maker::AllFriction(const std::vector<JointTerm>& terms,
+                            const VectorXd& level) const {
+  const int joints = robot_.num_joints();
+  const auto size = static_cast<Eigen::Index>(terms.size());
+  MatrixXd directions = MatrixXd::Zero(level.size(), size * (joints + 1));
+  for (Eigen::Index t = 0; t < size; ++t) {
+    directions.col(t) = FrictionDirection(series_, level, terms[t]);
+    for (int j = 0; j < joints; ++j) {
+      const int k = TermIndex(series_.parameters, j, terms[t]);
+      if (k < 0) continue;
+      directions(k, size + t * joints + j) = directions(k, t);
+    }
+  }
+  return directions;
+}
 
 // All joints' friction of these terms by about one factor each: a number for
 // the factor, and one for each joint by which its own differs.
 void Maker::AddAllFriction(const std::vector<JointTerm>& terms) {
   NamedHypothesis named{ChangedPart::kAllFriction, -1, {}, {}, {}, {}, {}};
-  const int joints = robot_.num_joints();
   const auto size = static_cast<Eigen::Index>(terms.size());
-  MatrixXd directions = MatrixXd::Zero(level_.size(), size * (joints + 1));
-  named.change.prior = VectorXd::Constant(directions.cols(), kOwnFactor);
-  named.told = MatrixXd::Zero(size * (joints + 1), directions.cols());
+  for (const auto level : levels_.colwise()) {
+    named.directions.push_back(AllFriction(terms, level));
+  }
+  std::vector<std::string> names;
   for (Eigen::Index t = 0; t < size; ++t) {
-    const VectorXd all = FrictionDirection(series_, level_, terms[t]);
-    if ((all.array() > 0).count() < 2) return;
-    directions.col(t) = all;
-    named.change.prior[t] = kFrictionChange;
-    named.names.emplace_back(JointTermName(terms[t]));
+    if ((named.directions[0].col(t).array() > 0).count() < 2) return;
+    names.emplace_back(JointTermName(terms[t]));
     named.change.scatter.push_back(static_cast<int>(level_.size()) +
                                    (terms[t] == JointTerm::kViscous ? 0 : 1));
-    named.told(t, t) = 1;
-    named.told.row(t)
-        .segment(size + t * joints, joints)
-        .setConstant(1. / joints);
   }
-  for (Eigen::Index t = 0; t < size; ++t) {
-    for (int j = 0; j < joints; ++j) {
-      const Eigen::Index at = size + t * joints + j;
-      named.told(at, t) = named.told(at, at) = 1;
-      named.names.push_back(std::string(JointTermName(terms[t])) + " of " +
-                            robot_.links[j].joint.name);
-      const int k = TermIndex(series_.parameters, j, terms[t]);
-      if (k < 0) continue;
-      directions(k, at) = directions(k, t);
-    }
-  }
-  named.units.assign(named.names.size(), "1");
+  TellFactors(names, {kFrictionChange, kOwnFactor}, &named);
   named.change.share = kShareOfAllFriction / 3;
-  Add(named, directions);
+  Add(std::move(named));
 }
 
 void Maker::AddFriction(int joint) {
@@ -184,7 +229,7 @@ void Maker::AddTerm(int joint, JointTerm term, ChangedPart part) {
   const MatrixXd direction = Direction(
       [&](Robot* robot) { *TermOf(term, &robot->links[joint].joint) += 1; });
   named.change.prior = UsualAmounts(direction);
-  named.change.share = kShareOfOther / 3 / robot_.num_joints();
+  named.change.share = kShareOfOther / 4 / robot_.num_joints();
   Add(named, direction);
 }
 
@@ -193,11 +238,35 @@ void Maker::AddScale(int joint) {
       ChangedPart::kTorqueScale, joint, {}, {"scale"}, {"1"}, {}, {}};
   named.change.columns = series_.by_scale[joint];
   named.change.prior = VectorXd::Constant(1, kTorqueChange);
-  named.change.share = kShareOfOther / 3 / robot_.num_joints();
+  named.change.share = kShareOfOther / 4 / robot_.num_joints();
   named.change.scatter = series_.parameters.row_columns(joint);
   named.change.motion = MotionOf(named.part, joint);
-  named.directions = MatrixXd::Zero(level_.size(), 1);
+  named.directions.assign(series_.equations.size(),
+                          MatrixXd::Zero(level_.size(), 1));
   named.told = MatrixXd::Identity(1, 1);
+  SetFamily(&named);
+  all_->push_back(std::move(named));
+}
+
+// All joints' torques by about one factor.
+void Maker::AddAllScales() {
+  const int joints = robot_.num_joints();
+  if (joints < 2) return;
+  NamedHypothesis named{ChangedPart::kAllScales, -1, {}, {}, {}, {}, {}};
+  for (size_t l = 0; l < series_.equations.size(); ++l) {
+    MatrixXd columns(series_.equations[l].root.rows(), 1 + joints);
+    for (int j = 0; j < joints; ++j) {
+      columns.col(1 + j) = series_.by_scale[j][l];
+    }
+    columns.col(0) = columns.rightCols(joints).rowwise().sum();
+    named.change.columns.push_back(columns);
+  }
+  TellFactors({"scale"}, {kAllScalesChange, kOwnScale}, &named);
+  named.change.share = kShareOfOther / 4;
+  for (int k = 0; k < level_.size(); ++k) named.change.scatter.push_back(k);
+  named.change.motion = MotionOf(named.part, -1);
+  named.directions.assign(series_.equations.size(),
+                          MatrixXd::Zero(level_.size(), 1 + joints));
   SetFamily(&named);
   all_->push_back(std::move(named));
 }
@@ -242,6 +311,8 @@ const char* ChangedPartName(ChangedPart part) {
       return JointTermName(JointTerm::kArmature);
     case ChangedPart::kTorqueScale:
       return "torque_scale";
+    case ChangedPart::kAllScales:
+      return "all_torque_scales";
     case ChangedPart::kMass:
       return "mass";
   }
@@ -258,9 +329,9 @@ int TermIndex(const ModelParameters& parameters, int joint, JointTerm term) {
 
 std::vector<NamedHypothesis> MakeHypotheses(const Robot& robot,
                                             const LogSeries& series,
-                                            const VectorXd& level) {
+                                            const MatrixXd& levels) {
   std::vector<NamedHypothesis> all;
-  Maker maker(robot, series, level, &all);
+  Maker maker(robot, series, levels, &all);
   maker.AddAllFriction({JointTerm::kViscous});
   maker.AddAllFriction({JointTerm::kCoulomb});
   maker.AddAllFriction({JointTerm::kViscous, JointTerm::kCoulomb});
@@ -271,6 +342,7 @@ std::vector<NamedHypothesis> MakeHypotheses(const Robot& robot,
     maker.AddScale(j);
     maker.AddMass(j);
   }
+  maker.AddAllScales();
   return all;
 }
 

@@ -16,6 +16,7 @@ enum class ChangedPart {
   kOffset,
   kArmature,
   kTorqueScale,  // of one joint: its torque constant, its sensor
+  kAllScales,    // about one factor for all torques: motors' temperature, units
   kMass          // fixed to a link, or off it
 };
 // "friction of all joints".
@@ -31,15 +32,17 @@ struct NamedHypothesis {
   Eigen::MatrixXd told;
   // What each number makes of the parameters (LogSeries::torque is 1); of a
   // torque's scale, which changes no parameter of the arm, nothing.
-  Eigen::MatrixXd directions;
+  std::vector<Eigen::MatrixXd> directions;  // in each log
 };
 
 // All that is looked for in a series, competing with each other. Viscous and
 // Coulomb friction change by themselves or together; a mass by its moments, or
-// also by its inertia. `level`: the parameters that friction is relative to.
+// also by its inertia. `levels`: the parameters that friction is relative to,
+// in each log (parameters x logs): a factor on all joints' friction acts on
+// what it is after other changes.
 std::vector<NamedHypothesis> MakeHypotheses(const Robot& robot,
                                             const LogSeries& series,
-                                            const Eigen::VectorXd& level);
+                                            const Eigen::MatrixXd& levels);
 
 // By what logs of a robot that does not change differ: every parameter by
 // itself, and all joints' friction by a factor.

@@ -24,6 +24,8 @@ std::string ChangeText(const NamedChange& change) {
       return "the armature of " + change.place;
     case ChangedPart::kTorqueScale:
       return "the torque scale of " + change.place;
+    case ChangedPart::kAllScales:
+      return "the torque scale of all joints";
     case ChangedPart::kMass:
       return "the mass on " + change.place;
   }
@@ -34,19 +36,20 @@ std::string ChangeText(const NamedChange& change) {
 std::string ChangeTime(const NamedChange& change, size_t logs) {
   const FoundChange& found = change.found;
   std::string text;
-  switch (found.form) {
+  switch (found.course.form) {
     case ChangeForm::kStep:
-      text = Format("changed at log %d", found.log + 1);
+      text = Format("changed at log %d", found.course.log + 1);
       break;
     case ChangeForm::kOnce:
-      text = Format("differs in log %d alone", found.log + 1);
+      text = Format("differs in log %d alone", found.course.log + 1);
       break;
     case ChangeForm::kDrift:
-      text = Format("drifts from log %d to log %zu", found.log + 1, logs);
+      text = Format("drifts from log %d to log %zu%s", found.course.log + 1,
+                    logs, found.course.shape > 0 ? " and settles" : "");
       break;
     case ChangeForm::kMotion:
-      return std::string("goes with the ") + MotionMeasureName(found.log) +
-             " of the motion";
+      return std::string("goes with the ") +
+             MotionMeasureName(found.course.shape) + " of the motion";
   }
   if (found.logs.size() > 1) {
     text += Format(" (from %d to %d)", found.logs.front() + 1,
@@ -72,9 +75,9 @@ std::string AmountText(const NamedChange& change, size_t k) {
 }
 
 std::string AmountsText(const NamedChange& change) {
-  // Of a mass, its inertia is for programs; of all friction, its joints are.
+  // Of a mass, its inertia is for programs; of all joints, each one is.
   const size_t most =
-      change.what.part == ChangedPart::kAllFriction
+      change.what.joint < 0
           ? std::count_if(change.what.names.begin(), change.what.names.end(),
                           [](const std::string& name) {
                             return name.find(' ') == std::string::npos;
@@ -89,8 +92,9 @@ std::string AmountsText(const NamedChange& change) {
 
 std::string FirstLog(const NamedChange& change,
                      const std::vector<std::string>& logs) {
-  if (change.found.form == ChangeForm::kMotion) return ", e times as much:";
-  return ", " + logs[change.found.log];
+  if (change.found.course.form == ChangeForm::kMotion)
+    return ", e times as much:";
+  return ", " + logs[change.found.course.log];
 }
 
 std::string ChangeLines(const std::vector<NamedChange>& changes,
@@ -130,13 +134,13 @@ json AmountsJson(const NamedChange& change) {
 
 // Where in the logs, or with what of their motion, it goes.
 json CourseJson(const FoundChange& found, const LogChanges& changes) {
-  if (found.form == ChangeForm::kMotion) {
-    return {{"measure", MotionMeasureName(found.log)}};
+  if (found.course.form == ChangeForm::kMotion) {
+    return {{"measure", MotionMeasureName(found.course.shape)}};
   }
   json logs = json::array();
   for (const int log : found.logs) logs.push_back(log + 1);
-  return {{"log", found.log + 1},
-          {"log_name", changes.logs[found.log]},
+  return {{"log", found.course.log + 1},
+          {"log_name", changes.logs[found.course.log]},
           {"logs", logs}};
 }
 
@@ -147,7 +151,7 @@ json ChangeJson(const NamedChange& change, const LogChanges& changes) {
         {{"change", change.rivals[k]},
          {"probability", JsonNumber(change.rival_probability[k])}});
   }
-  json told = {{"kind", ChangeFormName(change.found.form)},
+  json told = {{"kind", ChangeFormName(change.found.course.form)},
                {"part", ChangedPartName(change.what.part)},
                {"place", change.place},
                {"joint_index", change.what.joint + 1},

@@ -43,11 +43,10 @@ class ChangeSelection {
         JudgeCandidates({logs_, components_, hypotheses_, times_}, scatter_,
                         Columns(), Prior());
     const auto taken = [this](const ChangeCandidate& c) {
-      return std::any_of(taken_.begin(), taken_.end(),
-                         [&c](const ChangeCandidate& t) {
-                           return t.hypothesis == c.hypothesis &&
-                                  t.form == c.form && t.log == c.log;
-                         });
+      return std::any_of(
+          taken_.begin(), taken_.end(), [&c](const ChangeCandidate& t) {
+            return t.hypothesis == c.hypothesis && t.course == c.course;
+          });
     };
     all.erase(std::remove_if(all.begin(), all.end(), taken), all.end());
     return all;
@@ -100,7 +99,7 @@ class ChangeSelection {
         const ChangeHypothesis& hypothesis = hypotheses_[taken.hypothesis];
         const MatrixXd& own = hypothesis.columns[l];
         const VectorXd course =
-            hypothesis.Course(taken.form, taken.log, times_);
+            CourseOf(taken.course, times_, hypothesis.motion);
         all.middleCols(at, own.cols()) =
             course[static_cast<Eigen::Index>(l)] * own;
         at += own.cols();
@@ -148,14 +147,14 @@ std::vector<FamilyShare> SharesOf(
     const int family = hypotheses[c.hypothesis].family;
     auto share =
         std::find_if(shares.begin(), shares.end(), [&](const FamilyShare& s) {
-          return s.family == family && s.of.form == c.form;
+          return s.family == family && s.of.form == c.course.form;
         });
     if (share == shares.end()) {
-      shares.push_back({family, {c.hypothesis, c.form, 0}, {}});
+      shares.push_back({family, {c.hypothesis, c.course.form, 0}, {}});
       share = shares.end() - 1;
     }
     share->of.probability += p;
-    share->places.push_back({p, c.log});
+    share->places.push_back({p, c.course.log});
   }
   std::stable_sort(shares.begin(), shares.end(),
                    [](const FamilyShare& a, const FamilyShare& b) {
@@ -188,8 +187,7 @@ FoundChange ToldBeside(const ChangeCandidates& all,
   const ChangeCandidate& best = all.front();
   FoundChange found;
   found.hypothesis = best.hypothesis;
-  found.form = best.form;
-  found.log = best.log;
+  found.course = best.course;
   found.value = best.value;
   found.covariance = best.covariance;
   for (const FamilyShare& share : SharesOf(all, hypotheses)) {
@@ -198,7 +196,7 @@ FoundChange ToldBeside(const ChangeCandidates& all,
       found.with_motion += share.of.probability;
     }
     if (share.family == hypotheses[best.hypothesis].family &&
-        share.of.form == best.form) {
+        share.of.form == best.course.form) {
       found.probability = share.of.probability;
       found.logs = LogsOf(share);
     } else {
@@ -214,8 +212,8 @@ bool ExchangeEach(ChangeSelection* selection) {
   for (int k = 0; k < selection->size(); ++k) {
     const ChangeCandidate was = selection->TakeOut(k);
     const ChangeCandidate best = selection->Judge().front();
-    const bool same = best.hypothesis == was.hypothesis &&
-                      best.form == was.form && best.log == was.log;
+    const bool same =
+        best.hypothesis == was.hypothesis && best.course == was.course;
     selection->PutBack(k, best);
     if (same) continue;
     selection->Refit();
@@ -265,9 +263,10 @@ SeriesChanges FindChanges(const std::vector<LogEquations>& logs,
   while (LeaveOut(hypotheses, &selection, &result.changes)) {
     ExchangeEach(&selection);
   }
-  std::sort(
-      result.changes.begin(), result.changes.end(),
-      [](const FoundChange& a, const FoundChange& b) { return a.log < b.log; });
+  std::sort(result.changes.begin(), result.changes.end(),
+            [](const FoundChange& a, const FoundChange& b) {
+              return a.course.log < b.course.log;
+            });
   result.scatter = selection.scatter();
   result.level = selection.Level();
   return result;

@@ -18,15 +18,13 @@ struct FoundChange {
     double probability;
   };
   int hypothesis = 0;
-  ChangeForm form = ChangeForm::kStep;
-  int log = 0;  // the first that has it; of kMotion, the measure
+  ChangeCourse course;
   Eigen::VectorXd value;
   Eigen::MatrixXd covariance;  // holds the scatter, as well as that is known
   double probability = 0;      // that it is of this family and form
   double any = 0;              // that there is a change at all
   double with_motion = 0;      // that it is none but goes with the motion
-  std::vector<int> logs;       // where it may begin: 95 % together, ascending;
-                               // of kMotion, what it may go with
+  std::vector<int> logs;       // where it may begin: 95 % together, ascending
   std::vector<Rival> rivals;   // the others, likeliest first
 };
 

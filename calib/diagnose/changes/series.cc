@@ -88,6 +88,26 @@ void AddLog(const BlockTriangularFactor& factor, const std::vector<bool>& used,
   }
 }
 
+LogMotions MotionsOf(const Reduction& reduction, int joints) {
+  const auto logs = static_cast<Eigen::Index>(reduction.logs.size());
+  LogMotions motions;
+  for (MatrixXd* sizes : {&motions.speed, &motions.travel, &motions.torque}) {
+    sizes->setZero(logs, joints);
+  }
+  for (Eigen::Index l = 0; l < logs; ++l) {
+    const ReducedLog& log = reduction.logs[l];
+    motions.speed.row(l) = log.mean_square_speed.sqrt().transpose();
+    motions.travel.row(l) = log.travel.transpose();
+    for (int j = 0; j < joints; ++j) {
+      const TriangularFactor& rows = log.factors[j];
+      if (rows.rows() == 0) continue;
+      motions.torque(l, j) = rows.Triangle().rightCols<1>().norm() /
+                             std::sqrt(static_cast<double>(rows.rows()));
+    }
+  }
+  return motions;
+}
+
 }  // namespace
 
 MatrixXd LogSeries::Own(double inflation, MatrixXd* stddev) const {
@@ -138,7 +158,7 @@ LogSeries MakeSeries(const Robot& robot, const Reduction& reduction,
                      const std::vector<std::string>& logs) {
   const LinearCalibration pooled = CalibrateFromFactors(robot, reduction);
   const int joints = robot.num_joints();
-  LogSeries series{pooled.parameters, logs, pooled.x, {}, {}, {}, {}, {}, {}};
+  LogSeries series{pooled.parameters, logs, pooled.x, {}, {}, {}, {}, {}};
   series.by_scale.resize(joints);
   if (!pooled.solved) return series;
   series.torque = TorqueUnits(series.parameters, reduction);
@@ -147,13 +167,7 @@ LogSeries MakeSeries(const Robot& robot, const Reduction& reduction,
   for (int j = 0; j < joints; ++j) {
     series.noise[j] = Median({noise.col(j).begin(), noise.col(j).end()});
   }
-  series.speed.resize(series.size(), joints);
-  series.travel.resize(series.size(), joints);
-  for (int l = 0; l < series.size(); ++l) {
-    const ReducedLog& log = reduction.logs[l];
-    series.speed.row(l) = log.mean_square_speed.cwiseSqrt().transpose();
-    series.travel.row(l) = log.travel.transpose();
-  }
+  series.motions = MotionsOf(reduction, joints);
   const VectorXd inflations = Inflations(reduction);
   for (int l = 0; l < series.size(); ++l) {
     AddLog(FactorOf(series.parameters, reduction.logs[l]), pooled.used[l],

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/changes/course.h"
 #include "calib/diagnose/changes/series_fit.h"
 #include "calib/fleet/reduction.h"
 #include "model/dynamics/model_parameters.h"
@@ -22,8 +23,7 @@ struct LogSeries {
   Eigen::VectorXd pooled;  // parameters, from all logs together
   Eigen::VectorXd torque;  // the parameter that makes a joint's torque
   Eigen::VectorXd noise;   // per joint, of equations, median of the logs
-  Eigen::MatrixXd speed;   // logs x joints, rms, rad/s or m/s
-  Eigen::MatrixXd travel;  // logs x joints, rad or m
+  LogMotions motions;      // rad/s and rad, or m/s and m
   // Of (parameters - pooled) / torque.
   std::vector<LogEquations> equations;
   // [joint]: what all of its torque once more would add to the right sides.

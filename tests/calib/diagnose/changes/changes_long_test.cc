@@ -51,9 +51,9 @@ std::vector<PlantedChange> DrawChanges(int joints, std::mt19937_64* random) {
 bool Matches(const NamedChange& change, const PlantedChange& planted) {
   const bool same = change.what.part == planted.part &&
                     change.what.joint == planted.joint &&
-                    change.found.form == planted.form;
+                    change.found.course.form == planted.form;
   return same && (planted.form == ChangeForm::kDrift ||
-                  change.found.log == planted.log);
+                  change.found.course.log == planted.log);
 }
 
 struct Score {

@@ -33,16 +33,16 @@ TEST(LogChanges, WearToolAndTemperatureAreToldApartWithTheirLogs) {
   ASSERT_EQ(changes.changes.size(), 3u) << FullChanges(changes);
   const NamedChange* wear = Find(changes, ChangedPart::kFriction, 1);
   ASSERT_NE(wear, nullptr);
-  EXPECT_EQ(wear->found.form, ChangeForm::kDrift);
+  EXPECT_EQ(wear->found.course.form, ChangeForm::kDrift);
   EXPECT_EQ(wear->reading, "wear");
   const NamedChange* tool = Find(changes, ChangedPart::kMass, 2);
   ASSERT_NE(tool, nullptr);
-  EXPECT_EQ(tool->found.form, ChangeForm::kStep);
-  EXPECT_EQ(tool->found.log, 8);
+  EXPECT_EQ(tool->found.course.form, ChangeForm::kStep);
+  EXPECT_EQ(tool->found.course.log, 8);
   EXPECT_EQ(tool->reading, "tool or load");
   const NamedChange* warmth = Find(changes, ChangedPart::kAllFriction, -1);
   ASSERT_NE(warmth, nullptr);
-  EXPECT_EQ(warmth->found.log, 5);
+  EXPECT_EQ(warmth->found.course.log, 5);
   EXPECT_NEAR(warmth->value[0], .4, 3 * warmth->stddev[0]);
   EXPECT_LT(warmth->stddev[0], .12);
 }

@@ -36,7 +36,7 @@ struct Series {
   }
   // Parameter k by `size` from `log` on, in one log or ever more.
   void Plant(int k, ChangeForm form, int log, double size) {
-    const VectorXd course = CourseOf(form, log, times);
+    const VectorXd course = CourseOf({form, log, 0}, times, {});
     for (size_t l = 0; l < logs.size(); ++l) {
       logs[l].right[k] += 100 * size * course[static_cast<Eigen::Index>(l)];
     }
@@ -51,16 +51,6 @@ struct Series {
   VectorXd times;
 };
 
-TEST(ChangeSearch, CourseRisesFromItsLogOn) {
-  const VectorXd times = (VectorXd(5) << 0, 1, 2, 4, 6).finished();
-  const VectorXd step = (VectorXd(5) << 0, 0, 1, 1, 1).finished();
-  const VectorXd once = (VectorXd(5) << 0, 0, 1, 0, 0).finished();
-  const VectorXd drift = (VectorXd(5) << 0, 0, .2, .6, 1).finished();
-  EXPECT_EQ(CourseOf(ChangeForm::kStep, 2, times), step);
-  EXPECT_EQ(CourseOf(ChangeForm::kOnce, 2, times), once);
-  EXPECT_TRUE(CourseOf(ChangeForm::kDrift, 1, times).isApprox(drift));
-}
-
 TEST(ChangeSearch, FindsStepAndDriftOfTwoParametersApart) {
   std::mt19937_64 random(1);
   Series series(16, &random);
@@ -70,12 +60,12 @@ TEST(ChangeSearch, FindsStepAndDriftOfTwoParametersApart) {
   ASSERT_EQ(found.changes.size(), 2u);
   const FoundChange& drift = found.changes[0];
   EXPECT_EQ(drift.hypothesis, 1);
-  EXPECT_EQ(drift.form, ChangeForm::kDrift);
+  EXPECT_EQ(drift.course.form, ChangeForm::kDrift);
   EXPECT_NEAR(drift.value[0], -.4, 3 * std::sqrt(drift.covariance(0, 0)));
   const FoundChange& step = found.changes[1];
   EXPECT_EQ(step.hypothesis, 0);
-  EXPECT_EQ(step.form, ChangeForm::kStep);
-  EXPECT_EQ(step.log, 9);
+  EXPECT_EQ(step.course.form, ChangeForm::kStep);
+  EXPECT_EQ(step.course.log, 9);
   EXPECT_EQ(step.logs, std::vector<int>({9}));
   EXPECT_GT(step.probability, .99);
   // .03 / sqrt of 7 and of 9 logs.
@@ -90,8 +80,8 @@ TEST(ChangeSearch, OneLogIsNoStep) {
   series.Plant(0, ChangeForm::kOnce, 5, .5);
   const SeriesChanges found = series.Find();
   ASSERT_EQ(found.changes.size(), 1u);
-  EXPECT_EQ(found.changes[0].form, ChangeForm::kOnce);
-  EXPECT_EQ(found.changes[0].log, 5);
+  EXPECT_EQ(found.changes[0].course.form, ChangeForm::kOnce);
+  EXPECT_EQ(found.changes[0].course.log, 5);
 }
 
 // Of four logs two and two that differ by several standard deviations of what
