@@ -150,8 +150,6 @@ RESIDUALS = {  # name: (residual of joint 1, N m; what orders it; its label)
     "backlash": (change(MOTION.moved(0, [-.003 * b for b in BEAD])), LOAD[0],
                  "load, N m"),
     "spring": (each(lambda k: 1.5 * (Q[k] - 1.6)), Q, "q, rad"),
-    "counterbalance": (each(lambda k: 2 * math.sin(Q[k] - .4) / math.sqrt(
-        1.16 - .8 * math.cos(Q[k] - .4))), Q, "q, rad"),
     "cable": (each(lambda k: math.tanh((Q[k] - 1.6) / .15)), Q, "q, rad"),
     "torque_ripple": (each(lambda k: math.sin(12 * Q[k])), Q, "q, rad"),
     "torque_gain": (each(lambda k: .06 * TAU[k]), TAU, "torque, N m"),

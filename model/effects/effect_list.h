@@ -17,7 +17,6 @@
   X(Elasticity)           \
   X(Backlash)             \
   X(Spring)               \
-  X(Counterbalance)       \
   X(Cable)                \
   X(TorqueRipple)         \
   X(TorqueGain)           \

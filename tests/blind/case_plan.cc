@@ -9,9 +9,9 @@
 namespace armcal {
 namespace {
 
-// Cases of the evaluation. One effect: each of the 34 nine times, of which two
+// Cases of the evaluation. One effect: each of the 33 nine times, of which two
 // below ENR 0.32 and one more than the six that it needs above.
-constexpr std::array<long, kNumStrata> kCases = {150, 60, 34 * 9, 60, 60};
+constexpr std::array<long, kNumStrata> kCases = {150, 60, 33 * 9, 60, 60};
 // The bins of an effect's nine cases: about log-uniform from 0.17 to 6. They
 // begin elsewhere for each effect, so that every round has all bins.
 constexpr std::array<int, 9> kBins = {2, 3, 1, 4, 2, 3, 1, 4, 2};

@@ -33,47 +33,6 @@ HiddenEffect Spring() {
           nullptr};
 }
 
-// A gas cylinder between two pivots, ratio apart from the axis of what the
-// other is, x their angle: of the length l = sqrt(1 + ratio^2 - 2 ratio cos x),
-// its gas compressed by the share c of its volume at full stroke, polytropic
-// with 1.3:
-//   tau = -P sin(x) / l / (1 - c (l - l_0) / (l_pi - l_0))^1.3.
-HiddenEffect Counterbalance() {
-  return {
-      "counterbalance",
-      true,
-      Scope::kJoint,
-      "The gas cylinder of a counterbalance between the link and what carries "
-      "it: a torque of the position that is no sine.",
-      {{"pull", "1", .3, .03, 1, Draw::kLogEitherSign, 3e-3, 5},
-       {"ratio", "1", .35, .2, .6, Draw::kUniform, .05, .9},
-       {"nearest", "rad", .8, -M_PI, M_PI, Draw::kUniform},
-       {"compression", "1", .3, .1, .5, Draw::kUniform, 0, .8}},
-      [](const EffectSite& site) -> std::vector<EffectValue> {
-        const double P = site.p[0] * site.torque(), ratio = site.p[1];
-        const double nearest = site.p[2], compression = site.p[3];
-        const auto torque = [=](double x) {
-          const double l =
-              std::sqrt(1 + ratio * ratio - 2 * ratio * std::cos(x));
-          const double stroke = (l - (1 - ratio)) / (2 * ratio);
-          return P * std::sin(x) / l / std::pow(1 - compression * stroke, 1.3);
-        };
-        const int k = site.from_tip();
-        site.AddTorque([=](const ArmInstant& at, const double*, double*) {
-          return -torque(FromTip(at.position, k) - nearest);
-        });
-        return {{"torque", site.effort_unit(), torque(M_PI / 2)},
-                {"nearest", "rad", nearest},
-                {"ratio", "1", ratio}};
-      },
-      [](const SimulatedRobot& robot, int joint) -> std::string {
-        const Joint& of = robot.robot.links[robot.num_passive + joint].joint;
-        return IsRotational(of.type)
-                   ? ""
-                   : "only a joint that turns has such a cylinder";
-      }};
-}
-
 // tau = -A 2/pi atan((q - q0) / b): a bundle that lies over to one side or the
 // other.
 HiddenEffect Cable() {
@@ -132,7 +91,7 @@ HiddenEffect TorqueRipple() {
 }  // namespace
 
 std::vector<HiddenEffect> PositionTorques() {
-  return {Spring(), Counterbalance(), Cable(), TorqueRipple()};
+  return {Spring(), Cable(), TorqueRipple()};
 }
 
 }  // namespace armcal

@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"payload", {"mass", "com_x", "com_y", "com_z"}},
         Case{"added_mass", {"mass"}}, Case{"link_inertia", {"share", "mass"}},
         Case{"external_contact", {"force_x", "force_y", "force_z"}, "force"},
-        Case{"counterbalance", {"torque"}}, Case{"time_base", {"rate"}}),
+        Case{"time_base", {"rate"}}),
     [](const auto& info) { return info.param.effect; });
 
 }  // namespace armcal::truth_test

@@ -32,7 +32,6 @@ const char* const kCatalogue[] = {"viscous_friction",
                                   "elasticity",
                                   "backlash",
                                   "spring",
-                                  "counterbalance",
                                   "cable",
                                   "torque_ripple",
                                   "torque_gain",
@@ -153,9 +152,9 @@ TEST(HiddenEffects, ApplyToSixRevoluteJointsAndToAScara) {
        {"link_length 5", "added_mass 5", "gyroscope 0", "loose_bolt 0"}},
       // All axes are gravity's.
       {"SCARA RRPR",
-       {"link_length 3", "added_mass 3", "counterbalance 2", "counterbalance 2",
-        "gyroscope 0", "gyroscope 1", "gyroscope 2", "gyroscope 3",
-        "loose_bolt 0", "loose_bolt 1", "loose_bolt 2", "loose_bolt 3"}}};
+       {"link_length 3", "added_mass 3", "gyroscope 0", "gyroscope 1",
+        "gyroscope 2", "gyroscope 3", "loose_bolt 0", "loose_bolt 1",
+        "loose_bolt 2", "loose_bolt 3"}}};
   for (const auto& [name, expected] : none) {
     const Robot robot = Arm(name);
     std::set<std::string> unfit;
