@@ -44,8 +44,8 @@ class ChangeSelection {
                         Columns(), Prior());
     const auto taken = [this](const ChangeCandidate& c) {
       return std::any_of(
-          taken_.begin(), taken_.end(), [&c](const ChangeCandidate& t) {
-            return t.hypothesis == c.hypothesis && t.course == c.course;
+          taken_.begin(), taken_.end(), [&](const ChangeCandidate& t) {
+            return FamilyOf(t) == FamilyOf(c) && t.course == c.course;
           });
     };
     all.erase(std::remove_if(all.begin(), all.end(), taken), all.end());
@@ -90,6 +90,9 @@ class ChangeSelection {
   }
 
  private:
+  int FamilyOf(const ChangeCandidate& candidate) const {
+    return hypotheses_[candidate.hypothesis].family;
+  }
   LogColumns Columns() const {
     LogColumns columns;
     for (size_t l = 0; l < logs_.size(); ++l) {
