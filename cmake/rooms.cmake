@@ -3,6 +3,7 @@
 # from its rooms and tests/layering_test.py holds the includes to the order.
 set(rooms
     model/text          # numbers, times, archives and XML out of bytes
+    model/camera        # what a lens makes of points, and files of it
     model/robot         # the arm as a value: links, joints, frames, inertias
     model/ros_bags      # messages out of rosbag2's files
     model/log_files     # logs and poses out of CSV, bags, NumPy and MATLAB files

@@ -4,11 +4,10 @@
 
 #include "problems/pose_residual.h"
 #include "problems/target_residual.h"
+#include "problems/touch_residual.h"
 #include "problems/wire_residual.h"
 
 namespace armcal {
-namespace {
-
 using Eigen::Isometry3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -21,7 +20,16 @@ Isometry3d MeasuredPose(const PoseMeasurements& measured, int row) {
   return X;
 }
 
-}  // namespace
+Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
+                       int pose) {
+  if (!measured.whitening.empty()) {
+    return measured.whitening[pose] / noise.position;
+  }
+  Eigen::Matrix<double, 6, 1> deviations;
+  deviations << Vector3d::Constant(noise.position),
+      Vector3d::Constant(noise.rotation);
+  return deviations.cwiseInverse().asDiagonal();
+}
 
 double VarianceFactor(const Eigen::VectorXd& residuals, int block,
                       RobustLoss loss, int num_unknowns) {
@@ -40,7 +48,8 @@ double VarianceFactor(const Eigen::VectorXd& residuals, int block,
 
 int PoseUnknowns::NumOther(const PoseMeasurements& measured) {
   if (measured.lengths.size() > 0) return 4;
-  return 3 * static_cast<int>(measured.targets.size());
+  return 3 *
+         (static_cast<int>(measured.targets.size()) + measured.num_points());
 }
 
 std::vector<std::string> PoseUnknowns::OtherNames(
@@ -48,10 +57,12 @@ std::vector<std::string> PoseUnknowns::OtherNames(
   if (measured.lengths.size() > 0) {
     return {"wire.x", "wire.y", "wire.z", "wire.offset"};
   }
+  const bool touches = !measured.touched.empty();
   std::vector<std::string> names;
-  for (size_t k = 0; k < measured.targets.size(); ++k) {
+  for (int k = 0; k < NumOther(measured) / 3; ++k) {
     for (const char* axis : {".x", ".y", ".z"}) {
-      names.push_back("target" + std::to_string(k + 1) + axis);
+      names.push_back((touches ? "point" : "target") + std::to_string(k + 1) +
+                      axis);
     }
   }
   return names;
@@ -60,14 +71,17 @@ std::vector<std::string> PoseUnknowns::OtherNames(
 std::vector<bool> FreeGeometry(const ArmGeometry& geometry,
                                RefineGeometry refine,
                                const PoseMeasurements* measured) {
-  const bool wire = measured != nullptr && measured->lengths.size() > 0;
+  // An anchor or a point that was touched stands for the instrument's frame,
+  // and sees the tool's tip alone.
+  const bool wire = measured != nullptr && (measured->lengths.size() > 0 ||
+                                            !measured->touched.empty());
   const bool targets = measured != nullptr && !measured->targets.empty();
   const std::vector<std::string> names = geometry.Names();
   std::vector<bool> free(geometry.size(), false);
   for (int k = 0; k < geometry.size(); ++k) {
     const std::string field = names[k].substr(names[k].rfind('.'));
     if (ArmGeometry::IsBase(k)) {
-      free[k] = measured != nullptr && !wire;  // an anchor stands for it
+      free[k] = measured != nullptr && !wire;
     } else if (geometry.IsTool(k)) {
       const bool point = field == ".x" || field == ".y" || field == ".z";
       free[k] = measured != nullptr && !targets && (point || !wire);
@@ -99,10 +113,15 @@ void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
                              noise.position),
           MakeLoss(loss, 3), g, other + 3 * t);
     }
+    if (!measured.touched.empty()) {
+      problem->AddResidualBlock(new TouchResidual(geometry, q, noise.position),
+                                MakeLoss(loss, 3), g,
+                                other + 3 * measured.touched[k]);
+    }
     if (measured.poses.size() > 0) {
       problem->AddResidualBlock(
           new PoseResidual(geometry, q, MeasuredPose(measured, k),
-                           noise.position, noise.rotation),
+                           PoseWhitening(measured, noise, k)),
           MakeLoss(loss, 6), g);
     }
   }
@@ -128,7 +147,11 @@ MatrixXd PositionErrors(const ArmGeometry& geometry,
       errors.row(k).segment<3>(3 * t) =
           p.transpose() - measured.targets[t].row(k);
     }
-    if (targets == 0) {
+    if (!measured.touched.empty()) {
+      errors.row(k) =
+          (X.translation() - unknowns.other.segment<3>(3 * measured.touched[k]))
+              .transpose();
+    } else if (targets == 0) {
       errors.row(k) =
           (X.translation() - MeasuredPose(measured, k).translation())
               .transpose();

@@ -22,19 +22,28 @@ double VarianceFactor(const Eigen::VectorXd& residuals, int block,
 
 // Standard deviations of what was measured.
 struct PoseNoise {
-  double position = 1e-3;  // m, of each coordinate or of a wire's length
-  double rotation = 1e-3;  // rad, of each component
+  // m, of each coordinate or of a wire's length; of poses that are whitened, of
+  // a component of their whitened errors.
+  double position = 1e-3;
+  double rotation = 1e-3;  // rad, of each component; not of whitened poses
 };
+// X_WM of a whole pose.
+Eigen::Isometry3d MeasuredPose(const PoseMeasurements& measured, int pose);
+// What makes errors of a pose's position and rotation independent, of variance
+// 1 each.
+Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
+                       int pose);
 
 // The unknowns of a geometric calibration, in two parameter blocks: the
 // geometry (ArmGeometry::Values) and what else the measurement needs: the
-// targets on the tool (3 each, m), or the wire's anchor and length offset (4).
+// targets on the tool or the points that it touches (3 each, m), or the wire's
+// anchor and length offset (4).
 struct PoseUnknowns {
   Eigen::VectorXd geometry;
   Eigen::VectorXd other;
 
   static int NumOther(const PoseMeasurements& measured);
-  // "target2.y", "wire.x", "wire.offset".
+  // "target2.y", "point1.x", "wire.x", "wire.offset".
   static std::vector<std::string> OtherNames(const PoseMeasurements& measured);
 };
 

@@ -2,23 +2,19 @@
 
 #include <cmath>
 
+#include "model/robot/rotations.h"
+
 namespace armcal {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Matrix3d Skew(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 // d(rotation vector) / d(small rotation w applied from the left): the inverse
 // of the left Jacobian of SO(3).
 Matrix3d LeftJacobianInverse(const Vector3d& v) {
   const double angle = v.norm();
-  const Matrix3d S = Skew(v);
+  const Matrix3d S = CrossProductMatrix(v);
   const double c =
       angle < 1e-4 ? 1.0 / 12 + angle * angle / 720
                    : 1 / (angle * angle) -
@@ -30,13 +26,12 @@ Matrix3d LeftJacobianInverse(const Vector3d& v) {
 
 PoseResidual::PoseResidual(std::shared_ptr<const ArmGeometry> geometry,
                            const Eigen::VectorXd& q,
-                           const Eigen::Isometry3d& X_WM, double sigma_m,
-                           double sigma_rad)
+                           const Eigen::Isometry3d& X_WM,
+                           const Matrix6d& whitening)
     : geometry_(std::move(geometry)),
       q_(q),
       X_WM_(X_WM),
-      sigma_m_(sigma_m),
-      sigma_rad_(sigma_rad) {
+      whitening_(whitening) {
   set_num_residuals(6);
   *mutable_parameter_block_sizes() = {geometry_->size()};
 }
@@ -49,18 +44,19 @@ bool PoseResidual::Evaluate(double const* const* parameters, double* residuals,
   const Eigen::AngleAxisd turn(
       Matrix3d(X_WT.linear() * X_WM_.linear().transpose()));
   const Vector3d rotation = turn.angle() * turn.axis();
+  Eigen::Matrix<double, 6, 1> error;
+  error << X_WT.translation() - X_WM_.translation(), rotation;
   Eigen::Map<Eigen::Matrix<double, 6, 1>> r(residuals);
-  r.head<3>() = (X_WT.translation() - X_WM_.translation()) / sigma_m_;
-  r.tail<3>() = rotation / sigma_rad_;
+  r = whitening_ * error;
   if (jacobians == nullptr || jacobians[0] == nullptr) return true;
   Eigen::Map<Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> J(
       jacobians[0], 6, geometry_->size());
   const Matrix3d from_turn = LeftJacobianInverse(rotation);
   for (int k = 0; k < geometry_->size(); ++k) {
-    J.col(k).head<3>() = twists[k].At(X_WT.translation()) / sigma_m_;
-    J.col(k).tail<3>() = twists[k].rotation
-                             ? Vector3d(from_turn * twists[k].axis / sigma_rad_)
-                             : Vector3d::Zero();
+    error.head<3>() = twists[k].At(X_WT.translation());
+    error.tail<3>() = twists[k].rotation ? Vector3d(from_turn * twists[k].axis)
+                                         : Vector3d::Zero();
+    J.col(k) = whitening_ * error;
   }
   return true;
 }

@@ -5,18 +5,20 @@
 #include <Eigen/Geometry>
 #include <memory>
 
+#include "model/log_files/pose_reader.h"
 #include "model/robot/arm_geometry.h"
 
 namespace armcal {
 
 // A measured pose X_WM of the tool:
-//   r = (p_WT - p_WM) / sigma_m, rotation vector of R_WT R_WM' / sigma_rad (6),
-// T the tool at q. Parameter block: g, the geometry's parameters.
+//   r = W (p_WT - p_WM, rotation vector of R_WT R_WM')     (6),
+// T the tool at q, W what makes these errors (m, rad) independent and alike.
+// Parameter block: g, the geometry's parameters.
 class PoseResidual : public ceres::CostFunction {
  public:
   PoseResidual(std::shared_ptr<const ArmGeometry> geometry,
                const Eigen::VectorXd& q, const Eigen::Isometry3d& X_WM,
-               double sigma_m, double sigma_rad);
+               const Matrix6d& whitening);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
@@ -24,7 +26,7 @@ class PoseResidual : public ceres::CostFunction {
   std::shared_ptr<const ArmGeometry> geometry_;
   Eigen::VectorXd q_;
   Eigen::Isometry3d X_WM_;
-  double sigma_m_, sigma_rad_;
+  Matrix6d whitening_;
 };
 
 }  // namespace armcal

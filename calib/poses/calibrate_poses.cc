@@ -34,8 +34,10 @@ std::vector<int> FindOutliers(const PoseFit& fit, const PoseUnknowns& at,
   return outliers;
 }
 
-// rms of positions (of the first target, or of lengths) about their mean, m.
+// rms of positions (of the first target, or of lengths) about their mean, m;
+// points that are touched have none.
 double Extent(const PoseMeasurements& measured) {
+  if (!measured.touched.empty()) return std::numeric_limits<double>::infinity();
   MatrixXd p = measured.lengths;
   if (!measured.targets.empty()) p = measured.targets[0];
   if (measured.poses.size() > 0) p = measured.poses.leftCols(3);
@@ -154,7 +156,7 @@ PoseCalibration CalibratePoses(const Robot& robot,
   if (!result.reason.empty()) return result;
   result.solved = true;
   result.reason = "solved";
-  result.noise = fit.noise();
+  result.noise = fit.TypicalNoise();
   const std::vector<int> inliers =
       ReportErrors(fit, measured, solution, &result);
   result.coupling = FindCoupling(robot, measured, options);

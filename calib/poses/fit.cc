@@ -3,9 +3,11 @@
 #include <ceres/manifold.h>
 #include <ceres/normal_prior.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "calib/numerics/median.h"
 #include "calib/poses/start.h"
@@ -21,6 +23,27 @@ using Eigen::VectorXd;
 constexpr double kSamePose = 1e-4;  // rad or m
 // Without some to spare the noise would be a guess.
 constexpr int kSpareEquations = 10;
+constexpr double kLeastColumn = 1e-5;  // of a column that would count
+
+// Columns of a Jacobian by the `geometry` first ones that are free, beside all
+// others.
+class SeenColumns {
+ public:
+  SeenColumns(MatrixXd J, int geometry)
+      : J_(std::move(J)), basis_(static_cast<int>(J_.rows())) {
+    scale_ = J_.leftCols(6).norm() / std::sqrt(6.0);
+    for (Eigen::Index c = geometry; c < J_.cols(); ++c) {
+      basis_.Add(J_.col(c), scale_, 1e-7);
+    }
+  }
+  bool Add(int k) { return basis_.Add(J_.col(k), scale_, kLeastColumn); }
+  bool IsNone(int k) const { return J_.col(k).norm() < kLeastColumn * scale_; }
+
+ private:
+  MatrixXd J_;
+  ColumnBasis basis_;
+  double scale_;
+};
 
 }  // namespace
 
@@ -31,6 +54,19 @@ PoseFit::PoseFit(const Robot& robot, const PoseMeasurements& measured,
       geometry_(std::make_shared<ArmGeometry>(robot)),
       names_(geometry_->Names()),
       nominal_(geometry_->Values()) {}
+
+PoseNoise PoseFit::TypicalNoise() const {
+  if (measured_.whitening.empty()) return noise_;
+  std::vector<double> position, rotation;
+  for (const Matrix6d& W : measured_.whitening) {
+    const Matrix6d covariance = (W.transpose() * W).inverse();
+    position.push_back(std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3));
+    rotation.push_back(
+        std::sqrt(covariance.bottomRightCorner<3, 3>().trace() / 3));
+  }
+  return {noise_.position * Median(position),
+          noise_.position * Median(rotation)};
+}
 
 std::vector<int> PoseFit::AllRows() const {
   std::vector<int> rows(measured_.size());
@@ -82,12 +118,50 @@ VectorXd PoseFit::Residuals(const std::vector<int>& rows,
   VectorXd r(static_cast<Eigen::Index>(rows.size()) * width);
   for (size_t k = 0; k < rows.size(); ++k) {
     auto own = r.segment(static_cast<Eigen::Index>(k) * width, width);
-    own.head(position.cols()) =
-        position.row(rows[k]).transpose() / noise_.position;
-    if (rotation.size() == 0) continue;
-    own.tail(3) = rotation.row(rows[k]).transpose() / noise_.rotation;
+    if (rotation.size() == 0) {
+      own = position.row(rows[k]).transpose() / noise_.position;
+      continue;
+    }
+    own << position.row(rows[k]).transpose(), rotation.row(rows[k]).transpose();
+    own = PoseWhitening(measured_, noise_, rows[k]) * own;
   }
   return r;
+}
+
+// As if the tip were where the point is. Then what no touch can tell, a turn of
+// the whole arm or other lengths of all of it, is the same as other points to
+// the last digit; beside the errors of a start it only is about that.
+MatrixXd PoseFit::TouchingJacobian(const std::vector<int>& rows,
+                                   const PoseUnknowns& at) const {
+  const int g = geometry_->size();
+  MatrixXd J = MatrixXd::Zero(static_cast<Eigen::Index>(3 * rows.size()),
+                              g + at.other.size());
+  std::vector<ParameterTwist> twists;
+  for (size_t k = 0; k < rows.size(); ++k) {
+    auto own = J.middleRows<3>(static_cast<Eigen::Index>(3 * k));
+    const int point = 3 * measured_.touched[rows[k]];
+    geometry_->ToolPose(measured_.q.row(rows[k]), at.geometry.data(), &twists);
+    for (int c = 0; c < g; ++c) {
+      own.col(c) = twists[c].At(at.other.segment<3>(point));
+    }
+    own.middleCols<3>(g + point) = -Eigen::Matrix3d::Identity();
+  }
+  return J / noise_.position;
+}
+
+// With a tenth of all lengths a tip would touch as well: the longest of the
+// arm's that are wanted says how long a metre is. -1: something else does.
+int PoseFit::ScaleLength(const std::vector<bool>& wanted) const {
+  if (measured_.touched.empty()) return -1;
+  const std::vector<std::string> units = geometry_->Units();
+  int longest = -1;
+  for (int k = 0; k < geometry_->size(); ++k) {
+    if (!wanted[k] || PriorOf(k) == 0 || units[k] != "m") continue;
+    if (longest < 0 || std::abs(nominal_[k]) > std::abs(nominal_[longest])) {
+      longest = k;
+    }
+  }
+  return longest;
 }
 
 // Of parameters that the poses cannot tell apart the first is kept: the
@@ -96,12 +170,11 @@ std::vector<bool> PoseFit::HoldUnseen(const std::vector<bool>& wanted,
                                       const std::vector<int>& rows,
                                       const PoseUnknowns& at,
                                       std::vector<std::string>* held) const {
-  const MatrixXd J = Jacobian(rows, at);
   const int g = geometry_->size();
-  ColumnBasis basis(static_cast<int>(J.rows()));
-  const double rows_scale = J.leftCols(6).norm() / std::sqrt(6.0);
-  for (Eigen::Index c = g; c < J.cols(); ++c) {
-    basis.Add(J.col(c), rows_scale, 1e-7);
+  const int scale = ScaleLength(wanted);
+  std::vector<SeenColumns> seen = {{Jacobian(rows, at), g}};
+  if (!measured_.touched.empty()) {
+    seen.emplace_back(TouchingJacobian(rows, at), g);
   }
   std::vector<int> order(g);
   std::iota(order.begin(), order.end(), 0);
@@ -115,10 +188,18 @@ std::vector<bool> PoseFit::HoldUnseen(const std::vector<bool>& wanted,
   std::vector<bool> free(g, false);
   for (const int k : order) {
     if (!wanted[k]) continue;
-    free[k] = basis.Add(J.col(k), rows_scale, 1e-5);
+    if (k == scale) {
+      if (held == nullptr) continue;
+      held->push_back(names_[k] + " is as in the file: touches tell no scale");
+      continue;
+    }
+    // All of them, also where another has not taken it.
+    int tells = 0;
+    for (SeenColumns& columns : seen) tells += columns.Add(k);
+    free[k] = tells == static_cast<int>(seen.size());
     if (free[k] || held == nullptr) continue;
     held->push_back(names_[k] +
-                    (J.col(k).norm() < 1e-5 * rows_scale
+                    (seen[0].IsNone(k)
                          ? " is not seen by these poses"
                          : " cannot be told from the parameters before it"));
   }
@@ -172,6 +253,12 @@ void PoseFit::EstimateNoise(const std::vector<bool>& free,
     for (const double e : errors.reshaped()) sizes.push_back(std::abs(e));
     return std::max(1e-7, 1.4826 * Median(sizes) * std::sqrt(N / left));
   };
+  if (!measured_.whitening.empty()) {
+    PoseFit whitened = *this;
+    whitened.noise_.position = 1;
+    noise_.position = spread(whitened.Residuals(AllRows(), at));
+    return;
+  }
   noise_.position = spread(position);
   if (rotation.size() > 0) noise_.rotation = spread(rotation);
 }
@@ -179,6 +266,7 @@ void PoseFit::EstimateNoise(const std::vector<bool>& free,
 int PoseFit::EquationsPerPose() const {
   if (measured_.lengths.size() > 0) return 1;
   if (measured_.poses.size() > 0) return 6;
+  if (!measured_.touched.empty()) return 3;
   return 3 * static_cast<int>(measured_.targets.size());
 }
 

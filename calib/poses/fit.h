@@ -29,6 +29,8 @@ class PoseFit {
   const ArmGeometry& geometry() const { return *geometry_; }
   const PoseNoise& noise() const { return noise_; }
   void set_noise(const PoseNoise& noise) { noise_ = noise; }
+  // In m and rad also of poses that are whitened: their median.
+  PoseNoise TypicalNoise() const;
   std::vector<int> AllRows() const;
   // Of the estimate's covariance over (J'J)^-1 (pose_problem.h).
   double VarianceFactor(const Eigen::VectorXd& residuals,
@@ -87,6 +89,10 @@ class PoseFit {
                                 const PoseUnknowns& at) const;
 
  private:
+  int ScaleLength(const std::vector<bool>& wanted) const;
+  Eigen::MatrixXd TouchingJacobian(const std::vector<int>& rows,
+                                   const PoseUnknowns& at) const;
+
   const PoseMeasurements& measured_;
   const PoseCalibrationOptions& options_;
   std::shared_ptr<const ArmGeometry> geometry_;

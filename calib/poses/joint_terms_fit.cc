@@ -239,7 +239,7 @@ std::vector<double> JointTermsFit::MeanSquares(const std::vector<int>& rows,
                                                const JointTermsState& at) {
   const VectorXd r = Residuals(rows, at);
   const PoseNoise& noise = fit_.noise();
-  if (measured_.poses.size() == 0) {
+  if (measured_.poses.size() == 0 || !measured_.whitening.empty()) {
     return {r.squaredNorm() / r.size() * noise.position * noise.position};
   }
   const auto parts = r.reshaped(3, r.size() / 3);

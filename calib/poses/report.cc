@@ -7,6 +7,7 @@
 #include "calib/linear/verdict.h"
 #include "calib/numerics/json_figures.h"
 #include "calib/poses/verdict.h"
+#include "model/text/format.h"
 
 namespace armcal {
 namespace {
@@ -29,6 +30,8 @@ std::string Estimate(const GeometryEstimate& p) {
 
 const char* Kind(const PoseMeasurements& measured) {
   if (measured.lengths.size() > 0) return "wire lengths";
+  if (!measured.touched.empty()) return "touched points";
+  if (measured.pixel_stddev > 0) return "images";
   return measured.targets.empty() ? "tool poses" : "targets";
 }
 
@@ -43,6 +46,13 @@ std::string OutlierText(const PoseMeasurements& measured,
   }
   if (result.outliers.size() > kShown) text += " ... (all in calibration.json)";
   return text + "\n";
+}
+
+std::string CameraText(const PoseMeasurements& measured) {
+  if (!(measured.pixel_stddev > 0)) return "";
+  return Format(
+      "camera     %.3g px, standard deviation of a coordinate in the images\n",
+      measured.pixel_stddev);
 }
 
 // What is left beside the instrument, and what else there is to say of it.
@@ -100,7 +110,8 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
                 1e3 * result.before_rms, 1e3 * result.rms, 1e3 * result.median,
                 1e3 * result.max, 1e3 * result.held_out_rms,
                 1e3 * result.held_out_median);
-  std::string text = line + OutlierText(measured, result) + MisfitText(result) +
+  std::string text = line + CameraText(measured) +
+                     OutlierText(measured, result) + MisfitText(result) +
                      "\ngeometry                       file        estimate\n";
   for (const GeometryEstimate& p : result.parameters) text += Estimate(p);
   for (const std::string& sentence : result.held) {
@@ -141,6 +152,9 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
             {"cross_validated_rms", result.held_out_rms},
             {"cross_validated_median", result.held_out_median},
             {"noise_stddev", result.noise.position},
+            {"pixel_stddev", measured.pixel_stddev > 0
+                                 ? JsonNumber(measured.pixel_stddev)
+                                 : json(nullptr)},
             {"outlier_rows", outliers},
             {"instrument_u95", u95 > 0 ? JsonNumber(u95) : json(nullptr)},
             {"instrument_ratio", JsonNumber(result.misfit.instrument_ratio)},

@@ -19,6 +19,12 @@ PoseMeasurements SomePoses(const PoseMeasurements& measured, int most) {
     part.targets.push_back(target(kept, Eigen::all));
   }
   if (measured.poses.size() > 0) part.poses = measured.poses(kept, Eigen::all);
+  for (const int k : kept) {
+    if (!measured.whitening.empty()) {
+      part.whitening.push_back(measured.whitening[k]);
+    }
+    if (!measured.touched.empty()) part.touched.push_back(measured.touched[k]);
+  }
   if (measured.lengths.size() > 0) part.lengths = measured.lengths(kept);
   if (measured.u95.size() > 0) part.u95 = measured.u95(kept, Eigen::all);
   return part;

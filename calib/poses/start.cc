@@ -2,7 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
+
+#include "calib/poses/hand_eye.h"
+#include "problems/pose_problem.h"
 
 namespace armcal {
 namespace {
@@ -23,6 +29,18 @@ Matrix3Xd ToolPositions(const ArmGeometry& geometry,
   return p;
 }
 
+// Where the points are that the tool touches: means of its nominal tips.
+VectorXd PointsOf(const Matrix3Xd& p, const PoseMeasurements& measured) {
+  VectorXd points = VectorXd::Zero(3 * measured.num_points());
+  for (int k = 0; k < measured.size(); ++k) {
+    const int point = measured.touched[k];
+    const auto times =
+        std::count(measured.touched.begin(), measured.touched.end(), point);
+    points.segment<3>(3 * point) += p.col(k) / static_cast<double>(times);
+  }
+  return points;
+}
+
 // |p - a|^2 = (L - c)^2 is linear in a, c and |a|^2 - c^2.
 VectorXd Trilaterate(const Matrix3Xd& p, const VectorXd& lengths) {
   MatrixXd A(p.cols(), 5);
@@ -37,14 +55,35 @@ VectorXd Trilaterate(const Matrix3Xd& p, const VectorXd& lengths) {
   return anchor;
 }
 
-void SetBase(const Eigen::Matrix4d& X, VectorXd* geometry) {
-  const Eigen::Matrix3d R = X.topLeftCorner<3, 3>();
-  (*geometry)[0] = X(0, 3);
-  (*geometry)[1] = X(1, 3);
-  (*geometry)[2] = X(2, 3);
-  (*geometry)[3] = std::atan2(R(1, 0), R(0, 0));
-  (*geometry)[4] = std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2)));
-  (*geometry)[5] = std::atan2(R(2, 1), R(2, 2));
+// x y z yaw pitch roll.
+Eigen::Matrix<double, 6, 1> FrameValues(const Eigen::Matrix3d& R,
+                                        const Eigen::Vector3d& p) {
+  Eigen::Matrix<double, 6, 1> values;
+  values << p, std::atan2(R(1, 0), R(0, 0)),
+      std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
+      std::atan2(R(2, 1), R(2, 2));
+  return values;
+}
+
+// The base and the tool of whole poses, neither of which need be near the
+// file's: a camera may look anywhere.
+void SetBaseAndTool(const ArmGeometry& geometry,
+                    const PoseMeasurements& measured, VectorXd* values) {
+  VectorXd bare = *values;
+  bare.head<6>().setZero();
+  bare.tail<6>().setZero();
+  std::vector<Eigen::Isometry3d> flange, seen;
+  for (int k = 0; k < measured.size(); ++k) {
+    flange.push_back(
+        geometry.ToolPose(measured.q.row(k), bare.data(), nullptr));
+    seen.push_back(MeasuredPose(measured, k));
+  }
+  const std::optional<HandEye> frames = SolveHandEye(flange, seen);
+  if (!frames) return;
+  values->head<6>() =
+      FrameValues(frames->X_WB.linear(), frames->X_WB.translation());
+  values->tail<6>() =
+      FrameValues(frames->X_ET.linear(), frames->X_ET.translation());
 }
 
 }  // namespace
@@ -59,6 +98,10 @@ PoseUnknowns StartPoses(const ArmGeometry& geometry,
     start.other = Trilaterate(p, measured.lengths);
     return start;
   }
+  if (!measured.touched.empty()) {
+    start.other = PointsOf(p, measured);
+    return start;
+  }
   Matrix3Xd seen = Matrix3Xd::Zero(3, measured.size());
   for (const MatrixXd& target : measured.targets) {
     seen += target.transpose() / static_cast<double>(measured.targets.size());
@@ -66,7 +109,12 @@ PoseUnknowns StartPoses(const ArmGeometry& geometry,
   if (measured.poses.size() > 0) {
     seen = measured.poses.leftCols(3).transpose();
   }
-  SetBase(Eigen::umeyama(p, seen, false), &start.geometry);
+  const Eigen::Matrix4d X_WB = Eigen::umeyama(p, seen, false);
+  start.geometry.head<6>() =
+      FrameValues(X_WB.topLeftCorner<3, 3>(), X_WB.topRightCorner<3, 1>());
+  if (measured.poses.size() > 0) {
+    SetBaseAndTool(geometry, measured, &start.geometry);
+  }
   return start;
 }
 

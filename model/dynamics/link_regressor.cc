@@ -3,6 +3,7 @@
 #include <glog/logging.h>
 
 #include "model/dynamics/regressor_plan.h"
+#include "model/robot/rotations.h"
 #include "model/simd/kernels.h"
 
 namespace armcal {
@@ -14,12 +15,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-
-Matrix3d Skew(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 // I w as a matrix on Ixx, Ixy, Iyy, Ixz, Iyz, Izz.
 Eigen::Matrix<double, 3, 6> InertiaTimes(const Vector3d& w) {
@@ -78,11 +73,11 @@ LinkRegressor::Matrix6x10 LinkRegressor::LinkMomentum(int i) const {
   const Vector3d v =
       R.transpose() * (s.twist.tail<3>() + s.twist.head<3>().cross(p));
   Eigen::Matrix<double, 3, 10> linear, angular;
-  linear << v, Skew(w), Eigen::Matrix<double, 3, 6>::Zero();
-  angular << Vector3d::Zero(), -Skew(v), InertiaTimes(w);
+  linear << v, CrossProductMatrix(w), Eigen::Matrix<double, 3, 6>::Zero();
+  angular << Vector3d::Zero(), -CrossProductMatrix(v), InertiaTimes(w);
   Matrix6x10 h;
   h.bottomRows<3>() = R * linear;
-  h.topRows<3>() = R * angular + Skew(p) * h.bottomRows<3>();
+  h.topRows<3>() = R * angular + CrossProductMatrix(p) * h.bottomRows<3>();
   return h;
 }
 
@@ -93,7 +88,7 @@ LinkRegressor::Matrix6x10 LinkRegressor::LinkGravity(int i) const {
   Matrix6x10 wrench = Matrix6x10::Zero();
   wrench.block<3, 1>(3, 0) = gravity_;
   wrench.block<3, 1>(0, 0) = s.X_WL.translation().cross(gravity_);
-  wrench.block<3, 3>(0, 1) = -R * Skew(g);
+  wrench.block<3, 3>(0, 1) = -R * CrossProductMatrix(g);
   return wrench;
 }
 

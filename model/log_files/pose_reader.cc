@@ -2,12 +2,14 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <string_view>
 
 #include "model/log_files/line_source.h"
 #include "model/log_files/log_columns.h"
 #include "model/log_files/log_row.h"
+#include "model/log_files/named_columns.h"
 #include "model/log_files/open_lines.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
@@ -18,54 +20,10 @@ namespace {
 constexpr double kQuaternionNorm = 0.02;  // rounding to two digits is taken
 constexpr std::size_t kMostPoses = 100'000;
 
-// The column called `name` but for its unit; index -1 where there is none.
-// Parts of a quaternion have no unit.
-LogColumn FindColumn(const std::string& file, const LogColumns& columns,
-                     const std::string& name) {
-  LogColumn found{-1, 1};
-  for (int k = 0; k < columns.size(); ++k) {
-    std::string_view unit;
-    if (Trim(SplitUnit(columns.name(k), &unit)) != name) continue;
-    if (found.index >= 0) {
-      throw InputError(file, "row 1", name, "the column is there twice");
-    }
-    if (name[0] == 'q' && !unit.empty()) {
-      throw InputError(file, "row 1, column " + columns.name(k),
-                       std::string(unit), "expected no unit");
-    }
-    const double scale = unit.empty() || unit == "m" ? 1
-                         : unit == "mm"              ? 1e-3
-                                                     : 0;
-    if (scale == 0) {
-      throw InputError(file, "row 1, column " + columns.name(k),
-                       std::string(unit), "expected the unit m or mm");
-    }
-    found = {k, scale};
-  }
-  return found;
-}
-
-// All columns of `names`, or none: InputError where only some are there.
-std::vector<LogColumn> FindAll(const std::string& file,
-                               const LogColumns& columns,
-                               const std::vector<std::string>& names) {
-  std::vector<LogColumn> found;
-  std::string missing;
-  for (const std::string& name : names) {
-    const LogColumn column = FindColumn(file, columns, name);
-    if (column.index >= 0) {
-      found.push_back(column);
-    } else {
-      missing += (missing.empty() ? "" : ", ") + name;
-    }
-  }
-  if (found.empty() || found.size() == names.size()) return found;
-  throw InputError(file, "row 1", "", "the column " + missing + " is missing");
-}
-
 // Places of the measured columns among a row's values; -1: not there.
 struct Places {
   int q = -1, pose = -1, length = -1, u95 = -1;
+  int point = -1;
   int num_u95 = 0;
   std::vector<int> targets;
 };
@@ -88,31 +46,45 @@ long WholeNumber(std::string_view line, char separator, int field) {
 
 Places ChooseColumns(const std::string& path, const LogColumns& columns,
                      LogRow* row) {
+  constexpr ColumnUnit kLength = ColumnUnit::kLength;
   Places places;
   places.q = row->Use(columns.Find(Signal::kPosition));
   for (int k = 1;; ++k) {
     const std::string n = std::to_string(k);
-    const auto found = FindAll(path, columns, {"x" + n, "y" + n, "z" + n});
+    const auto found =
+        FindNamed(path, columns, {"x" + n, "y" + n, "z" + n}, kLength);
     if (found.empty()) break;
     places.targets.push_back(row->Use(found));
   }
-  const auto pose =
-      FindAll(path, columns, {"x", "y", "z", "qw", "qx", "qy", "qz"});
+  auto pose = FindNamed(path, columns, {"x", "y", "z"}, kLength);
+  const auto turn =
+      FindNamed(path, columns, {"qw", "qx", "qy", "qz"}, ColumnUnit::kNone);
+  if (pose.empty() != turn.empty()) {
+    throw InputError(path, "row 1", "",
+                     std::string("the column ") +
+                         (pose.empty() ? "x, y, z" : "qw, qx, qy, qz") +
+                         " is missing");
+  }
+  pose.insert(pose.end(), turn.begin(), turn.end());
   if (!pose.empty()) places.pose = row->Use(pose);
-  const auto length = FindAll(path, columns, {"length1"});
+  const auto length = FindNamed(path, columns, {"length1"}, kLength);
   if (!length.empty()) places.length = row->Use(length);
+  const auto point = FindNamed(path, columns, {"point"}, ColumnUnit::kNone);
+  if (!point.empty()) places.point = row->Use(point);
   for (int k = 1;; ++k) {
-    const auto u95 = FindAll(path, columns, {"u95_" + std::to_string(k)});
+    const auto u95 =
+        FindNamed(path, columns, {"u95_" + std::to_string(k)}, kLength);
     if (u95.empty()) break;
     const int place = row->Use(u95);
     if (places.num_u95++ == 0) places.u95 = place;
   }
   const int kinds = (places.targets.empty() ? 0 : 1) + (places.pose >= 0) +
-                    (places.length >= 0);
+                    (places.length >= 0) + (places.point >= 0);
   if (kinds == 1) return places;
   throw InputError(path, "row 1", "",
                    "expected one kind of measurement: x1 y1 z1 [x2 ..] "
-                   "(targets), x y z qw qx qy qz (poses) or length1 (a wire)");
+                   "(targets), x y z qw qx qy qz (poses), length1 (a wire) or "
+                   "point (touched ones)");
 }
 
 // A number as people write it.
@@ -120,6 +92,30 @@ std::string TextOf(double value) {
   std::ostringstream text;
   text << value;
   return text.str();
+}
+
+// In the order in which their numbers, whole ones, rise.
+std::vector<int> TouchedPoints(const std::string& path,
+                               const std::vector<long>& row,
+                               const Eigen::VectorXd& numbers) {
+  std::map<long, int> points;
+  for (Eigen::Index k = 0; k < numbers.size(); ++k) {
+    const bool whole = numbers[k] >= 1 && numbers[k] <= kMostPoses &&
+                       numbers[k] == std::floor(numbers[k]);
+    if (!whole) {
+      throw InputError(path, "row " + std::to_string(row[k]) + ", column point",
+                       TextOf(numbers[k]),
+                       "expected the number of the touched point, from 1");
+    }
+    points[std::lround(numbers[k])] = 0;
+  }
+  int count = 0;
+  for (auto& [number, index] : points) index = count++;
+  std::vector<int> touched;
+  for (const double number : numbers) {
+    touched.push_back(points[std::lround(number)]);
+  }
+  return touched;
 }
 
 // Finite numbers that no instrument can have measured.
@@ -205,6 +201,9 @@ PoseMeasurements ReadPoses(const std::string& path,
   if (places.length >= 0) result.lengths = table.col(places.length);
   if (places.num_u95 > 0) {
     result.u95 = table.middleCols(places.u95, places.num_u95);
+  }
+  if (places.point >= 0) {
+    result.touched = TouchedPoints(path, result.row, table.col(places.point));
   }
   CheckValues(path, result);
   return result;

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <string>
 #include <vector>
 
 namespace armcal {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // What was measured of the arm's geometry at a number of standstill positions.
 // Poses in rows.
@@ -19,21 +22,37 @@ struct PoseMeasurements {
   std::vector<Eigen::MatrixXd> targets;
   // Tool poses in the frame of the instrument: x y z (m) qw qx qy qz.
   Eigen::MatrixXd poses;
+  // Of each pose the whitening W (6 x 6) of its errors of position (m) and
+  // rotation (rad, both in the instrument's frame): W times them has alike,
+  // independent components. Empty: position and rotation each are like that.
+  std::vector<Matrix6d> whitening;
+  // px, standard deviation of a coordinate in the images that poses were made
+  // of; 0: of none.
+  double pixel_stddev = 0;
   // Length (m) of a wire drawn from a fixed anchor to the tool.
   Eigen::VectorXd lengths;
+  // Which of several points, counted from 0, the tool's tip touches; where they
+  // are is not known.
+  std::vector<int> touched;
   // Per target (or one): half-width of the instrument's 95 % interval of a
   // coordinate or a length, m, 0 where it is not stated; poses x columns, empty
   // where the file has none.
   Eigen::MatrixXd u95;
 
   int size() const { return static_cast<int>(q.rows()); }
+  int num_points() const {
+    return touched.empty()
+               ? 0
+               : 1 + *std::max_element(touched.begin(), touched.end());
+  }
 };
 
 // Reads a table of poses, CSV or another format (line_source.h): joint
 // positions like a log's (q1.. or shoulder/position, with units), and x1 y1 z1
-// [x2 y2 z2 ...] for targets, or x y z qw qx qy qz, or length1; optional u95_1
-// [u95_2 ...] and pose, a number. Lengths in m unless a suffix [mm] says
-// otherwise. Throws InputError.
+// [x2 y2 z2 ...] for targets, or x y z qw qx qy qz, or length1, or point, the
+// number (from 1) of the point that is touched; optional u95_1 [u95_2 ...] and
+// pose, a number. Lengths in m unless a suffix [mm] says otherwise. Throws
+// InputError.
 PoseMeasurements ReadPoses(const std::string& path,
                            const std::vector<std::string>& joint_names);
 

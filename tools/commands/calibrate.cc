@@ -41,7 +41,8 @@ Command CalibrateCommand() {
       "torques, and from measured poses, with standard deviations, ranks, "
       "a held-out check and a robot file for simulators",
       {{"robot and logs", {"robot", "log", "validate", "bandwidth"}},
-       {"what is estimated", {"geometry", "estimate", "trust", "poses"}},
+       {"what is estimated",
+        {"geometry", "estimate", "trust", "poses", "camera", "camera_on"}},
        {"more of the logs",
         {"crop", "validate_crop", "select", "segment"},
         false},

@@ -7,6 +7,7 @@
 #include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 #include "tools/log_flags.h"
+#include "tools/pose_flags.h"
 #include "tools/trust_flags.h"
 
 DEFINE_bool(select, false,
@@ -22,9 +23,6 @@ DEFINE_string(trajectory, "measured",
               "measured (recorded positions as they are, in weak rows), "
               "corrected (maximum likelihood: splines through all motions, "
               "fitted to positions and torques; for noisy encoders)");
-DEFINE_string(poses, "",
-              "`FILE` CSV of measured poses: q1.. and x1 y1 z1 [x2 ..], "
-              "x y z qw qx qy qz, or length1 (draw wire)");
 DEFINE_string(payload_mass, "",
               "`KG` of the payload in --payload_log: the torque constants are "
               "estimated from the currents of --log (bare arm) and "
@@ -126,7 +124,7 @@ CalibrateOptions CalibrateOptionsFromFlags(const CommandInput& input,
   options.exports = ExportFromFlags(flags);
   options.trust = TrustFromFlags(flags);
   if (!flags.Text("poses").empty()) {
-    options.poses = ReadPoses(flags.Text("poses"), robot.JointNames());
+    options.poses = PosesFromFlags(flags, robot);
   }
   options.source = RobotSourceFromFlags(input);
   options.draw_torques = input.WantsReport();
@@ -137,7 +135,8 @@ CalibrateOptions CalibrateOptionsFromFlags(const CommandInput& input,
 std::vector<std::string> CalibrationFilesFromFlags(const CommandInput& input) {
   std::vector<std::string> files =
       NamesOf(CalibrationLogsFromFlags(input).logs);
-  for (const char* flag : {"validate", "payload_log", "poses", "torque_log"}) {
+  for (const char* flag :
+       {"validate", "payload_log", "poses", "camera", "torque_log"}) {
     const auto more = SplitAtCommas(input.flags.Text(flag));
     files.insert(files.end(), more.begin(), more.end());
   }

@@ -87,7 +87,7 @@ Command DiagnoseCommand() {
           "it shrinks once that effect is in the model, in logs or poses",
           {{"robot and logs",
             {"robot", "calibration", "log", "reference", "validate",
-             "bandwidth", "poses"}},
+             "bandwidth", "poses", "camera", "camera_on"}},
            {"diagnosis",
             {"trust", "without", "forward", "verbose", "controller", "seed"}},
            {"more of the input",

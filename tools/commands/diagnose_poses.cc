@@ -3,6 +3,7 @@
 #include "calib/diagnose_poses.h"
 #include "tools/command_report.h"
 #include "tools/input_flags.h"
+#include "tools/pose_flags.h"
 #include "tools/trust_flags.h"
 #include "tools/usage_error.h"
 
@@ -22,8 +23,7 @@ CommandOutcome RunDiagnosePoses(const CommandInput& input) {
                      "poses or of logs");
   }
   const Robot robot = RobotFromFlags(input);
-  const std::string file = flags.Text("poses");
-  const PoseMeasurements measured = ReadPoses(file, robot.JointNames());
+  const PoseMeasurements measured = PosesFromFlags(flags, robot);
   DiagnosePosesOptions options;
   const ArmTrust trust = TrustFromFlags(flags);
   options.geometry.prior_length = trust.length;
@@ -33,8 +33,8 @@ CommandOutcome RunDiagnosePoses(const CommandInput& input) {
   const DiagnosePosesSummary summary = DiagnosePoses(robot, measured, options);
   CommandOutcome outcome = OutcomeOf(input, robot, summary, {});
   outcome.output.verdict = summary.brief;
-  AddReport(input, "diagnose", robot, summary.json, {file}, nullptr,
-            &outcome.folders[0]);
+  AddReport(input, "diagnose", robot, summary.json, {flags.Text("poses")},
+            nullptr, &outcome.folders[0]);
   return outcome;
 }
 

@@ -18,7 +18,8 @@ struct BadPoses {
 
 constexpr char kKinds[] =
     "FILE: row 1: expected one kind of measurement: x1 y1 z1 [x2 ..] "
-    "(targets), x y z qw qx qy qz (poses) or length1 (a wire)";
+    "(targets), x y z qw qx qy qz (poses), length1 (a wire) or point (touched "
+    "ones)";
 
 const BadPoses kBad[] = {
     {"", "FILE: the file is empty"},

@@ -1,0 +1,66 @@
+#include "model/log_files/board_reader.h"
+
+#include <gtest/gtest.h>
+
+#include "model/text/input_error.h"
+#include "tests/fixtures/temp_file.h"
+
+namespace armcal::board_reader_test {
+
+const std::vector<std::string> kJoints = {"shoulder", "elbow"};
+
+// An image of four points, and another of five.
+std::string Images() {
+  std::string text = "image,q1[deg],q2,bx[mm],by[mm],u,v\n";
+  for (int image = 3; image < 5; ++image) {
+    for (int k = 0; k < image + 1; ++k) {
+      text += std::to_string(image) + ",90,.5," + std::to_string(25 * k) +
+              ",50," + std::to_string(100 * k) + ",7\n";
+    }
+  }
+  return text;
+}
+
+TEST(BoardReader, ReadsImageByImage) {
+  const BoardImages images =
+      ReadBoardImages(WriteFile(Images(), "board.csv"), kJoints);
+  ASSERT_EQ(images.size(), 2);
+  EXPECT_EQ(images.number, (std::vector<long>{3, 4}));
+  EXPECT_EQ(images.row, (std::vector<long>{2, 6}));
+  EXPECT_NEAR(images.q(1, 0), M_PI / 2, 1e-15);
+  ASSERT_EQ(images.points[1].cols(), 5);
+  EXPECT_TRUE(
+      images.points[1].col(2).isApprox(Eigen::Vector3d(.05, .05, 0), 1e-12));
+  EXPECT_EQ(images.pixels[1].col(4), Eigen::Vector2d(400, 7));
+}
+
+TEST(BoardReader, TellsImagesFromOtherMeasurements) {
+  EXPECT_TRUE(HoldsBoardImages(WriteFile(Images(), "board.csv"), kJoints));
+  EXPECT_FALSE(HoldsBoardImages(WriteFile("q1,q2,length1\n0,0,1\n", "wire.csv"),
+                                kJoints));
+}
+
+std::string MessageOfImages(const std::string& text) {
+  const std::string path = WriteFile(text, "board.csv");
+  return MessageOf<InputError>(path, [&] { ReadBoardImages(path, kJoints); });
+}
+
+TEST(BoardReader, RefusesMalformedFiles) {
+  EXPECT_EQ(MessageOfImages(""), "FILE: the file is empty");
+  EXPECT_EQ(MessageOfImages("image,q1,q2,bx,by,u,v\n"),
+            "FILE: the file has a header and no rows");
+  EXPECT_EQ(MessageOfImages("image,q1,q2,bx,by,u\n0,0,0,0,0,0\n"),
+            "FILE: row 1: the column v is missing");
+  EXPECT_EQ(MessageOfImages("q1,q2,bx,by,u,v\n0,0,0,0,0,0\n"),
+            "FILE: row 1: the column image is missing");
+  EXPECT_EQ(MessageOfImages("image,q1,q2,bx,by,u,v\n1,0,0,0,0,0,0\n"),
+            "FILE: row 2: found '1': expected four points of an image or more");
+  EXPECT_EQ(
+      MessageOfImages("image,q1,q2,bx,by,u,v\n1,0,0,0,0,0,0\n1,0,1,0,0,0,0\n"),
+      "FILE: row 3: expected the joint positions of the image's other rows");
+  EXPECT_EQ(MessageOfImages("image,q1,q2,bx,by,u,v\n1.5,0,0,0,0,0,0\n"),
+            "FILE: row 2, column image: found '1.500000': expected a whole "
+            "number");
+}
+
+}  // namespace armcal::board_reader_test

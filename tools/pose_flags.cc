@@ -1,0 +1,52 @@
+#include "tools/pose_flags.h"
+
+#include <gflags/gflags.h>
+
+#include <string>
+
+#include "calib/poses/image_poses.h"
+#include "model/camera/camera_file.h"
+#include "model/log_files/board_reader.h"
+#include "tools/flag_choices.h"
+#include "tools/usage_error.h"
+
+DEFINE_string(poses, "",
+              "`FILE` CSV of what was measured of postures: q1.. and x1 y1 z1 "
+              "[x2 ..], x y z qw qx qy qz, length1 (draw wire), point (the "
+              "number of a touched point), or image bx by u v (a board's "
+              "points in images)");
+DEFINE_string(camera, "",
+              "`FILE` of --poses with images: the camera's intrinsics, as "
+              "camera_info YAML of ROS");
+DEFINE_string(camera_on, "tool",
+              "where the camera is: tool (it looks at a board that stands), "
+              "world (it stands and looks at a board on the tool)");
+
+namespace armcal {
+namespace {
+
+const FlagChoices<CameraPlace> kCameraPlaces(
+    "camera_on",
+    {{"tool", CameraPlace::kOnTool}, {"world", CameraPlace::kStanding}});
+
+}  // namespace
+
+PoseMeasurements PosesFromFlags(const FlagValues& flags, const Robot& robot) {
+  const std::string file = flags.Text("poses"), camera = flags.Text("camera");
+  const bool images = HoldsBoardImages(file, robot.JointNames());
+  if (images && camera.empty()) {
+    throw UsageError("--poses=" + file +
+                     " holds images (u, v): expected the camera's intrinsics, "
+                     "--camera=FILE");
+  }
+  if (!images && !camera.empty()) {
+    throw UsageError("--camera: found no images in --poses=" + file +
+                     ", expected columns image bx by u v");
+  }
+  if (!images) return ReadPoses(file, robot.JointNames());
+  return MeasurePoses(file, ReadBoardImages(file, robot.JointNames()),
+                      ReadCamera(camera),
+                      kCameraPlaces.Parse(flags.Text("camera_on")));
+}
+
+}  // namespace armcal
