@@ -32,6 +32,12 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
                                    const PoseMeasurements& measured,
                                    const DiagnosePosesOptions& options) {
   CheckPoseEffects(options.without);
+  if (!measured.touched.empty()) {
+    throw OptionError(OptionName("poses") +
+                      ": found touched points, expected poses, targets, wire "
+                      "lengths or images: too many effects look like another "
+                      "point");
+  }
   PoseDiagnosisOptions search;
   search.geometry = options.geometry;
   search.without = options.without;

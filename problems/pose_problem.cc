@@ -1,5 +1,6 @@
 #include "problems/pose_problem.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "problems/pose_residual.h"
@@ -22,13 +23,15 @@ Isometry3d MeasuredPose(const PoseMeasurements& measured, int row) {
 
 Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
                        int pose) {
-  if (!measured.whitening.empty()) {
-    return measured.whitening[pose] / noise.position;
-  }
   Eigen::Matrix<double, 6, 1> deviations;
   deviations << Vector3d::Constant(noise.position),
       Vector3d::Constant(noise.rotation);
-  return deviations.cwiseInverse().asDiagonal();
+  if (measured.covariance.empty()) {
+    return deviations.cwiseInverse().asDiagonal();
+  }
+  Matrix6d covariance = measured.covariance[pose];
+  covariance.diagonal() += deviations.cwiseAbs2();
+  return covariance.llt().matrixL().solve(Matrix6d::Identity());
 }
 
 double VarianceFactor(const Eigen::VectorXd& residuals, int block,

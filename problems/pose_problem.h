@@ -20,12 +20,11 @@ namespace armcal {
 double VarianceFactor(const Eigen::VectorXd& residuals, int block,
                       RobustLoss loss, int num_unknowns);
 
-// Standard deviations of what was measured.
+// Standard deviations of the errors; where the instrument's own are known
+// (PoseMeasurements::covariance), of what the arm adds to these.
 struct PoseNoise {
-  // m, of each coordinate or of a wire's length; of poses that are whitened, of
-  // a component of their whitened errors.
-  double position = 1e-3;
-  double rotation = 1e-3;  // rad, of each component; not of whitened poses
+  double position = 1e-3;  // m, of each coordinate or of a wire's length
+  double rotation = 1e-3;  // rad, of each component
 };
 // X_WM of a whole pose.
 Eigen::Isometry3d MeasuredPose(const PoseMeasurements& measured, int pose);

@@ -11,16 +11,12 @@
 #include "tools/usage_error.h"
 
 DEFINE_string(poses, "",
-              "`FILE` CSV of what was measured of postures: q1.. and x1 y1 z1 "
-              "[x2 ..], x y z qw qx qy qz, length1 (draw wire), point (the "
-              "number of a touched point), or image bx by u v (a board's "
-              "points in images)");
+              "`FILE` CSV of measured poses, wire lengths, touches, images");
 DEFINE_string(camera, "",
-              "`FILE` of --poses with images: the camera's intrinsics, as "
-              "camera_info YAML of ROS");
+              "`FILE` of --poses with images: camera_info YAML of ROS");
 DEFINE_string(camera_on, "tool",
-              "where the camera is: tool (it looks at a board that stands), "
-              "world (it stands and looks at a board on the tool)");
+              "where the camera is: tool (the board stands), world (the "
+              "board is on the tool)");
 
 namespace armcal {
 namespace {

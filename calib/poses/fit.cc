@@ -3,9 +3,9 @@
 #include <ceres/manifold.h>
 #include <ceres/normal_prior.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -24,6 +24,37 @@ constexpr double kSamePose = 1e-4;  // rad or m
 // Without some to spare the noise would be a guess.
 constexpr int kSpareEquations = 10;
 constexpr double kLeastColumn = 1e-5;  // of a column that would count
+
+// Of the instrument alone, the poses' median; 0 where that is not known.
+PoseNoise InstrumentNoise(const PoseMeasurements& measured) {
+  if (measured.covariance.empty()) return {0, 0};
+  std::vector<double> position, rotation;
+  for (const Matrix6d& C : measured.covariance) {
+    position.push_back(std::sqrt(C.topLeftCorner<3, 3>().trace() / 3));
+    rotation.push_back(std::sqrt(C.bottomRightCorner<3, 3>().trace() / 3));
+  }
+  return {Median(position), Median(rotation)};
+}
+
+// The share of `all` with which, beside the instrument's own errors, `spread`
+// of whitened residuals is 1; not less than a thousandth.
+PoseNoise BesideInstrument(
+    const PoseNoise& all,
+    const std::function<double(const PoseNoise& noise)>& spread) {
+  constexpr double kLeast = 1e-3;
+  constexpr int kHalvings = 20;
+  const auto part = [&all](double logarithm) {
+    const double share = std::exp(logarithm);
+    return PoseNoise{share * all.position, share * all.rotation};
+  };
+  double low = std::log(kLeast), high = 0;
+  if (spread(part(low)) <= 1) return part(low);
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = (low + high) / 2;
+    (spread(part(middle)) > 1 ? low : high) = middle;
+  }
+  return part(high);
+}
 
 // Columns of a Jacobian by the `geometry` first ones that are free, beside all
 // others.
@@ -56,16 +87,9 @@ PoseFit::PoseFit(const Robot& robot, const PoseMeasurements& measured,
       nominal_(geometry_->Values()) {}
 
 PoseNoise PoseFit::TypicalNoise() const {
-  if (measured_.whitening.empty()) return noise_;
-  std::vector<double> position, rotation;
-  for (const Matrix6d& W : measured_.whitening) {
-    const Matrix6d covariance = (W.transpose() * W).inverse();
-    position.push_back(std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3));
-    rotation.push_back(
-        std::sqrt(covariance.bottomRightCorner<3, 3>().trace() / 3));
-  }
-  return {noise_.position * Median(position),
-          noise_.position * Median(rotation)};
+  const PoseNoise own = InstrumentNoise(measured_);
+  return {std::hypot(noise_.position, own.position),
+          std::hypot(noise_.rotation, own.rotation)};
 }
 
 std::vector<int> PoseFit::AllRows() const {
@@ -253,14 +277,15 @@ void PoseFit::EstimateNoise(const std::vector<bool>& free,
     for (const double e : errors.reshaped()) sizes.push_back(std::abs(e));
     return std::max(1e-7, 1.4826 * Median(sizes) * std::sqrt(N / left));
   };
-  if (!measured_.whitening.empty()) {
-    PoseFit whitened = *this;
-    whitened.noise_.position = 1;
-    noise_.position = spread(whitened.Residuals(AllRows(), at));
-    return;
-  }
   noise_.position = spread(position);
   if (rotation.size() > 0) noise_.rotation = spread(rotation);
+  if (!measured_.covariance.empty()) {
+    noise_ = BesideInstrument(noise_, [&](const PoseNoise& noise) {
+      PoseFit fit = *this;
+      fit.noise_ = noise;
+      return spread(fit.Residuals(AllRows(), at));
+    });
+  }
 }
 
 int PoseFit::EquationsPerPose() const {

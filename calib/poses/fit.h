@@ -29,7 +29,7 @@ class PoseFit {
   const ArmGeometry& geometry() const { return *geometry_; }
   const PoseNoise& noise() const { return noise_; }
   void set_noise(const PoseNoise& noise) { noise_ = noise; }
-  // In m and rad also of poses that are whitened: their median.
+  // With the instrument's own, the poses' median.
   PoseNoise TypicalNoise() const;
   std::vector<int> AllRows() const;
   // Of the estimate's covariance over (J'J)^-1 (pose_problem.h).

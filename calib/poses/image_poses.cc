@@ -33,7 +33,7 @@ constexpr double kFlat = 1e-3;
 // largest: with less the points are on a line.
 constexpr double kSecondProjection = 1e-6;
 constexpr double kHuber = 1.345;  // standard deviations (Huber 1981)
-constexpr int kMostSteps = 50;
+constexpr int kMostPoseSteps = 50;
 
 // The entries, row by row, of the 3 x (d + 1) matrix P with x ~ P (s, 1) for
 // points s (d) seen in the directions x; nothing where they do not tell it.
@@ -188,7 +188,7 @@ bool FitImage(const ImageAt& image, double stddev, Isometry3d* X) {
   MatrixXd J, by;
   if (!image.Errors(*X, &r, &J)) return false;
   double damping = 1e-6;
-  for (int step = 0; step < kMostSteps && damping < 1e6; ++step) {
+  for (int step = 0; step < kMostPoseSteps && damping < 1e6; ++step) {
     const VectorXd weights = Weights(r, stddev);
     Matrix6d A = J.transpose() * weights.asDiagonal() * J;
     A.diagonal() *= 1 + damping;
@@ -272,7 +272,8 @@ PoseMeasurements MeasurePoses(const std::string& file,
     const VectorXd weights = Weights(errors[k], measured.pixel_stddev);
     const Matrix6d information = J.transpose() * weights.asDiagonal() * J /
                                  std::pow(measured.pixel_stddev, 2);
-    measured.whitening.push_back(information.llt().matrixU());
+    measured.covariance.push_back(
+        information.llt().solve(Matrix6d::Identity()));
   }
   return measured;
 }

@@ -10,7 +10,7 @@ namespace armcal {
 // hand), or standing, looking at a board on the tool (eye to hand).
 enum class CameraPlace { kOnTool, kStanding };
 
-// Each image's pose of the tool, with its whitening: an image tells a pose as
+// Each image's pose of the tool, with its covariance: an image tells a pose as
 // well as all its pixels do, since these are many and their errors small.
 // Eye in hand: the tool frame T is the camera's, the instrument's frame W the
 // board's; eye to hand: T is the board's, W the camera's. A start from the

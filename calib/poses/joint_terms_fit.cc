@@ -238,8 +238,16 @@ double JointTermsFit::Stddev(int term, const std::vector<int>& rows,
 std::vector<double> JointTermsFit::MeanSquares(const std::vector<int>& rows,
                                                const JointTermsState& at) {
   const VectorXd r = Residuals(rows, at);
+  if (!measured_.covariance.empty()) {
+    const auto mean_square = [&rows](const MatrixXd& errors) {
+      return errors(rows, Eigen::all).array().square().mean();
+    };
+    return {
+        mean_square(PositionErrors(fit_.geometry(), corrected_, at.unknowns)),
+        mean_square(RotationErrors(fit_.geometry(), corrected_, at.unknowns))};
+  }
   const PoseNoise& noise = fit_.noise();
-  if (measured_.poses.size() == 0 || !measured_.whitening.empty()) {
+  if (measured_.poses.size() == 0) {
     return {r.squaredNorm() / r.size() * noise.position * noise.position};
   }
   const auto parts = r.reshaped(3, r.size() / 3);

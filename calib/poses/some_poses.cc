@@ -20,8 +20,8 @@ PoseMeasurements SomePoses(const PoseMeasurements& measured, int most) {
   }
   if (measured.poses.size() > 0) part.poses = measured.poses(kept, Eigen::all);
   for (const int k : kept) {
-    if (!measured.whitening.empty()) {
-      part.whitening.push_back(measured.whitening[k]);
+    if (!measured.covariance.empty()) {
+      part.covariance.push_back(measured.covariance[k]);
     }
     if (!measured.touched.empty()) part.touched.push_back(measured.touched[k]);
   }

@@ -22,10 +22,10 @@ struct PoseMeasurements {
   std::vector<Eigen::MatrixXd> targets;
   // Tool poses in the frame of the instrument: x y z (m) qw qx qy qz.
   Eigen::MatrixXd poses;
-  // Of each pose the whitening W (6 x 6) of its errors of position (m) and
-  // rotation (rad, both in the instrument's frame): W times them has alike,
-  // independent components. Empty: position and rotation each are like that.
-  std::vector<Matrix6d> whitening;
+  // Of each pose the covariance of the instrument's errors of position (m) and
+  // rotation (rad, both in its frame); the arm's own come on top of that.
+  // Empty: not known.
+  std::vector<Matrix6d> covariance;
   // px, standard deviation of a coordinate in the images that poses were made
   // of; 0: of none.
   double pixel_stddev = 0;

@@ -6,6 +6,7 @@
 
 #include "problems/pose_residual.h"
 #include "problems/target_residual.h"
+#include "problems/touch_residual.h"
 #include "problems/wire_residual.h"
 #include "tests/fixtures/sample_robots.h"
 
@@ -65,6 +66,20 @@ struct Sample {
 
 const char* const kRobots[] = {"PUMA560 6R", "SCARA RRPR", "Panda 7R"};
 
+// Of errors of position by 1 mm and of rotation by 10 mrad.
+Matrix6d Whitening() {
+  Eigen::Matrix<double, 6, 1> precision;
+  precision << 1e3, 1e3, 1e3, 1e2, 1e2, 1e2;
+  return precision.asDiagonal();
+}
+
+// Of errors that go together, as those of a board seen by a camera.
+Matrix6d Correlated() {
+  Matrix6d W = 2 * Matrix6d::Identity();
+  W.triangularView<Eigen::StrictlyUpper>() = Matrix6d::Constant(.3);
+  return W;
+}
+
 TEST(TargetResidual, IsTheDeviationInNoiseUnits) {
   Sample s("UR5 6R");
   const Vector3d p_TQ(.1, .2, -.1), off(1e-3, -2e-3, 3e-3);
@@ -96,7 +111,7 @@ TEST(PoseResidual, IsTheDeviationInNoiseUnits) {
     Isometry3d X_WM = s.X_WT;
     X_WM.translation() -= Vector3d(1e-3, 2e-3, 0);
     X_WM.linear() = AngleAxisd(-angle, axis) * s.X_WT.linear();
-    const PoseResidual cost(s.geometry, s.q, X_WM, 1e-3, 1e-2);
+    const PoseResidual cost(s.geometry, s.q, X_WM, Whitening());
     const VectorXd r = Residuals(cost, {s.g});
     EXPECT_LT((r.head<3>() - Vector3d(1, 2, 0)).norm(), 1e-9) << angle;
     EXPECT_LT((r.tail<3>() - angle / 1e-2 * axis).norm(), 1e-6) << angle;
@@ -113,6 +128,23 @@ TEST(TargetResidual, GradientIsRight) {
                 1e-8);
     }
   }
+}
+
+TEST(TouchResidual, GradientIsRight) {
+  for (const char* name : kRobots) {
+    Sample s(name);
+    const TouchResidual cost(s.geometry, s.q, .5);
+    EXPECT_LT(GradientError(cost, {s.g, UniformVector(&s.random, 3, -1, 1)}),
+              1e-8);
+  }
+}
+
+// The tip less the point, in noise units.
+TEST(TouchResidual, IsTheDeviationInNoiseUnits) {
+  Sample s("UR5 6R");
+  const Vector3d point = s.X_WT.translation() - Vector3d(1e-3, 2e-3, 0);
+  const TouchResidual cost(s.geometry, s.q, 1e-3);
+  EXPECT_LT((Residuals(cost, {s.g, point}) - Vector3d(1, 2, 0)).norm(), 1e-9);
 }
 
 TEST(WireResidual, GradientIsRight) {
@@ -136,7 +168,7 @@ TEST(PoseResidual, GradientIsRight) {
       Isometry3d X_WM = s.X_WT;
       X_WM.translation() += UniformVector(&s.random, 3, -.2, .2);
       X_WM.linear() = AngleAxisd(angle, axis) * s.X_WT.linear();
-      const PoseResidual cost(s.geometry, s.q, X_WM, .5, .3);
+      const PoseResidual cost(s.geometry, s.q, X_WM, Correlated());
       EXPECT_LT(GradientError(cost, {s.g}), 1e-7) << name << " " << angle;
     }
   }
@@ -148,7 +180,7 @@ TEST(PoseResidual, HalfATurnIsFinite) {
   for (const double off : {0., 1e-15, 1e-12, 1e-8, -1e-8}) {
     Isometry3d X_WM = s.X_WT;
     X_WM.linear() = AngleAxisd(M_PI + off, Vector3d::UnitY()) * s.X_WT.linear();
-    const PoseResidual cost(s.geometry, s.q, X_WM, 1, 1);
+    const PoseResidual cost(s.geometry, s.q, X_WM, Matrix6d::Identity());
     const double* parameters[] = {s.g.data()};
     VectorXd r(6), d(6 * s.g.size());
     double* jacobians[] = {d.data()};

@@ -20,6 +20,8 @@ def calibrate(
     estimate: Literal['auto', 'linear', 'refined'] = 'auto',
     trust: float = 0.5,
     poses: Optional[Path] = None,
+    camera: Optional[Path] = None,
+    camera_on: Literal['tool', 'world'] = 'tool',
     crop: Optional[Range] = None,
     validate_crop: Optional[Range] = None,
     select: bool = False,
@@ -77,8 +79,11 @@ def calibrate(
     trust                float: relative standard deviation of the file's
                          inertias (diagnose: 0.05 without --reference) (default
                          0.5)
-    poses                Path: CSV of measured poses: q1.. and x1 y1 z1 [x2
-                         ..], x y z qw qx qy qz, or length1 (draw wire)
+    poses                Path: CSV of measured poses, wire lengths, touches,
+                         images
+    camera               Path: of --poses with images: camera_info YAML of ROS
+    camera_on            str: where the camera is: tool (the board stands),
+                         world (the board is on the tool) (default tool)
     crop                 Range: of --log to use, s since its first row;
                          default: all (standstill is left out by itself)
     validate_crop        Range: of the logs held out to use; default: all
@@ -225,6 +230,8 @@ def diagnose(
     crop: Optional[Range] = None,
     validate_crop: Optional[Range] = None,
     changes: bool = False,
+    camera: Optional[Path] = None,
+    camera_on: Literal['tool', 'world'] = 'tool',
     length_trust: float = 0.01,
     angle_trust: float = 0.02,
     torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
@@ -251,8 +258,8 @@ def diagnose(
     bandwidth            float, Hz: cutoff of the zero-phase low pass; 0: data
                          as they are; default: 10 times the motion's frequency,
                          8 to 20 Hz
-    poses                Path: CSV of measured poses: q1.. and x1 y1 z1 [x2
-                         ..], x y z qw qx qy qz, or length1 (draw wire)
+    poses                Path: CSV of measured poses, wire lengths, touches,
+                         images
     trust                float: relative standard deviation of the file's
                          inertias (diagnose: 0.05 without --reference) (default
                          0.5)
@@ -273,6 +280,9 @@ def diagnose(
     changes              bool: of four logs or more of one kind of motion, in
                          the order they were recorded: which parameters changed
                          when
+    camera               Path: of --poses with images: camera_info YAML of ROS
+    camera_on            str: where the camera is: tool (the board stands),
+                         world (the board is on the tool) (default tool)
     length_trust         float, m: standard deviation of the robot file's
                          lengths where they are refined, m (default 0.01)
     angle_trust          float, rad: standard deviation of the robot file's
