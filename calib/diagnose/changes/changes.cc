@@ -4,6 +4,8 @@
 #include <functional>
 #include <limits>
 
+#include "calib/diagnose/changes/series_scatter.h"
+
 namespace armcal {
 namespace {
 
@@ -77,7 +79,7 @@ double RelativeOf(const NamedHypothesis& what, size_t amount, double value,
       what.names[amount] == JointTermName(JointTerm::kViscous)
           ? JointTerm::kViscous
           : JointTerm::kCoulomb;
-  const double before = level[TermIndex(series.parameters, what.joint, term)];
+  const double before = level[series.TermIndex(what.joint, term)];
   return before > 0 ? value / before : NAN;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "calib/diagnose/data/day_shares.h"
+#include "calib/diagnose/changes/series_scatter.h"
 
 namespace armcal {
 namespace {
@@ -26,26 +26,6 @@ constexpr double kOwnFactor = .1;
 // All torques: the field of magnets that warm by 50 K falls by 5 to 10 %, units
 // and supplies make more; motors of one arm differ little.
 constexpr double kAllScalesChange = .1, kOwnScale = .02;
-// Scatter that is usual, beside the joint's torque: what models lack as a rule
-// is a per cent or less of it (discrepancy.h).
-constexpr double kUsualScatter = .005;
-
-const std::pair<JointTerm, double> kFrictions[] = {kShareOfDays[0],
-                                                   kShareOfDays[1]};
-
-// All joints' friction, as a direction of parameters: a factor on it is a
-// number times this.
-VectorXd FrictionDirection(const LogSeries& series, const VectorXd& level,
-                           JointTerm term) {
-  VectorXd direction = VectorXd::Zero(level.size());
-  for (int j = 0; j < series.parameters.num_joints(); ++j) {
-    const int k = TermIndex(series.parameters, j, term);
-    if (k >= 0) {
-      direction[k] = std::max(0., level[k]) / series.torque[k];
-    }
-  }
-  return direction;
-}
 
 // One for each part of each joint.
 void SetFamily(NamedHypothesis* named) {
@@ -170,7 +150,7 @@ MatrixXd Maker::AllFriction(const std::vector<JointTerm>& terms,
   for (Eigen::Index t = 0; t < size; ++t) {
     directions.col(t) = FrictionDirection(series_, level, terms[t]);
     for (int j = 0; j < joints; ++j) {
-      const int k = TermIndex(series_.parameters, j, terms[t]);
+      const int k = series_.TermIndex(j, terms[t]);
       if (k < 0) continue;
       directions(k, size + t * joints + j) = directions(k, t);
     }
@@ -206,7 +186,7 @@ void Maker::AddFriction(int joint) {
     named.change.prior.resize(directions.cols());
     for (Eigen::Index c = 0; c < directions.cols(); ++c) {
       const JointTerm term = terms[c];
-      const int k = TermIndex(series_.parameters, joint, term);
+      const int k = series_.TermIndex(joint, term);
       if (k < 0) return;
       directions(k, c) = 1 / series_.torque[k];
       named.names.emplace_back(JointTermName(term));
@@ -319,14 +299,6 @@ const char* ChangedPartName(ChangedPart part) {
   return "";
 }
 
-int TermIndex(const ModelParameters& parameters, int joint, JointTerm term) {
-  for (int k = 0; k < parameters.size(); ++k) {
-    const ModelParameter& p = parameters.parameters()[k];
-    if (p.is_joint_term && p.block == joint && p.term == term) return k;
-  }
-  return -1;
-}
-
 std::vector<NamedHypothesis> MakeHypotheses(const Robot& robot,
                                             const LogSeries& series,
                                             const MatrixXd& levels) {
@@ -344,26 +316,6 @@ std::vector<NamedHypothesis> MakeHypotheses(const Robot& robot,
   }
   maker.AddAllScales();
   return all;
-}
-
-std::vector<ScatterComponent> MakeScatter(const LogSeries& series,
-                                          const VectorXd& level) {
-  const Eigen::Index size = series.pooled.size();
-  std::vector<ScatterComponent> components;
-  for (Eigen::Index k = 0; k < size; ++k) {
-    components.push_back({VectorXd::Unit(size, k), kUsualScatter});
-  }
-  for (const auto& [term, share] : kFrictions) {
-    for (int j = 0; j < series.parameters.num_joints(); ++j) {
-      const int k = TermIndex(series.parameters, j, term);
-      if (k < 0) continue;
-      components[k].is_friction = true;
-      components[k].usual = std::max(
-          kUsualScatter, share * std::abs(level[k]) / series.torque[k]);
-    }
-    components.push_back({FrictionDirection(series, level, term), share, true});
-  }
-  return components;
 }
 
 }  // namespace armcal

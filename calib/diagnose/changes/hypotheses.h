@@ -44,11 +44,4 @@ std::vector<NamedHypothesis> MakeHypotheses(const Robot& robot,
                                             const LogSeries& series,
                                             const Eigen::MatrixXd& levels);
 
-// By what logs of a robot that does not change differ: every parameter by
-// itself, and all joints' friction by a factor.
-std::vector<ScatterComponent> MakeScatter(const LogSeries& series,
-                                          const Eigen::VectorXd& level);
-// Where a joint's term is among the parameters; -1: not by itself.
-int TermIndex(const ModelParameters& parameters, int joint, JointTerm term);
-
 }  // namespace armcal

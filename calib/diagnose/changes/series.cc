@@ -110,6 +110,14 @@ LogMotions MotionsOf(const Reduction& reduction, int joints) {
 
 }  // namespace
 
+int LogSeries::TermIndex(int joint, JointTerm term) const {
+  for (int k = 0; k < parameters.size(); ++k) {
+    const ModelParameter& p = parameters.parameters()[k];
+    if (p.is_joint_term && p.block == joint && p.term == term) return k;
+  }
+  return -1;
+}
+
 MatrixXd LogSeries::Own(double inflation, MatrixXd* stddev) const {
   // A log that knows a parameter no better than to ten times a joint's torque
   // does not see it.

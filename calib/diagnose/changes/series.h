@@ -30,6 +30,8 @@ struct LogSeries {
   std::vector<LogColumns> by_scale;
 
   int size() const { return static_cast<int>(logs.size()); }
+  // Where a joint's term is among the parameters; -1: not by itself.
+  int TermIndex(int joint, JointTerm term) const;
   // Each log's own estimate and its standard deviations (a column per log, in
   // the parameters' units); what it does not see is the pooled value, with an
   // infinite one. `inflation`: of variances.
