@@ -41,8 +41,7 @@ Command CalibrateCommand() {
       "torques, and from measured poses, with standard deviations, ranks, "
       "a held-out check and a robot file for simulators",
       {{"robot and logs", {"robot", "log", "validate", "bandwidth"}},
-       {"what is estimated",
-        {"geometry", "estimate", "trust", "poses", "camera", "camera_on"}},
+       {"what is estimated", {"geometry", "estimate", "trust", "poses"}},
        {"more of the logs",
         {"crop", "validate_crop", "select", "segment"},
         false},
@@ -56,6 +55,7 @@ Command CalibrateCommand() {
          "length_trust", "angle_trust"},
         false},
        {"payload", {"payload_mass", "payload_log"}, false},
+       {"images", {"camera", "camera_on"}, false},
        {"robot files", {"export"}, false},
        ChainFlags()},
       {"armcal calibrate --robot=arm.urdf --log=mon.csv --validate=tue.csv "
