@@ -20,8 +20,6 @@ def calibrate(
     estimate: Literal['auto', 'linear', 'refined'] = 'auto',
     trust: float = 0.5,
     poses: Optional[Path] = None,
-    camera: Optional[Path] = None,
-    camera_on: Literal['tool', 'world'] = 'tool',
     crop: Optional[Range] = None,
     validate_crop: Optional[Range] = None,
     select: bool = False,
@@ -49,6 +47,8 @@ def calibrate(
     angle_trust: float = 0.02,
     payload_mass: Optional[float] = None,
     payload_log: Optional[Logs] = None,
+    camera: Optional[Path] = None,
+    camera_on: Literal['tool', 'world'] = 'tool',
     export: Optional[Union[str, Sequence[str]]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
@@ -81,9 +81,6 @@ def calibrate(
                          0.5)
     poses                Path: CSV of measured poses, wire lengths, touches,
                          images
-    camera               Path: of --poses with images: camera_info YAML of ROS
-    camera_on            str: where the camera is: tool (the board stands),
-                         world (the board is on the tool) (default tool)
     crop                 Range: of --log to use, s since its first row;
                          default: all (standstill is left out by itself)
     validate_crop        Range: of the logs held out to use; default: all
@@ -151,6 +148,9 @@ def calibrate(
                          (bare arm) and --payload_log
     payload_log          Logs: logs of the same arm with a payload of
                          --payload_mass fixed to its last link
+    camera               Path: of --poses with images: camera_info YAML of ROS
+    camera_on            str: where the camera is: tool (the board stands),
+                         world (the board is on the tool) (default tool)
     export               Union[str, Sequence[str]]: formats to write the robot
                          in
     out                  Path: for the result files; default: write none
