@@ -9,6 +9,7 @@
 #include "problems/wire_residual.h"
 
 namespace armcal {
+
 using Eigen::Isometry3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;

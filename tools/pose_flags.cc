@@ -8,7 +8,6 @@
 #include "model/camera/camera_file.h"
 #include "model/log_files/board_reader.h"
 #include "tools/flag_choices.h"
-#include "tools/usage_error.h"
 
 DEFINE_string(poses, "",
               "`FILE` CSV of measured poses, wire lengths, touches, images");
@@ -29,17 +28,7 @@ const FlagChoices<CameraPlace> kCameraPlaces(
 
 PoseMeasurements PosesFromFlags(const FlagValues& flags, const Robot& robot) {
   const std::string file = flags.Text("poses"), camera = flags.Text("camera");
-  const bool images = HoldsBoardImages(file, robot.JointNames());
-  if (images && camera.empty()) {
-    throw UsageError("--poses=" + file +
-                     " holds images (u, v): expected the camera's intrinsics, "
-                     "--camera=FILE");
-  }
-  if (!images && !camera.empty()) {
-    throw UsageError("--camera: found no images in --poses=" + file +
-                     ", expected columns image bx by u v");
-  }
-  if (!images) return ReadPoses(file, robot.JointNames());
+  if (camera.empty()) return ReadPoses(file, robot.JointNames());
   return MeasurePoses(file, ReadBoardImages(file, robot.JointNames()),
                       ReadCamera(camera),
                       kCameraPlaces.Parse(flags.Text("camera_on")));

@@ -25,6 +25,24 @@ constexpr double kSamePose = 1e-4;  // rad or m
 constexpr int kSpareEquations = 10;
 constexpr double kLeastColumn = 1e-5;  // of a column that would count
 
+// Errors of these poses, one below the other, in units of the noise.
+VectorXd InNoise(const PoseMeasurements& measured, const PoseNoise& noise,
+                 const std::vector<int>& rows, const MatrixXd& position,
+                 const MatrixXd& rotation) {
+  const Eigen::Index width = position.cols() + rotation.cols();
+  VectorXd r(static_cast<Eigen::Index>(rows.size()) * width);
+  for (size_t k = 0; k < rows.size(); ++k) {
+    auto own = r.segment(static_cast<Eigen::Index>(k) * width, width);
+    if (rotation.size() == 0) {
+      own = position.row(rows[k]).transpose() / noise.position;
+      continue;
+    }
+    own << position.row(rows[k]).transpose(), rotation.row(rows[k]).transpose();
+    own = PoseWhitening(measured, noise, rows[k]) * own;
+  }
+  return r;
+}
+
 // Of the instrument alone, the poses' median; 0 where that is not known.
 PoseNoise InstrumentNoise(const PoseMeasurements& measured) {
   if (measured.covariance.empty()) return {0, 0};
@@ -136,20 +154,9 @@ MatrixXd PoseFit::Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
 
 VectorXd PoseFit::Residuals(const std::vector<int>& rows,
                             const PoseUnknowns& at) const {
-  const MatrixXd position = PositionErrors(*geometry_, measured_, at);
-  const MatrixXd rotation = RotationErrors(*geometry_, measured_, at);
-  const Eigen::Index width = position.cols() + rotation.cols();
-  VectorXd r(static_cast<Eigen::Index>(rows.size()) * width);
-  for (size_t k = 0; k < rows.size(); ++k) {
-    auto own = r.segment(static_cast<Eigen::Index>(k) * width, width);
-    if (rotation.size() == 0) {
-      own = position.row(rows[k]).transpose() / noise_.position;
-      continue;
-    }
-    own << position.row(rows[k]).transpose(), rotation.row(rows[k]).transpose();
-    own = PoseWhitening(measured_, noise_, rows[k]) * own;
-  }
-  return r;
+  return InNoise(measured_, noise_, rows,
+                 PositionErrors(*geometry_, measured_, at),
+                 RotationErrors(*geometry_, measured_, at));
 }
 
 // As if the tip were where the point is. Then what no touch can tell, a turn of
@@ -281,9 +288,7 @@ void PoseFit::EstimateNoise(const std::vector<bool>& free,
   if (rotation.size() > 0) noise_.rotation = spread(rotation);
   if (!measured_.covariance.empty()) {
     noise_ = BesideInstrument(noise_, [&](const PoseNoise& noise) {
-      PoseFit fit = *this;
-      fit.noise_ = noise;
-      return spread(fit.Residuals(AllRows(), at));
+      return spread(InNoise(measured_, noise, AllRows(), position, rotation));
     });
   }
 }

@@ -157,11 +157,4 @@ BoardImages ReadBoardImages(const std::string& path,
   return rows.Result();
 }
 
-bool HoldsBoardImages(const std::string& path,
-                      const std::vector<std::string>& joint_names) {
-  const Table table(path, joint_names);
-  const LogColumns columns(path, table.header, joint_names);
-  return !FindNamed(path, columns, {"u", "v"}, ColumnUnit::kNone).empty();
-}
-
 }  // namespace armcal

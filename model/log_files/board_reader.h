@@ -24,8 +24,5 @@ struct BoardImages {
 // or more, and one posture. Throws InputError.
 BoardImages ReadBoardImages(const std::string& path,
                             const std::vector<std::string>& joint_names);
-// Whether the file's header has pixels: columns u and v.
-bool HoldsBoardImages(const std::string& path,
-                      const std::vector<std::string>& joint_names);
 
 }  // namespace armcal

@@ -44,6 +44,16 @@ long WholeNumber(std::string_view line, char separator, int field) {
   return whole ? number : 0;
 }
 
+// Of a camera (board_reader.h).
+bool HasPixels(const LogColumns& columns) {
+  bool u = false, v = false;
+  for (int k = 0; k < columns.size(); ++k) {
+    u |= Trim(columns.name(k)) == "u";
+    v |= Trim(columns.name(k)) == "v";
+  }
+  return u && v;
+}
+
 Places ChooseColumns(const std::string& path, const LogColumns& columns,
                      LogRow* row) {
   constexpr ColumnUnit kLength = ColumnUnit::kLength;
@@ -69,8 +79,11 @@ Places ChooseColumns(const std::string& path, const LogColumns& columns,
   if (!pose.empty()) places.pose = row->Use(pose);
   const auto length = FindNamed(path, columns, {"length1"}, kLength);
   if (!length.empty()) places.length = row->Use(length);
-  const auto point = FindNamed(path, columns, {"point"}, ColumnUnit::kNone);
-  if (!point.empty()) places.point = row->Use(point);
+  // Where something was measured, a column of that name is anybody's.
+  if (places.targets.empty() && pose.empty() && length.empty()) {
+    const auto point = FindNamed(path, columns, {"point"}, ColumnUnit::kNone);
+    if (!point.empty()) places.point = row->Use(point);
+  }
   for (int k = 1;; ++k) {
     const auto u95 =
         FindNamed(path, columns, {"u95_" + std::to_string(k)}, kLength);
@@ -81,6 +94,11 @@ Places ChooseColumns(const std::string& path, const LogColumns& columns,
   const int kinds = (places.targets.empty() ? 0 : 1) + (places.pose >= 0) +
                     (places.length >= 0) + (places.point >= 0);
   if (kinds == 1) return places;
+  if (kinds == 0 && HasPixels(columns)) {
+    throw InputError(path, "row 1", "u, v",
+                     "images of a board, expected the camera's intrinsics "
+                     "beside them");
+  }
   throw InputError(path, "row 1", "",
                    "expected one kind of measurement: x1 y1 z1 [x2 ..] "
                    "(targets), x y z qw qx qy qz (poses), length1 (a wire) or "

@@ -23,6 +23,11 @@ struct SeriesSearch {
   SeriesChanges found;
 };
 
+// Each log is one step of time.
+VectorXd TimesOf(const LogSeries& series) {
+  return VectorXd::LinSpaced(series.size(), 0, series.size() - 1);
+}
+
 SeriesSearch SearchSeries(const Robot& robot, const LogSeries& series,
                           const MatrixXd& levels) {
   SeriesSearch told{MakeHypotheses(robot, series, levels),
@@ -32,9 +37,8 @@ SeriesSearch SearchSeries(const Robot& robot, const LogSeries& series,
   for (const NamedHypothesis& named : told.hypotheses) {
     changes.push_back(named.change);
   }
-  const VectorXd times =
-      VectorXd::LinSpaced(series.size(), 0, series.size() - 1);
-  told.found = FindChanges(series.equations, told.components, changes, times);
+  told.found =
+      FindChanges(series.equations, told.components, changes, TimesOf(series));
   return told;
 }
 
@@ -127,13 +131,12 @@ NamedChange NameChange(const Robot& robot, const LogSeries& series,
 MatrixXd LevelsWith(const LogSeries& series, const SeriesSearch& told,
                     const VectorXd& level,
                     const std::function<bool(const NamedHypothesis&)>& counts) {
-  const VectorXd times =
-      VectorXd::LinSpaced(series.size(), 0, series.size() - 1);
   MatrixXd levels = level.replicate(1, series.size());
   for (const FoundChange& found : told.found.changes) {
     const NamedHypothesis& what = told.hypotheses[found.hypothesis];
     if (!counts(what)) continue;
-    const VectorXd course = CourseOf(found.course, times, what.change.motion);
+    const VectorXd course =
+        CourseOf(found.course, TimesOf(series), what.change.motion);
     for (int l = 0; l < series.size(); ++l) {
       levels.col(l) += course[l] * series.torque.cwiseProduct(
                                        what.directions[l] * found.value);

@@ -27,13 +27,6 @@ constexpr double kOwnFactor = .1;
 // and supplies make more; motors of one arm differ little.
 constexpr double kAllScalesChange = .1, kOwnScale = .02;
 
-// One for each part of each joint.
-void SetFamily(NamedHypothesis* named) {
-  constexpr int kParts = 10;
-  named->change.family =
-      kParts * (named->joint + 1) + static_cast<int>(named->part);
-}
-
 // What makes a hypothesis of directions in the parameters.
 class Maker {
  public:
@@ -72,12 +65,17 @@ class Maker {
         }
       }
     }
-    named.change.motion = MotionOf(named.part, named.joint);
     if (named.told.size() == 0) {
       named.told = MatrixXd::Identity(directions.cols(), directions.cols());
     }
-    SetFamily(&named);
-    if (directions.norm() > 0) all_->push_back(std::move(named));
+    if (directions.norm() > 0) Keep(std::move(named));
+  }
+  // Adds one that changes no parameter of the arm, with its columns.
+  void AddOfTorque(NamedHypothesis named) {
+    named.directions.assign(
+        series_.equations.size(),
+        MatrixXd::Zero(level_.size(), named.change.prior.size()));
+    Keep(std::move(named));
   }
   // Of the joint; of all where all change; of a mass those that move its link.
   MatrixXd MotionOf(ChangedPart part, int joint) const {
@@ -105,6 +103,14 @@ class Maker {
   void AddMass(int link);
 
  private:
+  void Keep(NamedHypothesis named) {
+    constexpr int kParts = 10;  // one family for each part of each joint
+    named.change.family =
+        kParts * (named.joint + 1) + static_cast<int>(named.part);
+    named.change.motion = MotionOf(named.part, named.joint);
+    all_->push_back(std::move(named));
+  }
+
   const Robot& robot_;
   const LogSeries& series_;
   const MatrixXd& levels_;
@@ -220,12 +226,8 @@ void Maker::AddScale(int joint) {
   named.change.prior = VectorXd::Constant(1, kTorqueChange);
   named.change.share = kShareOfOther / 4 / robot_.num_joints();
   named.change.scatter = series_.parameters.row_columns(joint);
-  named.change.motion = MotionOf(named.part, joint);
-  named.directions.assign(series_.equations.size(),
-                          MatrixXd::Zero(level_.size(), 1));
   named.told = MatrixXd::Identity(1, 1);
-  SetFamily(&named);
-  all_->push_back(std::move(named));
+  AddOfTorque(std::move(named));
 }
 
 // All joints' torques by about one factor.
@@ -244,11 +246,7 @@ void Maker::AddAllScales() {
   TellFactors({"scale"}, {kAllScalesChange, kOwnScale}, &named);
   named.change.share = kShareOfOther / 4;
   for (int k = 0; k < level_.size(); ++k) named.change.scatter.push_back(k);
-  named.change.motion = MotionOf(named.part, -1);
-  named.directions.assign(series_.equations.size(),
-                          MatrixXd::Zero(level_.size(), 1 + joints));
-  SetFamily(&named);
-  all_->push_back(std::move(named));
+  AddOfTorque(std::move(named));
 }
 
 void Maker::AddMass(int link) {

@@ -34,12 +34,6 @@ TEST(BoardReader, ReadsImageByImage) {
   EXPECT_EQ(images.pixels[1].col(4), Eigen::Vector2d(400, 7));
 }
 
-TEST(BoardReader, TellsImagesFromOtherMeasurements) {
-  EXPECT_TRUE(HoldsBoardImages(WriteFile(Images(), "board.csv"), kJoints));
-  EXPECT_FALSE(HoldsBoardImages(WriteFile("q1,q2,length1\n0,0,1\n", "wire.csv"),
-                                kJoints));
-}
-
 std::string MessageOfImages(const std::string& text) {
   const std::string path = WriteFile(text, "board.csv");
   return MessageOf<InputError>(path, [&] { ReadBoardImages(path, kJoints); });

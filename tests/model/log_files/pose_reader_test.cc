@@ -34,6 +34,12 @@ const BadPoses kBad[] = {
     {"q1,q2,x,y,z,qw,qx,qy\n0,0,1,2,3,1,0,0\n",
      "FILE: row 1: the column qz is missing"},
     {"q1,q2\n0,0\n", kKinds},
+    {"image,q1,q2,bx,by,u,v\n1,0,0,0,0,5,6\n",
+     "FILE: row 1: found 'u, v': images of a board, expected the camera's "
+     "intrinsics beside them"},
+    {"q1,q2,point\n0,0,1.5\n",
+     "FILE: row 2, column point: found '1.5': expected the number of the "
+     "touched point, from 1"},
     {"q1,q2,x1,y1,z1,length1\n0,0,1,2,3,4\n", kKinds},
     {"q1,q2,x,y,z,qw,qx,qy,qz,length1\n0,0,1,2,3,1,0,0,0,1\n", kKinds},
     {"q1,x1,y1,z1\n0,1,2,3\n",
@@ -92,6 +98,20 @@ TEST(PoseReader, RefusesMalformedFiles) {
   EXPECT_EQ(MessageOf<InputError>("/no/such",
                                   [] { ReadPoses("/no/such", {"shoulder"}); }),
             "FILE: cannot be opened: No such file or directory");
+}
+
+TEST(PoseReader, ReadsTouchedPoints) {
+  const PoseMeasurements m = Read("q1,q2,point\n0,0,7\n0,1,3\n1,0,7\n");
+  EXPECT_EQ(m.touched, (std::vector<int>{1, 0, 1}));
+  EXPECT_EQ(m.num_points(), 2);
+}
+
+// Labels of other measurements, numbers or not, which files had before.
+TEST(PoseReader, LeavesColumnsOfTheseNamesAloneElsewhere) {
+  const PoseMeasurements m =
+      Read("q1,q2,point,u,length1\n0,0,left,5,1\n0,1,right,6,2\n");
+  EXPECT_EQ(m.size(), 2);
+  EXPECT_TRUE(m.touched.empty());
 }
 
 TEST(PoseReader, ReadsTargets) {
