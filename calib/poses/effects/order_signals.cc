@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unsupported/Eigen/Splines>
 
 namespace armcal {
 namespace {
@@ -91,11 +92,17 @@ Eigen::MatrixXd DriftSignals(int poses, const PosePlace& place) {
   if (place.knots == 1) {
     return 1 - (-4 * Eigen::ArrayXd::LinSpaced(poses, 0, 1)).exp();
   }
-  Eigen::MatrixXd signals = Eigen::MatrixXd::Zero(poses, place.knots - 1);
-  const double step = (poses - 1.0) / (place.knots - 1);
-  for (int k = 0; k < poses; ++k) {
-    for (int c = 0; c + 1 < place.knots; ++c) {
-      signals(k, c) = std::max(0.0, 1 - std::abs(k / step - (c + 1)));
+  using Spline = Eigen::Spline<double, 1>;
+  const int degree = std::min(3, place.knots - 1);
+  const Eigen::RowVectorXd at =
+      Eigen::RowVectorXd::LinSpaced(place.knots, 0, 1);
+  Eigen::MatrixXd signals(poses, place.knots - 1);
+  for (int c = 0; c + 1 < place.knots; ++c) {
+    const Eigen::RowVectorXd one = Eigen::RowVectorXd::Unit(place.knots, c + 1);
+    const Spline spline =
+        Eigen::SplineFitting<Spline>::Interpolate(one, degree, at);
+    for (int k = 0; k < poses; ++k) {
+      signals(k, c) = spline(k / (poses - 1.0))[0];
     }
   }
   return signals;

@@ -19,16 +19,19 @@ std::vector<PosePlace> WindowPlaces(const PoseCampaign& campaign,
 // In how many places a step or a window can be.
 double StepCount(const PoseCampaign& campaign);
 double WindowCount(const PoseCampaign& campaign);
-// A drift that is linear between `knots` poses evenly over the order, or with 1
-// one that settles, 1 - exp(-4 t), over the order t from 0 to 1, as what warms.
+// A drift that goes smoothly through its values at `knots` poses evenly over the
+// order (a cubic spline; two: a line), or with 1 one that settles,
+// 1 - exp(-4 t), over the order t from 0 to 1, as what warms.
 std::vector<PosePlace> DriftPlaces(const PoseCampaign& campaign,
                                    const std::vector<int>& parts,
                                    const std::vector<int>& knots);
 
 // 1 from place.begin on, and up to place.end where it has one; else 0.
 Eigen::VectorXd WindowSignal(int poses, const PosePlace& place);
-// A column per knot but the first, which is where all begins: hat functions
-// over the order, 1 at their knot.
+// A column per knot but the first, which is where all begins: cardinal splines
+// over the order, 1 at their knot and 0 at the others. (Hat functions miss a
+// curve between knots by h^2 / 8 of its second derivative, which was more than
+// the noise of drifts that were 20 times as large.)
 Eigen::MatrixXd DriftSignals(int poses, const PosePlace& place);
 
 // What can move of a tool: its place, its pose, each target alone (-1, ...).

@@ -18,13 +18,17 @@ TEST(OrderSignals, AreOneWithinTheirPoses) {
 }
 
 // Hat functions add up to 1 from the second knot on, and draw any line.
-TEST(OrderSignals, DriftIsLinearBetweenKnots) {
+TEST(OrderSignals, DriftFollowsACubicThroughItsKnots) {
+  const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(31, 0, 1);
   PosePlace place;
-  place.knots = 3;
-  const Eigen::MatrixXd signals = DriftSignals(9, place);
-  ASSERT_EQ(signals.cols(), 2);
-  const Eigen::VectorXd line = signals * Eigen::Vector2d(.5, 1);
-  EXPECT_LT((line - Eigen::VectorXd::LinSpaced(9, 0, 1)).norm(), 1e-14);
+  place.knots = 4;
+  const Eigen::ArrayXd cubic = t * (2 - 3 * t + 4 * t.square());
+  const Eigen::Vector3d at_knots(cubic[10], cubic[20], cubic[30]);
+  const Eigen::MatrixXd signals = DriftSignals(31, place);
+  ASSERT_EQ(signals.cols(), 3);
+  EXPECT_LT((signals * at_knots - cubic.matrix()).norm(), 1e-13);
+  place.knots = 2;
+  EXPECT_LT((DriftSignals(31, place) - t.matrix()).norm(), 1e-14);
   place.knots = 1;
   EXPECT_NEAR(DriftSignals(9, place)(8, 0), 1 - std::exp(-4), 1e-14);
 }
