@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "calib/poses/correction/pose_correction.h"
 #include "calib/poses/diagnosis/diagnosis.h"
 #include "calib/poses/diagnosis/report.h"
+#include "calib/robot_outputs.h"
 #include "model/text/option_error.h"
 #include "model/text/option_name.h"
 
@@ -24,6 +26,21 @@ void CheckPoseEffects(const std::vector<std::string>& names) {
     throw OptionError(OptionName("without") + ": found '" + name +
                       "', expected effects of " + "poses: " + all);
   }
+}
+
+void AddCorrection(const Robot& robot, const PoseMeasurements& measured,
+                   const PoseDiagnosis& diagnosis,
+                   const DiagnosePosesOptions& options, nlohmann::json* json,
+                   DiagnosePosesSummary* summary) {
+  if (options.progress) options.progress("correcting joint positions", -1);
+  const PoseCorrection correction =
+      CorrectFromPoses(robot, measured, diagnosis.model,
+                       options.validation ? &*options.validation : nullptr);
+  (*json)["correction"] = CorrectionJson(correction);
+  summary->report += CorrectionText(correction);
+  summary->files = CorrectionFiles(correction);
+  summary->files.push_back(
+      {"robot.urdf", RobotUrdf(options.source, correction.arm.links(), true)});
 }
 
 }  // namespace
@@ -52,7 +69,11 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
   summary.positive = details->verdict == PoseVerdict::kNoiseFloor;
   summary.brief = PoseSentence(*details);
   summary.report = PoseDiagnosisReport(robot, measured, *details);
-  summary.json = PoseDiagnosisJson(robot, measured, *details).dump(2) + "\n";
+  nlohmann::json json = PoseDiagnosisJson(robot, measured, *details);
+  if (details->verdict != PoseVerdict::kNotTestable) {
+    AddCorrection(robot, measured, *details, options, &json, &summary);
+  }
+  summary.json = json.dump(2) + "\n";
   summary.files.push_back({"pose_diagnosis.json", summary.json});
   summary.details = std::move(details);
   return summary;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "calib/poses/calibration.h"
+#include "calib/robot_source.h"
 #include "calib/summary.h"
 #include "model/log_files/pose_reader.h"
 #include "model/robot/robot.h"
@@ -19,6 +21,9 @@ struct DiagnosePosesOptions {
   // it may be from the file's.
   PoseCalibrationOptions geometry;
   std::vector<std::string> without;  // names of effects not to be considered
+  // Poses that take no part in the fit, on which the correction is judged.
+  std::optional<PoseMeasurements> validation;
+  RobotSource source;  // of robot.urdf
   Progress progress;
 };
 

@@ -30,6 +30,7 @@ set(rooms
     calib/poses         # geometry from measured poses
     calib/poses/effects    # what geometry lacks: one effect a file, their list
     calib/poses/diagnosis  # which of these a campaign of measured poses shows
+    calib/poses/correction # what a controller adds to its joints' positions
     calib/refine        # the refinement by Ceres and its covariance
     calib/excite        # motions that show what is not known yet
     calib/closed_loop   # estimation from commands and positions alone

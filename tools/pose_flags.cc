@@ -27,7 +27,12 @@ const FlagChoices<CameraPlace> kCameraPlaces(
 }  // namespace
 
 PoseMeasurements PosesFromFlags(const FlagValues& flags, const Robot& robot) {
-  const std::string file = flags.Text("poses"), camera = flags.Text("camera");
+  return PosesFromFile(flags, robot, flags.Text("poses"));
+}
+
+PoseMeasurements PosesFromFile(const FlagValues& flags, const Robot& robot,
+                               const std::string& file) {
+  const std::string camera = flags.Text("camera");
   if (camera.empty()) return ReadPoses(file, robot.JointNames());
   return MeasurePoses(file, ReadBoardImages(file, robot.JointNames()),
                       ReadCamera(camera),

@@ -3,6 +3,7 @@
 #include "calib/diagnose_poses.h"
 #include "tools/command_report.h"
 #include "tools/input_flags.h"
+#include "tools/log_flags.h"
 #include "tools/pose_flags.h"
 #include "tools/trust_flags.h"
 #include "tools/usage_error.h"
@@ -15,8 +16,8 @@ bool DiagnosesPoses(const CommandInput& input) {
 
 CommandOutcome RunDiagnosePoses(const CommandInput& input) {
   const FlagValues& flags = input.flags;
-  for (const char* other : {"log", "reference", "validate", "calibration",
-                            "controller", "export"}) {
+  for (const char* other :
+       {"log", "reference", "calibration", "controller", "export"}) {
     if (flags.Text(other).empty()) continue;
     throw UsageError("--poses and --" + std::string(other) +
                      ": expected one of them; a diagnosis is of measured "
@@ -29,6 +30,11 @@ CommandOutcome RunDiagnosePoses(const CommandInput& input) {
   options.geometry.prior_length = trust.length;
   options.geometry.prior_angle = trust.angle;
   options.without = SplitAtCommas(flags.Text("without"));
+  const std::string held_out = flags.Text("validate");
+  if (!held_out.empty()) {
+    options.validation = PosesFromFile(flags, robot, held_out);
+  }
+  options.source = RobotSourceFromFlags(input);
   options.progress = input.progress;
   const DiagnosePosesSummary summary = DiagnosePoses(robot, measured, options);
   CommandOutcome outcome = OutcomeOf(input, robot, summary, {});

@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "calib/poses/effects/effect.h"
-#include "model/robot/kinematics.h"
 
 namespace armcal {
 
@@ -18,16 +17,13 @@ PoseEffect BaseSag() {
   };
   effect.terms = [](const PoseCampaign& campaign, const PosePlace&) {
     const Eigen::Vector3d down = campaign.robot.gravity.stableNormalized();
-    Eigen::MatrixXd moment(campaign.size(), 3);
-    for (int k = 0; k < campaign.size(); ++k) {
-      const Eigen::VectorXd q = campaign.standing.row(k);
-      moment.row(k) = ToolPose(campaign.robot, q).translation().cross(down);
-    }
     std::vector<PoseTerm> terms;
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(down[axis]) > .9) continue;  // a moment has none about it
-      terms.push_back({PoseTerm::Acts::kBase, axis, moment.col(axis),
-                       std::string("about ") + "xyz"[axis], "rad/m"});
+      terms.push_back(PostureTerm(campaign, PoseTerm::Acts::kBase, axis,
+                                  {PostureSignal::Of::kBaseMoment, axis},
+                                  std::string("about ") + "xyz"[axis],
+                                  "rad/m"));
     }
     return terms;
   };

@@ -1,5 +1,6 @@
 #include "calib/poses/effects/each_joint.h"
 #include "calib/poses/effects/effect.h"
+#include "calib/poses/effects/harmonic_terms.h"
 
 namespace armcal {
 
@@ -14,10 +15,7 @@ PoseEffect EccentricEncoder() {
     return EachJoint(campaign, &PoseCampaign::Turns);
   };
   effect.terms = [](const PoseCampaign& campaign, const PosePlace& place) {
-    const Eigen::ArrayXd angle = campaign.standing.col(place.joint);
-    return std::vector<PoseTerm>{
-        {PoseTerm::Acts::kJoint, place.joint, angle.sin(), "sine", "rad"},
-        {PoseTerm::Acts::kJoint, place.joint, angle.cos(), "cosine", "rad"}};
+    return HarmonicTerms(campaign, place.joint, 1);
   };
   return effect;
 }

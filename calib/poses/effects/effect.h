@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/poses/effects/campaign.h"
+#include "calib/poses/effects/posture_signal.h"
 
 namespace armcal {
 
@@ -26,7 +27,13 @@ struct PoseTerm {
   Eigen::VectorXd signal;
   std::string name;  // of the amount
   std::string unit;
+  PostureSignal goes_with = {};  // what `signal` is made from
 };
+
+// One whose signal is that of the posture.
+PoseTerm PostureTerm(const PoseCampaign& campaign, PoseTerm::Acts acts,
+                     int index, const PostureSignal& goes_with,
+                     const std::string& name, const std::string& unit);
 
 // Which of an effect's forms: of which joint, by which other, from which pose
 // on up to which other; -1: the effect has none.

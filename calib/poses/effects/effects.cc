@@ -15,6 +15,12 @@ const std::vector<PoseEffect>& PoseEffects() {
   return effects;
 }
 
+PoseTerm PostureTerm(const PoseCampaign& campaign, PoseTerm::Acts acts,
+                     int index, const PostureSignal& goes_with,
+                     const std::string& name, const std::string& unit) {
+  return {acts, index, SignalAt(campaign, goes_with), name, unit, goes_with};
+}
+
 std::string PlacedName(const PoseEffect& effect, const PoseCampaign& campaign,
                        const PosePlace& place) {
   const auto joint = [&](int i) { return campaign.robot.links[i].joint.name; };

@@ -16,9 +16,9 @@ PoseEffect GearRatio() {
     return EachJoint(campaign, &PoseCampaign::Moves);
   };
   effect.terms = [](const PoseCampaign& campaign, const PosePlace& place) {
-    return std::vector<PoseTerm>{{PoseTerm::Acts::kJoint, place.joint,
-                                  campaign.recorded.col(place.joint), "k",
-                                  "1"}};
+    return std::vector<PoseTerm>{
+        PostureTerm(campaign, PoseTerm::Acts::kJoint, place.joint,
+                    {PostureSignal::Of::kPosition, place.joint}, "k", "1")};
   };
   return effect;
 }

@@ -13,9 +13,9 @@ PoseEffect InstrumentScale() {
     return std::vector<PosePlace>{{}};
   };
   effect.terms = [](const PoseCampaign& campaign, const PosePlace&) {
-    return std::vector<PoseTerm>{{PoseTerm::Acts::kScale, 0,
-                                  Eigen::VectorXd::Ones(campaign.size()),
-                                  "share", "1"}};
+    return std::vector<PoseTerm>{PostureTerm(campaign, PoseTerm::Acts::kScale,
+                                             0, {PostureSignal::Of::kOne},
+                                             "share", "1")};
   };
   return effect;
 }

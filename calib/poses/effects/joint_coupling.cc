@@ -25,9 +25,9 @@ PoseEffect JointCoupling() {
     return places;
   };
   effect.terms = [](const PoseCampaign& campaign, const PosePlace& place) {
-    return std::vector<PoseTerm>{{PoseTerm::Acts::kJoint, place.joint,
-                                  campaign.recorded.col(place.by), "k",
-                                  "rad/rad"}};
+    return std::vector<PoseTerm>{
+        PostureTerm(campaign, PoseTerm::Acts::kJoint, place.joint,
+                    {PostureSignal::Of::kPosition, place.by}, "k", "rad/rad")};
   };
   return effect;
 }

@@ -33,10 +33,9 @@ PoseEffect LoadGap() {
     return places;
   };
   effect.terms = [](const PoseCampaign& campaign, const PosePlace& place) {
-    return std::vector<PoseTerm>{
-        {PoseTerm::Acts::kJoint, place.joint,
-         campaign.tool_moment.col(place.joint).array().sign(), "half the play",
-         "rad"}};
+    return std::vector<PoseTerm>{PostureTerm(
+        campaign, PoseTerm::Acts::kJoint, place.joint,
+        {PostureSignal::Of::kLoadSide, place.joint}, "half the play", "rad")};
   };
   return effect;
 }

@@ -19,9 +19,9 @@ std::vector<PosePlace> WindowPlaces(const PoseCampaign& campaign,
 // In how many places a step or a window can be.
 double StepCount(const PoseCampaign& campaign);
 double WindowCount(const PoseCampaign& campaign);
-// A drift that goes smoothly through its values at `knots` poses evenly over the
-// order (a cubic spline; two: a line), or with 1 one that settles,
-// 1 - exp(-4 t), over the order t from 0 to 1, as what warms.
+// A drift that goes smoothly through its values at `knots` poses evenly over
+// the order (a cubic spline; two: a line), or with 1 one that settles, 1 -
+// exp(-4 t), over the order t from 0 to 1, as what warms.
 std::vector<PosePlace> DriftPlaces(const PoseCampaign& campaign,
                                    const std::vector<int>& parts,
                                    const std::vector<int>& knots);

@@ -32,17 +32,18 @@ bool FeelsWeight(const PoseCampaign& campaign, int joint) {
 std::vector<PoseTerm> SagTerms(const PoseCampaign& campaign, int joint,
                                int parts) {
   std::vector<PoseTerm> terms;
-  const auto add = [&](const Eigen::VectorXd& moment, const char* by) {
-    terms.push_back({PoseTerm::Acts::kJoint, joint, moment,
-                     campaign.robot.links[joint].joint.name + by, "rad/m"});
+  const auto add = [&](PostureSignal::Of moment, const char* by) {
+    terms.push_back(
+        PostureTerm(campaign, PoseTerm::Acts::kJoint, joint, {moment, joint},
+                    campaign.robot.links[joint].joint.name + by, "rad/m"));
   };
-  add(campaign.tool_moment.col(joint), "");
+  add(PostureSignal::Of::kToolMoment, "");
   const Eigen::VectorXd own = campaign.link_moment.col(joint);
   if (parts < 2 || SpreadOf(own) < kLeastChange) return terms;
   if (OwnShare(own, campaign.tool_moment.col(joint)) < kLeastDifference) {
     return terms;
   }
-  add(own, " by its own links");
+  add(PostureSignal::Of::kLinkMoment, " by its own links");
   return terms;
 }
 

@@ -1,5 +1,4 @@
 #include "calib/poses/effects/effect.h"
-#include "model/robot/kinematics.h"
 
 namespace armcal {
 
@@ -15,17 +14,11 @@ PoseEffect ToolSag() {
     return std::vector<PosePlace>{{}};
   };
   effect.terms = [](const PoseCampaign& campaign, const PosePlace&) {
-    const Eigen::Vector3d down = campaign.robot.gravity.stableNormalized();
-    Eigen::MatrixXd component(campaign.size(), 3);
-    for (int k = 0; k < campaign.size(); ++k) {
-      const Eigen::VectorXd q = campaign.standing.row(k);
-      component.row(k) =
-          (ToolPose(campaign.robot, q).linear().transpose() * down).transpose();
-    }
     std::vector<PoseTerm> terms;
     for (int axis = 0; axis < 2; ++axis) {
-      terms.push_back({PoseTerm::Acts::kTool, axis, component.col(axis),
-                       std::string(1, "xyz"[axis]), "m"});
+      terms.push_back(PostureTerm(campaign, PoseTerm::Acts::kTool, axis,
+                                  {PostureSignal::Of::kToolGravity, axis},
+                                  std::string(1, "xyz"[axis]), "m"));
     }
     return terms;
   };

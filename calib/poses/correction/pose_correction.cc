@@ -1,0 +1,116 @@
+#include "calib/poses/correction/pose_correction.h"
+
+#include "calib/numerics/json_figures.h"
+#include "calib/poses/correction/correction_code.h"
+#include "model/text/format.h"
+
+namespace armcal {
+
+using nlohmann::json;
+
+namespace {
+
+// Rows of the table: four nodes for each of six joints.
+constexpr long kMostRows = 4096;
+
+json ErrorJson(const CorrectionError& error) {
+  return {{"median", JsonNumber(error.median)},
+          {"p95", JsonNumber(error.p95)},
+          {"most", JsonNumber(error.most)}};
+}
+
+// A table is as coarse as its rows are few for the joints' ranges: where it
+// would do harm there is none.
+bool TableHelps(const CorrectionErrors& errors) {
+  return errors.by_table.median < errors.before.median &&
+         errors.by_table.p95 < errors.before.p95;
+}
+
+// mm; what is less than the solution of equations is known to is not shown.
+std::string InMm(double x) {
+  return x < 1e-6 ? "<0.001" : Format("%.3g", 1e3 * x);
+}
+
+std::string ErrorText(const char* name, const CorrectionError& error) {
+  return Format("  %-32s%12s%12s%12s\n", name, InMm(error.median).c_str(),
+                InMm(error.p95).c_str(), InMm(error.most).c_str());
+}
+
+}  // namespace
+
+PoseCorrection CorrectFromPoses(const Robot& robot,
+                                const PoseMeasurements& measured,
+                                const PoseModel& model,
+                                const PoseMeasurements* held_out) {
+  PoseCorrection correction = {ActualArm(robot, model), {}, {}, {}};
+  Eigen::MatrixX2d range(measured.q.cols(), 2);
+  range << measured.q.colwise().minCoeff().transpose(),
+      measured.q.colwise().maxCoeff().transpose();
+  correction.table = MakeCorrectionTable(correction.arm, range, kMostRows);
+  correction.errors =
+      MeasureCorrection(correction.arm, correction.table, range);
+  if (held_out != nullptr) {
+    correction.check = CheckCorrection(correction.arm, *held_out);
+  }
+  return correction;
+}
+
+std::vector<ResultFile> CorrectionFiles(const PoseCorrection& correction) {
+  std::vector<ResultFile> files = {
+      {"correction.c", CorrectionCode(correction.arm, correction.errors)}};
+  if (TableHelps(correction.errors)) {
+    files.push_back(
+        {"correction.csv", CorrectionCsv(correction.arm, correction.table)});
+  }
+  return files;
+}
+
+std::string CorrectionText(const PoseCorrection& correction) {
+  const CorrectionErrors& errors = correction.errors;
+  std::string text =
+      "\nthe tool in 1000 postures, mm away       median        95 %     at "
+      "most\n" +
+      ErrorText("as commanded", errors.before) +
+      ErrorText("with correction.c", errors.command) +
+      ErrorText("with correction.csv", errors.by_table);
+  if (!TableHelps(errors)) {
+    text +=
+        "  a table of 4096 rows is too coarse for these joints' ranges: no "
+        "correction.csv\n";
+  }
+  if (correction.check) {
+    text += Format(
+        "  %d held-out poses: %.4g mm rms as they are, %.4g with "
+        "correction.c\n",
+        correction.check->poses, 1e3 * correction.check->before,
+        1e3 * correction.check->after);
+  }
+  for (const std::string& name : correction.arm.left_out()) {
+    text += "  not part of them, since it is none of the arm's: " + name + "\n";
+  }
+  return text;
+}
+
+json CorrectionJson(const PoseCorrection& correction) {
+  const CorrectionErrors& errors = correction.errors;
+  json nodes = json::array();
+  for (const Eigen::VectorXd& joint : correction.table.nodes) {
+    nodes.push_back(joint.size());
+  }
+  json result = {{"before", ErrorJson(errors.before)},
+                 {"command", ErrorJson(errors.command)},
+                 {"table",
+                  {{"nodes", nodes},
+                   {"command", ErrorJson(errors.by_table)},
+                   {"forward", ErrorJson(errors.forward_table)}}},
+                 {"left_out", correction.arm.left_out()},
+                 {"validation", nullptr}};
+  if (correction.check) {
+    result["validation"] = {{"poses", correction.check->poses},
+                            {"before", JsonNumber(correction.check->before)},
+                            {"after", JsonNumber(correction.check->after)}};
+  }
+  return result;
+}
+
+}  // namespace armcal

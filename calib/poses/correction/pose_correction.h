@@ -1,0 +1,34 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/poses/correction/correction_check.h"
+#include "calib/poses/correction/correction_table.h"
+#include "calib/summary.h"
+
+namespace armcal {
+
+// What a controller, which has the robot file's kinematics, can do about the
+// geometry that poses show.
+struct PoseCorrection {
+  ActualArm arm;
+  CorrectionTable table;
+  CorrectionErrors errors;
+  std::optional<CorrectionCheck> check;  // on poses that were held out
+};
+
+// Over the range of the measured joint positions. `held_out`: null: none.
+PoseCorrection CorrectFromPoses(const Robot& robot,
+                                const PoseMeasurements& measured,
+                                const PoseModel& model,
+                                const PoseMeasurements* held_out);
+
+// correction.c and correction.csv.
+std::vector<ResultFile> CorrectionFiles(const PoseCorrection& correction);
+std::string CorrectionText(const PoseCorrection& correction);
+nlohmann::json CorrectionJson(const PoseCorrection& correction);
+
+}  // namespace armcal
