@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "calib/poses/correction/correction_code.h"
 #include "calib/poses/correction/pose_correction.h"
 #include "calib/poses/diagnosis/diagnosis.h"
 #include "calib/poses/diagnosis/report.h"
@@ -38,7 +39,12 @@ void AddCorrection(const Robot& robot, const PoseMeasurements& measured,
                        options.validation ? &*options.validation : nullptr);
   (*json)["correction"] = CorrectionJson(correction);
   summary->report += CorrectionText(correction);
-  summary->files = CorrectionFiles(correction);
+  summary->files.push_back(
+      {"correction.c", CorrectionCode(correction.arm, correction.errors)});
+  if (TableHelps(correction.errors)) {
+    summary->files.push_back(
+        {"correction.csv", CorrectionCsv(correction.arm, correction.table)});
+  }
   summary->files.push_back(
       {"robot.urdf", RobotUrdf(options.source, correction.arm.links(), true)});
 }

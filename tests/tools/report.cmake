@@ -28,9 +28,13 @@ endif()
 
 run("poses" calibrate --robot=${DATA_DIR}/scara/robot.yaml --geometry=refine
     --poses=${DATA_DIR}/scara/poses.csv --out=poses)
+execute_process(COMMAND awk -F, -v OFS=, "NR > 1 {$2 += $1} {print}" ${DATA_DIR}/scara/poses.csv
+                OUTPUT_FILE ${WORK_DIR}/coupled.csv)
+run("coupled poses" diagnose --robot=${DATA_DIR}/scara/robot.yaml --poses=coupled.csv
+    --out=coupled_poses)
 
 set(pages)
-foreach(command calibrate verify diagnose excite postures poses)
+foreach(command calibrate verify diagnose excite postures poses coupled_poses)
   set(file ${WORK_DIR}/${command}/report.html)
   if(NOT EXISTS ${file})
     fail("${command} must write report.html")

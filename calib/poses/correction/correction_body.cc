@@ -182,7 +182,7 @@ static int reach(void (*pose_at)(const double[], double[]),
         b[j] -= f * b[i];
       }
     }
-    for (i = JOINTS - 1; i >= 0; --i) {
+    for (i = JOINTS - 1; i >= 0; i -= 1) {
       for (j = i + 1; j < JOINTS; ++j) b[i] -= A[i][j] * b[j];
       b[i] /= A[i][i];
       if (fabs(b[i]) > most) most = fabs(b[i]);

@@ -106,7 +106,7 @@ std::string CorrectionCode(const ActualArm& arm,
   std::string name = arm.file().name;
   std::replace(name.begin(), name.end(), '*', '_');  // ends no comment
   std::string text = "/* Joint corrections of " + name +
-                     ", written by armcal diagnose --poses.\n" + kWhat;
+                     ", by armcal from measured poses.\n" + kWhat;
   text += Format(
       "   Where the poses' model is right, corrected commands bring the tool "
       "to "

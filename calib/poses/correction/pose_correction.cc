@@ -1,7 +1,6 @@
 #include "calib/poses/correction/pose_correction.h"
 
 #include "calib/numerics/json_figures.h"
-#include "calib/poses/correction/correction_code.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -11,19 +10,12 @@ using nlohmann::json;
 namespace {
 
 // Rows of the table: four nodes for each of six joints.
-constexpr long kMostRows = 4096;
+constexpr long kTableRows = 4096;
 
 json ErrorJson(const CorrectionError& error) {
   return {{"median", JsonNumber(error.median)},
           {"p95", JsonNumber(error.p95)},
           {"most", JsonNumber(error.most)}};
-}
-
-// A table is as coarse as its rows are few for the joints' ranges: where it
-// would do harm there is none.
-bool TableHelps(const CorrectionErrors& errors) {
-  return errors.by_table.median < errors.before.median &&
-         errors.by_table.p95 < errors.before.p95;
 }
 
 // mm; what is less than the solution of equations is known to is not shown.
@@ -46,7 +38,7 @@ PoseCorrection CorrectFromPoses(const Robot& robot,
   Eigen::MatrixX2d range(measured.q.cols(), 2);
   range << measured.q.colwise().minCoeff().transpose(),
       measured.q.colwise().maxCoeff().transpose();
-  correction.table = MakeCorrectionTable(correction.arm, range, kMostRows);
+  correction.table = MakeCorrectionTable(correction.arm, range, kTableRows);
   correction.errors =
       MeasureCorrection(correction.arm, correction.table, range);
   if (held_out != nullptr) {
@@ -55,14 +47,9 @@ PoseCorrection CorrectFromPoses(const Robot& robot,
   return correction;
 }
 
-std::vector<ResultFile> CorrectionFiles(const PoseCorrection& correction) {
-  std::vector<ResultFile> files = {
-      {"correction.c", CorrectionCode(correction.arm, correction.errors)}};
-  if (TableHelps(correction.errors)) {
-    files.push_back(
-        {"correction.csv", CorrectionCsv(correction.arm, correction.table)});
-  }
-  return files;
+bool TableHelps(const CorrectionErrors& errors) {
+  return errors.by_table.median < errors.before.median &&
+         errors.by_table.p95 < errors.before.p95;
 }
 
 std::string CorrectionText(const PoseCorrection& correction) {
@@ -80,8 +67,8 @@ std::string CorrectionText(const PoseCorrection& correction) {
   }
   if (correction.check) {
     text += Format(
-        "  %d held-out poses: %.4g mm rms as they are, %.4g with "
-        "correction.c\n",
+        "  %d held-out poses: %.4g mm rms by the robot file, %.4g by what was "
+        "found\n",
         correction.check->poses, 1e3 * correction.check->before,
         1e3 * correction.check->after);
   }

@@ -3,11 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "calib/poses/correction/correction_check.h"
 #include "calib/poses/correction/correction_table.h"
-#include "calib/summary.h"
 
 namespace armcal {
 
@@ -26,8 +24,10 @@ PoseCorrection CorrectFromPoses(const Robot& robot,
                                 const PoseModel& model,
                                 const PoseMeasurements* held_out);
 
-// correction.c and correction.csv.
-std::vector<ResultFile> CorrectionFiles(const PoseCorrection& correction);
+// A table is as coarse as its rows are few for the joints' ranges: whether it
+// does more good than harm.
+bool TableHelps(const CorrectionErrors& errors);
+
 std::string CorrectionText(const PoseCorrection& correction);
 nlohmann::json CorrectionJson(const PoseCorrection& correction);
 

@@ -259,6 +259,7 @@ PoseDiagnosis DiagnosePoseGap(const Robot& robot,
   result.findings = FindingsOf(study, model, rivals, result.design_effect);
   result.gap = GapOf(study, alone, model);
   result.gap.file = Rms(solution.before);
+  result.left_by_geometry = alone.estimate.linear.r;
   result.nu = study.nu;
   result.model = std::move(model);
   JudgeRemainder(study, &result);

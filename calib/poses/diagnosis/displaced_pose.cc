@@ -15,14 +15,6 @@ namespace {
 // rad or m: beside it, the rounding of a metre's difference is 1e-9.
 constexpr double kSmallMotion = 1e-7;
 
-// The base's pose in the instrument's frame.
-Isometry3d BasePose(const VectorXd& geometry) {
-  Isometry3d X = Isometry3d::Identity();
-  X.translation() = geometry.head<3>();
-  X.linear() = RotationFromRpy({geometry[5], geometry[4], geometry[3]});
-  return X;
-}
-
 // A rotation about a point, and a shift.
 Isometry3d About(const Vector3d& point, const Vector3d& turn,
                  const Vector3d& shift) {
@@ -46,6 +38,13 @@ Vector3d Shifted(const Vector3d& along, Matrix3Xd* velocity) {
 }
 
 }  // namespace
+
+Isometry3d BasePose(const VectorXd& geometry) {
+  Isometry3d X = Isometry3d::Identity();
+  X.translation() = geometry.head<3>();
+  X.linear() = RotationFromRpy({geometry[5], geometry[4], geometry[3]});
+  return X;
+}
 
 Vector3d RotationVector(const Matrix3d& R) {
   const Eigen::AngleAxisd turn(R);

@@ -52,6 +52,9 @@ struct DisplacedPose {
                           Eigen::Matrix3Xd* velocity) const;
 };
 
+// The base's pose in the instrument's frame, the first six of a geometry.
+Eigen::Isometry3d BasePose(const Eigen::VectorXd& geometry);
+
 // Rotation vector of R.
 Eigen::Vector3d RotationVector(const Eigen::Matrix3d& R);
 

@@ -66,7 +66,9 @@ struct PoseDiagnosis {
   // The likeliest effects that held-out poses do not confirm.
   std::string unconfirmed;
   PoseGap gap;
-  PoseMisfit misfit;              // what the effects leave
+  PoseMisfit misfit;  // what the effects leave
+  // Residuals of the geometry without effects, as model.estimate.linear.r.
+  Eigen::VectorXd left_by_geometry;
   double coordinate_rms = 0;      // of it, m
   std::vector<double> distances;  // of each target and pose, m
   std::vector<int> outliers;      // poses (from 0) that fit no better than a

@@ -30,17 +30,6 @@ void MakeTerms(PoseModel* model) {
   }
 }
 
-// Correlation of successive values, of poses that follow each other.
-double OrderCorrelation(const MatrixXd& by_pose) {
-  double product = 0, square = 0;
-  for (Eigen::Index k = 0; k + 1 < by_pose.cols(); ++k) {
-    product += by_pose.col(k).dot(by_pose.col(k + 1));
-    square +=
-        .5 * (by_pose.col(k).squaredNorm() + by_pose.col(k + 1).squaredNorm());
-  }
-  return square > 0 ? product / square : 0;
-}
-
 }  // namespace
 
 std::string PoseModel::Name() const {
@@ -109,6 +98,16 @@ bool IsPossible(const PoseModel& model) {
     if (away > effect.most_amount) return false;
   }
   return true;
+}
+
+double OrderCorrelation(const MatrixXd& by_pose) {
+  double product = 0, square = 0;
+  for (Eigen::Index k = 0; k + 1 < by_pose.cols(); ++k) {
+    product += by_pose.col(k).dot(by_pose.col(k + 1));
+    square +=
+        .5 * (by_pose.col(k).squaredNorm() + by_pose.col(k + 1).squaredNorm());
+  }
+  return square > 0 ? product / square : 0;
 }
 
 double DesignEffect(const PoseStudy& study, const PoseModel& model) {

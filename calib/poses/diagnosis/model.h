@@ -57,6 +57,9 @@ bool IsPossible(const PoseModel& model);
 // ones (the design effect of Kish 1965, of an AR(1) process over the order).
 double DesignEffect(const PoseStudy& study, const PoseModel& model);
 
+// Correlation of successive columns.
+double OrderCorrelation(const Eigen::MatrixXd& by_pose);
+
 // -2 log of a model's evidence but for a constant: Laplace's approximation over
 // the geometry, Schwarz's (1978) over the amounts of effects, and the prior
 // odds of the effects and of their places. `design_effect` is common to the

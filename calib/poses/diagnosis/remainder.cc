@@ -40,13 +40,8 @@ void SetOrder(const PoseStudy& study, const PoseModel& model,
   const MatrixXd r =
       WeightedRows(model.estimate, model.estimate.linear.r)
           .reshaped(study.equations.width(), study.equations.poses());
-  double product = 0, square = 0;
-  for (Eigen::Index k = 0; k + 1 < r.cols(); ++k) {
-    product += r.col(k).dot(r.col(k + 1));
-    square += .5 * (r.col(k).squaredNorm() + r.col(k + 1).squaredNorm());
-  }
-  if (!(square > 0)) return;
-  misfit->order_correlation = product / square;
+  if (r.squaredNorm() == 0) return;
+  misfit->order_correlation = OrderCorrelation(r);
   misfit->order_stddev = 1 / std::sqrt(static_cast<double>(r.cols() - 1));
 }
 

@@ -1,6 +1,5 @@
 #include "calib/poses/effects/each_joint.h"
 #include "calib/poses/effects/effect.h"
-#include "calib/poses/effects/harmonic_terms.h"
 
 namespace armcal {
 

@@ -56,6 +56,7 @@ const charts = (() => {
     'the robot file': {colour: 'c2', dash: [7, 4]},
     'as in the reference': {colour: 'c2', dash: [7, 4]},
     'fitted again': {colour: 'c1', dash: [2, 3]},
+    'the geometry alone': {colour: 'c1', dash: [2, 3]},
     'with the effects': {colour: 'c3', dash: null},
     calibrated: {colour: 'c1', dash: null},
     'calibrated, for a simulator': {colour: 'c3', dash: [2, 3]},

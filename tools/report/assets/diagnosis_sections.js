@@ -6,7 +6,8 @@ const diagnosisSections = (data) => {
          note, heading, list} = charts;
   const result = data.result;
 
-  const testable = result.verdict !== 'not_testable';
+  const ofPoses = String(result.format).startsWith('armcal pose diagnosis');  // pose_sections.js
+  const testable = result.verdict !== 'not_testable' && !ofPoses;
   const whole = (interval) => (interval || []).length === 2 && interval.every(isNumber);
   const effects = () => {
     if (data.command !== 'diagnose' || !testable) return null;
@@ -42,7 +43,7 @@ const diagnosisSections = (data) => {
          'column is by how many standard deviations of what was believed before.')];
 
   const gap = () => {
-    if (!result.gap) return null;
+    if (!result.gap || ofPoses) return null;
     const left = (g, removed) => g.refit - (g.refit - g.floor) * removed / 100;
     const part = (title, g) => g && isNumber(g.refit) ? [
       heading(title),
@@ -62,7 +63,7 @@ const diagnosisSections = (data) => {
   };
 
   const where = () => {
-    if (!result.where) return null;
+    if (!result.where || ofPoses) return null;
     const joints = result.where.joints, any = (result.effects || []).length > 0;
     const u = result.unexplained || {};
     const drawn = data.skeleton && skeleton([{points: data.skeleton.points}], data.skeleton.joints);

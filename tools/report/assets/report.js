@@ -131,10 +131,13 @@
   const {torques, positions, maps, spectra} = torqueSections(data);
   const {driveGains, jointTable, positionTable, geometry, poses, parameters, correlation, rank} = calibrationSections(data);
   const {changes} = changeSections(data);
+  const {poseEffects, poseGap, poseOrder, poseJoints, poseSpace, poseCorrection} = poseSections(data);
   const {dataFindings, effects, absorbed, gap, where, untestable} = diagnosisSections(data);
   const sections = [
     ['The data', dataFindings], ['What changed from log to log', changes], ['Which effect', effects], ['What was only a wrong parameter', absorbed],
     ['How far the gap shrinks', gap], ['Where it lies', where],
+    ['Which effect', poseEffects], ['How far the distances shrink', poseGap], ['In space', poseSpace],
+    ['Pose by pose', poseOrder], ['Joint by joint', poseJoints], ['Corrections of joint positions', poseCorrection],
     ['Torque per current', driveGains], ['Joints', jointTable], ['Positions, in closed loop', positionTable], ['Checks', checks], ['Simulated from the log', rollouts],
     ['The motion', motion], ['The postures', postures], ['What it will tell', predicted], ['Assumed', assumed],
     ['Geometry', geometry], ['Pose by pose', poses],
