@@ -6,6 +6,8 @@
 #include "calib/poses/correction/pose_correction.h"
 #include "calib/poses/diagnosis/diagnosis.h"
 #include "calib/poses/diagnosis/report.h"
+#include "calib/refine/calibration_reader.h"
+#include "calib/refine/parameter_posterior.h"
 #include "calib/robot_outputs.h"
 #include "model/text/option_error.h"
 #include "model/text/option_name.h"
@@ -29,13 +31,32 @@ void CheckPoseEffects(const std::vector<std::string>& names) {
   }
 }
 
-void AddCorrection(const Robot& robot, const PoseMeasurements& measured,
+void CheckGearRatios(const std::vector<double>& ratios, const Robot& robot) {
+  const size_t joints = robot.links.size();
+  if (ratios.empty() || ratios.size() == joints) return;
+  throw OptionError(OptionName("gear_ratios") + ": found " +
+                    std::to_string(ratios.size()) + " numbers, expected " +
+                    std::to_string(joints) + ", one for each joint");
+}
+
+// The robot file's geometry, which its controller has, with the masses of a
+// calibration.
+Robot Weighed(Robot robot, const std::string& calibration) {
+  const CalibratedRobot calibrated =
+      ReadCalibration(CalibrationFile(calibration), robot);
+  for (size_t k = 0; k < robot.links.size(); ++k) {
+    robot.links[k].inertial = calibrated.robot.links[k].inertial;
+  }
+  return robot;
+}
+
+void AddCorrection(const PoseMeasurements& measured,
                    const PoseDiagnosis& diagnosis,
                    const DiagnosePosesOptions& options, nlohmann::json* json,
                    DiagnosePosesSummary* summary) {
   if (options.progress) options.progress("correcting joint positions", -1);
   const PoseCorrection correction =
-      CorrectFromPoses(robot, measured, diagnosis.model,
+      CorrectFromPoses(measured, diagnosis.model,
                        options.validation ? &*options.validation : nullptr);
   (*json)["correction"] = CorrectionJson(correction);
   summary->report += CorrectionText(correction);
@@ -55,6 +76,7 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
                                    const PoseMeasurements& measured,
                                    const DiagnosePosesOptions& options) {
   CheckPoseEffects(options.without);
+  CheckGearRatios(options.gear_ratios, robot);
   if (!measured.touched.empty()) {
     throw OptionError(OptionName("poses") +
                       ": found touched points, expected poses, targets, wire "
@@ -64,9 +86,13 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
   PoseDiagnosisOptions search;
   search.geometry = options.geometry;
   search.without = options.without;
+  search.weighed = !options.calibration.empty();
+  search.gear_ratios = options.gear_ratios;
   search.progress = options.progress;
+  const Robot arm =
+      search.weighed ? Weighed(robot, options.calibration) : robot;
   auto details =
-      std::make_shared<PoseDiagnosis>(DiagnosePoseGap(robot, measured, search));
+      std::make_shared<PoseDiagnosis>(DiagnosePoseGap(arm, measured, search));
   DiagnosePosesSummary summary;
   summary.verdict = PoseVerdictName(details->verdict);
   for (const PoseFinding& finding : details->findings) {
@@ -77,7 +103,7 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
   summary.report = PoseDiagnosisReport(robot, measured, *details);
   nlohmann::json json = PoseDiagnosisJson(robot, measured, *details);
   if (details->verdict != PoseVerdict::kNotTestable) {
-    AddCorrection(robot, measured, *details, options, &json, &summary);
+    AddCorrection(measured, *details, options, &json, &summary);
   }
   summary.json = json.dump(2) + "\n";
   summary.files.push_back({"pose_diagnosis.json", summary.json});

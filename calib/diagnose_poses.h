@@ -23,7 +23,11 @@ struct DiagnosePosesOptions {
   std::vector<std::string> without;  // names of effects not to be considered
   // Poses that take no part in the fit, on which the correction is judged.
   std::optional<PoseMeasurements> validation;
-  RobotSource source;  // of robot.urdf
+  // The calibration.json of `armcal calibrate`, or its folder, whose masses are
+  // those of the measured arm with its tool: sag is told per N m. Empty: none.
+  std::string calibration;
+  std::vector<double> gear_ratios;  // motor over joint; empty: not known
+  RobotSource source;               // of robot.urdf
   Progress progress;
 };
 

@@ -29,6 +29,7 @@ set(rooms
     calib/linear        # model parameters by linear least squares
     calib/poses         # geometry from measured poses
     calib/poses/effects    # what geometry lacks: one effect a file, their list
+    calib/poses/effects/order  # of these, what acts over the order of poses
     calib/poses/diagnosis  # which of these a campaign of measured poses shows
     calib/poses/correction # what a controller adds to its joints' positions
     calib/refine        # the refinement by Ceres and its covariance

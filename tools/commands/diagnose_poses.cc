@@ -80,8 +80,7 @@ bool DiagnosesPoses(const CommandInput& input) {
 
 CommandOutcome RunDiagnosePoses(const CommandInput& input) {
   const FlagValues& flags = input.flags;
-  for (const char* other :
-       {"log", "reference", "calibration", "controller", "export"}) {
+  for (const char* other : {"log", "reference", "controller", "export"}) {
     if (flags.Text(other).empty()) continue;
     throw UsageError("--poses and --" + std::string(other) +
                      ": expected one of them; a diagnosis is of measured "
@@ -98,6 +97,8 @@ CommandOutcome RunDiagnosePoses(const CommandInput& input) {
   if (!held_out.empty()) {
     options.validation = PosesFromFile(flags, robot, held_out);
   }
+  options.calibration = flags.Text("calibration");
+  options.gear_ratios = ParseNumbers("gear_ratios", flags.Text("gear_ratios"));
   options.source = RobotSourceFromFlags(input);
   options.progress = input.progress;
   const DiagnosePosesSummary summary = DiagnosePoses(robot, measured, options);
@@ -105,6 +106,7 @@ CommandOutcome RunDiagnosePoses(const CommandInput& input) {
   outcome.output.verdict = summary.brief;
   std::vector<std::string> files = {flags.Text("poses")};
   if (!held_out.empty()) files.push_back(held_out);
+  if (!options.calibration.empty()) files.push_back(options.calibration);
   AddReport(
       input, "diagnose", robot, summary.json, files,
       [&](ReportContent* content) {

@@ -28,9 +28,10 @@ Robot RefinedLinks(const Robot& file, const VectorXd& values) {
 
 }  // namespace
 
-ActualArm::ActualArm(const Robot& file, const PoseModel& model)
-    : file_(file),
-      links_(RefinedLinks(file, model.estimate.state.unknowns.geometry)) {
+ActualArm::ActualArm(const PoseModel& model)
+    : known_(model.campaign.arm),
+      links_(
+          RefinedLinks(known_.robot, model.estimate.state.unknowns.geometry)) {
   for (size_t e = 0; e < model.effects.size(); ++e) Add(model, e);
 }
 
@@ -61,7 +62,8 @@ ActualArm::Moved ActualArm::At(const VectorXd& q,
                                const VectorXd& standing) const {
   PoseMeasurements pose;
   pose.q = q.transpose();
-  const PoseCampaign campaign = MakeCampaign(file_, pose, standing.transpose());
+  const PoseCampaign campaign =
+      MakeCampaign(known_, pose, standing.transpose());
   Moved moved = {VectorXd::Zero(q.size()), Vector3d::Zero(), Vector3d::Zero(),
                  Vector3d::Zero()};
   for (const Term& term : terms_) {

@@ -23,13 +23,14 @@ class ActualArm {
     double amount;
   };
 
-  // Of `file`, by a model that poses were explained with. Its base frame, its
-  // tool and the instrument are the file's: a robot's base is wherever its
-  // controller says. Joints' zeros that moved are as they were in the end.
-  ActualArm(const Robot& file, const PoseModel& model);
+  // By a model that poses were explained with. Base frame and tool are those of
+  // its robot: a base is wherever its controller says. Joints' zeros that moved
+  // are as they were in the end.
+  explicit ActualArm(const PoseModel& model);
 
-  int num_joints() const { return file_.num_joints(); }
-  const Robot& file() const { return file_; }
+  int num_joints() const { return file().num_joints(); }
+  const Robot& file() const { return known_.robot; }
+  const KnownArm& known() const { return known_; }
   // The file with the refined links.
   const Robot& links() const { return links_; }
   const std::vector<Term>& terms() const { return terms_; }
@@ -52,7 +53,8 @@ class ActualArm {
   };
   Moved At(const Eigen::VectorXd& q, const Eigen::VectorXd& standing) const;
 
-  Robot file_, links_;
+  KnownArm known_;
+  Robot links_;
   std::vector<Term> terms_;
   std::vector<std::string> left_out_;
 };

@@ -32,10 +32,11 @@ static void turned(const double v[3], double pose[12]) {
   }
 }
 
-/* The tool by `links`; where `frames` is given, also each joint's frame, whose
-   z axis is the joint's. */
+/* The tool by `links`; where `frames` and `bodies` are given, also each joint's
+   frame, whose z axis is the joint's, and each link's own. */
 static void tool_pose(const struct link links[], const double q[],
-                      double pose[12], double frames[][12]) {
+                      double pose[12], double frames[][12],
+                      double bodies[][12]) {
   double moved[12];
   int i, k;
   for (i = 0; i < 12; ++i) pose[i] = i % 5 == 0;
@@ -52,6 +53,7 @@ static void tool_pose(const struct link links[], const double q[],
     }
     pose_times(pose, moved, pose);
     pose_times(pose, links[i].after, pose);
+    for (k = 0; bodies && k < 12; ++k) bodies[i][k] = pose[k];
   }
   pose_times(pose, tool, pose);
 }
@@ -66,14 +68,15 @@ static double triple(const double a[3], const double b[3], const double c[3]) {
    stand at `standing`. */
 static double signal_of(const struct term* t, const double q[],
                         const double standing[]) {
-  double pose[12], frames[JOINTS][12], axis[3] = {0, 0, 0}, lever[3];
+  double pose[12], frames[JOINTS][12], bodies[JOINTS][12];
+  double axis[3] = {0, 0, 0}, lever[3];
   const int j = t->of;
   int i, k;
   if (t->kind == ONE) return 1;
   if (t->kind == POSITION) return q[j];
   if (t->kind == SINE) return sin(t->harmonic * standing[j]);
   if (t->kind == COSINE) return cos(t->harmonic * standing[j]);
-  tool_pose(by_file, standing, pose, frames);
+  tool_pose(by_file, standing, pose, frames, bodies);
   if (t->kind == TOOL_GRAVITY) {
     return pose[j] * down[0] + pose[4 + j] * down[1] + pose[8 + j] * down[2];
   }
@@ -86,7 +89,13 @@ static double signal_of(const struct term* t, const double q[],
   for (k = 0; k < 3; ++k) {
     axis[k] = frames[j][4 * k + 2];
     lever[k] -= frames[j][4 * k + 3];
-    if (t->kind == LINK_MOMENT) lever[k] = 0;
+    if (t->kind == LINK_MOMENT || t->kind == WEIGHT_MOMENT) lever[k] = 0;
+    for (i = j; t->kind == WEIGHT_MOMENT && i < JOINTS; ++i) {
+      lever[k] += weights[i][0] * (bodies[i][4 * k + 3] - frames[j][4 * k + 3]) +
+                  weights[i][1] * bodies[i][4 * k] +
+                  weights[i][2] * bodies[i][4 * k + 1] +
+                  weights[i][3] * bodies[i][4 * k + 2];
+    }
     for (i = j + 1; t->kind == LINK_MOMENT && i < JOINTS; ++i) {
       lever[k] += (frames[i][4 * k + 3] - frames[j][4 * k + 3]) / (JOINTS - j);
     }
@@ -112,7 +121,7 @@ void armcal_actual_pose(const double q[JOINTS], double pose[12]) {
     }
     for (i = 0; i < JOINTS; ++i) standing[i] = q[i] + joints[i];
   }
-  tool_pose(refined, standing, pose, 0);
+  tool_pose(refined, standing, pose, 0, 0);
   turned(moved, part);
   pose_times(part, pose, pose);
   turned(moved + 6, part);
@@ -121,7 +130,7 @@ void armcal_actual_pose(const double q[JOINTS], double pose[12]) {
 }
 
 void armcal_file_pose(const double q[JOINTS], double pose[12]) {
-  tool_pose(by_file, q, pose, 0);
+  tool_pose(by_file, q, pose, 0, 0);
 }
 
 /* Position and LEVER times the rotation vector that lead from one pose to

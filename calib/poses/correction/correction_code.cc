@@ -49,6 +49,19 @@ std::string Links(const char* name, const Robot& robot) {
   return text + "};\n";
 }
 
+// What each link weighs, N, and the moment of that about its frame's origin, by
+// the lever in its frame, N m: of an arm that was weighed.
+std::string Weights(const ActualArm& arm) {
+  std::string text = "static const double weights[JOINTS][4] = {";
+  const double g = arm.known().weighed ? arm.file().gravity.norm() : 0;
+  for (const Link& link : arm.file().links) {
+    const Eigen::Vector3d h = g * link.inertial.first_moment;
+    text += Format("\n    {%.17g, %.17g, %.17g, %.17g},",
+                   g * link.inertial.mass, h.x(), h.y(), h.z());
+  }
+  return text + "};\n";
+}
+
 const char* KindOf(PostureSignal::Of of) {
   using Of = PostureSignal::Of;
   switch (of) {
@@ -62,6 +75,8 @@ const char* KindOf(PostureSignal::Of of) {
       return "TOOL_MOMENT";
     case Of::kLinkMoment:
       return "LINK_MOMENT";
+    case Of::kWeightMoment:
+      return "WEIGHT_MOMENT";
     case Of::kLoadSide:
       return "LOAD_SIDE";
     case Of::kBaseMoment:
@@ -78,12 +93,12 @@ const char* KindOf(PostureSignal::Of of) {
 std::string Terms(const ActualArm& arm) {
   std::string text =
       "enum {JOINT, BASE, TOOL};\n"
-      "enum {ONE, POSITION, SINE, COSINE, TOOL_MOMENT, LINK_MOMENT, "
-      "LOAD_SIDE,\n"
+      "enum {ONE, POSITION, SINE, COSINE, TOOL_MOMENT, LINK_MOMENT,\n"
+      "      WEIGHT_MOMENT, LOAD_SIDE,\n"
       "      BASE_MOMENT, TOOL_GRAVITY};\n"
       "struct term {\n"
-      "  int moves, index, kind, of, harmonic;\n"
-      "  double amount;\n"
+      "  int moves, index, kind, of;\n"
+      "  double harmonic, amount;\n"
       "};\n";
   text += Format("enum {TERMS = %d};\n", static_cast<int>(arm.terms().size()));
   text += "static const struct term terms[TERMS + 1] = {\n";
@@ -91,7 +106,7 @@ std::string Terms(const ActualArm& arm) {
     const char* moves = term.acts == PoseTerm::Acts::kJoint  ? "JOINT"
                         : term.acts == PoseTerm::Acts::kBase ? "BASE"
                                                              : "TOOL";
-    text += Format("    {%s, %d, %s, %d, %d, %.17g},\n", moves, term.index,
+    text += Format("    {%s, %d, %s, %d, %.17g, %.17g},\n", moves, term.index,
                    KindOf(term.signal.of), term.signal.index,
                    term.signal.harmonic, term.amount);
   }
@@ -138,7 +153,7 @@ std::string CorrectionCode(const ActualArm& arm,
   text += "static const double tool[12] = " + Numbers(arm.file().X_LT) + ";\n";
   text += Format("static const double down[3] = {%.17g, %.17g, %.17g};\n",
                  down.x(), down.y(), down.z());
-  return text + Terms(arm) + kCorrectionBody;
+  return text + Weights(arm) + Terms(arm) + kCorrectionBody;
 }
 
 }  // namespace armcal

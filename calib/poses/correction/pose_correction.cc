@@ -30,11 +30,10 @@ std::string ErrorText(const char* name, const CorrectionError& error) {
 
 }  // namespace
 
-PoseCorrection CorrectFromPoses(const Robot& robot,
-                                const PoseMeasurements& measured,
+PoseCorrection CorrectFromPoses(const PoseMeasurements& measured,
                                 const PoseModel& model,
                                 const PoseMeasurements* held_out) {
-  PoseCorrection correction = {ActualArm(robot, model), {}, {}, {}};
+  PoseCorrection correction = {ActualArm(model), {}, {}, {}};
   Eigen::MatrixX2d range(measured.q.cols(), 2);
   range << measured.q.colwise().minCoeff().transpose(),
       measured.q.colwise().maxCoeff().transpose();

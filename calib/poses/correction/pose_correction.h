@@ -19,8 +19,7 @@ struct PoseCorrection {
 };
 
 // Over the range of the measured joint positions. `held_out`: null: none.
-PoseCorrection CorrectFromPoses(const Robot& robot,
-                                const PoseMeasurements& measured,
+PoseCorrection CorrectFromPoses(const PoseMeasurements& measured,
                                 const PoseModel& model,
                                 const PoseMeasurements* held_out);
 

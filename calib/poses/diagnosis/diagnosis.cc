@@ -243,7 +243,10 @@ PoseDiagnosis DiagnosePoseGap(const Robot& robot,
   const PoseSolution solution = SolvePoses(measured, plain.refine, &fit);
   result.reason = solution.refusal;
   if (!result.reason.empty()) return result;
-  PoseStudy study = {robot, measured, PoseEquations(fit, measured), kHeavyTails,
+  PoseStudy study = {{robot, options.weighed, options.gear_ratios},
+                     measured,
+                     PoseEquations(fit, measured),
+                     kHeavyTails,
                      options.without};
   study.equations.SetFree(solution.free);
   study.equations.set_rotation_length(fit.noise().position /

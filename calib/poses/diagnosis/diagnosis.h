@@ -12,6 +12,8 @@ namespace armcal {
 struct PoseDiagnosisOptions {
   PoseCalibrationOptions geometry;
   std::vector<std::string> without;  // names of effects not to be considered
+  bool weighed = false;              // KnownArm
+  std::vector<double> gear_ratios;
   Progress progress;
 };
 

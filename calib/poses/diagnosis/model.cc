@@ -43,7 +43,7 @@ std::string PoseModel::Name() const {
 
 PoseModel FitGeometryAlone(const PoseStudy& study, const PoseState& start) {
   PoseModel model;
-  model.campaign = MakeCampaign(study.robot, study.measured, study.measured.q);
+  model.campaign = MakeCampaign(study.arm, study.measured, study.measured.q);
   model.begin = {0};
   model.estimate = EstimatePoses(study.equations, {}, study.nu, start);
   return model;
@@ -66,7 +66,7 @@ PoseModel FitPoseModel(const PoseStudy& study,
   const double elsewhere =
       (standing - model.campaign.standing).cwiseAbs().maxCoeff();
   if (elsewhere < kStandsElsewhere) return model;
-  model.campaign = MakeCampaign(study.robot, study.measured, standing);
+  model.campaign = MakeCampaign(study.arm, study.measured, standing);
   MakeTerms(&model);
   model.estimate = EstimatePoses(study.equations, model.terms, study.nu,
                                  model.estimate.state);

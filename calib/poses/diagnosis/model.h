@@ -20,7 +20,7 @@ struct PlacedPoseEffect {
 
 // What a search for effects is made on.
 struct PoseStudy {
-  Robot robot;
+  KnownArm arm;
   const PoseMeasurements& measured;
   PoseEquations equations;
   double nu;                              // of the errors (student.h)

@@ -196,7 +196,7 @@ std::string PoseDiagnosisReport(const Robot& robot,
   if (diagnosis.verdict == PoseVerdict::kNotTestable) {
     return PoseSentence(diagnosis) + "\n";
   }
-  const PoseCampaign campaign = MakeCampaign(robot, measured, measured.q);
+  const PoseCampaign campaign = MakeCampaign({robot}, measured, measured.q);
   std::string text = PoseSentence(diagnosis) + "\n";
   if (!diagnosis.findings.empty()) text += "\nwhich effect\n";
   for (const PoseFinding& finding : diagnosis.findings) {

@@ -166,7 +166,7 @@ class EffectSearch {
   // are enough to see them.
   void AddFarAmounts(const PoseModel& alone) {
     const PoseMeasurements some = SomePoses(study_.measured, kMostFarPoses);
-    PoseStudy part = {study_.robot, some, study_.equations.Of(some), study_.nu,
+    PoseStudy part = {study_.arm, some, study_.equations.Of(some), study_.nu,
                       study_.without};
     const PoseModel part_alone = FitGeometryAlone(part, alone.estimate.state);
     for (const PoseEffect& effect : PoseEffects()) {

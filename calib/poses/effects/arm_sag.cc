@@ -18,7 +18,7 @@ PoseEffect ArmSag() {
       joints += FeelsWeight(campaign, i);
     }
     if (joints < 2) return places;  // joint_sag
-    for (const int parts : {1, 2}) {
+    for (int parts = 1; parts <= (campaign.arm.weighed ? 1 : 2); ++parts) {
       PosePlace place;
       place.parts = parts;
       places.push_back(place);

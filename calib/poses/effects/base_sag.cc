@@ -16,7 +16,7 @@ PoseEffect BaseSag() {
     return std::vector<PosePlace>{{}};
   };
   effect.terms = [](const PoseCampaign& campaign, const PosePlace&) {
-    const Eigen::Vector3d down = campaign.robot.gravity.stableNormalized();
+    const Eigen::Vector3d down = campaign.robot().gravity.stableNormalized();
     std::vector<PoseTerm> terms;
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(down[axis]) > .9) continue;  // a moment has none about it

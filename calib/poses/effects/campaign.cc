@@ -2,6 +2,7 @@
 
 #include "calib/logs/encoder_noise.h"
 #include "calib/poses/load_moment.h"
+#include "model/dynamics/forward_dynamics.h"
 #include "model/robot/kinematics.h"
 
 namespace armcal {
@@ -35,6 +36,19 @@ MatrixXd OwnMoments(const Robot& robot, const MatrixXd& q) {
   return moments;
 }
 
+// Of what the links weigh: what joints hold, the other way round. A prismatic
+// joint does not turn.
+MatrixXd WeightMoments(const Robot& robot, const MatrixXd& q) {
+  MatrixXd moments(q.rows(), q.cols());
+  for (Eigen::Index k = 0; k < q.rows(); ++k) {
+    moments.row(k) = -GravityTorque(robot, q.row(k).transpose()).transpose();
+  }
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    if (!IsRotational(robot.links[i].joint.type)) moments.col(i).setZero();
+  }
+  return moments;
+}
+
 }  // namespace
 
 bool PoseCampaign::Moves(int joint) const {
@@ -42,19 +56,21 @@ bool PoseCampaign::Moves(int joint) const {
 }
 
 bool PoseCampaign::Turns(int joint) const {
-  return Moves(joint) && IsRotational(robot.links[joint].joint.type);
+  return Moves(joint) && IsRotational(robot().links[joint].joint.type);
 }
 
-PoseCampaign MakeCampaign(const Robot& robot, const PoseMeasurements& measured,
+PoseCampaign MakeCampaign(const KnownArm& arm, const PoseMeasurements& measured,
                           const MatrixXd& standing) {
   PoseCampaign campaign;
-  campaign.robot = robot;
+  const Robot& robot = arm.robot;
+  campaign.arm = arm;
   campaign.recorded = measured.q;
   campaign.standing = standing;
   campaign.travel =
       measured.q.colwise().maxCoeff() - measured.q.colwise().minCoeff();
   campaign.tool_moment = LoadMoments(robot, standing);
   campaign.link_moment = OwnMoments(robot, standing);
+  if (arm.weighed) campaign.weight_moment = WeightMoments(robot, standing);
   campaign.number = measured.number;
   for (int k = static_cast<int>(campaign.number.size()); k < campaign.size();
        ++k) {

@@ -8,16 +8,27 @@
 
 namespace armcal {
 
+// What is known of a measured arm beside its geometry.
+struct KnownArm {
+  Robot robot;
+  // Whether the robot's masses are those of the arm, with its tool.
+  bool weighed = false;
+  std::vector<double> gear_ratios = {};  // motor over joint; empty: not known
+};
+
 // What effects of geometry are made from: an arm, and where its joints stood in
 // each of the measured poses (rows), in the order of the file.
 struct PoseCampaign {
-  Robot robot;
+  KnownArm arm;
+  const Robot& robot() const { return arm.robot; }
   Eigen::MatrixXd recorded;  // rad or m, as the file has them
   Eigen::MatrixXd standing;  // the same, corrected by effects found so far
   Eigen::VectorXd travel;    // per joint, of `recorded`
   // Moments (m) about each joint of a unit weight at the tool, and of one that
   // is spread evenly over the origins of the further links.
   Eigen::MatrixXd tool_moment, link_moment;
+  // Of an arm that was weighed: of its weight, N m. Else empty.
+  Eigen::MatrixXd weight_moment;
   std::vector<long> number;  // of each pose, for people
   int targets = 0;           // 0: whole poses or a wire
   bool whole_poses = false;
@@ -33,7 +44,7 @@ struct PoseCampaign {
 };
 
 // `standing`: rows of joint positions.
-PoseCampaign MakeCampaign(const Robot& robot, const PoseMeasurements& measured,
+PoseCampaign MakeCampaign(const KnownArm& arm, const PoseMeasurements& measured,
                           const Eigen::MatrixXd& standing);
 
 }  // namespace armcal

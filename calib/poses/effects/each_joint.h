@@ -34,7 +34,7 @@ inline std::vector<PosePlace> OnEachMoving(
 
 // The joint turns by a sin nq + b cos nq, q being where it stands.
 inline std::vector<PoseTerm> HarmonicTerms(const PoseCampaign& campaign,
-                                           int joint, int harmonic) {
+                                           int joint, double harmonic) {
   const auto term = [&](PostureSignal::Of of, const char* name) {
     return PostureTerm(campaign, PoseTerm::Acts::kJoint, joint,
                        {of, joint, harmonic}, name, "rad");

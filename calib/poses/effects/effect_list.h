@@ -7,6 +7,7 @@
   X(GearRatio)                 \
   X(EccentricEncoder)          \
   X(SecondHarmonic)            \
+  X(MotorHarmonic)             \
   X(JointSag)                  \
   X(ArmSag)                    \
   X(BaseSag)                   \

@@ -23,7 +23,9 @@ PoseTerm PostureTerm(const PoseCampaign& campaign, PoseTerm::Acts acts,
 
 std::string PlacedName(const PoseEffect& effect, const PoseCampaign& campaign,
                        const PosePlace& place) {
-  const auto joint = [&](int i) { return campaign.robot.links[i].joint.name; };
+  const auto joint = [&](int i) {
+    return campaign.robot().links[i].joint.name;
+  };
   std::string name = effect.name;
   if (place.joint >= 0) name += " of " + joint(place.joint);
   if (place.by >= 0) name += " with " + joint(place.by);

@@ -17,7 +17,7 @@ PoseEffect JointSag() {
     std::vector<PosePlace> places;
     for (int i = 0; i < campaign.joints(); ++i) {
       if (!FeelsWeight(campaign, i)) continue;
-      for (const int parts : {1, 2}) {
+      for (int parts = 1; parts <= (campaign.arm.weighed ? 1 : 2); ++parts) {
         PosePlace place;
         place.joint = i;
         place.parts = parts;

@@ -14,11 +14,11 @@ namespace {
 // Of each pose of the tool as the joints stand.
 template <typename OfPose>
 VectorXd OfTool(const PoseCampaign& campaign, const OfPose& of_pose) {
-  const Vector3d down = campaign.robot.gravity.stableNormalized();
+  const Vector3d down = campaign.robot().gravity.stableNormalized();
   VectorXd values(campaign.size());
   for (int k = 0; k < campaign.size(); ++k) {
     const VectorXd q = campaign.standing.row(k);
-    values[k] = of_pose(ToolPose(campaign.robot, q), down);
+    values[k] = of_pose(ToolPose(campaign.robot(), q), down);
   }
   return values;
 }
@@ -41,6 +41,8 @@ VectorXd SignalAt(const PoseCampaign& campaign, const PostureSignal& signal) {
       return campaign.tool_moment.col(i);
     case Of::kLinkMoment:
       return campaign.link_moment.col(i);
+    case Of::kWeightMoment:
+      return campaign.weight_moment.col(i);
     case Of::kLoadSide:
       return campaign.tool_moment.col(i).array().sign();
     case Of::kBaseMoment:

@@ -32,18 +32,23 @@ bool FeelsWeight(const PoseCampaign& campaign, int joint) {
 std::vector<PoseTerm> SagTerms(const PoseCampaign& campaign, int joint,
                                int parts) {
   std::vector<PoseTerm> terms;
-  const auto add = [&](PostureSignal::Of moment, const char* by) {
+  const auto add = [&](PostureSignal::Of moment, const char* by,
+                       const char* unit) {
     terms.push_back(
         PostureTerm(campaign, PoseTerm::Acts::kJoint, joint, {moment, joint},
-                    campaign.robot.links[joint].joint.name + by, "rad/m"));
+                    campaign.robot().links[joint].joint.name + by, unit));
   };
-  add(PostureSignal::Of::kToolMoment, "");
+  if (campaign.arm.weighed) {
+    add(PostureSignal::Of::kWeightMoment, "", "rad/(N m)");
+    return terms;
+  }
+  add(PostureSignal::Of::kToolMoment, "", "rad/m");
   const Eigen::VectorXd own = campaign.link_moment.col(joint);
   if (parts < 2 || SpreadOf(own) < kLeastChange) return terms;
   if (OwnShare(own, campaign.tool_moment.col(joint)) < kLeastDifference) {
     return terms;
   }
-  add(PostureSignal::Of::kLinkMoment, " by its own links");
+  add(PostureSignal::Of::kLinkMoment, " by its own links", "rad/m");
   return terms;
 }
 

@@ -31,9 +31,16 @@ constexpr int kPoses = 40;
 
 // Every effect in its last place (sag of both parts), with amounts that turn
 // and shift by some thousandths.
-PoseModel EveryEffect(const Robot& robot, const PoseMeasurements& measured) {
+PoseModel EveryEffect(const Robot& robot, const PoseMeasurements& measured,
+                      bool weighed) {
   PoseModel model;
-  model.campaign = MakeCampaign(robot, measured, measured.q);
+  KnownArm arm = {robot, weighed, {}};
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    arm.robot.links[i].inertial = InertialParameters::FromCenterOfMass(
+        7 - i, Eigen::Vector3d(.1, -.05 * i, .02), Eigen::Matrix3d::Identity());
+    arm.gear_ratios.push_back(60.5 + i);
+  }
+  model.campaign = MakeCampaign(arm, measured, measured.q);
   model.begin = {0};
   for (const PoseEffect& effect : PoseEffects()) {
     const std::vector<PosePlace> places = effect.places(model.campaign);
@@ -57,8 +64,8 @@ class Corrections : public ::testing::Test {
   Corrections()
       : campaign_(kArm, Instrument::kTargets, 1, kPoses, 11),
         measured_(campaign_.Measure({}, 0, 1)),
-        model_(EveryEffect(campaign_.nominal(), measured_)),
-        arm_(campaign_.nominal(), model_) {}
+        model_(EveryEffect(campaign_.nominal(), measured_, false)),
+        arm_(model_) {}
 
   HiddenPoses campaign_;
   PoseMeasurements measured_;
@@ -73,7 +80,15 @@ double Apart(const Isometry3d& a, const Isometry3d& b) {
 TEST_F(Corrections, KnowEachSignalAndWhatIsNotTheArms) {
   std::set<PostureSignal::Of> kinds;
   for (const ActualArm::Term& term : arm_.terms()) kinds.insert(term.signal.of);
-  EXPECT_EQ(kinds.size(), 9u);  // all but kNothing
+  // All but kNothing and, since the arm was not weighed, kWeightMoment.
+  EXPECT_EQ(kinds.size(), 9u);
+  const ActualArm weighed(EveryEffect(campaign_.nominal(), measured_, true));
+  int moments = 0;
+  for (const ActualArm::Term& term : weighed.terms()) {
+    moments += term.signal.of == PostureSignal::Of::kWeightMoment;
+    EXPECT_NE(term.signal.of, PostureSignal::Of::kLinkMoment);
+  }
+  EXPECT_GT(moments, 2);
   std::set<std::string> named;
   for (const std::string& name : arm_.left_out()) {
     named.insert(name.substr(0, name.find_first_of(" ,")));
@@ -140,7 +155,7 @@ TEST_F(Corrections, OfPosesThatAreExplainedAreExact) {
   const PoseFit fit(campaign_.nominal(), measured_, {});
   const VectorXd r =
       PoseEquations(fit, measured_).Residuals(only.terms, only.estimate.state);
-  const ActualArm arm(campaign_.nominal(), only);
+  const ActualArm arm(only);
   const Eigen::Vector3d predicted =
       r.segment<3>(9) + measured_.targets[0].row(3).transpose();
   // Signals are of where joints stand, which the model's terms were not made
@@ -181,30 +196,37 @@ class Compiled {
   void* library_ = nullptr;
 };
 
-TEST_F(Corrections, AreTheSameInC) {
-  const Compiled c(CorrectionCode(arm_, {}));
+void CompareWithC(const ActualArm& arm, const Eigen::MatrixXd& postures) {
+  const Compiled c(CorrectionCode(arm, {}));
   for (int k = 0; k < kPoses; ++k) {
-    const VectorXd q = measured_.q.row(k);
+    const VectorXd q = postures.row(k);
     const VectorXd pose = c.Call("armcal_actual_pose", q, 12);
     Isometry3d X = Isometry3d::Identity();
     X.matrix().topRows<3>() =
         Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(
             pose.data());
-    EXPECT_LT(Apart(X, arm_.ToolPose(q)), 1e-13);
-    if (!IsRegular(arm_.file(), q)) continue;
+    EXPECT_LT(Apart(X, arm.ToolPose(q)), 1e-13);
+    if (!IsRegular(arm.file(), q)) continue;
     EXPECT_LT(
-        (c.Call("armcal_command_correction", q, 6) - CommandCorrection(arm_, q))
+        (c.Call("armcal_command_correction", q, 6) - CommandCorrection(arm, q))
             .cwiseAbs()
             .maxCoeff(),
         1e-7);
     EXPECT_LT(
-        (c.Call("armcal_forward_correction", q, 6) - ForwardCorrection(arm_, q))
+        (c.Call("armcal_forward_correction", q, 6) - ForwardCorrection(arm, q))
             .cwiseAbs()
             .maxCoeff(),
         1e-7);
   }
 }
 
+TEST_F(Corrections, AreTheSameInC) {
+  for (const bool weighed : {false, true}) {
+    SCOPED_TRACE(weighed ? "weighed" : "not weighed");
+    const ActualArm arm(EveryEffect(campaign_.nominal(), measured_, weighed));
+    CompareWithC(arm, measured_.q);
+  }
+}
 TEST_F(Corrections, OfOneGearAreALinearTable) {
   PoseModel gear = model_;
   gear.effects.clear();
@@ -222,7 +244,7 @@ TEST_F(Corrections, OfOneGearAreALinearTable) {
   gear.terms = ratio->terms(gear.campaign, place);
   gear.begin.push_back(1);
   gear.estimate.state.amounts = VectorXd::Constant(1, .01);
-  const ActualArm arm(campaign_.nominal(), gear);
+  const ActualArm arm(gear);
   Eigen::MatrixX2d range(6, 2);
   range.col(0).setConstant(-1);
   range.col(1).setConstant(1);
@@ -264,7 +286,7 @@ TEST(CorrectionCheck, HeldOutPosesAreMetToTheNoise) {
   const PoseDiagnosis diagnosis = DiagnosePoseGap(arm.nominal(), fitted, {});
   ASSERT_EQ(diagnosis.findings.size(), 1u);
   const CorrectionCheck check =
-      CheckCorrection(ActualArm(arm.nominal(), diagnosis.model), held_out);
+      CheckCorrection(ActualArm(diagnosis.model), held_out);
   EXPECT_EQ(check.poses, 40);
   EXPECT_GT(check.before, 3e-3);
   // A distance has three coordinates of noise 1e-4; the geometry's own error

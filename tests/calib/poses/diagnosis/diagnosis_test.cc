@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "model/dynamics/forward_dynamics.h"
 #include "tests/fixtures/hidden_poses.h"
 
 namespace armcal::diagnosis_test {
@@ -117,6 +118,61 @@ TEST(PoseDiagnosis, GivesNoPosesUpThatACouplingExplains) {
   EXPECT_EQ(found.placed.place.by, 1);
   EXPECT_NEAR(found.amounts[0].value, -1, 2 * found.amounts[0].half_width);
   EXPECT_LT(diagnosis.gap.held_out_after, 5 * kNoise);
+}
+
+// An arm whose masses are known: each joint's compliance is told per N m.
+TEST(PoseDiagnosis, OfAWeighedArmTellsCompliance) {
+  Plant plant("PUMA560 6R", 8);
+  for (Robot* robot : {&plant.nominal, &plant.robot}) {
+    for (int i = 0; i < 6; ++i) {
+      robot->links[i].inertial = InertialParameters::FromCenterOfMass(
+          8 - i, Eigen::Vector3d(-.1, .02, .03), Eigen::Matrix3d::Identity());
+    }
+  }
+  PoseMeasurements m = plant.Measure(Instrument::kTargets, 60, kNoise);
+  const Eigen::Vector3d compliance(0, 4e-5, 9e-5);  // rad / (N m)
+  for (Eigen::Index k = 0; k < m.q.rows(); ++k) {
+    const Eigen::VectorXd standing = m.q.row(k);
+    const Eigen::VectorXd held = GravityTorque(plant.robot, standing);
+    // Springs harden by a twentieth.
+    for (int j = 0; j < 3; ++j) {
+      const double moment = -held[j] / (1 + 5e-4 * std::abs(held[j]));
+      m.q(k, j) -= compliance[j] * moment;
+    }
+  }
+  PoseDiagnosisOptions options;
+  options.weighed = true;
+  const auto diagnosis = DiagnosePoseGap(plant.nominal, m, options);
+  ASSERT_EQ(diagnosis.findings.size(), 1u);
+  const PoseFinding& found = diagnosis.findings[0];
+  EXPECT_EQ(found.placed.effect->name, "sag");
+  for (const PoseAmount& amount : found.amounts) {
+    EXPECT_EQ(amount.unit, "rad/(N m)");
+    const int joint = amount.name == plant.nominal.links[1].joint.name   ? 1
+                      : amount.name == plant.nominal.links[2].joint.name ? 2
+                                                                         : 0;
+    EXPECT_NEAR(amount.value, compliance[joint],
+                2 * amount.half_width + .06 * compliance[joint]);
+    if (joint > 0) EXPECT_LT(amount.half_width, .2 * compliance[joint]);
+  }
+}
+
+// An encoder on the joint that errs with the motor's angle, where it stands.
+TEST(PoseDiagnosis, NamesWhatErrsOnceInTheMotorsTurn) {
+  Plant plant("UR5 6R", 9);
+  PoseMeasurements m = plant.Measure(Instrument::kTargets, 70, kNoise);
+  m.q.col(1).array() -= 8e-4 * (50 * m.q.col(1).array() + 1).sin();
+  PoseDiagnosisOptions options;
+  options.gear_ratios = {100, 50, 50, -80, 80, 1};
+  const auto diagnosis = DiagnosePoseGap(plant.nominal, m, options);
+  ASSERT_EQ(diagnosis.findings.size(), 1u);
+  const PoseFinding& found = diagnosis.findings[0];
+  EXPECT_EQ(found.placed.effect->name, "motor_harmonic");
+  EXPECT_EQ(found.placed.place.joint, 1);
+  EXPECT_EQ(found.placed.place.parts, 1);
+  EXPECT_NEAR(std::hypot(found.amounts[0].value, found.amounts[1].value), 8e-4,
+              8e-5);
+  EXPECT_LT(diagnosis.gap.held_out_after, 3 * kNoise);
 }
 
 TEST(PoseDiagnosis, NamesNothingWhereGeometryIsAllThereIs) {

@@ -1,23 +1,22 @@
 #include "calib/poses/effects/effect.h"
-#include "calib/poses/effects/order_signals.h"
+#include "calib/poses/effects/order/order_signals.h"
 
 namespace armcal {
 
-// What carries the target slips on the flange between two unknown poses, and
-// back.
-PoseEffect ToolWindow() {
+// The zero of the wire's encoder moves between two unknown poses, and back.
+PoseEffect LengthWindow() {
   PoseEffect effect;
-  effect.name = "tool_window";
-  effect.means =
-      "the target or tool sits elsewhere on the arm in a block of poses";
+  effect.name = "length_window";
+  effect.means = "the wire reads another length in a block of poses";
   effect.in_order = true;
   effect.separate_by = kRepeatEarlyPoses;
   effect.places = [](const PoseCampaign& campaign) {
-    return WindowPlaces(campaign, ToolParts(campaign));
+    if (!campaign.wire) return std::vector<PosePlace>{};
+    return WindowPlaces(campaign, {1});
   };
   effect.count = &WindowCount;
   effect.terms = [](const PoseCampaign& campaign, const PosePlace& place) {
-    return MovedBody(PoseTerm::Acts::kTool, place.parts,
+    return MovedBody(PoseTerm::Acts::kLength, place.parts,
                      WindowSignal(campaign.size(), place));
   };
   return effect;

@@ -1,6 +1,6 @@
 #include "calib/poses/effects/each_joint.h"
 #include "calib/poses/effects/effect.h"
-#include "calib/poses/effects/order_signals.h"
+#include "calib/poses/effects/order/order_signals.h"
 
 namespace armcal {
 

@@ -1,20 +1,21 @@
 #include "calib/poses/effects/effect.h"
-#include "calib/poses/effects/order_signals.h"
+#include "calib/poses/effects/order/order_signals.h"
 
 namespace armcal {
 
-// What carries the target slips on the flange from an unknown pose on.
-PoseEffect ToolStep() {
+// What carries the target slips on the flange between two unknown poses, and
+// back.
+PoseEffect ToolWindow() {
   PoseEffect effect;
-  effect.name = "tool_step";
+  effect.name = "tool_window";
   effect.means =
-      "the target or tool sits elsewhere on the arm from one pose on";
+      "the target or tool sits elsewhere on the arm in a block of poses";
   effect.in_order = true;
   effect.separate_by = kRepeatEarlyPoses;
   effect.places = [](const PoseCampaign& campaign) {
-    return StepPlaces(campaign, ToolParts(campaign));
+    return WindowPlaces(campaign, ToolParts(campaign));
   };
-  effect.count = &StepCount;
+  effect.count = &WindowCount;
   effect.terms = [](const PoseCampaign& campaign, const PosePlace& place) {
     return MovedBody(PoseTerm::Acts::kTool, place.parts,
                      WindowSignal(campaign.size(), place));

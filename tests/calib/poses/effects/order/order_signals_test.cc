@@ -1,4 +1,4 @@
-#include "calib/poses/effects/order_signals.h"
+#include "calib/poses/effects/order/order_signals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "calib/poses/effects/effect.h"
-#include "calib/poses/effects/order_signals.h"
+#include "calib/poses/effects/order/order_signals.h"
 
 namespace armcal {
 
