@@ -123,6 +123,8 @@ PostureOptions PostureOptionsFor(const Robot& robot,
   postures.count = asked.count;
   postures.instrument = asked.instrument;
   postures.criterion = options.criterion;
+  postures.separate = options.separate;
+  postures.gear_ratios = options.reading.gear_ratios;
   postures.noise = {asked.position_noise, asked.rotation_noise};
   std::vector<std::string> sentences;
   const MotionLimits limits = LimitsFor(robot, options.limits, &sentences);

@@ -7,8 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "calib/poses/fit.h"
-#include "model/robot/kinematics.h"
+#include "calib/excite/posture_model.h"
 #include "model/text/uniform_draw.h"
 
 namespace armcal {
@@ -16,9 +15,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// A target off every axis of the tool.
-const Eigen::Vector3d kTarget(.08, .05, .1);  // m, in T
 
 MatrixXd RandomPostures(const PostureOptions& options, int count,
                         std::uint64_t seed) {
@@ -42,123 +38,10 @@ MatrixXd RandomPostures(const PostureOptions& options, int count,
   return q;
 }
 
-PoseMeasurements Predicted(const Robot& robot, PoseInstrument instrument,
-                           const MatrixXd& q) {
-  PoseMeasurements measured;
-  measured.q = q;
-  if (instrument == PoseInstrument::kTarget) {
-    measured.targets.assign(1, MatrixXd(q.rows(), 3));
-  } else {
-    measured.poses.resize(q.rows(), 7);
-  }
-  for (Eigen::Index k = 0; k < q.rows(); ++k) {
-    measured.row.push_back(static_cast<long>(k) + 2);
-    const Eigen::Isometry3d X_WT = ToolPose(robot, q.row(k));
-    if (instrument == PoseInstrument::kTarget) {
-      measured.targets[0].row(k) = X_WT * kTarget;
-    } else {
-      const Eigen::Quaterniond turn(X_WT.linear());
-      measured.poses.row(k) << X_WT.translation().transpose(), turn.w(),
-          turn.vec().transpose();
-    }
-  }
-  return measured;
-}
-
-// What postures tell of the unknowns.
-class Postures {
- public:
-  // Unknowns are those that `q`, rich enough, tell apart.
-  Postures(const Robot& robot, const PostureOptions& options, const MatrixXd& q)
-      : robot_(robot), options_(options) {
-    const PoseMeasurements measured = Predicted(robot, options.instrument, q);
-    const PoseCalibrationOptions pose_options = Options();
-    const PoseFit fit(robot, measured, pose_options);
-    const std::vector<bool> free = fit.HoldUnseen(
-        fit.Wanted(RefineGeometry::kAll), fit.AllRows(), At(fit), nullptr);
-    const std::vector<std::string> names = fit.geometry().Names();
-    const std::vector<std::string> units = fit.geometry().Units();
-    for (int k = 0; k < fit.geometry().size(); ++k) {
-      if (!free[k]) continue;
-      if (!ArmGeometry::IsBase(k) && !fit.geometry().IsTool(k)) {
-        wanted_.push_back(static_cast<int>(columns_.size()));
-        names_.push_back(names[k]);
-        units_.push_back(units[k]);
-      }
-      columns_.push_back(k);
-      prior_.push_back(fit.PriorOf(k));
-    }
-    const int others = PoseUnknowns::NumOther(measured);
-    for (int k = 0; k < others; ++k) {
-      columns_.push_back(fit.geometry().size() + k);
-      prior_.push_back(0);
-    }
-  }
-
-  // Their equations, in units of the noise.
-  std::vector<MatrixXd> Rows(const MatrixXd& q) const {
-    const PoseMeasurements measured = Predicted(robot_, options_.instrument, q);
-    const PoseCalibrationOptions pose_options = Options();
-    const PoseFit fit(robot_, measured, pose_options);
-    const MatrixXd J =
-        fit.Jacobian(fit.AllRows(), At(fit))(Eigen::all, columns_);
-    const int width = fit.Coordinates();
-    std::vector<MatrixXd> rows;
-    for (Eigen::Index k = 0; k < q.rows(); ++k) {
-      rows.emplace_back(J.middleRows(k * width, width));
-      // The fit's own idea of the noise gives way to what is asked for.
-      rows.back().topRows(3) *= fit.noise().position / options_.noise.position;
-      rows.back().bottomRows(width - 3) *=
-          fit.noise().rotation / options_.noise.rotation;
-    }
-    return rows;
-  }
-
-  const std::vector<int>& wanted() const { return wanted_; }
-  const std::vector<std::string>& names() const { return names_; }
-  const std::vector<std::string>& units() const { return units_; }
-  // Of the priors; what has none gets one that says next to nothing.
-  MatrixXd Prior() const {
-    VectorXd diagonal(prior_.size());
-    for (size_t k = 0; k < prior_.size(); ++k) {
-      const double stddev = prior_[k] > 0 ? prior_[k] : 10;
-      diagonal[static_cast<Eigen::Index>(k)] = 1 / (stddev * stddev);
-    }
-    return diagonal.asDiagonal();
-  }
-  // By which standard deviations are measured.
-  VectorXd Scale() const {
-    VectorXd scale(wanted_.size());
-    for (size_t k = 0; k < wanted_.size(); ++k) {
-      scale[static_cast<Eigen::Index>(k)] = prior_[wanted_[k]];
-    }
-    return scale;
-  }
-
- private:
-  PoseCalibrationOptions Options() const {
-    PoseCalibrationOptions options;
-    options.prior_length = options_.prior_length;
-    options.prior_angle = options_.prior_angle;
-    return options;
-  }
-  PoseUnknowns At(const PoseFit& fit) const {
-    PoseUnknowns at{fit.geometry().Values(), VectorXd(0)};
-    if (options_.instrument == PoseInstrument::kTarget) at.other = kTarget;
-    return at;
-  }
-
-  const Robot& robot_;
-  const PostureOptions& options_;
-  std::vector<int> columns_, wanted_;
-  std::vector<double> prior_;
-  std::vector<std::string> names_, units_;
-};
-
 // A set of postures and the covariance that it leaves.
 class Choice {
  public:
-  Choice(const Postures& postures, ExcitationCriterion criterion)
+  Choice(const PostureModel& postures, ExcitationCriterion criterion)
       : postures_(postures),
         criterion_(criterion),
         scale_(postures.Scale()),
@@ -221,11 +104,19 @@ class Choice {
                              : relative.maxCoeff());
   }
 
-  const Postures& postures_;
+  const PostureModel& postures_;
   ExcitationCriterion criterion_;
   VectorXd scale_;
   MatrixXd information_, covariance_;
 };
+
+// Of effects' amounts alone, D would weigh all that is unknown beside them.
+ExcitationCriterion CriterionOf(const PostureOptions& options) {
+  const bool all = options.separate.empty();
+  return all || options.criterion != ExcitationCriterion::kD
+             ? options.criterion
+             : ExcitationCriterion::kA;
+}
 
 int BestOf(const Choice& choice, const std::vector<MatrixXd>& rows) {
   int best = 0;
@@ -257,7 +148,7 @@ MatrixXd Variants(const PostureOptions& options, const VectorXd& q) {
 }
 
 // Moves single joints of single postures while that helps.
-void Improve(const Postures& postures, const PostureOptions& options,
+void Improve(const PostureModel& postures, const PostureOptions& options,
              Choice* choice, MatrixXd* q) {
   constexpr int kMostRounds = 12;
   bool changed = true;
@@ -281,10 +172,11 @@ PostureDesign DesignPostures(const Robot& robot,
                              const PostureOptions& options) {
   const MatrixXd candidates = RandomPostures(
       options, std::max(options.candidates, options.count), options.seed);
-  const Postures postures(robot, options, candidates);
+  const PostureModel postures(robot, options, candidates);
   const std::vector<MatrixXd> rows = postures.Rows(candidates);
-  Choice choice(postures, options.criterion);
-  Choice random(postures, options.criterion);
+  const ExcitationCriterion criterion = CriterionOf(options);
+  Choice choice(postures, criterion);
+  Choice random(postures, criterion);
   PostureDesign design;
   design.q.resize(options.count, candidates.cols());
   for (int k = 0; k < options.count; ++k) {
@@ -305,7 +197,7 @@ PostureDesign DesignPostures(const Robot& robot,
 
 namespace {
 
-Postures UsualPostures(const Robot& robot, const PostureOptions& options) {
+PostureModel UsualPostures(const Robot& robot, const PostureOptions& options) {
   return {robot, options,
           RandomPostures(options, options.candidates, options.seed)};
 }
@@ -320,8 +212,8 @@ std::vector<MatrixXd> PostureEquations(const Robot& robot,
 
 double PostureCriterion(const Robot& robot, const PostureOptions& options,
                         const MatrixXd& q) {
-  const Postures postures = UsualPostures(robot, options);
-  Choice choice(postures, options.criterion);
+  const PostureModel postures = UsualPostures(robot, options);
+  Choice choice(postures, CriterionOf(options));
   for (const MatrixXd& rows : postures.Rows(q)) choice.Add(rows);
   return choice.Value();
 }

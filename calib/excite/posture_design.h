@@ -1,37 +1,19 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "calib/excite/design_kinds.h"
-#include "model/log_files/pose_reader.h"
+#include "calib/excite/posture_options.h"
 #include "model/robot/robot.h"
-#include "problems/excitation_criterion.h"
-#include "problems/motion_limits.h"
-#include "problems/pose_problem.h"
-#include "problems/workspace.h"
 
 namespace armcal {
 
-struct PostureOptions {
-  int count = 20;
-  PoseInstrument instrument = PoseInstrument::kTarget;
-  ExcitationCriterion criterion = ExcitationCriterion::kD;
-  Eigen::VectorXd lower, upper;  // of joint positions, rad or m
-  Workspace workspace;
-  PoseNoise noise;
-  double prior_length = .01;  // m, how far lengths may be from the file's
-  double prior_angle = .02;   // rad
-  int candidates = 1000;      // random postures to start from
-  std::uint64_t seed = 0;
-};
-
-// Postures chosen for a calibration of the arm's geometry.
+// Postures chosen for a calibration of the arm's geometry, or to tell effects
+// beside it apart.
 struct PostureDesign {
   Eigen::MatrixXd q;  // postures x joints
-  // Of the geometry that can be told, in m and rad.
+  // Of the geometry that can be told, in m and rad, or of effects' amounts.
   std::vector<std::string> names, units;
   Eigen::VectorXd stddev;                      // predicted
   Eigen::VectorXd random_stddev;               // with as many random ones
@@ -43,7 +25,7 @@ struct PostureDesign {
 // certain as possible: the best next one of random ones, then single joints of
 // single postures are moved while that helps (Fedorov's exchanges, 1972).
 // Throws std::invalid_argument where hardly any posture is clear of the
-// workspace.
+// workspace; OptionError as PostureModel does.
 PostureDesign DesignPostures(const Robot& robot, const PostureOptions& options);
 
 // The equations of each posture in units of the noise, rows x unknowns: what of

@@ -23,8 +23,8 @@ DEFINE_string(criterion, "D",
               "(sum of variances), worst (largest standard deviation)");
 DEFINE_string(
     separate, "",
-    "`A,B[,..]` effects that the motion is to tell apart on every joint, "
-    "instead of a --target");
+    "`A,B[,..]` effects that the motion, or postures, are to tell apart on "
+    "every joint, instead of a --target");
 DEFINE_int32(harmonics, 0,
              "of the base frequency, per joint; default: up to 0.5 Hz");
 DEFINE_int32(periods, 1, "equal periods that the motion consists of");
@@ -207,11 +207,15 @@ ExciteOptions ExciteOptionsFromFlags(const CommandInput& input,
   const FlagValues& flags = input.flags;
   ExciteOptions options;
   options.target = kTargets.Parse(flags.Text("target"));
-  for (const Effect* effect :
-       ParseEffects("separate", flags.Text("separate"))) {
-    options.separate.push_back(effect->name);
-  }
   options.poses = PosesFromFlags(flags);
+  if (options.poses) {
+    options.separate = SplitAtCommas(flags.Text("separate"));
+  } else {
+    for (const Effect* effect :
+         ParseEffects("separate", flags.Text("separate"))) {
+      options.separate.push_back(effect->name);
+    }
+  }
   options.duration_s = flags.Number("duration");
   options.periods = flags.Whole("periods");
   options.harmonics = flags.Whole("harmonics");

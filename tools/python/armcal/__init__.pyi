@@ -447,8 +447,9 @@ def excite(
     target               str: what the motion is to tell: model (parameters),
                          physical (inertias, friction), geometry (lengths)
                          (default model)
-    separate             Union[str, Sequence[str]]: effects that the motion is
-                         to tell apart on every joint, instead of a --target
+    separate             Union[str, Sequence[str]]: effects that the motion, or
+                         postures, are to tell apart on every joint, instead of
+                         a --target
     static_poses         int: postures for geometry instead of a motion
                          (default 0)
     duration             float, s: of a motion that is not from a file (default
