@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "problems/plane_residual.h"
 #include "problems/pose_residual.h"
 #include "problems/target_residual.h"
 #include "problems/touch_residual.h"
@@ -61,12 +62,16 @@ std::vector<std::string> PoseUnknowns::OtherNames(
   if (measured.lengths.size() > 0) {
     return {"wire.x", "wire.y", "wire.z", "wire.offset"};
   }
-  const bool touches = !measured.touched.empty();
+  const std::string what = measured.planes            ? "plane"
+                           : measured.touched.empty() ? "target"
+                                                      : "point";
+  const std::vector<const char*> parts =
+      measured.planes ? std::vector<const char*>{".a", ".b", ".c"}
+                      : std::vector<const char*>{".x", ".y", ".z"};
   std::vector<std::string> names;
   for (int k = 0; k < NumOther(measured) / 3; ++k) {
-    for (const char* axis : {".x", ".y", ".z"}) {
-      names.push_back((touches ? "point" : "target") + std::to_string(k + 1) +
-                      axis);
+    for (const char* part : parts) {
+      names.push_back(what + std::to_string(k + 1) + part);
     }
   }
   return names;
@@ -104,6 +109,9 @@ void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
                       ceres::Problem* problem) {
   double* const g = unknowns->geometry.data();
   double* const other = unknowns->other.data();
+  const std::vector<TouchedPlane> planes =
+      measured.planes ? TouchedPlanes(*geometry, measured, nullptr)
+                      : std::vector<TouchedPlane>{};
   for (const int k : rows) {
     const Eigen::VectorXd q = measured.q.row(k);
     if (measured.lengths.size() > 0) {
@@ -117,7 +125,12 @@ void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
                              noise.position),
           MakeLoss(loss, 3), g, other + 3 * t);
     }
-    if (!measured.touched.empty()) {
+    if (measured.planes) {
+      const int plane = measured.touched[k];
+      problem->AddResidualBlock(
+          new PlaneResidual(geometry, q, planes[plane], noise.position),
+          MakeLoss(loss, 1), g, other + 3 * plane);
+    } else if (!measured.touched.empty()) {
       problem->AddResidualBlock(new TouchResidual(geometry, q, noise.position),
                                 MakeLoss(loss, 3), g,
                                 other + 3 * measured.touched[k]);
@@ -136,7 +149,11 @@ MatrixXd PositionErrors(const ArmGeometry& geometry,
                         const PoseUnknowns& unknowns) {
   const bool wire = measured.lengths.size() > 0;
   const int targets = static_cast<int>(measured.targets.size());
-  MatrixXd errors(measured.size(), wire ? 1 : std::max(3, 3 * targets));
+  const bool one = wire || measured.planes;
+  MatrixXd errors(measured.size(), one ? 1 : std::max(3, 3 * targets));
+  const std::vector<TouchedPlane> planes =
+      measured.planes ? TouchedPlanes(geometry, measured, nullptr)
+                      : std::vector<TouchedPlane>{};
   for (int k = 0; k < measured.size(); ++k) {
     const Isometry3d X =
         geometry.ToolPose(measured.q.row(k), unknowns.geometry.data(), nullptr);
@@ -151,7 +168,11 @@ MatrixXd PositionErrors(const ArmGeometry& geometry,
       errors.row(k).segment<3>(3 * t) =
           p.transpose() - measured.targets[t].row(k);
     }
-    if (!measured.touched.empty()) {
+    if (measured.planes) {
+      const int plane = measured.touched[k];
+      errors(k, 0) = planes[plane].Distance(unknowns.other.data() + 3 * plane,
+                                            X.translation());
+    } else if (!measured.touched.empty()) {
       errors.row(k) =
           (X.translation() - unknowns.other.segment<3>(3 * measured.touched[k]))
               .transpose();

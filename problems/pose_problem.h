@@ -35,14 +35,15 @@ Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
 
 // The unknowns of a geometric calibration, in two parameter blocks: the
 // geometry (ArmGeometry::Values) and what else the measurement needs: the
-// targets on the tool or the points that it touches (3 each, m), or the wire's
-// anchor and length offset (4).
+// targets on the tool or the points that it touches (3 each, m), the planes
+// that it touches (3 each, plane_residual.h), or the wire's anchor and length
+// offset (4).
 struct PoseUnknowns {
   Eigen::VectorXd geometry;
   Eigen::VectorXd other;
 
   static int NumOther(const PoseMeasurements& measured);
-  // "target2.y", "point1.x", "wire.x", "wire.offset".
+  // "target2.y", "point1.x", "plane1.a", "wire.x", "wire.offset".
   static std::vector<std::string> OtherNames(const PoseMeasurements& measured);
 };
 

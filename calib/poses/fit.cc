@@ -13,6 +13,7 @@
 #include "calib/poses/start.h"
 #include "model/signals/column_basis.h"
 #include "problems/dense_solver.h"
+#include "problems/plane_residual.h"
 
 namespace armcal {
 namespace {
@@ -159,19 +160,35 @@ VectorXd PoseFit::Residuals(const std::vector<int>& rows,
                  RotationErrors(*geometry_, measured_, at));
 }
 
-// As if the tip were where the point is. Then what no touch can tell, a turn of
-// the whole arm or other lengths of all of it, is the same as other points to
-// the last digit; beside the errors of a start it only is about that.
+// As if the tip were where the point is, or on the plane. Then what no touch
+// can tell, a turn of the whole arm or other lengths of all of it, is the same
+// as other points to the last digit; beside the errors of a start it only is
+// about that.
 MatrixXd PoseFit::TouchingJacobian(const std::vector<int>& rows,
                                    const PoseUnknowns& at) const {
   const int g = geometry_->size();
-  MatrixXd J = MatrixXd::Zero(static_cast<Eigen::Index>(3 * rows.size()),
+  MatrixXd J = MatrixXd::Zero(static_cast<Eigen::Index>(Width() * rows.size()),
                               g + at.other.size());
   std::vector<ParameterTwist> twists;
+  const std::vector<TouchedPlane> planes =
+      measured_.planes ? TouchedPlanes(*geometry_, measured_, nullptr)
+                       : std::vector<TouchedPlane>{};
   for (size_t k = 0; k < rows.size(); ++k) {
-    auto own = J.middleRows<3>(static_cast<Eigen::Index>(3 * k));
+    auto own = J.middleRows(static_cast<Eigen::Index>(Width() * k), Width());
     const int point = 3 * measured_.touched[rows[k]];
-    geometry_->ToolPose(measured_.q.row(rows[k]), at.geometry.data(), &twists);
+    const Eigen::Vector3d tip =
+        geometry_
+            ->ToolPose(measured_.q.row(rows[k]), at.geometry.data(), &twists)
+            .translation();
+    if (measured_.planes) {
+      const TouchedPlane& plane = planes[point / 3];
+      const double* const abc = at.other.data() + point;
+      const Eigen::Vector3d n = plane.Normal(abc);
+      const Eigen::Vector3d on = tip - plane.Distance(abc, tip) * n;
+      for (int c = 0; c < g; ++c) own(0, c) = n.dot(twists[c].At(on));
+      own.middleCols<3>(g + point) = plane.Derivative(abc, on);
+      continue;
+    }
     for (int c = 0; c < g; ++c) {
       own.col(c) = twists[c].At(at.other.segment<3>(point));
     }
@@ -296,7 +313,7 @@ void PoseFit::EstimateNoise(const std::vector<bool>& free,
 int PoseFit::EquationsPerPose() const {
   if (measured_.lengths.size() > 0) return 1;
   if (measured_.poses.size() > 0) return 6;
-  if (!measured_.touched.empty()) return 3;
+  if (!measured_.touched.empty()) return Width();
   return 3 * static_cast<int>(measured_.targets.size());
 }
 

@@ -39,7 +39,9 @@ class PoseFit {
                                   num_unknowns);
   }
   // Coordinates of a position error.
-  int Width() const { return measured_.lengths.size() > 0 ? 1 : 3; }
+  int Width() const {
+    return measured_.lengths.size() > 0 || measured_.planes ? 1 : 3;
+  }
   // Coordinates of a residual that share a loss.
   int Coordinates() const { return measured_.poses.size() > 0 ? 6 : Width(); }
   // Of all targets of a pose.

@@ -30,6 +30,7 @@ std::string Estimate(const GeometryEstimate& p) {
 
 const char* Kind(const PoseMeasurements& measured) {
   if (measured.lengths.size() > 0) return "wire lengths";
+  if (measured.planes) return "touched planes";
   if (!measured.touched.empty()) return "touched points";
   if (measured.pixel_stddev > 0) return "images";
   return measured.targets.empty() ? "tool poses" : "targets";

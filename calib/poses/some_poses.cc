@@ -10,6 +10,7 @@ PoseMeasurements SomePoses(const PoseMeasurements& measured, int most) {
   std::vector<int> kept;
   for (int k = 0; k < measured.size(); k += step) kept.push_back(k);
   PoseMeasurements part;
+  part.planes = measured.planes;
   part.q = measured.q(kept, Eigen::all);
   for (const int k : kept) part.row.push_back(measured.row[k]);
   for (const int k : kept) {

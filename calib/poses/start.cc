@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calib/poses/hand_eye.h"
+#include "problems/plane_residual.h"
 #include "problems/pose_problem.h"
 
 namespace armcal {
@@ -96,6 +97,10 @@ PoseUnknowns StartPoses(const ArmGeometry& geometry,
   const Matrix3Xd p = ToolPositions(geometry, measured);
   if (measured.lengths.size() > 0) {
     start.other = Trilaterate(p, measured.lengths);
+    return start;
+  }
+  if (measured.planes) {
+    TouchedPlanes(geometry, measured, &start.other);
     return start;
   }
   if (!measured.touched.empty()) {

@@ -24,6 +24,7 @@ constexpr std::size_t kMostPoses = 100'000;
 struct Places {
   int q = -1, pose = -1, length = -1, u95 = -1;
   int point = -1;
+  bool planes = false;
   int num_u95 = 0;
   std::vector<int> targets;
 };
@@ -81,8 +82,16 @@ Places ChooseColumns(const std::string& path, const LogColumns& columns,
   if (!length.empty()) places.length = row->Use(length);
   // Where something was measured, a column of that name is anybody's.
   if (places.targets.empty() && pose.empty() && length.empty()) {
-    const auto point = FindNamed(path, columns, {"point"}, ColumnUnit::kNone);
-    if (!point.empty()) places.point = row->Use(point);
+    for (const char* name : {"point", "plane"}) {
+      const auto point = FindNamed(path, columns, {name}, ColumnUnit::kNone);
+      if (point.empty()) continue;
+      if (places.point >= 0) {
+        throw InputError(path, "row 1", "",
+                         "expected one of the columns point and plane");
+      }
+      places.point = row->Use(point);
+      places.planes = name == std::string("plane");
+    }
   }
   for (int k = 1;; ++k) {
     const auto u95 =
@@ -101,8 +110,8 @@ Places ChooseColumns(const std::string& path, const LogColumns& columns,
   }
   throw InputError(path, "row 1", "",
                    "expected one kind of measurement: x1 y1 z1 [x2 ..] "
-                   "(targets), x y z qw qx qy qz (poses), length1 (a wire) or "
-                   "point (touched ones)");
+                   "(targets), x y z qw qx qy qz (poses), length1 (a wire), "
+                   "point or plane (touched ones)");
 }
 
 // A number as people write it.
@@ -114,6 +123,7 @@ std::string TextOf(double value) {
 
 // In the order in which their numbers, whole ones, rise.
 std::vector<int> TouchedPoints(const std::string& path,
+                               const std::string& column,
                                const std::vector<long>& row,
                                const Eigen::VectorXd& numbers) {
   std::map<long, int> points;
@@ -121,9 +131,10 @@ std::vector<int> TouchedPoints(const std::string& path,
     const bool whole = numbers[k] >= 1 && numbers[k] <= kMostPoses &&
                        numbers[k] == std::floor(numbers[k]);
     if (!whole) {
-      throw InputError(path, "row " + std::to_string(row[k]) + ", column point",
-                       TextOf(numbers[k]),
-                       "expected the number of the touched point, from 1");
+      throw InputError(
+          path, "row " + std::to_string(row[k]) + ", column " + column,
+          TextOf(numbers[k]),
+          "expected the number of the touched " + column + ", from 1");
     }
     points[std::lround(numbers[k])] = 0;
   }
@@ -221,7 +232,9 @@ PoseMeasurements ReadPoses(const std::string& path,
     result.u95 = table.middleCols(places.u95, places.num_u95);
   }
   if (places.point >= 0) {
-    result.touched = TouchedPoints(path, result.row, table.col(places.point));
+    result.planes = places.planes;
+    result.touched = TouchedPoints(path, places.planes ? "plane" : "point",
+                                   result.row, table.col(places.point));
   }
   CheckValues(path, result);
   return result;

@@ -34,6 +34,7 @@ struct PoseMeasurements {
   // Which of several points, counted from 0, the tool's tip touches; where they
   // are is not known.
   std::vector<int> touched;
+  bool planes = false;  // these are planes instead of points
   // Per target (or one): half-width of the instrument's 95 % interval of a
   // coordinate or a length, m, 0 where it is not stated; poses x columns, empty
   // where the file has none.
@@ -50,7 +51,8 @@ struct PoseMeasurements {
 // Reads a table of poses, CSV or another format (line_source.h): joint
 // positions like a log's (q1.. or shoulder/position, with units), and x1 y1 z1
 // [x2 y2 z2 ...] for targets, or x y z qw qx qy qz, or length1, or point, the
-// number (from 1) of the point that is touched; optional u95_1 [u95_2 ...] and
+// number (from 1) of the point that is touched, or plane, that of a plane;
+// optional u95_1 [u95_2 ...] and
 // pose, a number. Lengths in m unless a suffix [mm] says otherwise. Throws
 // InputError.
 PoseMeasurements ReadPoses(const std::string& path,

@@ -18,8 +18,8 @@ struct BadPoses {
 
 constexpr char kKinds[] =
     "FILE: row 1: expected one kind of measurement: x1 y1 z1 [x2 ..] "
-    "(targets), x y z qw qx qy qz (poses), length1 (a wire) or point (touched "
-    "ones)";
+    "(targets), x y z qw qx qy qz (poses), length1 (a wire), point or plane "
+    "(touched ones)";
 
 const BadPoses kBad[] = {
     {"", "FILE: the file is empty"},
@@ -37,6 +37,8 @@ const BadPoses kBad[] = {
     {"image,q1,q2,bx,by,u,v\n1,0,0,0,0,5,6\n",
      "FILE: row 1: found 'u, v': images of a board, expected the camera's "
      "intrinsics beside them"},
+    {"q1,q2,point,plane\n0,0,1,1\n",
+     "FILE: row 1: expected one of the columns point and plane"},
     {"q1,q2,point\n0,0,1.5\n",
      "FILE: row 2, column point: found '1.5': expected the number of the "
      "touched point, from 1"},
@@ -101,7 +103,9 @@ TEST(PoseReader, RefusesMalformedFiles) {
 }
 
 TEST(PoseReader, ReadsTouchedPoints) {
+  EXPECT_TRUE(Read("q1,q2,plane\n0,0,1\n0,1,2\n").planes);
   const PoseMeasurements m = Read("q1,q2,point\n0,0,7\n0,1,3\n1,0,7\n");
+  EXPECT_FALSE(m.planes);
   EXPECT_EQ(m.touched, (std::vector<int>{1, 0, 1}));
   EXPECT_EQ(m.num_points(), 2);
 }
