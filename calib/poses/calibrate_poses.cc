@@ -9,6 +9,7 @@
 #include "calib/poses/coupling.h"
 #include "calib/poses/fit.h"
 #include "calib/poses/misfit.h"
+#include "calib/poses/pose_solution.h"
 #include "model/signals/dense_solvers.h"
 
 namespace armcal {

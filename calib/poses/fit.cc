@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "calib/numerics/median.h"
-#include "calib/poses/start.h"
 #include "model/signals/column_basis.h"
 #include "problems/dense_solver.h"
 #include "problems/plane_residual.h"
@@ -238,7 +237,9 @@ std::vector<bool> PoseFit::HoldUnseen(const std::vector<bool>& wanted,
     if (!wanted[k]) continue;
     if (k == scale) {
       if (held == nullptr) continue;
-      held->push_back(names_[k] + " is as in the file: touches tell no scale");
+      held->push_back(
+          names_[k] +
+          " only with the file's other lengths: touches tell no scale");
       continue;
     }
     // All of them, also where another has not taken it.
@@ -357,33 +358,6 @@ bool PoseFit::SolveWithNoise(const std::vector<bool>& free,
     }
   }
   return Solve(free, rows, options_.loss, unknowns);
-}
-
-PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
-                        PoseFit* fit) {
-  PoseSolution solution;
-  const std::vector<int> rows = fit->AllRows();
-  solution.unknowns = StartPoses(fit->geometry(), measured);
-  fit->EstimateNoise(std::vector<bool>(fit->geometry().size(), false),
-                     solution.unknowns);
-  const auto solve = [&](RefineGeometry what, const char* failure) {
-    solution.held.clear();
-    solution.free = fit->HoldUnseen(fit->Wanted(what), rows, solution.unknowns,
-                                    &solution.held);
-    solution.refusal = fit->WhyTooFew(solution.free, solution.unknowns);
-    if (!solution.refusal.empty()) return false;
-    if (!fit->SolveWithNoise(solution.free, rows, &solution.unknowns)) {
-      solution.refusal = failure;
-    }
-    return solution.refusal.empty();
-  };
-  if (!solve(RefineGeometry::kNothing,
-             "the instrument's frame cannot be found")) {
-    return solution;
-  }
-  solution.before = fit->Distances(rows, solution.unknowns);
-  solve(refine, "the geometry cannot be solved for");
-  return solution;
 }
 
 }  // namespace armcal

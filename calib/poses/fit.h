@@ -63,6 +63,9 @@ class PoseFit {
                                const std::vector<int>& rows,
                                const PoseUnknowns& at,
                                std::vector<std::string>* held) const;
+  // The length that stands for the scale, which touches do not tell; -1:
+  // something else does.
+  int ScaleLength(const std::vector<bool>& wanted) const;
   // Why there are too few poses for so many unknowns; empty if there are not.
   std::string WhyTooFew(const std::vector<bool>& free,
                         const PoseUnknowns& at) const;
@@ -91,7 +94,6 @@ class PoseFit {
                                 const PoseUnknowns& at) const;
 
  private:
-  int ScaleLength(const std::vector<bool>& wanted) const;
   Eigen::MatrixXd TouchingJacobian(const std::vector<int>& rows,
                                    const PoseUnknowns& at) const;
 
@@ -102,17 +104,5 @@ class PoseFit {
   Eigen::VectorXd nominal_;
   PoseNoise noise_;
 };
-
-// Poses fitted alone, from their start values: first the instrument's frame,
-// then what `refine` asks for and the poses can tell.
-struct PoseSolution {
-  std::string refusal;  // why there is none; empty: solved
-  PoseUnknowns unknowns;
-  std::vector<bool> free;         // of the geometry's parameters
-  std::vector<std::string> held;  // sentences
-  std::vector<double> before;     // distances, m, with only the frame fitted
-};
-PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
-                        PoseFit* fit);
 
 }  // namespace armcal

@@ -8,6 +8,7 @@
 #include "calib/linear/calibration_model.h"
 #include "calib/numerics/median.h"
 #include "calib/poses/fit.h"
+#include "calib/poses/pose_solution.h"
 #include "calib/refine/arm_covariance.h"
 #include "calib/refine/arm_fit.h"
 #include "calib/refine/link_equations.h"

@@ -3,6 +3,7 @@
 #include "calib/numerics/median.h"
 #include "calib/poses/correction/joint_correction.h"
 #include "calib/poses/fit.h"
+#include "calib/poses/pose_solution.h"
 #include "model/robot/kinematics.h"
 #include "model/text/option_error.h"
 #include "model/text/option_name.h"

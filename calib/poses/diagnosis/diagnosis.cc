@@ -10,6 +10,7 @@
 #include "calib/poses/diagnosis/rivals.h"
 #include "calib/poses/diagnosis/scan.h"
 #include "calib/poses/diagnosis/separation.h"
+#include "calib/poses/pose_solution.h"
 
 namespace armcal {
 

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "calib/excite/posture_design.h"
+#include "calib/poses/pose_solution.h"
 #include "model/robot/kinematics.h"
 #include "model/text/option_error.h"
 #include "tests/fixtures/sample_robots.h"

@@ -6,6 +6,7 @@
 
 #include "calib/numerics/posterior.h"
 #include "calib/poses/fit.h"
+#include "calib/poses/pose_solution.h"
 #include "tests/fixtures/sample_poses.h"
 
 namespace armcal::posterior_ceres_test {

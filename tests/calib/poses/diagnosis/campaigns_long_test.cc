@@ -12,6 +12,7 @@
 
 #include "calib/poses/diagnosis/diagnosis.h"
 #include "calib/poses/fit.h"
+#include "calib/poses/pose_solution.h"
 #include "tests/fixtures/hidden_poses.h"
 
 namespace armcal::campaigns_long_test {

@@ -1,0 +1,38 @@
+#include "calib/poses/pose_solution.h"
+
+#include "calib/poses/start.h"
+#include "calib/poses/touch_scale.h"
+
+namespace armcal {
+
+PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
+                        PoseFit* fit) {
+  PoseSolution solution;
+  const std::vector<int> rows = fit->AllRows();
+  solution.unknowns = StartPoses(fit->geometry(), measured);
+  fit->EstimateNoise(std::vector<bool>(fit->geometry().size(), false),
+                     solution.unknowns);
+  const auto solve = [&](RefineGeometry what, const char* failure) {
+    solution.held.clear();
+    solution.free = fit->HoldUnseen(fit->Wanted(what), rows, solution.unknowns,
+                                    &solution.held);
+    solution.refusal = fit->WhyTooFew(solution.free, solution.unknowns);
+    if (!solution.refusal.empty()) return false;
+    if (!fit->SolveWithNoise(solution.free, rows, &solution.unknowns)) {
+      solution.refusal = failure;
+    }
+    return solution.refusal.empty();
+  };
+  if (!solve(RefineGeometry::kNothing,
+             "the instrument's frame cannot be found")) {
+    return solution;
+  }
+  solution.before = fit->Distances(rows, solution.unknowns);
+  const bool solved = solve(refine, "the geometry cannot be solved for");
+  if (solved && !measured.touched.empty()) {
+    SetScaleByFile(*fit, measured, solution.free, &solution.unknowns);
+  }
+  return solution;
+}
+
+}  // namespace armcal
