@@ -65,9 +65,8 @@ TEST(Touches, WhatNobodyCanTellIsHeld) {
 
 // A hundred arms (ten scatter by a tenth) that touch one point forty times with
 // errors of 0.1 mm: the tool's error elsewhere, in the mean square, falls to
-// less than a fifth. How long a metre is the file says: what its longest link
-// is off by stays.
-TEST(Touches, OfOnePointMakeAnArmFiveTimesAsGood) {
+// less than a sixth. How long a metre is the file says, by all of its lengths.
+TEST(Touches, OfOnePointMakeAnArmSixTimesAsGood) {
   double before = 0, tool_alone = 0, after = 0;
   for (int seed = 101; seed <= 200; ++seed) {
     TouchingArm touching(seed);
@@ -86,7 +85,7 @@ TEST(Touches, OfOnePointMakeAnArmFiveTimesAsGood) {
       "of it %.2f\n",
       1e3 * std::sqrt(before), 1e3 * std::sqrt(tool_alone),
       1e3 * std::sqrt(after));
-  EXPECT_LT(std::sqrt(after), std::sqrt(before) / 5);
+  EXPECT_LT(std::sqrt(after), std::sqrt(before) / 6);
 }
 
 }  // namespace armcal::touches_test
