@@ -60,12 +60,13 @@ void ActualArm::Add(const PoseModel& model, size_t effect) {
 
 ActualArm::Moved ActualArm::At(const VectorXd& q,
                                const VectorXd& standing) const {
+  Moved moved = {VectorXd::Zero(q.size()), Vector3d::Zero(), Vector3d::Zero(),
+                 Vector3d::Zero()};
+  if (terms_.empty()) return moved;
   PoseMeasurements pose;
   pose.q = q.transpose();
   const PoseCampaign campaign =
       MakeCampaign(known_, pose, standing.transpose());
-  Moved moved = {VectorXd::Zero(q.size()), Vector3d::Zero(), Vector3d::Zero(),
-                 Vector3d::Zero()};
   for (const Term& term : terms_) {
     const double by = term.amount * SignalAt(campaign, term.signal)[0];
     if (term.acts == PoseTerm::Acts::kJoint) moved.joints[term.index] += by;
@@ -76,14 +77,16 @@ ActualArm::Moved ActualArm::At(const VectorXd& q,
   return moved;
 }
 
+ActualArm::Moved ActualArm::Settled(const VectorXd& q) const {
+  return At(q, q + At(q, q).joints);
+}
+
 VectorXd ActualArm::Standing(const VectorXd& q) const {
-  // Signals are of where joints stand, which signals displace: what is left
-  // after two rounds is of third order.
-  return q + At(q, q + At(q, q).joints).joints;
+  return q + Settled(q).joints;
 }
 
 Isometry3d ActualArm::ToolPose(const VectorXd& q) const {
-  const Moved moved = At(q, q + At(q, q).joints);
+  const Moved moved = Settled(q);
   Isometry3d X_TB = Turned(moved.turn);
   X_TB.translation() = moved.tool;
   return Turned(moved.base) * armcal::ToolPose(links_, q + moved.joints) * X_TB;

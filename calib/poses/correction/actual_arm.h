@@ -52,6 +52,10 @@ class ActualArm {
     Eigen::Vector3d tool, turn;  // of the tool, m and rad
   };
   Moved At(const Eigen::VectorXd& q, const Eigen::VectorXd& standing) const;
+  // What they move where joints were recorded at q: signals are of where joints
+  // stand, which signals displace; what is left after two rounds is of third
+  // order.
+  Moved Settled(const Eigen::VectorXd& q) const;
 
   KnownArm known_;
   Robot links_;

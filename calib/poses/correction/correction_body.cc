@@ -203,24 +203,25 @@ static int reach(void (*pose_at)(const double[], double[]),
   return least < MET * MET;
 }
 
-int armcal_forward_correction(const double q[JOINTS], double dq[JOINTS]) {
+/* What brings `pose_at` from q to where `goal` is at q. */
+static int correction(void (*pose_at)(const double[], double[]),
+                      void (*goal)(const double[], double[]),
+                      const double q[JOINTS], double dq[JOINTS]) {
   double wanted[12], at[JOINTS];
   int i, met;
   for (i = 0; i < JOINTS; ++i) at[i] = q[i];
-  armcal_actual_pose(q, wanted);
-  met = reach(armcal_file_pose, wanted, at);
+  goal(q, wanted);
+  met = reach(pose_at, wanted, at);
   for (i = 0; i < JOINTS; ++i) dq[i] = at[i] - q[i];
   return met;
 }
 
+int armcal_forward_correction(const double q[JOINTS], double dq[JOINTS]) {
+  return correction(armcal_file_pose, armcal_actual_pose, q, dq);
+}
+
 int armcal_command_correction(const double q[JOINTS], double dq[JOINTS]) {
-  double wanted[12], at[JOINTS];
-  int i, met;
-  for (i = 0; i < JOINTS; ++i) at[i] = q[i];
-  armcal_file_pose(q, wanted);
-  met = reach(armcal_actual_pose, wanted, at);
-  for (i = 0; i < JOINTS; ++i) dq[i] = at[i] - q[i];
-  return met;
+  return correction(armcal_actual_pose, armcal_file_pose, q, dq);
 }
 )";
 

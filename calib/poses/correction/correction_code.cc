@@ -123,12 +123,11 @@ std::string CorrectionCode(const ActualArm& arm,
   std::string text = "/* Joint corrections of " + name +
                      ", by armcal from measured poses.\n" + kWhat;
   text += Format(
-      "   Where the poses' model is right, corrected commands bring the tool "
-      "to "
-      "where the\n   robot file has it within %.2g mm (median of 1000 "
-      "postures; "
-      "95 %%: %.2g, largest:\n   %.2g), instead of %.3g (%.3g, %.3g): near "
-      "singular postures joints do not make\n   up for all. */\n\n",
+      "   Where the poses' model is right, corrected commands bring the tool\n"
+      "   to where the robot file has it within %.2g mm (median of 1000\n"
+      "   postures; 95 %%: %.2g, largest: %.2g), instead of %.3g (%.3g, "
+      "%.3g):\n"
+      "   near singular postures joints do not make up for all. */\n\n",
       1e3 * std::max(1e-6, errors.command.median),
       1e3 * std::max(1e-6, errors.command.p95),
       1e3 * std::max(1e-6, errors.command.most), 1e3 * errors.before.median,
@@ -136,9 +135,8 @@ std::string CorrectionCode(const ActualArm& arm,
   text += "#include <math.h>\n\n";
   text += Format(
       "enum {JOINTS = %d, STEPS = %d};\n"
-      "static const double LEVER = %g, DAMPING = %g, DIFFERENCE = %g, SETTLED "
-      "= "
-      "%g,\n                    MET = 1e-6;\n",
+      "static const double LEVER = %g, DAMPING = %g, DIFFERENCE = %g;\n"
+      "static const double SETTLED = %g, MET = 1e-6;\n",
       arm.num_joints(), kCorrectionSteps, kCorrectionLever, kCorrectionDamping,
       kCorrectionDifference, kCorrectionSettled);
   text +=

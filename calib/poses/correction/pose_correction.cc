@@ -60,9 +60,10 @@ std::string CorrectionText(const PoseCorrection& correction) {
       ErrorText("with correction.c", errors.command) +
       ErrorText("with correction.csv", errors.by_table);
   if (!TableHelps(errors)) {
-    text +=
-        "  a table of 4096 rows is too coarse for these joints' ranges: no "
-        "correction.csv\n";
+    text += Format(
+        "  a table of %ld rows is too coarse for these joints' ranges: no "
+        "correction.csv\n",
+        kTableRows);
   }
   if (correction.check) {
     text += Format(

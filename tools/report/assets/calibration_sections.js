@@ -142,23 +142,12 @@ const calibrationSections = (data) => {
   const poses = () => {
     const p = (data.extra.geometry || {}).poses;
     if (!p) return null;
-    const distances = [...p.before, ...p.after].filter((d) => d > 0).map((d) => 1e3 * d);
     return [
       html('div', {class: 'legend'}, [html('span', {style: 'color: var(--c2)'}, '□ the robot file'),
                                       html('span', {style: 'color: var(--c1)'}, '● calibrated')]),
-      plots.add('distance between measured and computed, mm',
-                () => p.after.map((d, k) => [k + 1, 1e3 * p.before[k], 1e3 * d]),
-                ['pose', 'the robot file', 'calibrated'],
-                {logscale: true, strokeWidth: 0, drawPoints: true, pointSize: 3,
-                 valueRange: [Math.min(...distances) / 2, 2 * Math.max(...distances)],
-                 drawPointCallback: (g, name, pen, x, y, colour, size) => {
-                   pen.beginPath();
-                   pen.setLineDash([]);
-                   pen.lineWidth = 1.5;
-                   pen.strokeStyle = pen.fillStyle = colour;
-                   if (name === 'calibrated') pen.arc(x, y, size, 0, 2 * Math.PI), pen.fill();
-                   else pen.rect(x - size, y - size, 2 * size, 2 * size), pen.stroke();
-                 }}),
+      plots.dots('distance between measured and computed, mm',
+                 p.after.map((d, k) => [k + 1, 1e3 * p.before[k], 1e3 * d]),
+                 ['pose', 'the robot file', 'calibrated']),
       note('In the order of the file; where a pose shows several targets, one after the other. Hollow squares: ' +
            'the file’s geometry with only the instrument placed; dots: calibrated.' +
            (result.poses && (result.poses.outlier_rows || []).length

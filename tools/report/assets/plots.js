@@ -114,6 +114,23 @@ const plots = (() => {
     return html('div', {}, [html('h3', {}, title), place, said]);
   };
 
+  // Distances above 0 on a logarithm's scale, a row each: [x, before, after].
+  // Hollow squares before, dots after, so that neither hides the other.
+  const dots = (title, rows, labels) => {
+    const positive = rows.flatMap((row) => row.slice(1)).filter((d) => d > 0);
+    return add(title, () => rows, labels,
+      {logscale: true, strokeWidth: 0, drawPoints: true, pointSize: 3,
+       valueRange: [Math.min(...positive) / 2, 2 * Math.max(...positive)],
+       drawPointCallback: (g, name, pen, x, y, colour, size) => {
+         pen.beginPath();
+         pen.setLineDash([]);
+         pen.lineWidth = 1.5;
+         pen.strokeStyle = pen.fillStyle = colour;
+         if (name === labels[2]) pen.arc(x, y, size, 0, 2 * Math.PI), pen.fill();
+         else pen.rect(x - size, y - size, 2 * size, 2 * size), pen.stroke();
+       }});
+  };
+
   // Those inside an element that goes.
   const forget = (element) => {
     for (let k = all.length - 1; k >= 0; --k) {
@@ -143,5 +160,5 @@ const plots = (() => {
     }
   };
 
-  return {add, forget, group, redraw, print, all};
+  return {add, dots, forget, group, redraw, print, all};
 })();

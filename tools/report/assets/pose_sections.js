@@ -51,23 +51,8 @@ const poseSections = (data) => {
            (left.outlier_rows.length ? ` Rows ${left.outlier_rows.slice(0, 20).join(', ')} fit badly.` : ''))];
   };
 
-  // Dots of two lots over an axis, in mm on a logarithm's scale.
-  const dots = (title, axis, x) => {
-    const lengths = told.lengths.map((both) => both.map(mm));
-    const rows = x.map((at, k) => [at, ...lengths[k]]).sort((a, b) => a[0] - b[0]);
-    const positive = lengths.flat().filter((d) => d > 0);
-    return plots.add(title, () => rows, [axis, ...names],
-                     {logscale: true, strokeWidth: 0, drawPoints: true, pointSize: 2.5,
-                      valueRange: [Math.min(...positive) / 2, 2 * Math.max(...positive)],
-                      drawPointCallback: (g, name, pen, px, py, colour, size) => {
-                        pen.beginPath();
-                        pen.setLineDash([]);
-                        pen.lineWidth = 1.5;
-                        pen.strokeStyle = pen.fillStyle = colour;
-                        if (name === names[1]) pen.arc(px, py, size, 0, 2 * Math.PI), pen.fill();
-                        else pen.rect(px - size, py - size, 2 * size, 2 * size), pen.stroke();
-                      }});
-  };
+  const dots = (title, axis, x) => plots.dots(
+      title, x.map((at, k) => [at, ...told.lengths[k].map(mm)]).sort((a, b) => a[0] - b[0]), [axis, ...names]);
   const poseOrder = () => is && told && [
     legend(names), dots('distance between measured and computed, mm', 'pose', told.number),
     note('Hollow squares: the geometry alone; dots: with the effects. What changes at one pose, or little by little, ' +
