@@ -5,8 +5,31 @@
 #include "calib/poses/report.h"
 #include "calib/poses/verdict.h"
 #include "calib/robot_outputs.h"
+#include "model/camera/camera_file.h"
 
 namespace armcal {
+namespace {
+
+// camera.yaml, or camera1.yaml and so on, of lenses that were estimated.
+void AddCameras(const PoseMeasurements& measured, const PoseCalibration& result,
+                std::vector<ResultFile>* files) {
+  for (size_t c = 0; c < measured.cameras.size(); ++c) {
+    const std::string& name = measured.camera_names[c];
+    PinholeCamera camera = measured.cameras[c];
+    PinholeCamera::Lens lens = camera.lens();
+    for (const InstrumentEstimate& p : result.instrument) {
+      for (int k = 0; k < PinholeCamera::kLensSize; ++k) {
+        if (p.name == name + "." + PinholeCamera::LensName(k)) {
+          lens[k] = p.value;
+        }
+      }
+    }
+    camera.set_lens(lens);
+    files->push_back({name + ".yaml", CameraYaml(camera, name)});
+  }
+}
+
+}  // namespace
 
 CalibrateSummary CalibrateFromPoses(const Robot& robot,
                                     const CalibrateOptions& options) {
@@ -30,6 +53,7 @@ CalibrateSummary CalibrateFromPoses(const Robot& robot,
         {"robot.urdf", RobotUrdf(options.source, result.robot, true)});
     summary.report +=
         AddExports({result.robot, {}}, formats, &json, &summary.files);
+    AddCameras(*options.poses, result, &summary.files);
   }
   for (const GeometryEstimate& p : result.parameters) {
     summary.parameters.push_back({p.name, p.unit, p.value, p.stddev});

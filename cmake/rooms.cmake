@@ -28,6 +28,7 @@ set(rooms
     calib/logs          # passes over sets of logs and what is left after a fit
     calib/linear        # model parameters by linear least squares
     calib/poses         # geometry from measured poses
+    calib/poses/cameras # poses of the tool in images of a board
     calib/poses/effects    # what geometry lacks: one effect a file, their list
     calib/poses/effects/order  # of these, what acts over the order of poses
     calib/poses/diagnosis  # which of these a campaign of measured poses shows

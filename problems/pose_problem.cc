@@ -23,6 +23,11 @@ Isometry3d MeasuredPose(const PoseMeasurements& measured, int row) {
   return X;
 }
 
+MatrixXd InstrumentMoves(const PoseMeasurements& measured, int pose) {
+  if (measured.instrument.size() == 0) return MatrixXd(6, 0);
+  return measured.instrument.moves[pose];
+}
+
 Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
                        int pose) {
   Eigen::Matrix<double, 6, 1> deviations;
@@ -53,6 +58,7 @@ double VarianceFactor(const Eigen::VectorXd& residuals, int block,
 
 int PoseUnknowns::NumOther(const PoseMeasurements& measured) {
   if (measured.lengths.size() > 0) return 4;
+  if (measured.poses.size() > 0) return measured.instrument.size();
   return 3 *
          (static_cast<int>(measured.targets.size()) + measured.num_points());
 }
@@ -62,19 +68,32 @@ std::vector<std::string> PoseUnknowns::OtherNames(
   if (measured.lengths.size() > 0) {
     return {"wire.x", "wire.y", "wire.z", "wire.offset"};
   }
+  std::vector<std::string> names;
+  if (measured.poses.size() > 0) {
+    for (int k = 0; k < NumOther(measured); ++k) {
+      names.push_back("instrument" + std::to_string(k + 1));
+    }
+    return names;
+  }
   const std::string what = measured.planes            ? "plane"
                            : measured.touched.empty() ? "target"
                                                       : "point";
   const std::vector<const char*> parts =
       measured.planes ? std::vector<const char*>{".a", ".b", ".c"}
                       : std::vector<const char*>{".x", ".y", ".z"};
-  std::vector<std::string> names;
   for (int k = 0; k < NumOther(measured) / 3; ++k) {
     for (const char* part : parts) {
       names.push_back(what + std::to_string(k + 1) + part);
     }
   }
   return names;
+}
+
+Eigen::VectorXd PoseUnknowns::OtherPriors(const PoseMeasurements& measured) {
+  if (measured.poses.size() > 0 && measured.instrument.size() > 0) {
+    return measured.instrument.prior;
+  }
+  return Eigen::VectorXd::Zero(NumOther(measured));
 }
 
 std::vector<bool> FreeGeometry(const ArmGeometry& geometry,
@@ -136,10 +155,13 @@ void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
                                 other + 3 * measured.touched[k]);
     }
     if (measured.poses.size() > 0) {
+      const MatrixXd moves = InstrumentMoves(measured, k);
+      std::vector<double*> blocks = {g};
+      if (moves.cols() > 0) blocks.push_back(other);
       problem->AddResidualBlock(
           new PoseResidual(geometry, q, MeasuredPose(measured, k),
-                           PoseWhitening(measured, noise, k)),
-          MakeLoss(loss, 6), g);
+                           PoseWhitening(measured, noise, k), moves),
+          MakeLoss(loss, 6), blocks);
     }
   }
 }
@@ -178,7 +200,8 @@ MatrixXd PositionErrors(const ArmGeometry& geometry,
               .transpose();
     } else if (targets == 0) {
       errors.row(k) =
-          (X.translation() - MeasuredPose(measured, k).translation())
+          (X.translation() - MeasuredPose(measured, k).translation() -
+           InstrumentMoves(measured, k).topRows(3) * unknowns.other)
               .transpose();
     }
   }
@@ -195,7 +218,10 @@ MatrixXd RotationErrors(const ArmGeometry& geometry,
         geometry.ToolPose(measured.q.row(k), unknowns.geometry.data(), nullptr);
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(
         X.linear() * MeasuredPose(measured, k).linear().transpose()));
-    errors.row(k) = turn.angle() * turn.axis().transpose();
+    errors.row(k) =
+        (turn.angle() * turn.axis() -
+         InstrumentMoves(measured, k).bottomRows(3) * unknowns.other)
+            .transpose();
   }
   return errors;
 }

@@ -28,6 +28,8 @@ struct PoseNoise {
 };
 // X_WM of a whole pose.
 Eigen::Isometry3d MeasuredPose(const PoseMeasurements& measured, int pose);
+// How an instrument's unknowns move it, 6 x unknowns.
+Eigen::MatrixXd InstrumentMoves(const PoseMeasurements& measured, int pose);
 // What makes errors of a pose's position and rotation independent, of variance
 // 1 each.
 Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
@@ -36,15 +38,18 @@ Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
 // The unknowns of a geometric calibration, in two parameter blocks: the
 // geometry (ArmGeometry::Values) and what else the measurement needs: the
 // targets on the tool or the points that it touches (3 each, m), the planes
-// that it touches (3 each, plane_residual.h), or the wire's anchor and length
-// offset (4).
+// that it touches (3 each, plane_residual.h), the wire's anchor and length
+// offset (4), or an instrument's own (InstrumentUnknowns).
 struct PoseUnknowns {
   Eigen::VectorXd geometry;
   Eigen::VectorXd other;
 
   static int NumOther(const PoseMeasurements& measured);
-  // "target2.y", "point1.x", "plane1.a", "wire.x", "wire.offset".
+  // "target2.y", "point1.x", "plane1.a", "wire.x", "wire.offset",
+  // "instrument1".
   static std::vector<std::string> OtherNames(const PoseMeasurements& measured);
+  // Standard deviations of their priors, about 0; 0: none.
+  static Eigen::VectorXd OtherPriors(const PoseMeasurements& measured);
 };
 
 // Which of the geometry's parameters `refine` and these measurements (null:

@@ -27,13 +27,19 @@ Matrix3d LeftJacobianInverse(const Vector3d& v) {
 PoseResidual::PoseResidual(std::shared_ptr<const ArmGeometry> geometry,
                            const Eigen::VectorXd& q,
                            const Eigen::Isometry3d& X_WM,
-                           const Matrix6d& whitening)
+                           const Matrix6d& whitening,
+                           Eigen::MatrixXd by_instrument)
     : geometry_(std::move(geometry)),
       q_(q),
       X_WM_(X_WM),
-      whitening_(whitening) {
+      whitening_(whitening),
+      by_instrument_(std::move(by_instrument)) {
   set_num_residuals(6);
   *mutable_parameter_block_sizes() = {geometry_->size()};
+  if (by_instrument_.cols() > 0) {
+    mutable_parameter_block_sizes()->push_back(
+        static_cast<int>(by_instrument_.cols()));
+  }
 }
 
 bool PoseResidual::Evaluate(double const* const* parameters, double* residuals,
@@ -47,8 +53,19 @@ bool PoseResidual::Evaluate(double const* const* parameters, double* residuals,
   Eigen::Matrix<double, 6, 1> error;
   error << X_WT.translation() - X_WM_.translation(), rotation;
   Eigen::Map<Eigen::Matrix<double, 6, 1>> r(residuals);
+  const bool has_unknowns = by_instrument_.cols() > 0;
+  if (has_unknowns) {
+    error -= by_instrument_ * Eigen::Map<const Eigen::VectorXd>(
+                                  parameters[1], by_instrument_.cols());
+  }
   r = whitening_ * error;
-  if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+  if (jacobians == nullptr) return true;
+  if (has_unknowns && jacobians[1] != nullptr) {
+    Eigen::Map<Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> by(
+        jacobians[1], 6, by_instrument_.cols());
+    by = -whitening_ * by_instrument_;
+  }
+  if (jacobians[0] == nullptr) return true;
   Eigen::Map<Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> J(
       jacobians[0], 6, geometry_->size());
   const Matrix3d from_turn = LeftJacobianInverse(rotation);

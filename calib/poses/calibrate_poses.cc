@@ -66,8 +66,54 @@ void CrossValidate(const PoseFit& fit, const std::vector<bool>& free,
   result->held_out_median = Median(all);
 }
 
+// Derivatives of `rows` by the free parameters, then by what else there is,
+// with the priors of the latter.
+MatrixXd FreeJacobian(const PoseFit& fit, const std::vector<bool>& free,
+                      const std::vector<int>& rows, const PoseUnknowns& at,
+                      VectorXd* residuals) {
+  const MatrixXd J = fit.WithOtherPriors(fit.Jacobian(rows, at, residuals));
+  std::vector<int> columns;
+  for (int k = 0; k < J.cols(); ++k) {
+    if (k >= fit.geometry().size() || free[k]) columns.push_back(k);
+  }
+  return J(Eigen::all, columns);
+}
+
+// Of columns' unknowns by the rows A alone: covariance and, of each, the share
+// that no row sees.
+struct Seen {
+  explicit Seen(const MatrixXd& A) {
+    const VectorXd scale = A.colwise().norm().cwiseMax(1e-300);
+    const Eigen::JacobiSVD<MatrixXd> svd(A * scale.cwiseInverse().asDiagonal(),
+                                         Eigen::ComputeThinV);
+    const VectorXd& s = svd.singularValues();
+    const Eigen::Index rank = (s.array() > 1e-9 * s[0]).count();
+    const MatrixXd& V = svd.matrixV();
+    const MatrixXd half = scale.cwiseInverse().asDiagonal() * V.leftCols(rank) *
+                          s.head(rank).cwiseInverse().asDiagonal();
+    covariance = half * half.transpose();
+    unseen = V.rightCols(V.cols() - rank).rowwise().squaredNorm();
+  }
+  MatrixXd covariance;
+  VectorXd unseen;
+};
+
+void ReportInstrument(const InstrumentUnknowns& unknowns, const VectorXd& at,
+                      const MatrixXd& covariance, PoseCalibration* result) {
+  if (unknowns.size() == 0) return;
+  const VectorXd value = unknowns.start + unknowns.by_unknowns * at;
+  const MatrixXd spread =
+      unknowns.by_unknowns * covariance * unknowns.by_unknowns.transpose();
+  for (Eigen::Index k = 0; k < value.size(); ++k) {
+    result->instrument.push_back({unknowns.names[k], unknowns.units[k],
+                                  unknowns.start[k], value[k],
+                                  std::sqrt(spread(k, k))});
+  }
+}
+
 // The free parameters with standard deviations from the data alone.
-void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
+void ReportParameters(const PoseFit& fit, const PoseMeasurements& measured,
+                      const std::vector<bool>& free,
                       const std::vector<int>& rows, const PoseUnknowns& at,
                       PoseCalibration* result) {
   const ArmGeometry& geometry = fit.geometry();
@@ -75,42 +121,24 @@ void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
   const std::vector<std::string> units = geometry.Units();
   const VectorXd nominal = geometry.Values();
   VectorXd residuals;
-  const MatrixXd J = fit.Jacobian(rows, at, &residuals);
-  std::vector<int> columns;
-  for (int k = 0; k < geometry.size(); ++k) {
-    if (free[k]) columns.push_back(k);
-  }
-  const int num_free = static_cast<int>(columns.size());
-  for (Eigen::Index c = geometry.size(); c < J.cols(); ++c) {
-    columns.push_back(static_cast<int>(c));
-  }
-  MatrixXd A(J.rows(), columns.size());
-  for (size_t k = 0; k < columns.size(); ++k) A.col(k) = J.col(columns[k]);
-  const VectorXd scale = A.colwise().norm().cwiseMax(1e-300);
-  const Eigen::JacobiSVD<MatrixXd> svd(A * scale.cwiseInverse().asDiagonal(),
-                                       Eigen::ComputeThinV);
-  const VectorXd& s = svd.singularValues();
-  const double factor =
-      fit.VarianceFactor(residuals, static_cast<int>(columns.size()));
-  for (int k = 0; k < num_free; ++k) {
-    double variance = 0, unseen = 0;
-    for (Eigen::Index d = 0; d < s.size(); ++d) {
-      const double v = svd.matrixV()(k, d);
-      if (s[d] > 1e-9 * s[0]) {
-        variance += v * v / (s[d] * s[d]);
-      } else {
-        unseen += v * v;
-      }
-    }
-    const int p = columns[k];
+  const Seen seen(FreeJacobian(fit, free, rows, at, &residuals));
+  const double factor = fit.VarianceFactor(residuals, fit.NumUnknowns(free));
+  Eigen::Index c = 0;
+  for (int p = 0; p < geometry.size(); ++p) {
+    if (!free[p]) continue;
     // The loss of a hopeless fit may be all slope: no variance then.
-    const bool seen = unseen < 1e-6 && std::isfinite(factor);
+    const bool is_seen = seen.unseen[c] < 1e-6 && std::isfinite(factor);
     result->parameters.push_back(
         {names[p], units[p], nominal[p], at.geometry[p],
-         seen ? std::sqrt(factor * variance) / scale[k]
-              : std::numeric_limits<double>::infinity(),
-         fit.PriorOf(p), seen});
+         is_seen ? std::sqrt(factor * seen.covariance(c, c))
+                 : std::numeric_limits<double>::infinity(),
+         fit.PriorOf(p), is_seen});
+    ++c;
   }
+  const Eigen::Index others = at.other.size();
+  ReportInstrument(measured.instrument, at.other,
+                   factor * seen.covariance.bottomRightCorner(others, others),
+                   result);
 }
 
 // What is left of all poses, of the inliers, which it returns, and of these
@@ -131,8 +159,8 @@ std::vector<int> ReportErrors(const PoseFit& fit,
                       result->outliers.end(), std::back_inserter(inliers));
   if (!inliers.empty()) result->inlier_rms = Rms(fit.Distances(inliers, at));
   result->inlier_motion = MotionShare(measured.q, inliers);
-  result->misfit = MeasureMisfit(fit, measured, at, inliers,
-                                 PoseFit::NumUnknowns(solution.free, at));
+  result->misfit =
+      MeasureMisfit(fit, measured, at, inliers, fit.NumUnknowns(solution.free));
   return inliers;
 }
 
@@ -165,7 +193,7 @@ PoseCalibration CalibratePoses(const Robot& robot,
                 options.folds, measured.size(), &result);
   // What Tukey's loss gives up tells nothing; the others let all poses pull.
   const bool some = options.loss == RobustLoss::kTukey && !inliers.empty();
-  ReportParameters(fit, solution.free, some ? inliers : fit.AllRows(),
+  ReportParameters(fit, measured, solution.free, some ? inliers : fit.AllRows(),
                    solution.unknowns, &result);
   ArmGeometry refined = fit.geometry();
   refined.SetValues(solution.unknowns.geometry);

@@ -33,6 +33,16 @@ struct GeometryEstimate {
   bool identifiable;
 };
 
+// What was estimated of the instrument beside the arm: a camera's lens, where a
+// second camera is.
+struct InstrumentEstimate {
+  std::string name;  // "camera.fx", "camera2.x"
+  std::string unit;
+  double start;  // by the images alone
+  double value;
+  double stddev;
+};
+
 // Joint `joint` turns by `factor` times the position of joint `by` beside what
 // was recorded for it: a coupling of two joints or, of one with itself, a gear
 // ratio.
@@ -62,6 +72,7 @@ struct PoseCalibration {
   bool solved = false;
   std::string reason;
   std::vector<GeometryEstimate> parameters;  // estimated ones
+  std::vector<InstrumentEstimate> instrument;
   // Sentences: what is held because the poses cannot tell it.
   std::vector<std::string> held;
   int count = 0;           // poses

@@ -54,6 +54,19 @@ PoseNoise InstrumentNoise(const PoseMeasurements& measured) {
   return {Median(position), Median(rotation)};
 }
 
+// Of unknowns that are one parameter block.
+void AddOtherPrior(const VectorXd& stddev, PoseUnknowns* unknowns,
+                   ceres::Problem* problem) {
+  if (!(stddev.array() > 0).any()) return;
+  const VectorXd weight =
+      (stddev.array() > 0)
+          .select(stddev.cwiseInverse(), VectorXd::Zero(stddev.size()));
+  problem->AddResidualBlock(
+      new ceres::NormalPrior(weight.asDiagonal(),
+                             VectorXd::Zero(stddev.size())),
+      nullptr, unknowns->other.data());
+}
+
 // The share of `all` with which, beside the instrument's own errors, `spread`
 // of whitened residuals is 1; not less than a thousandth.
 PoseNoise BesideInstrument(
@@ -135,7 +148,9 @@ MatrixXd PoseFit::Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
                    &unknowns, &problem);
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.parameter_blocks.push_back(unknowns.geometry.data());
-  const int step = measured_.lengths.size() > 0 ? 4 : 3;
+  const bool is_one =
+      measured_.lengths.size() > 0 || measured_.poses.size() > 0;
+  const int step = is_one ? static_cast<int>(unknowns.other.size()) : 3;
   for (int k = 0; k < unknowns.other.size(); k += step) {
     evaluate.parameter_blocks.push_back(unknowns.other.data() + k);
   }
@@ -148,6 +163,17 @@ MatrixXd PoseFit::Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
     for (int k = crs.rows[r]; k < crs.rows[r + 1]; ++k) {
       J(r, crs.cols[k]) = crs.values[k];
     }
+  }
+  return J;
+}
+
+MatrixXd PoseFit::WithOtherPriors(const MatrixXd& jacobian) const {
+  const VectorXd priors = PoseUnknowns::OtherPriors(measured_);
+  MatrixXd J = MatrixXd::Zero(jacobian.rows() + priors.size(), jacobian.cols());
+  J.topRows(jacobian.rows()) = jacobian;
+  const Eigen::Index first = jacobian.cols() - priors.size();
+  for (Eigen::Index k = 0; k < priors.size(); ++k) {
+    if (priors[k] > 0) J(jacobian.rows() + k, first + k) = 1 / priors[k];
   }
   return J;
 }
@@ -219,7 +245,7 @@ std::vector<bool> PoseFit::HoldUnseen(const std::vector<bool>& wanted,
                                       std::vector<std::string>* held) const {
   const int g = geometry_->size();
   const int scale = ScaleLength(wanted);
-  std::vector<SeenColumns> seen = {{Jacobian(rows, at), g}};
+  std::vector<SeenColumns> seen = {{WithOtherPriors(Jacobian(rows, at)), g}};
   if (!measured_.touched.empty()) {
     seen.emplace_back(TouchingJacobian(rows, at), g);
   }
@@ -268,6 +294,7 @@ bool PoseFit::Solve(const std::vector<bool>& free, const std::vector<int>& rows,
   }
   problem.AddResidualBlock(new ceres::NormalPrior(weight, nominal_), nullptr,
                            unknowns->geometry.data());
+  AddOtherPrior(PoseUnknowns::OtherPriors(measured_), unknowns, &problem);
   if (!constant.empty()) {
     problem.SetManifold(unknowns->geometry.data(),
                         new ceres::SubsetManifold(geometry_->size(), constant));
@@ -296,7 +323,7 @@ void PoseFit::EstimateNoise(const std::vector<bool>& free,
   const MatrixXd position = PositionErrors(*geometry_, measured_, at);
   const MatrixXd rotation = RotationErrors(*geometry_, measured_, at);
   const double N = static_cast<double>(position.size() + rotation.size());
-  const double left = std::max(1.0, N - NumUnknowns(free, at));
+  const double left = std::max(1.0, N - NumUnknowns(free));
   const auto spread = [&](const MatrixXd& errors) {
     std::vector<double> sizes;
     for (const double e : errors.reshaped()) sizes.push_back(std::abs(e));
@@ -319,8 +346,7 @@ int PoseFit::EquationsPerPose() const {
 }
 
 // Poses that repeat an arm position add nothing to the geometry.
-std::string PoseFit::WhyTooFew(const std::vector<bool>& free,
-                               const PoseUnknowns& at) const {
+std::string PoseFit::WhyTooFew(const std::vector<bool>& free) const {
   std::vector<int> different;
   for (int k = 0; k < measured_.size(); ++k) {
     const bool seen =
@@ -333,7 +359,7 @@ std::string PoseFit::WhyTooFew(const std::vector<bool>& free,
   }
   const int poses = static_cast<int>(different.size());
   const int equations = EquationsPerPose() * poses;
-  const int unknowns = NumUnknowns(free, at);
+  const int unknowns = NumUnknowns(free);
   if (equations >= unknowns + kSpareEquations) return "";
   return std::to_string(poses) +
          (poses == 1 ? " arm position gives "

@@ -46,10 +46,11 @@ class PoseFit {
   int Coordinates() const { return measured_.poses.size() > 0 ? 6 : Width(); }
   // Of all targets of a pose.
   int EquationsPerPose() const;
-  static int NumUnknowns(const std::vector<bool>& free,
-                         const PoseUnknowns& at) {
+  // That the poses have to tell: a prior is as good as equations.
+  int NumUnknowns(const std::vector<bool>& free) const {
+    const Eigen::VectorXd priors = PoseUnknowns::OtherPriors(measured_);
     return static_cast<int>(std::count(free.begin(), free.end(), true) +
-                            at.other.size());
+                            (priors.array() == 0).count());
   }
   // Standard deviation of the prior on parameter k; 0: none.
   double PriorOf(int k) const;
@@ -67,11 +68,12 @@ class PoseFit {
   // something else does.
   int ScaleLength(const std::vector<bool>& wanted) const;
   // Why there are too few poses for so many unknowns; empty if there are not.
-  std::string WhyTooFew(const std::vector<bool>& free,
-                        const PoseUnknowns& at) const;
+  std::string WhyTooFew(const std::vector<bool>& free) const;
   // Of all unknowns, in noise units and without the loss.
   Eigen::MatrixXd Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
                            Eigen::VectorXd* residuals = nullptr) const;
+  // With rows of its own for the priors of what is none of the geometry.
+  Eigen::MatrixXd WithOtherPriors(const Eigen::MatrixXd& jacobian) const;
   // The same residuals, pose by pose: of position (or the wire), of rotation.
   Eigen::VectorXd Residuals(const std::vector<int>& rows,
                             const PoseUnknowns& at) const;

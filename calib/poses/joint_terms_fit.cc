@@ -90,6 +90,10 @@ std::pair<double, double> JointTermsFit::PriorOf(
     sigma = fit_.PriorOf(free_[unknown]);
     difference =
         at.unknowns.geometry[free_[unknown]] - nominal_[free_[unknown]];
+  } else {
+    const int other = free_[unknown] - fit_.geometry().size();
+    sigma = PoseUnknowns::OtherPriors(measured_)[other];
+    difference = at.unknowns.other[other];
   }
   if (sigma <= 0) return {0, 0};
   return {1 / (sigma * sigma), difference / (sigma * sigma)};

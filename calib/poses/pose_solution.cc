@@ -16,7 +16,7 @@ PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
     solution.held.clear();
     solution.free = fit->HoldUnseen(fit->Wanted(what), rows, solution.unknowns,
                                     &solution.held);
-    solution.refusal = fit->WhyTooFew(solution.free, solution.unknowns);
+    solution.refusal = fit->WhyTooFew(solution.free);
     if (!solution.refusal.empty()) return false;
     if (!fit->SolveWithNoise(solution.free, rows, &solution.unknowns)) {
       solution.refusal = failure;

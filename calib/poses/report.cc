@@ -56,6 +56,34 @@ std::string CameraText(const PoseMeasurements& measured) {
       measured.pixel_stddev);
 }
 
+// Of the cameras themselves, lengths in mm and angles in degrees.
+std::string InstrumentText(const PoseCalibration& result) {
+  if (result.instrument.empty()) return "";
+  std::string text = "\ninstrument\n";
+  for (const InstrumentEstimate& p : result.instrument) {
+    const double scale = p.unit == "rad" ? 57.29577951308232
+                         : p.unit == "m" ? 1e3
+                                         : 1;
+    const char* unit = p.unit == "rad" ? "deg" : p.unit == "m" ? "mm" : "";
+    text +=
+        Format("  %-22s %12.6g +- %-9.2g %s\n", p.name.c_str(), scale * p.value,
+               scale * p.stddev, p.unit == "px" ? "px" : unit);
+  }
+  return text;
+}
+
+json InstrumentJson(const PoseCalibration& result) {
+  json all = json::array();
+  for (const InstrumentEstimate& p : result.instrument) {
+    all.push_back({{"name", p.name},
+                   {"unit", p.unit},
+                   {"start", JsonNumber(p.start)},
+                   {"value", JsonNumber(p.value)},
+                   {"stddev", JsonNumber(p.stddev)}});
+  }
+  return all;
+}
+
 // What is left beside the instrument, and what else there is to say of it.
 std::string MisfitText(const PoseCalibration& result) {
   const PoseMisfit& misfit = result.misfit;
@@ -118,7 +146,8 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
   for (const std::string& sentence : result.held) {
     text += "held       " + sentence + "\n";
   }
-  return text + VerdictText(Shortcomings(robot, result));
+  return text + InstrumentText(result) +
+         VerdictText(Shortcomings(robot, result));
 }
 
 json PoseJson(const Robot& robot, const PoseMeasurements& measured,
@@ -141,6 +170,7 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
           {"estimate", "refined"},
           {"geometry", geometry},
           {"held", result.held},
+          {"instrument", InstrumentJson(result)},
           {"verdict", VerdictJson(Shortcomings(robot, result))},
           {"poses",
            {{"count", measured.size()},

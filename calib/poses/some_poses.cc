@@ -26,6 +26,13 @@ PoseMeasurements SomePoses(const PoseMeasurements& measured, int most) {
     }
     if (!measured.touched.empty()) part.touched.push_back(measured.touched[k]);
   }
+  part.instrument = measured.instrument;
+  if (part.instrument.size() > 0) {
+    part.instrument.moves.clear();
+    for (const int k : kept) {
+      part.instrument.moves.push_back(measured.instrument.moves[k]);
+    }
+  }
   if (measured.lengths.size() > 0) part.lengths = measured.lengths(kept);
   if (measured.u95.size() > 0) part.u95 = measured.u95(kept, Eigen::all);
   return part;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "calib/poses/frame_values.h"
 #include "calib/poses/hand_eye.h"
 #include "problems/plane_residual.h"
 #include "problems/pose_problem.h"
@@ -54,16 +55,6 @@ VectorXd Trilaterate(const Matrix3Xd& p, const VectorXd& lengths) {
   VectorXd anchor(4);
   anchor << x.head<3>(), x[3];
   return anchor;
-}
-
-// x y z yaw pitch roll.
-Eigen::Matrix<double, 6, 1> FrameValues(const Eigen::Matrix3d& R,
-                                        const Eigen::Vector3d& p) {
-  Eigen::Matrix<double, 6, 1> values;
-  values << p, std::atan2(R(1, 0), R(0, 0)),
-      std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
-      std::atan2(R(2, 1), R(2, 2));
-  return values;
 }
 
 // The base and the tool of whole poses, neither of which need be near the

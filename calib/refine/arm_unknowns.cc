@@ -107,8 +107,9 @@ void ArmUnknowns::AddGeometry(RefineGeometry refine,
   if (poses == nullptr) return;
   nominal_.poses.other = VectorXd::Zero(PoseUnknowns::NumOther(*poses));
   for (const std::string& name : PoseUnknowns::OtherNames(*poses)) {
-    Add(name, "m", true);
+    Add(name, poses->poses.size() > 0 ? "1" : "m", true);
   }
+  other_priors_ = PoseUnknowns::OtherPriors(*poses);
 }
 
 std::vector<int> ArmUnknowns::FreeIndices() const {
@@ -130,7 +131,7 @@ double ArmUnknowns::NormalPrior(int k, const ArmTrust& trust) const {
     return trust.joint_terms * torque_rms_[terms_[k - terms_begin()].joint];
   }
   if (k < geometry_begin()) return trust.angle;
-  if (k >= other_begin()) return 0;
+  if (k >= other_begin()) return other_priors_[k - other_begin()];
   return GeometryPrior(geometry_, k - geometry_begin(), trust.length,
                        trust.angle);
 }

@@ -79,7 +79,8 @@ class ArmUnknowns {
   ArmValues nominal_;
   std::vector<std::string> names_, units_;
   std::vector<bool> free_;
-  Eigen::VectorXd torque_rms_;  // per joint
+  Eigen::VectorXd torque_rms_;    // per joint
+  Eigen::VectorXd other_priors_;  // standard deviations, 0: none
 };
 
 }  // namespace armcal

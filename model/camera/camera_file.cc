@@ -1,6 +1,7 @@
 #include "model/camera/camera_file.h"
 
 #include <optional>
+#include <sstream>
 
 #include "model/text/yaml_node.h"
 
@@ -52,8 +53,31 @@ PinholeCamera ReadCamera(const std::string& path) {
   camera.cx = K[2];
   camera.fy = K[4];
   camera.cy = K[5];
+  if (const auto width = root.Child("image_width")) {
+    camera.width = static_cast<int>(width->NonNegative("px"));
+  }
+  if (const auto height = root.Child("image_height")) {
+    camera.height = static_cast<int>(height->NonNegative("px"));
+  }
   ReadLens(root, &camera);
   return camera;
+}
+
+std::string CameraYaml(const PinholeCamera& c, const std::string& name) {
+  std::ostringstream text;
+  text.precision(12);
+  if (c.width > 0 && c.height > 0) {
+    text << "image_width: " << c.width << "\nimage_height: " << c.height
+         << "\n";
+  }
+  text << "camera_name: " << name
+       << "\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [" << c.fx << ", 0, "
+       << c.cx << ", 0, " << c.fy << ", " << c.cy
+       << ", 0, 0, 1]\ndistortion_model: plumb_bob\n"
+          "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: ["
+       << c.k1 << ", " << c.k2 << ", " << c.p1 << ", " << c.p2 << ", " << c.k3
+       << "]\n";
+  return text.str();
 }
 
 }  // namespace armcal

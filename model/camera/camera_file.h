@@ -11,5 +11,7 @@ namespace armcal {
 // (9 numbers, row by row), distortion_coefficients.data (k1 k2 p1 p2 [k3]) and
 // distortion_model, which has to be plumb_bob. Throws InputError.
 PinholeCamera ReadCamera(const std::string& path);
+// The same file's text, of a camera called `name`.
+std::string CameraYaml(const PinholeCamera& camera, const std::string& name);
 
 }  // namespace armcal

@@ -22,8 +22,26 @@ Vector2d PinholeCamera::Distorted(const Vector2d& xy, Matrix2d* by_xy) const {
           y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
 }
 
+const char* PinholeCamera::LensName(int k) {
+  static constexpr const char* kNames[kLensSize] = {"fx", "fy", "cx", "cy",
+                                                    "k1", "k2", "p1", "p2"};
+  return kNames[k];
+}
+
+PinholeCamera::Lens PinholeCamera::lens() const {
+  Lens lens;
+  lens << fx, fy, cx, cy, k1, k2, p1, p2;
+  return lens;
+}
+
+void PinholeCamera::set_lens(const Lens& lens) {
+  fx = lens[0], fy = lens[1], cx = lens[2], cy = lens[3];
+  k1 = lens[4], k2 = lens[5], p1 = lens[6], p2 = lens[7];
+}
+
 Vector2d PinholeCamera::Project(const Vector3d& p,
-                                Eigen::Matrix<double, 2, 3>* by_point) const {
+                                Eigen::Matrix<double, 2, 3>* by_point,
+                                ByLens* by_lens) const {
   const Vector2d xy(p.x() / p.z(), p.y() / p.z());
   Matrix2d by_xy;
   const Vector2d seen = Distorted(xy, &by_xy);
@@ -31,6 +49,13 @@ Vector2d PinholeCamera::Project(const Vector3d& p,
     Eigen::Matrix<double, 2, 3> of_point;
     of_point << 1 / p.z(), 0, -xy.x() / p.z(), 0, 1 / p.z(), -xy.y() / p.z();
     *by_point = Vector2d(fx, fy).asDiagonal() * by_xy * of_point;
+  }
+  if (by_lens != nullptr) {
+    const double x = xy.x(), y = xy.y(), r2 = xy.squaredNorm();
+    by_lens->row(0) << seen.x(), 0, 1, 0, fx * x * r2, fx * x * r2 * r2,
+        fx * 2 * x * y, fx * (r2 + 2 * x * x);
+    by_lens->row(1) << 0, seen.y(), 0, 1, fy * y * r2, fy * y * r2 * r2,
+        fy * (r2 + 2 * y * y), fy * 2 * x * y;
   }
   return {fx * seen.x() + cx, fy * seen.y() + cy};
 }

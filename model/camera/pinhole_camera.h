@@ -13,10 +13,23 @@ namespace armcal {
 struct PinholeCamera {
   double fx = 0, fy = 0, cx = 0, cy = 0;  // px
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
+  int width = 0, height = 0;  // px, of an image; 0: not known
 
-  // (u, v), px, of a point with p_z > 0; its derivatives by p (px/m) if asked.
+  // The parameters that images tell: fx fy cx cy (px) k1 k2 p1 p2. k3 is what
+  // it was: few lenses need it, and few images tell it from k2.
+  static constexpr int kLensSize = 8;
+  static const char* LensName(int k);
+  static const char* LensUnit(int k) { return k < 4 ? "px" : "1"; }
+  using Lens = Eigen::Matrix<double, kLensSize, 1>;
+  using ByLens = Eigen::Matrix<double, 2, kLensSize>;
+  Lens lens() const;
+  void set_lens(const Lens& lens);
+
+  // (u, v), px, of a point with p_z > 0; its derivatives by p (px/m) and by the
+  // lens if asked.
   Eigen::Vector2d Project(const Eigen::Vector3d& p,
-                          Eigen::Matrix<double, 2, 3>* by_point) const;
+                          Eigen::Matrix<double, 2, 3>* by_point,
+                          ByLens* by_lens = nullptr) const;
   // (x, y) of what is seen there: without the lens.
   Eigen::Vector2d Normalised(const Eigen::Vector2d& pixel) const;
 

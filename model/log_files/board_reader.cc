@@ -8,6 +8,7 @@
 #include "model/log_files/log_row.h"
 #include "model/log_files/named_columns.h"
 #include "model/log_files/open_lines.h"
+#include "model/text/format.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 
@@ -42,6 +43,7 @@ struct BoardPlaces {
     };
     q = row->Use(columns.Find(Signal::kPosition));
     image = use({"image"}, ColumnUnit::kNone);
+    camera = use({"camera"}, ColumnUnit::kNone);
     point = use({"bx", "by"}, ColumnUnit::kLength);
     height = use({"bz"}, ColumnUnit::kLength);
     pixel = use({"u", "v"}, ColumnUnit::kNone);
@@ -53,7 +55,7 @@ struct BoardPlaces {
     throw InputError(path, "row 1", "",
                      std::string("the column ") + missing + " is missing");
   }
-  int q, image, point, height, pixel;
+  int q, image, camera, point, height, pixel;
 };
 
 // The image that a row is of; images are whole and come one after the other.
@@ -65,6 +67,17 @@ long ImageNumber(const std::string& path, long row, double number) {
                    std::to_string(number), "expected a whole number");
 }
 
+int CameraNumber(const std::string& path, long row, double number) {
+  constexpr int kMostCameras = 16;
+  if (number >= 1 && number <= kMostCameras && number == std::floor(number)) {
+    return static_cast<int>(number);
+  }
+  throw InputError(
+      path, "row " + std::to_string(row) + ", column camera",
+      Format("%g", number),
+      "expected the number of a camera, 1 to " + std::to_string(kMostCameras));
+}
+
 // Rows as they come, put together to images.
 class BoardRows {
  public:
@@ -73,10 +86,15 @@ class BoardRows {
 
   void Add(long row, const BoardPlaces& places, const double* values) {
     const long number = ImageNumber(path_, row, values[places.image]);
+    const int camera =
+        places.camera < 0 ? 0
+                          : CameraNumber(path_, row, values[places.camera]) - 1;
     const Eigen::Map<const VectorXd> q(values + places.q, joints_);
-    if (images_.number.empty() || number != images_.number.back()) {
+    if (images_.number.empty() || number != images_.number.back() ||
+        camera != images_.camera.back()) {
       CheckLast();
       images_.number.push_back(number);
+      images_.camera.push_back(camera);
       images_.row.push_back(row);
       postures_.push_back(q);
       points_.clear();

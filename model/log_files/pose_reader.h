@@ -5,9 +5,27 @@
 #include <string>
 #include <vector>
 
+#include "model/camera/pinhole_camera.h"
+
 namespace armcal {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+// Unknowns of an instrument that move the poses that it measured: a camera's
+// lens, where a second camera is. They are small, from a start that is known.
+struct InstrumentUnknowns {
+  // Standard deviation of what was known of each before, about 0; 0: nothing.
+  Eigen::VectorXd prior;
+  // Of each pose, 6 x unknowns: by how much a unit of each displaces (m) and
+  // turns (rad) what was measured, both in the instrument's frame.
+  std::vector<Eigen::MatrixXd> moves;
+  // What they stand for: values = start + by_unknowns * unknowns.
+  std::vector<std::string> names, units;
+  Eigen::VectorXd start;
+  Eigen::MatrixXd by_unknowns;
+
+  int size() const { return static_cast<int>(prior.size()); }
+};
 
 // What was measured of the arm's geometry at a number of standstill positions.
 // Poses in rows.
@@ -26,6 +44,12 @@ struct PoseMeasurements {
   // rotation (rad, both in its frame); the arm's own come on top of that.
   // Empty: not known.
   std::vector<Matrix6d> covariance;
+  // Of whole poses; of size 0 where the instrument is known.
+  InstrumentUnknowns instrument;
+  // Cameras whose lens is estimated, by the images alone, and what the names of
+  // their unknowns begin with.
+  std::vector<PinholeCamera> cameras;
+  std::vector<std::string> camera_names;
   // px, standard deviation of a coordinate in the images that poses were made
   // of; 0: of none.
   double pixel_stddev = 0;

@@ -7,7 +7,8 @@ A six-axis arm (data/six_axis/real.yaml) whose axes are half a millimetre and on
 three milliradians off its file, a camera on the flange, a chessboard before it, 0.3 px of
 noise; pixels by OpenCV's own projectPoints. OpenCV (4.x of PyPI: opencv-python-headless)
 solves for the camera on the flange by calibrateHandEye (Park) with the file's geometry; armcal
-fits the frames alone, the joints' zeros, or all of the geometry. Printed is the rms of the
+fits the frames alone, the joints' zeros, or all of the geometry; the latter also with the lens
+estimated from the same images. Printed is the rms of the
 camera's position in the board's frame, beside the true one, at postures near those that were
 photographed, mm.
 """
@@ -136,7 +137,7 @@ class Campaign:
         base = frame(U @ V, np.mean([X[:3, 3] for X in bases], 0))
         return self.tool_error(self.file, base, camera)
 
-    def armcal(self, program, geometry, folder):
+    def armcal(self, program, geometry, folder, lens=None):
         rows = ["image,q1,q2,q3,q4,q5,q6,bx,by,u,v"]
         for k, (q, (pixels, seen)) in enumerate(zip(self.q, self.pixels)):
             for point, pixel in zip(BOARD[seen], pixels[seen]):
@@ -149,7 +150,7 @@ class Campaign:
             "distortion_model": "plumb_bob",
             "distortion_coefficients": {"rows": 1, "cols": 5, "data": LENS.tolist()}}))
         subprocess.run([program, "calibrate", f"--robot={ROBOT}",
-                        f"--poses={folder}/board.csv", f"--camera={folder}/camera.yaml",
+                        f"--poses={folder}/board.csv", f"--camera={lens or folder / 'camera.yaml'}",
                         f"--geometry={geometry}", f"--out={folder}/out"],
                        stdout=subprocess.DEVNULL, check=False)
         found = {p["name"]: p["value"] for p in
@@ -169,14 +170,15 @@ def main():
     parser.add_argument("--arms", type=int, default=5)
     parser.add_argument("--images", type=int, default=60)
     options = parser.parse_args()
-    print("tool error, mm   OpenCV hand-eye   armcal frames    zeros      all")
+    print("tool error, mm   OpenCV hand-eye   armcal frames    zeros      all   all, lens estimated")
     for seed in range(1, options.arms + 1):
         campaign = Campaign(seed, options.images)
         with tempfile.TemporaryDirectory() as folder:
             ours = [campaign.armcal(options.armcal, geometry, Path(folder))
                     for geometry in ("known", "offsets", "refine")]
+            ours.append(campaign.armcal(options.armcal, "refine", Path(folder), "estimate"))
         print(f"arm {seed:2d}         {campaign.opencv():15.3f}  {ours[0]:14.3f}"
-              f" {ours[1]:8.3f} {ours[2]:8.3f}", flush=True)
+              f" {ours[1]:8.3f} {ours[2]:8.3f} {ours[3]:10.3f}", flush=True)
 
 
 if __name__ == "__main__":

@@ -174,6 +174,24 @@ TEST(PoseResidual, GradientIsRight) {
   }
 }
 
+// What an instrument's unknowns move is no error of the arm's.
+TEST(PoseResidual, AnInstrumentsUnknownsMoveWhatItMeasured) {
+  Sample s("Panda 7R");
+  const Eigen::MatrixXd by =
+      UniformVector(&s.random, 24, -1, 1).reshaped(6, 4).eval();
+  const VectorXd y = UniformVector(&s.random, 4, -1e-6, 1e-6);
+  const VectorXd move = by * y;
+  Isometry3d X_WM = s.X_WT;
+  X_WM.translation() -= move.head<3>();
+  X_WM.linear() =
+      AngleAxisd(-move.tail<3>().norm(), move.tail<3>().normalized()) *
+      s.X_WT.linear();
+  const PoseResidual cost(s.geometry, s.q, X_WM, Correlated(), by);
+  EXPECT_LT(Residuals(cost, {s.g, y}).norm(),
+            1e-5 * Residuals(cost, {s.g, VectorXd::Zero(4)}).norm());
+  EXPECT_LT(GradientError(cost, {s.g, y}), 1e-7);
+}
+
 // At exactly half a turn the vector's sign is open; numbers stay finite.
 TEST(PoseResidual, HalfATurnIsFinite) {
   Sample s("PUMA560 6R");

@@ -135,11 +135,12 @@ CalibrateOptions CalibrateOptionsFromFlags(const CommandInput& input,
 std::vector<std::string> CalibrationFilesFromFlags(const CommandInput& input) {
   std::vector<std::string> files =
       NamesOf(CalibrationLogsFromFlags(input).logs);
-  for (const char* flag :
-       {"validate", "payload_log", "poses", "camera", "torque_log"}) {
+  for (const char* flag : {"validate", "payload_log", "poses", "torque_log"}) {
     const auto more = SplitAtCommas(input.flags.Text(flag));
     files.insert(files.end(), more.begin(), more.end());
   }
+  const auto cameras = CameraFiles(input.flags);
+  files.insert(files.end(), cameras.begin(), cameras.end());
   return files;
 }
 

@@ -95,6 +95,12 @@ CommandOutcome RunDiagnosePoses(const CommandInput& input) {
   options.without = SplitAtCommas(flags.Text("without"));
   const std::string held_out = flags.Text("validate");
   if (!held_out.empty()) {
+    if (measured.instrument.size() > 0) {
+      throw UsageError(
+          "--validate: found images of several cameras or of lenses to be "
+          "estimated in --poses; expected one camera with its intrinsics: "
+          "--camera=camera.yaml of `armcal calibrate`");
+    }
     options.validation = PosesFromFile(flags, robot, held_out);
   }
   options.calibration = flags.Text("calibration");
@@ -107,6 +113,7 @@ CommandOutcome RunDiagnosePoses(const CommandInput& input) {
   std::vector<std::string> files = {flags.Text("poses")};
   if (!held_out.empty()) files.push_back(held_out);
   if (!options.calibration.empty()) files.push_back(options.calibration);
+  for (const std::string& file : CameraFiles(flags)) files.push_back(file);
   AddReport(
       input, "diagnose", robot, summary.json, files,
       [&](ReportContent* content) {

@@ -116,7 +116,8 @@ std::vector<PoseFinding> FindingsOf(const PoseStudy& study,
     finding.placed = model.effects[e];
     finding.name = PlacedName(*finding.placed.effect, model.campaign,
                               finding.placed.place);
-    finding.amounts = amounts[e];
+    finding.amounts = amounts[e].amounts;
+    finding.ci95 = amounts[e].ci95;
     const PoseRivals& rivals = all[e];
     finding.probability = rivals.probability;
     finding.none = rivals.none;

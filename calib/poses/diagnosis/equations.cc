@@ -68,12 +68,21 @@ void PoseEquations::Residual(int k, const DisplacedPose& d, const PoseState& at,
     r.head<3>() = d.points.col(0) - m.head<3>().transpose();
     r.tail<3>() = rotation_length_ *
                   RotationVector(d.R * q.normalized().matrix().transpose());
+    if (measured_.instrument.size() > 0) {
+      r -= InstrumentColumns(k) * at.unknowns.other;
+    }
     return;
   }
   for (size_t t = 0; t < measured_.targets.size(); ++t) {
     r.segment<3>(3 * t) =
         d.points.col(t) - measured_.targets[t].row(k).transpose();
   }
+}
+
+MatrixXd PoseEquations::InstrumentColumns(int k) const {
+  MatrixXd columns = InstrumentMoves(measured_, k);
+  columns.bottomRows(3) *= rotation_length_;
+  return columns;
 }
 
 void PoseEquations::Project(const DisplacedPose& d, const PoseState& at,
@@ -90,7 +99,8 @@ void PoseEquations::Project(const DisplacedPose& d, const PoseState& at,
   }
 }
 
-void PoseEquations::GeometryColumns(const DisplacedPose& d, const PoseState& at,
+void PoseEquations::GeometryColumns(int pose, const DisplacedPose& d,
+                                    const PoseState& at,
                                     Eigen::Ref<MatrixXd> J) const {
   std::vector<ParameterTwist> twists;
   fit_.geometry().ToolPose(d.q, at.unknowns.geometry.data(), &twists);
@@ -104,6 +114,8 @@ void PoseEquations::GeometryColumns(const DisplacedPose& d, const PoseState& at,
     } else if (measured_.lengths.size() > 0) {
       const Vector3d from = d.points.col(0) - at.unknowns.other.head<3>();
       J(0, c) = k - g < 3 ? -from.stableNormalized()[k - g] : 1;
+    } else if (measured_.poses.size() > 0) {
+      J.col(c) = -InstrumentColumns(pose).col(k - g);
     } else {
       J.col(c).setZero();
       J.col(c).segment<3>((k - g) / 3 * 3) = d.scale * d.R.col((k - g) % 3);
@@ -147,7 +159,7 @@ LinearPoses PoseEquations::Linearise(const std::vector<PoseTerm>& terms,
   for (int k = 0; k < poses(); ++k) {
     const DisplacedPose d = Displace(k, terms, at);
     Residual(k, d, at, linear.r.segment(k * width(), width()));
-    GeometryColumns(d, at, linear.geometry.middleRows(k * width(), width()));
+    GeometryColumns(k, d, at, linear.geometry.middleRows(k * width(), width()));
     MoverColumns(d, at, wanted, linear.movers.middleRows(k * width(), width()));
   }
   return linear;
@@ -169,9 +181,11 @@ MatrixXd PoseEquations::Columns(const LinearPoses& linear,
 
 VectorXd PoseEquations::Precision() const {
   VectorXd precision = VectorXd::Zero(num_free());
+  const VectorXd others = PoseUnknowns::OtherPriors(measured_);
+  const int g = fit_.geometry().size();
   for (int c = 0; c < num_free(); ++c) {
-    if (free_[c] >= fit_.geometry().size()) continue;
-    const double sigma = fit_.PriorOf(free_[c]);
+    const int k = free_[c];
+    const double sigma = k < g ? fit_.PriorOf(k) : others[k - g];
     if (sigma > 0) precision[c] = 1 / (sigma * sigma);
   }
   return precision;
@@ -180,8 +194,9 @@ VectorXd PoseEquations::Precision() const {
 VectorXd PoseEquations::FromFile(const PoseState& at) const {
   VectorXd away = VectorXd::Zero(num_free());
   for (int c = 0; c < num_free(); ++c) {
-    if (free_[c] >= fit_.geometry().size()) continue;
-    away[c] = at.unknowns.geometry[free_[c]] - file_[free_[c]];
+    const int k = free_[c], g = fit_.geometry().size();
+    away[c] =
+        k < g ? at.unknowns.geometry[k] - file_[k] : at.unknowns.other[k - g];
   }
   return away;
 }

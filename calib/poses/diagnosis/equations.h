@@ -68,7 +68,9 @@ class PoseEquations {
   void Project(const DisplacedPose& d, const PoseState& at,
                const Eigen::Matrix3Xd& velocity, const Eigen::Vector3d& turning,
                Eigen::Ref<Eigen::VectorXd> column) const;
-  void GeometryColumns(const DisplacedPose& d, const PoseState& at,
+  // By the instrument's unknowns.
+  Eigen::MatrixXd InstrumentColumns(int pose) const;
+  void GeometryColumns(int pose, const DisplacedPose& d, const PoseState& at,
                        Eigen::Ref<Eigen::MatrixXd> J) const;
   void MoverColumns(const DisplacedPose& d, const PoseState& at,
                     const std::vector<bool>& wanted,

@@ -17,6 +17,12 @@ struct PoseAmount {
   double half_width;  // of the 95 % interval; infinite where it is not told
 };
 
+// Of amounts that are a vector's components, of a sine and a cosine say: its
+// length |x|, with the interval of x'C x / |x|^2.
+PoseAmount LengthOf(const std::string& name,
+                    const std::vector<PoseAmount>& components,
+                    const Eigen::MatrixXd& ci95);
+
 // Another cause that the poses cannot tell from an effect.
 struct PoseEquivalent {
   PlacedPoseEffect placed;
@@ -34,6 +40,7 @@ struct PoseFinding {
   double probability = 0;  // beside its rivals and that there is none
   double none = 0;         // that there is none
   std::vector<PoseAmount> amounts;
+  Eigen::MatrixXd ci95;  // of the amounts: covariance times the quantile^2
   // First and last pose (of the file's, from 0) that it may begin, and end at.
   int begin[2] = {-1, -1}, end[2] = {-1, -1};
   double displacement_rms = 0, displacement_max = 0;  // m, of the targets

@@ -20,9 +20,19 @@ constexpr double kNotTold = 1e-9;
 
 }  // namespace
 
-std::vector<std::vector<PoseAmount>> AmountsOf(const PoseStudy& study,
-                                               const PoseModel& model,
-                                               double design_effect) {
+PoseAmount LengthOf(const std::string& name,
+                    const std::vector<PoseAmount>& components,
+                    const MatrixXd& ci95) {
+  VectorXd x(ci95.rows());
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = components[k].value;
+  const VectorXd direction = x.stableNormalized();
+  return {name, components[0].unit, x.norm(),
+          std::sqrt(direction.dot(ci95 * direction))};
+}
+
+std::vector<PoseAmounts> AmountsOf(const PoseStudy& study,
+                                   const PoseModel& model,
+                                   double design_effect) {
   if (model.terms.empty()) return {};
   const PoseEstimate& at = model.estimate;
   const double equations = static_cast<double>(at.linear.r.size());
@@ -40,20 +50,24 @@ std::vector<std::vector<PoseAmount>> AmountsOf(const PoseStudy& study,
       S.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(size.asDiagonal() * S *
                                                       size.asDiagonal());
-  std::vector<std::vector<PoseAmount>> amounts(model.effects.size());
+  const MatrixXd half = quantile * std::sqrt(factor) * size.asDiagonal() *
+                        eigen.eigenvectors() *
+                        eigen.eigenvalues()
+                            .cwiseMax(kNotTold)
+                            .cwiseSqrt()
+                            .cwiseInverse()
+                            .asDiagonal();
+  const MatrixXd ci95 = half * half.transpose();
+  std::vector<PoseAmounts> all(model.effects.size());
   for (size_t e = 0; e < model.effects.size(); ++e) {
-    for (int k = model.begin[e]; k < model.begin[e + 1]; ++k) {
-      double variance = 0;
-      for (Eigen::Index d = 0; d < S.cols(); ++d) {
-        const double v = eigen.eigenvectors()(k, d);
-        variance += v * v / std::max(eigen.eigenvalues()[d], kNotTold);
-      }
-      amounts[e].push_back({model.terms[k].name, model.terms[k].unit,
-                            at.state.amounts[k],
-                            quantile * std::sqrt(factor * variance) * size[k]});
+    const int begin = model.begin[e], count = model.begin[e + 1] - begin;
+    all[e].ci95 = ci95.block(begin, begin, count, count);
+    for (int k = begin; k < begin + count; ++k) {
+      all[e].amounts.push_back({model.terms[k].name, model.terms[k].unit,
+                                at.state.amounts[k], std::sqrt(ci95(k, k))});
     }
   }
-  return amounts;
+  return all;
 }
 
 PoseRange SideOf(const PoseStudy& study, const PoseModel& model, size_t effect,

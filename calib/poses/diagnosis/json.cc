@@ -60,6 +60,10 @@ json FindingJson(const Robot& robot, const PoseMeasurements& measured,
   for (const PoseAmount& amount : finding.amounts) {
     effect["estimates"].push_back(AmountJson(amount));
   }
+  if (finding.placed.effect->is_harmonic) {
+    effect["amplitude"] =
+        AmountJson(LengthOf("amplitude", finding.amounts, finding.ci95));
+  }
   effect["first_row_ci95"] = RangeJson(measured, finding.begin, 0);
   effect["last_row_ci95"] = RangeJson(measured, finding.end, 1);
   effect["displacement"] = {{"rms", JsonNumber(finding.displacement_rms)},

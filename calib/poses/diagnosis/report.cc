@@ -37,6 +37,10 @@ std::string AmountsText(const PoseFinding& finding) {
   for (size_t k = 0; k < shown; ++k) {
     text += (k > 0 ? ", " : "") + AmountText(finding.amounts[k]);
   }
+  if (finding.placed.effect->is_harmonic) {
+    text +=
+        ": " + AmountText(LengthOf("amplitude", finding.amounts, finding.ci95));
+  }
   if (shown < finding.amounts.size()) {
     text += Format(", and %zu more", finding.amounts.size() - shown);
   }

@@ -63,6 +63,8 @@ struct PoseEffect {
   std::string separate_by;
   // Amounts of it that a fit may not reach from 0, beside 0.
   std::vector<double> far_amounts;
+  // Its amounts are those of a sine and a cosine: of an amplitude.
+  bool is_harmonic = false;
   // Beyond this much from 0 and from each of `far_amounts` it is another
   // effect in disguise; 0: no limit.
   double most_amount = 0;

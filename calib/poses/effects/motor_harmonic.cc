@@ -13,6 +13,7 @@ PoseEffect MotorHarmonic() {
   effect.name = "motor_harmonic";
   effect.means = "the joint's position errs once or twice in a motor's turn";
   effect.separate_by = "poses at many angles within one turn of the motor";
+  effect.is_harmonic = true;
   effect.places = [](const PoseCampaign& campaign) {
     std::vector<PosePlace> places;
     const std::vector<double>& ratios = campaign.arm.gear_ratios;

@@ -10,6 +10,7 @@ PoseEffect SecondHarmonic() {
   effect.name = "second_harmonic";
   effect.means = "the joint's position errs twice in a turn";
   effect.separate_by = "poses over more of the joint's range";
+  effect.is_harmonic = true;
   effect.places = [](const PoseCampaign& campaign) {
     return EachJoint(campaign, &PoseCampaign::Turns);
   };

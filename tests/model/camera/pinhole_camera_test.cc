@@ -41,6 +41,23 @@ TEST(PinholeCamera, DerivativesAreThoseOfDifferences) {
   }
 }
 
+TEST(PinholeCamera, DerivativesByTheLensAreThoseOfDifferences) {
+  const Vector3d p(-.3, .25, .7);
+  PinholeCamera::ByLens by_lens;
+  kCamera.Project(p, nullptr, &by_lens);
+  for (int k = 0; k < PinholeCamera::kLensSize; ++k) {
+    PinholeCamera::Lens lens = kCamera.lens();
+    PinholeCamera moved = kCamera;
+    lens[k] += 1e-3;
+    moved.set_lens(lens);
+    // u and v are linear in each.
+    const Vector2d slope =
+        (moved.Project(p, nullptr) - kCamera.Project(p, nullptr)) / 1e-3;
+    EXPECT_LT((slope - by_lens.col(k)).norm(), 1e-9 * (1 + slope.norm()))
+        << PinholeCamera::LensName(k);
+  }
+}
+
 TEST(PinholeCamera, DirectionsAreWithoutTheLens) {
   const Vector3d p(-.3, .25, .7);
   const Vector2d xy = kCamera.Normalised(kCamera.Project(p, nullptr));
@@ -75,6 +92,18 @@ TEST(CameraFile, OtherCamerasAreRefused) {
   EXPECT_NE(message("900, 0, 640", "900, 1, 640").find("expected data"),
             std::string::npos);
   EXPECT_NE(message("[-0.12, 0.05,", "[-0.12,").find("Camera"), 0u);
+}
+
+TEST(CameraFile, IsWrittenAsItIsRead) {
+  PinholeCamera camera = kCamera;
+  camera.width = 1280;
+  camera.height = 720;
+  const PinholeCamera read =
+      ReadCamera(WriteFile(CameraYaml(camera, "hand"), "camera.yaml"));
+  EXPECT_TRUE(read.lens().isApprox(camera.lens(), 1e-11));
+  EXPECT_NEAR(read.k3, camera.k3, 1e-12);
+  EXPECT_EQ(read.width, 1280);
+  EXPECT_EQ(read.height, 720);
 }
 
 }  // namespace armcal::pinhole_camera_test

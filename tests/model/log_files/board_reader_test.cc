@@ -57,4 +57,22 @@ TEST(BoardReader, RefusesMalformedFiles) {
             "number");
 }
 
+// Two cameras may see the board at once: one number, two images.
+TEST(BoardReader, TellsCamerasApart) {
+  std::string text = "image,camera,q1,q2,bx,by,u,v\n";
+  for (const char* camera : {"2", "1"}) {
+    for (int k = 0; k < 4; ++k) {
+      text +=
+          std::string("1,") + camera + ",0,0," + std::to_string(k) + ",0,0,0\n";
+    }
+  }
+  const BoardImages images =
+      ReadBoardImages(WriteFile(text, "board.csv"), kJoints);
+  EXPECT_EQ(images.camera, (std::vector<int>{1, 0}));
+  EXPECT_EQ(images.number, (std::vector<long>{1, 1}));
+  EXPECT_EQ(MessageOfImages("image,camera,q1,q2,bx,by,u,v\n1,0,0,0,0,0,0,0\n"),
+            "FILE: row 2, column camera: found '0': expected the number of a "
+            "camera, 1 to 16");
+}
+
 }  // namespace armcal::board_reader_test

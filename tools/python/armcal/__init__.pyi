@@ -47,7 +47,7 @@ def calibrate(
     angle_trust: float = 0.02,
     payload_mass: Optional[float] = None,
     payload_log: Optional[Logs] = None,
-    camera: Optional[Path] = None,
+    camera: Optional[Logs] = None,
     camera_on: Literal['tool', 'world'] = 'tool',
     export: Optional[Union[str, Sequence[str]]] = None,
     out: Optional[Path] = None,
@@ -148,7 +148,8 @@ def calibrate(
                          (bare arm) and --payload_log
     payload_log          Logs: logs of the same arm with a payload of
                          --payload_mass fixed to its last link
-    camera               Path: of --poses with images: camera_info YAML of ROS
+    camera               Logs: of --poses with images: camera_info YAML of ROS;
+                         or estimate
     camera_on            str: where the camera is: tool (the board stands),
                          world (the board is on the tool) (default tool)
     export               Union[str, Sequence[str]]: formats to write the robot
@@ -230,7 +231,7 @@ def diagnose(
     crop: Optional[Range] = None,
     validate_crop: Optional[Range] = None,
     changes: bool = False,
-    camera: Optional[Path] = None,
+    camera: Optional[Logs] = None,
     camera_on: Literal['tool', 'world'] = 'tool',
     length_trust: float = 0.01,
     angle_trust: float = 0.02,
@@ -280,7 +281,8 @@ def diagnose(
     changes              bool: of four logs or more of one kind of motion, in
                          the order they were recorded: which parameters changed
                          when
-    camera               Path: of --poses with images: camera_info YAML of ROS
+    camera               Logs: of --poses with images: camera_info YAML of ROS;
+                         or estimate
     camera_on            str: where the camera is: tool (the board stands),
                          world (the board is on the tool) (default tool)
     length_trust         float, m: standard deviation of the robot file's

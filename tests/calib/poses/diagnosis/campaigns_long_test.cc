@@ -158,16 +158,18 @@ Comparable Amounts(const PoseFinding& finding) {
   return c;
 }
 
-// The length of `count` amounts from `begin` on, its half-width by the delta
-// method from amounts taken for independent.
-Comparable LengthOf(const Comparable& c, Eigen::Index begin, Eigen::Index count,
+// The length of `count` amounts from `begin` on.
+Comparable LengthOf(const PoseFinding& finding, size_t begin, size_t count,
                     double truth) {
-  const Eigen::VectorXd x = c.found.segment(begin, count);
+  const auto first = finding.amounts.begin() + static_cast<long>(begin);
+  const auto k = static_cast<Eigen::Index>(begin);
+  const auto n = static_cast<Eigen::Index>(count);
+  const PoseAmount found =
+      armcal::LengthOf("length", {first, first + static_cast<long>(count)},
+                       finding.ci95.block(k, k, n, n));
   Comparable length;
-  length.found = Eigen::VectorXd::Constant(1, x.norm());
-  length.half_width = Eigen::VectorXd::Constant(
-      1,
-      x.normalized().cwiseProduct(c.half_width.segment(begin, count)).norm());
+  length.found = Eigen::VectorXd::Constant(1, found.value);
+  length.half_width = Eigen::VectorXd::Constant(1, found.half_width);
   length.truth = Eigen::VectorXd::Constant(1, std::abs(truth));
   return length;
 }
@@ -189,7 +191,7 @@ Comparable CompareAmounts(const HiddenPoseEffect& effect,
   if (is("sag") || place.parts < 0) return {};
   Comparable c = Amounts(finding);
   if (is("eccentricity") || is("second_harmonic")) {
-    return LengthOf(c, 0, 2, effect.size);
+    return LengthOf(finding, 0, 2, effect.size);
   }
   double moved = effect.size;
   if (is("drift")) {
@@ -200,7 +202,7 @@ Comparable CompareAmounts(const HiddenPoseEffect& effect,
     }
   }
   if (is("tool_")) {
-    return LengthOf(c, c.found.size() - place.parts, 3, moved);
+    return LengthOf(finding, finding.amounts.size() - place.parts, 3, moved);
   }
   c.truth = Eigen::VectorXd::Constant(1, moved);
   if (is("frame_")) {

@@ -1,4 +1,4 @@
-#include "calib/poses/image_poses.h"
+#include "calib/poses/cameras/image_poses.h"
 
 #include <gtest/gtest.h>
 
@@ -19,12 +19,14 @@ struct Views {
       X_CB.push_back(RandomView(random));
       images.row.push_back(2 + 54 * k);
       images.number.push_back(k + 1);
+      images.camera.push_back(0);
       images.points.push_back(BoardPoints(flat));
       images.pixels.push_back(Pixels(images.points[k], X_CB[k], noise, random));
     }
   }
   PoseMeasurements Measure(CameraPlace place) const {
-    return MeasurePoses("board.csv", images, HandCamera(), place);
+    return MeasurePoses("board.csv", images, SampleRobot("UR5 6R"),
+                        {{HandCamera()}, false, place});
   }
   Isometry3d Truth(CameraPlace place, int k) const {
     return place == CameraPlace::kStanding ? X_CB[k] : X_CB[k].inverse();
@@ -65,6 +67,72 @@ TEST_P(EachPlace, ExactPixelsGiveExactPoses) {
       EXPECT_LT(ErrorOf(measured, k, views.Truth(GetParam(), k)).norm(), 1e-8);
     }
   }
+}
+
+// Of a lens that is not known: from the closed form, which has no distortion.
+TEST_P(EachPlace, ExactPixelsGiveTheLens) {
+  std::mt19937_64 random(5);
+  const Views views(20, true, 0, &random);
+  const PoseMeasurements measured = MeasurePoses(
+      "board.csv", views.images, SampleRobot("UR5 6R"), {{}, true, GetParam()});
+  const PinholeCamera::Lens truth = HandCamera().lens();
+  for (int k = 0; k < PinholeCamera::kLensSize; ++k) {
+    EXPECT_NEAR(measured.instrument.start[k], truth[k], 1e-6 * (1 + truth[k]))
+        << PinholeCamera::LensName(k);
+  }
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_LT(ErrorOf(measured, k, views.Truth(GetParam(), k)).norm(), 1e-7);
+  }
+}
+
+// The lens within its covariance, and poses with it moved to the true one
+// within theirs.
+TEST_P(EachPlace, NoisyPixelsGiveTheLensWithinItsCovariance) {
+  double lens_squares = 0, pose_squares = 0;
+  constexpr int kCampaigns = 30, kViews = 15;
+  for (int seed = 1; seed <= kCampaigns; ++seed) {
+    std::mt19937_64 random(100 + seed);
+    const Views views(kViews, true, kPixel, &random);
+    const PoseMeasurements measured =
+        MeasurePoses("board.csv", views.images, SampleRobot("UR5 6R"),
+                     {{}, true, GetParam()});
+    const InstrumentUnknowns& unknowns = measured.instrument;
+    const Eigen::VectorXd truth =
+        unknowns.by_unknowns.colPivHouseholderQr().solve(HandCamera().lens() -
+                                                         unknowns.start);
+    lens_squares += truth.squaredNorm();
+    for (int k = 0; k < kViews; ++k) {
+      pose_squares += (Whitening(measured, k) *
+                       (ErrorOf(measured, k, views.Truth(GetParam(), k)) +
+                        unknowns.moves[k] * truth))
+                          .squaredNorm();
+    }
+  }
+  // chi^2 of 8 and of 6 in each campaign or image; three deviations of their
+  // means.
+  const double lens = lens_squares / kCampaigns / 8;
+  const double poses = pose_squares / kCampaigns / kViews / 6;
+  std::printf("mean squares: lens %.2f, poses %.2f\n", lens, poses);
+  EXPECT_NEAR(lens, 1, 3 * std::sqrt(2. / 8 / kCampaigns));
+  EXPECT_NEAR(poses, 1, 3 * std::sqrt(2. / 6 / kCampaigns / kViews) + .05);
+}
+
+// From one side a nearer board and a shorter lens are alike.
+TEST(ImagePoses, ImagesThatDoNotTellTheLensAreRefused) {
+  std::mt19937_64 random(6);
+  Views views(8, true, kPixel, &random);
+  for (int k = 0; k < 8; ++k) {
+    Isometry3d X = Isometry3d::Identity();
+    X.linear() = Eigen::AngleAxisd(M_PI, Vector3d::UnitX()).matrix();
+    X.translation() << -.1 + .01 * k, .06, .5;
+    views.images.pixels[k] = Pixels(BoardPoints(), X, kPixel, &random);
+  }
+  const std::string message = MessageOf<InputError>("board.csv", [&] {
+    MeasurePoses("board.csv", views.images, SampleRobot("UR5 6R"),
+                 {{}, true, CameraPlace::kStanding});
+  });
+  EXPECT_NE(message.find("do not tell the camera's lens"), std::string::npos)
+      << message;
 }
 
 // Whitened errors of 200 poses: their squares are chi squared of 6.
