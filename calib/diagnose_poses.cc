@@ -77,6 +77,11 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
                                    const DiagnosePosesOptions& options) {
   CheckPoseEffects(options.without);
   CheckGearRatios(options.gear_ratios, robot);
+  if (measured.tilts.size() > 0) {
+    throw OptionError(OptionName("poses") +
+                      ": found tilts, expected poses, targets, wire lengths or "
+                      "images: an inclinometer tells no positions");
+  }
   if (!measured.touched.empty()) {
     throw OptionError(OptionName("poses") +
                       ": found touched points, expected poses, targets, wire "

@@ -6,6 +6,7 @@
 #include "problems/plane_residual.h"
 #include "problems/pose_residual.h"
 #include "problems/target_residual.h"
+#include "problems/tilt_residual.h"
 #include "problems/touch_residual.h"
 #include "problems/wire_residual.h"
 
@@ -14,6 +15,7 @@ namespace armcal {
 using Eigen::Isometry3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
+using Kind = PoseMeasurements::Kind;
 
 Isometry3d MeasuredPose(const PoseMeasurements& measured, int row) {
   const Eigen::RowVectorXd m = measured.poses.row(row);
@@ -56,9 +58,15 @@ double VarianceFactor(const Eigen::VectorXd& residuals, int block,
   return squares / std::max(1.0, N - num_unknowns) / (slope / N * slope / N);
 }
 
+int CoordinatesOf(const PoseMeasurements& measured) {
+  const Kind kind = measured.kind();
+  if (kind == Kind::kWire || kind == Kind::kPlanes) return 1;
+  return kind == Kind::kTilts ? 2 : 3;
+}
+
 int PoseUnknowns::NumOther(const PoseMeasurements& measured) {
-  if (measured.lengths.size() > 0) return 4;
-  if (measured.poses.size() > 0) return measured.instrument.size();
+  if (measured.kind() == Kind::kWire) return 4;
+  if (measured.kind() == Kind::kPoses) return measured.instrument.size();
   return 3 *
          (static_cast<int>(measured.targets.size()) + measured.num_points());
 }
@@ -99,15 +107,21 @@ Eigen::VectorXd PoseUnknowns::OtherPriors(const PoseMeasurements& measured) {
 std::vector<bool> FreeGeometry(const ArmGeometry& geometry,
                                RefineGeometry refine,
                                const PoseMeasurements* measured) {
+  const auto is = [measured](Kind kind) {
+    return measured != nullptr && measured->kind() == kind;
+  };
   // An anchor or a point that was touched stands for the instrument's frame,
   // and sees the tool's tip alone.
-  const bool wire = measured != nullptr && (measured->lengths.size() > 0 ||
-                                            !measured->touched.empty());
-  const bool targets = measured != nullptr && !measured->targets.empty();
+  const bool wire = is(Kind::kWire) || is(Kind::kPoints) || is(Kind::kPlanes);
+  const bool targets = is(Kind::kTargets);
   const std::vector<std::string> names = geometry.Names();
+  const std::vector<std::string> units = geometry.Units();
   std::vector<bool> free(geometry.size(), false);
   for (int k = 0; k < geometry.size(); ++k) {
     const std::string field = names[k].substr(names[k].rfind('.'));
+    // An inclinometer sees directions alone, and none about the vertical.
+    const bool about_vertical = ArmGeometry::IsBase(k) && field == ".yaw";
+    if (is(Kind::kTilts) && (units[k] == "m" || about_vertical)) continue;
     if (ArmGeometry::IsBase(k)) {
       free[k] = measured != nullptr && !wire;
     } else if (geometry.IsTool(k)) {
@@ -154,6 +168,11 @@ void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
                                 MakeLoss(loss, 3), g,
                                 other + 3 * measured.touched[k]);
     }
+    if (measured.tilts.size() > 0) {
+      problem->AddResidualBlock(
+          new TiltResidual(geometry, q, measured.tilts.row(k), noise.position),
+          MakeLoss(loss, 2), g);
+    }
     if (measured.poses.size() > 0) {
       const MatrixXd moves = InstrumentMoves(measured, k);
       std::vector<double*> blocks = {g};
@@ -171,8 +190,8 @@ MatrixXd PositionErrors(const ArmGeometry& geometry,
                         const PoseUnknowns& unknowns) {
   const bool wire = measured.lengths.size() > 0;
   const int targets = static_cast<int>(measured.targets.size());
-  const bool one = wire || measured.planes;
-  MatrixXd errors(measured.size(), one ? 1 : std::max(3, 3 * targets));
+  MatrixXd errors(measured.size(),
+                  CoordinatesOf(measured) * std::max(1, targets));
   const std::vector<TouchedPlane> planes =
       measured.planes ? TouchedPlanes(geometry, measured, nullptr)
                       : std::vector<TouchedPlane>{};
@@ -183,6 +202,10 @@ MatrixXd PositionErrors(const ArmGeometry& geometry,
       const Vector3d p_WA = unknowns.other.head<3>();
       errors(k, 0) = (X.translation() - p_WA).norm() + unknowns.other[3] -
                      measured.lengths[k];
+      continue;
+    }
+    if (measured.tilts.size() > 0) {
+      errors.row(k) = TiltErrors(X.linear(), measured.tilts.row(k)).transpose();
       continue;
     }
     for (int t = 0; t < targets; ++t) {

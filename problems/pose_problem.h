@@ -23,11 +23,15 @@ double VarianceFactor(const Eigen::VectorXd& residuals, int block,
 // Standard deviations of the errors; where the instrument's own are known
 // (PoseMeasurements::covariance), of what the arm adds to these.
 struct PoseNoise {
-  double position = 1e-3;  // m, of each coordinate or of a wire's length
+  // m, of each coordinate or of a wire's length; rad of an inclinometer.
+  double position = 1e-3;
   double rotation = 1e-3;  // rad, of each component
 };
 // X_WM of a whole pose.
 Eigen::Isometry3d MeasuredPose(const PoseMeasurements& measured, int pose);
+// Coordinates of a position's error: 3, or 1 of a wire or a plane; of an
+// inclinometer 2, in rad wherever others are in m.
+int CoordinatesOf(const PoseMeasurements& measured);
 // How an instrument's unknowns move it, 6 x unknowns.
 Eigen::MatrixXd InstrumentMoves(const PoseMeasurements& measured, int pose);
 // What makes errors of a pose's position and rotation independent, of variance
@@ -67,7 +71,8 @@ void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
                       ceres::Problem* problem);
 
 // Deviations predicted - measured of every pose in m: 3 per target, 3 of a
-// pose's position, or 1; and rotation vectors (3, rad) of poses.
+// pose's position, 1, or the 2 of an inclinometer (rad); and rotation vectors
+// (3, rad) of poses.
 Eigen::MatrixXd PositionErrors(const ArmGeometry& geometry,
                                const PoseMeasurements& measured,
                                const PoseUnknowns& unknowns);

@@ -15,11 +15,11 @@ LossAt FromCeres(const ceres::LossFunction& loss, double r) {
 }  // namespace
 
 double LossScale(RobustLoss loss, int coordinates) {
-  const int column = coordinates == 1 ? 0 : coordinates == 3 ? 1 : 2;
-  CHECK(column < 2 || coordinates == 6) << coordinates;
-  constexpr double kHuber[] = {1.345, 1.628, 1.869};
-  constexpr double kCauchy[] = {2.385, 2.666, 2.862};
-  constexpr double kTukey[] = {4.685, 5.490, 6.356};
+  const int column = coordinates <= 3 ? coordinates - 1 : 3;
+  CHECK(column < 3 || coordinates == 6) << coordinates;
+  constexpr double kHuber[] = {1.345, 1.500, 1.628, 1.869};
+  constexpr double kCauchy[] = {2.385, 2.545, 2.666, 2.862};
+  constexpr double kTukey[] = {4.685, 5.120, 5.490, 6.356};
   switch (loss) {
     case RobustLoss::kSquared:
       return 0;

@@ -9,7 +9,7 @@ namespace armcal {
 // those beyond its scale.
 enum class RobustLoss { kSquared, kHuber, kCauchy, kTukey };
 
-// In noise units, for residuals of 1, 3 or 6 coordinates that are judged by
+// In noise units, for residuals of 1, 2, 3 or 6 coordinates that are judged by
 // their length: 95 % efficient for normal errors (one coordinate: Holland and
 // Welsch 1977; the others by the same integral). 0 for kSquared.
 double LossScale(RobustLoss loss, int coordinates = 1);

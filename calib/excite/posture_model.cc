@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "calib/poses/identifiability.h"
 #include "model/robot/kinematics.h"
 #include "model/text/option_error.h"
 #include "model/text/option_name.h"
@@ -52,8 +53,8 @@ PostureModel::PostureModel(const Robot& robot, const PostureOptions& options,
   const PoseCalibrationOptions fit_options = FitOptions();
   const PoseFit fit(robot, measured, fit_options);
   const ArmGeometry& geometry = fit.geometry();
-  free_ = fit.HoldUnseen(fit.Wanted(RefineGeometry::kAll), fit.AllRows(),
-                         At(fit).unknowns, nullptr);
+  free_ = HoldUnseen(fit, fit.Wanted(RefineGeometry::kAll), fit.AllRows(),
+                     At(fit).unknowns, nullptr);
   const std::vector<std::string> names = geometry.Names();
   const std::vector<std::string> units = geometry.Units();
   for (int k = 0; k < geometry.size(); ++k) {

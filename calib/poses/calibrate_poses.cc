@@ -42,6 +42,7 @@ double Extent(const PoseMeasurements& measured) {
   MatrixXd p = measured.lengths;
   if (!measured.targets.empty()) p = measured.targets[0];
   if (measured.poses.size() > 0) p = measured.poses.leftCols(3);
+  if (measured.tilts.size() > 0) p = measured.tilts;
   const MatrixXd about = p.rowwise() - p.colwise().mean();
   return about.norm() / std::sqrt(static_cast<double>(p.rows()));
 }
@@ -173,6 +174,7 @@ PoseCalibration CalibratePoses(const Robot& robot,
   PoseCalibration result;
   result.robot = robot;
   result.count = measured.size();
+  if (measured.tilts.size() > 0) result.unit = "rad";
   result.refined = options.refine != RefineGeometry::kNothing;
   result.travel =
       measured.q.colwise().maxCoeff() - measured.q.colwise().minCoeff();

@@ -76,6 +76,7 @@ struct PoseCalibration {
   // Sentences: what is held because the poses cannot tell it.
   std::vector<std::string> held;
   int count = 0;           // poses
+  std::string unit = "m";  // of deviations below; of tilts "rad"
   bool refined = false;    // the arm's own geometry too
   Eigen::VectorXd travel;  // per joint, all poses, rad or m
   double extent = 0;       // m, rms of measured positions about their mean

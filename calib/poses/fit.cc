@@ -10,9 +10,7 @@
 #include <utility>
 
 #include "calib/numerics/median.h"
-#include "model/signals/column_basis.h"
 #include "problems/dense_solver.h"
-#include "problems/plane_residual.h"
 
 namespace armcal {
 namespace {
@@ -23,7 +21,6 @@ using Eigen::VectorXd;
 constexpr double kSamePose = 1e-4;  // rad or m
 // Without some to spare the noise would be a guess.
 constexpr int kSpareEquations = 10;
-constexpr double kLeastColumn = 1e-5;  // of a column that would count
 
 // Errors of these poses, one below the other, in units of the noise.
 VectorXd InNoise(const PoseMeasurements& measured, const PoseNoise& noise,
@@ -87,26 +84,6 @@ PoseNoise BesideInstrument(
   return part(high);
 }
 
-// Columns of a Jacobian by the `geometry` first ones that are free, beside all
-// others.
-class SeenColumns {
- public:
-  SeenColumns(MatrixXd J, int geometry)
-      : J_(std::move(J)), basis_(static_cast<int>(J_.rows())) {
-    scale_ = J_.leftCols(6).norm() / std::sqrt(6.0);
-    for (Eigen::Index c = geometry; c < J_.cols(); ++c) {
-      basis_.Add(J_.col(c), scale_, 1e-7);
-    }
-  }
-  bool Add(int k) { return basis_.Add(J_.col(k), scale_, kLeastColumn); }
-  bool IsNone(int k) const { return J_.col(k).norm() < kLeastColumn * scale_; }
-
- private:
-  MatrixXd J_;
-  ColumnBasis basis_;
-  double scale_;
-};
-
 }  // namespace
 
 PoseFit::PoseFit(const Robot& robot, const PoseMeasurements& measured,
@@ -114,7 +91,6 @@ PoseFit::PoseFit(const Robot& robot, const PoseMeasurements& measured,
     : measured_(measured),
       options_(options),
       geometry_(std::make_shared<ArmGeometry>(robot)),
-      names_(geometry_->Names()),
       nominal_(geometry_->Values()) {}
 
 PoseNoise PoseFit::TypicalNoise() const {
@@ -185,102 +161,6 @@ VectorXd PoseFit::Residuals(const std::vector<int>& rows,
                  RotationErrors(*geometry_, measured_, at));
 }
 
-// As if the tip were where the point is, or on the plane. Then what no touch
-// can tell, a turn of the whole arm or other lengths of all of it, is the same
-// as other points to the last digit; beside the errors of a start it only is
-// about that.
-MatrixXd PoseFit::TouchingJacobian(const std::vector<int>& rows,
-                                   const PoseUnknowns& at) const {
-  const int g = geometry_->size();
-  MatrixXd J = MatrixXd::Zero(static_cast<Eigen::Index>(Width() * rows.size()),
-                              g + at.other.size());
-  std::vector<ParameterTwist> twists;
-  const std::vector<TouchedPlane> planes =
-      measured_.planes ? TouchedPlanes(*geometry_, measured_, nullptr)
-                       : std::vector<TouchedPlane>{};
-  for (size_t k = 0; k < rows.size(); ++k) {
-    auto own = J.middleRows(static_cast<Eigen::Index>(Width() * k), Width());
-    const int point = 3 * measured_.touched[rows[k]];
-    const Eigen::Vector3d tip =
-        geometry_
-            ->ToolPose(measured_.q.row(rows[k]), at.geometry.data(), &twists)
-            .translation();
-    if (measured_.planes) {
-      const TouchedPlane& plane = planes[point / 3];
-      const double* const abc = at.other.data() + point;
-      const Eigen::Vector3d n = plane.Normal(abc);
-      const Eigen::Vector3d on = tip - plane.Distance(abc, tip) * n;
-      for (int c = 0; c < g; ++c) own(0, c) = n.dot(twists[c].At(on));
-      own.middleCols<3>(g + point) = plane.Derivative(abc, on);
-      continue;
-    }
-    for (int c = 0; c < g; ++c) {
-      own.col(c) = twists[c].At(at.other.segment<3>(point));
-    }
-    own.middleCols<3>(g + point) = -Eigen::Matrix3d::Identity();
-  }
-  return J / noise_.position;
-}
-
-// With a tenth of all lengths a tip would touch as well: the longest of the
-// arm's that are wanted says how long a metre is. -1: something else does.
-int PoseFit::ScaleLength(const std::vector<bool>& wanted) const {
-  if (measured_.touched.empty()) return -1;
-  const std::vector<std::string> units = geometry_->Units();
-  int longest = -1;
-  for (int k = 0; k < geometry_->size(); ++k) {
-    if (!wanted[k] || PriorOf(k) == 0 || units[k] != "m") continue;
-    if (longest < 0 || std::abs(nominal_[k]) > std::abs(nominal_[longest])) {
-      longest = k;
-    }
-  }
-  return longest;
-}
-
-// Of parameters that the poses cannot tell apart the first is kept: the
-// instrument's, then joint zeros, then the others in the order of the arm.
-std::vector<bool> PoseFit::HoldUnseen(const std::vector<bool>& wanted,
-                                      const std::vector<int>& rows,
-                                      const PoseUnknowns& at,
-                                      std::vector<std::string>* held) const {
-  const int g = geometry_->size();
-  const int scale = ScaleLength(wanted);
-  std::vector<SeenColumns> seen = {{WithOtherPriors(Jacobian(rows, at)), g}};
-  if (!measured_.touched.empty()) {
-    seen.emplace_back(TouchingJacobian(rows, at), g);
-  }
-  std::vector<int> order(g);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [this](int a, int b) {
-    const auto rank = [this](int k) {
-      if (ArmGeometry::IsBase(k) || geometry_->IsTool(k)) return 0;
-      return names_[k].rfind(".theta") != std::string::npos ? 1 : 2;
-    };
-    return rank(a) < rank(b);
-  });
-  std::vector<bool> free(g, false);
-  for (const int k : order) {
-    if (!wanted[k]) continue;
-    if (k == scale) {
-      if (held == nullptr) continue;
-      held->push_back(
-          names_[k] +
-          " only with the file's other lengths: touches tell no scale");
-      continue;
-    }
-    // All of them, also where another has not taken it.
-    int tells = 0;
-    for (SeenColumns& columns : seen) tells += columns.Add(k);
-    free[k] = tells == static_cast<int>(seen.size());
-    if (free[k] || held == nullptr) continue;
-    held->push_back(names_[k] +
-                    (seen[0].IsNone(k)
-                         ? " is not seen by these poses"
-                         : " cannot be told from the parameters before it"));
-  }
-  return free;
-}
-
 bool PoseFit::Solve(const std::vector<bool>& free, const std::vector<int>& rows,
                     RobustLoss loss, PoseUnknowns* unknowns) const {
   ceres::Problem problem;
@@ -339,10 +219,8 @@ void PoseFit::EstimateNoise(const std::vector<bool>& free,
 }
 
 int PoseFit::EquationsPerPose() const {
-  if (measured_.lengths.size() > 0) return 1;
   if (measured_.poses.size() > 0) return 6;
-  if (!measured_.touched.empty()) return Width();
-  return 3 * static_cast<int>(measured_.targets.size());
+  return Width() * std::max(1, static_cast<int>(measured_.targets.size()));
 }
 
 // Poses that repeat an arm position add nothing to the geometry.

@@ -39,9 +39,7 @@ class PoseFit {
                                   num_unknowns);
   }
   // Coordinates of a position error.
-  int Width() const {
-    return measured_.lengths.size() > 0 || measured_.planes ? 1 : 3;
-  }
+  int Width() const { return CoordinatesOf(measured_); }
   // Coordinates of a residual that share a loss.
   int Coordinates() const { return measured_.poses.size() > 0 ? 6 : Width(); }
   // Of all targets of a pose.
@@ -59,14 +57,7 @@ class PoseFit {
   std::vector<bool> Wanted(RefineGeometry refine) const {
     return FreeGeometry(*geometry_, refine, &measured_);
   }
-  // Of those, the ones that the poses can tell apart; *held says why not.
-  std::vector<bool> HoldUnseen(const std::vector<bool>& wanted,
-                               const std::vector<int>& rows,
-                               const PoseUnknowns& at,
-                               std::vector<std::string>* held) const;
-  // The length that stands for the scale, which touches do not tell; -1:
-  // something else does.
-  int ScaleLength(const std::vector<bool>& wanted) const;
+  const PoseMeasurements& measured() const { return measured_; }
   // Why there are too few poses for so many unknowns; empty if there are not.
   std::string WhyTooFew(const std::vector<bool>& free) const;
   // Of all unknowns, in noise units and without the loss.
@@ -96,13 +87,9 @@ class PoseFit {
                                 const PoseUnknowns& at) const;
 
  private:
-  Eigen::MatrixXd TouchingJacobian(const std::vector<int>& rows,
-                                   const PoseUnknowns& at) const;
-
   const PoseMeasurements& measured_;
   const PoseCalibrationOptions& options_;
   std::shared_ptr<const ArmGeometry> geometry_;
-  std::vector<std::string> names_;
   Eigen::VectorXd nominal_;
   PoseNoise noise_;
 };

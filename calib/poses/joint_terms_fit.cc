@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "calib/numerics/median.h"
+#include "calib/poses/identifiability.h"
 #include "calib/poses/start.h"
 
 namespace armcal {
@@ -48,7 +49,7 @@ JointTermsFit::JointTermsFit(const Robot& robot,
 void JointTermsFit::Free(RefineGeometry what, const JointTermsState& at) {
   Correct(at.amounts);
   const std::vector<bool> free =
-      fit_.HoldUnseen(fit_.Wanted(what), fit_.AllRows(), at.unknowns, nullptr);
+      HoldUnseen(fit_, fit_.Wanted(what), fit_.AllRows(), at.unknowns, nullptr);
   free_.clear();
   for (int k = 0; k < fit_.geometry().size(); ++k) {
     if (free[k]) free_.push_back(k);

@@ -1,5 +1,6 @@
 #include "calib/poses/pose_solution.h"
 
+#include "calib/poses/identifiability.h"
 #include "calib/poses/start.h"
 #include "calib/poses/touch_scale.h"
 
@@ -14,8 +15,8 @@ PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
                      solution.unknowns);
   const auto solve = [&](RefineGeometry what, const char* failure) {
     solution.held.clear();
-    solution.free = fit->HoldUnseen(fit->Wanted(what), rows, solution.unknowns,
-                                    &solution.held);
+    solution.free = HoldUnseen(*fit, fit->Wanted(what), rows, solution.unknowns,
+                               &solution.held);
     solution.refusal = fit->WhyTooFew(solution.free);
     if (!solution.refusal.empty()) return false;
     if (!fit->SolveWithNoise(solution.free, rows, &solution.unknowns)) {

@@ -30,6 +30,7 @@ std::string Estimate(const GeometryEstimate& p) {
 
 const char* Kind(const PoseMeasurements& measured) {
   if (measured.lengths.size() > 0) return "wire lengths";
+  if (measured.tilts.size() > 0) return "tilts";
   if (measured.planes) return "touched planes";
   if (!measured.touched.empty()) return "touched points";
   if (measured.pixel_stddev > 0) return "images";
@@ -85,15 +86,15 @@ json InstrumentJson(const PoseCalibration& result) {
 }
 
 // What is left beside the instrument, and what else there is to say of it.
-std::string MisfitText(const PoseCalibration& result) {
+std::string MisfitText(const PoseCalibration& result, const char* unit) {
   const PoseMisfit& misfit = result.misfit;
   std::string text;
   if (std::isfinite(misfit.instrument_ratio)) {
     char line[128];
     std::snprintf(line, sizeof(line),
-                  "instrument u95 %.3g mm (median); what is left of inliers is "
+                  "instrument u95 %.3g %s (median); what is left of inliers is "
                   "%.3g times its deviation\n",
-                  1e3 * misfit.instrument_u95, misfit.instrument_ratio);
+                  1e3 * misfit.instrument_u95, unit, misfit.instrument_ratio);
     text = line;
   }
   for (const std::string& note : PoseNotes(result)) {
@@ -129,18 +130,21 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
     return robot.name + ": not calibrated: " + result.reason + "\n";
   }
   char line[256];
+  const std::string milli = "m" + result.unit;
+  const char* const unit = milli.c_str();
   std::snprintf(line, sizeof(line),
-                "poses      %d, %s; noise %.3g mm\n"
-                "deviation  %.4f mm rms with the file's geometry, %.4f mm with "
+                "poses      %d, %s; noise %.3g %s\n"
+                "deviation  %.4f %s rms with the file's geometry, %.4f %s with "
                 "the estimate\n"
-                "           median %.4f mm, max %.4f mm; cross-validated "
-                "%.4f mm rms, median %.4f mm\n",
+                "           median %.4f %s, max %.4f %s; cross-validated "
+                "%.4f %s rms, median %.4f %s\n",
                 measured.size(), Kind(measured), 1e3 * result.noise.position,
-                1e3 * result.before_rms, 1e3 * result.rms, 1e3 * result.median,
-                1e3 * result.max, 1e3 * result.held_out_rms,
-                1e3 * result.held_out_median);
+                unit, 1e3 * result.before_rms, unit, 1e3 * result.rms, unit,
+                1e3 * result.median, unit, 1e3 * result.max, unit,
+                1e3 * result.held_out_rms, unit, 1e3 * result.held_out_median,
+                unit);
   std::string text = line + CameraText(measured) +
-                     OutlierText(measured, result) + MisfitText(result) +
+                     OutlierText(measured, result) + MisfitText(result, unit) +
                      "\ngeometry                       file        estimate\n";
   for (const GeometryEstimate& p : result.parameters) text += Estimate(p);
   for (const std::string& sentence : result.held) {
@@ -175,7 +179,7 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
           {"poses",
            {{"count", measured.size()},
             {"kind", Kind(measured)},
-            {"unit", "m"},
+            {"unit", result.unit},
             {"rms", result.rms},
             {"max", result.max},
             {"median", result.median},

@@ -33,6 +33,7 @@ PoseMeasurements SomePoses(const PoseMeasurements& measured, int most) {
       part.instrument.moves.push_back(measured.instrument.moves[k]);
     }
   }
+  if (measured.tilts.size() > 0) part.tilts = measured.tilts(kept, Eigen::all);
   if (measured.lengths.size() > 0) part.lengths = measured.lengths(kept);
   if (measured.u95.size() > 0) part.u95 = measured.u95(kept, Eigen::all);
   return part;

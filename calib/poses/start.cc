@@ -9,6 +9,7 @@
 
 #include "calib/poses/frame_values.h"
 #include "calib/poses/hand_eye.h"
+#include "model/robot/rotations.h"
 #include "problems/plane_residual.h"
 #include "problems/pose_problem.h"
 
@@ -78,6 +79,27 @@ void SetBaseAndTool(const ArmGeometry& geometry,
       FrameValues(frames->X_ET.linear(), frames->X_ET.translation());
 }
 
+// The base as the file has it against gravity; the inclinometer on the last
+// link turned as its readings are best told: the rotation R_FT with R_FT' u = s
+// of the upward directions u in the last link's frame and s in the
+// inclinometer's (Wahba 1965, by a singular value decomposition as Kabsch's).
+// An inclinometer that measures small angles does not hang upside down.
+void SetLevelAndTool(const ArmGeometry& geometry,
+                     const PoseMeasurements& measured, VectorXd* values) {
+  VectorXd bare = *values;
+  bare.tail<6>().setZero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < measured.size(); ++k) {
+    const Eigen::Matrix3d R_WF =
+        geometry.ToolPose(measured.q.row(k), bare.data(), nullptr).linear();
+    const Eigen::Vector2d s = measured.tilts.row(k).array().sin();
+    const double z = std::sqrt(std::max(0., 1 - s.squaredNorm()));
+    products += R_WF.row(2).transpose() * Eigen::RowVector3d(s.x(), s.y(), z);
+  }
+  values->tail<6>() =
+      FrameValues(NearestRotation(products), Eigen::Vector3d::Zero());
+}
+
 }  // namespace
 
 PoseUnknowns StartPoses(const ArmGeometry& geometry,
@@ -88,6 +110,10 @@ PoseUnknowns StartPoses(const ArmGeometry& geometry,
   const Matrix3Xd p = ToolPositions(geometry, measured);
   if (measured.lengths.size() > 0) {
     start.other = Trilaterate(p, measured.lengths);
+    return start;
+  }
+  if (measured.tilts.size() > 0) {
+    SetLevelAndTool(geometry, measured, &start.geometry);
     return start;
   }
   if (measured.planes) {

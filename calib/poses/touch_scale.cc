@@ -1,6 +1,7 @@
 #include "calib/poses/touch_scale.h"
 
 #include "calib/numerics/median.h"
+#include "calib/poses/identifiability.h"
 
 namespace armcal {
 
@@ -30,7 +31,7 @@ void SetScaleByFile(const PoseFit& fit, const PoseMeasurements& measured,
                     const std::vector<bool>& free, PoseUnknowns* unknowns) {
   const VectorXd file = fit.geometry().Values();
   const std::vector<std::string> units = fit.geometry().Units();
-  const int held = fit.ScaleLength(fit.Wanted(RefineGeometry::kAll));
+  const int held = ScaleLength(fit, fit.Wanted(RefineGeometry::kAll));
   double product = 0, square = 0;
   for (int k = 0; k < fit.geometry().size(); ++k) {
     if (units[k] != "m" || fit.PriorOf(k) == 0) continue;

@@ -24,7 +24,10 @@ constexpr double kOneSided95 = 1.645;  // standard deviations
 // seemed to promise.
 constexpr double kLeastInlierMotion = 0.1;
 
-std::string Millimetres(double x) { return Format("%.3g", 1e3 * x) + " mm"; }
+// Of what is measured, in thousandths: mm, or mrad of an inclinometer.
+std::string Thousandths(const PoseCalibration& result, double x) {
+  return Format("%.3g m", 1e3 * x) + result.unit;
+}
 
 // More outliers than so many poses have by chance at the largest usual share.
 bool AreNoGrossErrors(int outliers, int poses) {
@@ -40,8 +43,8 @@ void AddCoupling(const Robot& robot, const PoseCalibration& result,
   const std::string own = "q" + std::to_string(c.joint + 1);
   std::string k = "k = " + Format("%.5g", c.factor) + " +- " +
                   Format("%.1g", c.stddev) + " leaves " +
-                  Millimetres(c.rms_after) + " rms instead of " +
-                  Millimetres(c.rms_before);
+                  Thousandths(result, c.rms_after) + " rms instead of " +
+                  Thousandths(result, c.rms_before);
   if (c.angle_before > 0) {
     k += ", " + Format("%.3g", c.angle_after) + " rad instead of " +
          Format("%.3g", c.angle_before) + " rad";
@@ -85,9 +88,10 @@ void AddOutliers(const PoseCalibration& result, Sentences* sentences) {
 void AddBesideInstrument(const PoseCalibration& result, Sentences* sentences) {
   const PoseMisfit& misfit = result.misfit;
   if (!(misfit.instrument_ratio > kMostOfInstrument)) return;
-  sentences->push_back("geometry leaves " + Millimetres(result.inlier_rms) +
+  sentences->push_back("geometry leaves " +
+                       Thousandths(result, result.inlier_rms) +
                        " rms beside an instrument that is good to " +
-                       Millimetres(misfit.instrument_u95) +
+                       Thousandths(result, misfit.instrument_u95) +
                        " (u95): " + Format("%.3g", misfit.instrument_ratio) +
                        " times its standard deviation, at most " +
                        Format("%.2g", kMostOfInstrument) +
@@ -108,8 +112,9 @@ Sentences Shortcomings(const Robot& robot, const PoseCalibration& result) {
   const double deviation = std::max(result.median, result.held_out_median);
   if (deviation > kMostDeviation * result.extent) {
     sentences.push_back("the poses do not follow the joints: they deviate by " +
-                        Millimetres(deviation) + " (median) of an extent of " +
-                        Millimetres(result.extent));
+                        Thousandths(result, deviation) +
+                        " (median) of an extent of " +
+                        Thousandths(result, result.extent));
   }
   AddOutliers(result, &sentences);
   AddBesideInstrument(result, &sentences);
@@ -124,8 +129,8 @@ Sentences PoseNotes(const PoseCalibration& result) {
   if (result.refined && result.held_out_rms > result.before_rms) {
     notes.push_back(
         "on poses that were left out the refined geometry is worse (" +
-        Millimetres(result.held_out_rms) + " rms) than the file's (" +
-        Millimetres(result.before_rms) +
+        Thousandths(result, result.held_out_rms) + " rms) than the file's (" +
+        Thousandths(result, result.before_rms) +
         "): what it gives up as outliers is not explained by it");
   }
   return notes;

@@ -1,5 +1,6 @@
 #include "model/log_files/named_columns.h"
 
+#include <cmath>
 #include <string_view>
 
 #include "model/text/input_error.h"
@@ -16,6 +17,11 @@ double ScaleOf(const std::string& file, const std::string& column,
   };
   if (text.empty()) return 1;
   if (unit == ColumnUnit::kNone) refuse("expected no unit");
+  if (unit == ColumnUnit::kAngle) {
+    if (text == "deg") return M_PI / 180;
+    if (text != "rad") refuse("expected the unit rad or deg");
+    return 1;
+  }
   if (text == "mm") return 1e-3;
   if (text != "m") refuse("expected the unit m or mm");
   return 1;

@@ -10,6 +10,7 @@ namespace armcal {
 // What the columns of a table hold that are found by their names alone.
 enum class ColumnUnit {
   kLength,  // m, or mm where the name ends with [mm]
+  kAngle,   // rad, or degrees where it ends with [deg]
   kNone     // no unit is taken
 };
 

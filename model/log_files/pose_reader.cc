@@ -19,10 +19,12 @@ namespace {
 
 constexpr double kQuaternionNorm = 0.02;  // rounding to two digits is taken
 constexpr std::size_t kMostPoses = 100'000;
+// rad: an inclinometer measures the sine, which tells no more there.
+constexpr double kMostTilt = 1.4;
 
 // Places of the measured columns among a row's values; -1: not there.
 struct Places {
-  int q = -1, pose = -1, length = -1, u95 = -1;
+  int q = -1, pose = -1, length = -1, tilt = -1, u95 = -1;
   int point = -1;
   bool planes = false;
   int num_u95 = 0;
@@ -80,8 +82,12 @@ Places ChooseColumns(const std::string& path, const LogColumns& columns,
   if (!pose.empty()) places.pose = row->Use(pose);
   const auto length = FindNamed(path, columns, {"length1"}, kLength);
   if (!length.empty()) places.length = row->Use(length);
+  const auto tilt =
+      FindNamed(path, columns, {"tilt_x", "tilt_y"}, ColumnUnit::kAngle);
+  if (!tilt.empty()) places.tilt = row->Use(tilt);
   // Where something was measured, a column of that name is anybody's.
-  if (places.targets.empty() && pose.empty() && length.empty()) {
+  if (places.targets.empty() && pose.empty() && length.empty() &&
+      tilt.empty()) {
     for (const char* name : {"point", "plane"}) {
       const auto point = FindNamed(path, columns, {name}, ColumnUnit::kNone);
       if (point.empty()) continue;
@@ -94,14 +100,15 @@ Places ChooseColumns(const std::string& path, const LogColumns& columns,
     }
   }
   for (int k = 1;; ++k) {
-    const auto u95 =
-        FindNamed(path, columns, {"u95_" + std::to_string(k)}, kLength);
+    const auto u95 = FindNamed(path, columns, {"u95_" + std::to_string(k)},
+                               places.tilt < 0 ? kLength : ColumnUnit::kAngle);
     if (u95.empty()) break;
     const int place = row->Use(u95);
     if (places.num_u95++ == 0) places.u95 = place;
   }
   const int kinds = (places.targets.empty() ? 0 : 1) + (places.pose >= 0) +
-                    (places.length >= 0) + (places.point >= 0);
+                    (places.length >= 0) + (places.point >= 0) +
+                    (places.tilt >= 0);
   if (kinds == 1) return places;
   if (kinds == 0 && HasPixels(columns)) {
     throw InputError(path, "row 1", "u, v",
@@ -111,7 +118,8 @@ Places ChooseColumns(const std::string& path, const LogColumns& columns,
   throw InputError(path, "row 1", "",
                    "expected one kind of measurement: x1 y1 z1 [x2 ..] "
                    "(targets), x y z qw qx qy qz (poses), length1 (a wire), "
-                   "point or plane (touched ones)");
+                   "point or plane (touched ones), tilt_x tilt_y (an "
+                   "inclinometer)");
 }
 
 // A number as people write it.
@@ -159,6 +167,15 @@ void CheckValues(const std::string& path, const PoseMeasurements& measured) {
     const double length = measured.lengths[k];
     if (length > 0) continue;
     refuse(k, "length1", TextOf(length), "expected a length above 0");
+  }
+  for (Eigen::Index k = 0; k < measured.tilts.rows(); ++k) {
+    for (const int axis : {0, 1}) {
+      const double tilt = measured.tilts(k, axis);
+      if (std::abs(tilt) < kMostTilt) continue;
+      refuse(k, axis == 0 ? "tilt_x" : "tilt_y", TextOf(tilt),
+             "expected an angle to the horizontal below 80 degrees (in rad, "
+             "unless the column's name ends with [deg])");
+    }
   }
   for (Eigen::Index k = 0; k < measured.u95.rows(); ++k) {
     for (Eigen::Index c = 0; c < measured.u95.cols(); ++c) {
@@ -228,6 +245,7 @@ PoseMeasurements ReadPoses(const std::string& path,
   }
   if (places.pose >= 0) result.poses = table.middleCols(places.pose, 7);
   if (places.length >= 0) result.lengths = table.col(places.length);
+  if (places.tilt >= 0) result.tilts = table.middleCols(places.tilt, 2);
   if (places.num_u95 > 0) {
     result.u95 = table.middleCols(places.u95, places.num_u95);
   }

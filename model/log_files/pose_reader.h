@@ -30,6 +30,15 @@ struct InstrumentUnknowns {
 // What was measured of the arm's geometry at a number of standstill positions.
 // Poses in rows.
 struct PoseMeasurements {
+  enum class Kind { kTargets, kPoses, kWire, kTilts, kPoints, kPlanes };
+  Kind kind() const {
+    if (lengths.size() > 0) return Kind::kWire;
+    if (poses.size() > 0) return Kind::kPoses;
+    if (tilts.size() > 0) return Kind::kTilts;
+    if (touched.empty()) return Kind::kTargets;
+    return planes ? Kind::kPlanes : Kind::kPoints;
+  }
+
   Eigen::MatrixXd q;      // rad or m, poses x joints
   std::vector<long> row;  // line of the file, header = 1
   // What the file's column `pose` calls each; empty where it has none, or no
@@ -55,6 +64,9 @@ struct PoseMeasurements {
   double pixel_stddev = 0;
   // Length (m) of a wire drawn from a fixed anchor to the tool.
   Eigen::VectorXd lengths;
+  // Of an inclinometer on the tool: by how much its axes x and y rise above the
+  // horizontal, rad, poses x 2.
+  Eigen::MatrixXd tilts;
   // Which of several points, counted from 0, the tool's tip touches; where they
   // are is not known.
   std::vector<int> touched;
@@ -75,7 +87,8 @@ struct PoseMeasurements {
 // Reads a table of poses, CSV or another format (line_source.h): joint
 // positions like a log's (q1.. or shoulder/position, with units), and x1 y1 z1
 // [x2 y2 z2 ...] for targets, or x y z qw qx qy qz, or length1, or point, the
-// number (from 1) of the point that is touched, or plane, that of a plane;
+// number (from 1) of the point that is touched, or plane, that of a plane, or
+// tilt_x tilt_y (rad or [deg]), of an inclinometer;
 // optional u95_1 [u95_2 ...] and
 // pose, a number. Lengths in m unless a suffix [mm] says otherwise. Throws
 // InputError.

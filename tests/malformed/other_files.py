@@ -297,7 +297,8 @@ POSE_FILES = Group("poses", "calibrate --robot=robot.yaml --poses=poses.csv --ou
         "poses.csv: the file has a header and no rows"),
     Row("no measurement", poses("x1,y1,z1", "a,b,c"),
         "poses.csv: row 1: expected one kind of measurement: x1 y1 z1 [x2 ..] (targets), x "
-        "y z qw qx qy qz (poses), length1 (a wire), point or plane (touched ones)"),
+        "y z qw qx qy qz (poses), length1 (a wire), point or plane (touched ones), "
+        "tilt_x tilt_y (an inclinometer)"),
     Row("coordinate missing", poses("x1,y1,z1", "x1,y1,height"),
         "poses.csv: row 1: the column z1 is missing"),
     Row("coordinate twice", poses("x1,y1,z1", "x1,y1,y1"),

@@ -6,6 +6,7 @@
 
 #include "problems/pose_residual.h"
 #include "problems/target_residual.h"
+#include "problems/tilt_residual.h"
 #include "problems/touch_residual.h"
 #include "problems/wire_residual.h"
 #include "tests/fixtures/sample_robots.h"
@@ -145,6 +146,24 @@ TEST(TouchResidual, IsTheDeviationInNoiseUnits) {
   const Vector3d point = s.X_WT.translation() - Vector3d(1e-3, 2e-3, 0);
   const TouchResidual cost(s.geometry, s.q, 1e-3);
   EXPECT_LT((Residuals(cost, {s.g, point}) - Vector3d(1, 2, 0)).norm(), 1e-9);
+}
+
+TEST(TiltResidual, GradientIsRight) {
+  for (const char* name : kRobots) {
+    Sample s(name);
+    const TiltResidual cost(s.geometry, s.q, {.3, -.8}, .5);
+    EXPECT_LT(GradientError(cost, {s.g}), 1e-8) << name;
+  }
+}
+
+// An axis that rises by asin of its third component, and an error of a
+// milliradian at any tilt.
+TEST(TiltResidual, IsTheErrorOfAnAngle) {
+  Sample s("UR5 6R");
+  const Eigen::Vector2d tilt = s.X_WT.linear().row(2).head<2>().array().asin();
+  const TiltResidual cost(s.geometry, s.q, tilt - Eigen::Vector2d(1e-6, 0),
+                          1e-6);
+  EXPECT_LT((Residuals(cost, {s.g}) - Eigen::Vector2d(1, 0)).norm(), 1e-4);
 }
 
 TEST(WireResidual, GradientIsRight) {

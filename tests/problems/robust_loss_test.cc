@@ -39,7 +39,7 @@ double Efficiency(RobustLoss loss, int size) {
 
 TEST(RobustLoss, IsNinetyFivePercentEfficient) {
   for (const RobustLoss loss : kRobust) {
-    for (const int size : {1, 3, 6}) {
+    for (const int size : {1, 2, 3, 6}) {
       EXPECT_NEAR(Efficiency(loss, size), .95, 5e-4)
           << static_cast<int>(loss) << " " << size;
     }

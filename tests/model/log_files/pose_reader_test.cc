@@ -19,7 +19,7 @@ struct BadPoses {
 constexpr char kKinds[] =
     "FILE: row 1: expected one kind of measurement: x1 y1 z1 [x2 ..] "
     "(targets), x y z qw qx qy qz (poses), length1 (a wire), point or plane "
-    "(touched ones)";
+    "(touched ones), tilt_x tilt_y (an inclinometer)";
 
 const BadPoses kBad[] = {
     {"", "FILE: the file is empty"},
@@ -156,6 +156,30 @@ TEST(PoseReader, TakesNumbersOfPosesWhereTheFileHasThem) {
             (std::vector<long>{3, 7}));
   EXPECT_TRUE(Read("pose,q1,q2,length1\nhome,0,0,1\n7,0,0,1\n").number.empty());
   EXPECT_TRUE(Read("q1,q2,length1\n0,0,1\n").number.empty());
+}
+
+TEST(PoseReader, ReadsTilts) {
+  const std::string path =
+      WriteFile("q1,q2,tilt_x[deg],tilt_y[deg],u95_1[deg]\n0,0,30,-45,.01\n",
+                "tilts.csv");
+  const PoseMeasurements measured = ReadPoses(path, {"shoulder", "elbow"});
+  EXPECT_EQ(measured.kind(), PoseMeasurements::Kind::kTilts);
+  EXPECT_NEAR(measured.tilts(0, 0), M_PI / 6, 1e-15);
+  EXPECT_NEAR(measured.tilts(0, 1), -M_PI / 4, 1e-15);
+  EXPECT_NEAR(measured.u95(0, 0), .01 * M_PI / 180, 1e-15);
+}
+
+// 45 without a unit is no angle in rad.
+TEST(PoseReader, RefusesTiltsInOtherUnits) {
+  const std::string path =
+      WriteFile("q1,q2,tilt_x,tilt_y\n0,0,0,45\n", "tilts.csv");
+  EXPECT_EQ(MessageOf<InputError>(path,
+                                  [&] {
+                                    ReadPoses(path, {"shoulder", "elbow"});
+                                  }),
+            "FILE: row 2, column tilt_y: found '45': expected an angle to the "
+            "horizontal below 80 degrees (in rad, unless the column's name "
+            "ends with [deg])");
 }
 
 }  // namespace armcal::pose_reader_test
