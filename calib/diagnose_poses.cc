@@ -4,6 +4,7 @@
 
 #include "calib/poses/correction/correction_code.h"
 #include "calib/poses/correction/pose_correction.h"
+#include "calib/poses/diagnosis/compliance_reader.h"
 #include "calib/poses/diagnosis/diagnosis.h"
 #include "calib/poses/diagnosis/report.h"
 #include "calib/refine/calibration_reader.h"
@@ -93,6 +94,14 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
   search.without = options.without;
   search.weighed = !options.calibration.empty();
   search.gear_ratios = options.gear_ratios;
+  if (!options.compliance.empty()) {
+    if (!search.weighed) {
+      throw OptionError(OptionName("compliance") + ": expected " +
+                        OptionName("calibration") +
+                        " beside it: compliance is told per N m");
+    }
+    search.compliance = ReadCompliance(options.compliance, robot);
+  }
   search.progress = options.progress;
   const Robot arm =
       search.weighed ? Weighed(robot, options.calibration) : robot;

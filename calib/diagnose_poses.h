@@ -27,7 +27,10 @@ struct DiagnosePosesOptions {
   // those of the measured arm with its tool: sag is told per N m. Empty: none.
   std::string calibration;
   std::vector<double> gear_ratios;  // motor over joint; empty: not known
-  RobotSource source;               // of robot.urdf
+  // The diagnosis.json of `armcal diagnose` on logs, or its folder, whose
+  // stiffnesses are one over the compliances that poses show. Empty: none.
+  std::string compliance;
+  RobotSource source;  // of robot.urdf
   Progress progress;
 };
 

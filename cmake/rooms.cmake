@@ -24,6 +24,7 @@ set(rooms
     model/plant         # Simbody, the engine that shares no code with ours
     model/plant/hidden  # effects in laws of their own, for blind tests
     problems            # unknowns, measurements, equations
+    problems/poses      # the same of measured poses: one kind of instrument a file
     calib/numerics      # factors, posteriors, spectra, bootstraps
     calib/logs          # passes over sets of logs and what is left after a fit
     calib/linear        # model parameters by linear least squares

@@ -7,7 +7,7 @@
 
 #include "calib/excite/design_kinds.h"
 #include "problems/excitation_criterion.h"
-#include "problems/pose_problem.h"
+#include "problems/poses/pose_problem.h"
 #include "problems/workspace.h"
 
 namespace armcal {

@@ -8,7 +8,7 @@
 
 #include "model/robot/arm_geometry.h"
 #include "model/robot/robot.h"
-#include "problems/pose_problem.h"
+#include "problems/poses/pose_problem.h"
 
 namespace armcal {
 

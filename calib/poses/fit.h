@@ -9,7 +9,7 @@
 #include "calib/poses/calibration.h"
 #include "model/log_files/pose_reader.h"
 #include "model/robot/arm_geometry.h"
-#include "problems/pose_problem.h"
+#include "problems/poses/pose_problem.h"
 
 namespace armcal {
 

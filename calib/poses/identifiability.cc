@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "model/signals/column_basis.h"
-#include "problems/plane_residual.h"
+#include "problems/poses/plane_residual.h"
 
 namespace armcal {
 namespace {

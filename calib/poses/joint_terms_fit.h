@@ -8,7 +8,7 @@
 #include "calib/poses/fit.h"
 #include "model/log_files/pose_reader.h"
 #include "model/robot/robot.h"
-#include "problems/pose_problem.h"
+#include "problems/poses/pose_problem.h"
 
 namespace armcal {
 

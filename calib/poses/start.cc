@@ -10,8 +10,8 @@
 #include "calib/poses/frame_values.h"
 #include "calib/poses/hand_eye.h"
 #include "model/robot/rotations.h"
-#include "problems/plane_residual.h"
-#include "problems/pose_problem.h"
+#include "problems/poses/plane_residual.h"
+#include "problems/poses/pose_problem.h"
 
 namespace armcal {
 namespace {

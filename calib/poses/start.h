@@ -2,7 +2,7 @@
 
 #include "model/log_files/pose_reader.h"
 #include "model/robot/arm_geometry.h"
-#include "problems/pose_problem.h"
+#include "problems/poses/pose_problem.h"
 
 namespace armcal {
 

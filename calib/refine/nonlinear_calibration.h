@@ -11,7 +11,7 @@
 #include "calib/refine/arm_unknowns.h"
 #include "model/log_files/pose_reader.h"
 #include "model/robot/robot.h"
-#include "problems/pose_problem.h"
+#include "problems/poses/pose_problem.h"
 
 namespace armcal {
 

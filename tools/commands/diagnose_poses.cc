@@ -1,5 +1,7 @@
 #include "tools/commands/diagnose_poses.h"
 
+#include <gflags/gflags.h>
+
 #include <algorithm>
 
 #include "calib/diagnose_poses.h"
@@ -11,6 +13,9 @@
 #include "tools/report/report_data.h"
 #include "tools/trust_flags.h"
 #include "tools/usage_error.h"
+
+DEFINE_string(compliance, "",
+              "`FILE` diagnosis.json of logs: one over its stiffness is sag");
 
 namespace armcal {
 namespace {
@@ -104,6 +109,7 @@ CommandOutcome RunDiagnosePoses(const CommandInput& input) {
     options.validation = PosesFromFile(flags, robot, held_out);
   }
   options.calibration = flags.Text("calibration");
+  options.compliance = flags.Text("compliance");
   options.gear_ratios = ParseNumbers("gear_ratios", flags.Text("gear_ratios"));
   options.source = RobotSourceFromFlags(input);
   options.progress = input.progress;
@@ -113,6 +119,7 @@ CommandOutcome RunDiagnosePoses(const CommandInput& input) {
   std::vector<std::string> files = {flags.Text("poses")};
   if (!held_out.empty()) files.push_back(held_out);
   if (!options.calibration.empty()) files.push_back(options.calibration);
+  if (!options.compliance.empty()) files.push_back(options.compliance);
   for (const std::string& file : CameraFiles(flags)) files.push_back(file);
   AddReport(
       input, "diagnose", robot, summary.json, files,

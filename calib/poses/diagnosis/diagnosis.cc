@@ -233,6 +233,28 @@ std::vector<PoseRivals> SettleRivals(const PoseStudy& study, PoseModel* model,
   return rivals;
 }
 
+// Amounts that something else has told, too, once effects are named: these stay
+// what the poses alone say, and the geometry makes room for both.
+void AddTold(const std::vector<Told>& compliance, double design_effect,
+             PoseStudy* study, PoseModel* model,
+             std::vector<PoseFinding>* findings) {
+  study->arm.compliance = compliance;
+  PoseModel from = *model;
+  from.campaign =
+      MakeCampaign(study->arm, study->measured, model->campaign.standing);
+  *model = FitPoseModel(*study, model->effects, from, VectorXd());
+  const std::vector<PoseAmounts> all = AmountsOf(*study, *model, design_effect);
+  for (size_t e = 0; e < findings->size(); ++e) {
+    PoseFinding& finding = (*findings)[e];
+    for (size_t k = 0; k < finding.amounts.size(); ++k) {
+      const PoseAmount alone = finding.amounts[k];
+      finding.amounts[k] = all[e].amounts[k];
+      finding.amounts[k].by_poses = {alone.value, alone.half_width / kNormal95};
+    }
+    finding.ci95 = all[e].ci95;
+  }
+}
+
 }  // namespace
 
 PoseDiagnosis DiagnosePoseGap(const Robot& robot,
@@ -262,6 +284,10 @@ PoseDiagnosis DiagnosePoseGap(const Robot& robot,
   if (options.progress) options.progress("weighing rivals", -1);
   const auto rivals = SettleRivals(study, &model, &result.design_effect);
   result.findings = FindingsOf(study, model, rivals, result.design_effect);
+  if (!options.compliance.empty()) {
+    AddTold(options.compliance, result.design_effect, &study, &model,
+            &result.findings);
+  }
   result.gap = GapOf(study, alone, model);
   result.gap.file = Rms(solution.before);
   result.left_by_geometry = alone.estimate.linear.r;

@@ -14,6 +14,7 @@ struct PoseDiagnosisOptions {
   std::vector<std::string> without;  // names of effects not to be considered
   bool weighed = false;              // KnownArm
   std::vector<double> gear_ratios;
+  std::vector<Told> compliance;
   Progress progress;
 };
 

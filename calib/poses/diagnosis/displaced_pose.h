@@ -5,7 +5,7 @@
 
 #include "calib/poses/effects/effect.h"
 #include "model/robot/arm_geometry.h"
-#include "problems/pose_problem.h"
+#include "problems/poses/pose_problem.h"
 
 namespace armcal {
 

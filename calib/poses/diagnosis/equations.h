@@ -7,7 +7,7 @@
 #include "calib/poses/effects/effect.h"
 #include "calib/poses/fit.h"
 #include "model/log_files/pose_reader.h"
-#include "problems/pose_problem.h"
+#include "problems/poses/pose_problem.h"
 
 namespace armcal {
 

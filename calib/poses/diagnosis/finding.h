@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -11,10 +12,20 @@
 
 namespace armcal {
 
+// Half-width of a normal error's 95 % interval in standard deviations.
+inline constexpr double kNormal95 = 1.96;
+
 struct PoseAmount {
   std::string name, unit;
   double value;
   double half_width;  // of the 95 % interval; infinite where it is not told
+  // What others told of it, which `value` has in it, and the poses alone.
+  Told told = {}, by_poses = {};
+  // By how many standard deviations of their difference these two disagree.
+  double Apart() const {
+    return std::abs(by_poses.value - told.value) /
+           std::hypot(by_poses.stddev, told.stddev);
+  }
 };
 
 // Of amounts that are a vector's components, of a sine and a cosine say: its

@@ -44,8 +44,7 @@ VectorXd HeldOutResiduals(const PoseStudy& study, const PoseModel& model,
   MatrixXd all = PoseInformation(equations, at, own);
   all.diagonal().array() += 1e-9;
   VectorXd pull = -J.transpose() * r;
-  pull.head(equations.num_free()) -=
-      equations.Precision().cwiseProduct(equations.FromFile(at.state));
+  pull -= PriorPull(equations, model.terms, at.state);
   const int width = equations.width();
   VectorXd held(r.size());
   const int last = *std::max_element(folds.begin(), folds.end());

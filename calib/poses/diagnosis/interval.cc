@@ -26,8 +26,11 @@ PoseAmount LengthOf(const std::string& name,
   VectorXd x(ci95.rows());
   for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = components[k].value;
   const VectorXd direction = x.stableNormalized();
-  return {name, components[0].unit, x.norm(),
-          std::sqrt(direction.dot(ci95 * direction))};
+  return {name,
+          components[0].unit,
+          x.norm(),
+          std::sqrt(direction.dot(ci95 * direction)),
+          {}};
 }
 
 std::vector<PoseAmounts> AmountsOf(const PoseStudy& study,
@@ -64,7 +67,8 @@ std::vector<PoseAmounts> AmountsOf(const PoseStudy& study,
     all[e].ci95 = ci95.block(begin, begin, count, count);
     for (int k = begin; k < begin + count; ++k) {
       all[e].amounts.push_back({model.terms[k].name, model.terms[k].unit,
-                                at.state.amounts[k], std::sqrt(ci95(k, k))});
+                                at.state.amounts[k], std::sqrt(ci95(k, k)),
+                                model.terms[k].told});
     }
   }
   return all;

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "calib/numerics/json_figures.h"
+#include "calib/poses/diagnosis/interval.h"
 #include "calib/poses/diagnosis/report.h"
 
 namespace armcal {
@@ -35,12 +36,21 @@ json GainJson(const HeldOutGain& gain) {
 }
 
 json AmountJson(const PoseAmount& amount) {
-  return {{"name", amount.name},
-          {"unit", amount.unit},
-          {"value", JsonNumber(amount.value)},
-          {"ci95",
-           {JsonNumber(amount.value - amount.half_width),
-            JsonNumber(amount.value + amount.half_width)}}};
+  json object = {{"name", amount.name},
+                 {"unit", amount.unit},
+                 {"value", JsonNumber(amount.value)},
+                 {"ci95",
+                  {JsonNumber(amount.value - amount.half_width),
+                   JsonNumber(amount.value + amount.half_width)}}};
+  if (amount.told.stddev > 0) {
+    const Told& poses = amount.by_poses;
+    object["by_logs"] = {{"value", amount.told.value},
+                         {"stddev", amount.told.stddev}};
+    object["by_poses"] = {{"value", JsonNumber(poses.value)},
+                          {"stddev", JsonNumber(poses.stddev)}};
+    object["deviations_apart"] = JsonNumber(amount.Apart());
+  }
+  return object;
 }
 
 json RangeJson(const PoseMeasurements& measured, const int range[2],

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/poses/diagnosis/interval.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -29,6 +30,28 @@ std::string AmountText(const PoseAmount& amount) {
               ? Format(" +- %.2g", scale * amount.half_width)
               : std::string(" +- ?")) +
          unit;
+}
+
+// Where logs have told an amount, too: what each says by itself.
+std::string ToldText(const PoseFinding& finding) {
+  constexpr double kClearlyApart = 3;  // standard deviations
+  std::string text;
+  for (const PoseAmount& amount : finding.amounts) {
+    if (!(amount.told.stddev > 0)) continue;
+    text += "         " + amount.name +
+            Format(": logs alone %.3g +- %.2g, poses alone %.3g +- %.2g ",
+                   amount.told.value, kNormal95 * amount.told.stddev,
+                   amount.by_poses.value, kNormal95 * amount.by_poses.stddev) +
+            amount.unit;
+    if (amount.Apart() > kClearlyApart) {
+      text += Format(
+          ": %.1f standard deviations apart, which is no one "
+          "spring (links and bearings bend in poses, too)",
+          amount.Apart());
+    }
+    text += "\n";
+  }
+  return text;
 }
 
 std::string AmountsText(const PoseFinding& finding) {
@@ -86,7 +109,7 @@ std::string FindingText(const PoseFinding& finding,
          InMillimetres(finding.displacement_max) + " at most; removes " +
          SharePercent(finding.interleaved.removed_share) +
          SideText("begins", finding.begin, campaign, 0) +
-         SideText("ends", finding.end, campaign, 1) + "\n" +
+         SideText("ends", finding.end, campaign, 1) + "\n" + ToldText(finding) +
          EquivalentText(finding);
 }
 

@@ -14,8 +14,29 @@ constexpr int kMostRobustSteps = 40;
 // Of -2 log p: models are compared to the tenth.
 constexpr double kCostAtRest = 1e-3;
 
-double PriorCost(const PoseEquations& equations, const PoseState& state) {
-  return equations.FromFile(state).cwiseAbs2().dot(equations.Precision());
+// 1 / variance of what else has told each term's amount; 0: nothing has.
+VectorXd ToldPrecision(const std::vector<PoseTerm>& terms) {
+  VectorXd precision(terms.size());
+  for (size_t k = 0; k < terms.size(); ++k) {
+    const double stddev = terms[k].told.stddev;
+    precision[static_cast<Eigen::Index>(k)] =
+        stddev > 0 ? 1 / (stddev * stddev) : 0;
+  }
+  return precision;
+}
+
+VectorXd FromTold(const std::vector<PoseTerm>& terms, const PoseState& at) {
+  VectorXd away = at.amounts;
+  for (size_t k = 0; k < terms.size(); ++k) {
+    away[static_cast<Eigen::Index>(k)] -= terms[k].told.value;
+  }
+  return away;
+}
+
+double PriorCost(const PoseEquations& equations,
+                 const std::vector<PoseTerm>& terms, const PoseState& state) {
+  return equations.FromFile(state).cwiseAbs2().dot(equations.Precision()) +
+         FromTold(terms, state).cwiseAbs2().dot(ToldPrecision(terms));
 }
 
 // Moves to a better state, and says by how much.
@@ -28,8 +49,7 @@ double Improve(const PoseEquations& equations,
   const MatrixXd A = PoseInformation(equations, *at, columns);
   VectorXd b =
       -WeightedRows(*at, J).transpose() * WeightedRows(*at, at->linear.r);
-  b.head(equations.num_free()) -=
-      equations.Precision().cwiseProduct(equations.FromFile(at->state));
+  b -= PriorPull(equations, terms, at->state);
   for (; *damping < 1e7; *damping *= 10) {
     MatrixXd damped = A;
     damped.diagonal() *= 1 + *damping;
@@ -37,7 +57,7 @@ double Improve(const PoseEquations& equations,
     const PoseState moved = equations.Moved(at->state, damped.ldlt().solve(b));
     const StudentFit errors = FitStudent(equations.Residuals(terms, moved),
                                          equations.width(), at->nu);
-    const double prior = PriorCost(equations, moved);
+    const double prior = PriorCost(equations, terms, moved);
     const double lower = at->Cost() - errors.deviance - prior;
     if (!(lower >= 0)) continue;
     at->state = moved;
@@ -50,6 +70,14 @@ double Improve(const PoseEquations& equations,
 }
 
 }  // namespace
+
+VectorXd PriorPull(const PoseEquations& equations,
+                   const std::vector<PoseTerm>& terms, const PoseState& at) {
+  VectorXd pull(equations.num_free() + at.amounts.size());
+  pull << equations.Precision().cwiseProduct(equations.FromFile(at)),
+      ToldPrecision(terms).cwiseProduct(FromTold(terms, at));
+  return pull;
+}
 
 MatrixXd WeightedRows(const PoseEstimate& at, const MatrixXd& rows) {
   const VectorXd& w = at.errors.weights;
@@ -70,6 +98,7 @@ MatrixXd PoseInformation(const PoseEquations& equations, const PoseEstimate& at,
   const MatrixXd weighted = WeightedRows(at, J);
   MatrixXd A = weighted.transpose() * weighted;
   A.diagonal().head(equations.num_free()) += equations.Precision();
+  if (columns.cols() > 0) A.diagonal().tail(columns.cols()) += at.told;
   return A;
 }
 
@@ -79,9 +108,10 @@ PoseEstimate EstimatePoses(const PoseEquations& equations,
   PoseEstimate at;
   at.nu = nu;
   at.state = start;
+  at.told = ToldPrecision(terms);
   at.linear = equations.Linearise(terms, start, false);
   at.errors = FitStudent(at.linear.r, equations.width(), nu);
-  at.prior = PriorCost(equations, start);
+  at.prior = PriorCost(equations, terms, start);
   double damping = 1e-9;
   for (int step = 0; step < kMostRobustSteps; ++step) {
     const double lower = Improve(equations, terms, &damping, &at);

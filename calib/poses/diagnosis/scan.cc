@@ -35,9 +35,7 @@ class EffectScan {
     A.diagonal().array() += 1e-12;
     factor_.compute(A);
     VectorXd pull = J_.transpose() * r_;
-    pull.head(study.equations.num_free()) +=
-        study.equations.Precision().cwiseProduct(
-            study.equations.FromFile(at_.state));
+    pull += PriorPull(study.equations, model.terms, at_.state);
     moved_ = factor_.solve(pull);
     chi2_ = r_.squaredNorm() + at_.prior;
     count_ = static_cast<double>(r_.size()) - at_.parameters;

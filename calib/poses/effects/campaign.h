@@ -8,12 +8,20 @@
 
 namespace armcal {
 
+// A number that something else has told; standard deviation 0: it has not.
+struct Told {
+  double value = 0, stddev = 0;
+};
+
 // What is known of a measured arm beside its geometry.
 struct KnownArm {
   Robot robot;
   // Whether the robot's masses are those of the arm, with its tool.
   bool weighed = false;
   std::vector<double> gear_ratios = {};  // motor over joint; empty: not known
+  // Of each joint, rad per N m, as logs of torque tell its elasticity; empty:
+  // they do not.
+  std::vector<Told> compliance = {};
 };
 
 // What effects of geometry are made from: an arm, and where its joints stood in

@@ -28,6 +28,7 @@ struct PoseTerm {
   std::string name;  // of the amount
   std::string unit;
   PostureSignal goes_with = {};  // what `signal` is made from
+  Told told = {};                // of the amount, by others than the poses
 };
 
 // One whose signal is that of the posture.

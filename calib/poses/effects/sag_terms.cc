@@ -40,6 +40,9 @@ std::vector<PoseTerm> SagTerms(const PoseCampaign& campaign, int joint,
   };
   if (campaign.arm.weighed) {
     add(PostureSignal::Of::kWeightMoment, "", "rad/(N m)");
+    if (!campaign.arm.compliance.empty()) {
+      terms[0].told = campaign.arm.compliance[joint];
+    }
     return terms;
   }
   add(PostureSignal::Of::kToolMoment, "", "rad/m");

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "calib/poses/calibrate_poses.h"
-#include "problems/plane_residual.h"
+#include "problems/poses/plane_residual.h"
 #include "tests/fixtures/touching_arm.h"
 
 namespace armcal::planes_test {

@@ -231,6 +231,7 @@ def diagnose(
     crop: Optional[Range] = None,
     validate_crop: Optional[Range] = None,
     changes: bool = False,
+    compliance: Optional[Path] = None,
     camera: Optional[Logs] = None,
     camera_on: Literal['tool', 'world'] = 'tool',
     length_trust: float = 0.01,
@@ -281,6 +282,8 @@ def diagnose(
     changes              bool: of four logs or more of one kind of motion, in
                          the order they were recorded: which parameters changed
                          when
+    compliance           Path: diagnosis.json of logs: one over its stiffness
+                         is sag
     camera               Logs: of --poses with images: camera_info YAML of ROS;
                          or estimate
     camera_on            str: where the camera is: tool (the board stands),

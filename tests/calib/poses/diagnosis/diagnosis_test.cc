@@ -120,41 +120,78 @@ TEST(PoseDiagnosis, GivesNoPosesUpThatACouplingExplains) {
   EXPECT_LT(diagnosis.gap.held_out_after, 5 * kNoise);
 }
 
-// An arm whose masses are known: each joint's compliance is told per N m.
+// An arm whose masses are known, and whose joints 2 and 3 give way.
+struct SaggingArm {
+  SaggingArm() {
+    for (Robot* robot : {&plant.nominal, &plant.robot}) {
+      for (int i = 0; i < 6; ++i) {
+        robot->links[i].inertial = InertialParameters::FromCenterOfMass(
+            8 - i, Eigen::Vector3d(-.1, .02, .03), Eigen::Matrix3d::Identity());
+      }
+    }
+    m = plant.Measure(Instrument::kTargets, 60, kNoise);
+    for (Eigen::Index k = 0; k < m.q.rows(); ++k) {
+      const Eigen::VectorXd standing = m.q.row(k);
+      const Eigen::VectorXd held = GravityTorque(plant.robot, standing);
+      // Springs harden by a twentieth.
+      for (int j = 0; j < 3; ++j) {
+        const double moment = -held[j] / (1 + 5e-4 * std::abs(held[j]));
+        m.q(k, j) -= compliance[j] * moment;
+      }
+    }
+  }
+  // What is found with compliances that logs have told.
+  PoseFinding Sag(const std::vector<Told>& told) const {
+    PoseDiagnosisOptions options;
+    options.weighed = true;
+    options.compliance = told;
+    const auto diagnosis = DiagnosePoseGap(plant.nominal, m, options);
+    EXPECT_EQ(diagnosis.findings.size(), 1u);
+    EXPECT_EQ(diagnosis.findings[0].placed.effect->name, "sag");
+    return diagnosis.findings[0];
+  }
+  // Of joint j, from 0.
+  PoseAmount Of(const PoseFinding& sag, int j) const {
+    for (const PoseAmount& amount : sag.amounts) {
+      if (amount.name == plant.nominal.links[j].joint.name) return amount;
+    }
+    ADD_FAILURE() << "no compliance of joint " << j + 1;
+    return {};
+  }
+  Plant plant{"PUMA560 6R", 8};
+  Eigen::Vector3d compliance{0, 4e-5, 9e-5};  // rad / (N m)
+  PoseMeasurements m;
+};
+
 TEST(PoseDiagnosis, OfAWeighedArmTellsCompliance) {
-  Plant plant("PUMA560 6R", 8);
-  for (Robot* robot : {&plant.nominal, &plant.robot}) {
-    for (int i = 0; i < 6; ++i) {
-      robot->links[i].inertial = InertialParameters::FromCenterOfMass(
-          8 - i, Eigen::Vector3d(-.1, .02, .03), Eigen::Matrix3d::Identity());
-    }
-  }
-  PoseMeasurements m = plant.Measure(Instrument::kTargets, 60, kNoise);
-  const Eigen::Vector3d compliance(0, 4e-5, 9e-5);  // rad / (N m)
-  for (Eigen::Index k = 0; k < m.q.rows(); ++k) {
-    const Eigen::VectorXd standing = m.q.row(k);
-    const Eigen::VectorXd held = GravityTorque(plant.robot, standing);
-    // Springs harden by a twentieth.
-    for (int j = 0; j < 3; ++j) {
-      const double moment = -held[j] / (1 + 5e-4 * std::abs(held[j]));
-      m.q(k, j) -= compliance[j] * moment;
-    }
-  }
-  PoseDiagnosisOptions options;
-  options.weighed = true;
-  const auto diagnosis = DiagnosePoseGap(plant.nominal, m, options);
-  ASSERT_EQ(diagnosis.findings.size(), 1u);
-  const PoseFinding& found = diagnosis.findings[0];
-  EXPECT_EQ(found.placed.effect->name, "sag");
-  for (const PoseAmount& amount : found.amounts) {
+  const SaggingArm arm;
+  const PoseFinding sag = arm.Sag({});
+  for (const int j : {1, 2}) {
+    const PoseAmount amount = arm.Of(sag, j);
     EXPECT_EQ(amount.unit, "rad/(N m)");
-    const int joint = amount.name == plant.nominal.links[1].joint.name   ? 1
-                      : amount.name == plant.nominal.links[2].joint.name ? 2
-                                                                         : 0;
-    EXPECT_NEAR(amount.value, compliance[joint],
-                2 * amount.half_width + .06 * compliance[joint]);
-    if (joint > 0) EXPECT_LT(amount.half_width, .2 * compliance[joint]);
+    EXPECT_NEAR(amount.value, arm.compliance[j],
+                2 * amount.half_width + .06 * arm.compliance[j]);
+    EXPECT_LT(amount.half_width, .2 * arm.compliance[j]);
   }
+}
+
+// What logs say of a joint's elasticity and what poses say of its sag are one
+// number: more precise than each, and each is still told by itself.
+TEST(PoseDiagnosis, ComplianceByLogsAndPosesIsOne) {
+  const SaggingArm arm;
+  const PoseAmount alone = arm.Of(arm.Sag({}), 2);
+  std::vector<Told> told(6);
+  told[2] = {.97 * arm.compliance[2], alone.half_width / 1.96};
+  const PoseAmount both = arm.Of(arm.Sag(told), 2);
+  EXPECT_NEAR(both.half_width, alone.half_width / std::sqrt(2),
+              .1 * alone.half_width);
+  EXPECT_NEAR(both.value, (alone.value + told[2].value) / 2,
+              .1 * alone.half_width);
+  EXPECT_EQ(both.by_poses.value, alone.value);
+  EXPECT_LT(both.Apart(), 3);
+  // A spring of half the stiffness is another one.
+  told[2].value = 2 * arm.compliance[2];
+  EXPECT_GT(arm.Of(arm.Sag(told), 2).Apart(), 3);
 }
 
 // An encoder on the joint that errs with the motor's angle, where it stands.

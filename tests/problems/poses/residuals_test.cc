@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "problems/pose_residual.h"
-#include "problems/target_residual.h"
-#include "problems/tilt_residual.h"
-#include "problems/touch_residual.h"
-#include "problems/wire_residual.h"
+#include "problems/poses/pose_residual.h"
+#include "problems/poses/target_residual.h"
+#include "problems/poses/tilt_residual.h"
+#include "problems/poses/touch_residual.h"
+#include "problems/poses/wire_residual.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal::pose_residuals_test {
+namespace armcal::residuals_test {
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
@@ -227,4 +227,4 @@ TEST(PoseResidual, HalfATurnIsFinite) {
   }
 }
 
-}  // namespace armcal::pose_residuals_test
+}  // namespace armcal::residuals_test

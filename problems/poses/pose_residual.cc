@@ -1,4 +1,4 @@
-#include "problems/pose_residual.h"
+#include "problems/poses/pose_residual.h"
 
 #include <cmath>
 

@@ -1,14 +1,14 @@
-#include "problems/pose_problem.h"
+#include "problems/poses/pose_problem.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "problems/plane_residual.h"
-#include "problems/pose_residual.h"
-#include "problems/target_residual.h"
-#include "problems/tilt_residual.h"
-#include "problems/touch_residual.h"
-#include "problems/wire_residual.h"
+#include "problems/poses/plane_residual.h"
+#include "problems/poses/pose_residual.h"
+#include "problems/poses/target_residual.h"
+#include "problems/poses/tilt_residual.h"
+#include "problems/poses/touch_residual.h"
+#include "problems/poses/wire_residual.h"
 
 namespace armcal {
 

@@ -1,4 +1,4 @@
-#include "problems/touch_residual.h"
+#include "problems/poses/touch_residual.h"
 
 namespace armcal {
 

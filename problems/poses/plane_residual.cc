@@ -1,4 +1,4 @@
-#include "problems/plane_residual.h"
+#include "problems/poses/plane_residual.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

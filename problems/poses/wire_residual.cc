@@ -1,4 +1,4 @@
-#include "problems/wire_residual.h"
+#include "problems/poses/wire_residual.h"
 
 namespace armcal {
 

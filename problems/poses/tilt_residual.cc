@@ -1,4 +1,4 @@
-#include "problems/tilt_residual.h"
+#include "problems/poses/tilt_residual.h"
 
 namespace armcal {
 

@@ -1,4 +1,4 @@
-#include "problems/target_residual.h"
+#include "problems/poses/target_residual.h"
 
 namespace armcal {
 
