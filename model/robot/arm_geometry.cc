@@ -58,21 +58,29 @@ bool NearlyParallel(const Robot& robot, int i) {
 Isometry3d Product(const std::vector<ElementaryTransform>& steps, int begin,
                    int end) {
   Isometry3d X = Isometry3d::Identity();
-  for (int k = begin; k < end; ++k) X = X * steps[k].Transform(steps[k].value);
+  for (int k = begin; k < end; ++k) steps[k].Append(steps[k].value, &X);
   return X;
 }
 
 }  // namespace
 
-Isometry3d ElementaryTransform::Transform(double amount) const {
-  if (kind == Kind::kConstant) return constant;
-  Isometry3d X = Isometry3d::Identity();
-  if (kind == Kind::kTranslation) {
-    X.translation()[axis] = amount;
-  } else {
-    X.linear() = Eigen::AngleAxisd(amount, Vector3d::Unit(axis)).matrix();
+// A rotation about an axis turns the two other axes of X in their plane.
+void ElementaryTransform::Append(double amount, Isometry3d* X) const {
+  if (kind == Kind::kConstant) {
+    *X = *X * constant;
+    return;
   }
-  return X;
+  if (amount == 0) return;
+  if (kind == Kind::kTranslation) {
+    X->translation() += amount * X->linear().col(axis);
+    return;
+  }
+  const double c = std::cos(amount), s = std::sin(amount);
+  auto a = X->linear().col((axis + 1) % 3);
+  auto b = X->linear().col((axis + 2) % 3);
+  const Vector3d turned = c * a + s * b;
+  b = (c * b - s * a).eval();
+  a = turned;
 }
 
 void ArmGeometry::Add(Kind kind, int axis, double value,
@@ -193,17 +201,22 @@ void ArmGeometry::SetValues(const Eigen::VectorXd& values) {
 }
 
 Isometry3d ArmGeometry::ToolPose(const Eigen::VectorXd& q, const double* values,
-                                 std::vector<ParameterTwist>* twists) const {
+                                 std::vector<ParameterTwist>* twists,
+                                 std::vector<ParameterTwist>* joints) const {
   if (twists != nullptr) twists->clear();
+  if (joints != nullptr) joints->clear();
   Isometry3d X = Isometry3d::Identity();
   for (const ElementaryTransform& step : steps_) {
-    if (twists != nullptr && step.parameter >= 0) {
-      twists->push_back({X.linear().col(step.axis), X.translation(),
-                         step.kind == Kind::kRotation});
+    std::vector<ParameterTwist>* const own = step.parameter >= 0 ? twists
+                                             : step.joint >= 0   ? joints
+                                                                 : nullptr;
+    if (own != nullptr) {
+      own->push_back({X.linear().col(step.axis), X.translation(),
+                      step.kind == Kind::kRotation});
     }
     double amount = step.parameter >= 0 ? values[step.parameter] : step.value;
     if (step.joint >= 0) amount += q[step.joint];
-    X = X * step.Transform(amount);
+    step.Append(amount, &X);
   }
   return X;
 }
@@ -224,7 +237,7 @@ void ArmGeometry::AddCarriedTwists(int begin, int end, int link,
                          {X.linear().col(step.axis), X.translation(),
                           step.kind == Kind::kRotation}});
     }
-    X = X * step.Transform(step.value);
+    step.Append(step.value, &X);
   }
 }
 

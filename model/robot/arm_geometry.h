@@ -23,8 +23,8 @@ struct ElementaryTransform {
   int parameter = -1;  // index of that parameter
   Eigen::Isometry3d constant = Eigen::Isometry3d::Identity();
 
-  // At `amount`, which is value + q.
-  Eigen::Isometry3d Transform(double amount) const;
+  // Goes on from *X by this one at `amount`, which is value + q.
+  void Append(double amount, Eigen::Isometry3d* X) const;
 };
 
 // Where a geometric parameter acts at some joint position: d(pose)/d(value) of
@@ -77,9 +77,11 @@ class ArmGeometry {
   void SetValues(const Eigen::VectorXd& values);
 
   // X_WT at joint positions q (n) for parameters `values` (size()); twists of
-  // all parameters if not null.
-  Eigen::Isometry3d ToolPose(const Eigen::VectorXd& q, const double* values,
-                             std::vector<ParameterTwist>* twists) const;
+  // all parameters, and of all joints by their positions, if not null.
+  Eigen::Isometry3d ToolPose(
+      const Eigen::VectorXd& q, const double* values,
+      std::vector<ParameterTwist>* twists,
+      std::vector<ParameterTwist>* joints = nullptr) const;
   // Of all parameters, at their values.
   std::vector<CarriedTwist> CarriedTwists() const;
   // `robot` with this geometry: links, and the tool. The base pose is not part

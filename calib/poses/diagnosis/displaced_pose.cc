@@ -12,9 +12,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-// rad or m: beside it, the rounding of a metre's difference is 1e-9.
-constexpr double kSmallMotion = 1e-7;
-
 // A rotation about a point, and a shift.
 Isometry3d About(const Vector3d& point, const Vector3d& turn,
                  const Vector3d& shift) {
@@ -74,7 +71,8 @@ int PoseMovers::Index(PoseTerm::Acts acts, int index) const {
 DisplacedPose::DisplacedPose(const ArmGeometry& geometry,
                              const PoseMovers& movers,
                              const PoseUnknowns& unknowns, const VectorXd& q0,
-                             const VectorXd& by, const Vector3d& middle)
+                             const VectorXd& by, const Vector3d& middle,
+                             bool with_twists)
     : q(q0 + by.head(movers.joints())) {
   const int n = movers.joints();
   const Isometry3d X_WB = BasePose(unknowns.geometry);
@@ -83,7 +81,9 @@ DisplacedPose::DisplacedPose(const ArmGeometry& geometry,
           About(base, X_WB.linear() * by.segment<3>(n), Vector3d::Zero());
   scale = 1 + by[n + 15];
   length = by[n + 16];
-  X_WT = geometry.ToolPose(q, unknowns.geometry.data(), nullptr);
+  X_WT = geometry.ToolPose(q, unknowns.geometry.data(),
+                           with_twists ? &parameters : nullptr,
+                           with_twists ? &joints : nullptr);
   X_TB = About(Vector3d::Zero(), by.segment<3>(n + 6), by.segment<3>(n + 3));
   on_tool = Matrix3Xd::Zero(3, std::max(1, movers.targets()));
   for (int t = 0; t < movers.targets(); ++t) {
@@ -110,26 +110,12 @@ Vector3d DisplacedPose::ByTwist(const ParameterTwist& twist,
   return moved.linear() * twist.axis;
 }
 
-Vector3d DisplacedPose::ByMover(const ArmGeometry& geometry,
-                                const PoseMovers& movers,
+Vector3d DisplacedPose::ByMover(const PoseMovers& movers,
                                 const PoseUnknowns& unknowns, int k,
                                 const Vector3d& middle,
                                 Matrix3Xd* velocity) const {
   const int n = movers.joints();
-  if (k < n) {
-    VectorXd other = q;
-    other[k] += kSmallMotion;
-    const Isometry3d X =
-        geometry.ToolPose(other, unknowns.geometry.data(), nullptr);
-    for (Eigen::Index t = 0; t < on_tool.cols(); ++t) {
-      const Vector3d p = X_TB * Vector3d(on_tool.col(t));
-      velocity->col(t) =
-          moved.linear() * (scale / kSmallMotion * (X * p - X_WT * p));
-    }
-    return moved.linear() *
-           RotationVector(X.linear() * X_WT.linear().transpose()) /
-           kSmallMotion;
-  }
+  if (k < n) return ByTwist(joints[k], velocity);
   const Isometry3d tool = moved * X_WT;
   const int kind = (k - n) / 3, axis = (k - n) % 3;
   const Vector3d e = Vector3d::Unit(axis);

@@ -36,17 +36,21 @@ struct DisplacedPose {
   Eigen::Matrix3Xd points;   // where they are
   Eigen::Matrix3d R;         // how the body is turned
   double length;             // added to a wire's
+  // Of the geometry's parameters and of the joints, at X_WT; empty where they
+  // are not asked for.
+  std::vector<ParameterTwist> parameters, joints;
 
   DisplacedPose(const ArmGeometry& geometry, const PoseMovers& movers,
                 const PoseUnknowns& unknowns, const Eigen::VectorXd& q,
-                const Eigen::VectorXd& by, const Eigen::Vector3d& middle);
+                const Eigen::VectorXd& by, const Eigen::Vector3d& middle,
+                bool with_twists);
 
-  // d points and the angular velocity of the body by parameter k of the
-  // geometry, whose twists are those of X_WT.
+  // d points and the angular velocity of the body by a parameter of the
+  // geometry or a joint, whose twists are those of X_WT.
   Eigen::Vector3d ByTwist(const ParameterTwist& twist,
                           Eigen::Matrix3Xd* velocity) const;
   // By mover k; not of the length, which moves none.
-  Eigen::Vector3d ByMover(const ArmGeometry& geometry, const PoseMovers& movers,
+  Eigen::Vector3d ByMover(const PoseMovers& movers,
                           const PoseUnknowns& unknowns, int k,
                           const Eigen::Vector3d& middle,
                           Eigen::Matrix3Xd* velocity) const;

@@ -12,6 +12,7 @@ using Eigen::VectorXd;
 PoseEquations::PoseEquations(const PoseFit& fit,
                              const PoseMeasurements& measured)
     : fit_(fit),
+      width_(fit.EquationsPerPose()),
       measured_(measured),
       movers_(static_cast<int>(measured.q.cols()),
               static_cast<int>(measured.targets.size())),
@@ -46,13 +47,15 @@ void PoseEquations::SetFree(const std::vector<bool>& geometry) {
 
 DisplacedPose PoseEquations::Displace(int pose,
                                       const std::vector<PoseTerm>& terms,
-                                      const PoseState& at) const {
+                                      const PoseState& at,
+                                      bool with_twists) const {
   VectorXd by = VectorXd::Zero(movers_.size());
   for (size_t k = 0; k < terms.size(); ++k) {
     by[Mover(terms[k])] += at.amounts[k] * terms[k].signal[pose];
   }
   return DisplacedPose(fit_.geometry(), movers_, at.unknowns,
-                       measured_.q.row(pose).transpose(), by, middle_);
+                       measured_.q.row(pose).transpose(), by, middle_,
+                       with_twists);
 }
 
 void PoseEquations::Residual(int k, const DisplacedPose& d, const PoseState& at,
@@ -102,14 +105,12 @@ void PoseEquations::Project(const DisplacedPose& d, const PoseState& at,
 void PoseEquations::GeometryColumns(int pose, const DisplacedPose& d,
                                     const PoseState& at,
                                     Eigen::Ref<MatrixXd> J) const {
-  std::vector<ParameterTwist> twists;
-  fit_.geometry().ToolPose(d.q, at.unknowns.geometry.data(), &twists);
   const int g = fit_.geometry().size();
   Matrix3Xd velocity(3, d.points.cols());
   for (size_t c = 0; c < free_.size(); ++c) {
     const int k = free_[c];
     if (k < g) {
-      const Vector3d turning = d.ByTwist(twists[k], &velocity);
+      const Vector3d turning = d.ByTwist(d.parameters[k], &velocity);
       Project(d, at, velocity, turning, J.col(c));
     } else if (measured_.lengths.size() > 0) {
       const Vector3d from = d.points.col(0) - at.unknowns.other.head<3>();
@@ -131,7 +132,7 @@ void PoseEquations::MoverColumns(const DisplacedPose& d, const PoseState& at,
   for (int k = 0; k < movers_.size(); ++k) {
     if (!wanted[k]) continue;
     const Vector3d turning =
-        d.ByMover(fit_.geometry(), movers_, at.unknowns, k, middle_, &velocity);
+        d.ByMover(movers_, at.unknowns, k, middle_, &velocity);
     Project(d, at, velocity, turning, J.col(k));
     if (k == length && measured_.lengths.size() > 0) J(0, k) = 1;
   }
@@ -141,7 +142,8 @@ VectorXd PoseEquations::Residuals(const std::vector<PoseTerm>& terms,
                                   const PoseState& at) const {
   VectorXd r(poses() * width());
   for (int k = 0; k < poses(); ++k) {
-    Residual(k, Displace(k, terms, at), at, r.segment(k * width(), width()));
+    Residual(k, Displace(k, terms, at, false), at,
+             r.segment(k * width(), width()));
   }
   return r;
 }
@@ -157,7 +159,7 @@ LinearPoses PoseEquations::Linearise(const std::vector<PoseTerm>& terms,
   std::vector<bool> wanted(movers_.size(), all_movers);
   for (const PoseTerm& term : terms) wanted[Mover(term)] = true;
   for (int k = 0; k < poses(); ++k) {
-    const DisplacedPose d = Displace(k, terms, at);
+    const DisplacedPose d = Displace(k, terms, at, true);
     Residual(k, d, at, linear.r.segment(k * width(), width()));
     GeometryColumns(k, d, at, linear.geometry.middleRows(k * width(), width()));
     MoverColumns(d, at, wanted, linear.movers.middleRows(k * width(), width()));

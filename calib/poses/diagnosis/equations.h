@@ -33,7 +33,7 @@ class PoseEquations {
   PoseEquations Of(const PoseMeasurements& other) const;
 
   int poses() const { return measured_.size(); }
-  int width() const { return fit_.EquationsPerPose(); }
+  int width() const { return width_; }
   double rotation_length() const { return rotation_length_; }
   void set_rotation_length(double length) { rotation_length_ = length; }
   // Which unknowns vary: of the geometry, and always what else there is.
@@ -60,7 +60,7 @@ class PoseEquations {
 
  private:
   DisplacedPose Displace(int pose, const std::vector<PoseTerm>& terms,
-                         const PoseState& at) const;
+                         const PoseState& at, bool with_twists) const;
   void Residual(int pose, const DisplacedPose& d, const PoseState& at,
                 Eigen::Ref<Eigen::VectorXd> r) const;
   // Derivatives of a pose's residuals by a velocity of its points and an
@@ -80,6 +80,7 @@ class PoseEquations {
   }
 
   const PoseFit& fit_;
+  int width_;
   const PoseMeasurements& measured_;
   PoseMovers movers_;
   double rotation_length_ = 1;

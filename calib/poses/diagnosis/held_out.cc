@@ -18,6 +18,10 @@ constexpr double kClearGain = 2;
 // of what else is missing, and told by what that happens to be.
 constexpr double kLeastRemoved = .1;
 
+// Of what all poses tell of an amount beside the geometry: what is left of it
+// by rounding.
+constexpr double kHardlyTold = 1e-6;
+
 }  // namespace
 
 std::vector<int> InterleavedFolds(int poses) {
@@ -45,6 +49,13 @@ VectorXd HeldOutResiduals(const PoseStudy& study, const PoseModel& model,
   all.diagonal().array() += 1e-9;
   VectorXd pull = -J.transpose() * r;
   pull -= PriorPull(equations, model.terms, at.state);
+  // Other poses may not tell an effect at all, one that begins and ends among
+  // those left out: then they know nothing of it.
+  const Eigen::Index q = own.cols();
+  const VectorXd little =
+      kHardlyTold * AmountsInformation(study, model).diagonal();
+  all.diagonal().tail(q) += little;
+  pull.tail(q) -= little.cwiseProduct(at.state.amounts);
   const int width = equations.width();
   VectorXd held(r.size());
   const int last = *std::max_element(folds.begin(), folds.end());

@@ -153,6 +153,27 @@ TEST(ArmGeometry, TwistsAreDerivatives) {
   }
 }
 
+TEST(ArmGeometry, JointsTwistsAreDerivatives) {
+  std::mt19937_64 random(4);
+  for (const Robot& robot : Robots(&random)) {
+    const ArmGeometry geometry(robot);
+    const VectorXd g = geometry.Values();
+    const VectorXd q = UniformVector(&random, robot.num_joints(), -2, 2);
+    std::vector<ParameterTwist> joints;
+    const Isometry3d X = geometry.ToolPose(q, g.data(), nullptr, &joints);
+    ASSERT_EQ(static_cast<int>(joints.size()), robot.num_joints());
+    for (int j = 0; j < robot.num_joints(); ++j) {
+      const VectorXd e = 1e-6 * VectorXd::Unit(q.size(), j);
+      const Vector3d p_T(.1, -.2, .3);
+      const Vector3d slope =
+          (geometry.ToolPose(q + e, g.data(), nullptr) * p_T -
+           geometry.ToolPose(q - e, g.data(), nullptr) * p_T) /
+          2e-6;
+      EXPECT_LT((slope - joints[j].At(X * p_T)).norm(), 1e-8) << j;
+    }
+  }
+}
+
 // Changed parameters survive into a robot, whose gravity is turned instead of
 // its base, and from there into a new geometry.
 TEST(ArmGeometry, AppliesToARobotAndBack) {
