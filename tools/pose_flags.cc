@@ -3,7 +3,6 @@
 #include <gflags/gflags.h>
 
 #include <algorithm>
-#include <iterator>
 #include <string>
 
 #include "calib/poses/cameras/image_poses.h"
@@ -50,7 +49,7 @@ CameraOptions CamerasFromFlags(const FlagValues& flags) {
 std::vector<std::string> CameraFiles(const FlagValues& flags) {
   std::string files = flags.Text("camera");
   if (EstimatesLens(files)) {
-    files.erase(0, std::min(files.size(), std::size(kEstimate)));
+    files.erase(0, std::min(files.size(), std::string(kEstimate).size() + 1));
     if (files.empty()) return {};
   }
   return files.empty() ? std::vector<std::string>()

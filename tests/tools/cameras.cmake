@@ -1,0 +1,36 @@
+# calibrate --poses of images: two cameras, neither whose lens nor whose place
+# is known; then with the lenses that this gave.
+execute_process(COMMAND ${WRITE_BOARD_IMAGES} ${WORK_DIR} RESULT_VARIABLE code)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "write_board_images failed")
+endif()
+set(flags --robot=ur5.urdf --poses=board.csv --geometry=offsets)
+
+run("lenses estimated" calibrate ${flags} --camera=estimate --out=estimated)
+expect_code(0)
+expect_text(out "50, images" "instrument" "camera1.fx" "camera2.x" "camera2.p2")
+foreach(camera camera1 camera2)
+  file(READ ${WORK_DIR}/estimated/${camera}.yaml lens)
+  if(NOT lens MATCHES "camera_name: ${camera}\n.*data: \\[(89[5-9]|90[0-4])[.]")
+    fail("the focal length is 900 px: ${lens}")
+  endif()
+endforeach()
+
+set(lenses estimated/camera1.yaml,estimated/camera2.yaml)
+run("lenses given" calibrate ${flags} --camera=${lenses} --out=given)
+expect_code(0)
+expect_text(out "camera2.yaw")
+if(out MATCHES "camera1.fx" OR EXISTS ${WORK_DIR}/given/camera1.yaml)
+  fail("a lens that is given is not estimated")
+endif()
+run("lenses to begin with" calibrate ${flags} --camera=estimate:${lenses})
+expect_code(0)
+expect_text(out "camera1.fx")
+
+run("a lens for one of two" calibrate ${flags} --camera=estimated/camera1.yaml)
+expect_code(3)
+expect_text(err "board.csv: column camera: found '2 cameras'" "files of intrinsics, 1")
+run("validated by another file" diagnose --robot=ur5.urdf --poses=board.csv
+    --camera=estimate --validate=board.csv)
+expect_code(2)
+expect_text(err "--validate: found images of several cameras")
