@@ -62,13 +62,12 @@ std::string InstrumentText(const PoseCalibration& result) {
   if (result.instrument.empty()) return "";
   std::string text = "\ninstrument\n";
   for (const InstrumentEstimate& p : result.instrument) {
-    const double scale = p.unit == "rad" ? 57.29577951308232
-                         : p.unit == "m" ? 1e3
-                                         : 1;
-    const char* unit = p.unit == "rad" ? "deg" : p.unit == "m" ? "mm" : "";
-    text +=
-        Format("  %-22s %12.6g +- %-9.2g %s\n", p.name.c_str(), scale * p.value,
-               scale * p.stddev, p.unit == "px" ? "px" : unit);
+    const bool angle = p.unit == "rad", length = p.unit == "m";
+    const double scale = angle ? 57.29577951308232 : length ? 1e3 : 1;
+    const char* const unit = angle ? "deg" : length ? "mm" : p.unit.c_str();
+    text += Format("  %-22s %12.6g +- ", p.name.c_str(), scale * p.value) +
+            (p.unit == "1" ? Format("%.2g\n", scale * p.stddev)
+                           : Format("%-9.2g %s\n", scale * p.stddev, unit));
   }
   return text;
 }
