@@ -34,3 +34,7 @@ run("validated by another file" diagnose --robot=ur5.urdf --poses=board.csv
     --camera=estimate --validate=board.csv)
 expect_code(2)
 expect_text(err "--validate: found images of several cameras")
+run("a camera without images" diagnose --robot=ur5.urdf --log=log.csv
+    --camera=estimate)
+expect_code(2)
+expect_text(err "--camera: expected --poses beside it")

@@ -11,6 +11,7 @@
 #include "tools/report/report_data.h"
 #include "tools/simulation_flags.h"
 #include "tools/trust_flags.h"
+#include "tools/usage_error.h"
 
 DEFINE_bool(
     changes, false,
@@ -58,6 +59,11 @@ DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
 
 CommandOutcome RunDiagnose(const CommandInput& input) {
   if (DiagnosesPoses(input)) return RunDiagnosePoses(input);
+  for (const char* of_poses : {"camera", "compliance"}) {
+    if (input.flags.Text(of_poses).empty()) continue;
+    throw UsageError("--" + std::string(of_poses) +
+                     ": expected --poses beside it, which it is of");
+  }
   const LogInput logs = LogInputFromFlags(input);
   const Robot robot = RobotFromFlags(input);
   const DiagnoseOptions options = DiagnoseOptionsFromFlags(input, robot);
