@@ -13,19 +13,15 @@ namespace {
 // camera.yaml, or camera1.yaml and so on, of lenses that were estimated.
 void AddCameras(const PoseMeasurements& measured, const PoseCalibration& result,
                 std::vector<ResultFile>* files) {
-  for (size_t c = 0; c < measured.cameras.size(); ++c) {
-    const std::string& name = measured.camera_names[c];
-    PinholeCamera camera = measured.cameras[c];
-    PinholeCamera::Lens lens = camera.lens();
-    for (const InstrumentEstimate& p : result.instrument) {
-      for (int k = 0; k < PinholeCamera::kLensSize; ++k) {
-        if (p.name == name + "." + PinholeCamera::LensName(k)) {
-          lens[k] = p.value;
-        }
-      }
+  for (const EstimatedCamera& estimated : measured.cameras) {
+    PinholeCamera::Lens lens;
+    for (int k = 0; k < PinholeCamera::kLensSize; ++k) {
+      lens[k] = result.instrument[estimated.first + k].value;
     }
+    PinholeCamera camera = estimated.camera;
     camera.set_lens(lens);
-    files->push_back({name + ".yaml", CameraYaml(camera, name)});
+    files->push_back(
+        {estimated.name + ".yaml", CameraYaml(camera, estimated.name)});
   }
 }
 

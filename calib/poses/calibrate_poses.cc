@@ -113,8 +113,7 @@ void ReportInstrument(const InstrumentUnknowns& unknowns, const VectorXd& at,
 }
 
 // The free parameters with standard deviations from the data alone.
-void ReportParameters(const PoseFit& fit, const PoseMeasurements& measured,
-                      const std::vector<bool>& free,
+void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
                       const std::vector<int>& rows, const PoseUnknowns& at,
                       PoseCalibration* result) {
   const ArmGeometry& geometry = fit.geometry();
@@ -137,7 +136,7 @@ void ReportParameters(const PoseFit& fit, const PoseMeasurements& measured,
     ++c;
   }
   const Eigen::Index others = at.other.size();
-  ReportInstrument(measured.instrument, at.other,
+  ReportInstrument(fit.measured().instrument, at.other,
                    factor * seen.covariance.bottomRightCorner(others, others),
                    result);
 }
@@ -195,7 +194,7 @@ PoseCalibration CalibratePoses(const Robot& robot,
                 options.folds, measured.size(), &result);
   // What Tukey's loss gives up tells nothing; the others let all poses pull.
   const bool some = options.loss == RobustLoss::kTukey && !inliers.empty();
-  ReportParameters(fit, measured, solution.free, some ? inliers : fit.AllRows(),
+  ReportParameters(fit, solution.free, some ? inliers : fit.AllRows(),
                    solution.unknowns, &result);
   ArmGeometry refined = fit.geometry();
   refined.SetValues(solution.unknowns.geometry);

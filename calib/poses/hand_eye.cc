@@ -76,4 +76,16 @@ std::optional<HandEye> SolveHandEye(const std::vector<Isometry3d>& X_BE,
   return frames;
 }
 
+std::optional<HandEye> SolveHandEye(const ArmGeometry& geometry,
+                                    VectorXd values, const MatrixXd& q,
+                                    const std::vector<Isometry3d>& X_WT) {
+  values.head<6>().setZero();
+  values.tail<6>().setZero();
+  std::vector<Isometry3d> X_BE;
+  for (Eigen::Index k = 0; k < q.rows(); ++k) {
+    X_BE.push_back(geometry.ToolPose(q.row(k), values.data(), nullptr));
+  }
+  return SolveHandEye(X_BE, X_WT);
+}
+
 }  // namespace armcal

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "model/robot/arm_geometry.h"
+
 namespace armcal {
 
 // Of an arm whose tool T is seen from W: the base B, and T on the flange E.
@@ -19,6 +21,13 @@ struct HandEye {
 // the translations by linear least squares. Nothing where the postures do not
 // turn the flange about two axes.
 std::optional<HandEye> SolveHandEye(const std::vector<Eigen::Isometry3d>& X_BE,
+                                    const std::vector<Eigen::Isometry3d>& X_WT);
+
+// The same of an arm with the geometry `values` in postures q (rows), whatever
+// these have for base and tool.
+std::optional<HandEye> SolveHandEye(const ArmGeometry& geometry,
+                                    Eigen::VectorXd values,
+                                    const Eigen::MatrixXd& q,
                                     const std::vector<Eigen::Isometry3d>& X_WT);
 
 }  // namespace armcal

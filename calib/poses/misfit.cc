@@ -12,8 +12,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Half-width of a normal error's 95 % interval in standard deviations.
-constexpr double kNormal95 = 1.96;
 // In standard deviations: 3e-5 by chance, and one sided, since errors that
 // alternate are of no instrument.
 constexpr double kClear = 4;

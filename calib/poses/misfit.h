@@ -16,6 +16,9 @@ namespace armcal {
 // By chance alone ten spare equations exceed it once in 10^16.
 inline const double kMostOfInstrument = std::sqrt(10.0);
 
+// Half-width of a normal error's 95 % interval in standard deviations.
+inline constexpr double kNormal95 = 1.96;
+
 // Errors beside an instrument whose 95 % half-widths are stated.
 class InstrumentErrors {
  public:

@@ -14,17 +14,28 @@ namespace {
 
 using nlohmann::json;
 
-// Lengths in mm and angles in degrees, as people read them.
+// Lengths in mm and angles in degrees, as people read them; others as they are.
+struct ShownUnit {
+  explicit ShownUnit(const std::string& unit)
+      : scale(unit == "rad" ? 57.29577951308232
+              : unit == "m" ? 1e3
+                            : 1),
+        name(unit == "rad" ? "deg"
+             : unit == "m" ? "mm"
+                           : unit) {}
+  double scale;
+  std::string name;
+};
+
 std::string Estimate(const GeometryEstimate& p) {
-  const bool angle = p.unit == "rad";
-  const double scale = angle ? 57.29577951308232 : 1e3;
+  const ShownUnit unit(p.unit);
   char text[128], spread[32] = "(not seen)  ";
   if (std::isfinite(p.stddev)) {
-    std::snprintf(spread, sizeof(spread), "+- %-9.2g", scale * p.stddev);
+    std::snprintf(spread, sizeof(spread), "+- %-9.2g", unit.scale * p.stddev);
   }
   std::snprintf(text, sizeof(text), "  %-22s %12.4f -> %12.4f %s %s\n",
-                p.name.c_str(), scale * p.nominal, scale * p.value, spread,
-                angle ? "deg" : "mm");
+                p.name.c_str(), unit.scale * p.nominal, unit.scale * p.value,
+                spread, unit.name.c_str());
   return text;
 }
 
@@ -57,17 +68,16 @@ std::string CameraText(const PoseMeasurements& measured) {
       measured.pixel_stddev);
 }
 
-// Of the cameras themselves, lengths in mm and angles in degrees.
+// Of the cameras themselves.
 std::string InstrumentText(const PoseCalibration& result) {
   if (result.instrument.empty()) return "";
   std::string text = "\ninstrument\n";
   for (const InstrumentEstimate& p : result.instrument) {
-    const bool angle = p.unit == "rad", length = p.unit == "m";
-    const double scale = angle ? 57.29577951308232 : length ? 1e3 : 1;
-    const char* const unit = angle ? "deg" : length ? "mm" : p.unit.c_str();
-    text += Format("  %-22s %12.6g +- ", p.name.c_str(), scale * p.value) +
-            (p.unit == "1" ? Format("%.2g\n", scale * p.stddev)
-                           : Format("%-9.2g %s\n", scale * p.stddev, unit));
+    const ShownUnit unit(p.unit);
+    text += Format("  %-22s %12.6g +- ", p.name.c_str(), unit.scale * p.value) +
+            (p.unit == "1" ? Format("%.2g\n", unit.scale * p.stddev)
+                           : Format("%-9.2g %s\n", unit.scale * p.stddev,
+                                    unit.name.c_str()));
   }
   return text;
 }

@@ -62,16 +62,12 @@ VectorXd Trilaterate(const Matrix3Xd& p, const VectorXd& lengths) {
 // file's: a camera may look anywhere.
 void SetBaseAndTool(const ArmGeometry& geometry,
                     const PoseMeasurements& measured, VectorXd* values) {
-  VectorXd bare = *values;
-  bare.head<6>().setZero();
-  bare.tail<6>().setZero();
-  std::vector<Eigen::Isometry3d> flange, seen;
+  std::vector<Eigen::Isometry3d> seen;
   for (int k = 0; k < measured.size(); ++k) {
-    flange.push_back(
-        geometry.ToolPose(measured.q.row(k), bare.data(), nullptr));
     seen.push_back(MeasuredPose(measured, k));
   }
-  const std::optional<HandEye> frames = SolveHandEye(flange, seen);
+  const std::optional<HandEye> frames =
+      SolveHandEye(geometry, *values, measured.q, seen);
   if (!frames) return;
   values->head<6>() =
       FrameValues(frames->X_WB.linear(), frames->X_WB.translation());

@@ -27,6 +27,13 @@ struct InstrumentUnknowns {
   int size() const { return static_cast<int>(prior.size()); }
 };
 
+// A camera whose lens is among the unknowns, as the images alone tell it.
+struct EstimatedCamera {
+  std::string name;  // with which the names of its parameters begin
+  PinholeCamera camera;
+  int first;  // of its parameters in the instrument's `names`
+};
+
 // What was measured of the arm's geometry at a number of standstill positions.
 // Poses in rows.
 struct PoseMeasurements {
@@ -55,10 +62,8 @@ struct PoseMeasurements {
   std::vector<Matrix6d> covariance;
   // Of whole poses; of size 0 where the instrument is known.
   InstrumentUnknowns instrument;
-  // Cameras whose lens is estimated, by the images alone, and what the names of
-  // their unknowns begin with.
-  std::vector<PinholeCamera> cameras;
-  std::vector<std::string> camera_names;
+  // Those whose lens is estimated.
+  std::vector<EstimatedCamera> cameras;
   // px, standard deviation of a coordinate in the images that poses were made
   // of; 0: of none.
   double pixel_stddev = 0;

@@ -49,12 +49,8 @@ class Photographs {
           (camera == 0 ? Isometry3d::Identity() : second.inverse());
       q = SolvedPosture(
           [&](const VectorXd& at) {
-            const Isometry3d X =
-                X_0T.inverse() * geometry_.ToolPose(at, truth_.data(), nullptr);
-            const Eigen::AngleAxisd turn(X.linear());
-            VectorXd e(6);
-            e << X.translation(), turn.angle() * turn.axis();
-            return e;
+            return FrameError(X_0T.inverse() *
+                              geometry_.ToolPose(at, truth_.data(), nullptr));
           },
           UniformVector(&random_, 6, -2, 2));
     }

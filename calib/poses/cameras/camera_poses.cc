@@ -1,7 +1,6 @@
 #include "calib/poses/cameras/camera_poses.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <optional>
 
@@ -54,6 +53,13 @@ std::vector<Isometry3d> Starts(const ImageSource& source,
   return X_WT;
 }
 
+// Of the poses, the lens known.
+void SetCovariance(const LensEquations& equations, CameraPoses* result) {
+  for (const Matrix6d& A : equations.A) {
+    result->covariance.push_back(A.llt().solve(Matrix6d::Identity()));
+  }
+}
+
 void AddLens(const ImageSource& source, const LensEquations& equations,
              CameraPoses* result) {
   const MatrixXd& S = equations.information;
@@ -93,9 +99,7 @@ CameraPoses PosesOfImages(const ImageSource& source,
     result.pixel_stddev =
         PixelDeviation(errors, 6 * static_cast<double>(views.size()));
   }
-  for (const Matrix6d& A : EquationsOfLens(errors, result.pixel_stddev).A) {
-    result.covariance.push_back(A.llt().solve(Matrix6d::Identity()));
-  }
+  SetCovariance(EquationsOfLens(errors, result.pixel_stddev), &result);
   return result;
 }
 
@@ -120,9 +124,7 @@ CameraPoses PosesAndLensOfImages(const ImageSource& source,
                                    PinholeCamera::kLensSize);
   }
   const LensEquations equations = EquationsOfLens(errors, result.pixel_stddev);
-  for (const Matrix6d& A : equations.A) {
-    result.covariance.push_back(A.llt().solve(Matrix6d::Identity()));
-  }
+  SetCovariance(equations, &result);
   AddLens(source, equations, &result);
   return result;
 }

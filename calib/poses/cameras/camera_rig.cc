@@ -4,14 +4,11 @@
 #include "model/robot/rotations.h"
 
 namespace armcal {
-namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-
-}  // namespace
 
 CameraRig::CameraRig(CameraPlace place, const HandEye& first,
                      const HandEye& further,

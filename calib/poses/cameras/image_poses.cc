@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "calib/poses/cameras/camera_poses.h"
@@ -62,26 +61,17 @@ OneCamera MeasureOne(const std::string& file, const BoardImages& images,
   return one;
 }
 
-std::optional<HandEye> HandEyeOf(const Robot& robot, const BoardImages& images,
-                                 const OneCamera& camera) {
-  const ArmGeometry geometry(robot);
-  VectorXd bare = geometry.Values();
-  bare.head<6>().setZero();
-  bare.tail<6>().setZero();
-  std::vector<Isometry3d> flange;
-  for (const int k : camera.image) {
-    flange.push_back(geometry.ToolPose(images.q.row(k), bare.data(), nullptr));
-  }
-  return SolveHandEye(flange, camera.poses.X_WT);
-}
-
 void PlaceCameras(const std::string& file, const Robot& robot,
                   const BoardImages& images, CameraPlace place,
                   std::vector<OneCamera>* cameras) {
   if (cameras->size() == 1) return;
+  const ArmGeometry geometry(robot);
   std::vector<HandEye> frames;
   for (size_t c = 0; c < cameras->size(); ++c) {
-    const auto found = HandEyeOf(robot, images, (*cameras)[c]);
+    const OneCamera& camera = (*cameras)[c];
+    const auto found =
+        SolveHandEye(geometry, geometry.Values(),
+                     images.q(camera.image, Eigen::all), camera.poses.X_WT);
     if (!found) {
       throw InputError(
           file, "camera " + std::to_string(c + 1), "",
@@ -194,9 +184,9 @@ PoseMeasurements MeasurePoses(const std::string& file,
     AddPoses(cameras[c], &measured);
     if (cameras[c].rig) AddPlace(cameras[c], name, &unknowns);
     if (!cameras[c].poses.by_lens.empty()) {
+      measured.cameras.push_back({name, cameras[c].poses.camera,
+                                  static_cast<int>(unknowns.start.size())});
       AddLens(cameras[c], name, &unknowns);
-      measured.cameras.push_back(cameras[c].poses.camera);
-      measured.camera_names.push_back(name);
     }
     squares += static_cast<double>(cameras[c].image.size()) *
                std::pow(cameras[c].poses.pixel_stddev, 2);

@@ -9,11 +9,9 @@
 #include "calib/poses/calibration.h"
 #include "calib/poses/diagnosis/held_out.h"
 #include "calib/poses/diagnosis/model.h"
+#include "calib/poses/misfit.h"
 
 namespace armcal {
-
-// Half-width of a normal error's 95 % interval in standard deviations.
-inline constexpr double kNormal95 = 1.96;
 
 struct PoseAmount {
   std::string name, unit;

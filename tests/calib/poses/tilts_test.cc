@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "calib/poses/calibrate_poses.h"
+#include "tests/fixtures/calibrated_geometry.h"
 #include "tests/fixtures/sample_poses.h"
 
 namespace armcal::tilts_test {
@@ -61,13 +62,7 @@ struct LevelledArm {
   }
   // rms of the upward direction in the tool's frame at other postures, rad.
   double DirectionError(const PoseCalibration& c) {
-    VectorXd found = geometry.Values();
-    const auto names = geometry.Names();
-    for (const GeometryEstimate& p : c.parameters) {
-      for (int k = 0; k < geometry.size(); ++k) {
-        if (names[k] == p.name) found[k] = p.value;
-      }
-    }
+    const VectorXd found = CalibratedValues(geometry, c);
     double squares = 0;
     for (int k = 0; k < 200; ++k) {
       const VectorXd q = UniformVector(&random, 6, -2.5, 2.5);
@@ -108,7 +103,7 @@ TEST(Tilts, SixtyOfThemLevelAnArm) {
 }
 
 TEST(Tilts, IntervalsHoldTheTruth) {
-  int inside = 0, all = 0;
+  IntervalCount held;
   for (int seed = 21; seed <= 50; ++seed) {
     LevelledArm arm(seed), same(seed);
     const auto exact = same.Calibrate(same.Measure(60, 0));
@@ -116,17 +111,14 @@ TEST(Tilts, IntervalsHoldTheTruth) {
     ASSERT_EQ(exact.parameters.size(), noisy.parameters.size());
     // Other postures follow from the same seed: the truth is what exact angles
     // give with the same parameters held.
-    for (size_t k = 0; k < exact.parameters.size(); ++k) {
-      const GeometryEstimate& p = noisy.parameters[k];
-      ++all;
-      inside += std::abs(p.value - exact.parameters[k].value) < 1.96 * p.stddev;
-    }
+    held.AddGeometry(noisy, exact);
   }
-  std::printf("%d of %d 95 %% intervals hold the truth\n", inside, all);
+  std::printf("%d of %d 95 %% intervals hold the truth\n", held.inside,
+              held.all);
   // 95 % within three standard deviations of a count whose members are
   // correlated by about a half within an arm.
-  EXPECT_GT(inside, .91 * all);
-  EXPECT_LT(inside, .98 * all);
+  EXPECT_GT(held.inside, .91 * held.all);
+  EXPECT_LT(held.inside, .98 * held.all);
 }
 
 }  // namespace armcal::tilts_test

@@ -8,6 +8,7 @@
 #include "calib/poses/calibrate_poses.h"
 #include "calib/poses/hand_eye.h"
 #include "tests/fixtures/board_camera.h"
+#include "tests/fixtures/calibrated_geometry.h"
 #include "tests/fixtures/sample_poses.h"
 #include "tests/fixtures/solved_posture.h"
 
@@ -48,11 +49,7 @@ struct Campaign {
     for (int tries = 0; tries < 20 && !q; ++tries) {
       q = SolvedPosture(
           [&](const VectorXd& at) {
-            const Isometry3d X = X_0T.inverse() * Tool(at);
-            const Eigen::AngleAxisd turn(X.linear());
-            VectorXd e(6);
-            e << X.translation(), turn.angle() * turn.axis();
-            return e;
+            return FrameError(X_0T.inverse() * Tool(at));
           },
           UniformVector(&random, 6, -2, 2));
     }
@@ -104,14 +101,8 @@ struct Campaign {
     std::vector<Isometry3d> found, truth;
   };
   ToolPoses NearPhotographed(const PoseCalibration& c) {
-    ArmGeometry geometry(file);
-    VectorXd values = geometry.Values();
-    const auto names = geometry.Names();
-    for (const GeometryEstimate& p : c.parameters) {
-      for (int k = 0; k < geometry.size(); ++k) {
-        if (names[k] == p.name) values[k] = p.value;
-      }
-    }
+    const ArmGeometry geometry(file);
+    const VectorXd values = CalibratedValues(geometry, c);
     ToolPoses poses;
     for (Eigen::Index k = 0; k < images.q.rows(); ++k) {
       const VectorXd q =
@@ -179,7 +170,7 @@ TEST_P(EachCamera, TheWholeGeometryHalvesWhatZerosLeave) {
 // Against what exact pixels give with the same parameters held, which is the
 // truth but for what nobody can tell.
 TEST_P(EachCamera, IntervalsHoldTheTruth) {
-  int inside = 0, all = 0;
+  IntervalCount held;
   for (int seed = 21; seed <= 30; ++seed) {
     Campaign campaign(seed, GetParam());
     campaign.Photograph(60);
@@ -188,27 +179,15 @@ TEST_P(EachCamera, IntervalsHoldTheTruth) {
     ASSERT_TRUE(exact.solved && noisy.solved);
     EXPECT_LT(exact.rms, 1e-6);
     ASSERT_EQ(exact.parameters.size(), noisy.parameters.size());
-    for (size_t k = 0; k < exact.parameters.size(); ++k) {
-      const GeometryEstimate& p = noisy.parameters[k];
-      ++all;
-      inside += std::abs(p.value - exact.parameters[k].value) < 1.96 * p.stddev;
-    }
+    held.AddGeometry(noisy, exact);
   }
-  std::printf("%d of %d 95 %% intervals hold the truth\n", inside, all);
+  std::printf("%d of %d 95 %% intervals hold the truth\n", held.inside,
+              held.all);
   // 95 % within three standard deviations of a count whose members are
   // correlated by about a half within a campaign.
-  EXPECT_GT(inside, .90 * all);
-  EXPECT_LT(inside, .99 * all);
+  EXPECT_GT(held.inside, .90 * held.all);
+  EXPECT_LT(held.inside, .99 * held.all);
 }
-
-// How many of the intervals of 95 % of an estimate hold what exact pixels give.
-struct Held {
-  int inside = 0, all = 0;
-  void Add(double found, double truth, double stddev) {
-    ++all;
-    inside += std::abs(found - truth) < 1.96 * stddev;
-  }
-};
 
 Isometry3d SecondCamera() {
   Isometry3d X = Isometry3d::Identity();
@@ -253,17 +232,14 @@ TEST_P(EachCamera, TwoUnknownOnesAreFoundByExactPixels) {
 }
 
 TEST_P(EachCamera, TwoUnknownOnesAreWithinTheirIntervals) {
-  Held geometry, instrument;
+  IntervalCount geometry, instrument;
   for (int seed = 51; seed <= 52; ++seed) {
     Campaign campaign = TwoUnknownCameras(seed, GetParam());
     const auto exact = campaign.Calibrate(0, RefineGeometry::kAll);
     const auto noisy = campaign.Calibrate(kPixel, RefineGeometry::kAll);
     ASSERT_TRUE(exact.solved && noisy.solved);
     ASSERT_EQ(exact.parameters.size(), noisy.parameters.size());
-    for (size_t k = 0; k < exact.parameters.size(); ++k) {
-      geometry.Add(noisy.parameters[k].value, exact.parameters[k].value,
-                   noisy.parameters[k].stddev);
-    }
+    geometry.AddGeometry(noisy, exact);
     for (size_t k = 0; k < exact.instrument.size(); ++k) {
       instrument.Add(noisy.instrument[k].value, exact.instrument[k].value,
                      noisy.instrument[k].stddev);
@@ -291,8 +267,8 @@ TEST(Cameras, AStandingOnesLensIsToldByTheArmToo) {
     const CameraOptions lens = {{}, true, CameraPlace::kStanding};
     const auto measured =
         MeasurePoses("board.csv", campaign.images, campaign.file, lens);
-    const CameraOptions given = {measured.cameras, false,
-                                 CameraPlace::kStanding};
+    const CameraOptions given = {
+        {measured.cameras[0].camera}, false, CameraPlace::kStanding};
     before += campaign.ArmError(campaign.Calibrated(given, all));
     together += campaign.ArmError(campaign.Calibrated(lens, all));
   }
