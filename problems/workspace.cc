@@ -66,12 +66,19 @@ void Workspace::AddBalls(double radius) {
   for (int i = 0; i < n; ++i) {
     const Link& link = robot_.links[i];
     const Vector3d from = link.X_ML.inverse().translation();
-    const Vector3d to = i + 1 < n ? robot_.links[i + 1].X_PF.translation()
-                                  : robot_.X_LT.translation();
-    const int steps = std::max(
-        1, static_cast<int>(std::ceil((to - from).norm() / (2 * radius))));
-    for (int k = 0; k <= steps; ++k) {
-      balls_.push_back({i, from + k * (to - from) / steps, radius});
+    std::vector<Vector3d> ends;
+    for (int k = i + 1; k < n; ++k) {
+      if (robot_.parent(k) != i) continue;
+      ends.emplace_back(robot_.links[k].X_PF.translation());
+    }
+    if (i + 1 == n) ends.emplace_back(robot_.X_LT.translation());
+    if (ends.empty()) ends.push_back(Vector3d::Zero());
+    for (const Vector3d& to : ends) {
+      const int steps = std::max(
+          1, static_cast<int>(std::ceil((to - from).norm() / (2 * radius))));
+      for (int k = 0; k <= steps; ++k) {
+        balls_.push_back({i, from + k * (to - from) / steps, radius});
+      }
     }
   }
   balls_.push_back({n - 1, robot_.X_LT.translation(), 0});
@@ -178,7 +185,7 @@ double Workspace::Barrier(const MatrixXd& q, double margin, double factor,
     }
     for (size_t b = 0; b < balls_.size(); ++b) {
       if (of_center[b].isZero(0)) continue;
-      for (int j = 0; j <= balls_[b].link; ++j) {
+      for (int j = balls_[b].link; j >= 0; j = robot_.parent(j)) {
         const Joint& joint = robot_.links[j].joint;
         const Isometry3d X_WM = X_WL[j] * robot_.links[j].X_ML.inverse();
         const Vector3d z = X_WM.linear().col(2);

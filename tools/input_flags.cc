@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <system_error>
 
 #include "model/robot_files/robot_reader.h"
@@ -15,7 +16,12 @@
 DEFINE_string(robot, "", "`FILE` robot: URDF, MJCF, SDF or YAML");
 DEFINE_string(base, "",
               "`LINK` (body) that the arm starts at; default: the root");
-DEFINE_string(tip, "", "`LINK` that the arm ends at; default: the only one");
+DEFINE_string(tip, "",
+              "`LINK` that the arm ends at, or links, as in "
+              "left_hand,right_hand; default: the only one");
+DEFINE_string(posture, "",
+              "`JOINT=Q,..` where other joints are held, such as a gripper's, "
+              "rad or m; default: next to 0");
 DEFINE_string(gravity, "",
               "`X,Y,Z` gravity in the base frame, m/s^2; "
               "default: the robot file's, for URDF 0,0,-9.81");
@@ -125,8 +131,9 @@ FlagGroup TorqueFlags() {
 }
 
 FlagGroup ChainFlags() {
-  return {
-      "chain of the robot", {"base", "tip", "gravity", "robot_folder"}, false};
+  return {"chain of the robot",
+          {"base", "tip", "posture", "gravity", "robot_folder"},
+          false};
 }
 
 std::vector<std::string> SplitAtCommas(const std::string& text) {
@@ -192,6 +199,24 @@ std::vector<const Effect*> ParseEffects(const std::string& flag,
   return effects;
 }
 
+namespace {
+
+std::map<std::string, double> ParsePosture(const std::string& text) {
+  std::map<std::string, double> posture;
+  for (const std::string& part : SplitAtCommas(text)) {
+    const size_t equals = part.rfind('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UsageError("--posture: found '" + part +
+                       "', expected joint=position, as in finger_joint1=0.02");
+    }
+    posture[part.substr(0, equals)] =
+        ParseOne("posture", part.substr(equals + 1));
+  }
+  return posture;
+}
+
+}  // namespace
+
 Robot RobotFromFlags(const CommandInput& input) {
   const FlagValues& flags = input.flags;
   if (input.robot) return *input.robot;
@@ -199,6 +224,7 @@ Robot RobotFromFlags(const CommandInput& input) {
   RobotReaderOptions options;
   options.base = flags.Text("base");
   options.tip = flags.Text("tip");
+  options.posture = ParsePosture(flags.Text("posture"));
   options.folder = flags.Text("robot_folder");
   if (!flags.Text("gravity").empty()) {
     const std::vector<double> g =

@@ -29,11 +29,12 @@ double RadiusOfGyration(const InertialParameters& body) {
 // The longest distance between neighbouring joints and the tool, m.
 double LongestLink(const Robot& robot) {
   double longest = 0;
-  Vector3d before = Vector3d::Zero();
-  for (const Eigen::Isometry3d& X_WL :
-       LinkPoses(robot, Eigen::VectorXd::Zero(robot.num_joints()))) {
-    longest = std::max(longest, (X_WL.translation() - before).norm());
-    before = X_WL.translation();
+  const std::vector<Eigen::Isometry3d> X_WL =
+      LinkPoses(robot, Eigen::VectorXd::Zero(robot.num_joints()));
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    Vector3d way = X_WL[j].translation();
+    if (robot.parent(j) >= 0) way -= X_WL[robot.parent(j)].translation();
+    longest = std::max(longest, way.norm());
   }
   return longest;
 }

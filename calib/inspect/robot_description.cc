@@ -18,11 +18,12 @@ using nlohmann::json;
 // column of each joint frame F, which the joint turns about or moves along.
 std::vector<Vector3d> AxesAtZero(const Robot& robot) {
   std::vector<Vector3d> axes;
-  Isometry3d X = Isometry3d::Identity();
-  for (const Link& link : robot.links) {
-    const Isometry3d X_WF = X * link.X_PF;
-    axes.push_back(X_WF.linear().col(2));
-    X = X * link.X_PL(0);
+  const std::vector<Isometry3d> X_WL =
+      LinkPoses(robot, Eigen::VectorXd::Zero(robot.num_joints()));
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    const int parent = robot.parent(j);
+    const Isometry3d& X_PF = robot.links[j].X_PF;
+    axes.push_back((parent < 0 ? X_PF : X_WL[parent] * X_PF).linear().col(2));
   }
   return axes;
 }
@@ -86,6 +87,11 @@ std::string DescriptionText(const Robot& robot) {
   std::string text;
   for (int j = 0; j < robot.num_joints(); ++j) {
     const Link& link = robot.links[j];
+    const int parent = robot.parent(j);
+    if (parent != j - 1) {
+      text += "  on " + (parent < 0 ? "the base" : robot.links[parent].name) +
+              ":\n";
+    }
     text += Format("  %d %s: %s, axis ", j + 1, link.joint.name.c_str(),
                    JointTypeName(link.joint.type)) +
             VectorText(axes[j]) + ", " + LimitsText(link.joint) + "; " +
@@ -115,14 +121,19 @@ json DescriptionJson(const Robot& robot) {
                       {"coulomb", JsonNumber(joint.coulomb)},
                       {"armature", JsonNumber(joint.armature)},
                       {"offset", JsonNumber(joint.offset)}});
-    links.push_back({{"name", link.name}, {"mass", nullptr}, {"com", nullptr}});
+    const int parent = robot.parent(j);
+    links.push_back({{"name", link.name},
+                     {"parent", parent < 0 ? "" : robot.links[parent].name},
+                     {"mass", nullptr},
+                     {"com", nullptr}});
     if (!link.has_inertial) continue;
     links.back()["mass"] = JsonNumber(link.inertial.mass);
     links.back()["com"] = Numbers(CenterOf(link));
   }
   return {{"name", robot.name},      {"joints", joints},
           {"links", links},          {"gravity", Numbers(robot.gravity)},
-          {"tool", robot.tool_name}, {"notes", robot.notes}};
+          {"tool", robot.tool_name}, {"held", robot.held},
+          {"notes", robot.notes}};
 }
 
 }  // namespace armcal

@@ -10,6 +10,9 @@
 #include <utility>
 
 #include "calib/numerics/median.h"
+#include "model/text/input_error.h"
+#include "model/text/input_text.h"
+#include "model/text/option_name.h"
 #include "problems/dense_solver.h"
 
 namespace armcal {
@@ -86,12 +89,23 @@ PoseNoise BesideInstrument(
 
 }  // namespace
 
+void RequireOneTool(const Robot& robot) {
+  if (!robot.branches()) return;
+  const auto tips = TipsOf(robot.parents, robot.num_joints());
+  std::vector<std::string> names;
+  for (const int tip : tips) names.push_back(robot.links[tip].name);
+  throw InputError(robot.name, OptionName("tip"), JoinNames(names),
+                   "expected one tip: poses are of one tool");
+}
+
 PoseFit::PoseFit(const Robot& robot, const PoseMeasurements& measured,
                  const PoseCalibrationOptions& options)
     : measured_(measured),
       options_(options),
       geometry_(std::make_shared<ArmGeometry>(robot)),
-      nominal_(geometry_->Values()) {}
+      nominal_(geometry_->Values()) {
+  RequireOneTool(robot);
+}
 
 PoseNoise PoseFit::TypicalNoise() const {
   const PoseNoise own = InstrumentNoise(measured_);

@@ -18,6 +18,10 @@ namespace armcal {
 double GeometryPrior(const ArmGeometry& geometry, int k, double length,
                      double angle);
 
+// Throws InputError where the robot has several tips: which one a pose is of
+// would be open.
+void RequireOneTool(const Robot& robot);
+
 // Fits of measured poses with some of the geometry's parameters free, and what
 // there is to be fitted. `rows` are indices of poses, `free` flags of the
 // geometry's parameters.

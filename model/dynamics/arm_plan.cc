@@ -65,18 +65,24 @@ void SetJoint(const RolloutArm& arm, int j, double* to) {
   to[simd::kRest] = arm.springs[j].rest;
 }
 
-// In the order of ArmConstants::values.
-VectorXd ValuesOf(const RolloutArm& arm) {
+// In the order of ArmConstants::values, of the bodies of a path as a chain;
+// `joint_terms`: with what the joints add.
+VectorXd ValuesOf(const RolloutArm& arm, const LinkPath& path,
+                  bool joint_terms) {
   const Robot& robot = arm.robot;
-  const int n = robot.num_joints();
+  const int n = static_cast<int>(path.links.size());
   VectorXd values = VectorXd::Zero(3 + n * simd::kNumBodyConstants);
   const auto body = [&](int i) {
     return values.data() + 3 + i * simd::kNumBodyConstants;
   };
+  const auto set_body = [&](int i, const Isometry3d& X_ML) {
+    if (i < path.first_own) return;
+    SetBody(robot.links[path.links[i]].inertial.ReexpressIn(X_ML), body(i));
+  };
   for (int i = 0; i < n; ++i) {
-    const Link& link = robot.links[i];
+    const Link& link = robot.links[path.links[i]];
     const Isometry3d X_MF =
-        i == 0 ? link.X_PF : robot.links[i - 1].X_ML * link.X_PF;
+        i == 0 ? link.X_PF : robot.links[path.links[i - 1]].X_ML * link.X_PF;
     const EulerAngles angles = AnglesOf(X_MF.linear());
     // The frame before takes the first angle on, and so does its joint.
     const Isometry3d turned = TurnedBy(-angles.first);
@@ -90,19 +96,44 @@ VectorXd ValuesOf(const RolloutArm& arm) {
       values.head<3>() = turned * robot.gravity;
     } else {
       body(i - 1)[simd::kAngle] += angles.first;
-      const Link& before = robot.links[i - 1];
-      SetBody(before.inertial.ReexpressIn(turned * before.X_ML), body(i - 1));
+      set_body(i - 1, turned * robot.links[path.links[i - 1]].X_ML);
     }
-    SetJoint(arm, i, to);
+    if (joint_terms) SetJoint(arm, path.links[i], to);
   }
-  const Link& last = robot.links[n - 1];
-  SetBody(last.inertial.ReexpressIn(last.X_ML), body(n - 1));
+  set_body(n - 1, robot.links[path.links[n - 1]].X_ML);
   double mass = 0;
   for (int i = n - 1; i >= 0; --i) {
     mass += body(i)[simd::kMassOfBody];
     body(i)[simd::kMassBeyond] = mass;
   }
   return values;
+}
+
+// Of a robot that branches, whose bodies are those of its paths.
+VectorXd JointValuesOf(const RolloutArm& arm) {
+  const int n = arm.robot.num_joints();
+  VectorXd values = VectorXd::Zero(3 + n * simd::kNumBodyConstants);
+  for (int j = 0; j < n; ++j) {
+    SetJoint(arm, j, values.data() + 3 + j * simd::kNumBodyConstants);
+  }
+  return values;
+}
+
+// Of each lane's arm, a number of every lane after the other.
+template <class ValuesOfArm>
+AlignedNumbers OfAllLanes(const std::vector<const RolloutArm*>& arms,
+                          const ValuesOfArm& values_of) {
+  const size_t lanes = arms.size();
+  VectorXd values;
+  AlignedNumbers all;
+  for (size_t k = 0; k < lanes; ++k) {
+    if (k == 0 || arms[k] != arms[k - 1]) values = values_of(*arms[k]);
+    if (k == 0) all = AlignedNumbers(lanes * values.size());
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      all.data()[i * lanes + k] = values[i];
+    }
+  }
+  return all;
 }
 
 simd::Transition TransitionOf(const RolloutArm& arm, int j) {
@@ -120,9 +151,44 @@ ArmPlan::ArmPlan(const RolloutArm& arm, int lanes)
 
 ArmPlan::ArmPlan(const std::vector<const RolloutArm*>& arm_of_lane) {
   SetJoints(arm_of_lane);
-  SetValues(arm_of_lane);
+  const Robot& robot = arm_of_lane[0]->robot;
+  links_ = PathsOf(robot.parents, robot.num_joints());
+  for (const RolloutArm* arm : arm_of_lane) {
+    CHECK(arm->robot.parents == robot.parents);
+  }
+  if (!robot.branches()) {
+    values_ = OfAllLanes(arm_of_lane, [this](const RolloutArm& arm) {
+      return ValuesOf(arm, links_[0], true);
+    });
+  } else {
+    values_ = OfAllLanes(arm_of_lane, JointValuesOf);
+    for (const LinkPath& path : links_) AddPath(arm_of_lane, path);
+    for (size_t p = 0; p < paths_.size(); ++p) {
+      paths_[p].chain.joints = path_joints_[p].data();
+      paths_[p].chain.values = path_values_[p].data();
+    }
+  }
   constants_.joints = joints_.data();
   constants_.values = values_.data();
+  constants_.num_paths = static_cast<int>(paths_.size());
+  constants_.paths = paths_.data();
+}
+
+void ArmPlan::AddPath(const std::vector<const RolloutArm*>& arms,
+                      const LinkPath& path) {
+  path_values_.push_back(OfAllLanes(arms, [&path](const RolloutArm& arm) {
+    return ValuesOf(arm, path, false);
+  }));
+  path_joints_.emplace_back();
+  for (const int i : path.links) {
+    simd::JointKind kind;
+    kind.rotational = joints_[i].rotational;
+    path_joints_.back().push_back(kind);
+  }
+  simd::ArmPath part{};
+  part.chain.num_joints = static_cast<int>(path.links.size());
+  part.joints = path.links.data();
+  paths_.push_back(part);
 }
 
 void ArmPlan::SetJoints(const std::vector<const RolloutArm*>& arms) {
@@ -150,18 +216,6 @@ void ArmPlan::SetJoints(const std::vector<const RolloutArm*>& arms) {
           !arm->springs.empty() && arm->springs[j].stiffness != 0;
       constants_.has_joint_terms |= joint.viscous != 0 || kind.has_spring ||
                                     transition != simd::Transition::kNone;
-    }
-  }
-}
-
-void ArmPlan::SetValues(const std::vector<const RolloutArm*>& arms) {
-  const size_t lanes = arms.size();
-  VectorXd values;
-  for (size_t k = 0; k < lanes; ++k) {
-    if (k == 0 || arms[k] != arms[k - 1]) values = ValuesOf(*arms[k]);
-    if (k == 0) values_ = AlignedNumbers(lanes * values.size());
-    for (Eigen::Index i = 0; i < values.size(); ++i) {
-      values_.data()[i * lanes + k] = values[i];
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "model/dynamics/joint_term.h"
+#include "model/robot/link_paths.h"
 #include "model/robot/robot.h"
 #include "model/simd/motion/arm_constants.h"
 #include "model/text/aligned_numbers.h"
@@ -38,10 +39,16 @@ class ArmPlan {
 
  private:
   void SetJoints(const std::vector<const RolloutArm*>& arms);
-  void SetValues(const std::vector<const RolloutArm*>& arms);
+  void AddPath(const std::vector<const RolloutArm*>& arms,
+               const LinkPath& path);
 
   AlignedNumbers values_;
   std::vector<simd::JointKind> joints_;
+  // Of a robot that branches, of each path.
+  std::vector<LinkPath> links_;
+  std::vector<AlignedNumbers> path_values_;
+  std::vector<std::vector<simd::JointKind>> path_joints_;
+  std::vector<simd::ArmPath> paths_;
   simd::ArmConstants constants_{};
 };
 

@@ -2,6 +2,8 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
+
 #include "model/dynamics/regressor_plan.h"
 
 namespace armcal {
@@ -17,12 +19,40 @@ BatchInverseDynamics::BatchInverseDynamics(const Robot& robot,
   }
 }
 
+// Of a path's links, stacked: its own have their bodies.
+Eigen::VectorXd BatchInverseDynamics::InertiaOf(const LinkPath& path) const {
+  Eigen::VectorXd inertia = Eigen::VectorXd::Zero(10 * path.links.size());
+  for (size_t k = path.first_own; k < path.links.size(); ++k) {
+    inertia.segment<10>(10 * k) = inertia_.segment<10>(10 * path.links[k]);
+  }
+  return inertia;
+}
+
 void BatchInverseDynamics::Torque(const MotionColumns& motion, long count,
                                   double* const* tau) const {
   CHECK_EQ(motion.qdd.size(), plan_->num_joints());
-  kernels_->inverse_dynamics(
-      plan_->chain(), inertia_.data(),
-      {motion.q.data(), motion.qd.data(), motion.qdd.data()}, count, tau);
+  const simd::ChainMotion all = {motion.q.data(), motion.qd.data(),
+                                 motion.qdd.data()};
+  if (plan_->paths().size() == 1) {
+    kernels_->inverse_dynamics(plan_->paths()[0].chain, inertia_.data(), all,
+                               count, tau);
+    return;
+  }
+  for (int j = 0; j < plan_->num_joints(); ++j) std::fill_n(tau[j], count, 0.);
+  auto path = plan_->paths().begin();
+  Eigen::MatrixXd of_path(count, plan_->num_joints());
+  plan_->ForEachPath(
+      all, tau, nullptr, [&](auto& chain, auto& some, auto* to, auto*) {
+        std::vector<double*> columns;
+        for (int i = 0; i < chain.num_links; ++i) {
+          columns.push_back(of_path.col(i).data());
+        }
+        kernels_->inverse_dynamics(chain, InertiaOf((path++)->links).data(),
+                                   some, count, columns.data());
+        for (int i = 0; i < chain.num_links; ++i) {
+          Eigen::Map<Eigen::VectorXd>(to[i], count) += of_path.col(i);
+        }
+      });
 }
 
 }  // namespace armcal

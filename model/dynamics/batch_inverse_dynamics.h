@@ -1,8 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 
 #include "model/dynamics/motion_columns.h"
+#include "model/robot/link_paths.h"
 #include "model/robot/robot.h"
 #include "model/simd/kernels.h"
 
@@ -22,6 +24,8 @@ class BatchInverseDynamics {
               double* const* tau) const;
 
  private:
+  Eigen::VectorXd InertiaOf(const LinkPath& path) const;
+
   std::shared_ptr<const RegressorPlan> plan_;
   Eigen::VectorXd inertia_;  // of all links, stacked
   const simd::Kernels* kernels_;

@@ -56,15 +56,29 @@ BatchRegressor::BatchRegressor(const Robot& robot,
     : plan_(std::make_shared<RegressorPlan>(robot, columns)),
       kernels_(&kernels) {}
 
+// Columns of links that a joint does not move, which no path writes.
+void BatchRegressor::ClearOthers(long count, double* const* out,
+                                 long stride) const {
+  if (plan_->paths().size() == 1) return;
+  for (int i = 0; i < num_joints(); ++i) {
+    for (int c = 0; c < row_size(i); ++c) {
+      std::fill_n(out[i] + c * stride, count, 0.);
+    }
+  }
+}
+
 int BatchRegressor::num_joints() const { return plan_->num_joints(); }
 int BatchRegressor::row_size(int i) const { return plan_->row_size(i); }
 
 void BatchRegressor::Differential(const MotionColumns& motion, long count,
                                   double* const* out, long stride) const {
   CHECK_EQ(motion.qdd.size(), num_joints());
-  kernels_->differential(plan_->chain(),
-                         {motion.q.data(), motion.qd.data(), motion.qdd.data()},
-                         count, out, stride);
+  ClearOthers(count, out, stride);
+  plan_->ForEachPath(
+      {motion.q.data(), motion.qd.data(), motion.qdd.data()}, out, nullptr,
+      [&](auto& chain, auto& of_path, auto* rows, auto*) {
+        kernels_->differential(chain, of_path, count, rows, stride);
+      });
   for (const RegressorPlan::Term& term : plan_->terms()) {
     FillTerm(TermColumn(term, motion, motion.qdd), 1, count,
              out[term.column.joint] + term.place * stride);
@@ -74,9 +88,13 @@ void BatchRegressor::Differential(const MotionColumns& motion, long count,
 void BatchRegressor::Momentum(const MotionColumns& motion, long count,
                               double* const* P, double* const* D,
                               long stride) const {
-  kernels_->momentum(plan_->chain(),
-                     {motion.q.data(), motion.qd.data(), nullptr}, count, P, D,
-                     stride);
+  ClearOthers(count, P, stride);
+  ClearOthers(count, D, stride);
+  plan_->ForEachPath(
+      {motion.q.data(), motion.qd.data(), nullptr}, P, D,
+      [&](auto& chain, auto& of_path, auto* rows, auto* more_rows) {
+        kernels_->momentum(chain, of_path, count, rows, more_rows, stride);
+      });
   for (const RegressorPlan::Term& term : plan_->terms()) {
     const int j = term.column.joint;
     const bool armature = term.column.term == JointTerm::kArmature;

@@ -24,8 +24,8 @@ class BatchRegressor {
   explicit BatchRegressor(const ModelParameters& parameters,
                           const simd::Kernels& kernels = simd::BestKernels());
   // Of the links' inertial parameters, ten each (LinkRegressor): joint i's
-  // columns are those of links i to n, 10 i to 10 n - 1. Motion needs no
-  // Coulomb states.
+  // columns are those of links i to n, 10 i to 10 n - 1, which are 0 of links
+  // on other branches. Motion needs no Coulomb states.
   explicit BatchRegressor(const Robot& robot,
                           const simd::Kernels& kernels = simd::BestKernels());
 
@@ -45,6 +45,8 @@ class BatchRegressor {
                 double* const* D, long stride) const;
 
  private:
+  void ClearOthers(long count, double* const* out, long stride) const;
+
   std::shared_ptr<const RegressorPlan> plan_;
   const simd::Kernels* kernels_;
 };

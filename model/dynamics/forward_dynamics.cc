@@ -20,12 +20,13 @@ using Eigen::VectorXd;
 // Of the largest, an inertia that is rounding.
 constexpr double kNoInertia = 1e-15;
 
-// X_PM(q) of joint i, where P is the moved frame M of the joint before (W for
-// the first).
+// X_PM(q) of joint i, where P is the moved frame M of the joint that moves the
+// link it sits on (W for the base).
 Isometry3d MovedFrame(const Robot& robot, int i, double q) {
   const Link& link = robot.links[i];
+  const int parent = robot.parent(i);
   const Isometry3d X_PF =
-      i == 0 ? link.X_PF : robot.links[i - 1].X_ML * link.X_PF;
+      parent < 0 ? link.X_PF : robot.links[parent].X_ML * link.X_PF;
   return X_PF * JointTransform(link.joint.type, q);
 }
 
@@ -56,6 +57,12 @@ BodyWrench InParent(const BodyWrench& wrench, const Isometry3d& X_PM) {
           X_PM.linear() * wrench.moment + X_PM.translation().cross(force)};
 }
 
+// Where a moved frame M is and how it moves, in M.
+struct MovedBody {
+  Isometry3d X_WM = Isometry3d::Identity();
+  Vector3d omega = Vector3d::Zero(), v = Vector3d::Zero();
+};
+
 }  // namespace
 
 Eigen::MatrixXd MassMatrix(const Robot& robot, const VectorXd& q) {
@@ -63,15 +70,16 @@ Eigen::MatrixXd MassMatrix(const Robot& robot, const VectorXd& q) {
   CHECK_EQ(q.size(), n);
   std::vector<Isometry3d> X_PM(n);
   std::vector<InertialParameters> composite(n);
+  for (int i = 0; i < n; ++i) composite[i] = InMovedFrame(robot.links[i]);
   for (int i = n - 1; i >= 0; --i) {
     X_PM[i] = MovedFrame(robot, i, q[i]);
-    composite[i] = InMovedFrame(robot.links[i]);
-    if (i + 1 < n) composite[i] += composite[i + 1].ReexpressIn(X_PM[i + 1]);
+    const int parent = robot.parent(i);
+    if (parent >= 0) composite[parent] += composite[i].ReexpressIn(X_PM[i]);
   }
-  Eigen::MatrixXd M(n, n);
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
   for (int i = 0; i < n; ++i) {
     BodyWrench wrench = UnitWrench(composite[i], robot.links[i].joint.type);
-    for (int j = i; j >= 0; --j) {
+    for (int j = i; j >= 0; j = robot.parent(j)) {
       M(i, j) = M(j, i) = AlongJoint(wrench, robot.links[j].joint.type);
       wrench = InParent(wrench, X_PM[j]);
     }
@@ -119,13 +127,16 @@ ArmEnergy Energy(const Robot& robot, const VectorXd& q, const VectorXd& qd) {
   const int n = robot.num_joints();
   CHECK(q.size() == n && qd.size() == n);
   ArmEnergy energy;
-  Isometry3d X_WM = Isometry3d::Identity();
-  Vector3d omega = Vector3d::Zero(), v = Vector3d::Zero();  // of M, in M
+  std::vector<MovedBody> bodies(n);
   for (int i = 0; i < n; ++i) {
+    const int parent = robot.parent(i);
+    const MovedBody before = parent < 0 ? MovedBody() : bodies[parent];
     const Isometry3d X_PM = MovedFrame(robot, i, q[i]);
-    X_WM = X_WM * X_PM;
-    v = X_PM.linear().transpose() * (v + omega.cross(X_PM.translation()));
-    omega = X_PM.linear().transpose() * omega;
+    auto& [X_WM, omega, v] = bodies[i];
+    X_WM = before.X_WM * X_PM;
+    v = X_PM.linear().transpose() *
+        (before.v + before.omega.cross(X_PM.translation()));
+    omega = X_PM.linear().transpose() * before.omega;
     const bool turns = IsRotational(robot.links[i].joint.type);
     (turns ? omega : v).z() += qd[i];
     const InertialParameters body = InMovedFrame(robot.links[i]);

@@ -30,7 +30,7 @@ class GeometryJacobian {
 
   int num_joints() const;
   // Columns of every joint's equation.
-  int size() const { return static_cast<int>(parameters_.size()); }
+  int size() const { return size_; }
 
   // Of the torque, N m or N per m or rad.
   void Torque(const MotionColumns& motion, long count, double* const* out,
@@ -46,12 +46,20 @@ class GeometryJacobian {
                 Eigen::MatrixXd* P, Eigen::MatrixXd* D) const;
 
  private:
-  simd::ChainConstants Chain() const;
-  simd::GeometryConstants Constants() const;
+  // Of a path of the plan: parameters that displace something on it, and its
+  // own links' bodies.
+  struct PathGeometry {
+    std::vector<simd::GeometricParameter> parameters;
+    std::vector<simd::BodyMoments> bodies;
+  };
+  template <class Evaluate>
+  void SumPaths(const simd::ChainMotion& motion, long count, double* const* out,
+                double* const* more, long stride,
+                const Evaluate& evaluate) const;
 
   std::shared_ptr<const RegressorPlan> plan_;
-  std::vector<simd::GeometricParameter> parameters_;
-  std::vector<simd::BodyMoments> bodies_;
+  std::vector<PathGeometry> paths_;
+  int size_;
   std::vector<int> row_sizes_;
   const simd::Kernels* kernels_;
 };

@@ -62,25 +62,28 @@ Eigen::VectorXd InverseDynamics(const Robot& robot, const Eigen::VectorXd& q,
   CHECK(q.size() == n && qd.size() == n && qdd.size() == n);
   std::vector<Isometry3d> X_PM(n);
   std::vector<JointWrench> wrench(n);
-  LinkMotion motion;
-  motion.acceleration = -robot.gravity;
-  Isometry3d X_ML = Isometry3d::Identity();  // of the parent; W for the first
+  LinkMotion at_rest;
+  at_rest.acceleration = -robot.gravity;
+  std::vector<LinkMotion> motion(n);
   for (int i = 0; i < n; ++i) {
     const Link& link = robot.links[i];
-    X_PM[i] = X_ML * link.X_PF * JointTransform(link.joint.type, q[i]);
-    motion = Propagate(motion, X_PM[i], link.joint.type, qd[i], qdd[i]);
-    wrench[i] = LinkWrench(link.inertial.ReexpressIn(link.X_ML), motion);
-    X_ML = link.X_ML;
+    const int parent = robot.parent(i);
+    X_PM[i] = link.X_PF * JointTransform(link.joint.type, q[i]);
+    if (parent >= 0) X_PM[i] = robot.links[parent].X_ML * X_PM[i];
+    motion[i] = Propagate(parent < 0 ? at_rest : motion[parent], X_PM[i],
+                          link.joint.type, qd[i], qdd[i]);
+    wrench[i] = LinkWrench(link.inertial.ReexpressIn(link.X_ML), motion[i]);
   }
   Eigen::VectorXd tau(n);
   for (int i = n - 1; i >= 0; --i) {
     tau[i] = IsRotational(robot.links[i].joint.type) ? wrench[i].moment.z()
                                                      : wrench[i].force.z();
-    if (i == 0) break;
+    const int parent = robot.parent(i);
+    if (parent < 0) continue;
     const Vector3d force = X_PM[i].linear() * wrench[i].force;
-    wrench[i - 1].force += force;
-    wrench[i - 1].moment += X_PM[i].linear() * wrench[i].moment +
-                            X_PM[i].translation().cross(force);
+    wrench[parent].force += force;
+    wrench[parent].moment += X_PM[i].linear() * wrench[i].moment +
+                             X_PM[i].translation().cross(force);
   }
   return tau;
 }

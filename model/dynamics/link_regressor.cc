@@ -35,7 +35,8 @@ Vector6d Cross(const Vector6d& a, const Vector6d& b) {
 
 }  // namespace
 
-LinkRegressor::LinkRegressor(const Robot& robot) : gravity_(robot.gravity) {
+LinkRegressor::LinkRegressor(const Robot& robot)
+    : parents_(robot.parents), gravity_(robot.gravity) {
   for (const Link& link : robot.links) {
     joints_.push_back({link.joint.type, link.X_PF, link.X_ML});
   }
@@ -45,23 +46,22 @@ LinkRegressor::LinkRegressor(const Robot& robot) : gravity_(robot.gravity) {
 }
 
 void LinkRegressor::Propagate(const VectorXd& q, const VectorXd& qd) {
-  Isometry3d X_WP = Isometry3d::Identity();
-  Vector6d twist = Vector6d::Zero();
   for (int k = 0; k < num_joints(); ++k) {
     const ConstantJoint& joint = joints_[k];
+    const int parent = ParentOf(parents_, k);
     JointState& s = state_[k];
-    const Isometry3d X_WF = X_WP * joint.X_PF;
+    const Isometry3d X_WF =
+        parent < 0 ? joint.X_PF : state_[parent].X_WL * joint.X_PF;
     const Vector3d z = X_WF.linear().col(2);
     if (IsRotational(joint.type)) {
       s.screw << z, X_WF.translation().cross(z);
     } else {
       s.screw << Vector3d::Zero(), z;
     }
-    twist += s.screw * qd[k];
-    s.twist = twist;
-    s.screw_change = Cross(twist, s.screw);
-    X_WP = X_WF * JointTransform(joint.type, q[k]) * joint.X_ML;
-    s.X_WL = X_WP;
+    s.twist = s.screw * qd[k];
+    if (parent >= 0) s.twist += state_[parent].twist;
+    s.screw_change = Cross(s.twist, s.screw);
+    s.X_WL = X_WF * JointTransform(joint.type, q[k]) * joint.X_ML;
   }
 }
 
@@ -106,9 +106,11 @@ void LinkRegressor::Momentum(const VectorXd& q, const VectorXd& qd, MatrixXd* P,
     rows[i] = P->data() + i;
     rows[n + i] = D->data() + i;
   }
-  simd::BestKernels().momentum_of_one(
-      plan_->chain(), {motion.data(), motion.data() + n, nullptr}, 0,
-      rows.data(), rows.data() + n, n);
+  plan_->ForEachPath(
+      {motion.data(), motion.data() + n, nullptr}, rows.data(), rows.data() + n,
+      [n](auto& chain, auto& of_path, auto* some, auto* more) {
+        simd::BestKernels().momentum_of_one(chain, of_path, 0, some, more, n);
+      });
 }
 
 void LinkRegressor::Momentum(const VectorXd& q, const VectorXd& qd,
@@ -118,13 +120,19 @@ void LinkRegressor::Momentum(const VectorXd& q, const VectorXd& qd,
   Propagate(q, qd);
   PV->resize(n);
   DV->resize(n);
-  Vector6d h = Vector6d::Zero(), g = Vector6d::Zero();  // of links k..n
+  std::vector<Vector6d> h(n), g(n);  // of all that joint k moves
+  for (int k = 0; k < n; ++k) {
+    h[k] = LinkMomentum(k) * V.segment<10>(10 * k);
+    g[k] = LinkGravity(k) * V.segment<10>(10 * k);
+  }
   for (int k = n - 1; k >= 0; --k) {
-    h += LinkMomentum(k) * V.segment<10>(10 * k);
-    g += LinkGravity(k) * V.segment<10>(10 * k);
     const JointState& s = state_[k];
-    (*PV)[k] = s.screw.dot(h);
-    (*DV)[k] = s.screw_change.dot(h) + s.screw.dot(g);
+    (*PV)[k] = s.screw.dot(h[k]);
+    (*DV)[k] = s.screw_change.dot(h[k]) + s.screw.dot(g[k]);
+    const int parent = ParentOf(parents_, k);
+    if (parent < 0) continue;
+    h[parent] += h[k];
+    g[parent] += g[k];
   }
 }
 

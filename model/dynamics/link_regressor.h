@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/robot/link_paths.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
@@ -49,6 +50,7 @@ class LinkRegressor {
   Matrix6x10 LinkGravity(int i) const;
 
   std::vector<ConstantJoint> joints_;
+  LinkParents parents_;
   Eigen::Vector3d gravity_;
   std::vector<JointState> state_;
   std::shared_ptr<const RegressorPlan> plan_;

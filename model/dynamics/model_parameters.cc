@@ -115,7 +115,8 @@ void ModelParameters::ListColumns(const Robot& robot, const Options& options) {
       moments_.push_back({i, moment, -1});
       if (!DependsOnLengths(moment, type)) continue;
       for (size_t l = 0; l < unknown_.size(); ++l) {
-        if (unknown_[l].joint < i) {
+        if (unknown_[l].joint < i &&
+            Moves(chain_.parents, unknown_[l].next, i)) {
           moments_.push_back({i, moment, static_cast<int>(l)});
         }
       }
@@ -143,7 +144,8 @@ void ModelParameters::DropZeroMoments(const Robot& robot) {
   RandomStates random;
   ProximalChain chain = chain_;
   for (const Length& length : unknown_) {
-    chain.joints[length.joint].p[length.component] = random.Next(1)[0];
+    chain.joints[length.next].X_JG.translation()[length.component] =
+        random.Next(1)[0];
   }
   Robot sample = robot;
   for (Link& link : sample.links) {
@@ -296,7 +298,7 @@ VectorXd ModelParameters::FullValues(const Robot& robot) const {
     x[c] = MomentValue(K[moments_[c].block], moments_[c].moment);
     if (moments_[c].length < 0) continue;
     const Length& l = unknown_[moments_[c].length];
-    x[c] *= chain.joints[l.joint].p[l.component];
+    x[c] *= chain.joints[l.next].X_JG.translation()[l.component];
   }
   for (size_t t = 0; t < terms_.size(); ++t) {
     const Joint& joint = robot.links[terms_[t].joint].joint;

@@ -13,15 +13,15 @@ using std::sin;
 template <class T>
 MomentumRegressor<T>::MomentumRegressor(const ProximalChain& chain,
                                         const std::vector<Length>& unknown)
-    : joints_(chain.joints), gravity_(chain.gravity) {
+    : joints_(chain.joints), parents_(chain.parents), gravity_(chain.gravity) {
   const size_t n = joints_.size();
   const size_t units = unknown.size() + 1;
   step_.assign(n, std::vector<Eigen::Vector3d>(units, Eigen::Vector3d::Zero()));
-  for (size_t k = 0; k < n; ++k) step_[k][0] = joints_[k].p;
+  for (size_t k = 0; k < n; ++k) step_[k][0] = joints_[k].X_JG.translation();
   for (size_t u = 1; u < units; ++u) {
     const Length& length = unknown[u - 1];
-    step_[length.joint][0][length.component] = 0;
-    step_[length.joint][u][length.component] = 1;
+    step_[length.next][0][length.component] = 0;
+    step_[length.next][u][length.component] = 1;
   }
   state_.resize(n);
   for (JointState& s : state_) {
@@ -34,11 +34,27 @@ MomentumRegressor<T>::MomentumRegressor(const ProximalChain& chain,
 
 template <class T>
 void MomentumRegressor<T>::Propagate(const Vector& q, const Vector& qd) {
-  const int n = static_cast<int>(joints_.size());
-  Matrix3 R_G = Matrix3::Identity();  // of G_k, the joint's fixed frame
-  Vector3 omega = Vector3::Zero();
-  for (int k = 0; k < n; ++k) {
+  for (int k = 0; k < static_cast<int>(joints_.size()); ++k) {
     JointState& s = state_[k];
+    const int parent = ParentOf(parents_, k);
+    // Of G_k, the joint's fixed frame.
+    Matrix3 R_G = joints_[k].X_JG.linear().template cast<T>();
+    if (parent >= 0) {
+      const JointState& before = state_[parent];
+      R_G = before.R * R_G;
+      s.omega = before.omega;
+      for (size_t u = 0; u < step_[k].size(); ++u) {
+        const Vector3 step = before.R * step_[k][u].template cast<T>();
+        s.position[u] = before.position[u] + step;
+        s.velocity[u] = before.velocity[u] + before.omega.cross(step);
+      }
+      if (!Rotational(parent)) {
+        s.position[0] += before.slide;
+        s.velocity[0] += before.slide_rate;
+      }
+    } else {
+      s.omega.setZero();
+    }
     const bool rotational = Rotational(k);
     const T angle =
         rotational ? T(q[k] + joints_[k].theta) : T(joints_[k].theta);
@@ -47,24 +63,11 @@ void MomentumRegressor<T>::Propagate(const Vector& q, const Vector& qd) {
     s.R.col(0) = c * R_G.col(0) + sn * R_G.col(1);
     s.R.col(1) = c * R_G.col(1) - sn * R_G.col(0);
     s.R.col(2) = R_G.col(2);
-    if (rotational) omega += s.z() * qd[k];
-    s.omega = omega;
-    s.omega_cross_z = omega.cross(s.z());
-    if (!rotational) {
-      s.slide = s.z() * q[k];
-      s.slide_rate = omega.cross(s.slide) + s.z() * qd[k];
-    }
-    if (k + 1 == n) break;
-    for (size_t u = 0; u < step_[k].size(); ++u) {
-      const Vector3 step = s.R * step_[k][u].template cast<T>();
-      state_[k + 1].position[u] = s.position[u] + step;
-      state_[k + 1].velocity[u] = s.velocity[u] + omega.cross(step);
-    }
-    if (!rotational) {
-      state_[k + 1].position[0] += s.slide;
-      state_[k + 1].velocity[0] += s.slide_rate;
-    }
-    R_G = s.R * joints_[k].R.template cast<T>();
+    if (rotational) s.omega += s.z() * qd[k];
+    s.omega_cross_z = s.omega.cross(s.z());
+    if (rotational) continue;
+    s.slide = s.z() * q[k];
+    s.slide_rate = s.omega.cross(s.slide) + s.z() * qd[k];
   }
 }
 
@@ -98,7 +101,7 @@ void MomentumRegressor<T>::SecondMoment(const MomentColumn& column,
   }
   const Vector3 angular = s.R * body;
   const Vector3 distal = s.z() * qd_block;
-  for (int k = 0; k <= column.block; ++k) {
+  for (int k = column.block; k >= 0; k = ParentOf(parents_, k)) {
     if (!Rotational(k)) continue;
     const bool regrouped = column.moment == Moment::kIzz && k < column.block;
     const Vector3& A = regrouped ? distal : angular;
@@ -117,7 +120,7 @@ void MomentumRegressor<T>::FirstMomentRevolute(const MomentColumn& column,
   const Vector3 linear = s.omega.cross(e);
   const Vector3 angular = e.cross(s.velocity[u]);  // about Jo of the block
   const Vector3 moment = e.cross(gravity_.template cast<T>());
-  for (int k = 0; k <= column.block; ++k) {
+  for (int k = column.block; k >= 0; k = ParentOf(parents_, k)) {
     const JointState& j = state_[k];
     if (!Rotational(k)) {
       if (u > 0) continue;
@@ -146,7 +149,7 @@ void MomentumRegressor<T>::MassPrismatic(const MomentColumn& column, int c,
   const Vector3 moment = s.slide.cross(g);
   Vector3 angular = s.slide.cross(s.velocity[u]);
   if (u == 0) angular += s.slide.cross(s.slide_rate);
-  for (int k = 0; k < i; ++k) {
+  for (int k = ParentOf(parents_, i); k >= 0; k = ParentOf(parents_, k)) {
     const JointState& j = state_[k];
     if (!Rotational(k)) {
       if (u > 0) continue;
@@ -179,7 +182,7 @@ void MomentumRegressor<T>::FirstMomentPrismatic(const MomentColumn& column,
   const Vector3 e = s.R.col(axis);
   const Vector3 linear = s.omega.cross(e);
   const Vector3 A = e.cross(s.slide_rate) + s.slide.cross(linear);
-  for (int k = 0; k < i; ++k) {
+  for (int k = ParentOf(parents_, i); k >= 0; k = ParentOf(parents_, k)) {
     if (!Rotational(k)) continue;
     (*P)(k, c) = state_[k].z().dot(A);
     (*D)(k, c) = state_[k].omega_cross_z.dot(A);

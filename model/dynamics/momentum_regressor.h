@@ -42,7 +42,7 @@ class MomentumRegressor {
  private:
   using Vector3 = Eigen::Matrix<T, 3, 1>;
   using Matrix3 = Eigen::Matrix<T, 3, 3>;
-  // The state of joint k in the frame of G_1. Entry u = 0 of `position` and
+  // The state of joint k in W. Entry u = 0 of `position` and
   // `velocity` (of Jo, without the slide of a prismatic joint) holds the known
   // lengths, entry u > 0 the part that multiplies unknown length u - 1.
   struct JointState {
@@ -66,8 +66,10 @@ class MomentumRegressor {
   bool Rotational(int k) const { return IsRotational(joints_[k].type); }
 
   std::vector<ProximalJoint> joints_;
+  LinkParents parents_;
   Eigen::Vector3d gravity_;
-  std::vector<std::vector<Eigen::Vector3d>> step_;  // [joint][u]: Jo to Go
+  // [joint][u]: from Jo of the joint before to Go
+  std::vector<std::vector<Eigen::Vector3d>> step_;
   std::vector<JointState> state_;
 };
 

@@ -85,8 +85,9 @@ void ModelParameters::NameParameters() {
   row_columns_.resize(num_joints());
   for (int k = 0; k < size(); ++k) {
     const ModelParameter& p = parameters_[k];
-    for (int i = p.is_joint_term ? p.block : 0; i <= p.block; ++i) {
+    for (int i = p.block; i >= 0; i = ParentOf(chain_.parents, i)) {
       row_columns_[i].push_back(k);
+      if (p.is_joint_term) break;
     }
   }
 }

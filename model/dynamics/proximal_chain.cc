@@ -71,16 +71,18 @@ double AngleOfX(const Isometry3d& X_GN) {
 
 void AddLengths(const Robot& robot, ProximalChain* chain) {
   const bool modified = robot.dh_convention == DhConvention::kModified;
-  for (int i = 0; i + 1 < robot.num_joints(); ++i) {
-    const ProximalJoint& joint = chain->joints[i];
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const int next = robot.next(i);
+    if (next < 0) continue;
+    const Vector3d p = chain->joints[next].X_JG.translation();
     const std::string number = std::to_string(i + 1);
-    const Link& a_row = robot.links[modified ? i + 1 : i];
+    const Link& a_row = robot.links[modified ? next : i];
     chain->lengths.push_back(
-        {i, 0, joint.p.x(), "a" + number, a_row.name + ".a"});
+        {i, next, 0, p.x(), "a" + number, a_row.name + ".a"});
     // d of a prismatic joint is the zero of its q.
-    if (!IsRotational(joint.type)) continue;
+    if (!IsRotational(chain->joints[i].type)) continue;
     chain->lengths.push_back(
-        {i, 2, joint.p.z(), "d" + number, robot.links[i].name + ".d"});
+        {i, next, 2, p.z(), "d" + number, robot.links[i].name + ".d"});
   }
 }
 
@@ -90,14 +92,18 @@ ProximalChain MakeProximalChain(const Robot& robot) {
   const int n = robot.num_joints();
   CHECK_GT(n, 0);
   ProximalChain chain;
-  chain.gravity = robot.links[0].X_PF.linear().transpose() * robot.gravity;
-  Isometry3d X_FG = Isometry3d::Identity();  // the gauge; commutes with motion
+  chain.gravity = robot.gravity;
+  chain.parents = robot.parents;
+  chain.joints.resize(n);
+  // Of each joint: the gauge, which commutes with its motion.
+  std::vector<Isometry3d> X_FGs(n, Isometry3d::Identity());
   for (int i = 0; i < n; ++i) {
     const Link& link = robot.links[i];
-    const bool last = i + 1 == n;
+    const int next = robot.next(i);
+    const bool last = next < 0;
     // In the moved G_i: the link's frame, and the next joint's fixed frame.
-    const Isometry3d X_GL = X_FG.inverse() * link.X_ML;
-    const Isometry3d X_GF = last ? X_GL : X_GL * robot.links[i + 1].X_PF;
+    const Isometry3d X_GL = X_FGs[i].inverse() * link.X_ML;
+    const Isometry3d X_GF = last ? X_GL : X_GL * robot.links[next].X_PF;
     Isometry3d X_GN = X_GF;
     double theta = 0;
     if (!IsDhRow(X_GF, &theta) && !last) {
@@ -105,15 +111,21 @@ ProximalChain MakeProximalChain(const Robot& robot) {
       theta = AngleOfX(X_GN);
     }
     const Isometry3d X_JG = RotateZ(-theta);
-    const Isometry3d C = X_JG * X_GN;
-    ProximalJoint joint{link.joint.type, theta, C.linear(), C.translation(),
-                        X_JG * X_GL};
-    if (last) {
-      joint.R.setIdentity();
-      joint.p.setZero();
+    ProximalJoint& joint = chain.joints[i];
+    joint.type = link.joint.type;
+    joint.theta = theta;
+    joint.X_JL = X_JG * X_GL;
+    if (robot.parent(i) < 0) {
+      joint.X_JG.setIdentity();
+      joint.X_JG.linear() = link.X_PF.linear();
     }
-    chain.joints.push_back(joint);
-    X_FG = X_GF.inverse() * X_GN;
+    for (int k = i + 1; k < n; ++k) {
+      if (robot.parent(k) != i) continue;
+      if (k == next) X_FGs[k] = X_GF.inverse() * X_GN;
+      chain.joints[k].X_JG = k == next
+                                 ? Isometry3d(X_JG * X_GN)
+                                 : Isometry3d(joint.X_JL * robot.links[k].X_PF);
+    }
   }
   AddLengths(robot, &chain);
   return chain;
@@ -123,22 +135,22 @@ std::vector<InertialParameters> CompositeInertials(const Robot& robot,
                                                    const ProximalChain& chain) {
   const int n = robot.num_joints();
   std::vector<InertialParameters> K(n);
-  for (int i = n - 1; i >= 0; --i) {
+  for (int i = 0; i < n; ++i) {
     K[i] = robot.links[i].inertial.ReexpressIn(chain.joints[i].X_JL);
-    if (i + 1 == n) continue;
-    const ProximalJoint& next = chain.joints[i + 1];
-    InertialParameters red = K[i + 1];
-    if (IsRotational(next.type)) {  // what a turn about z leaves unchanged
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    const int parent = ParentOf(chain.parents, i);
+    if (parent < 0) continue;
+    const ProximalJoint& joint = chain.joints[i];
+    InertialParameters red = K[i];
+    if (IsRotational(joint.type)) {  // what a turn about z leaves unchanged
       const double J = 0.5 * (red.inertia(0, 0) + red.inertia(1, 1));
       red.first_moment.head<2>().setZero();
-      red.inertia = Eigen::Vector3d(J, J, K[i + 1].inertia(2, 2)).asDiagonal();
+      red.inertia = Eigen::Vector3d(J, J, K[i].inertia(2, 2)).asDiagonal();
     } else {
-      red = red.ReexpressIn(RotateZ(next.theta));
+      red = red.ReexpressIn(RotateZ(joint.theta));
     }
-    Isometry3d C = Isometry3d::Identity();
-    C.linear() = chain.joints[i].R;
-    C.translation() = chain.joints[i].p;
-    K[i] += red.ReexpressIn(C);
+    K[parent] += red.ReexpressIn(joint.X_JG);
   }
   return K;
 }

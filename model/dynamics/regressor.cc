@@ -43,9 +43,12 @@ void Regressor::Momentum(const VectorXd& q, const VectorXd& qd,
   Point(qd, &qd_);
   PointToRows(columns_.size(), P, &rows_);
   PointToRows(columns_.size(), D, &more_rows_);
-  simd::BestKernels().momentum_of_one(
-      plan_->chain(), {q_.data(), qd_.data(), nullptr}, 0, rows_.data(),
-      more_rows_.data(), num_joints_);
+  plan_->ForEachPath(
+      {q_.data(), qd_.data(), nullptr}, rows_.data(), more_rows_.data(),
+      [this](auto& chain, auto& motion, auto* rows, auto* more_rows) {
+        simd::BestKernels().momentum_of_one(chain, motion, 0, rows, more_rows,
+                                            num_joints_);
+      });
   int next = 0;
   for (size_t k = 0; k < columns_.terms.size(); ++k) {
     const JointTermColumn& term = columns_.terms[k];
@@ -62,9 +65,12 @@ void Regressor::Differential(const VectorXd& q, const VectorXd& qd,
   Point(qd, &qd_);
   Point(qdd, &qdd_);
   PointToRows(columns_.size(), U, &rows_);
-  simd::BestKernels().differential_of_one(plan_->chain(),
-                                          {q_.data(), qd_.data(), qdd_.data()},
-                                          0, rows_.data(), num_joints_);
+  plan_->ForEachPath({q_.data(), qd_.data(), qdd_.data()}, rows_.data(),
+                     nullptr,
+                     [this](auto& chain, auto& motion, auto* rows, auto*) {
+                       simd::BestKernels().differential_of_one(
+                           chain, motion, 0, rows, num_joints_);
+                     });
   int next = 0;
   for (size_t k = 0; k < columns_.terms.size(); ++k) {
     const JointTermColumn& term = columns_.terms[k];

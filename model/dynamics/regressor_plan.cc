@@ -80,7 +80,8 @@ LinkMoment MomentOf(Moment moment, bool rotational) {
 }
 
 // Numbers of row i's columns, ascending; those that are places themselves: all.
-std::vector<int> RowColumns(const RegressorColumns& columns, int i,
+std::vector<int> RowColumns(const RegressorColumns& columns,
+                            const LinkParents& parents, int i,
                             RegressorPlan::Places places) {
   std::vector<int> row;
   if (places == RegressorPlan::Places::kNumbers) {
@@ -89,7 +90,9 @@ std::vector<int> RowColumns(const RegressorColumns& columns, int i,
     return row;
   }
   for (size_t c = 0; c < columns.moments.size(); ++c) {
-    if (columns.moments[c].block >= i) row.push_back(columns.moment_index[c]);
+    if (Moves(parents, i, columns.moments[c].block)) {
+      row.push_back(columns.moment_index[c]);
+    }
   }
   for (size_t c = 0; c < columns.terms.size(); ++c) {
     if (columns.terms[c].joint == i) row.push_back(columns.term_index[c]);
@@ -107,43 +110,78 @@ constexpr int kMomentOrder[] = {4, 5, 6, 7, 8, 9, 0, 1, 2, 3};
 
 }  // namespace
 
+void RegressorPlan::AddPaths(const LinkParents& parents, int n) {
+  parents_ = parents;
+  for (const LinkPath& links : PathsOf(parents, n)) {
+    paths_.push_back({links, {}});
+    PathData data;
+    data.length_columns.resize(links.links.size());
+    data.places.resize(links.links.size());
+    data_.push_back(data);
+  }
+}
+
 RegressorPlan::RegressorPlan(const ProximalChain& chain,
                              const std::vector<Length>& unknown,
                              const RegressorColumns& columns, Places places) {
-  Isometry3d X_PF = Isometry3d::Identity();  // of G_i in J_{i-1}
-  for (const ProximalJoint& joint : chain.joints) {
-    const Isometry3d X_MJ(Eigen::AngleAxisd(joint.theta, Vector3d::UnitZ()));
-    links_.push_back(MakeLink(joint.type, X_PF, X_MJ));
-    links_.back().regrouped = true;
-    X_PF.linear() = joint.R;
-    X_PF.translation() = joint.p;
-  }
-  for (const Length& length : unknown) {
-    lengths_.push_back({length.joint, length.component});
-    links_[length.joint + 1].p_PF[length.component] = 0;
+  AddPaths(chain.parents, static_cast<int>(chain.joints.size()));
+  length_of_.resize(paths_.size());
+  for (size_t p = 0; p < paths_.size(); ++p) {
+    for (const int i : paths_[p].links.links) {
+      const ProximalJoint& joint = chain.joints[i];
+      const Isometry3d X_MJ(Eigen::AngleAxisd(joint.theta, Vector3d::UnitZ()));
+      // Gravity is given in the first joint's G.
+      const Isometry3d X_PF =
+          data_[p].links.empty() ? Isometry3d::Identity() : joint.X_JG;
+      data_[p].links.push_back(MakeLink(joint.type, X_PF, X_MJ));
+      data_[p].links.back().regrouped = true;
+    }
+    AddLengths(unknown, static_cast<int>(p));
   }
   AddColumns(columns, places);
-  Connect(chain.gravity);
+  for (size_t p = 0; p < paths_.size(); ++p) {
+    const ProximalJoint& first = chain.joints[paths_[p].links.links[0]];
+    Connect(static_cast<int>(p),
+            first.X_JG.linear().transpose() * chain.gravity);
+  }
 }
 
-// Link i's columns of the model: returns their numbers in the order of
-// LinkConstants::places.
+// Those that lie between joints of the path.
+void RegressorPlan::AddLengths(const std::vector<Length>& unknown, int path) {
+  const std::vector<int>& links = paths_[path].links.links;
+  PathData& data = data_[path];
+  for (const Length& length : unknown) {
+    const auto next = std::find(links.begin(), links.end(), length.next);
+    length_of_[path].push_back(-1);
+    if (next == links.end()) continue;
+    const auto at = static_cast<int>(next - links.begin());
+    length_of_[path].back() = static_cast<int>(data.lengths.size());
+    data.lengths.push_back({at - 1, length.component});
+    data.links[at].p_PF[length.component] = 0;
+  }
+}
+
+// Columns of the model of link i of a path, if it is the path's own: returns
+// their numbers in the order of LinkConstants::places.
 std::vector<int> RegressorPlan::AddLink(const RegressorColumns& columns,
-                                        int i) {
-  LinkConstants& link = links_[i];
+                                        int path, int i) {
+  PathData& data = data_[path];
+  LinkConstants& link = data.links[i];
   const unsigned all =
       link.rotational ? simd::kMomentsOfJoint : simd::kSlidingMoments;
   link.num_moments = __builtin_popcount(all);
   std::vector<int> numbers(link.num_moments, -1);
+  if (i < paths_[path].links.first_own) return numbers;
   for (size_t c = 0; c < columns.moments.size(); ++c) {
     const MomentColumn& column = columns.moments[c];
-    if (column.block != i) continue;
+    if (column.block != paths_[path].links.links[i]) continue;
     const LinkMoment moment = MomentOf(column.moment, link.rotational);
     if (column.length < 0) {
       link.moments = all;
       numbers[__builtin_popcount(all & (moment - 1))] = columns.moment_index[c];
     } else {
-      length_columns_[i].push_back({moment, column.length});
+      data.length_columns[i].push_back(
+          {moment, length_of_[path][column.length]});
       numbers.push_back(columns.moment_index[c]);
     }
   }
@@ -151,17 +189,23 @@ std::vector<int> RegressorPlan::AddLink(const RegressorColumns& columns,
 }
 
 void RegressorPlan::AddColumns(const RegressorColumns& columns, Places places) {
-  const int n = num_joints();
-  length_columns_.resize(n);
-  places_.resize(n);
+  int n = 0;
+  for (const Path& path : paths_) n = std::max(n, path.links.links.back() + 1);
   std::vector<std::vector<int>> rows;
   for (int i = 0; i < n; ++i) {
-    rows.push_back(RowColumns(columns, i, places));
+    rows.push_back(RowColumns(columns, parents_, i, places));
     row_sizes_.push_back(static_cast<int>(rows[i].size()));
-    const std::vector<int> numbers = AddLink(columns, i);
-    for (int k = 0; k <= i; ++k) {
-      for (const int number : numbers) {
-        places_[i].push_back(number < 0 ? -1 : PlaceIn(rows[k], number));
+  }
+  for (size_t p = 0; p < paths_.size(); ++p) {
+    const std::vector<int>& links = paths_[p].links.links;
+    for (size_t i = 0; i < links.size(); ++i) {
+      const std::vector<int> numbers =
+          AddLink(columns, static_cast<int>(p), static_cast<int>(i));
+      for (size_t k = 0; k <= i; ++k) {
+        for (const int number : numbers) {
+          data_[p].places[i].push_back(
+              number < 0 ? -1 : PlaceIn(rows[links[k]], number));
+        }
       }
     }
   }
@@ -173,69 +217,88 @@ void RegressorPlan::AddColumns(const RegressorColumns& columns, Places places) {
   }
 }
 
-RegressorPlan::RegressorPlan(const Robot& robot, Places places) {
-  AddLinks(robot);
-  const int n = num_joints();
-  for (int i = 0; i < n; ++i) {
-    const int first_row = places == Places::kRanks ? i : 0;
-    row_sizes_.push_back(places == Places::kNone ? 1 : 10 * (n - first_row));
-    if (places == Places::kNone) continue;
-    links_[i].moments = simd::kMomentsOfLink;
-    links_[i].all_moments = true;
-    for (int k = 0; k <= i; ++k) {
-      for (const int c : kMomentOrder) {
-        const int first = places == Places::kRanks ? k : 0;  // link of the row
-        places_[i].push_back(10 * (i - first) + c);
+template <class Place>
+void RegressorPlan::AddInertials(const Place& place) {
+  for (size_t p = 0; p < paths_.size(); ++p) {
+    const LinkPath& path = paths_[p].links;
+    for (size_t i = path.first_own; i < path.links.size(); ++i) {
+      data_[p].links[i].moments = simd::kMomentsOfLink;
+      data_[p].links[i].all_moments = true;
+      for (size_t k = 0; k <= i; ++k) {
+        for (const int c : kMomentOrder) {
+          const int to = place(path.links[i], path.links[k], c);
+          data_[p].links[i].all_moments &= to >= 0;
+          data_[p].places[i].push_back(to);
+        }
       }
     }
   }
-  Connect(robot.gravity);
+}
+
+RegressorPlan::RegressorPlan(const Robot& robot, Places places) {
+  AddLinks(robot);
+  const int n = robot.num_joints();
+  for (int i = 0; i < n; ++i) {
+    const int first_row = places == Places::kRanks ? i : 0;
+    row_sizes_.push_back(places == Places::kNone ? 1 : 10 * (n - first_row));
+  }
+  if (places != Places::kNone) {
+    AddInertials([places](int i, int row, int c) {
+      const int first = places == Places::kRanks ? row : 0;  // link of the row
+      return 10 * (i - first) + c;
+    });
+  }
+  for (size_t p = 0; p < paths_.size(); ++p) {
+    Connect(static_cast<int>(p), robot.gravity);
+  }
 }
 
 RegressorPlan::RegressorPlan(const Robot& robot,
                              const std::vector<int>& columns) {
   AddLinks(robot);
-  const int n = num_joints();
   const auto size = static_cast<int>(columns.size());
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < robot.num_joints(); ++i) {
     row_sizes_.push_back(size - PlaceIn(columns, 10 * i));
-    links_[i].moments = simd::kMomentsOfLink;
-    links_[i].all_moments =
-        PlaceIn(columns, 10 * i + 10) - PlaceIn(columns, 10 * i) == 10;
-    for (int k = 0; k <= i; ++k) {
-      for (const int c : kMomentOrder) {
-        const int place = PlaceIn(columns, 10 * i + c);
-        const bool wanted = place < size && columns[place] == 10 * i + c;
-        places_[i].push_back(wanted ? place - PlaceIn(columns, 10 * k) : -1);
-      }
-    }
   }
-  Connect(robot.gravity);
+  AddInertials([&](int i, int row, int c) {
+    const int place = PlaceIn(columns, 10 * i + c);
+    const bool wanted = place < size && columns[place] == 10 * i + c;
+    return wanted ? place - PlaceIn(columns, 10 * row) : -1;
+  });
+  for (size_t p = 0; p < paths_.size(); ++p) {
+    Connect(static_cast<int>(p), robot.gravity);
+  }
 }
 
 void RegressorPlan::AddLinks(const Robot& robot) {
-  for (const Link& link : robot.links) {
-    links_.push_back(MakeLink(link.joint.type, link.X_PF, link.X_ML));
-    links_.back().num_moments = 10;
+  AddPaths(robot.parents, robot.num_joints());
+  for (size_t p = 0; p < paths_.size(); ++p) {
+    for (const int i : paths_[p].links.links) {
+      const Link& link = robot.links[i];
+      data_[p].links.push_back(MakeLink(link.joint.type, link.X_PF, link.X_ML));
+      data_[p].links.back().num_moments = 10;
+    }
   }
-  length_columns_.resize(links_.size());
-  places_.resize(links_.size());
 }
 
-// The constants' pointers, once nothing moves any more.
-void RegressorPlan::Connect(const Vector3d& gravity) {
-  for (size_t i = 0; i < links_.size(); ++i) {
-    LinkConstants& link = links_[i];
-    link.num_length_columns = static_cast<int>(length_columns_[i].size());
-    link.length_columns = length_columns_[i].data();
-    link.places = places_[i].data();
+// The constants' pointers, once nothing moves any more; gravity in the frame
+// before the path's first joint.
+void RegressorPlan::Connect(int path, const Vector3d& gravity) {
+  PathData& data = data_[path];
+  for (size_t i = 0; i < data.links.size(); ++i) {
+    LinkConstants& link = data.links[i];
+    link.num_length_columns = static_cast<int>(data.length_columns[i].size());
+    link.length_columns = data.length_columns[i].data();
+    link.places = data.places[i].data();
+    data.row_sizes.push_back(row_sizes_[paths_[path].links.links[i]]);
   }
-  chain_.num_links = num_joints();
-  chain_.links = links_.data();
-  chain_.num_lengths = static_cast<int>(lengths_.size());
-  chain_.lengths = lengths_.data();
-  chain_.row_sizes = row_sizes_.data();
-  CopyOut(gravity, chain_.gravity);
+  simd::ChainConstants& chain = paths_[path].chain;
+  chain.num_links = static_cast<int>(data.links.size());
+  chain.links = data.links.data();
+  chain.num_lengths = static_cast<int>(data.lengths.size());
+  chain.lengths = data.lengths.data();
+  chain.row_sizes = data.row_sizes.data();
+  CopyOut(gravity, chain.gravity);
 }
 
 }  // namespace armcal

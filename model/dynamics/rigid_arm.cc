@@ -19,7 +19,7 @@ ArmTerms::Point PointAt(const Robot& robot, const std::vector<Isometry3d>& X_WL,
   point.X_WP = X_WL[attachment.link];
   point.X_WP.translation() = point.X_WP * attachment.p_LP;
   point.jacobian.setZero(6, robot.num_joints());
-  for (int j = 0; j <= attachment.link; ++j) {
+  for (int j = attachment.link; j >= 0; j = robot.parent(j)) {
     const Isometry3d X_WM = X_WL[j] * robot.links[j].X_ML.inverse();
     const Vector3d axis = X_WM.linear().col(2);
     if (IsRotational(robot.links[j].joint.type)) {

@@ -9,7 +9,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 bool SameLinks(const Robot& a, const Robot& b) {
-  if (a.gravity != b.gravity) return false;
+  if (a.gravity != b.gravity || a.parents != b.parents) return false;
   for (int i = 0; i < a.num_joints(); ++i) {
     const Link &x = a.links[i], &y = b.links[i];
     const InertialParameters &u = x.inertial, &v = y.inertial;

@@ -20,19 +20,21 @@ Robot WithLengths(const Robot& robot, const std::vector<Length>& lengths) {
   const ProximalChain chain = MakeProximalChain(robot);
   Robot result = robot;
   for (const Length& length : lengths) {
-    CHECK(length.joint >= 0 && length.joint + 1 < robot.num_joints());
+    CHECK(length.joint >= 0 && length.next < robot.num_joints());
     CHECK(length.component == 0 || length.component == 2);
     CHECK(std::isfinite(length.value)) << length.owner_name;
     const ProximalJoint& joint = chain.joints[length.joint];
     // Orientations are those of `robot`, whatever moved before.
-    const Eigen::Vector3d p_J = (length.value - joint.p[length.component]) *
-                                Eigen::Vector3d::Unit(length.component);
+    const double value =
+        chain.joints[length.next].X_JG.translation()[length.component];
+    const Eigen::Vector3d p_J =
+        (length.value - value) * Eigen::Vector3d::Unit(length.component);
     const Eigen::Vector3d p_L = joint.X_JL.linear().transpose() * p_J;
     Link& link = result.links[length.joint];
     if (MovesLinkFrame(robot, length)) {
       link.X_ML.translate(p_L);
     } else {
-      result.links[length.joint + 1].X_PF.pretranslate(p_L);
+      result.links[length.next].X_PF.pretranslate(p_L);
     }
   }
   return result;

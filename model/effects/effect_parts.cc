@@ -98,8 +98,9 @@ EffectParameter Searched(const std::string& name, const std::string& unit,
 
 std::vector<int> Neighbours(const EffectSite& site) {
   std::vector<int> any, alike;
-  for (const int k : {site.joint - 1, site.joint + 1}) {
-    if (k < 0 || k >= site.robot->num_joints()) continue;
+  for (const int k :
+       {site.robot->parent(site.joint), site.robot->next(site.joint)}) {
+    if (k < 0) continue;
     any.push_back(k);
     const JointType type = site.robot->links[k].joint.type;
     if (IsRotational(type) == IsRotational(site.at().type)) alike.push_back(k);
@@ -120,7 +121,10 @@ std::string WhyNoNeighbour(const EffectSite& site) {
 }
 
 std::string WhyNotCarried(const EffectSite& site) {
-  const bool moves = (site.scale->speed.head(site.joint + 1).array() > 0).any();
+  bool moves = false;
+  for (int k = site.joint; k >= 0; k = site.robot->parent(k)) {
+    moves |= site.scale->speed[k] > 0;
+  }
   return moves ? "" : "neither the joint nor one before it moves";
 }
 

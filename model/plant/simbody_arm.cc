@@ -80,8 +80,12 @@ struct SimbodyArm::Impl {
   explicit Impl(const Robot& robot) try : matter(system), forces(system) {
     const SimTK::Force::UniformGravity gravity(forces, matter,
                                                ToVec3(robot.gravity));
-    SimTK::MobilizedBody parent = matter.updGround();
-    for (const Link& link : robot.links) parent = Add(robot, link, parent);
+    for (int i = 0; i < robot.num_joints(); ++i) {
+      SimTK::MobilizedBody parent =
+          robot.parent(i) < 0 ? SimTK::MobilizedBody(matter.updGround())
+                              : matter.updMobilizedBody(links[robot.parent(i)]);
+      Add(robot, robot.links[i], parent);
+    }
     system.realizeTopology();
     state = system.getDefaultState();
     system.realizeModel(state);
@@ -94,8 +98,8 @@ struct SimbodyArm::Impl {
         "Simbody cannot simulate it: " + FirstLine(error.getMessage()));
   }
 
-  SimTK::MobilizedBody Add(const Robot& robot, const Link& link,
-                           SimTK::MobilizedBody& parent) try {
+  void Add(const Robot& robot, const Link& link,
+           SimTK::MobilizedBody& parent) try {
     RequireFinite(robot, link);
     const SimTK::Body::Rigid body(ToMassProperties(link.inertial));
     SimTK::Transform X_PF = ToTransform(link.X_PF);
@@ -103,7 +107,7 @@ struct SimbodyArm::Impl {
     if (IsRotational(link.joint.type)) {
       SimTK::MobilizedBody::Pin mobilizer(parent, X_PF, body, X_LM);
       links.push_back(mobilizer);
-      return mobilizer;
+      return;
     }
     // Simbody slides along x, we along z.
     const SimTK::Transform x_to_z(
@@ -111,7 +115,6 @@ struct SimbodyArm::Impl {
     SimTK::MobilizedBody::Slider mobilizer(parent, X_PF * x_to_z, body,
                                            X_LM * x_to_z);
     links.push_back(mobilizer);
-    return mobilizer;
   } catch (const SimTK::Exception::Base& error) {
     const std::string why = WhyUnphysical(link.inertial);
     throw InputError(robot.name, "link " + link.name, "",

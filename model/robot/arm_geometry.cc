@@ -50,8 +50,9 @@ Row ModifiedRow(const Isometry3d& X_PF, const Isometry3d& X_ML) {
 }
 
 bool NearlyParallel(const Robot& robot, int i) {
-  if (i + 1 >= robot.num_joints()) return false;
-  const Isometry3d X = robot.links[i].X_ML * robot.links[i + 1].X_PF;
+  const int next = robot.next(i);
+  if (next < 0) return false;
+  const Isometry3d X = robot.links[i].X_ML * robot.links[next].X_PF;
   return std::hypot(X.linear()(0, 2), X.linear()(1, 2)) < kParallelWithin;
 }
 
@@ -153,7 +154,7 @@ void ArmGeometry::AddUrdfLink(const Link& link, int index) {
   AddConstant(link.X_ML);
 }
 
-ArmGeometry::ArmGeometry(const Robot& robot) {
+ArmGeometry::ArmGeometry(const Robot& robot) : parents_(robot.parents) {
   AddPose("base", Isometry3d::Identity());
   base_end_ = static_cast<int>(steps_.size());
   for (int i = 0; i < robot.num_joints(); ++i) {
@@ -203,6 +204,7 @@ void ArmGeometry::SetValues(const Eigen::VectorXd& values) {
 Isometry3d ArmGeometry::ToolPose(const Eigen::VectorXd& q, const double* values,
                                  std::vector<ParameterTwist>* twists,
                                  std::vector<ParameterTwist>* joints) const {
+  CHECK(parents_.empty());
   if (twists != nullptr) twists->clear();
   if (joints != nullptr) joints->clear();
   Isometry3d X = Isometry3d::Identity();
@@ -223,7 +225,7 @@ Isometry3d ArmGeometry::ToolPose(const Eigen::VectorXd& q, const double* values,
 
 // Of steps [begin, end) from the frame of `link` on; those behind a joint end
 // at the frame of its link.
-void ArmGeometry::AddCarriedTwists(int begin, int end, int link,
+void ArmGeometry::AddCarriedTwists(int begin, int end, int link, int next,
                                    std::vector<CarriedTwist>* twists) const {
   const bool leads_to_link =
       begin > base_end_ && steps_[begin - 1].joint == link;
@@ -235,7 +237,8 @@ void ArmGeometry::AddCarriedTwists(int begin, int end, int link,
       twists->push_back({link,
                          leads_to_link,
                          {X.linear().col(step.axis), X.translation(),
-                          step.kind == Kind::kRotation}});
+                          step.kind == Kind::kRotation},
+                         next});
     }
     step.Append(step.value, &X);
   }
@@ -243,13 +246,14 @@ void ArmGeometry::AddCarriedTwists(int begin, int end, int link,
 
 std::vector<CarriedTwist> ArmGeometry::CarriedTwists() const {
   std::vector<CarriedTwist> twists;
-  AddCarriedTwists(0, base_end_, -1, &twists);
+  AddCarriedTwists(0, base_end_, -1, -1, &twists);
   for (int i = 0; i < static_cast<int>(links_.size()); ++i) {
-    AddCarriedTwists(links_[i].begin, links_[i].joint, i - 1, &twists);
-    AddCarriedTwists(links_[i].joint + 1, links_[i].end, i, &twists);
+    AddCarriedTwists(links_[i].begin, links_[i].joint, ParentOf(parents_, i), i,
+                     &twists);
+    AddCarriedTwists(links_[i].joint + 1, links_[i].end, i, -1, &twists);
   }
   AddCarriedTwists(links_.back().end, static_cast<int>(steps_.size()),
-                   static_cast<int>(links_.size()) - 1, &twists);
+                   static_cast<int>(links_.size()) - 1, -1, &twists);
   return twists;
 }
 

@@ -42,12 +42,14 @@ struct ParameterTwist {
 };
 
 // Where a geometric parameter acts on the moving arm: `twist`, in the frame L
-// of `link` (-1: the base), moves with that link and displaces all further
-// links and their joints; also the link's own body where `with_body`.
+// of `link` (-1: the base), moves with that link. Where `with_body` it
+// displaces that link's body and all that the link carries; else the joint
+// `next`, which sits on it, and what this moves (-1: all joints on it).
 struct CarriedTwist {
   int link;
   bool with_body;
   ParameterTwist twist;
+  int next = -1;
 };
 
 // Which of an arm's own parameters, besides base and tool, a calibration
@@ -76,8 +78,9 @@ class ArmGeometry {
   Eigen::VectorXd Values() const;
   void SetValues(const Eigen::VectorXd& values);
 
-  // X_WT at joint positions q (n) for parameters `values` (size()); twists of
-  // all parameters, and of all joints by their positions, if not null.
+  // X_WT at joint positions q (n) for parameters `values` (size()), of a chain;
+  // twists of all parameters, and of all joints by their positions, if not
+  // null.
   Eigen::Isometry3d ToolPose(
       const Eigen::VectorXd& q, const double* values,
       std::vector<ParameterTwist>* twists,
@@ -98,7 +101,7 @@ class ArmGeometry {
   void AddModifiedRow(const Link& link, int index, bool hayati);
   void AddUrdfLink(const Link& link, int index);
 
-  void AddCarriedTwists(int begin, int end, int link,
+  void AddCarriedTwists(int begin, int end, int link, int next,
                         std::vector<CarriedTwist>* twists) const;
 
   std::vector<ElementaryTransform> steps_;
@@ -108,6 +111,7 @@ class ArmGeometry {
     int begin, joint, end;
   };
   std::vector<LinkSteps> links_;
+  LinkParents parents_;
   int base_end_ = 0;
 };
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "model/robot/inertial_parameters.h"
 #include "model/robot/joint.h"
+#include "model/robot/link_paths.h"
 
 namespace armcal {
 
@@ -47,19 +49,32 @@ struct DhParameters {
 };
 enum class DhConvention { kStandard, kModified };
 
-// A serial arm: its links from base to tip, each with the joint that moves it.
+// An open arm on a fixed base: its links from the base outwards, each with the
+// joint that moves it. A serial arm is a chain; two arms on a torso, or fingers
+// on a hand, branch.
 struct Robot {
   std::string name;
   std::vector<Link> links;
+  LinkParents parents;                                     // empty: a chain
   Eigen::Vector3d gravity{0, 0, -9.81};                    // in W, m/s^2
   Eigen::Isometry3d X_LT = Eigen::Isometry3d::Identity();  // tool on last link
   std::string tool_name;
   // Set where the robot was given as a DH table: which rows `a` belongs to.
   std::optional<DhConvention> dh_convention;
+  // Where other joints of the file are held, whose bodies these links have: by
+  // name, rad or m.
+  std::map<std::string, double> held;
   // What the reader changed or dropped, a sentence each, for people to read.
   std::vector<std::string> notes;
 
   int num_joints() const { return static_cast<int>(links.size()); }
+  bool branches() const { return !parents.empty(); }
+  // The link that joint i sits on, -1 for the base.
+  int parent(int i) const { return ParentOf(parents, i); }
+  // The first joint that sits on link i, -1 where none does.
+  int next(int i) const {
+    return i + 1 < num_joints() && parent(i + 1) == i ? i + 1 : -1;
+  }
   std::vector<std::string> JointNames() const;
 };
 

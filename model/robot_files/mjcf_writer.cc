@@ -124,6 +124,19 @@ void AddCapsule(const Vector3d& to, XMLElement* body) {
   geom->SetAttribute("conaffinity", "0");
 }
 
+// The only link that sits on link i; -1 where there are none or several.
+int OnlyNext(const Robot& robot, int i) {
+  const int n = robot.num_joints();
+  const int end = EndOfBranch(robot.parents, i, n);
+  const bool one = i + 1 < end && EndOfBranch(robot.parents, i + 1, n) == end;
+  return one ? i + 1 : -1;
+}
+
+// MuJoCo has no body without mass: such a link's joint moves the next one's.
+bool JoinsNext(const Robot& robot, int i) {
+  return robot.links[i].inertial.mass <= 0 && OnlyNext(robot, i) >= 0;
+}
+
 // Adds the body of the links first..last, of which only `last` may have mass.
 XMLElement* AddBody(const RobotDescription& description, int first, int last,
                     XMLElement* parent) {
@@ -144,18 +157,20 @@ XMLElement* AddBody(const RobotDescription& description, int first, int last,
     X_PM = X_PM * links[i].X_ML;
   }
   const bool is_last = last + 1 == description.robot.num_joints();
-  AddCapsule(is_last ? description.robot.X_LT.translation()
-                     : links[last + 1].X_PF.translation(),
-             body);
+  const int next = OnlyNext(description.robot, last);
+  if (is_last) AddCapsule(description.robot.X_LT.translation(), body);
+  if (next >= 0) AddCapsule(links[next].X_PF.translation(), body);
   return body;
 }
 
 std::vector<std::string> MjcfLosses(const RobotDescription& description) {
   std::vector<std::string> losses = MjcfDriveLosses(description);
-  const Link& last = description.robot.links.back();
-  if (last.inertial.mass > 0) return losses;
-  losses.push_back("MuJoCo refuses link " + last.name +
-                   ", which moves without mass");
+  const Robot& robot = description.robot;
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    if (robot.links[i].inertial.mass > 0 || JoinsNext(robot, i)) continue;
+    losses.push_back("MuJoCo refuses link " + robot.links[i].name +
+                     ", which moves without mass");
+  }
   return losses;
 }
 
@@ -175,15 +190,17 @@ std::string MakeMjcf(const RobotDescription& description) {
     Set("timestep", 1 / controller->rate_hz, option);
     option->SetAttribute("integrator", "implicit");
   }
-  XMLElement* parent = root->InsertNewChildElement("worldbody");
+  XMLElement* const world = root->InsertNewChildElement("worldbody");
+  std::vector<XMLElement*> bodies(robot.links.size());
   for (int first = 0, last = 0; last < robot.num_joints(); ++last) {
-    const bool is_last = last + 1 == robot.num_joints();
-    if (robot.links[last].inertial.mass <= 0 && !is_last) continue;
-    parent = AddBody(description, first, last, parent);
+    if (JoinsNext(robot, last)) continue;
+    const int before = robot.parent(first);
+    bodies[last] =
+        AddBody(description, first, last, before < 0 ? world : bodies[before]);
     first = last + 1;
   }
   if (!robot.tool_name.empty()) {
-    XMLElement* tool = parent->InsertNewChildElement("body");
+    XMLElement* tool = bodies.back()->InsertNewChildElement("body");
     tool->SetAttribute("name", robot.tool_name.c_str());
     SetPose(robot.X_LT, tool);
   }

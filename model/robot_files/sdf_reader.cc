@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "model/robot_files/sdf_frames.h"
-#include "model/robot_tree/chain_robot.h"
 #include "model/robot_tree/robot_tree.h"
+#include "model/robot_tree/tree_robot.h"
 #include "model/text/input_text.h"
 #include "model/text/xml_element.h"
 
@@ -332,8 +332,8 @@ Robot ReadSdf(const Document& document, const RobotReaderOptions& options) {
   const XmlElement model = holder.RequiredChild("model");
   RefuseOthers(model);
   const Vector3d gravity = world ? GravityOf(*world) : Vector3d(0, 0, -9.81);
-  return MakeChainRobot(document.name(), SdfModelReader(model).Read(gravity),
-                        options);
+  return MakeTreeRobot(document.name(), SdfModelReader(model).Read(gravity),
+                       options);
 }
 
 }  // namespace armcal

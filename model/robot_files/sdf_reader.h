@@ -7,7 +7,7 @@
 namespace armcal {
 
 // Reads the chain base..tip of the only model of an SDF file, see
-// MakeChainRobot: links, revolute, continuous, prismatic and fixed joints,
+// MakeTreeRobot: links, revolute, continuous, prismatic and fixed joints,
 // frames. A joint whose child another joint moves already closes a loop. The
 // root is "world" where a joint fixes the model to it. Strict, as ReadUrdf is;
 // other files (<include>), nested models and several models are refused.

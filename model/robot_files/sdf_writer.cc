@@ -153,15 +153,17 @@ std::string MakeSdf(const RobotDescription& description) {
   root->SetAttribute("version", "1.9");
   root->SetAttribute("xmlns:drake", "http://drake.mit.edu");
   XMLElement* model = AddNamed("model", robot.name, root);
-  std::string parent = NewName(robot, "base_link");
-  AddNamed("link", parent, model);
-  AddJoint(NewName(robot, "base_joint"), "fixed", "world", parent, model);
+  const std::string base = NewName(robot, "base_link");
+  AddNamed("link", base, model);
+  AddJoint(NewName(robot, "base_joint"), "fixed", "world", base, model);
   for (int j = 0; j < robot.num_joints(); ++j) {
-    AddLink(robot.links[j], description.DriveOf(j), parent, model);
-    parent = robot.links[j].name;
+    const int before = robot.parent(j);
+    AddLink(robot.links[j], description.DriveOf(j),
+            before < 0 ? base : robot.links[before].name, model);
   }
   if (!robot.tool_name.empty()) {
-    AddPose(robot.X_LT, parent, AddNamed("frame", robot.tool_name, model));
+    AddPose(robot.X_LT, robot.links.back().name,
+            AddNamed("frame", robot.tool_name, model));
   }
   return XmlText(document);
 }

@@ -47,6 +47,14 @@ void AddMimic(const XmlElement& element, int follower, RobotTree* tree) {
   if (leader >= 0 && MovesMass(*tree, follower)) {
     coupling.joints.push_back(leader);
   }
+  if (leader >= 0) {
+    const auto number = [&mimic](const char* name, double without) {
+      return ParseNumber(mimic->Has(name) ? mimic->Text(name) : "")
+          .value_or(without);
+    };
+    tree->joints[follower].mimic = {leader, number("multiplier", 1),
+                                    number("offset", 0)};
+  }
   tree->couplings.push_back(std::move(coupling));
 }
 

@@ -6,7 +6,7 @@
 
 namespace armcal {
 
-// Reads the chain base..tip of a URDF file, see MakeChainRobot. Strict: every
+// Reads the chain base..tip of a URDF file, see MakeTreeRobot. Strict: every
 // number must be one ("2kg", "nan", "1,5" are refused with line and attribute);
 // DOCTYPE, loops, two parents, unknown joint types, non-finite or negative
 // masses, zero axes, swapped limits, unexpanded xacro, duplicate names are

@@ -7,7 +7,7 @@
 
 #include "model/robot_files/urdf_tree.h"
 #include "model/robot_files/urdf_values.h"
-#include "model/robot_tree/robot_chain.h"
+#include "model/robot_tree/chosen_joints.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 
@@ -27,26 +27,34 @@ XMLElement* Find(XMLElement* root, const char* tag, const std::string& name) {
   return nullptr;
 }
 
-// The link gets what the links that are fixed to it do not have already.
+// Takes the inertia of the group's other links away that the file says of them.
+void RemoveInertials(const RobotTree& tree, const RigidGroup& group,
+                     XMLElement* root) {
+  for (size_t i = 1; i < group.links.size(); ++i) {
+    XMLElement* fixed = Find(root, "link", tree.links[group.links[i]].name);
+    XMLElement* inertial = fixed->FirstChildElement("inertial");
+    if (inertial != nullptr) fixed->DeleteChild(inertial);
+  }
+}
+
+// The link gets what the links that are fixed to it, or held on it, do not have
+// already.
 void DistributeInertia(const InertialParameters& total, const RobotTree& tree,
                        int head, XMLElement* root) {
   const RigidGroup group = FindGroup(tree, head);
   XMLElement* link = Find(root, "link", tree.links[head].name);
   Vector10d rest = total.ToVector();
   for (size_t i = 1; i < group.links.size(); ++i) {
-    const InertialParameters& fixed = tree.links[group.links[i]].inertial;
-    rest -= fixed.ReexpressIn(group.X_HLs[i]).ToVector();
+    const TreeLink& fixed = tree.links[group.links[i]];
+    if (fixed.error) continue;
+    rest -= fixed.inertial.ReexpressIn(group.X_HLs[i]).ToVector();
   }
   const InertialParameters remaining = InertialParameters::FromVector(rest);
   if (WhyUnphysical(remaining).empty()) {
     SetInertial(remaining, link);
     return;
   }
-  for (size_t i = 1; i < group.links.size(); ++i) {
-    XMLElement* fixed = Find(root, "link", tree.links[group.links[i]].name);
-    XMLElement* inertial = fixed->FirstChildElement("inertial");
-    if (inertial != nullptr) fixed->DeleteChild(inertial);
-  }
+  RemoveInertials(tree, group, root);
   SetInertial(total, link);
 }
 
@@ -98,16 +106,18 @@ int FindBase(const std::string& path, const RobotTree& tree,
 void SetGeometry(const std::string& path, const Robot& robot,
                  const std::vector<int>& joints, const std::string& base,
                  RobotTree* tree, XMLElement* root) {
-  int head = FindBase(path, *tree, base, joints.front());
+  const int root_link = FindBase(path, *tree, base, joints.front());
   for (size_t i = 0; i < joints.size(); ++i) {
     const Link& link = robot.links[i];
+    const int parent = robot.parent(static_cast<int>(i));
+    const int head =
+        parent < 0 ? root_link : tree->joints[joints[parent]].child;
     SetJointOrigin(path, head, joints[i], link.X_PF * link.X_ML, tree, root);
-    head = tree->joints[joints[i]].child;
   }
   const std::optional<int> tool = tree->FindLink(robot.tool_name);
   if (!tool) return;
-  SetJointOrigin(path, head, tree->links[*tool].parent_joint, robot.X_LT, tree,
-                 root);
+  SetJointOrigin(path, tree->joints[joints.back()].child,
+                 tree->links[*tool].parent_joint, robot.X_LT, tree, root);
 }
 
 }  // namespace
@@ -119,6 +129,12 @@ std::string UpdateUrdf(const Document& file, const Robot& robot, bool geometry,
   std::vector<int> joints;
   for (const Link& link : robot.links) {
     joints.push_back(FindJoint(path, tree, link));
+  }
+  if (!robot.held.empty()) {
+    ChosenJoints chosen;
+    chosen.base = FindBase(path, tree, base, joints.front());
+    chosen.joints = joints;
+    HoldOtherJoints(path, chosen, robot.held, &tree);
   }
   XMLDocument document;
   document.Parse(file.Text(32L << 20).c_str());

@@ -76,16 +76,22 @@ std::string MakeUrdf(const Robot& robot) {
   XMLElement* root = document.NewElement("robot");
   root->SetAttribute("name", robot.name.c_str());
   document.InsertEndChild(root);
-  std::string parent = NewName(robot, "base_link");
-  root->InsertNewChildElement("link")->SetAttribute("name", parent.c_str());
-  Isometry3d X_UL = Isometry3d::Identity();  // of the parent
-  for (const Link& link : robot.links) {
+  const std::string base = NewName(robot, "base_link");
+  root->InsertNewChildElement("link")->SetAttribute("name", base.c_str());
+  const auto in_urdf = [](const Link& link) -> Isometry3d {  // X_UL
+    return UrdfFrame(link).inverse() * link.X_ML;
+  };
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const Link& link = robot.links[i];
+    const int before = robot.parent(i);
+    const std::string& parent = before < 0 ? base : robot.links[before].name;
+    const Isometry3d X_UL =
+        before < 0 ? Isometry3d::Identity() : in_urdf(robot.links[before]);
     const Isometry3d X_MU = UrdfFrame(link);
     XMLElement* element = root->InsertNewChildElement("link");
     element->SetAttribute("name", link.name.c_str());
     if (link.inertial.mass > 0) {
-      SetInertial(link.inertial.ReexpressIn(X_MU.inverse() * link.X_ML),
-                  element);
+      SetInertial(link.inertial.ReexpressIn(in_urdf(link)), element);
     }
     XMLElement* joint = AddJoint(
         link.joint.name.c_str(), JointTypeName(link.joint.type), parent.c_str(),
@@ -94,14 +100,13 @@ std::string MakeUrdf(const Robot& robot) {
     Child(joint, "axis")->SetAttribute("xyz", Digits(axis).c_str());
     SetLimits(link.joint, joint);
     SetDynamics(link.joint, joint);
-    parent = link.name;
-    X_UL = X_MU.inverse() * link.X_ML;
   }
   if (!robot.tool_name.empty()) {
     root->InsertNewChildElement("link")->SetAttribute("name",
                                                       robot.tool_name.c_str());
     AddJoint(NewName(robot, robot.tool_name + "_joint").c_str(), "fixed",
-             parent.c_str(), robot.tool_name.c_str(), X_UL * robot.X_LT, root);
+             robot.links.back().name.c_str(), robot.tool_name.c_str(),
+             in_urdf(robot.links.back()) * robot.X_LT, root);
   }
   return XmlText(document);
 }

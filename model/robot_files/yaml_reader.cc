@@ -200,8 +200,9 @@ Link ReadLink(const YamlNode& entry,
               const std::optional<DhConvention>& convention,
               const std::string& number, Robot* robot) {
   std::vector<std::string> keys = {
-      "name",    "joint",   "joint_name", "mass",   "com",  "inertia", "limits",
-      "viscous", "coulomb", "armature",   "offset", "zero", "inertial"};
+      "name",    "joint",  "joint_name", "mass",    "com",
+      "inertia", "limits", "viscous",    "coulomb", "armature",
+      "offset",  "zero",   "inertial",   "parent"};
   const std::vector<std::string> of_row =
       convention
           ? std::vector<std::string>{"a", "d", "alpha", "theta", "unknown"}
@@ -222,6 +223,36 @@ Link ReadLink(const YamlNode& entry,
   return link;
 }
 
+// The link that the next one sits on: the one before or what this sits on, so
+// that links are listed branch by branch.
+int ReadParent(const YamlNode& entry, const Robot& robot) {
+  const std::optional<YamlNode> node = entry.Child("parent");
+  int parent = robot.num_joints() - 1;
+  if (!node) return parent;
+  const std::string name = node->Name();
+  std::vector<std::string> names;
+  for (; parent >= 0; parent = robot.parent(parent)) {
+    if (robot.links[parent].name == name) return parent;
+    names.push_back(robot.links[parent].name);
+  }
+  names.push_back("base");
+  if (name == "base") return -1;
+  node->Refuse(
+      "expected the link before or one that carries it, as links are "
+      "listed branch by branch: " +
+      JoinNames(names));
+}
+
+// Leaves a chain's list of parents empty.
+void AddParent(int parent, Robot* robot) {
+  const int n = robot->num_joints();
+  if (parent == n - 1 && robot->parents.empty()) return;
+  while (static_cast<int>(robot->parents.size()) < n) {
+    robot->parents.push_back(static_cast<int>(robot->parents.size()) - 1);
+  }
+  robot->parents.push_back(parent);
+}
+
 void ReadLinks(const YamlNode& links, Robot* robot) {
   const std::vector<YamlNode> entries = links.Entries();
   if (entries.empty()) links.Refuse("expected at least one link");
@@ -240,6 +271,7 @@ void ReadLinks(const YamlNode& links, Robot* robot) {
       entries[i].Refuse("the joint name " + Quoted(link.joint.name) +
                         " is used before");
     }
+    AddParent(ReadParent(entries[i], *robot), robot);
     robot->links.push_back(link);
   }
 }
@@ -273,8 +305,15 @@ Robot ReadYaml(const Document& file, const RobotReaderOptions& options) {
                                       std::make_pair("tip", options.tip)}) {
     if (value.empty()) continue;
     throw InputError(file.name(), OptionName(option), OneLine(value),
-                     "expected no such flag with a YAML robot, which is one "
-                     "chain");
+                     "expected no such flag with a YAML robot, all of which "
+                     "is used");
+  }
+  if (!options.posture.empty()) {
+    throw InputError(
+        file.name(), OptionName("posture"),
+        OneLine(options.posture.begin()->first),
+        "expected no such flag with a YAML robot, whose joints are "
+        "all its own");
   }
   const YamlNode root = YamlNode::ReadFile(file);
   root.ExpectKeys({"name", "gravity", "convention", "links", "tool"});

@@ -105,10 +105,16 @@ void AddBody(const Link& link, std::string* text) {
   }
 }
 
-void AddLink(const Link& link, const std::optional<DhConvention>& convention,
-             std::string* text) {
+void AddLink(const Robot& robot, int i,
+             const std::optional<DhConvention>& convention, std::string* text) {
+  const Link& link = robot.links[i];
   const Joint& joint = link.joint;
   *text += "  - name: " + Name(link.name) + "\n";
+  const int parent = robot.parent(i);
+  if (parent != i - 1) {
+    *text += "    parent: " +
+             (parent < 0 ? "base" : Name(robot.links[parent].name)) + "\n";
+  }
   *text += "    joint: " + std::string(JointTypeName(joint.type)) + "\n";
   *text += "    joint_name: " + Name(joint.name) + "\n";
   AddPlace(link, convention, text);
@@ -143,7 +149,9 @@ std::string MakeYaml(const RobotDescription& description) {
           : *convention == DhConvention::kStandard ? "standard\n"
                                                    : "modified\n";
   text += "links:\n";
-  for (const Link& link : robot.links) AddLink(link, convention, &text);
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    AddLink(robot, i, convention, &text);
+  }
   if (!robot.tool_name.empty()) {
     text += "tool: {name: " + Name(robot.tool_name) +
             ", pose: " + Pose(robot.X_LT) + "}\n";

@@ -25,6 +25,14 @@ struct TreeLink {
   int parent_joint = -1;
   std::vector<int> child_joints;
   std::vector<std::string> notes;  // for Robot::notes, if the robot has it
+  bool is_held = false;  // a joint that is held puts it where it is: optional
+};
+
+// A joint's position as that of another: factor * q + offset.
+struct TreeMimic {
+  int leader = -1;
+  double factor = 1;
+  double offset = 0;  // rad or m
 };
 
 // The child's pose on its parent is X_PJ, then the joint's motion about or
@@ -36,6 +44,7 @@ struct TreeJoint {
   bool is_supported = false;        // one of JointType
   std::optional<InputError> error;  // as that of a link
   Joint joint;  // of a fixed or unsupported joint only the name
+  std::optional<TreeMimic> mimic;
   int parent = -1;
   int child = -1;
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();

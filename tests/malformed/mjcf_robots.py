@@ -72,7 +72,8 @@ GROUPS = [Group("MJCF", COMMAND, {"robot.xml": MJCF, "log.csv": LOG}, [
         "robot.xml: found 'hand, b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, "
         "b13, b14, b15, b16, b17, b18, b19, b20, b21, b22, b23, b24, b25, b26, b27, b28, "
         "b29, b30, b31, b32, b33, b34, b35, b36, b37, b38 and 19961 more': expected one "
-        "chain: choose its last link with --tip; links that move beside the chain are left out"),
+        "chain: choose its last link with --tip, or several, as in --tip=hand,b0; what other "
+        "joints move counts as held still (--posture)"),
     Row("20000 joints of a body", mjcf('<joint name="elbow"', "".join(
         f'<joint name="j{k}"/>\n' for k in range(20000)) + '<joint name="elbow"'),
         "robot.xml: found '20002 joints': expected at most 64 moving joints in the chain"),
@@ -189,7 +190,8 @@ GROUPS = [Group("MJCF", COMMAND, {"robot.xml": MJCF, "log.csv": LOG}, [
         "true or false"),
     Row("two tips", mjcf("</worldbody>", '<body name="other"><joint name="x"/></body></worldbody>'),
         "robot.xml: found 'hand, other': expected one chain: choose its last link with "
-        "--tip; links that move beside the chain are left out"),
+        "--tip, or several, as in --tip=hand,other; what other joints move counts as held still "
+        "(--posture)"),
     Row("motor of no joint", mjcf("</worldbody>", '</worldbody><actuator><motor joint="wrist"/></actuator>'),
         "robot.xml: line 16, <motor joint>: found 'wrist': expected one of the joints "
         "shoulder, elbow"),

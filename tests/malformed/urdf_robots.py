@@ -331,8 +331,14 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
         "robot.urdf: expected a joint that moves a link of base link 'base'"),
     Row("two tips", added('<link name="thumb"/>' + joint("grip", "arm", "thumb")),
         "robot.urdf: found 'hand, thumb': expected one chain: choose its last link with "
-        "--tip; links that move beside the chain are left out. It branches at 'arm': --tip=arm has "
-        "the joint that all share"),
+        "--tip, or several, as in --tip=hand,thumb; what other joints move counts as held still "
+        "(--posture). It branches at 'arm': --tip=arm has the joint that all share"),
+    Row("posture of the robot's own joint", nothing,
+        "robot.urdf: --posture: found 'shoulder': expected none: no joint moves anything beside "
+        "the robot's own", COMMAND + " --posture=shoulder=0"),
+    Row("posture without a position", nothing,
+        "--posture: found 'grip', expected joint=position, as in finger_joint1=0.02",
+        COMMAND + " --posture=grip"),
     Row("base that is no link", nothing,
         "robot.urdf: --base: found 'bas': expected one of the links base, arm, hand", COMMAND + " --base=bas"),
     Row("tip that is no link", nothing,

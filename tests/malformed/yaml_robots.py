@@ -187,6 +187,6 @@ GROUPS = [Group("YAML", COMMAND, {"robot.yaml": ARM, "log.csv": LOG}, [
         "robot.yaml: line 5, tool: found 'gripper': expected a map with the keys name, x, "
         "y, z, roll, pitch, yaw"),
     Row("base of a table", nothing,
-        "robot.yaml: --base: found 'link1': expected no such flag with a YAML robot, which "
-        "is one chain", COMMAND + " --base=link1"),
+        "robot.yaml: --base: found 'link1': expected no such flag with a YAML robot, all "
+        "of which is used", COMMAND + " --base=link1"),
 ])]

@@ -8,6 +8,7 @@
 
 #include "model/dynamics/forward_dynamics.h"
 #include "model/dynamics/inverse_dynamics.h"
+#include "model/dynamics/model_parameters.h"
 #include "model/robot/kinematics.h"
 #include "model/robot_files/urdf_update.h"
 #include "model/robot_files/urdf_writer.h"
@@ -205,6 +206,21 @@ std::string UpdatedUrdf(const LoadedRobot& file,
                     geometry, file.base);
 }
 
+std::vector<int> Parents(const Robot& robot) {
+  std::vector<int> parents;
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    parents.push_back(robot.parent(i));
+  }
+  return parents;
+}
+
+std::vector<std::string> ModelParameterNames(const LoadedRobot& file) {
+  const ModelParameters model(file.robot, {});
+  std::vector<std::string> names;
+  for (const ModelParameter& p : model.parameters()) names.push_back(p.name);
+  return names;
+}
+
 void AddProperties(py::class_<LoadedRobot>* robot) {
   const auto add = [robot](const char* name, auto get, const char* doc) {
     robot->def_property_readonly(name, get, doc);
@@ -217,8 +233,8 @@ void AddProperties(py::class_<LoadedRobot>* robot) {
       "n.");
   add(
       "joint_names", [](const LoadedRobot& f) { return f.robot.JointNames(); },
-      "n names, base to tip.");
-  add("link_names", &LinkNames, "n names, base to tip.");
+      "n names, base to tips.");
+  add("link_names", &LinkNames, "n names, base to tips.");
   add(
       "joint_types",
       [](const LoadedRobot& f) { return JointTexts(f, &JointTypeName); },
@@ -237,6 +253,15 @@ void AddProperties(py::class_<LoadedRobot>* robot) {
   add(
       "notes", [](const LoadedRobot& f) { return f.robot.notes; },
       "What the reader changed or dropped, a sentence each.");
+  add(
+      "parents", [](const LoadedRobot& f) { return Parents(f.robot); },
+      "n numbers: the link, from 0, that each joint sits on, -1 for the base.");
+  add(
+      "held", [](const LoadedRobot& f) { return f.robot.held; },
+      "{joint: position}: where joints beside the robot's own are held.");
+  add("model_parameters", &ModelParameterNames,
+      "Names of the combinations of inertial parameters that torques of the "
+      "links depend on (Ha, Ko and Kwon 1989), geometry known.");
   add("inertial_parameters", &InertialRows,
       "(n, 10): m, hx, hy, hz, Ixx, Ixy, Iyy, Ixz, Iyz, Izz of every link "
       "about "

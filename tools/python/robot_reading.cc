@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "model/robot_files/robot_reader.h"
@@ -18,11 +19,13 @@ namespace py = pybind11;
 
 LoadedRobot ReadLoadedRobot(const Document& file, const std::string& base,
                             const std::string& tip, const py::object& gravity,
+                            const std::map<std::string, double>& posture,
                             const std::string& folder) {
   RobotReaderOptions options;
   options.folder = folder;
   options.base = base;
   options.tip = tip;
+  options.posture = posture;
   if (!gravity.is_none()) {
     options.gravity = ReadVector("gravity", gravity, 3);
   }
@@ -32,18 +35,21 @@ LoadedRobot ReadLoadedRobot(const Document& file, const std::string& base,
 LoadedRobot ReadRobotFile(const std::filesystem::path& path,
                           const std::string& base, const std::string& tip,
                           const py::object& gravity,
-                          const std::filesystem::path& robot_folder) {
-  return ReadLoadedRobot(path.string(), base, tip, gravity,
+                          const std::filesystem::path& robot_folder,
+                          const std::map<std::string, double>& posture) {
+  return ReadLoadedRobot(path.string(), base, tip, gravity, posture,
                          robot_folder.string());
 }
 
 // Named as a file of that format is, by which readers tell it.
 LoadedRobot ReadRobotText(const std::string& text, const std::string& format,
                           const std::string& name, const std::string& base,
-                          const std::string& tip, const py::object& gravity) {
+                          const std::string& tip, const py::object& gravity,
+                          const std::map<std::string, double>& posture) {
   for (const std::string known : {"urdf", "mjcf", "sdf", "yaml"}) {
     if (format != known) continue;
-    return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity, "");
+    return ReadLoadedRobot({name + "." + format, text}, base, tip, gravity,
+                           posture, "");
   }
   throw py::value_error("format: found " + Quoted(format) +
                         ", expected urdf, mjcf, sdf or yaml");
@@ -85,19 +91,21 @@ void AddRobotReading(py::module_* module, py::class_<LoadedRobot>* robot) {
       "from_text", &ReadRobotText, py::arg("text"), py::arg("format") = "urdf",
       py::kw_only(), py::arg("name") = "robot", py::arg("base") = "",
       py::arg("tip") = "", py::arg("gravity") = none,
-      py::call_guard<DecimalPoint>(),
+      py::arg("posture") = py::dict(), py::call_guard<DecimalPoint>(),
       "The robot of a text: urdf, mjcf, sdf or yaml. Messages and "
-      "reports call it name.format; base, tip and gravity as of "
+      "reports call it name.format; base, tip, gravity and posture as of "
       "read_robot.");
   AddOrigin(robot);
   module->def(
       "read_robot", &ReadRobotFile, py::arg("path"), py::arg("base") = "",
       py::arg("tip") = "", py::arg("gravity") = none,
-      py::arg("robot_folder") = "", py::call_guard<DecimalPoint>(),
-      "The robot of a URDF, MJCF, SDF or YAML file; of the first three the "
-      "chain from link base to link tip. gravity: (3,), m/s^2, instead "
-      "of the file's. robot_folder: where files that an MJCF file names "
-      "may lie, instead of its own folder.");
+      py::arg("robot_folder") = "", py::arg("posture") = py::dict(),
+      py::call_guard<DecimalPoint>(),
+      "The robot of a URDF, MJCF, SDF or YAML file; of the first three what "
+      "moves from link base to link tip, or to several: 'left,right'. "
+      "gravity: (3,), m/s^2, instead of the file's. robot_folder: where "
+      "files that an MJCF file names may lie, instead of its own folder. "
+      "posture: {joint: position}, where joints beside these are held.");
 }
 
 }  // namespace armcal

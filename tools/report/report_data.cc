@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "model/robot/kinematics.h"
+
 namespace armcal {
 namespace {
 
@@ -177,8 +179,13 @@ json CorrelationsJson(const std::string& title,
 }
 
 json SkeletonJson(const Robot& robot, const VectorXd& q) {
-  return {{"joints", robot.JointNames()},
-          {"points", PosturesJson(robot, q.transpose())[0]}};
+  json skeleton = {{"joints", robot.JointNames()},
+                   {"points", PosturesJson(robot, q.transpose())[0]}};
+  if (robot.branches()) {
+    skeleton["before"] = robot.parents;
+    skeleton["before"].push_back(robot.num_joints() - 1);
+  }
+  return skeleton;
 }
 
 json PosturesJson(const Robot& robot, const Eigen::MatrixXd& q) {
@@ -189,13 +196,13 @@ json PosturesJson(const Robot& robot, const Eigen::MatrixXd& q) {
       const Eigen::Vector3d p = pose.translation();
       points.push_back({Short(p.x()), Short(p.y()), Short(p.z())});
     };
-    const VectorXd posture = q.row(k);
-    Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();
+    const std::vector<Eigen::Isometry3d> X_WL = LinkPoses(robot, q.row(k));
     for (int i = 0; i < robot.num_joints(); ++i) {
-      add(X_WP * robot.links[i].X_PF);
-      X_WP = X_WP * robot.links[i].X_PL(posture[i]);
+      const int parent = robot.parent(i);
+      add(parent < 0 ? robot.links[i].X_PF
+                     : X_WL[parent] * robot.links[i].X_PF);
     }
-    add(X_WP * robot.X_LT);
+    add(X_WL.back() * robot.X_LT);
     postures.push_back(points);
   }
   return postures;

@@ -29,13 +29,17 @@ Effect LinkLength() {
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const Link& link = site.robot->links[site.joint];
-    Link& next = robot->robot.links[site.joint + 1];
-    next.X_PF.pretranslate(link.X_ML.linear().transpose() *
-                           (p[0] * LengthDirection(link, next)));
+    const Link& next = site.robot->links[site.robot->next(site.joint)];
+    const Eigen::Vector3d p_L =
+        link.X_ML.linear().transpose() * (p[0] * LengthDirection(link, next));
+    for (int k = site.joint + 1; k < site.robot->num_joints(); ++k) {
+      if (site.robot->parent(k) != site.joint) continue;
+      robot->robot.links[k].X_PF.pretranslate(p_L);
+    }
   };
   effect.unfit = [](const EffectSite& site) -> std::string {
-    const bool last = site.joint + 1 == site.robot->num_joints();
-    return last ? "the last link carries no joint" : WhyNotCarried(site);
+    return site.robot->next(site.joint) < 0 ? "the link carries no joint"
+                                            : WhyNotCarried(site);
   };
   effect.experiment = "poses seen by a tracker";
   return effect;

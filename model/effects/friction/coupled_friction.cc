@@ -13,8 +13,8 @@ namespace {
 // viscous times ratio^2 and 1 / ratio, so that it is looked for from one side
 // only.
 int CoupledNeighbour(const EffectSite& site) {
-  const int k = site.joint + 1;
-  if (k >= site.robot->num_joints()) return -1;
+  const int k = site.robot->next(site.joint);
+  if (k < 0) return -1;
   EffectSite other = site;
   other.joint = k;
   const std::vector<int> out = Neighbours(site), in = Neighbours(other);

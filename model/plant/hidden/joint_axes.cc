@@ -1,5 +1,7 @@
 #include "model/plant/hidden/joint_axes.h"
 
+#include "model/robot/kinematics.h"
+
 namespace armcal {
 
 namespace {
@@ -9,12 +11,13 @@ constexpr double kParallel = 1e-6;
 // Whether one of the revolute axes up to the joint is not along `direction`
 // (zero: the first of the axes).
 bool Leaves(const SimulatedRobot& robot, int joint, Eigen::Vector3d direction) {
-  Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
-  for (int j = 0; j <= robot.num_passive + joint; ++j) {
+  const std::vector<Eigen::Isometry3d> X_WL =
+      LinkPoses(robot.robot, Eigen::VectorXd::Zero(robot.robot.num_joints()));
+  for (int j = robot.num_passive + joint; j >= 0; j = robot.robot.parent(j)) {
     const Link& link = robot.robot.links[j];
-    const Eigen::Vector3d axis = (X_WL * link.X_PF).linear().col(2);
-    X_WL = X_WL * link.X_PL(0);
     if (!IsRotational(link.joint.type)) continue;
+    const Eigen::Vector3d axis =
+        (X_WL[j] * link.X_ML.inverse()).linear().col(2);
     if (direction.isZero()) direction = axis;
     if (axis.cross(direction.normalized()).norm() > kParallel) return true;
   }

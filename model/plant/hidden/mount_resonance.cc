@@ -46,9 +46,14 @@ Link BasePlate(const std::string& name, const Vector3d& z, double inertia) {
   return link;
 }
 
-// All that names a joint by its number moves up by one.
+// All that sits on the base sits on the link, and all that names a joint by its
+// number moves up by one.
 void InsertUnderBase(const Link& link, SimulatedRobot* robot) {
   robot->robot.links.insert(robot->robot.links.begin(), link);
+  if (robot->robot.branches()) {
+    for (int& parent : robot->robot.parents) ++parent;
+    robot->robot.parents.insert(robot->robot.parents.begin(), -1);
+  }
   ++robot->num_passive;
   for (JointLaw& law : robot->joint_laws) ++law.joint;
   for (Transmission& law : robot->transmissions) ++law.joint;

@@ -41,16 +41,21 @@ HiddenEffect LinkLength() {
           "further out.",
           {{"length", "m", .02, .005, .05, Draw::kLogEitherSign, 5e-4, .3}},
           [](const EffectSite& site) -> std::vector<EffectValue> {
-            Link& next = site.robot->robot.links[site.index() + 1];
-            next.X_PF.pretranslate(site.p[0] *
-                                   (site.link().X_ML.linear().transpose() *
-                                    LengthDirection(site.link(), next)));
+            Robot& robot = site.robot->robot;
+            const Link& next = robot.links[robot.next(site.index())];
+            const Vector3d p_L =
+                site.p[0] * (site.link().X_ML.linear().transpose() *
+                             LengthDirection(site.link(), next));
+            for (int k = site.index() + 1; k < robot.num_joints(); ++k) {
+              if (robot.parent(k) != site.index()) continue;
+              robot.links[k].X_PF.pretranslate(p_L);
+            }
             return {{"length", "m", site.p[0]}};
           },
           [](const SimulatedRobot& robot, int joint) -> std::string {
-            return robot.num_passive + joint + 1 < robot.robot.num_joints()
+            return robot.robot.next(robot.num_passive + joint) >= 0
                        ? ""
-                       : "the last link carries no joint";
+                       : "the link carries no joint";
           }};
 }
 

@@ -6,7 +6,7 @@
 
 namespace armcal {
 
-// Reads the chain base..tip of an MJCF file, see MakeChainRobot; the root is
+// Reads the chain base..tip of an MJCF file, see MakeTreeRobot; the root is
 // "world", gravity the file's. Strict, as ReadUrdf is. Default classes, all
 // orientations, inertia of primitive geoms and several joints in a body are
 // read as MuJoCo reads them, and files that <include> names; ball and free

@@ -41,6 +41,7 @@ struct JointKind {
   Transition transition = Transition::kNone;
 };
 
+struct ArmPath;
 struct ArmConstants {
   int num_joints;
   const JointKind* joints;
@@ -48,6 +49,17 @@ struct ArmConstants {
   // m/s^2 in the frame before the first body, three; then kNumBodyConstants of
   // each body. Each is a number per lane.
   const double* values;
+  // Of an arm that branches: its bodies count as these chains', whose terms are
+  // summed, and only what joints add is its own. Else none.
+  int num_paths;
+  const ArmPath* paths;
+};
+
+// A chain of the arm's joints, from the base to a tip. Its bodies have their
+// mass where they are on no path before, and its joints nothing of their own.
+struct ArmPath {
+  ArmConstants chain;
+  const int* joints;  // ascending
 };
 
 // Where the arm is; the numbers of joint j, one per lane, at j * stride.

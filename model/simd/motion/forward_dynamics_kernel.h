@@ -14,12 +14,45 @@ ARMCAL_INLINE void StoreJoints(int n, const T* from, double* to, long stride) {
   for (int j = 0; j < n; ++j) StoreAs(from[j], to + j * stride);
 }
 
+template <class T>
+void SumPaths(const ArmConstants& arm, const T* q, const T* qd, T* M, T* bias);
+
 // Called by all others, so that what is large is compiled once.
 template <class T>
 __attribute__((noinline)) void JointSpaceTermsAt(const ArmConstants& arm,
                                                  const T* q, const T* qd, T* M,
                                                  T* bias) {
-  JointSpaceTerms(arm, q, qd, M, bias);
+  if (arm.num_paths > 0) {
+    SumPaths<T>(arm, q, qd, M, bias);
+  } else {
+    JointSpaceTerms(arm, q, qd, M, bias);
+  }
+}
+
+template <class T>
+void SumPaths(const ArmConstants& arm, const T* q, const T* qd, T* M, T* bias) {
+  const int n = arm.num_joints;
+  const T none = {};
+  auto* at = ARMCAL_SCRATCH(T, 3 * n);
+  auto* rows = ARMCAL_SCRATCH(T, n * n);
+  for (int k = 0; k < n * n; ++k) M[k] = none;
+  for (int j = 0; qd != nullptr && j < n; ++j) bias[j] = none;
+  for (int p = 0; p < arm.num_paths; ++p) {
+    const ArmPath& path = arm.paths[p];
+    const int m = path.chain.num_joints;
+    for (int i = 0; i < m; ++i) {
+      at[i] = q[path.joints[i]];
+      if (qd != nullptr) at[m + i] = qd[path.joints[i]];
+    }
+    JointSpaceTermsAt<T>(path.chain, at, qd != nullptr ? at + m : nullptr, rows,
+                         at + 2 * m);
+    for (int i = 0; i < m; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        M[n * path.joints[i] + path.joints[j]] += rows[m * i + j];
+      }
+      if (qd != nullptr) bias[path.joints[i]] += at[2 * m + i];
+    }
+  }
 }
 
 template <class T>

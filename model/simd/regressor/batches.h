@@ -23,13 +23,15 @@ ARMCAL_INLINE void PadColumns(const double* const* columns, int num_columns,
   }
 }
 
+// `count` samples of all columns, from where `from` has its `from_sample`.
 ARMCAL_INLINE void CopyRows(const ChainConstants& chain, const Output& from,
-                            long count, const Output& to, long sample) {
+                            long from_sample, long count, const Output& to,
+                            long sample) {
   for (int i = 0; i < chain.num_links; ++i) {
     for (int c = 0; c < chain.row_sizes[i]; ++c) {
       for (long s = 0; s < count; ++s) {
         to.rows[i][c * to.stride + sample + s] =
-            from.rows[i][c * from.stride + s];
+            from.rows[i][c * from.stride + from_sample + s];
       }
     }
   }
@@ -37,7 +39,8 @@ ARMCAL_INLINE void CopyRows(const ChainConstants& chain, const Output& from,
 
 // evaluate(motion, sample, outputs) for every kLanes samples. Those left over
 // are evaluated in lanes too, so that a sample's results do not depend on which
-// batch it is in; nothing is written beyond `count`.
+// batch it is in; nothing is written beyond `count`, and columns that are not
+// evaluated stay as they are.
 template <int kOutputs, class Evaluate>
 ARMCAL_INLINE void ForEachBatch(const ChainConstants& chain,
                                 const ChainMotion& motion, long count,
@@ -69,10 +72,11 @@ ARMCAL_INLINE void ForEachBatch(const ChainConstants& chain,
       rows[o * n + i] = values;
       values += chain.row_sizes[i] * kLanes;
     }
+    CopyRows(chain, outputs[o], sample, left, padded_outputs[o], 0);
   }
   evaluate({columns, columns + n, columns + 2 * n}, 0, padded_outputs);
   for (int o = 0; o < kOutputs; ++o) {
-    CopyRows(chain, padded_outputs[o], left, outputs[o], sample);
+    CopyRows(chain, padded_outputs[o], 0, left, outputs[o], sample);
   }
 }
 

@@ -144,9 +144,10 @@ TEST(ProximalChain, KeepsNegativeLengthsAndOffsets) {
     const VectorXd v = UniformVector(&random, 4, -1, 1);
     SetDhPose({v[0], v[1], 2 * v[2], 3 * v[3]}, DhConvention::kStandard,
               &robot.links[0]);
-    const ProximalJoint joint = MakeProximalChain(robot).joints[0];
-    EXPECT_LT((joint.p - Vector3d(v[0], 0, v[1])).norm(), 1e-14);
-    EXPECT_NEAR(joint.theta, 3 * v[3], 1e-14);
+    const auto joints = MakeProximalChain(robot).joints;
+    const Vector3d p = joints[1].X_JG.translation();
+    EXPECT_LT((p - Vector3d(v[0], 0, v[1])).norm(), 1e-14);
+    EXPECT_NEAR(joints[0].theta, 3 * v[3], 1e-14);
   }
 }
 
@@ -207,7 +208,8 @@ TEST(ProximalChain, OtherLengthsHaveTheSameStructure) {
     const ProximalChain chain = MakeProximalChain(robot);
     for (int i = 0; i + 1 < robot.num_joints(); ++i) {
       const ProximalJoint& joint = chain.joints[i];  // the other a is -a
-      const Vector3d change(-2 * joint.p.x(), 0, Uniform(&random, -1, 1));
+      const double a = chain.joints[i + 1].X_JG.translation().x();
+      const Vector3d change(-2 * a, 0, Uniform(&random, -1, 1));
       other.links[i + 1].X_PF.pretranslate(joint.X_JL.linear().transpose() *
                                            change);
     }

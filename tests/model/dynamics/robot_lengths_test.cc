@@ -30,15 +30,17 @@ void ExpectLengthsAlone(const Robot& robot, const std::vector<Length>& wished) {
   const ProximalChain before = MakeProximalChain(robot);
   const ProximalChain after = MakeProximalChain(WithLengths(robot, wished));
   std::vector<Vector3d> p;
-  for (const ProximalJoint& joint : before.joints) p.push_back(joint.p);
-  for (const Length& l : wished) p[l.joint][l.component] = l.value;
+  for (const ProximalJoint& joint : before.joints) {
+    p.push_back(joint.X_JG.translation());
+  }
+  for (const Length& l : wished) p[l.next][l.component] = l.value;
   EXPECT_EQ(after.gravity, before.gravity);
   for (size_t i = 0; i < p.size(); ++i) {
     SCOPED_TRACE(robot.links[i].name);
     const ProximalJoint& a = after.joints[i];
     const ProximalJoint& b = before.joints[i];
-    EXPECT_LT((a.p - p[i]).norm(), 1e-12);
-    EXPECT_LT((a.R - b.R).norm(), 1e-12);
+    EXPECT_LT((a.X_JG.translation() - p[i]).norm(), 1e-12);
+    EXPECT_LT((a.X_JG.linear() - b.X_JG.linear()).norm(), 1e-12);
     EXPECT_LT(std::abs(std::remainder(a.theta - b.theta, 2 * M_PI)), 1e-12);
     EXPECT_LT((a.X_JL.linear() - b.X_JL.linear()).norm(), 1e-12);
   }
@@ -154,10 +156,10 @@ TEST(RobotLengths, OfParallelUrdfAxes) {
       JointXml("j1", "continuous", "base", "upper", joint) +
       JointXml("j2", "continuous", "upper", "fore", joint) +
       JointXml("j3", "continuous", "fore", "hand", joint));
-  ExpectLengthsAlone(robot, {{0, 0, .7, "a1", "upper.a"}});
-  const Robot moved = WithLengths(robot, {{0, 0, .7, "a1", "upper.a"},
-                                          {1, 0, .1, "a2", "fore.a"},
-                                          {1, 2, .3, "d2", "fore.d"}});
+  ExpectLengthsAlone(robot, {{0, 1, 0, .7, "a1", "upper.a"}});
+  const Robot moved = WithLengths(robot, {{0, 1, 0, .7, "a1", "upper.a"},
+                                          {1, 2, 0, .1, "a2", "fore.a"},
+                                          {1, 2, 2, .3, "d2", "fore.d"}});
   // p_PF of j2 and j3, by hand: at q = 0 all frames are parallel.
   EXPECT_LT((moved.links[1].X_PF.translation() - Vector3d(.42, .56, .2)).norm(),
             1e-12);

@@ -4,10 +4,11 @@
 
 #include <cmath>
 
+#include "model/dynamics/forward_dynamics.h"
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/robot/kinematics.h"
 #include "model/text/input_error.h"
-#include "tests/fixtures/sample_robots.h"
+#include "tests/fixtures/random_motion.h"
 
 namespace armcal::simbody_arm_test {
 
@@ -26,6 +27,24 @@ TEST(SimbodyArm, InverseDynamicsIsOursForRandomArms) {
     const Eigen::VectorXd tau = InverseDynamics(robot, q, qd, qdd);
     EXPECT_LT((arm.InverseDynamics(q, qd, qdd) - tau).norm(),
               1e-12 * (1 + tau.norm()));
+  }
+}
+
+// Also of robots that branch.
+TEST(SimbodyArm, InverseDynamicsIsOursForRandomTrees) {
+  std::mt19937_64 random(4);
+  for (int run = 0; run < 100; ++run) {
+    const Robot robot = RandomTree(2 + run % 11, run, &random);
+    SimbodyArm arm(robot);
+    const int n = robot.num_joints();
+    const Eigen::VectorXd q = UniformVector(&random, n, -3, 3);
+    const Eigen::VectorXd qd = UniformVector(&random, n, -2, 2);
+    const Eigen::VectorXd qdd = UniformVector(&random, n, -5, 5);
+    const Eigen::VectorXd tau = InverseDynamics(robot, q, qd, qdd);
+    EXPECT_LT((arm.InverseDynamics(q, qd, qdd) - tau).norm(),
+              1e-12 * (1 + tau.norm()));
+    EXPECT_LT((arm.MassMatrix(q) - MassMatrix(robot, q)).norm(),
+              1e-12 * (1 + MassMatrix(robot, q).norm()));
   }
 }
 

@@ -14,7 +14,7 @@
 #include "model/robot_files/sdf_writer.h"
 #include "model/robot_files/urdf_reader.h"
 #include "model/robot_files/yaml_writer.h"
-#include "tests/fixtures/sample_robots.h"
+#include "tests/fixtures/random_motion.h"
 #include "tests/fixtures/temp_file.h"
 #include "tests/fixtures/urdf_skeleton.h"
 
@@ -70,6 +70,45 @@ void ExpectSame(const Robot& a, const Robot& b, double tolerance) {
     EXPECT_EQ(x.offset, y.offset);
   }
   EXPECT_EQ(a.tool_name, b.tool_name);
+}
+
+// Of robots that branch, with the name that the formats' readers need.
+TEST(RobotFormat, RobotsThatBranch) {
+  std::mt19937_64 random(8);
+  for (int trial = 0; trial < 20; ++trial) {
+    const int n = 3 + trial % 7;
+    Robot robot = RandomTree(n, trial, &random);
+    RobotReaderOptions options;
+    options.gravity = robot.gravity;
+    for (int i = 0; i < n; ++i) {
+      robot.links[i].name = "l" + std::to_string(i);
+      Joint& joint = robot.links[i].joint;
+      joint.name = "j" + std::to_string(i);
+      joint.effort = 100;
+      joint.velocity = 3;
+      if (joint.type == JointType::kContinuous) continue;
+      joint.lower = -2;
+      joint.upper = 2;
+    }
+    robot.tool_name = "tool";  // on the last link
+    for (const int tip : TipsOf(robot.parents, n)) {
+      options.tip += tip + 1 < n ? robot.links[tip].name + "," : "tool";
+    }
+    for (const RobotFormat& format : RobotFormats()) {
+      SCOPED_TRACE(std::string(format.name) + std::to_string(trial));
+      RobotReaderOptions own = options;
+      Robot expected = robot;
+      if (std::string(format.name) == "yaml") own.tip = "";
+      if (std::string(format.name) == "sdf") {  // where the tool is a frame
+        own.tip.replace(own.tip.rfind("tool"), 4, robot.links.back().name);
+        expected.tool_name = "";
+        expected.X_LT.setIdentity();
+      }
+      const Robot read =
+          ReadRobot(WriteFile(format.write({robot, {}}), format.file), own);
+      ExpectSame(expected, read, 1e-9);
+    }
+  }
 }
 
 // Bit for bit.

@@ -6,6 +6,7 @@
 #include "model/text/input_error.h"
 #include "tests/fixtures/same_robot.h"
 #include "tests/fixtures/urdf_skeleton.h"
+#include "tests/fixtures/urdf_text.h"
 
 namespace armcal::urdf_update_test {
 
@@ -89,6 +90,43 @@ TEST(UpdateUrdf, GeometryGoesThroughFixedLinks) {
     const std::string text = UpdateUrdf(path, robot, true, base);
     ExpectSameRobot(robot, ReadUrdf(WriteFile(text, "new.urdf"), options));
   }
+}
+
+// Two arms on one base; the first has a finger that is held.
+std::string TwoArms() {
+  using namespace urdf_text;
+  const auto link = [](const std::string& name) {
+    return LinkXml(name,
+                   Inertial("xyz='.1 0 0' rpy='0 0 0'", "1", ".1", ".1", ".1"));
+  };
+  const auto joint = [](const std::string& name, const std::string& parent,
+                        const std::string& child) {
+    return JointXml(name, "continuous", parent, child,
+                    "<origin xyz='.2 .3 .1'/><axis xyz='0 1 0'/>");
+  };
+  return "<robot name='two'>" + LinkXml("base") + link("a1") + link("a2") +
+         link("b1") + link("b2") + link("finger") + joint("ja1", "base", "a1") +
+         joint("ja2", "a1", "a2") + joint("jb1", "base", "b1") +
+         joint("jb2", "b1", "b2") + joint("f", "a2", "finger") + "</robot>";
+}
+
+TEST(UpdateUrdf, BranchesAndHeldJoints) {
+  const std::string path = WriteFile(TwoArms(), "two.urdf");
+  RobotReaderOptions options;
+  options.tip = "a2,b2";
+  options.posture = {{"f", .7}};
+  Robot robot = Changed(ReadUrdf(path, options));
+  robot.links[2].X_PF.translation() += Eigen::Vector3d(.01, .02, .03);
+  const std::string text = UpdateUrdf(path, robot, true);
+  ExpectSameRobot(robot, ReadUrdf(WriteFile(text, "new.urdf"), options));
+  EXPECT_NE(text.find("mass value=\"1\""), std::string::npos);  // the finger
+  // At another posture the finger counts elsewhere.
+  options.posture = {{"f", -.7}};
+  const Robot other = ReadUrdf(WriteFile(text, "new.urdf"), options);
+  EXPECT_GT((other.links[1].inertial.first_moment -
+             robot.links[1].inertial.first_moment)
+                .norm(),
+            .05);
 }
 
 TEST(UpdateUrdf, RefusesAnotherRobotsFile) {

@@ -103,7 +103,25 @@ TEST(YamlReader, NotesAndOptions) {
   options.tip = "tool";
   EXPECT_EQ(Refusal(kScara, options),
             "`tip`: found 'tool': expected no such flag with a YAML robot, "
-            "which is one chain");
+            "all of which is used");
+}
+
+TEST(YamlReader, ReadsBranches) {
+  const std::string arms =
+      "convention: poses\nlinks:\n"
+      "  - {name: torso, joint: revolute}\n"
+      "  - {name: left, joint: revolute}\n"
+      "  - {name: hand, joint: revolute}\n"
+      "  - {name: right, joint: revolute, parent: torso}\n"
+      "  - {name: other, joint: revolute, parent: base}\n"
+      "  - {name: its_hand, joint: revolute}\n";
+  EXPECT_EQ(Read(arms).parents, (LinkParents{-1, 0, 1, 0, -1, 4}));
+  EXPECT_TRUE(Read(kScara).parents.empty());
+  EXPECT_THAT(
+      Refusal(arms + "  - {joint: revolute, parent: hand}\n"),
+      testing::HasSubstr(
+          "found 'hand': expected the link before or one that carries it, as "
+          "links are listed branch by branch: its_hand, other, base"));
 }
 
 class YamlRefusal : public testing::TestWithParam<Case> {};

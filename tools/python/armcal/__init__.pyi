@@ -1,5 +1,5 @@
 # Written by tests/python/write_stubs.py from the flags of the commands.
-from typing import Any, Literal, Optional, Sequence, Union
+from typing import Any, Literal, Mapping, Optional, Sequence, Union
 
 from armcal import plot
 from armcal._armcal import INERTIAL_NAMES, INERTIAL_UNITS, InputError, PredictedLog, Robot, UsageError, __version__, options, read_robot
@@ -50,6 +50,7 @@ def calibrate(
     camera: Optional[Logs] = None,
     camera_on: Literal['tool', 'world'] = 'tool',
     export: Optional[Union[str, Sequence[str]]] = None,
+    posture: Optional[Mapping[str, float]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -154,6 +155,8 @@ def calibrate(
                          world (the board is on the tool) (default tool)
     export               Union[str, Sequence[str]]: formats to write the robot
                          in
+    posture              Mapping[str, float]: where other joints are held, such
+                         as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
@@ -175,6 +178,7 @@ def verify(
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
+    posture: Optional[Mapping[str, float]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -206,6 +210,8 @@ def verify(
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
+    posture              Mapping[str, float]: where other joints are held, such
+                         as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
@@ -242,6 +248,7 @@ def diagnose(
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
     export: Optional[Union[str, Sequence[str]]] = None,
+    posture: Optional[Mapping[str, float]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -307,6 +314,8 @@ def diagnose(
                          /joint_states,effort:/torques
     export               Union[str, Sequence[str]]: formats to write the robot
                          in
+    posture              Mapping[str, float]: where other joints are held, such
+                         as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
@@ -343,6 +352,7 @@ def simulate(
     temperature: bool = False,
     jitter: float = 0.0,
     lost: float = 0.0,
+    posture: Optional[Mapping[str, float]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -399,6 +409,8 @@ def simulate(
     jitter               float: of the sampling instants, standard deviation, s
                          (default 0)
     lost                 float: share of samples that are lost (default 0)
+    posture              Mapping[str, float]: where other joints are held, such
+                         as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
@@ -440,6 +452,7 @@ def excite(
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
+    posture: Optional[Mapping[str, float]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -516,6 +529,8 @@ def excite(
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
+    posture              Mapping[str, float]: where other joints are held, such
+                         as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
@@ -534,6 +549,7 @@ def inspect(
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
+    posture: Optional[Mapping[str, float]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -560,6 +576,8 @@ def inspect(
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
+    posture              Mapping[str, float]: where other joints are held, such
+                         as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
@@ -589,6 +607,7 @@ def reduce(
     window: Optional[float] = None,
     interval: float = 0.5,
     quadrature: Literal['simpson', 'trapezoid'] = 'trapezoid',
+    posture: Optional[Mapping[str, float]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -644,6 +663,8 @@ def reduce(
                          0.5)
     quadrature           str: integral model: trapezoid, simpson (default
                          trapezoid)
+    posture              Mapping[str, float]: where other joints are held, such
+                         as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
@@ -655,6 +676,7 @@ def merge(
     factors: Any,
     *,
     progress: Progress = None,
+    posture: Optional[Mapping[str, float]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -665,6 +687,8 @@ def merge(
     factors  factor files, folders of them, or Reductions, one or a list
 
     Options:
+    posture              Mapping[str, float]: where other joints are held, such
+                         as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.

@@ -106,6 +106,15 @@ def _several(one: Callable[[Any], str], between: str = ","
     return text
 
 
+def _posture(value: Any) -> str:
+    """{"finger": 0.02} -> "finger=0.02"; a text as it is."""
+    if isinstance(value, str):
+        return value
+    if not isinstance(value, Mapping):
+        raise _Unfit
+    return ",".join(f"{_text(name)}={_number(q)}" for name, q in value.items())
+
+
 def _ranges(value: Any) -> str:
     """(0, 1) is a range, ((0, 1), (2, 3)) are two."""
     if _is_list(value) and not any(_is_list(part) or isinstance(part, str)
@@ -147,6 +156,8 @@ _OF_FORM: Dict[str, Kind] = {
     "X,Y,Z": _NUMBERS,
     "T0:T1": Kind("Range", "a pair of numbers", _range),
     "T1:T2[,..]": _RANGES, "LOW:HIGH[,..]": _RANGES,
+    "JOINT=Q,..": Kind("Mapping[str, float]",
+                       "a dict of joints' positions", _posture),
     "BOX": _BOX,
     "BOXES": Kind("Sequence[Sequence[Range]]",
                   "boxes, each of three pairs of numbers",

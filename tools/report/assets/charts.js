@@ -245,7 +245,8 @@ const charts = (() => {
   // chains: [{points: [[x, y, z]], colour, width, dash, opacity, shares}], the
   // names at the joints of the first; shares: per segment 0 to 1. Turned with
   // the mouse or the arrow keys.
-  // Null where all is one point.
+  // Null where all is one point. Segments go from each point to the one before
+  // or, of a robot that branches, to the one that charts.before says.
   const skeleton = (chains, names) => {
     const size = 420, tall = 330, all = chains.flatMap((chain) => chain.points);
     if (all.every((p) => Math.hypot(...p.map((x, k) => x - all[0][k])) < 1e-6)) return null;
@@ -272,10 +273,12 @@ const charts = (() => {
     };
     const lines = (chain) => {
       const at = chain.points.map(project);
-      return at.slice(0, -1).map((p, k) => {
-        const share = chain.shares ? chain.shares[Math.min(k, chain.shares.length - 1)] : null;
+      const before = chain.points.length > 2 && charts.before ? charts.before : at.map((p, k) => k - 1);
+      return at.flatMap((p, k) => {
+        if (k === 0 || before[k] < 0) return [];
+        const share = chain.shares ? chain.shares[Math.min(k - 1, chain.shares.length - 1)] : null;
         const colour = `var(--${chain.colour || 'c1'})`;
-        return svg('path', {d: `M${p}L${at[k + 1]}`, 'stroke-dasharray': chain.dash,
+        return svg('path', {d: `M${at[before[k]]}L${p}`, 'stroke-dasharray': chain.dash,
           style: `stroke: ${share === null ? colour
               : `color-mix(in srgb, var(--c2) ${Math.round(100 * share)}%, var(--line))`};` +
               `stroke-width: ${chain.width || 11}; stroke-linecap: ${chain.dash ? 'butt' : 'round'};` +

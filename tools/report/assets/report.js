@@ -5,6 +5,7 @@
   const {html, number, isNumber, shortened, legend, table, bars, interval, skeleton, percent, note, list} = charts;
   const data = JSON.parse(document.getElementById('data').textContent);
   const result = data.result;
+  charts.before = (data.skeleton || {}).before;
 
   // -- what it comes to ---------------------------------------------------------
 

@@ -1,4 +1,4 @@
-#include "model/robot_tree/robot_chain.h"
+#include "model/robot_tree/chosen_joints.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include "tests/fixtures/urdf_text.h"
 
-namespace armcal::robot_chain_test {
+namespace armcal::chosen_joints_test {
 
 using namespace urdf_text;
 
@@ -32,7 +32,7 @@ std::string Branched() {
          "<transmission name='t'><joint name='j1'/></transmission><gazebo/>";
 }
 
-TEST(RobotChain, ChoosesAChain) {
+TEST(ChosenJoints, ChoosesAChain) {
   RobotReaderOptions options;
   options.tip = "b";
   Robot robot = Read(Branched(), options);
@@ -42,25 +42,27 @@ TEST(RobotChain, ChoosesAChain) {
   EXPECT_TRUE(robot.links[0].X_PF.translation().isApprox(Vector3d(0, 0, 1)));
   EXPECT_TRUE(
       robot.links[1].X_PF.translation().isApprox(Vector3d(0.25, 0.5, 0)));
-  EXPECT_THAT(robot.notes,
-              ElementsAre("lumped into link 'a' by fixed joints: a2",
-                          "dropped, as joint 'g' moves them beside the chain: "
-                          "finger, nail",
-                          "lumped into link 'b' by fixed joints: tool",
-                          "not used, as it lies outside the chain: line 1, "
-                          "<mimic> of joint 'g'"));
+  EXPECT_THAT(
+      robot.notes,
+      ElementsAre("lumped into link 'a' by fixed joints: a2",
+                  "lumped into link 'a' by joints that are held: finger, nail",
+                  "lumped into link 'b' by fixed joints: tool",
+                  "joints held still, with what they move (`posture`): g at 0 "
+                  "m",
+                  "not used, as it lies outside the chain: line 1, <mimic> of "
+                  "joint 'g'"));
   options.tip = "tool";
   robot = Read(Branched(), options);
   EXPECT_EQ(robot.tool_name, "tool");
   EXPECT_TRUE(robot.X_LT.translation().isApprox(Vector3d(0, 0, 0.125)));
-  options.tip = "a2";  // what moves beyond the tip is dropped
+  options.tip = "a2";  // what moves beyond the tip is held
   robot = Read(Branched(), options);
   EXPECT_THAT(robot.JointNames(), ElementsAre("j1"));
   EXPECT_EQ(robot.tool_name, "a2");
   EXPECT_EQ(robot.notes.size(), 4u);
 }
 
-TEST(RobotChain, GravityIsInTheBaseLinksFrame) {
+TEST(ChosenJoints, GravityIsInTheBaseLinksFrame) {
   RobotReaderOptions options;
   options.tip = "tool";
   options.base = "base";  // its y points up
@@ -84,16 +86,16 @@ TEST(RobotChain, GravityIsInTheBaseLinksFrame) {
               ElementsAre("j1", "j2"));
 }
 
-class RobotChainRefusal : public testing::TestWithParam<Case> {};
+class ChosenJointsRefusal : public testing::TestWithParam<Case> {};
 
-TEST_P(RobotChainRefusal, SaysWhereAndWhy) {
+TEST_P(ChosenJointsRefusal, SaysWhereAndWhy) {
   EXPECT_EQ(Refusal(GetParam()), GetParam().message);
 }
 
 #define NAMES "expected one of the links base, upper, fore"
 
 INSTANTIATE_TEST_SUITE_P(
-    Chains, RobotChainRefusal,
+    Chains, ChosenJointsRefusal,
     testing::Values(
         Case{"<link name=\"fore\"/>",
              "<link name=\"fore\"/><link name=\"box\"/>",
@@ -117,11 +119,103 @@ INSTANTIATE_TEST_SUITE_P(
              "<joint name=\"grip\" type=\"prismatic\"><parent link=\"upper\"/>"
              "<child link=\"finger\"/></joint>",
              "found 'finger, fore': expected one chain: choose its last link "
-             "with `tip`; links that move beside the chain are left out. It "
-             "branches at 'upper': `tip`=upper has the joint that all share"}));
+             "with `tip`, or several, as in `tip`=finger,fore; what other "
+             "joints move counts as held still (`posture`). It branches at "
+             "'upper': `tip`=upper has the joint that all share"}));
+
+// A torso with two arms, the left one with a finger and a thumb; links of 1 kg
+// with their centre 0.1 m along x.
+std::string TwoArms() {
+  const auto link = [](const std::string& name) {
+    return LinkXml(name,
+                   Inertial("xyz='.1 0 0' rpy='0 0 0'", "1", ".1", ".1", ".1"));
+  };
+  const auto joint = [](const std::string& name, const std::string& parent,
+                        const std::string& child) {
+    return JointXml(name, "continuous", parent, child,
+                    "<origin xyz='.2 0 .1'/><axis xyz='0 1 0'/>");
+  };
+  return LinkXml("base") + link("torso") + link("left") + link("hand") +
+         link("right") + link("palm") + link("finger") + link("thumb") +
+         joint("t", "base", "torso") + joint("l1", "torso", "left") +
+         joint("l2", "left", "hand") + joint("r1", "torso", "right") +
+         joint("r2", "right", "palm") +
+         JointXml("f", "revolute", "hand", "finger",
+                  "<origin xyz='.3 0 0'/><axis xyz='0 0 1'/>"
+                  "<limit lower='.1' upper='1.8' effort='1' velocity='1'/>") +
+         JointXml("m", "revolute", "hand", "thumb",
+                  "<origin xyz='.3 0 0'/><axis xyz='0 0 1'/><mimic joint='f' "
+                  "multiplier='-2' offset='.5'/>"
+                  "<limit lower='-4' upper='4' effort='1' velocity='1'/>");
+}
+
+TEST(ChosenJoints, SeveralTips) {
+  RobotReaderOptions options;
+  options.tip = "hand,palm";
+  const Robot robot = Read(TwoArms(), options);
+  EXPECT_THAT(robot.JointNames(), ElementsAre("t", "l1", "l2", "r1", "r2"));
+  EXPECT_EQ(robot.parents, (LinkParents{-1, 0, 1, 0, 3}));
+  EXPECT_EQ(robot.tool_name, "");
+  options.tip = "palm,hand";
+  EXPECT_THAT(Read(TwoArms(), options).JointNames(),
+              ElementsAre("t", "r1", "r2", "l1", "l2"));
+  // A tip on the way to another adds nothing; what branches where it began is
+  // listed with it.
+  options.tip = "left,palm,hand";
+  EXPECT_THAT(Read(TwoArms(), options).JointNames(),
+              ElementsAre("t", "l1", "l2", "r1", "r2"));
+  options.tip = "left,hand";
+  EXPECT_TRUE(Read(TwoArms(), options).parents.empty());
+  options.tip = "hand,nobody";
+  EXPECT_THAT(Refusal("<robot>" + TwoArms() + "</robot>", options),
+              testing::HasSubstr("`tip`: found 'nobody': expected one of"));
+}
+
+// Beyond a joint that is held links count where they are then.
+TEST(ChosenJoints, HeldJoints) {
+  RobotReaderOptions options;
+  options.tip = "hand";
+  Robot robot = Read(TwoArms(), options);
+  using Held = std::map<std::string, double>;
+  // Next to 0 within the limits; the thumb follows the finger's 0.
+  EXPECT_EQ(robot.held, (Held{{"f", .1}, {"m", .5}, {"r1", 0}, {"r2", 0}}));
+  EXPECT_EQ(robot.links[2].inertial.mass, 3);  // hand, finger, thumb
+  EXPECT_EQ(robot.links[0].inertial.mass, 3);  // torso, right, palm
+  options.posture = {{"f", M_PI_2}, {"r1", M_PI}};
+  robot = Read(TwoArms(), options);
+  EXPECT_EQ(robot.held,
+            (Held{{"f", M_PI_2}, {"m", .5 - M_PI}, {"r1", M_PI}, {"r2", 0}}));
+  // The finger points along y; the thumb to -pi + 0.5 from x.
+  const Eigen::Vector3d hand =
+      Vector3d(.1, 0, 0) + Vector3d(.3, .1, 0) +
+      Vector3d(.3 + .1 * std::cos(.5 - M_PI), .1 * std::sin(.5 - M_PI), 0);
+  EXPECT_TRUE(robot.links[2].inertial.first_moment.isApprox(hand, 1e-12));
+  // The right arm is turned by pi about y, at (.2, 0, .1) of the torso.
+  const Eigen::Vector3d torso = Vector3d(.1, 0, 0) + Vector3d(.2 - .1, 0, .1) +
+                                Vector3d(.2 - .2 - .1, 0, .1 - .1);
+  EXPECT_TRUE(robot.links[0].inertial.first_moment.isApprox(torso, 1e-12));
+}
+
+TEST(ChosenJoints, RefusesPosturesOfOtherJoints) {
+  RobotReaderOptions options;
+  options.tip = "hand,palm";
+  const auto refusal = [&options](const std::string& joint, double q) {
+    options.posture = {{joint, q}};
+    return Refusal("<robot>" + TwoArms() + "</robot>", options);
+  };
+  EXPECT_EQ(refusal("l1", 0),
+            "`posture`: found 'l1': expected a joint that moves something "
+            "beside the robot's own: f, m");
+  EXPECT_EQ(refusal("f", 2),
+            "`posture`: found 'f=2': expected a position within the joint's "
+            "limits, 0.1 to 1.8 rad");
+  options.tip = "finger,thumb,palm";
+  EXPECT_THAT(Refusal("<robot>" + TwoArms() + "</robot>", options),
+              testing::HasSubstr("<mimic> of joint 'm'"));
+}
 
 // What is wrong outside the chain is no reason to refuse it.
-TEST(RobotChain, WhatLiesOutsideIsNotedAlone) {
+TEST(ChosenJoints, WhatLiesOutsideIsNotedAlone) {
   const std::string wrong = LinkXml(
       "finger", Inertial("xyz='0 0 0' rpy='0 0 0'", "-1", "1", "1", "1"));
   const std::string arm =
@@ -146,7 +240,7 @@ TEST(RobotChain, WhatLiesOutsideIsNotedAlone) {
 }
 
 // A fixed link whose place is unknown is part of the chain's links.
-TEST(RobotChain, WhatIsFixedToTheChainHasToBeRead) {
+TEST(ChosenJoints, WhatIsFixedToTheChainHasToBeRead) {
   const auto arm = [](const std::string& parent) {
     return "<robot>" + LinkXml("base") + LinkXml("a") + LinkXml("cover") +
            JointXml("j1", "continuous", "base", "a") +
@@ -159,7 +253,7 @@ TEST(RobotChain, WhatIsFixedToTheChainHasToBeRead) {
 }
 
 // Exporters write -5e-20 for 0.
-TEST(RobotChain, RoundingOfMoments) {
+TEST(ChosenJoints, RoundingOfMoments) {
   const auto refusal = [](const std::string& moment) {
     return Refusal("<robot>" + LinkXml("base") +
                    LinkXml("a", Inertial("xyz='0 0 0' rpy='0 0 0'", "2", moment,
@@ -172,7 +266,7 @@ TEST(RobotChain, RoundingOfMoments) {
 
 // A massless link with moments, on a fixed joint, is part of the one with mass;
 // alone it is no body.
-TEST(RobotChain, MomentsWithoutMass) {
+TEST(ChosenJoints, MomentsWithoutMass) {
   const auto arm = [](const std::string& mass) {
     return LinkXml("base") +
            LinkXml("a",
@@ -188,7 +282,7 @@ TEST(RobotChain, MomentsWithoutMass) {
   EXPECT_FALSE(Read(arm("0")).links[0].has_inertial);
 }
 
-TEST(RobotChain, BaseAndTip) {
+TEST(ChosenJoints, BaseAndTip) {
   const auto refusal = [](const std::string& base, const std::string& tip) {
     RobotReaderOptions options;
     options.base = base;
@@ -207,7 +301,7 @@ TEST(RobotChain, BaseAndTip) {
             "to 'base'");
 }
 
-TEST(RobotChain, LongChains) {
+TEST(ChosenJoints, LongChains) {
   const auto chain = [](int joints) {
     std::string text = "<robot><link name='l0'/>";
     for (int i = 1; i <= joints; ++i) {
@@ -227,4 +321,4 @@ TEST(RobotChain, LongChains) {
             "chain");
 }
 
-}  // namespace armcal::robot_chain_test
+}  // namespace armcal::chosen_joints_test

@@ -1,12 +1,12 @@
-#include "model/robot_tree/chain_robot.h"
+#include "model/robot_tree/tree_robot.h"
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include "model/robot/axis_rotation.h"
-#include "model/robot_tree/robot_chain.h"
+#include "model/robot_tree/chosen_joints.h"
 #include "model/text/input_text.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -52,13 +52,21 @@ void NoteUnread(const RobotTree& tree, const std::set<int>& used,
   }
 }
 
-// Loops and the like over other joints than the chain's, which has been asked.
-void NoteCouplings(const RobotTree& tree, std::vector<std::string>* notes) {
+// Loops and the like over other joints than the chain's, which has been asked;
+// not of joints that are all held.
+void NoteCouplings(const RobotTree& tree, Robot* robot) {
   constexpr size_t kMost = 5;
-  const size_t count = tree.couplings.size();
-  for (size_t i = 0; i < std::min(count, kMost); ++i) {
+  std::vector<std::string>* const notes = &robot->notes;
+  size_t count = 0;
+  for (const TreeCoupling& coupling : tree.couplings) {
+    const bool held =
+        std::all_of(coupling.joints.begin(), coupling.joints.end(), [&](int j) {
+          return robot->held.count(tree.joints[j].joint.name) > 0;
+        });
+    if (held && !coupling.joints.empty()) continue;
+    if (++count > kMost) continue;
     notes->push_back("not used, as it lies outside the chain: " +
-                     tree.couplings[i].what);
+                     coupling.what);
   }
   if (count > kMost) {
     notes->push_back("not used either: " + std::to_string(count - kMost) +
@@ -78,6 +86,7 @@ Link MakeLink(const RobotTree& tree, int j, const RigidGroup& before,
   link.X_ML = Isometry3d(R.transpose()) * joint.X_JL;
   for (size_t i = 0; i < group.links.size(); ++i) {
     const TreeLink& part = tree.links[group.links[i]];
+    if (part.error && part.is_held) continue;
     if (part.error) throw InputError(*part.error);
     if (i > 0) RequirePose(tree, group.links[i]);
     if (!part.has_inertial) continue;
@@ -94,10 +103,10 @@ Link MakeLink(const RobotTree& tree, int j, const RigidGroup& before,
 
 void NoteGroup(const RobotTree& tree, const RigidGroup& group, bool is_base,
                std::vector<std::string>* notes) {
-  std::vector<std::string> fixed, massive;
+  std::vector<std::string> fixed, held, massive;
   for (size_t i = 0; i < group.links.size(); ++i) {
     const TreeLink& part = tree.links[group.links[i]];
-    if (i > 0) fixed.push_back(part.name);
+    if (i > 0) (part.is_held ? held : fixed).push_back(part.name);
     if (part.has_inertial) massive.push_back(part.name);
     if (is_base) continue;
     notes->insert(notes->end(), part.notes.begin(), part.notes.end());
@@ -111,13 +120,18 @@ void NoteGroup(const RobotTree& tree, const RigidGroup& group, bool is_base,
     notes->push_back("lumped into link " + head +
                      " by fixed joints: " + JoinNames(fixed));
   }
+  if (!is_base && !held.empty()) {
+    notes->push_back("lumped into link " + head +
+                     " by joints that are held: " + JoinNames(held));
+  }
 }
 
-// Names the links that move beside the chain; `next` is the chain's own joint.
-void NoteDropped(const RobotTree& tree, const RigidGroup& group, int next,
+// Names the links beyond joints that are neither the robot's nor held.
+void NoteDropped(const RobotTree& tree, const RigidGroup& group,
+                 const std::vector<int>& chosen,
                  std::vector<std::string>* notes) {
   for (const int j : group.joints) {
-    if (j == next) continue;
+    if (std::count(chosen.begin(), chosen.end(), j) > 0) continue;
     const int head = tree.joints[j].child;
     std::vector<std::string> names;
     const auto add = [&](const RigidGroup& dropped) {
@@ -129,7 +143,7 @@ void NoteDropped(const RobotTree& tree, const RigidGroup& group, int next,
     VisitMovedGroups(tree, head,
                      [&](int, const RigidGroup& beyond) { add(beyond); });
     notes->push_back("dropped, as joint " + Quoted(tree.joints[j].joint.name) +
-                     " moves them beside the chain: " + JoinNames(names));
+                     " cannot be held: " + JoinNames(names));
   }
 }
 
@@ -138,7 +152,8 @@ void SetTool(const RobotTree& tree, const RigidGroup& last,
              const std::optional<int>& named_tip, Robot* robot) {
   std::vector<int> leaves;
   for (const int link : last.links) {
-    if (tree.links[link].child_joints.empty()) leaves.push_back(link);
+    const TreeLink& part = tree.links[link];
+    if (part.child_joints.empty() && !part.is_held) leaves.push_back(link);
   }
   int tool = last.links.front();
   if (named_tip) {
@@ -149,6 +164,27 @@ void SetTool(const RobotTree& tree, const RigidGroup& last,
   if (tool == last.links.front()) return;
   robot->tool_name = tree.links[tool].name;
   robot->X_LT = PoseInGroup(last, tool);
+}
+
+void NoteHeld(const RobotTree& tree, Robot* robot) {
+  std::vector<std::string> held;
+  for (const TreeJoint& joint : tree.joints) {
+    const auto at = robot->held.find(joint.joint.name);
+    if (at == robot->held.end()) continue;
+    held.push_back(at->first + " at " + NumberText(at->second) + " " +
+                   PositionUnit(joint.joint.type));
+  }
+  if (held.empty()) return;
+  robot->notes.push_back("joints held still, with what they move (" +
+                         OptionName("posture") + "): " + JoinNames(held));
+}
+
+// The last link that the user names a tip and that moves with the last joint.
+std::optional<int> ToolOf(const ChosenJoints& chosen, const RigidGroup& last) {
+  for (auto tip = chosen.tips.rbegin(); tip != chosen.tips.rend(); ++tip) {
+    if (std::count(last.links.begin(), last.links.end(), *tip) > 0) return *tip;
+  }
+  return std::nullopt;
 }
 
 std::string GravityText(const Vector3d& g) {
@@ -181,37 +217,47 @@ void TurnGravity(const RobotTree& tree, int base, Robot* robot) {
 
 }  // namespace
 
-Robot MakeChainRobot(const std::string& path, const RobotTree& tree,
-                     const RobotReaderOptions& options) {
-  const RobotChain chain = ChooseChain(path, tree, options.base, options.tip);
+Robot MakeTreeRobot(const std::string& path, const RobotTree& file,
+                    const RobotReaderOptions& options) {
+  const ChosenJoints chosen =
+      ChooseJoints(path, file, options.base, options.tip);
+  RobotTree tree = file;
   Robot robot;
+  robot.held = HoldOtherJoints(path, chosen, options.posture, &tree);
   robot.name = tree.name;
   robot.notes = tree.notes;
   robot.gravity = tree.gravity;
-  RigidGroup group = FindGroup(tree, chain.base);
-  NoteGroup(tree, group, true, &robot.notes);
+  robot.parents = chosen.parents;
+  const RigidGroup base = FindGroup(tree, chosen.base);
+  NoteGroup(tree, base, true, &robot.notes);
+  NoteDropped(tree, base, chosen.joints, &robot.notes);
   std::set<int> used;
-  for (const int j : chain.joints) {
-    const RigidGroup before = std::move(group);
+  std::vector<RigidGroup> groups;
+  for (const int j : chosen.joints) {
+    const int parent = robot.parent(robot.num_joints());
+    const RigidGroup before = parent < 0 ? base : groups[parent];
     RequirePoses(tree, before, tree.joints[j].parent);
-    NoteDropped(tree, before, j, &robot.notes);
-    group = FindGroup(tree, tree.joints[j].child);
+    const RigidGroup group = FindGroup(tree, tree.joints[j].child);
     const auto& notes = tree.joints[j].notes;
     robot.notes.insert(robot.notes.end(), notes.begin(), notes.end());
     NoteGroup(tree, group, false, &robot.notes);
+    NoteDropped(tree, group, chosen.joints, &robot.notes);
     robot.links.push_back(MakeLink(tree, j, before, group));
-    used.insert(group.links.begin(), group.links.end());
+    for (const int link : group.links) {
+      if (!tree.links[link].error) used.insert(link);
+    }
+    groups.push_back(group);
   }
-  NoteDropped(tree, group, -1, &robot.notes);
+  NoteHeld(tree, &robot);
   NoteUnread(tree, used, &robot.notes);
-  NoteCouplings(tree, &robot.notes);
-  SetTool(tree, group,
-          options.tip.empty() ? std::nullopt : std::make_optional(chain.tip),
+  NoteCouplings(tree, &robot);
+  SetTool(tree, groups.back(),
+          options.tip.empty() ? std::nullopt : ToolOf(chosen, groups.back()),
           &robot);
   if (options.gravity) {
     robot.gravity = *options.gravity;
   } else {
-    TurnGravity(tree, chain.base, &robot);
+    TurnGravity(tree, chosen.base, &robot);
   }
   return robot;
 }
