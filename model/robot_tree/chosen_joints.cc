@@ -213,19 +213,21 @@ Isometry3d HeldPose(const TreeJoint& joint, double q) {
   return joint.X_PJ * Isometry3d(Eigen::AngleAxisd(q, joint.axis));
 }
 
-// Where a joint is held that the user says nothing of: where it follows one
-// that is held, there, else next to 0.
+// Where a joint is held: where the user says; where it follows another, as that
+// is held; else next to 0.
 double HeldPosition(const RobotTree& tree, const TreeJoint& joint,
-                    const std::map<std::string, double>& posture) {
+                    const std::map<std::string, double>& posture,
+                    int leaders = 0) {
+  constexpr int kMostLeaders = 8;  // joints that follow each other in a circle
   const auto said = posture.find(joint.joint.name);
   if (said != posture.end()) return said->second;
-  if (joint.mimic) {
-    const TreeJoint& leader = tree.joints[joint.mimic->leader];
-    const auto it = posture.find(leader.joint.name);
-    const double q = it == posture.end() ? 0 : it->second;
-    return joint.mimic->factor * q + joint.mimic->offset;
+  if (!joint.mimic || leaders == kMostLeaders) {
+    return std::clamp(0., joint.joint.lower, joint.joint.upper);
   }
-  return std::clamp(0., joint.joint.lower, joint.joint.upper);
+  return joint.mimic->offset +
+         joint.mimic->factor * HeldPosition(tree,
+                                            tree.joints[joint.mimic->leader],
+                                            posture, leaders + 1);
 }
 
 // Leaves out what is wrong beyond the link, which a joint that is held moves.

@@ -336,9 +336,6 @@ GROUPS = [Group("URDF", COMMAND, {"robot.urdf": URDF, "log.csv": LOG}, [
     Row("posture of the robot's own joint", nothing,
         "robot.urdf: --posture: found 'shoulder': expected none: no joint moves anything beside "
         "the robot's own", COMMAND + " --posture=shoulder=0"),
-    Row("posture without a position", nothing,
-        "--posture: found 'grip', expected joint=position, as in finger_joint1=0.02",
-        COMMAND + " --posture=grip"),
     Row("base that is no link", nothing,
         "robot.urdf: --base: found 'bas': expected one of the links base, arm, hand", COMMAND + " --base=bas"),
     Row("tip that is no link", nothing,

@@ -67,13 +67,13 @@ GROUPS = [Group("YAML", COMMAND, {"robot.yaml": ARM, "log.csv": LOG}, [
                              + LAUGHS.partition("\n")[2].replace("\na", "\n  a").replace("a1:", "  a1:", 1) + "links: *a9\n"),
         "robot.yaml: line 11, links[1]: found 'a list of 9': expected a map with the keys "
         "name, joint, joint_name, a, d, alpha, theta, unknown, mass, com, inertia, limits, "
-        "viscous, coulomb, armature, offset, zero, inertial"),
+        "viscous, coulomb, armature, offset, zero, inertial, parent"),
     Row("anchor in itself", arm(LAST, "&a {joint: revolute, a: *a}"),
         "robot.yaml: line 4, links[2].a: expected a number in m"),
     Row("list in itself", written("robot.yaml", "convention: standard\nlinks: &a [*a]\n"),
         "robot.yaml: line 2, links[1]: found 'a list of 1': expected a map with the keys "
         "name, joint, joint_name, a, d, alpha, theta, unknown, mass, com, inertia, limits, "
-        "viscous, coulomb, armature, offset, zero, inertial"),
+        "viscous, coulomb, armature, offset, zero, inertial, parent"),
     Row("anchor that is not there", arm("0.3", "*length"),
         "robot.yaml: line 4: not well-formed YAML (the referenced anchor is not defined)"),
     Row("tag of a Python object", arm("0.3", "!!python/object/apply:os.system [touch owned]"),
@@ -113,7 +113,7 @@ GROUPS = [Group("YAML", COMMAND, {"robot.yaml": ARM, "log.csv": LOG}, [
     Row("key of a link unknown", link("joint: revolute, aa: 1"),
         "robot.yaml: line 4, links[2]: found 'aa': expected one of the keys name, joint, "
         "joint_name, a, d, alpha, theta, unknown, mass, com, inertia, limits, viscous, "
-        "coulomb, armature, offset, zero, inertial"),
+        "coulomb, armature, offset, zero, inertial, parent"),
     Row("joint missing", link("a: 0.3"),
         "robot.yaml: line 4, links[2]: expected a key 'joint'"),
     Row("joint unknown", link("joint: ball"),
@@ -174,7 +174,7 @@ GROUPS = [Group("YAML", COMMAND, {"robot.yaml": ARM, "log.csv": LOG}, [
     Row("DH row among poses", arm("standard", "poses"),
         "robot.yaml: line 3, links[1]: found 'a': expected one of the keys name, joint, "
         "joint_name, pose, axis, link_pose, mass, com, inertia, limits, viscous, coulomb, "
-        "armature, offset, zero, inertial"),
+        "armature, offset, zero, inertial, parent"),
     Row("axis zero", written("robot.yaml", "convention: poses\nlinks:\n"
                              "  - {joint: revolute, axis: [0, 0, 0]}\n"),
         "robot.yaml: line 3, links[1].axis: found '[0, 0, 0]': expected an axis that is not "

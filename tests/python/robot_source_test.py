@@ -1,6 +1,7 @@
 """Robots of texts and arrays, which are in no file."""
 
 import hashlib
+import os
 import pathlib
 import sys
 import unittest
@@ -47,6 +48,50 @@ def planar(**more):
         lower=[-2, -np.inf], upper=[2, np.inf], **{
             "xyz": [[0, 0, 0], [planar_arm.L1, 0, 0]], "name": "planar",
             **more})
+
+
+class Branches(unittest.TestCase):
+
+    def test_two_arms_on_a_base(self):
+        """Each moves as if it were alone."""
+        random = np.random.default_rng(3)
+        rows = planar().inertial_parameters
+        q, qd, qdd = random.uniform(-3, 3, (3, 20, 4))
+        both = armcal.Robot.from_arrays(
+            joint_types=["revolute"] * 4, parents=[-1, 0, -1, 2],
+            xyz=[[0, 0, 0], [planar_arm.L1, 0, 0]] * 2, gravity=[0, -9.81, 0],
+            inertial_parameters=np.vstack([rows, rows]))
+        self.assertEqual(both.parents, [-1, 0, -1, 2])
+        for arm in (slice(0, 2), slice(2, 4)):
+            np.testing.assert_allclose(
+                both.inverse_dynamics(q, qd, qdd)[:, arm],
+                planar_arm.inverse_dynamics(q[:, arm], qd[:, arm],
+                                            qdd[:, arm]),
+                rtol=1e-12, atol=1e-12)
+            np.testing.assert_allclose(both.mass_matrix(q)[:, arm, arm],
+                                       planar_arm.mass_matrix(q[:, arm]),
+                                       rtol=1e-12, atol=1e-12)
+        self.assertFalse(both.mass_matrix(q)[:, :2, 2:].any())
+        self.assertEqual(len(both.model_parameters),
+                         2 * len(planar().model_parameters))
+
+    def test_a_posture(self):
+        path = pathlib.Path(os.environ["DATA_DIR"], "two_arms/robot.urdf")
+        closed, opened = (armcal.read_robot(
+            path, tip="left_hand,right_finger", posture={"left_finger_joint": x})
+            for x in (0, .04))
+        self.assertEqual(opened.held, {"left_finger_joint": .04,
+                                       "left_finger_2_joint": .04})
+        change = (opened.inertial_parameters - closed.inertial_parameters)[4]
+        # Both fingers of 0.15 kg are 4 cm further out, along y.
+        self.assertAlmostEqual(change[4], 2 * .15 * (.06**2 - .02**2))
+        np.testing.assert_allclose(change[:4], 0, atol=1e-15)
+
+    def test_refusals(self):
+        for parents, text in (([0, 0], r"parents\[0\]: found 0"),
+                              ([-1], "parents: found 1 numbers, expected 2")):
+            with self.assertRaisesRegex(ValueError, text):
+                planar(parents=parents)
 
 
 class Closed(unittest.TestCase):

@@ -133,25 +133,38 @@ class MujocoFile:
         return d.xmat[number].reshape(3, 3).T @ g
 
     def drop_beside(self, chain):
-        """Bodies that joints move beside the chain weigh nothing."""
+        """Bodies beyond balls and the like beside the chain weigh nothing."""
         m = self.model
         base = set(self.joints_above(m.jnt_bodyid[chain.joints[0]])) - set(
             chain.joints)
         for body in range(1, m.nbody):
             others = set(self.joints_above(body)) - set(chain.joints) - base
-            if others or not set(self.joints_above(body)) & set(chain.joints):
+            if not all(map(self.is_plain, others)):
                 m.body_mass[body] = 0
                 m.body_inertia[body] = 0
+
+    def held(self, chain):
+        """Positions with every joint next to 0, but for those before the
+        chain."""
+        m = self.model
+        q = m.qpos0.copy()
+        before = set(self.joints_above(m.jnt_bodyid[chain.joints[0]])) - set(
+            chain.joints)
+        for j in set(filter(self.is_plain, range(m.njnt))) - before:
+            q[m.jnt_qposadr[j]] = np.clip(0, *m.jnt_range[j]) if (
+                m.jnt_limited[j]) else 0
+        return q
 
     def torques(self, chain, q, qd, qdd):
         m, d, mj = self.model, self.data, self.mj
         self.drop_beside(chain)
+        held = self.held(chain)
         at = m.jnt_qposadr[chain.joints]
         dof = m.jnt_dofadr[chain.joints]
         found = []
         for k in range(len(q)):
             mj.mj_resetData(m, d)
-            d.qpos[:] = m.qpos0
+            d.qpos[:] = held
             d.qpos[at], d.qvel[dof], d.qacc[dof] = q[k], qd[k], qdd[k]
             mj.mj_fwdPosition(m, d)
             mj.mj_fwdVelocity(m, d)
@@ -181,10 +194,13 @@ class PinocchioFile:
         root = ElementTree.fromstring(text)
         self.child = {j.get("name"): j.find("child").get("link")
                       for j in root.findall("joint")}
-        self.coupled = {}
+        self.coupled, self.mimic = {}, {}
         for joint in root.findall("joint"):
             mimic = joint.find("mimic")
             if mimic is not None:
+                self.mimic[joint.get("name")] = (
+                    mimic.get("joint"), float(mimic.get("multiplier", 1)),
+                    float(mimic.get("offset", 0)))
                 why = f"{joint.get('name')} mimics {mimic.get('joint')}"
                 self.coupled[joint.get("name")] = why
                 # A follower without mass loads its leader with nothing.
@@ -227,18 +243,44 @@ class PinocchioFile:
         frame = self.model.getFrameId(base)
         return data.oMf[frame].rotation.T @ self.model.gravity.linear
 
+    def held(self, chain):
+        """As MujocoFile.held; joints that follow others are where these put
+        them."""
+        m, q = self.model, self.pin.neutral(self.model)
+
+        def position(j):
+            name = self.joint_name(j)
+            if name in self.mimic and self.model.existJointName(
+                    self.mimic[name][0]):
+                leader, factor, offset = self.mimic[name]
+                return factor * position(m.getJointId(leader)) + offset
+            at = m.joints[j].idx_q
+            return np.clip(0, m.lowerPositionLimit[at],
+                           m.upperPositionLimit[at]) if (
+                               m.joints[j].nq == 1) else 0
+
+        for j in range(1, m.njoints):
+            if not self.is_plain(j) or j in m.supports[chain.joints[0]]:
+                continue
+            at = m.joints[j].idx_q
+            q[at:at + m.joints[j].nq] = position(j) if (
+                m.joints[j].nq == 1) else [1, 0]
+        return q
+
     def torques(self, chain, q, qd, qdd):
         pin, m = self.pin, self.model
+        before = m.supports[chain.joints[0]]
         for j in range(1, m.njoints):
-            beside = [k for k in m.supports[j] if k not in chain.joints and
-                      k not in m.supports[chain.joints[0]]]
-            if beside:
+            beside = [k for k in m.supports[j] if k > 0 and
+                      k not in chain.joints and k not in before]
+            if not all(map(self.is_plain, beside)):
                 m.inertias[j] = pin.Inertia.Zero()
+        held = self.held(chain)
         m.armature[:] = 0
         data, found = m.createData(), []
         v_at = [m.joints[j].idx_v for j in chain.joints]
         for k in range(len(q)):
-            full_q = pin.neutral(m)
+            full_q = held.copy()
             v, a = np.zeros(m.nv), np.zeros(m.nv)
             v[v_at], a[v_at] = qd[k], qdd[k]
             for j, x in zip(chain.joints, q[k]):

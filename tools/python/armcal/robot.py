@@ -76,6 +76,22 @@ def _limits(n: int, given: Dict[str, Optional[ArrayLike]]
     return limits
 
 
+def _add_parents(parents: Optional[Sequence[int]],
+                 links: List[Dict[str, Any]]) -> None:
+    if parents is None:
+        return
+    if len(parents) != len(links):
+        raise ValueError(f"parents: found {len(parents)} numbers, expected "
+                         f"{len(links)}")
+    for i, (link, parent) in enumerate(zip(links, parents)):
+        if not -1 <= parent < i:
+            raise ValueError(f"parents[{i}]: found {parent}, expected a link "
+                             "before, from 0, or -1")
+        if parent != i - 1:
+            link["parent"] = "base" if parent < 0 else links[parent].get(
+                "name", f"link{parent + 1}")
+
+
 def from_arrays(*, joint_types: Sequence[str],
                 poses: Optional[ArrayLike] = None,
                 xyz: Optional[ArrayLike] = None,
@@ -92,14 +108,15 @@ def from_arrays(*, joint_types: Sequence[str],
                 offset: Optional[ArrayLike] = None,
                 joint_names: Optional[Sequence[str]] = None,
                 link_names: Optional[Sequence[str]] = None,
+                parents: Optional[Sequence[int]] = None,
                 gravity: ArrayLike = (0, 0, -9.81),
                 tool: Optional[ArrayLike] = None,
                 name: str = "robot") -> _armcal.Robot:
-    """A robot of n joints from base to tip that is in no file.
+    """A robot of n joints from the base outwards that is in no file.
 
     joint_types          n of revolute, continuous and prismatic
-    poses                (n, 4, 4), m, of each joint's frame on the link before
-                         it, at q = 0 that of the link it moves; as the origin
+    poses                (n, 4, 4), m, of each joint's frame on the link it sits
+                         on, at q = 0 that of the link it moves; as the origin
                          of a URDF's joint
     xyz, rpy             (n, 3), m and rad: the same as URDF writes it
     axes                 (n, 3), of the joints in their frames; None: z
@@ -107,6 +124,8 @@ def from_arrays(*, joint_types: Sequence[str],
     lower, upper, velocity_limits, effort_limits,
     viscous, coulomb, armature, offset
                          (n,), as of Robot
+    parents              n numbers: the link, from 0, that each joint sits on,
+                         -1 for the base, branch by branch; None: the one before
     gravity              (3,), in the base's frame, m/s^2
     tool                 (4, 4), its pose on the last link, m
     """
@@ -131,6 +150,7 @@ def from_arrays(*, joint_types: Sequence[str],
         if texts is not None:
             for link, text in zip(links, _texts(key + "s", texts, n)):
                 link[key] = text
+    _add_parents(parents, links)
     limits = _limits(n, {"lower": lower, "upper": upper,
                          "velocity_limits": velocity_limits,
                          "effort_limits": effort_limits})

@@ -1,0 +1,60 @@
+# A torso with two arms and grippers: read, simulated, calibrated, verified and
+# diagnosed with an effect on the second arm.
+set(urdf --robot=${DATA_DIR}/two_arms/robot.urdf)
+set(real --robot=${DATA_DIR}/two_arms/real.yaml --robot_error=0.1 --seed=1 --duration=20)
+set(tips --tip=left_hand,right_finger)
+
+run("nothing is chosen silently" inspect ${urdf})
+expect_code(3)
+expect_text(err "found 'left_finger, left_finger_2, right_finger': expected one chain"
+            "--tip=left_finger,left_finger_2" "held still (--posture)"
+            "It branches at 'torso': --tip=torso")
+run("a gripper that follows" inspect ${urdf} --tip=left_finger,right_hand)
+expect_code(3)
+expect_text(err "<mimic> of joint 'left_finger_2_joint'" "--tip=left_hand ends it before them")
+run("two arms" inspect ${urdf} ${tips} --posture=left_finger_joint=0.03 --json)
+expect_code(0)
+string(JSON value GET "${out}" robot links 5 parent)
+string(JSON left GET "${out}" robot held left_finger_joint)
+string(JSON other GET "${out}" robot held left_finger_2_joint)
+if(NOT "${value} ${left} ${other}" STREQUAL "torso 0.029999999999999999 0.029999999999999999" AND
+   NOT "${value} ${left} ${other}" STREQUAL "torso 0.03 0.03")
+  fail("the right arm is on the torso, both left fingers are 3 cm apart: ${value} ${left} ${other}")
+endif()
+run("a posture beyond the limits" inspect ${urdf} ${tips} --posture=left_finger_joint=0.3)
+expect_code(3)
+expect_text(err "--posture: found 'left_finger_joint=0.3'" "0 to 0.04 m")
+
+foreach(log RANGE 4)
+  set(effect)
+  if(log EQUAL 4)
+    set(effect --effects=stribeck@8)
+  endif()
+  run("log ${log}" simulate ${real} --run=${log} ${effect} --out=run${log} --quiet)
+  expect_code(0)
+endforeach()
+run("calibrate" calibrate ${urdf} ${tips} --log=run0/log.csv,run1/log.csv --validate=run2/log.csv
+    --out=calibration)
+expect_code(0)
+file(READ ${WORK_DIR}/calibration/calibration.json text)
+string(JSON left GET "${text}" validation_stacked_residual_percent)
+if(NOT left LESS 1.5)  # white noise of 1 %, coloured of 0.5 %
+  fail("${left} % of the torque are left, held out")
+endif()
+file(READ ${WORK_DIR}/calibration/report.html page)
+if(NOT page MATCHES "\"before\":\\[-1,0,1,2,3,0,5,6,7,8,9\\]")
+  fail("a skeleton that branches expected")
+endif()
+run("verify" verify ${urdf} ${tips} --calibration=calibration --log=run2/log.csv)
+expect_code(0)
+expect_text(out "two_arms: verified")
+run("diagnose" diagnose ${urdf} ${tips} --calibration=calibration
+    --reference=run2/log.csv,run3/log.csv --log=run4/log.csv --out=diagnosis)
+expect_code(1)
+expect_text(out "stribeck on right_forearm_joint")
+
+run("a posture of no position" inspect ${urdf} ${tips} --posture=left_finger_joint)
+expect_code(2)
+expect_text(err "--posture: found 'left_finger_joint', expected joint=position")
+run("poses of two tools" calibrate ${urdf} ${tips} --poses=poses.csv)
+expect_code(3)
