@@ -16,11 +16,24 @@ from mcap.writer import Writer as McapWriter
 from mcap_ros2.writer import Writer as Ros2Writer
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as BagWriter
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 ROS = get_typestore(Stores.ROS2_HUMBLE)
 STATE = 'sensor_msgs/msg/JointState'
 ARRAY = 'std_msgs/msg/Float64MultiArray'
+CONTROL = 'control_msgs/msg/'
+# As ros2_control has had them since ROS 2 Humble.
+for name, text in {
+        'InterfaceValue': 'string[] interface_names\nfloat64[] values\n',
+        'DynamicJointState': ('std_msgs/Header header\nstring[] joint_names\n'
+                              'control_msgs/InterfaceValue[] interface_values\n'),
+        'JointTrajectoryControllerState': 'std_msgs/Header header\nstring[] joint_names\n' + ''.join(
+            f'trajectory_msgs/JointTrajectoryPoint {point}\n'
+            for point in ('reference', 'feedback', 'error', 'output')) +
+            'string[] multi_dof_joint_names\n' + ''.join(
+            f'trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_{point}\n'
+            for point in ('reference', 'feedback', 'error', 'output'))}.items():
+    ROS.register(get_types_from_msg(text, CONTROL + name))
 START = 1_700_000_000_000_000_000  # ns, of the first stamp
 LATENCY = 1_234_567  # ns, from a stamp to its reception
 FEW = 20  # messages where the log as a whole is not needed
@@ -127,6 +140,43 @@ def write_whole(log, folder):
     write_split(log, folder / 'split')
 
 
+def write_ros2_control(log, path):
+    """What its controllers publish: reference is 0.125 rad beside the position, velocity 2."""
+    def point(position, velocity=(), effort=()):
+        return ROS.types['trajectory_msgs/msg/JointTrajectoryPoint'](
+            positions=np.asarray(position, float), velocities=np.asarray(velocity, float),
+            accelerations=np.zeros(0), effort=np.asarray(effort, float),
+            time_from_start=ROS.types['builtin_interfaces/msg/Duration'](sec=1, nanosec=2))
+
+    def controller_state(stamp, q, tau):
+        nothing = ROS.types['trajectory_msgs/msg/MultiDOFJointTrajectoryPoint'](
+            transforms=[], velocities=[], accelerations=[],
+            time_from_start=ROS.types['builtin_interfaces/msg/Duration'](sec=0, nanosec=0))
+        return ROS.types[CONTROL + 'JointTrajectoryControllerState'](
+            header=state(stamp, []).header, joint_names=log.names,
+            reference=point(q + .125), feedback=point(q, q * 0 + 2, tau), error=point(q * 0 + .125),
+            output=point([]), multi_dof_joint_names=[], multi_dof_reference=nothing,
+            multi_dof_feedback=nothing, multi_dof_error=nothing, multi_dof_output=nothing)
+
+    def dynamic_state(stamp, q, tau):
+        def value(**values):
+            return ROS.types[CONTROL + 'InterfaceValue'](
+                interface_names=list(values), values=np.array(list(values.values())))
+        # In any order, also of what no log holds, and of a joint without effort.
+        return ROS.types[CONTROL + 'DynamicJointState'](
+            header=state(stamp, []).header, joint_names=log.names[::-1] + ['finger'],
+            interface_values=[value(temperature=40., effort=tau[j], position=q[j])
+                              for j in reversed(range(log.joints))] + [value(position=.5)])
+
+    samples = few(zip(log.stamps, log.q, log.tau))
+    mcap(path, {
+        '/joint_states': packed(few(log.states())),
+        '/arm_controller/controller_state': (CONTROL + 'JointTrajectoryControllerState', [
+            (stamp + LATENCY, cdr(controller_state(stamp, q, tau))) for stamp, q, tau in samples]),
+        '/dynamic_joint_states': (CONTROL + 'DynamicJointState', [
+            (stamp + LATENCY, cdr(dynamic_state(stamp, q, tau))) for stamp, q, tau in samples])})
+
+
 def write_lz4(log, path):
     """By mcap-ros2-support, which has a CDR of its own."""
     with open(path, 'wb') as file:
@@ -180,7 +230,7 @@ def write_refused(log, folder):
     message.effort = message.effort * np.nan
     write('one_nan', few(once[:5] + [(received, cdr(message))] + once[6:]))
     write('short_message', few([(r, m[:-8] if k == 7 else m) for k, (r, m) in enumerate(once)]))
-    write('odd_type', few(once), kind='control_msgs/msg/DynamicJointState')
+    write('odd_type', few(once), kind='std_msgs/msg/Float32MultiArray')
     write('json', few([(r, b'{}') for r, _ in once]), encoding='json')
     write('no_stamps', few([(r, m[:4] + bytes(8) + m[12:]) for r, m in once]))
     names = [f'{name}_of_the_left_arm_joint' for name in ('shoulder', 'elbow', 'wrist')]
@@ -221,6 +271,7 @@ def main():
     write_whole(log, folder)
     write_beginnings(log, folder)
     write_refused(log, folder)
+    write_ros2_control(log, folder / 'ros2_control.mcap')
     write_mat(log, folder)
 
 

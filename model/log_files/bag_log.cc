@@ -17,6 +17,12 @@ namespace {
 constexpr size_t kMostValues = size_t{1} << 30;      // 8 GB
 constexpr std::uint64_t kMostMessage = 64ull << 20;  // bytes
 
+// Whether its messages are a JointState's.
+bool HasJointNames(const std::string& type) {
+  return IsJointState(type) || IsDynamicJointState(type) ||
+         IsControllerState(type);
+}
+
 std::string Place(const std::string& topic, long message) {
   return "topic " + topic + ", message " + std::to_string(message);
 }
@@ -32,15 +38,23 @@ BagLog::BagLog(const std::string& path, const LineOptions& options)
                             [](const LogTopic& t) { return !!t.signal; });
 }
 
-std::vector<BagLog::Field> BagLog::FieldsOf(const Role& role) const {
+std::vector<BagLog::Field> BagLog::FieldsOf(const Role& role,
+                                            const Topic& topic) const {
+  const bool has_reference = IsControllerState(topic.about.type);
   if (!role.signal) {
-    return {{Signal::kPosition, &JointState::position},
-            {Signal::kVelocity, &JointState::velocity},
-            {effort_, &JointState::effort}};
+    std::vector<Field> fields = {{Signal::kPosition, &JointState::position},
+                                 {Signal::kVelocity, &JointState::velocity},
+                                 {effort_, &JointState::effort}};
+    if (has_reference) {
+      fields.push_back({Signal::kReference, &JointState::reference});
+    }
+    return fields;
   }
   switch (*role.signal) {
-    case Signal::kPosition:
     case Signal::kReference:
+      return {{*role.signal,
+               has_reference ? &JointState::reference : &JointState::position}};
+    case Signal::kPosition:
       return {{*role.signal, &JointState::position}};
     case Signal::kVelocity:
       return {{*role.signal, &JointState::velocity}};
@@ -75,14 +89,16 @@ BagLog::Topic& BagLog::FindTopic(const BagTopic& about) {
 void BagLog::CheckTopic(const Topic& topic) const {
   const std::string place = "topic " + OneLine(topic.about.name),
                     type = OneLine(topic.about.type);
-  const bool states = IsJointState(topic.about.type);
+  const bool states = HasJointNames(topic.about.type);
   if (!states && !IsFloat64MultiArray(topic.about.type)) {
     throw InputError(path_, place, type,
-                     "expected sensor_msgs/msg/JointState or "
-                     "std_msgs/msg/Float64MultiArray");
+                     "expected sensor_msgs/msg/JointState, "
+                     "std_msgs/msg/Float64MultiArray, "
+                     "control_msgs/msg/DynamicJointState or "
+                     "JointTrajectoryControllerState");
   }
   for (const Role& role : topic.roles) {
-    if (states && FieldsOf(role).empty()) {
+    if (states && FieldsOf(role, topic).empty()) {
       throw InputError(path_, place, type,
                        "holds position, velocity and effort alone");
     }
@@ -126,19 +142,29 @@ void BagLog::Add(const BagMessage& packed, Topic* topic) {
     }
     message.data = unpacked_;
   }
-  IsJointState(topic->about.type) ? AddState(message, topic)
-                                  : AddArray(message, topic);
+  HasJointNames(topic->about.type) ? AddState(message, topic)
+                                   : AddArray(message, topic);
+}
+
+void BagLog::ReadState(const BagMessage& message, const Topic& topic) {
+  if (IsJointState(topic.about.type)) {
+    ReadJointState(message.data, &state_);
+  } else if (IsControllerState(topic.about.type)) {
+    ReadControllerState(message.data, &state_);
+  } else {
+    ReadDynamicJointState(message.data, &state_);
+  }
 }
 
 void BagLog::AddState(const BagMessage& message, Topic* topic) {
-  ReadJointState(message.data, &state_);
+  ReadState(message, *topic);
   for (Role& role : topic->roles) {
     const Layout& layout = FindLayout(&role, topic);
     if (layout.series < 0) continue;
     JointSeries& series = series_[layout.series];
     series.times.push_back(state_.stamp);
     series.received.push_back(message.received);
-    for (const Field& field : FieldsOf(role)) {
+    for (const Field& field : FieldsOf(role, *topic)) {
       const std::vector<double>& values = state_.*field.values;
       for (const int place : layout.places) {
         series.values.push_back(values.empty()
@@ -185,7 +211,7 @@ int BagLog::StartSeries(const Topic& topic, const Role& role,
   series.chosen = !!role.signal;
   series.has_stamps = has_stamps;
   if (has_stamps) {
-    for (const Field& field : FieldsOf(role)) {
+    for (const Field& field : FieldsOf(role, topic)) {
       for (const int j : joints) series.channels.push_back({field.signal, j});
     }
   } else {
@@ -234,7 +260,7 @@ std::string BagLog::Topics() const {
   for (const auto& [name_and_type, topic] : topics_) {
     const BagTopic& about = topic.about;
     const bool read =
-        IsJointState(about.type) || IsFloat64MultiArray(about.type);
+        HasJointNames(about.type) || IsFloat64MultiArray(about.type);
     std::string text = OneLine(about.name) + " (" + OneLine(about.type);
     if (!topic.names.empty()) {
       text += " of " + JoinNames({topic.names.begin(), topic.names.end()});

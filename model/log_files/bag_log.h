@@ -20,7 +20,8 @@ namespace armcal {
 class BagLog {
  public:
   // Of `options.topics`; where they are none, or all have a signal of their
-  // own, of all other topics of type JointState too. Throws InputError, also
+  // own, of all other topics of type JointState too; those of ros2_control,
+  // which say the same again, have to be named. Throws InputError, also
   // for a topic that is not there.
   BagLog(const std::string& path, const LineOptions& options);
 
@@ -32,7 +33,7 @@ class BagLog {
   std::string Topics() const;
 
  private:
-  // An array of a JointState and what it is taken for.
+  // An array of a message's and what it is taken for.
   struct Field {
     Signal signal;
     std::vector<double> JointState::*values;
@@ -59,10 +60,11 @@ class BagLog {
   Topic& FindTopic(const BagTopic& about);
   void CheckTopic(const Topic& topic) const;
   void Add(const BagMessage& message, Topic* topic);
+  void ReadState(const BagMessage& message, const Topic& topic);
   void AddState(const BagMessage& message, Topic* topic);
   void AddArray(const BagMessage& message, Topic* topic);
   const Layout& FindLayout(Role* role, Topic* topic);
-  std::vector<Field> FieldsOf(const Role& role) const;
+  std::vector<Field> FieldsOf(const Role& role, const Topic& topic) const;
   int StartSeries(const Topic& topic, const Role& role,
                   const std::vector<int>& joints, bool has_stamps);
 

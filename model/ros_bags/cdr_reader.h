@@ -27,14 +27,14 @@ class CdrReader {
   void Doubles(std::vector<double>* values);  // a sequence
   // A sequence of texts; returns its bytes too, which tell equal ones.
   std::string_view Texts(std::vector<std::string_view>* texts);
+  // The length of a sequence whose items have at least `item` bytes.
+  std::uint32_t Length(size_t item);
   // Throws where more is left than what fills the last 8 bytes.
   void End() const;
 
  private:
   void Align(size_t size);
   std::uint64_t Take(size_t bytes);  // 4 or 8
-  // The length of a sequence whose items have at least `item` bytes.
-  std::uint32_t Length(size_t item);
 
   std::string_view bytes_;  // from the fifth on
   size_t at_ = 0;

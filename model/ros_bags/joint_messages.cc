@@ -1,5 +1,6 @@
 #include "model/ros_bags/joint_messages.h"
 
+#include <limits>
 #include <string>
 
 #include "model/ros_bags/cdr_reader.h"
@@ -20,6 +21,48 @@ void CheckCount(const std::vector<double>& values, size_t names,
                  std::to_string(values.size()) + " values of " + what);
 }
 
+void CheckCounts(const JointState& state) {
+  const size_t names = state.names.size();
+  CheckCount(state.position, names, "position");
+  CheckCount(state.velocity, names, "velocity");
+  CheckCount(state.effort, names, "effort");
+  CheckCount(state.reference, names, "reference");
+}
+
+// The header and the joints' names.
+void ReadBegin(CdrReader* cdr, JointState* state) {
+  constexpr std::int64_t kBillion = 1000000000;
+  const std::int64_t seconds = cdr->Signed();
+  const std::uint32_t nanoseconds = cdr->Unsigned();
+  if (nanoseconds >= kBillion) {
+    throw CdrError("has " + std::to_string(nanoseconds) +
+                   " ns in its stamp, expected less than a second");
+  }
+  state->stamp = seconds * kBillion + nanoseconds;
+  cdr->Text();  // the frame
+  state->name_bytes = cdr->Texts(&state->names);
+  state->reference.clear();
+}
+
+// trajectory_msgs/msg/JointTrajectoryPoint.
+void ReadPoint(CdrReader* cdr, std::vector<double>* position,
+               std::vector<double>* velocity, std::vector<double>* effort) {
+  cdr->Doubles(position);
+  cdr->Doubles(velocity);
+  std::vector<double> acceleration;
+  cdr->Doubles(&acceleration);
+  cdr->Doubles(effort);
+  cdr->Signed();  // the time from the trajectory's start, s and ns
+  cdr->Unsigned();
+}
+
+// The array that an interface's values belong to; none of others.
+std::vector<double>* ArrayOf(std::string_view interface, JointState* state) {
+  if (interface == "position") return &state->position;
+  if (interface == "velocity") return &state->velocity;
+  return interface == "effort" ? &state->effort : nullptr;
+}
+
 }  // namespace
 
 bool IsJointState(std::string_view type) {
@@ -30,25 +73,59 @@ bool IsFloat64MultiArray(std::string_view type) {
   return IsType(type, "std_msgs", "Float64MultiArray");
 }
 
+bool IsDynamicJointState(std::string_view type) {
+  return IsType(type, "control_msgs", "DynamicJointState");
+}
+
+bool IsControllerState(std::string_view type) {
+  return IsType(type, "control_msgs", "JointTrajectoryControllerState");
+}
+
 void ReadJointState(std::string_view message, JointState* state) {
-  constexpr std::int64_t kBillion = 1000000000;
   CdrReader cdr(message);
-  const std::int64_t seconds = cdr.Signed();
-  const std::uint32_t nanoseconds = cdr.Unsigned();
-  if (nanoseconds >= kBillion) {
-    throw CdrError("has " + std::to_string(nanoseconds) +
-                   " ns in its stamp, expected less than a second");
-  }
-  state->stamp = seconds * kBillion + nanoseconds;
-  cdr.Text();  // the frame
-  state->name_bytes = cdr.Texts(&state->names);
+  ReadBegin(&cdr, state);
   cdr.Doubles(&state->position);
   cdr.Doubles(&state->velocity);
   cdr.Doubles(&state->effort);
   cdr.End();
-  CheckCount(state->position, state->names.size(), "position");
-  CheckCount(state->velocity, state->names.size(), "velocity");
-  CheckCount(state->effort, state->names.size(), "effort");
+  CheckCounts(*state);
+}
+
+void ReadDynamicJointState(std::string_view message, JointState* state) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  CdrReader cdr(message);
+  ReadBegin(&cdr, state);
+  const size_t joints = state->names.size();
+  for (auto* values : {&state->position, &state->velocity, &state->effort}) {
+    values->assign(joints, kNone);
+  }
+  const std::uint32_t count = cdr.Length(8);  // at least two lengths each
+  if (count != joints) {
+    throw CdrError("has " + std::to_string(joints) + " names and values of " +
+                   std::to_string(count) + " joints");
+  }
+  std::vector<std::string_view> interfaces;
+  std::vector<double> values;
+  for (size_t j = 0; j < joints; ++j) {
+    cdr.Texts(&interfaces);
+    cdr.Doubles(&values);
+    CheckCount(values, interfaces.size(), "interfaces");
+    for (size_t k = 0; k < values.size(); ++k) {
+      std::vector<double>* const to = ArrayOf(interfaces[k], state);
+      if (to != nullptr) (*to)[j] = values[k];
+    }
+  }
+  cdr.End();
+}
+
+// What follows differs between distributions of ROS.
+void ReadControllerState(std::string_view message, JointState* state) {
+  CdrReader cdr(message);
+  ReadBegin(&cdr, state);
+  std::vector<double> unused, unused_effort;
+  ReadPoint(&cdr, &state->reference, &unused, &unused_effort);
+  ReadPoint(&cdr, &state->position, &state->velocity, &state->effort);
+  CheckCounts(*state);
 }
 
 void ReadFloat64MultiArray(std::string_view message,

@@ -76,6 +76,30 @@ TEST(BagSource, TakesSignalsOfOtherTopics) {
       RefusalOf("two_topics.mcap", {{"/torques", std::nullopt}}).empty());
 }
 
+// ros2_control's own messages, where they are named.
+TEST(BagSource, ReadsStatesOfControllers) {
+  const std::string controller = "/arm_controller/controller_state";
+  const auto read = [](const std::vector<LogTopic>& topics) {
+    LogReaderOptions options = Options(topics);
+    options.want_reference = options.want_velocity = true;
+    const Log log = ReadWholeLog(kFolder + "ros2_control.mcap", options);
+    EXPECT_TRUE(log.size() == 20 && Begins(log));
+    return log;
+  };
+  EXPECT_EQ(read({}).qref.size(), 0);
+  const Log state = read({{controller, std::nullopt}});
+  ASSERT_EQ(state.qref.size(), state.q.size());
+  EXPECT_EQ(state.qref, Eigen::MatrixXd(state.q.array() + .125));
+  ASSERT_EQ(state.qd.size(), state.q.size());
+  EXPECT_TRUE((state.qd.array() == 2).all());
+  const Log both =
+      read({{"/joint_states", std::nullopt}, {controller, Signal::kReference}});
+  ASSERT_EQ(both.qref.size(), state.qref.size());
+  EXPECT_EQ(both.qref, state.qref);
+  EXPECT_EQ(both.qd.size(), 0);
+  read({{"/dynamic_joint_states", std::nullopt}});
+}
+
 TEST(BagSource, LeavesNothingBesideABag) {
   const std::string path =
       WriteFile(Bytes(kFolder + "log.db3"), "50%3f #?immutable=0.db3");
@@ -116,11 +140,13 @@ TEST(BagSource, SaysWhatIsWrong) {
             "and 8 bytes do; expected a message of sensor_msgs/msg/JointState");
   EXPECT_EQ(RefusalOf("odd_type.mcap"),
             "FILE: no message gives the position of joint1, joint2; the bag "
-            "has /joint_states (control_msgs/msg/DynamicJointState)");
+            "has /joint_states (std_msgs/msg/Float32MultiArray)");
   EXPECT_EQ(RefusalOf("odd_type.mcap", {{"/joint_states", std::nullopt}}),
             "FILE: topic /joint_states: found "
-            "'control_msgs/msg/DynamicJointState': expected "
-            "sensor_msgs/msg/JointState or std_msgs/msg/Float64MultiArray");
+            "'std_msgs/msg/Float32MultiArray': expected "
+            "sensor_msgs/msg/JointState, std_msgs/msg/Float64MultiArray, "
+            "control_msgs/msg/DynamicJointState or "
+            "JointTrajectoryControllerState");
   EXPECT_EQ(RefusalOf("json.mcap"),
             "FILE: topic /joint_states: found 'json': expected messages "
             "encoded as cdr, as in ROS 2");
