@@ -53,7 +53,7 @@ void NoteUnread(const RobotTree& tree, const std::set<int>& used,
 }
 
 // Loops and the like over other joints than the chain's, which has been asked;
-// not of joints that are all held.
+// but for joints that follow others and are held.
 void NoteCouplings(const RobotTree& tree, Robot* robot) {
   constexpr size_t kMost = 5;
   std::vector<std::string>* const notes = &robot->notes;
@@ -63,7 +63,10 @@ void NoteCouplings(const RobotTree& tree, Robot* robot) {
         std::all_of(coupling.joints.begin(), coupling.joints.end(), [&](int j) {
           return robot->held.count(tree.joints[j].joint.name) > 0;
         });
-    if (held && !coupling.joints.empty()) continue;
+    if (held && !coupling.joints.empty() &&
+        tree.joints[coupling.joints.front()].mimic) {
+      continue;  // it stands where the other puts it
+    }
     if (++count > kMost) continue;
     notes->push_back("not used, as it lies outside the chain: " +
                      coupling.what);

@@ -38,7 +38,8 @@ INSTANTIATE_TEST_SUITE_P(
              "line 9, links[1]: found 'alhpa': expected one of the keys name, "
              "joint, joint_name, a, d, alpha, theta, unknown, mass, com, "
              "inertia, "
-             "limits, viscous, coulomb, armature, offset, zero, inertial"},
+             "limits, viscous, coulomb, armature, offset, zero, inertial, "
+             "parent"},
         Case{"name: scara", "base: b",
              "line 1: found 'base': expected one of the keys name, gravity, "
              "convention, links, tool"},
@@ -76,7 +77,8 @@ TEST(YamlNodeTest, WholeFiles) {
       Refusal("convention: standard\nlinks: &a [*a]\n"),
       "line 2, links[1]: found 'a list of 1': expected a map with the "
       "keys name, joint, joint_name, a, d, alpha, theta, unknown, mass, com, "
-      "inertia, limits, viscous, coulomb, armature, offset, zero, inertial");
+      "inertia, limits, viscous, coulomb, armature, offset, zero, inertial, "
+      "parent");
   EXPECT_EQ(Refusal("links: " + std::string(100000, '[')),
             "line 1: lists and maps are nested too deeply");
 }
