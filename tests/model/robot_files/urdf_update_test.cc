@@ -95,19 +95,15 @@ TEST(UpdateUrdf, GeometryGoesThroughFixedLinks) {
 // Two arms on one base; the first has a finger that is held.
 std::string TwoArms() {
   using namespace urdf_text;
-  const auto link = [](const std::string& name) {
-    return LinkXml(name,
-                   Inertial("xyz='.1 0 0' rpy='0 0 0'", "1", ".1", ".1", ".1"));
-  };
   const auto joint = [](const std::string& name, const std::string& parent,
                         const std::string& child) {
-    return JointXml(name, "continuous", parent, child,
-                    "<origin xyz='.2 .3 .1'/><axis xyz='0 1 0'/>");
+    return RodJointXml(name, parent, child, ".2 .3 .1");
   };
-  return "<robot name='two'>" + LinkXml("base") + link("a1") + link("a2") +
-         link("b1") + link("b2") + link("finger") + joint("ja1", "base", "a1") +
-         joint("ja2", "a1", "a2") + joint("jb1", "base", "b1") +
-         joint("jb2", "b1", "b2") + joint("f", "a2", "finger") + "</robot>";
+  return "<robot name='two'>" + LinkXml("base") + RodXml("a1") + RodXml("a2") +
+         RodXml("b1") + RodXml("b2") + RodXml("finger") +
+         joint("ja1", "base", "a1") + joint("ja2", "a1", "a2") +
+         joint("jb1", "base", "b1") + joint("jb2", "b1", "b2") +
+         joint("f", "a2", "finger") + "</robot>";
 }
 
 TEST(UpdateUrdf, BranchesAndHeldJoints) {

@@ -124,17 +124,12 @@ INSTANTIATE_TEST_SUITE_P(
 // A torso with two arms, the left one with a finger and a thumb; links of 1 kg
 // with their centre 0.1 m along x.
 std::string TwoArms() {
-  const auto link = [](const std::string& name) {
-    return LinkXml(name,
-                   Inertial("xyz='.1 0 0' rpy='0 0 0'", "1", ".1", ".1", ".1"));
-  };
   const auto joint = [](const std::string& name, const std::string& parent,
                         const std::string& child) {
-    return JointXml(name, "continuous", parent, child,
-                    "<origin xyz='.2 0 .1'/><axis xyz='0 1 0'/>");
+    return RodJointXml(name, parent, child, ".2 0 .1");
   };
-  return LinkXml("base") + link("torso") + link("left") + link("hand") +
-         link("right") + link("palm") + link("finger") + link("thumb") +
+  return LinkXml("base") + RodXml("torso") + RodXml("left") + RodXml("hand") +
+         RodXml("right") + RodXml("palm") + RodXml("finger") + RodXml("thumb") +
          joint("t", "base", "torso") + joint("l1", "torso", "left") +
          joint("l2", "left", "hand") + joint("r1", "torso", "right") +
          joint("r2", "right", "palm") +
