@@ -2,6 +2,7 @@
 
 #include <gflags/gflags.h>
 
+#include "model/plant/steady_loop.h"
 #include "model/robot_files/controller_reader.h"
 #include "tools/input_flags.h"
 #include "tools/usage_error.h"
@@ -10,7 +11,8 @@ DEFINE_uint64(seed, 0, "of everything that is drawn at random");
 DEFINE_string(
     controller, "",
     "`FILE` YAML with the controller's law (pd, p, cascade), rate, gains, "
-    "limits, delay, lag; default: pd of 8 Hz per joint");
+    "limits, delay, lag; default: pd of 8 Hz per joint, slower where that "
+    "rings");
 
 namespace armcal {
 
@@ -20,12 +22,12 @@ uint64_t SeedFromFlags(const FlagValues& flags) {
 
 ControllerOptions ControllerFromFlags(const FlagValues& flags,
                                       const Robot& robot,
-                                      const Eigen::VectorXd& q,
+                                      const ReferenceMotion& motion,
                                       double bandwidth_hz) {
   if (!flags.Text("controller").empty()) {
-    return ReadController(flags.Text("controller"), robot, q);
+    return ReadController(flags.Text("controller"), robot, motion.at(0).q);
   }
-  return DefaultController(robot, q, bandwidth_hz);
+  return SteadyController(robot, motion, bandwidth_hz);
 }
 
 // One number for all joints, or one for each; none of them negative.

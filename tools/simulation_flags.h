@@ -5,6 +5,7 @@
 #include <string>
 
 #include "model/dynamics/joint_controller.h"
+#include "model/plant/reference_motion.h"
 #include "model/robot/robot.h"
 #include "tools/flag_values.h"
 
@@ -13,10 +14,10 @@ namespace armcal {
 // The flags that commands which simulate share. Throw UsageError for a value
 // that is not what the flag takes.
 uint64_t SeedFromFlags(const FlagValues& flags);  // --seed
-// --controller, or the default one of that bandwidth at q.
+// --controller, or one that suits the motion (SteadyController).
 ControllerOptions ControllerFromFlags(const FlagValues& flags,
                                       const Robot& robot,
-                                      const Eigen::VectorXd& q,
+                                      const ReferenceMotion& motion,
                                       double bandwidth_hz);
 
 // One number for all of n joints, or one for each; none of them negative.

@@ -146,7 +146,7 @@ Scenario ScenarioFromFlags(const CommandInput& input, const UsualLoop& loop) {
   scenario.zero_velocity = Within(flags, "friction_width", 1e-4, 1);
   scenario.motion = MotionFromFlags(flags, scenario.model, loop.speed);
   scenario.loop.controller = ControllerFromFlags(
-      flags, scenario.model, scenario.motion.at(0).q, loop.bandwidth_hz);
+      flags, scenario.model, scenario.motion, loop.bandwidth_hz);
   scenario.loop.sensors = SensorsFromFlags(flags, scenario.model);
   scenario.loop.step = Within(flags, "step", 1e-5, .01);
   scenario.seed = SeedFromFlags(flags);

@@ -1,7 +1,10 @@
 #include "tools/commands/simulate_loop.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "model/dynamics/joint_controller.h"
 #include "model/text/input_text.h"
 
 namespace armcal {
@@ -40,7 +43,28 @@ bool Try(const CommandInput& input, const UsualLoop& slower, UsualLoop* loop,
   return Suits(chosen->run);
 }
 
-std::string Text(const UsualLoop& loop, double usual_share) {
+// Joints whose gains are below those of the bandwidth, and how far at most.
+std::string RingingText(const Scenario& scenario, double bandwidth_hz) {
+  const ControllerOptions usual =
+      DefaultController(scenario.model, scenario.motion.at(0).q, bandwidth_hz);
+  std::string joints;
+  double least = 1;
+  for (int j = 0; j < scenario.model.num_joints(); ++j) {
+    const double share =
+        scenario.loop.controller.drives[j].kd / usual.drives[j].kd;
+    if (share > .99) continue;
+    joints += (joints.empty() ? "" : ", ") + scenario.model.links[j].joint.name;
+    least = std::min(least, share);
+  }
+  if (joints.empty()) return "";
+  return "gains of " + joints + " down to " +
+         NumberText(std::round(100 * least)) + " % of loops of " +
+         NumberText(bandwidth_hz) +
+         " Hz: these would ring where other joints, free to move as well, "
+         "leave them little inertia\n";
+}
+
+std::string LimitText(const UsualLoop& loop, double usual_share) {
   std::string text;
   if (loop.bandwidth_hz != kUsualBandwidthHz) {
     text = "loops of " + NumberText(loop.bandwidth_hz) + " Hz";
@@ -60,10 +84,11 @@ std::string Text(const UsualLoop& loop, double usual_share) {
 ChosenRun RunWithUsualLoop(const CommandInput& input, Scenario usual) {
   const FlagValues& flags = input.flags;
   UsualLoop loop;
+  const bool open = flags.Text("controller").empty();
   ChosenRun chosen = RunWith(input, std::move(usual));
   bool suits = Suits(chosen.run);
   const double usual_share = chosen.run.run.saturated_share;
-  if (flags.Text("controller").empty()) {
+  if (open) {
     for (double hz = kUsualBandwidthHz / 2; !suits && hz >= 1; hz /= 2) {
       suits = Try(input, {hz, 1}, &loop, &chosen);
     }
@@ -75,7 +100,8 @@ ChosenRun RunWithUsualLoop(const CommandInput& input, Scenario usual) {
       suits = Try(input, {loop.bandwidth_hz, speed}, &loop, &chosen);
     }
   }
-  chosen.text = Text(loop, usual_share);
+  if (open) chosen.text = RingingText(chosen.scenario, loop.bandwidth_hz);
+  chosen.text += LimitText(loop, usual_share);
   return chosen;
 }
 

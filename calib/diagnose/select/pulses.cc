@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "calib/diagnose/data/thresholds.h"
+#include "calib/numerics/median.h"
 #include "calib/numerics/posterior.h"
 
 namespace armcal {
@@ -41,12 +42,25 @@ PulseScan::PulseScan(const GapRows& rows, const Model& model,
     const MatrixXd half =
         rows.WithoutDrift(j, TimesHalf(model.columns[j], model.covariance));
     joint.noise = model.noise[j];
-    joint.residual = joint.weight = VectorXd::Zero(rows.num_thin());
-    joint.half = MatrixXd::Zero(rows.num_thin(), half.cols());
-    for (size_t i = 0; i < rows.segments().size(); ++i) {
-      Whiten(static_cast<int>(i), residual.col(j), half, doubt.col(j), &joint);
+    WhitenAll(residual.col(j), half, doubt.col(j), &joint);
+    double spread = 1;
+    for (const double width : Widths()) {
+      spread = std::max(spread, Scan(j, width));
     }
+    if (spread == 1) continue;
+    joint.noise.sigma *= spread;
+    WhitenAll(residual.col(j), half, doubt.col(j), &joint);
+    deviations_.col(j).setZero();
     for (const double width : Widths()) Scan(j, width);
+  }
+}
+
+void PulseScan::WhitenAll(const VectorXd& residual, const MatrixXd& half,
+                          const VectorXd& doubt, Joint* joint) const {
+  joint->residual = joint->weight = VectorXd::Zero(rows_.num_thin());
+  joint->half = MatrixXd::Zero(rows_.num_thin(), half.cols());
+  for (size_t i = 0; i < rows_.segments().size(); ++i) {
+    Whiten(static_cast<int>(i), residual, half, doubt, joint);
   }
 }
 
@@ -74,17 +88,23 @@ void PulseScan::Whiten(int segment, const VectorXd& residual,
       weight * joint->noise.Whiten(with_past(half));
 }
 
-void PulseScan::Scan(int joint, double width) {
+double PulseScan::Scan(int joint, double width) {
+  std::vector<double> all;
   for (size_t i = 0; i < rows_.segments().size(); ++i) {
     const int s = static_cast<int>(i);
     const Course course = CourseOf(joint, rows_.step(s), width);
     for (int k = rows_.thin_begin(s); k < rows_.thin_begin(s + 1); ++k) {
-      const double deviations = Fit(joint, s, k, course).deviations;
+      const Pulse pulse = Fit(joint, s, k, course);
+      if (!std::isfinite(pulse.stddev)) continue;
+      const double deviations = pulse.deviations;
+      all.push_back(std::abs(deviations));
       if (std::abs(deviations) <= std::abs(deviations_(k, joint))) continue;
       deviations_(k, joint) = deviations;
       widths_(k, joint) = width;
     }
   }
+  constexpr double kOverMedian = 1.4826;  // standard deviation, if normal
+  return all.empty() ? 1 : kOverMedian * Median(std::move(all));
 }
 
 PulseScan::Course PulseScan::CourseOf(int joint, double step,
