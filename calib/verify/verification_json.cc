@@ -62,10 +62,11 @@ json RolloutJson(const RolloutComparison& c) {
 json ChecksJson(const std::vector<VerificationCheck>& checks) {
   json list = json::array();
   for (const VerificationCheck& check : checks) {
-    list.push_back({{"name", check.name},
-                    {"value", JsonNumber(check.value)},
-                    {"threshold", check.threshold},
-                    {"passed", check.passed()}});
+    list.push_back(
+        {{"name", check.name},
+         {"value", JsonNumber(check.value)},
+         {"threshold", check.threshold},
+         {"passed", check.compared() ? json(check.passed()) : json(nullptr)}});
   }
   return list;
 }
@@ -81,6 +82,7 @@ json ToJson(const VerificationReport& report) {
               {"random_states", v.random_states},
               {"log_states", v.log_states},
               {"seed", report.seed},
+              {"swing_s", v.swing_s},
               {"logs", report.logs},
               {"seen_logs", report.seen_logs},
               {"reasons", report.Shortcomings()},

@@ -129,6 +129,19 @@ std::string ClosedLoopTable(const ClosedLoopComparison& loop) {
   return text;
 }
 
+// What kept a swing from being followed to its end is no fault of the robot's.
+std::string SwingNote(const Verification& v) {
+  if (v.swing_s == 0) return "";
+  if (std::isnan(v.energy_drift_rel) && v.reasons.empty()) {
+    return "note       Simbody's integrator does not follow a passive swing: "
+           "its "
+           "drift is not compared\n";
+  }
+  if (v.swing_s == VerificationOptions().swing_s) return "";
+  return "note       the passive swing takes " + NumberText(v.swing_s) +
+         " s: integrators do not follow a longer one\n";
+}
+
 // What was verified, on what.
 std::string Heading(const VerificationReport& report) {
   const Verification& v = report.verification;
@@ -150,7 +163,7 @@ std::string Heading(const VerificationReport& report) {
   }
   text += "states     " + std::to_string(v.random_states) + " random ones, " +
           std::to_string(v.log_states) + " of the logs\n";
-  return text;
+  return text + SwingNote(v);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "model/plant/robot_variation.h"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 
@@ -18,13 +19,44 @@ InertialParameters FromPseudoInertia(const Eigen::Matrix4d& J) {
   return inertial;
 }
 
+// The Frobenius-nearest whose second moments about the centre of mass are at
+// least a thousandth of the largest, so that it is not flat either.
+InertialParameters NearestPossible(const InertialParameters& inertial) {
+  constexpr double kLeast = 1e-3;
+  const Eigen::Matrix4d J = PseudoInertia(inertial.ToVector());
+  const Eigen::Vector3d com = inertial.first_moment / inertial.mass;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> moments(
+      J.topLeftCorner<3, 3>() - inertial.mass * com * com.transpose());
+  const Eigen::Vector3d values = moments.eigenvalues();
+  const Eigen::Vector3d possible = values.cwiseMax(kLeast * values[2]);
+  Eigen::Matrix4d nearest = J;
+  nearest.topLeftCorner<3, 3>() = moments.eigenvectors() *
+                                      possible.asDiagonal() *
+                                      moments.eigenvectors().transpose() +
+                                  inertial.mass * com * com.transpose();
+  return FromPseudoInertia(nearest);
+}
+
 }  // namespace
+
+std::vector<std::string> MakeLinksPossible(Robot* robot) {
+  std::vector<std::string> changed;
+  for (Link& link : robot->links) {
+    if (!(link.inertial.mass > 0) || WhyUnphysical(link.inertial).empty()) {
+      continue;
+    }
+    link.inertial = NearestPossible(link.inertial);
+    if (WhyUnphysical(link.inertial).empty()) changed.push_back(link.name);
+  }
+  return changed;
+}
 
 Robot VaryRobot(const Robot& robot, double share, uint64_t seed) {
   std::mt19937_64 random = RandomStream(seed, 0, RandomPurpose::kRobot);
   std::normal_distribution<double> normal(0, share);
   const auto factor = [&] { return std::exp(normal(random)); };
   Robot varied = robot;
+  MakeLinksPossible(&varied);
   for (Link& link : varied.links) {
     // About the centre of mass, so that `share` is of the body's own size: a
     // body far from its link's origin is not moved far.

@@ -66,6 +66,19 @@ void RequireFinite(const Robot& robot, const Link& link) {
                    "its mass and first moment are too large to calculate with");
 }
 
+[[noreturn]] void Refuse(const Robot& robot, const Link& link,
+                         const std::string& why) {
+  throw InputError(robot.name, "link " + link.name, "",
+                   "Simbody cannot simulate it: " + why);
+}
+
+// Simbody looks at the inertia in the axes of its matrix, where some that no
+// body has pass, and stumbles over it later in other axes.
+void RequirePossible(const Robot& robot, const Link& link) {
+  const std::string why = WhyUnphysical(link.inertial);
+  if (link.inertial.mass > 0 && !why.empty()) Refuse(robot, link, why);
+}
+
 }  // namespace
 
 struct SimbodyArm::Impl {
@@ -93,14 +106,13 @@ struct SimbodyArm::Impl {
     no_acceleration = 0;
   } catch (const SimTK::Exception::Base& error) {
     // Its tolerances are absolute: a heavy link's rounding is beyond them.
-    throw InputError(
-        robot.name, "link " + robot.links.back().name, "",
-        "Simbody cannot simulate it: " + FirstLine(error.getMessage()));
+    Refuse(robot, robot.links.back(), FirstLine(error.getMessage()));
   }
 
   void Add(const Robot& robot, const Link& link,
            SimTK::MobilizedBody& parent) try {
     RequireFinite(robot, link);
+    RequirePossible(robot, link);
     const SimTK::Body::Rigid body(ToMassProperties(link.inertial));
     SimTK::Transform X_PF = ToTransform(link.X_PF);
     SimTK::Transform X_LM = ToTransform(link.X_ML.inverse());
@@ -117,9 +129,7 @@ struct SimbodyArm::Impl {
     links.push_back(mobilizer);
   } catch (const SimTK::Exception::Base& error) {
     const std::string why = WhyUnphysical(link.inertial);
-    throw InputError(robot.name, "link " + link.name, "",
-                     "Simbody cannot simulate it: " +
-                         (why.empty() ? FirstLine(error.getMessage()) : why));
+    Refuse(robot, link, why.empty() ? FirstLine(error.getMessage()) : why);
   }
 
   void Set(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {

@@ -7,6 +7,7 @@
 
 #include "model/dynamics/drive_filters.h"
 #include "model/dynamics/forward_dynamics.h"
+#include "model/plant/robot_variation.h"
 
 namespace armcal {
 namespace {
@@ -20,10 +21,12 @@ constexpr double kGainMargin = 2;
 // Mass matrices at postures of the motion, armature included.
 std::vector<MatrixXd> InertiasAlong(const Robot& robot,
                                     const ReferenceMotion& motion) {
+  Robot possible = robot;
+  MakeLinksPossible(&possible);
   std::vector<MatrixXd> inertias;
   for (int k = 0; k <= kPostures; ++k) {
     inertias.push_back(
-        MassMatrix(robot, motion.at(motion.duration * k / kPostures).q));
+        MassMatrix(possible, motion.at(motion.duration * k / kPostures).q));
     for (int j = 0; j < robot.num_joints(); ++j) {
       inertias.back()(j, j) += robot.links[j].joint.armature;
     }

@@ -36,6 +36,16 @@ std::string TrackingText(const ScenarioRun& run) {
   return text;
 }
 
+// Links of the file that no real robot can have.
+std::string PossibleText(Robot robot) {
+  std::string text;
+  for (const std::string& link : MakeLinksPossible(&robot)) {
+    text += "no body has the inertia of " + link +
+            ": the simulated robot has the nearest that one can have\n";
+  }
+  return text;
+}
+
 std::string Report(const ChosenRun& chosen) {
   const Scenario& scenario = chosen.scenario;
   const ScenarioRun& run = chosen.run;
@@ -55,7 +65,7 @@ std::string Report(const ChosenRun& chosen) {
     }
     text += "\n";
   }
-  text += chosen.text;
+  text += PossibleText(scenario.model) + chosen.text;
   if (run.run.saturated_share > 0) {
     text += "a torque is at its limit in " +
             NumberText(100 * run.run.saturated_share) + " % of the time; " +

@@ -17,7 +17,7 @@ VerificationReport WithRatio(RolloutFigure ratio) {
   VerificationReport report;
   report.robot.name = "arm";
   report.calibration = "calibration.json";
-  report.verification = {0, 0, 0, 0, 0, 0, 0, 1000, 0, {}};
+  report.verification = {0, 0, 0, 0, 0, 0, 0, 1000, 0, 10, {}};
   RolloutComparison c;
   c.window_s = .5;
   c.unit = "rad";

@@ -45,4 +45,34 @@ TEST(RobotVariation, NoErrorChangesNothing) {
   }
 }
 
+// The inertia of pybullet's TwoJointRobot, which breaks the triangle inequality
+// by 1e-3, and a body that is far from its origin. Mass and centre stay; what
+// is possible stays as it is, and what is changed is changed by no more than
+// was missing.
+TEST(RobotVariation, ImpossibleLinksBecomeTheNearestPossible) {
+  std::mt19937_64 random(1);
+  Robot robot = SampleRobot("3R elbow");
+  SetRandomInertials(&random, &robot);
+  const Robot file = robot;
+  Eigen::Matrix3d inertia;
+  inertia << .00208333, .0125, .00625, .0125, .167083, .000625, .00625, .000625,
+      .168333;
+  const Eigen::Vector3d com(.1, 2, .3);
+  robot.links[1].inertial =
+      InertialParameters::FromCenterOfMass(.5, com, inertia);
+  ASSERT_NE(WhyUnphysical(robot.links[1].inertial), "");
+  Robot possible = robot;
+  EXPECT_EQ(MakeLinksPossible(&possible),
+            std::vector<std::string>{robot.links[1].name});
+  const InertialParameters& is = possible.links[1].inertial;
+  EXPECT_EQ(WhyUnphysical(is), "");
+  EXPECT_EQ(is.mass, .5);
+  EXPECT_EQ(is.first_moment, Eigen::Vector3d(.5 * com));
+  EXPECT_LT((is.inertia - robot.links[1].inertial.inertia).norm(), 3e-3);
+  for (const int i : {0, 2}) {
+    EXPECT_EQ(possible.links[i].inertial.ToVector(),
+              file.links[i].inertial.ToVector());
+  }
+}
+
 }  // namespace armcal::robot_variation_test

@@ -75,7 +75,7 @@
       ['check', 'largest (relative) difference', 'at most', ''],
       (result.checks || []).map((c) => [checkNames[c.name] || c.name.replace(/_/g, ' ')
           .replace('rollout ratio low', 'error of the simulation over the file’s, low end of its interval,'), c.value, c.threshold,
-                                        c.passed ? '✓' : '✗ failed']));
+                                        c.passed === null ? 'not compared' : c.passed ? '✓' : '✗ failed']));
   const rollouts = () => (result.rollout || []).length > 0 && result.rollout.flatMap((r) => [
     html('h3', {}, `${number(r.window_s)} s from the log’s states, rms of positions in ${r.unit}`),
     bars([{label: 'the file’s robot', value: r.before_rms, colour: 'c2',
