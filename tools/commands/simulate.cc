@@ -6,6 +6,7 @@
 
 #include "model/log_files/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
+#include "model/plant/robot_variation.h"
 #include "model/text/input_text.h"
 #include "tools/command.h"
 #include "tools/commands/simulate_effects.h"

@@ -16,6 +16,10 @@ using Eigen::VectorXd;
 
 constexpr int kMemory = Autoregression::kOrder;
 constexpr double kLeastSeen = .5;  // of a pulse's g'g
+// Of the noise in a sample's variance: one that is doubted a hundred times as
+// much is not seen. Of a pulse that is masked but for its tails these would
+// else be all that is fitted, ever again.
+constexpr double kLeastShare = 1e-4;
 
 // X C^(1/2) for the columns that act on one joint.
 MatrixXd TimesHalf(const BaselineColumns& columns, const MatrixXd& covariance) {
@@ -75,8 +79,9 @@ void PulseScan::Whiten(int segment, const VectorXd& residual,
   int seen = 0;  // uninterrupted
   for (int k = begin - kMemory; k < end; ++k) {
     seen = rows_.IsInPart(segment, k) ? seen + 1 : 0;
-    if (seen <= kMemory) continue;
-    joint->weight[k] = std::sqrt(variance / (variance + doubt[k] * doubt[k]));
+    const double share = variance / (variance + doubt[k] * doubt[k]);
+    if (seen > kMemory && share > kLeastShare)
+      joint->weight[k] = std::sqrt(share);
   }
   const auto with_past = [begin, end](const MatrixXd& all) {
     return all.middleRows(begin - kMemory, end - begin + kMemory);

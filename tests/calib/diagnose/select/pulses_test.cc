@@ -141,6 +141,21 @@ TEST_F(Pulses, ThatAnErrorOfTheFitExplainsDoNotStandOut) {
   EXPECT_LT(Scan(residual, 10).At(0, sample, .6).deviations, 1);
 }
 
+// What is masked has no pulse, whatever the samples beside the mask have.
+TEST_F(Pulses, AreNotToldFromTheirTails) {
+  MatrixXd residual = Draw(0);
+  Push(0, 30, 11, .6, &residual);
+  const int sample = SampleAt(11);
+  const double width = PulseScan::Widths()[0];
+  EXPECT_GT(std::abs(Scan(residual, 0).deviations()(sample, 0)), 30);
+  for (int k = 0; k < size(); ++k) {
+    if (std::abs(time(k) - 11) <= 2.5 * width) {
+      doubt_(k, 0) = 1e6 * noise_[0].stddev();
+    }
+  }
+  EXPECT_EQ(Scan(residual, 0).deviations()(sample, 0), 0);
+}
+
 // A doubt lets a pulse stand out less, as far as its samples have it. What is
 // doubted a thousandfold says as little as that, and what is doubted without
 // bound is not seen.
