@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "model/effects/effect_parts.h"
@@ -23,6 +24,15 @@ double Mass(const Robot& robot, const Eigen::VectorXd& p) {
   if (!IsOnTheOnlyAxis(robot)) return p[0];
   const Eigen::Vector3d h_M = robot.links[0].X_ML.linear() * p.segment<3>(1);
   return p[0] > 0 ? h_M.head<2>().squaredNorm() / p[0] : 0;
+}
+
+// (|h|^2 1 - h h') / m, about the point that h is about; with a lever of at
+// most a metre, beyond which no load is: a search passes small masses.
+Eigen::Matrix3d PointInertia(double mass, const Eigen::Vector3d& h) {
+  constexpr double kLongest = 1;  // m
+  if (h.isZero(0) || mass <= 0) return Eigen::Matrix3d::Zero();
+  return (h.squaredNorm() * Eigen::Matrix3d::Identity() - h * h.transpose()) /
+         std::max(mass, h.norm() / kLongest);
 }
 
 // In the last link's frame.
@@ -53,8 +63,8 @@ bool IsWithinReach(const std::vector<EffectEstimate>& estimates) {
 
 // A body on the tool: its mass, its first moments hx hy hz about the tool
 // frame's origin, in the last link's axes. Its inertia about that origin is
-// left out, which torques hardly show; but of a pendulum with the tool's frame
-// on its axis, where the first parameter is that inertia over 1 m^2 instead.
+// that of a point mass there; but of a pendulum with the tool's frame on its
+// axis the first parameter is that inertia over 1 m^2, instead of the mass.
 Effect Payload() {
   Effect effect;
   effect.name = "payload";
@@ -77,9 +87,9 @@ Effect Payload() {
     InertialParameters payload;
     payload.mass = Mass(*site.robot, p);
     payload.first_moment = p.segment<3>(1);
-    if (IsOnTheOnlyAxis(*site.robot)) {
-      payload.inertia = p[0] * Eigen::Matrix3d::Identity();
-    }
+    payload.inertia = IsOnTheOnlyAxis(*site.robot)
+                          ? Eigen::Matrix3d(p[0] * Eigen::Matrix3d::Identity())
+                          : PointInertia(payload.mass, payload.first_moment);
     const Eigen::Isometry3d X_LP(
         Eigen::Translation3d(robot->robot.X_LT.translation()));
     robot->robot.links.back().inertial += payload.ReexpressIn(X_LP);
