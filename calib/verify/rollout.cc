@@ -17,11 +17,16 @@ using Eigen::VectorXd;
 
 constexpr double kNeverLost = std::numeric_limits<double>::infinity();
 
-// Of each length, model and stretch of a log as many are repeated by referees,
-// where that is no matter of more steps than these.
+// Of each length, model and stretch of a log as many are repeated by referees.
 constexpr int kRefereed = 1;
-constexpr long kRefereeSteps = 1500;
-constexpr double kRefereeTolerance = 1e-8;
+// A referee's local error, and how many steps it may take for it. Unstable
+// motion makes errors grow a thousandfold within a second: where a referee
+// disagrees it is asked again, more exactly.
+struct RefereeEffort {
+  double tolerance;
+  long steps;
+};
+constexpr RefereeEffort kRefereeEfforts[] = {{1e-8, 1500}, {1e-11, 15'000}};
 
 class Roller {
  public:
@@ -102,20 +107,24 @@ class Roller {
     }
   }
 
-  static void Referee(const Trajectory& trajectory, int begin,
-                      const VectorXd& coulomb, const MatrixXd& q,
-                      TorqueReplay* referee, Rollouts* rollouts) {
-    IntegrationOptions options;
-    options.relative = options.absolute = kRefereeTolerance;
-    options.max_steps = kRefereeSteps;
-    const Integration run =
-        referee->Run(trajectory, begin, begin + static_cast<int>(q.rows()),
-                     coulomb, options);
-    if (!run.finished) return;
+  void Referee(const Trajectory& trajectory, int begin, const VectorXd& coulomb,
+               const MatrixXd& q, TorqueReplay* referee,
+               Rollouts* rollouts) const {
+    double difference = kNaN;
+    for (const RefereeEffort& effort : kRefereeEfforts) {
+      IntegrationOptions options;
+      options.relative = options.absolute = effort.tolerance;
+      options.max_steps = effort.steps;
+      const Integration run =
+          referee->Run(trajectory, begin, begin + static_cast<int>(q.rows()),
+                       coulomb, options);
+      if (!run.finished) return;
+      difference = (run.x.leftCols(q.cols()) - q).cwiseAbs().maxCoeff();
+      if (difference <= options_.tolerance) break;
+    }
     ++rollouts->refereed;
     rollouts->referee_difference =
-        std::max(rollouts->referee_difference,
-                 (run.x.leftCols(q.cols()) - q).cwiseAbs().maxCoeff());
+        std::max(rollouts->referee_difference, difference);
   }
 
   const std::vector<RolloutModel>& models_;
