@@ -31,6 +31,15 @@ double CarriedInertia(const EffectSite& site) {
   return LinkInertias(*site.robot, q)[site.joint];
 }
 
+Eigen::Matrix3d PointInertia(double mass, const Eigen::Vector3d& h) {
+  constexpr double kLongest = 1;  // m
+  if (mass == 0 || h.isZero(0)) return Eigen::Matrix3d::Zero();
+  const double divisor =
+      std::copysign(std::max(std::abs(mass), h.norm() / kLongest), mass);
+  return (h.squaredNorm() * Eigen::Matrix3d::Identity() - h * h.transpose()) /
+         divisor;
+}
+
 double MovingMass(const Robot& robot) {
   double mass = 0;
   for (const Link& link : robot.links) mass += link.inertial.mass;

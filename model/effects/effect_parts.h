@@ -23,6 +23,11 @@ double Radian(const EffectSite& site);
 // the other joints in the middle of theirs, all held.
 double CarriedInertia(const EffectSite& site);
 double MovingMass(const Robot& robot);  // kg, of all links
+// Of a point mass with first moments h about the origin, kg m^2 about it:
+//   (|h|^2 1 - h h') / mass,
+// its lever at most a metre, beyond which no load is: a search passes masses
+// that are small for their moments. A mass taken off is negative.
+Eigen::Matrix3d PointInertia(double mass, const Eigen::Vector3d& h);
 // The log's length, s, never 0.
 double Duration(const EffectSite& site);
 

@@ -19,11 +19,9 @@ std::vector<EffectEstimate> AddedMassEstimates(const EffectSite&,
 
 // A body fixed to a link (a weight, a hose, a valve block), or one that was
 // taken off, which has a negative mass: its mass, its first moments hx hy hz
-// about the origin of the link's frame, in the link's axes, and its inertia
-// about that origin, taken as the same about all axes; a point mass has its
-// m r^2 about two of the three, which leaves first moments off by as much as a
-// quarter at a lever of 0.14 m. Joints show as much of these as they turn:
-// below a vertical axis, its inertia alone.
+// about the origin of the link's frame, in the link's axes, and the inertia
+// about its own centre, taken as the same about all axes. Joints show as much
+// of these as they turn: below a vertical axis, its inertia about that alone.
 Effect AddedMass() {
   Effect effect;
   effect.name = "added_mass";
@@ -49,7 +47,8 @@ Effect AddedMass() {
     InertialParameters body;
     body.mass = p[0];
     body.first_moment = p.segment<3>(1);
-    body.inertia = p[4] * Eigen::Matrix3d::Identity();
+    body.inertia = PointInertia(body.mass, body.first_moment) +
+                   p[4] * Eigen::Matrix3d::Identity();
     robot->robot.links[site.joint].inertial += body;
   };
   effect.estimates = AddedMassEstimates;

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "model/effects/effect_parts.h"
@@ -24,15 +23,6 @@ double Mass(const Robot& robot, const Eigen::VectorXd& p) {
   if (!IsOnTheOnlyAxis(robot)) return p[0];
   const Eigen::Vector3d h_M = robot.links[0].X_ML.linear() * p.segment<3>(1);
   return p[0] > 0 ? h_M.head<2>().squaredNorm() / p[0] : 0;
-}
-
-// (|h|^2 1 - h h') / m, about the point that h is about; with a lever of at
-// most a metre, beyond which no load is: a search passes small masses.
-Eigen::Matrix3d PointInertia(double mass, const Eigen::Vector3d& h) {
-  constexpr double kLongest = 1;  // m
-  if (h.isZero(0) || mass <= 0) return Eigen::Matrix3d::Zero();
-  return (h.squaredNorm() * Eigen::Matrix3d::Identity() - h * h.transpose()) /
-         std::max(mass, h.norm() / kLongest);
 }
 
 // In the last link's frame.

@@ -18,28 +18,38 @@ using Search = EffectParameter::Search;
 
 constexpr double kDuration = 8;  // s
 
-// p with its linear parameters fitted to `measured`, the others as they are.
+// p with its linear parameters fitted to `measured`, the others as they are:
+// Gauss and Newton's steps from 0, the first by the columns of a diagnosis.
 VectorXd Fit(const EffectPlant& plant, const Effect& effect, int joint,
-             const Log& log, VectorXd p) {
+             const Log& log, const VectorXd& sizes) {
+  constexpr int kSteps = 4;
   RecordedTorque recorded(plant.arm().robot, plant.arm().transitions,
                           EffectPlant::MotionOf(log));
-  const MatrixXd measured = plant.Measured(log);
-  MatrixXd columns(measured.size(), 0);
+  const auto change = [&](const VectorXd& p) -> VectorXd {
+    return EffectPlant::Judged(plant.arm().Change(effect, joint, p, &recorded))
+        .reshaped();
+  };
+  const VectorXd measured = plant.Measured(log).reshaped();
+  std::vector<int> linear;
+  VectorXd p = sizes;
   for (int k = 0; k < p.size(); ++k) {
     if (effect.parameters[k].search != Search::kLinear) continue;
-    VectorXd one = p;
-    for (int i = 0; i < p.size(); ++i) {
-      if (i != k && effect.parameters[i].search == Search::kLinear) one[i] = 0;
-    }
-    const MatrixXd change =
-        EffectPlant::Judged(plant.arm().Change(effect, joint, one, &recorded));
-    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
-    columns.rightCols(1) = change.reshaped();
+    linear.push_back(k);
+    p[k] = 0;
   }
-  const VectorXd shares =
-      columns.colPivHouseholderQr().solve(VectorXd(measured.reshaped()));
-  for (int k = 0, c = 0; k < p.size(); ++k) {
-    if (effect.parameters[k].search == Search::kLinear) p[k] *= shares[c++];
+  for (int step = 0; step < kSteps; ++step) {
+    const VectorXd at = step == 0 ? VectorXd::Zero(measured.size()) : change(p);
+    const double share = step == 0 ? 1 : 1e-2;
+    MatrixXd columns(measured.size(), linear.size());
+    for (size_t c = 0; c < linear.size(); ++c) {
+      VectorXd next = p;
+      next[linear[c]] += share * sizes[linear[c]];
+      columns.col(c) = (change(next) - at) / share;
+    }
+    const VectorXd shares = columns.colPivHouseholderQr().solve(measured - at);
+    for (size_t c = 0; c < linear.size(); ++c) {
+      p[linear[c]] += shares[c] * sizes[linear[c]];
+    }
   }
   return p;
 }
@@ -97,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"encoder_offset", {"offset"}}, Case{"link_length", {"length"}},
         Case{"base_tilt", {"tilt", "gravity_x", "gravity_y", "gravity_z"}},
         Case{"payload", {"mass", "com_x", "com_y", "com_z"}},
-        Case{"added_mass", {"mass"}}, Case{"link_inertia", {"share", "mass"}},
+        Case{"added_mass", {"mass", "hx", "hy", "hz"}},
+        Case{"link_inertia", {"share", "mass"}},
         Case{"external_contact", {"force_x", "force_y", "force_z"}, "force"},
         Case{"time_base", {"rate"}}),
     [](const auto& info) { return info.param.effect; });
