@@ -8,7 +8,6 @@
 #include <map>
 
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/numerics/median.h"
 
 namespace armcal {
 namespace {
@@ -60,11 +59,6 @@ MatrixXd BreakawayDirection(const MatrixXd& moves, const MatrixXd& velocity,
   return direction;
 }
 
-// Whether a joint slides one way there so that its friction is known.
-bool IsClear(double friction, double coulomb) {
-  return std::abs(friction) >= Limits().clear_friction * coulomb;
-}
-
 // Coulomb friction changes from day to day: by how much what is left of the
 // torque is against the motion, where that is clear, in the median, since a
 // push takes less than half of it. `friction`: as the model has it.
@@ -72,26 +66,13 @@ double MoreFriction(const VectorXd& left, const VectorXd& friction,
                     double coulomb) {
   std::vector<double> against;
   for (int k = 0; k < left.size(); ++k) {
-    if (!IsClear(friction[k], coulomb)) continue;
+    if (std::abs(friction[k]) < Limits().clear_friction * coulomb) continue;
     against.push_back(friction[k] > 0 ? left[k] : -left[k]);
   }
   if (against.size() < Limits().noise_rows) return 0;
-  return Median(std::move(against));
-}
-
-// Standard deviation of what the model leaves where friction is known, told
-// from its middle half, which pushes hardly change. It may be larger than in
-// the logs that the noise was told from: errors of the measured acceleration
-// enter the torque times the inertia, which grows with what the arm carries.
-double StddevOfLeft(const VectorXd& left, const VectorXd& friction,
-                    double coulomb) {
-  constexpr double kOverMedian = 1.4826;  // if normal
-  std::vector<double> sizes;
-  for (int k = 0; k < left.size(); ++k) {
-    if (IsClear(friction[k], coulomb)) sizes.push_back(std::abs(left[k]));
-  }
-  if (sizes.size() < Limits().noise_rows) return 0;
-  return kOverMedian * Median(std::move(sizes));
+  const auto middle = against.begin() + against.size() / 2;
+  std::nth_element(against.begin(), middle, against.end());
+  return *middle;
 }
 
 }  // namespace
@@ -144,12 +125,9 @@ FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
             .select(
                 Limits().static_friction * excess.coulomb[j],
                 Eigen::ArrayXd::Constant(rows.num_thin(), excess.coulomb[j]));
-    const double noise =
-        std::max(rows.noise(j).stddev(),
-                 StddevOfLeft(excess.torque.col(j) - excess.friction.col(j),
-                              excess.friction.col(j), excess.coulomb[j]));
     excess.deviations.col(j) =
-        (excess.torque.col(j).cwiseAbs().array() - held) / noise;
+        (excess.torque.col(j).cwiseAbs().array() - held) /
+        rows.noise(j).stddev();
   }
   return excess;
 }

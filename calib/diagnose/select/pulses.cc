@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/numerics/median.h"
 #include "calib/numerics/posterior.h"
 
 namespace armcal {
@@ -46,25 +45,12 @@ PulseScan::PulseScan(const GapRows& rows, const Model& model,
     const MatrixXd half =
         rows.WithoutDrift(j, TimesHalf(model.columns[j], model.covariance));
     joint.noise = model.noise[j];
-    WhitenAll(residual.col(j), half, doubt.col(j), &joint);
-    double spread = 1;
-    for (const double width : Widths()) {
-      spread = std::max(spread, Scan(j, width));
+    joint.residual = joint.weight = VectorXd::Zero(rows.num_thin());
+    joint.half = MatrixXd::Zero(rows.num_thin(), half.cols());
+    for (size_t i = 0; i < rows.segments().size(); ++i) {
+      Whiten(static_cast<int>(i), residual.col(j), half, doubt.col(j), &joint);
     }
-    if (spread == 1) continue;
-    joint.noise.sigma *= spread;
-    WhitenAll(residual.col(j), half, doubt.col(j), &joint);
-    deviations_.col(j).setZero();
     for (const double width : Widths()) Scan(j, width);
-  }
-}
-
-void PulseScan::WhitenAll(const VectorXd& residual, const MatrixXd& half,
-                          const VectorXd& doubt, Joint* joint) const {
-  joint->residual = joint->weight = VectorXd::Zero(rows_.num_thin());
-  joint->half = MatrixXd::Zero(rows_.num_thin(), half.cols());
-  for (size_t i = 0; i < rows_.segments().size(); ++i) {
-    Whiten(static_cast<int>(i), residual, half, doubt, joint);
   }
 }
 
@@ -80,8 +66,9 @@ void PulseScan::Whiten(int segment, const VectorXd& residual,
   for (int k = begin - kMemory; k < end; ++k) {
     seen = rows_.IsInPart(segment, k) ? seen + 1 : 0;
     const double share = variance / (variance + doubt[k] * doubt[k]);
-    if (seen > kMemory && share > kLeastShare)
+    if (seen > kMemory && share > kLeastShare) {
       joint->weight[k] = std::sqrt(share);
+    }
   }
   const auto with_past = [begin, end](const MatrixXd& all) {
     return all.middleRows(begin - kMemory, end - begin + kMemory);
@@ -93,23 +80,17 @@ void PulseScan::Whiten(int segment, const VectorXd& residual,
       weight * joint->noise.Whiten(with_past(half));
 }
 
-double PulseScan::Scan(int joint, double width) {
-  std::vector<double> all;
+void PulseScan::Scan(int joint, double width) {
   for (size_t i = 0; i < rows_.segments().size(); ++i) {
     const int s = static_cast<int>(i);
     const Course course = CourseOf(joint, rows_.step(s), width);
     for (int k = rows_.thin_begin(s); k < rows_.thin_begin(s + 1); ++k) {
-      const Pulse pulse = Fit(joint, s, k, course);
-      if (!std::isfinite(pulse.stddev)) continue;
-      const double deviations = pulse.deviations;
-      all.push_back(std::abs(deviations));
+      const double deviations = Fit(joint, s, k, course).deviations;
       if (std::abs(deviations) <= std::abs(deviations_(k, joint))) continue;
       deviations_(k, joint) = deviations;
       widths_(k, joint) = width;
     }
   }
-  constexpr double kOverMedian = 1.4826;  // standard deviation, if normal
-  return all.empty() ? 1 : kOverMedian * Median(std::move(all));
 }
 
 PulseScan::Course PulseScan::CourseOf(int joint, double step,

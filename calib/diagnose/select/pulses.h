@@ -27,13 +27,6 @@ struct Pulse {
 // the samples were fitted as well: what looks like one of the columns is
 // hardly told from an error of it, and what a fit has taken up is not given
 // back.
-//
-// A log may have more noise than the model was told: errors of the measured
-// acceleration enter the torque as M(q) times them, so those of a light wrist
-// grow tenfold with what it picks up. Where the middle half of a joint's
-// deviations is wider than that of a standard normal distribution, its noise is
-// larger by that factor (an empirical null: Efron 2004, JASA 99). Pushes, which
-// take little of the time, hardly change the middle half.
 class PulseScan {
  public:
   // s, of the pulses that are looked for.
@@ -79,11 +72,7 @@ class PulseScan {
   void Whiten(int segment, const Eigen::VectorXd& residual,
               const Eigen::MatrixXd& half, const Eigen::VectorXd& doubt,
               Joint* joint) const;
-  void WhitenAll(const Eigen::VectorXd& residual, const Eigen::MatrixXd& half,
-                 const Eigen::VectorXd& doubt, Joint* joint) const;
-  // Keeps the largest deviations; returns how much wider than a standard normal
-  // distribution theirs is.
-  double Scan(int joint, double width);
+  void Scan(int joint, double width);
   Course CourseOf(int joint, double step, double width) const;
   Pulse Fit(int joint, int segment, int sample, const Course& course) const;
 
