@@ -34,7 +34,8 @@ std::vector<EffectEstimate> PayloadEstimates(const EffectSite& site,
   return {{"mass", "kg", mass},
           {"com_x", "m", com.x()},
           {"com_y", "m", com.y()},
-          {"com_z", "m", com.z()}};
+          {"com_z", "m", com.z()},
+          {"inertia", "kg m^2", p[4]}};
 }
 
 // A centre of mass far from the last link is of no load.
@@ -52,9 +53,10 @@ bool IsWithinReach(const std::vector<EffectEstimate>& estimates) {
 }  // namespace
 
 // A body on the tool: its mass, its first moments hx hy hz about the tool
-// frame's origin, in the last link's axes. Its inertia about that origin is
-// that of a point mass there; but of a pendulum with the tool's frame on its
-// axis the first parameter is that inertia over 1 m^2, instead of the mass.
+// frame's origin, in the last link's axes, and the inertia about its own
+// centre, taken as the same about all axes; but of a pendulum with the tool's
+// frame on its axis, where the first parameter is the inertia about that over 1
+// m^2, in the place of the mass, and the last is nothing.
 Effect Payload() {
   Effect effect;
   effect.name = "payload";
@@ -68,18 +70,25 @@ Effect Payload() {
   const auto moment = [mass](const EffectSite& site) {
     return .1 * mass(site);  // 0.1 m off
   };
+  const auto inertia = [mass](const EffectSite& site) {
+    constexpr double kRadius = .05;  // m
+    return kRadius * kRadius * mass(site);
+  };
   effect.parameters = {
       Linear("mass", "kg", mass, EffectParameter::Sign::kPositive),
       Linear("hx", "kg m", moment), Linear("hy", "kg m", moment),
-      Linear("hz", "kg m", moment)};
+      Linear("hz", "kg m", moment),
+      Linear("inertia", "kg m^2", inertia, EffectParameter::Sign::kPositive)};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     InertialParameters payload;
     payload.mass = Mass(*site.robot, p);
     payload.first_moment = p.segment<3>(1);
-    payload.inertia = IsOnTheOnlyAxis(*site.robot)
-                          ? Eigen::Matrix3d(p[0] * Eigen::Matrix3d::Identity())
-                          : PointInertia(payload.mass, payload.first_moment);
+    payload.inertia =
+        IsOnTheOnlyAxis(*site.robot)
+            ? Eigen::Matrix3d(p[0] * Eigen::Matrix3d::Identity())
+            : Eigen::Matrix3d(PointInertia(payload.mass, payload.first_moment) +
+                              p[4] * Eigen::Matrix3d::Identity());
     const Eigen::Isometry3d X_LP(
         Eigen::Translation3d(robot->robot.X_LT.translation()));
     robot->robot.links.back().inertial += payload.ReexpressIn(X_LP);

@@ -98,13 +98,14 @@ HiddenEffect Payload() {
             const double mass = site.p[0] * site.moving_mass();
             const Vector3d com = robot.X_LT * site.p.tail<3>().eval();
             const double radius = std::cbrt(mass / (4 * M_PI / 3 * 7850));
+            const double inertia = .4 * mass * radius * radius;
             robot.links.back().inertial += InertialParameters::FromCenterOfMass(
-                mass, com,
-                .4 * mass * radius * radius * Eigen::Matrix3d::Identity());
+                mass, com, inertia * Eigen::Matrix3d::Identity());
             return {{"mass", "kg", mass},
                     {"com_x", "m", com.x()},
                     {"com_y", "m", com.y()},
-                    {"com_z", "m", com.z()}};
+                    {"com_z", "m", com.z()},
+                    {"inertia", "kg m^2", inertia}};
           },
           nullptr};
 }

@@ -179,7 +179,7 @@ TEST(PayloadOfAPendulum, IsAPointMass) {
   const Effect& payload = *FindEffect("payload");
   const EffectSite site = {&robot, -1, nullptr};
   const VectorXd p =
-      (VectorXd(4) << kMass * kLever * kLever, .0, 0, -kMass * kLever)
+      (VectorXd(5) << kMass * kLever * kLever, .0, 0, -kMass * kLever, 0)
           .finished();
   SimulatedRobot changed;
   changed.robot = robot;

@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"torque_crosstalk", {"gain"}}, Case{"delay", {"delay"}},
         Case{"encoder_offset", {"offset"}}, Case{"link_length", {"length"}},
         Case{"base_tilt", {"tilt", "gravity_x", "gravity_y", "gravity_z"}},
-        Case{"payload", {"mass", "com_x", "com_y", "com_z"}},
+        Case{"payload", {"mass", "com_x", "com_y", "com_z", "inertia"}},
         Case{"added_mass", {"mass", "hx", "hy", "hz"}},
         Case{"link_inertia", {"share", "mass"}},
         Case{"external_contact", {"force_x", "force_y", "force_z"}, "force"},
