@@ -204,7 +204,7 @@ void Diagnoser::Fit(const std::vector<GapSegment>& segments,
   GapFit all(*fit_, LogPart::kAll);
   all.FindEvents(fit_->events());
   std::vector<GapEvent> events = fit_->events();
-  for (const GapEvent& event : all.events()) {
+  for (const GapEvent& event : all.EventsBeside(fit_->refined().effects)) {
     const bool fitted =
         2 * RowsOf(fit_->rows(), event) >= RowsOf(all.rows(), event);
     if ((!fitted || event.beyond_friction) && !Overlaps(events, event)) {

@@ -254,6 +254,16 @@ void GapFit::ForgetPulsesOfALaw() {
   SelectBeside(kept);
 }
 
+std::vector<GapEvent> GapFit::EventsBeside(
+    const std::vector<GapCandidate>& effects) const {
+  if (effects.empty() ||
+      std::none_of(events_.begin(), events_.end(),
+                   [](const GapEvent& event) { return event.pulse; })) {
+    return events_;
+  }
+  return WithoutExplainedPulses(regression_, effects, events_);
+}
+
 void GapFit::FindEvents(const std::vector<GapEvent>& known) {
   TakeAsKnown(known);
   SelectWithEvents();
@@ -268,6 +278,8 @@ void GapFit::FindEvents(const std::vector<GapEvent>& known) {
 void GapFit::Choose() {
   FindEvents({});
   Finish();
+  const std::vector<GapEvent> kept = EventsBeside(refined_.effects);
+  if (kept.size() < events_.size()) ChooseBeside(kept);
 }
 
 void GapFit::ChooseBeside(const std::vector<GapEvent>& events) {

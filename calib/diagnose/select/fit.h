@@ -62,6 +62,10 @@ class GapFit {
   const RefinedEffects& refined() const { return refined_; }
   // In the order of time.
   const std::vector<GapEvent>& events() const { return events_; }
+  // The same without pulses that stood out beside what was chosen when they
+  // were found, and do not beside these effects.
+  std::vector<GapEvent> EventsBeside(
+      const std::vector<GapCandidate>& effects) const;
   // Of the k-th effect.
   const std::vector<RefinedScore>& rivals(size_t k) const {
     return rivals_[k].scores;

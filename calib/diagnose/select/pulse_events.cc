@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "calib/diagnose/data/thresholds.h"
@@ -235,6 +236,11 @@ class PulseSearch {
     }
   }
   // Deviations of the largest within a window.
+  double ChanceOf(const Contact& contact) const {
+    return Chance(LargestIn(contact));
+  }
+
+ private:
   double LargestIn(const Contact& contact) const {
     const VectorXd all = scan_.Largest();
     double largest = 0;
@@ -244,13 +250,21 @@ class PulseSearch {
     return largest;
   }
 
- private:
   const GapRows& rows_;
   JointRows torque_;
   ModelOfPulses model_;
   PulseScan scan_;
   UsualMaximum usual_;
 };
+
+// A fit that does not see these events, and all the rest.
+GapRegression MaskedBy(const std::vector<GapEvent>& events,
+                       const GapRegression& regression) {
+  GapRegression masked(regression, regression.rows().part());
+  MaskEvents(events, masked.data());
+  masked.Refit();
+  return masked;
+}
 
 }  // namespace
 
@@ -270,6 +284,25 @@ std::vector<GapEvent> FindPulses(const GapRegression& regression,
   return events;
 }
 
+std::vector<GapEvent> WithoutExplainedPulses(
+    const GapRegression& regression, const std::vector<GapCandidate>& effects,
+    const std::vector<GapEvent>& events) {
+  std::vector<GapEvent> kept;
+  std::copy_if(events.begin(), events.end(), std::back_inserter(kept),
+               [](const GapEvent& event) { return !event.pulse; });
+  const GapRegression unmasked = MaskedBy(kept, regression);
+  const PulseSearch search(unmasked, effects);
+  kept.clear();
+  for (const GapEvent& event : events) {
+    if (event.pulse &&
+        !(search.ChanceOf(event.contact) < Limits().false_contacts)) {
+      continue;
+    }
+    kept.push_back(event);
+  }
+  return kept;
+}
+
 void ConfirmTouches(const GapRegression& regression,
                     const std::vector<GapCandidate>& effects,
                     std::vector<GapEvent>* events) {
@@ -277,13 +310,11 @@ void ConfirmTouches(const GapRegression& regression,
       std::any_of(events->begin(), events->end(),
                   [](const GapEvent& event) { return !event.beyond_friction; });
   if (!any || !regression.reference()) return;
-  GapRegression unmasked(regression, regression.rows().part());
-  MaskEvents(BeyondFriction(*events), unmasked.data());
-  unmasked.Refit();
+  const GapRegression unmasked = MaskedBy(BeyondFriction(*events), regression);
   const PulseSearch search(unmasked, effects);
   for (GapEvent& event : *events) {
     if (event.beyond_friction) continue;
-    const double chance = search.Chance(search.LargestIn(event.contact));
+    const double chance = search.ChanceOf(event.contact);
     if (!(chance < Limits().false_contacts)) continue;
     event.beyond_friction = true;
     event.chance = chance;

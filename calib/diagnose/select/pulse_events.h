@@ -18,6 +18,12 @@ namespace armcal {
 std::vector<GapEvent> FindPulses(const GapRegression& regression,
                                  const std::vector<GapCandidate>& effects);
 
+// Events without the pulses that no longer stand out beside these effects, all
+// samples of theirs seen: they were found beside others, which left more.
+std::vector<GapEvent> WithoutExplainedPulses(
+    const GapRegression& regression, const std::vector<GapCandidate>& effects,
+    const std::vector<GapEvent>& events);
+
 // Touches that were fitted as a force, and of which one joint's pulse alone
 // stands out as FindPulses asks of it, are as probable contacts as that says:
 // they become events beyond friction, with the chance of the pulse. Others stay

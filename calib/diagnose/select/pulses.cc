@@ -18,7 +18,7 @@ constexpr double kLeastSeen = .5;  // of a pulse's g'g
 // Of the noise in a sample's variance: one that is doubted a hundred times as
 // much is not seen. Of a pulse that is masked but for its tails these would
 // else be all that is fitted, ever again.
-constexpr double kLeastShare = 1e-4;
+constexpr double kLeastOfNoise = 1e-4;
 
 // X C^(1/2) for the columns that act on one joint.
 MatrixXd TimesHalf(const BaselineColumns& columns, const MatrixXd& covariance) {
@@ -66,7 +66,7 @@ void PulseScan::Whiten(int segment, const VectorXd& residual,
   for (int k = begin - kMemory; k < end; ++k) {
     seen = rows_.IsInPart(segment, k) ? seen + 1 : 0;
     const double share = variance / (variance + doubt[k] * doubt[k]);
-    if (seen > kMemory && share > kLeastShare) {
+    if (seen > kMemory && share > kLeastOfNoise) {
       joint->weight[k] = std::sqrt(share);
     }
   }

@@ -102,7 +102,7 @@ def calibrate(
                          /joint_states,effort:/torques
     controller           Path: YAML with the controller's law (pd, p, cascade),
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
-                         per joint
+                         per joint, slower where that rings
     gains_trust          float: with --controller: relative standard deviation
                          of its gains, which are then estimated; 0: exact
                          (default 0)
@@ -196,7 +196,7 @@ def verify(
                          8 to 20 Hz
     controller           Path: YAML with the controller's law (pd, p, cascade),
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
-                         per joint
+                         per joint, slower where that rings
     seed                 int: of everything that is drawn at random (default 0)
     torque_kind          str: what the log's torque is: auto, link, motor
                          (motor side, times gear ratio), current, command
@@ -281,7 +281,7 @@ def diagnose(
                          and why
     controller           Path: YAML with the controller's law (pd, p, cascade),
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
-                         per joint
+                         per joint, slower where that rings
     seed                 int: of everything that is drawn at random (default 0)
     crop                 Range: of --log to use, s since its first row;
                          default: all (standstill is left out by itself)
@@ -387,7 +387,7 @@ def simulate(
     standstill           float, s: before and after the motion (default 1)
     controller           Path: YAML with the controller's law (pd, p, cascade),
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
-                         per joint
+                         per joint, slower where that rings
     friction_width       float: speed within which friction changes sign, rad/s
                          (default 0.005)
     step                 float: of the integration, s (default 0.001)
@@ -563,7 +563,7 @@ def inspect(
                          in
     controller           Path: YAML with the controller's law (pd, p, cascade),
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
-                         per joint
+                         per joint, slower where that rings
     torque_kind          str: what the log's torque is: auto, link, motor
                          (motor side, times gear ratio), current, command
                          (default auto)
