@@ -10,7 +10,17 @@
 namespace armcal {
 namespace {
 
-// The separator that the header holds most often.
+bool HoldsTime(std::string_view names, char separator) {
+  while (!names.empty()) {
+    const size_t end = std::min(names.find(separator), names.size());
+    if (IsTimeName(names.substr(0, end))) return true;
+    names.remove_prefix(std::min(end + 1, names.size()));
+  }
+  return false;
+}
+
+// The separator that the header holds most often; a space where there is no
+// other, as numpy.savetxt and UR's recorder have it, if that makes a header.
 char FindSeparator(std::string_view header) {
   const auto count = [&](char c) {
     return std::count(header.begin(), header.end(), c);
@@ -19,6 +29,7 @@ char FindSeparator(std::string_view header) {
   for (char c : {';', '\t'}) {
     if (count(c) > count(best)) best = c;
   }
+  if (count(best) == 0 && HoldsTime(header, ' ')) return ' ';
   return best;
 }
 
@@ -52,6 +63,7 @@ LogColumns::LogColumns(const std::string& file, std::string_view header,
     : file_(file), about_(about), joint_names_(joint_names) {
   // numpy.savetxt makes the header a comment.
   if (!header.empty() && header.front() == '#') header.remove_prefix(1);
+  header = Trim(header, " ");
   separator_ = FindSeparator(header);
   for (size_t begin = 0; begin <= header.size();) {
     const size_t end = std::min(header.find(separator_, begin), header.size());
@@ -72,6 +84,7 @@ LogColumns::LogColumns(const std::string& file, std::string_view header,
     Refuse("expected several columns separated by , ; or TAB, found " +
            Quoted(names_[0]));
   }
+  own_names_ = OwnNames(names_);
   for (int i = 0; i < size(); ++i) Classify(i);
 }
 
@@ -81,7 +94,7 @@ bool LogColumns::simulated() const {
 
 void LogColumns::Classify(int index) {
   std::string_view unit;
-  const std::string_view base = SplitUnit(names_[index], &unit);
+  const std::string_view base = SplitUnit(own_names_[index], &unit);
   if (IsTimeName(base)) {
     time_columns_.push_back(index);
     return;
@@ -143,7 +156,7 @@ int LogColumns::FindTime(int* unit_decimals) const {
            Quoted(names_[time_columns_[1]]) + "; rename one");
   }
   std::string_view unit;
-  SplitUnit(name, &unit);
+  SplitUnit(own_names_[time_columns_[0]], &unit);
   if (FindTimeUnit(unit, unit_decimals)) return time_columns_[0];
   Refuse("column " + Quoted(name) + ": expected a unit of s, ms, us or ns");
 }
@@ -185,19 +198,19 @@ std::vector<LogColumn> LogColumns::Find(Signal signal,
              " of joint " + joint_names_[i] + ", " + Quoted(name) + " and " +
              Quoted(names_[found[1].index]) + "; rename one");
     }
-    columns.push_back({found[0].index, UnitScale(signal, name)});
+    columns.push_back({found[0].index, UnitScale(signal, found[0].index)});
   }
   return columns;
 }
 
-double LogColumns::UnitScale(Signal signal, const std::string& name) const {
+double LogColumns::UnitScale(Signal signal, int index) const {
   std::string_view unit;
-  SplitUnit(name, &unit);
+  SplitUnit(own_names_[index], &unit);
   if (unit.empty()) return 1;
   if (const Unit* known = FindUnit(signal, unit)) return known->scale;
   std::string units;
   for (const Unit& known : NamesOf(signal).units) AddTo(&units, known.name);
-  Refuse("column " + Quoted(name) + ": expected a unit of " + units);
+  Refuse("column " + Quoted(names_[index]) + ": expected a unit of " + units);
 }
 
 std::set<int> LogColumns::Numbers(Signal signal) const {

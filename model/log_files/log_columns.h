@@ -65,7 +65,7 @@ class LogColumns {
   // The 1-based number of the joint that a path ends with; 0 for none.
   int FindJoint(std::string_view path) const;
   std::vector<Match> Matches(Signal signal, int number) const;
-  double UnitScale(Signal signal, const std::string& name) const;
+  double UnitScale(Signal signal, int index) const;
   std::set<int> Numbers(Signal signal) const;
   void CheckJointCount(Signal signal) const;
   // "the robot has 7 joints, the log holds q1..q6".
@@ -76,6 +76,7 @@ class LogColumns {
   std::vector<std::string> joint_names_;
   char separator_ = ',';
   std::vector<std::string> names_;
+  std::vector<std::string> own_names_;  // OwnNames(), which tell the units too
   std::vector<int> time_columns_;
   std::vector<Match> matches_;
 };

@@ -1,7 +1,9 @@
 #include "model/log_files/log_signal.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <set>
 
 #include "model/text/input_text.h"
 
@@ -18,7 +20,104 @@ constexpr std::string_view kTimeNames[] = {"t", "time", "timestamp", "__time"};
 constexpr TimeUnit kTimeUnits[] = {{"", 0},   {"s", 0},       {"ms", 3},
                                    {"us", 6}, {"\u00b5s", 6}, {"ns", 9}};
 
+// Columns that are numbered from 0 between two texts.
+struct RecordedColumns {
+  Signal signal;
+  std::string_view before, after;
+};
+
+// Recognised by its column of time and the first of its positions.
+struct Recorder {
+  std::string_view time, own_time;
+  std::vector<RecordedColumns> columns;  // positions first
+};
+
+const std::vector<Recorder>& Recorders() {
+  static const auto* const recorders = new std::vector<Recorder>{
+      // Universal Robots' RTDE, by record.py of their Python client
+      // (csv_writer.py): fields as in the RTDE guide, vectors numbered.
+      {"timestamp",
+       "timestamp",
+       {{Signal::kPosition, "actual_q_", ""},
+        {Signal::kVelocity, "actual_qd_", ""},
+        {Signal::kCurrent, "actual_current_", ""},
+        {Signal::kEffort, "actual_current_as_torque_", ""},
+        {Signal::kReference, "target_q_", ""},
+        {Signal::kTemperature, "joint_temperatures_", ""}}},
+      // logToCSV of libfranka since 2024 (robot_state_log.cpp), which counts
+      // time in ms.
+      {"time",
+       "time [ms]",
+       {{Signal::kPosition, "state.q[", "]"},
+        {Signal::kVelocity, "state.dq[", "]"},
+        {Signal::kEffort, "state.tau_J[", "]"},
+        {Signal::kReference, "state.q_d[", "]"}}},
+      // The same before (log.cpp).
+      {"duration",
+       "t [ms]",
+       {{Signal::kPosition, "q[", "]"},
+        {Signal::kVelocity, "dq[", "]"},
+        {Signal::kEffort, "tau_J[", "]"},
+        {Signal::kReference, "q_d[", "]"}}},
+  };
+  return *recorders;
+}
+
+bool Has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+const Recorder* FindRecorder(const std::vector<std::string>& names) {
+  for (const Recorder& recorder : Recorders()) {
+    const RecordedColumns& positions = recorder.columns[0];
+    if (Has(names, std::string(recorder.time)) &&
+        Has(names, std::string(positions.before) + "0" +
+                       std::string(positions.after))) {
+      return &recorder;
+    }
+  }
+  return nullptr;
+}
+
+// -1 where the name is none of these columns.
+int NumberIn(const RecordedColumns& columns, std::string_view name) {
+  const size_t around = columns.before.size() + columns.after.size();
+  if (name.size() <= around ||
+      name.substr(0, columns.before.size()) != columns.before ||
+      name.substr(name.size() - columns.after.size()) != columns.after) {
+    return -1;
+  }
+  const std::string_view digits =
+      name.substr(columns.before.size(), name.size() - around);
+  int number = -1;
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, number);
+  return error == std::errc() && stop == end ? number : -1;
+}
+
+std::string OwnName(const Recorder& recorder, const std::string& name) {
+  if (name == recorder.time) return std::string(recorder.own_time);
+  for (const RecordedColumns& columns : recorder.columns) {
+    const int number = NumberIn(columns, name);
+    if (number < 0) continue;
+    return std::string(NamesOf(columns.signal).number_prefix) +
+           std::to_string(number + 1);
+  }
+  return name;
+}
+
 }  // namespace
+
+std::vector<std::string> OwnNames(std::vector<std::string> names) {
+  const Recorder* recorder = FindRecorder(names);
+  if (recorder == nullptr) return names;
+  std::set<std::string> taken(names.begin(), names.end());
+  for (std::string& name : names) {
+    const std::string own = OwnName(*recorder, name);
+    if (taken.insert(own).second) name = own;
+  }
+  return names;
+}
 
 const SignalNames& NamesOf(Signal signal) {
   constexpr double kDegree = M_PI / 180;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -47,5 +48,11 @@ bool FindTimeUnit(std::string_view name, int* decimals);
 
 // Splits "q1 [deg]" into name and unit; the unit is empty where there is none.
 std::string_view SplitUnit(std::string_view name, std::string_view* unit);
+
+// The names of a header as armcal has them, where it is one of a robot maker's
+// recorder: "q1" for the "actual_q_0" of Universal Robots. Other names stay,
+// and so does the second of two that would be the same. To read another
+// recorder's logs, add it to the table in log_signal.cc.
+std::vector<std::string> OwnNames(std::vector<std::string> names);
 
 }  // namespace armcal

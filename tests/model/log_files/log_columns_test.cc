@@ -132,14 +132,56 @@ TEST(LogColumns, RefusesWrongColumns) {
        "column 'q1 [grad]': expected a unit of rad, deg, m, mm"},
       {"0.0,1.5,-2e3",
        "expected a header that names the columns, as in t,q1,tau1"},
-      {"t q1 q2",
-       "expected several columns separated by , ; or TAB, found 't q1 q2'"},
+      {"t|q1|q2",
+       "expected several columns separated by , ; or TAB, found 't|q1|q2'"},
       {"t,q1,q2\r0,0,0\r",
        "the lines end in CR alone; save the file with LF or CRLF"},
   };
   for (const BadHeader& bad : cases) {
     EXPECT_EQ(Find(bad.header), std::string("FILE: row 1: ") + bad.message);
   }
+}
+
+TEST(LogColumns, SpacesSeparateWhereNothingElseDoes) {
+  EXPECT_EQ(Find("t q1 q2"), "1 2");
+  EXPECT_EQ(Find("# t q1 q2"), "1 2");  // numpy.savetxt
+  EXPECT_EQ(Find("t,q1 [deg],q2 [rad]"), "1*0.017453 2");
+}
+
+// Headers as these recorders write them, for a robot of two joints.
+TEST(LogColumns, ReadsRobotMakersRecorders) {
+  const std::string ur =
+      "timestamp target_q_0 target_q_1 actual_q_0 actual_q_1 actual_qd_0 "
+      "actual_qd_1 actual_current_0 actual_current_1 actual_TCP_pose_0 "
+      "joint_temperatures_0 joint_temperatures_1 actual_current_as_torque_0 "
+      "actual_current_as_torque_1";
+  EXPECT_EQ(FindTime(ur), "0 1e-0 s");
+  EXPECT_EQ(Find(ur), "3 4");
+  EXPECT_EQ(Find(ur, Signal::kReference), "1 2");
+  EXPECT_EQ(Find(ur, Signal::kVelocity), "5 6");
+  EXPECT_EQ(Find(ur, Signal::kCurrent), "7 8");
+  EXPECT_EQ(Find(ur, Signal::kEffort), "12 13");
+  EXPECT_EQ(Find(ur, Signal::kTemperature), "10 11");
+  const std::string franka =
+      "time,success_rate,state.q[0],state.q[1],state.q_d[0],state.q_d[1],"
+      "state.dq[0],state.dq[1],state.tau_J[0],state.tau_J[1],"
+      "state.tau_ext_hat_filtered[0],state.tau_ext_hat_filtered[1],cmd.q_d[0],"
+      "cmd.q_d[1],cmd.tau_J_d[0],cmd.tau_J_d[1]";
+  EXPECT_EQ(FindTime(franka), "0 1e-3 s");
+  EXPECT_EQ(Find(franka), "2 3");
+  EXPECT_EQ(Find(franka, Signal::kReference), "4 5");
+  EXPECT_EQ(Find(franka, Signal::kVelocity), "6 7");
+  EXPECT_EQ(Find(franka, Signal::kEffort), "8 9");
+  const std::string older =
+      "duration, success rate, q[0], q[1],q_d[0], q_d[1],dq[0], dq[1],"
+      "tau_J[0], tau_J[1],sent commands,q_d[0], q_d[1]";
+  EXPECT_EQ(FindTime(older), "0 1e-3 s");
+  EXPECT_EQ(Find(older), "2 3");
+  EXPECT_EQ(Find(older, Signal::kReference), "4 5");
+  EXPECT_EQ(Find(older, Signal::kEffort), "8 9");
+  EXPECT_EQ(Find("time,state.q[0],state.q[1],state.q[2]"),
+            "FILE: row 1: wrong number of joints: the robot has 2 joints, the "
+            "log holds q1..q3");
 }
 
 TEST(LogColumns, RefusesWrongTime) {
