@@ -134,8 +134,7 @@ std::string SwingNote(const Verification& v) {
   if (v.swing_s == 0) return "";
   if (std::isnan(v.energy_drift_rel) && v.reasons.empty()) {
     return "note       Simbody's integrator does not follow a passive swing: "
-           "its "
-           "drift is not compared\n";
+           "its drift is not compared\n";
   }
   if (v.swing_s == VerificationOptions().swing_s) return "";
   return "note       the passive swing takes " + NumberText(v.swing_s) +

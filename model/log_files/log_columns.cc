@@ -1,7 +1,6 @@
 #include "model/log_files/log_columns.h"
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 
 #include "model/text/input_error.h"
@@ -37,16 +36,6 @@ char FindSeparator(std::string_view header) {
 void AddTo(std::string* list, std::string_view item) {
   if (!list->empty()) *list += ", ";
   *list += item;
-}
-
-// 12 for the name "q12" and the prefix "q"; -1 where that is not its shape.
-int NumberAfter(std::string_view prefix, std::string_view name) {
-  if (name.substr(0, prefix.size()) != prefix) return -1;
-  name.remove_prefix(prefix.size());
-  int number = -1;
-  const char* end = name.data() + name.size();
-  const auto [stop, error] = std::from_chars(name.data(), end, number);
-  return error == std::errc() && stop == end ? number : -1;
 }
 
 bool EndsWithPart(std::string_view path, std::string_view part) {
@@ -100,7 +89,7 @@ void LogColumns::Classify(int index) {
     return;
   }
   for (Signal signal : kSignals) {
-    const int number = NumberAfter(NamesOf(signal).number_prefix, base);
+    const int number = NumberBetween(NamesOf(signal).number_prefix, "", base);
     if (number >= 0) return Add({index, signal, number, true}, unit);
   }
   const size_t slash = base.rfind('/');

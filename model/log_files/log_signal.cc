@@ -79,26 +79,10 @@ const Recorder* FindRecorder(const std::vector<std::string>& names) {
   return nullptr;
 }
 
-// -1 where the name is none of these columns.
-int NumberIn(const RecordedColumns& columns, std::string_view name) {
-  const size_t around = columns.before.size() + columns.after.size();
-  if (name.size() <= around ||
-      name.substr(0, columns.before.size()) != columns.before ||
-      name.substr(name.size() - columns.after.size()) != columns.after) {
-    return -1;
-  }
-  const std::string_view digits =
-      name.substr(columns.before.size(), name.size() - around);
-  int number = -1;
-  const char* end = digits.data() + digits.size();
-  const auto [stop, error] = std::from_chars(digits.data(), end, number);
-  return error == std::errc() && stop == end ? number : -1;
-}
-
 std::string OwnName(const Recorder& recorder, const std::string& name) {
   if (name == recorder.time) return std::string(recorder.own_time);
   for (const RecordedColumns& columns : recorder.columns) {
-    const int number = NumberIn(columns, name);
+    const int number = NumberBetween(columns.before, columns.after, name);
     if (number < 0) continue;
     return std::string(NamesOf(columns.signal).number_prefix) +
            std::to_string(number + 1);
@@ -107,6 +91,21 @@ std::string OwnName(const Recorder& recorder, const std::string& name) {
 }
 
 }  // namespace
+
+int NumberBetween(std::string_view before, std::string_view after,
+                  std::string_view name) {
+  const size_t around = before.size() + after.size();
+  if (name.size() <= around || name.substr(0, before.size()) != before ||
+      name.substr(name.size() - after.size()) != after) {
+    return -1;
+  }
+  const std::string_view digits =
+      name.substr(before.size(), name.size() - around);
+  int number = -1;
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, number);
+  return error == std::errc() && stop == end ? number : -1;
+}
 
 std::vector<std::string> OwnNames(std::vector<std::string> names) {
   const Recorder* recorder = FindRecorder(names);

@@ -49,6 +49,10 @@ bool FindTimeUnit(std::string_view name, int* decimals);
 // Splits "q1 [deg]" into name and unit; the unit is empty where there is none.
 std::string_view SplitUnit(std::string_view name, std::string_view* unit);
 
+// 12 of the name "q12" between "q" and ""; -1 where that is not its shape.
+int NumberBetween(std::string_view before, std::string_view after,
+                  std::string_view name);
+
 // The names of a header as armcal has them, where it is one of a robot maker's
 // recorder: "q1" for the "actual_q_0" of Universal Robots. Other names stay,
 // and so does the second of two that would be the same. To read another

@@ -235,12 +235,13 @@ class PulseSearch {
       }
     }
   }
-  // Deviations of the largest within a window.
+  // Of the largest within a window.
   double ChanceOf(const Contact& contact) const {
     return Chance(LargestIn(contact));
   }
 
  private:
+  // In deviations.
   double LargestIn(const Contact& contact) const {
     const VectorXd all = scan_.Largest();
     double largest = 0;
