@@ -57,6 +57,7 @@ struct CalibrateOptions {
   std::optional<PayloadLogs> payload;
   std::optional<CommandedCalibrationOptions> commands;
   std::vector<std::string> exports;  // formats beside URDF: "mjcf", "sdf" ..
+  int samples = 0;                   // robots to draw from the posterior
   RobotSource source;                // of the robot
   bool draw_torques = false;         // for report.html, in `details`
   Progress progress;

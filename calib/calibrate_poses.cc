@@ -6,6 +6,8 @@
 #include "calib/poses/verdict.h"
 #include "calib/robot_outputs.h"
 #include "model/camera/camera_file.h"
+#include "model/text/option_error.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -32,6 +34,12 @@ CalibrateSummary CalibrateFromPoses(const Robot& robot,
   PoseCalibrationOptions fit;
   fit.refine = options.geometry;
   const auto formats = FormatsBesideUrdf(options.exports);
+  if (options.samples > 0) {
+    throw OptionError(OptionName("export") +
+                      ": found samples, expected formats alone: measured "
+                      "poses tell nothing of masses to draw from; give a " +
+                      OptionName("log") + " beside them");
+  }
   fit.loss = options.equations.loss.value_or(fit.loss);
   fit.prior_length = options.trust.length;
   fit.prior_angle = options.trust.angle;

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "model/text/input_error.h"
@@ -105,25 +106,57 @@ class Lock {
   bool held_ = false;
 };
 
+// What a series of files begins with: "robot_" of "robot_01.urdf".
+std::string BeginningOf(const std::string& name) {
+  return name.substr(0, name.find('_') + 1);
+}
+
+// Files in a folder that are of a series of `names` and none of them.
+std::vector<std::string> OlderOf(const fs::path& folder,
+                                 const std::set<std::string>& names) {
+  std::set<std::string> series;
+  for (const std::string& name : names) series.insert(BeginningOf(name));
+  std::vector<std::string> older;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    const std::string beginning = BeginningOf(name);
+    if (!beginning.empty() && series.count(beginning) > 0 &&
+        names.count(name) == 0 && entry.is_regular_file()) {
+      older.push_back(name);
+    }
+  }
+  return older;
+}
+
 }  // namespace
 
 // A folder that is written to, perhaps for several flags.
 class OutputFolder::Place {
  public:
-  void Add(const OutputFolder& folder) { folders_.push_back(&folder); }
+  struct File {
+    const OutputFolder* of;
+    std::string name;
+    const std::string* content;
+    bool in_series;  // in a folder of its own
+  };
+
+  void Add(const File& file) { files_.push_back(file); }
 
   void Write(const fs::path& path) {
     lock_.emplace(path);
     if (lock_->held()) StagedFiles::Recover(path);
     std::vector<std::string> names;
-    for (const OutputFolder* folder : folders_) {
-      for (const auto& file : folder->files_) names.push_back(file.first);
+    std::set<std::string> series;
+    for (const File& file : files_) {
+      names.push_back(file.name);
+      if (file.in_series) series.insert(file.name);
     }
+    const std::vector<std::string> older = OlderOf(path, series);
+    names.insert(names.end(), older.begin(), older.end());
     staged_.emplace(path, names);
-    for (const OutputFolder* folder : folders_) {
-      for (const auto& [name, content] : folder->files_) {
-        WriteFile(staged_->Path(name), path / name, folder->flag_, content);
-      }
+    for (const File& file : files_) {
+      WriteFile(staged_->Path(file.name), path / file.name, file.of->flag_,
+                *file.content);
     }
     staged_->Link();
   }
@@ -131,10 +164,10 @@ class OutputFolder::Place {
   void Settle() {
     if (staged_) staged_->Settle();
   }
-  const OutputFolder& folder() const { return *folders_[0]; }
+  const OutputFolder& folder() const { return *files_[0].of; }
 
  private:
-  std::vector<const OutputFolder*> folders_;
+  std::vector<File> files_;
   std::optional<Lock> lock_;
   std::optional<StagedFiles> staged_;
 };
@@ -157,7 +190,13 @@ void OutputFolder::WriteTogether(std::vector<OutputFolder>* folders) {
       if (folder.path_.empty()) continue;
       at_work = &folder;
       Make(folder.path_, &made);
-      places[fs::canonical(folder.path_)].Add(folder);
+      for (const auto& [name, content] : folder.files_) {
+        const fs::path path = fs::path(folder.path_) / name;
+        const bool in_series = fs::path(name).has_parent_path();
+        if (in_series) Make(path.parent_path(), &made);
+        places[fs::canonical(path.parent_path())].Add(
+            {&folder, path.filename(), &content, in_series});
+      }
     }
     for (auto& [path, place] : places) {
       at_work = &place.folder();

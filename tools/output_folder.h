@@ -16,6 +16,9 @@ class OutputFolder {
   explicit OutputFolder(const std::string& path,
                         const std::string& flag = "--out");
 
+  // `name` may be in a folder of its own, "samples/robot_1.urdf": files there
+  // whose names begin alike ("robot_") and that are not written again go, so
+  // that no older ones are among the new.
   void Add(const std::string& name, std::string content);
   // Name and content.
   const std::vector<std::pair<std::string, std::string>>& files() const {

@@ -115,7 +115,11 @@ void StagedFiles::Switch() {
     return;
   }
   for (const std::string& name : names_) {
-    fs::rename(Path(name), fs::path(folder_) / name);
+    if (fs::exists(Path(name))) {
+      fs::rename(Path(name), fs::path(folder_) / name);
+    } else {
+      fs::remove(fs::path(folder_) / name);
+    }
   }
 }
 

@@ -20,6 +20,7 @@ namespace armcal {
 class StagedFiles {
  public:
   // `folder` exists, and no other run stages files there until this is gone.
+  // Of names to which nothing is written the old files go.
   StagedFiles(const std::string& folder, std::vector<std::string> names);
 
   // Where to write a file to.

@@ -60,7 +60,7 @@ class Calibrator {
 
   OutputErrorCalibration Run() {
     result_.values = files_;
-    result_.arm.robot = files_.arm.robot;
+    result_.arm.robot = result_.arm.nominal = files_.arm.robot;
     result_.positions.noise = windows_.noise();
     run_ = windows_.Simulate(files_);
     result_.positions.nominal = windows_.ResidualRms(run_);

@@ -3,79 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
-#include <map>
+#include <set>
 
 #include "calib/linear/transition_choice.h"
 #include "calib/numerics/json_value.h"
-#include "calib/refine/arm_unknowns.h"
+#include "calib/refine/robot_parameters.h"
 #include "model/dynamics/proximal_chain.h"
 #include "model/dynamics/robot_lengths.h"
-#include "model/robot/arm_geometry.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 #include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
-
-constexpr JointTerm kReadTerms[] = {JointTerm::kViscous, JointTerm::kCoulomb,
-                                    JointTerm::kOffset, JointTerm::kArmature};
-
-// A number of the robot that a file may set.
-struct Slot {
-  std::string unit;
-  double nominal;
-  std::function<void(double)> set;
-  bool was_set = false;
-};
-using Slots = std::map<std::string, Slot>;
-
-// Inertial parameters as vectors until all are known.
-struct Links {
-  explicit Links(const Robot& robot) {
-    for (const Link& link : robot.links) {
-      values.push_back(link.inertial.ToVector());
-    }
-  }
-  void ApplyTo(Robot* robot) const {
-    for (size_t i = 0; i < values.size(); ++i) {
-      robot->links[i].inertial = InertialParameters::FromVector(values[i]);
-      robot->links[i].has_inertial = true;
-    }
-  }
-  std::vector<Vector10d> values;
-};
-
-void AddDynamics(Links* links, Robot* robot, Slots* slots) {
-  for (size_t i = 0; i < robot->links.size(); ++i) {
-    Link& link = robot->links[i];
-    for (int k = 0; k < 10; ++k) {
-      double* value = &links->values[i][k];
-      (*slots)[link.name + "." + InertialName(k)] = {
-          InertialUnit(k), *value, [value](double x) { *value = x; }};
-    }
-    for (const JointTerm term : kReadTerms) {
-      double* value = TermOf(term, &link.joint);
-      (*slots)[link.joint.name + "." + JointTermName(term)] = {
-          JointTermUnit(term, link.joint.type), *value,
-          [value](double x) { *value = x; }};
-    }
-  }
-}
-
-// The geometry's own parameters and, of the base, what torques see of it.
-void AddGeometry(const ArmGeometry& geometry, Eigen::VectorXd* values,
-                 Slots* slots) {
-  const std::vector<std::string> names = geometry.Names();
-  for (int k = 0; k < geometry.size(); ++k) {
-    const bool tilt = names[k] == "base.pitch" || names[k] == "base.roll";
-    if (ArmGeometry::IsBase(k) && !tilt) continue;
-    double* value = &(*values)[k];
-    (*slots)[names[k]] = {geometry.Units()[k], *value,
-                          [value](double x) { *value = x; }};
-  }
-}
 
 bool SameNumber(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)) + 1e-12;
@@ -149,24 +89,22 @@ bool IsNotTheRobots(const std::string& name) {
          term == "coulomb_width";
 }
 
-bool IsNeverNegative(const std::string& name) {
-  const std::string term = name.substr(name.rfind('.') + 1);
-  return term == "mass" || term == "viscous" || term == "coulomb" ||
-         term == "armature";
-}
-
-void SetFrom(const JsonValue& entry, Slots* slots) {
+void SetFrom(const JsonValue& entry, RobotParameters* parameters,
+             std::set<std::string>* were_set) {
   const JsonValue name = entry.At("name");
-  const auto slot = slots->find(name.Text());
-  if (slot == slots->end()) {
+  const auto known = parameters->all().find(name.Text());
+  if (known == parameters->all().end()) {
     if (IsNotTheRobots(name.Text())) return;
     name.Refuse("expected a parameter of the robot of " + OptionName("robot"));
   }
-  if (slot->second.was_set) name.Refuse("expected every parameter only once");
-  entry.At("unit").Expect(slot->second.unit, ", the unit of " + name.Text());
+  if (!were_set->insert(name.Text()).second) {
+    name.Refuse("expected every parameter only once");
+  }
+  const auto& [unit, nominal, now, geometric] = known->second;
+  entry.At("unit").Expect(unit, ", the unit of " + name.Text());
   const JsonValue prior = entry.At("prior");
-  if (!SameNumber(prior.Number(), slot->second.nominal)) {
-    prior.Refuse("expected " + NumberText(slot->second.nominal) +
+  if (!SameNumber(prior.Number(), nominal)) {
+    prior.Refuse("expected " + NumberText(nominal) +
                  ", what the robot file has for " + name.Text() +
                  ": give the file that was calibrated, or calibrate again");
   }
@@ -174,31 +112,21 @@ void SetFrom(const JsonValue& entry, Slots* slots) {
   if (IsNeverNegative(name.Text()) && value.Number() < 0) {
     value.Refuse("expected a number of at least 0, as " + name.Text() + " is");
   }
-  slot->second.set(value.Number());
-  slot->second.was_set = true;
+  parameters->Set(name.Text(), value.Number());
 }
 
 Robot ReadRobotOf(const JsonValue& root, const Robot& nominal) {
-  Robot robot = WithLengthsOf(root, nominal);
-  ArmGeometry geometry(robot);
-  const Eigen::VectorXd file = geometry.Values();
-  Eigen::VectorXd values = file;
-  Links links(robot);
-  Slots slots;
-  AddDynamics(&links, &robot, &slots);
-  const Slots dynamics = slots;  // which all have to be there
-  AddGeometry(geometry, &values, &slots);
-  const JsonValue parameters = root.At("parameters");
-  for (const JsonValue& entry : parameters.Entries()) SetFrom(entry, &slots);
-  for (const auto& [name, slot] : dynamics) {
-    if (slots.at(name).was_set) continue;
+  RobotParameters values(WithLengthsOf(root, nominal));
+  std::set<std::string> were_set;
+  for (const JsonValue& entry : root.At("parameters").Entries()) {
+    SetFrom(entry, &values, &were_set);
+  }
+  for (const auto& [name, parameter] : values.all()) {
+    if (parameter.geometric || were_set.count(name) > 0) continue;
     throw InputError(root.file(), "key parameters", "",
                      "expected an entry for " + name);
   }
-  links.ApplyTo(&robot);
-  if (values == file) return robot;
-  geometry.SetValues(values);
-  return geometry.ApplyTo(robot);
+  return values.Apply();
 }
 
 void CheckFriction(const JsonValue& root, const Robot& robot) {

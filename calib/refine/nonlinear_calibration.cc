@@ -225,7 +225,7 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
                                               const LogSet& training,
                                               const LogSet* validation) {
   NonlinearCalibration result;
-  result.robot = unknowns_.robot();
+  result.robot = result.nominal = unknowns_.robot();
   result.lengths = linear_.lengths;
   result.reason = linear_.reason;
   if (!linear_.solved) return result;

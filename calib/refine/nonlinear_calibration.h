@@ -52,7 +52,8 @@ struct NonlinearCalibration {
   std::string reason;  // Ceres' word, or why it is not solved
   bool converged() const { return solved && reason == "CONVERGENCE"; }
   int iterations = 0;
-  Robot robot;  // with the estimated parameters
+  Robot robot;    // with the estimated parameters
+  Robot nominal;  // as the file has it, but for recovered lengths
   std::vector<PhysicalParameter> parameters;
   Eigen::MatrixXd covariance;  // of them, prior included
   // Combinations that the data do not tell: only the file's values do.

@@ -50,3 +50,32 @@ run("an unknown format" calibrate --robot=arm.yaml --log=made/log.csv
 expect_refusal(2 "--export: found 'xml', expected one of urdf, mjcf, sdf, yaml")
 run("nowhere to write" inspect --robot=arm.yaml --export=sdf)
 expect_refusal(2 "--export needs --out=FOLDER")
+
+# Robots drawn from the posterior: as many as asked for, in the formats asked
+# for, and none of an earlier run among them.
+function(expect_samples)
+  file(GLOB found RELATIVE ${WORK_DIR}/drawn/samples
+       ${WORK_DIR}/drawn/samples/*)
+  list(SORT found)
+  if(NOT found STREQUAL "${ARGN}")
+    fail("samples/ has ${found}, expected ${ARGN}")
+  endif()
+endfunction()
+run("samples" calibrate --robot=arm.yaml --log=made/log.csv
+    --export=samples:3,mjcf --out=drawn)
+expect_text(out "samples  3 robots")
+expect_samples(robot_1.urdf robot_1.xml robot_2.urdf robot_2.xml robot_3.urdf
+               robot_3.xml)
+run("a drawn robot" inspect --robot=drawn/samples/robot_3.xml)
+if(code EQUAL 3)
+  fail("armcal does not read its own sample")
+endif()
+file(WRITE ${WORK_DIR}/drawn/samples/mine "of the user")
+run("fewer samples" calibrate --robot=arm.yaml --log=made/log.csv
+    --export=samples:2 --out=drawn)
+expect_samples(mine robot_1.urdf robot_2.urdf)
+run("no number" calibrate --robot=arm.yaml --log=made/log.csv
+    --export=samples:0 --out=bad)
+expect_refusal(2 "--export: found 'samples:0', expected samples:N with N robots")
+run("samples of a file" inspect --robot=arm.yaml --export=samples:2 --out=bad)
+expect_refusal(2 "--export: found 'samples', expected formats alone")

@@ -121,7 +121,9 @@ CalibrateOptions CalibrateOptionsFromFlags(const CommandInput& input,
     options.validation = ValidationInputFromFlags(input);
     options.payload = PayloadFromFlags(input);
   }
-  options.exports = ExportFromFlags(flags);
+  const ExportChoice exports = ExportFromFlags(flags);
+  options.exports = exports.formats;
+  options.samples = exports.samples;
   options.trust = TrustFromFlags(flags);
   if (!flags.Text("poses").empty()) {
     options.poses = PosesFromFlags(flags, robot);

@@ -50,7 +50,7 @@ DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
   options.verbose = flags.Switch("verbose");
   options.controller = flags.Text("controller");
   options.seed = SeedFromFlags(flags);
-  options.exports = ExportFromFlags(flags);
+  options.exports = ExportFormatsFromFlags(flags);
   options.source = RobotSourceFromFlags(input);
   options.draw_torques = input.WantsReport();
   options.progress = input.progress;

@@ -22,7 +22,7 @@ InspectOptions InspectOptionsFromFlags(const CommandInput& input) {
   if (options.mend && !writes) {
     throw UsageError("--fix needs --out=FOLDER to write to");
   }
-  options.exports = ExportFromFlags(flags);
+  options.exports = ExportFormatsFromFlags(flags);
   if (!options.exports.empty() && !writes) {
     throw UsageError("--export needs --out=FOLDER to write to");
   }
