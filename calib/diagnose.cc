@@ -178,6 +178,8 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
       diagnosis.corrected, robot, options.source.urdf.value_or(Document("")),
       options.source.base, FormatsBesideUrdf(options.exports));
   nlohmann::json json = ToJson(diagnosis);
+  json["format"] = "armcal diagnosis 1";
+  json["robot"] = robot.name;
   json["not_in_urdf"] = corrected.losses;
   json["calibration"] = nullptr;
   if (!options.calibration.empty()) json["calibration"] = options.calibration;

@@ -75,6 +75,8 @@ struct Command {
   std::vector<FlagGroup> groups;   // in the order of help; no others are taken
   std::vector<const char*> usage;  // command lines as they are typed
   CommandOutcome (*run)(const CommandInput& input);
+  // The flag that words without dashes are values of; null: no word is taken.
+  const char* words_of = nullptr;
 
   std::vector<std::string> FlagNames() const;
 };

@@ -18,6 +18,18 @@ CommandOutcome OutcomeOf(const CommandInput& input, const Robot& robot,
   return outcome;
 }
 
+void AddProvenance(const CommandInput& input,
+                   const std::vector<std::string>& files,
+                   ReportContent* content) {
+  content->arguments = {"armcal", content->command};
+  for (const std::string& flag : input.flags.AsTyped()) {
+    content->arguments.push_back(flag);
+  }
+  for (const std::string& file : files) {
+    content->files.push_back(HashInput(input, file));
+  }
+}
+
 void AddReport(const CommandInput& input, const std::string& command,
                const Robot& robot, const std::string& json,
                const std::vector<std::string>& files,
@@ -29,14 +41,8 @@ void AddReport(const CommandInput& input, const std::string& command,
   content.robot = robot.name;
   content.result = nlohmann::json::parse(json);
   content.skeleton = SkeletonJson(robot, BentPosture(robot));
-  content.arguments = {"armcal", command};
-  for (const std::string& flag : input.flags.AsTyped()) {
-    content.arguments.push_back(flag);
-  }
   content.files.push_back(HashDocument(RobotFileFromFlags(input)));
-  for (const std::string& file : files) {
-    content.files.push_back(HashInput(input, file));
-  }
+  AddProvenance(input, files, &content);
   if (complete) complete(&content);
   out->Add("report.html", ReportPage(content));
 }

@@ -18,6 +18,11 @@ CommandOutcome OutcomeOf(const CommandInput& input, const Robot& robot,
                          const Summary& summary,
                          const std::vector<std::string>& notes);
 
+// The command line, and the hashes of files.
+void AddProvenance(const CommandInput& input,
+                   const std::vector<std::string>& files,
+                   ReportContent* content);
+
 // Adds report.html to the results, where the input wants it: the
 // summary's JSON, the command line, the robot at a bent posture, the hashes of
 // the robot file and of `files`, and what `complete` (or null) knows besides.

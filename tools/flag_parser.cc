@@ -62,14 +62,31 @@ void Add(const Command& command, GivenFlag flag, GivenFlags* flags) {
   flags->push_back(flag);
 }
 
+bool IsFlag(const std::string& argument) {
+  return argument.size() >= 2 && argument[0] == '-';
+}
+
+// Words without dashes, one value with commas between them.
+void AddWord(const Command& command, const std::string& word,
+             GivenFlag* words) {
+  if (command.words_of == nullptr) {
+    throw UsageError("'" + word + "' is not a flag; flags look like " +
+                     "--log=FILE, several files like --log=FILE,FILE");
+  }
+  words->name = command.words_of;
+  words->value += (words->has_value ? "," : "") + word;
+  words->has_value = true;
+}
+
 GivenFlags OfCommandLine(const Command& command, int argc, char** argv) {
   const std::vector<std::string> names = command.FlagNames();
   GivenFlags flags;
+  GivenFlag words;
   for (int k = 1; k < argc; ++k) {
     const std::string argument = argv[k];
-    if (argument.size() < 2 || argument[0] != '-') {
-      throw UsageError("'" + argument + "' is not a flag; flags look like " +
-                       "--log=FILE, several files like --log=FILE,FILE");
+    if (!IsFlag(argument)) {
+      AddWord(command, argument, &words);
+      continue;
     }
     GivenFlag flag = SplitFlag(argument);
     const bool value_follows = !flag.has_value && Holds(names, flag.name) &&
@@ -80,6 +97,7 @@ GivenFlags OfCommandLine(const Command& command, int argc, char** argv) {
     }
     Add(command, flag, &flags);
   }
+  if (words.has_value) Add(command, words, &flags);
   return flags;
 }
 

@@ -218,9 +218,13 @@ std::map<std::string, double> ParsePosture(const std::string& text) {
 }  // namespace
 
 Robot RobotFromFlags(const CommandInput& input) {
-  const FlagValues& flags = input.flags;
   if (input.robot) return *input.robot;
-  if (flags.Text("robot").empty()) throw UsageError("--robot=FILE is needed");
+  const std::string path = input.flags.Text("robot");
+  if (path.empty()) throw UsageError("--robot=FILE is needed");
+  return RobotOfFile(path, input.flags);
+}
+
+Robot RobotOfFile(const std::string& path, const FlagValues& flags) {
   RobotReaderOptions options;
   options.base = flags.Text("base");
   options.tip = flags.Text("tip");
@@ -235,7 +239,7 @@ Robot RobotFromFlags(const CommandInput& input) {
     }
     options.gravity = Eigen::Vector3d(g[0], g[1], g[2]);
   }
-  return ReadRobot(flags.Text("robot"), options);
+  return ReadRobot(path, options);
 }
 
 LogReaderOptions LogOptionsFromFlags(const FlagValues& flags,

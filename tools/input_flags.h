@@ -21,6 +21,8 @@ FlagGroup ChainFlags();   // which chain of the robot file, and how it hangs
 
 // --robot --base --tip --gravity, unless the input has a robot.
 Robot RobotFromFlags(const CommandInput& input);
+// A robot of another file, by the same flags but --robot.
+Robot RobotOfFile(const std::string& path, const FlagValues& flags);
 LogReaderOptions LogOptionsFromFlags(const FlagValues& flags,
                                      const Robot& robot);
 Document RobotFileFromFlags(const CommandInput& input);

@@ -32,6 +32,19 @@ MatrixXd PredictTorques(const Trajectory& trajectory, const VectorXd& x,
   return predicted;
 }
 
+FilteredTorques FilterTorques(const Trajectory& trajectory, const VectorXd& x,
+                              double bandwidth_hz,
+                              const MotionRegressor& regressor) {
+  MatrixXd predicted = PredictTorques(trajectory, x, regressor);
+  MatrixXd recorded = trajectory.tau_recorded;
+  if (bandwidth_hz > 0) {
+    predicted = ZeroPhaseLowPass(predicted, 1 / trajectory.dt, bandwidth_hz);
+    recorded = ZeroPhaseLowPass(recorded, 1 / trajectory.dt, bandwidth_hz);
+  }
+  const auto core = Eigen::seq(trajectory.core_begin, trajectory.core_end - 1);
+  return {recorded(core, Eigen::all), predicted(core, Eigen::all)};
+}
+
 TorqueResidual::TorqueResidual(int num_joints) {
   for (Sums* sums : {&moving_, &whole_}) {
     sums->torque = sums->residual = Eigen::ArrayXd::Zero(num_joints);
@@ -41,15 +54,13 @@ TorqueResidual::TorqueResidual(int num_joints) {
 void TorqueResidual::Add(const Trajectory& trajectory, const VectorXd& x,
                          double bandwidth_hz,
                          const MotionRegressor& regressor) {
-  MatrixXd predicted = PredictTorques(trajectory, x, regressor);
-  MatrixXd recorded = trajectory.tau_recorded;
-  if (bandwidth_hz > 0) {
-    predicted = ZeroPhaseLowPass(predicted, 1 / trajectory.dt, bandwidth_hz);
-    recorded = ZeroPhaseLowPass(recorded, 1 / trajectory.dt, bandwidth_hz);
-  }
+  const FilteredTorques torques =
+      FilterTorques(trajectory, x, bandwidth_hz, regressor);
   for (int k = trajectory.core_begin; k < trajectory.core_end; ++k) {
-    const Eigen::ArrayXd tau = recorded.row(k).transpose();
-    const Eigen::ArrayXd r = tau - predicted.row(k).transpose().array();
+    const int row = k - trajectory.core_begin;
+    const Eigen::ArrayXd tau = torques.recorded.row(row).transpose();
+    const Eigen::ArrayXd r =
+        tau - torques.predicted.row(row).transpose().array();
     for (Sums* sums : {&moving_, &whole_}) {
       if (sums == &moving_ && trajectory.standstill[k]) continue;
       sums->torque += tau.square();

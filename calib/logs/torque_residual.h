@@ -16,6 +16,16 @@ Eigen::MatrixXd PredictTorques(const Trajectory& trajectory,
                                const Eigen::VectorXd& x,
                                const MotionRegressor& regressor);
 
+// The samples of a trajectory's core in rows, both low-passed at the bandwidth
+// (order 4, zero phase; 0: as they are).
+struct FilteredTorques {
+  Eigen::MatrixXd recorded, predicted;
+};
+// `regressor` has entered the trajectory.
+FilteredTorques FilterTorques(const Trajectory& trajectory,
+                              const Eigen::VectorXd& x, double bandwidth_hz,
+                              const MotionRegressor& regressor);
+
 // How far predicted torques are from recorded ones, over the samples of one or
 // several logs: both low-passed at the bandwidth (order 4, zero phase). All
 // vectors have an entry per joint; a percentage is 100 |tau - tau_hat| / |tau|

@@ -58,6 +58,10 @@ double JsonValue::Number() const {
   return value_.get<double>();
 }
 
+double JsonValue::NumberOrNull() const {
+  return value_.is_null() ? std::nan("") : Number();
+}
+
 long JsonValue::Count() const {
   constexpr double kMost = 9007199254740992;  // whole numbers are exact to 2^53
   const double number = Number();

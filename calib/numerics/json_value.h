@@ -23,8 +23,9 @@ class JsonValue {
   JsonValue At(const std::string& key) const;  // of an object
   std::vector<JsonValue> Entries() const;      // of a list
   std::string Text() const;
-  double Number() const;  // finite
-  long Count() const;     // a whole number, not negative
+  double Number() const;        // finite
+  double NumberOrNull() const;  // NaN where it is null
+  long Count() const;           // a whole number, not negative
   bool Bool() const;
   // Refuses any text but this one; `why` goes after it in the message.
   void Expect(const std::string& text, const std::string& why) const;

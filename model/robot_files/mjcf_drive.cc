@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/robot_files/multiplied_gains.h"
 #include "model/text/exact_text.h"
 #include "model/text/format.h"
 
@@ -14,18 +15,9 @@ using tinyxml2::XMLElement;
 // velocity; with a motor constant of 1 N m/A.
 constexpr double kResistance = 1e6;  // Ohm
 
-struct Gains {
-  double kp, ki, kd;
-};
-
-// kd (kc e + w - v) + velocity_ki times its integral, of which that of w - v is
-// e but for a constant.
-Gains MultipliedOut(const DriveLaw& law, double gain) {
-  return {
-      gain * (law.kp + law.kd * law.position_gain + law.velocity_ki),
-      gain * (law.ki + law.velocity_ki * law.position_gain),
-      gain * law.kd,
-  };
+PidGains TimesGain(const DriveLaw& law, double gain) {
+  const PidGains gains = MultipliedOut(law);
+  return {gain * gains.kp, gain * gains.ki, gain * gains.kd};
 }
 
 std::string Pair(double low, double high) {
@@ -48,13 +40,13 @@ void SetDelay(const ControllerOptions& controller, XMLElement* element) {
   element->SetAttribute("interp", "linear");
 }
 
-void SetServo(const Gains& gains, XMLElement* element) {
+void SetServo(const PidGains& gains, XMLElement* element) {
   element->SetAttribute("biastype", "affine");
   element->SetAttribute("gainprm", ExactText(gains.kp).c_str());
   element->SetAttribute("biasprm", ("0 " + Pair(-gains.kp, -gains.kd)).c_str());
 }
 
-void SetPid(const Gains& gains, const std::string& inputs,
+void SetPid(const PidGains& gains, const std::string& inputs,
             XMLElement* element) {
   element->SetAttribute("input", inputs.c_str());
   element->SetAttribute("kp", ExactText(gains.kp).c_str());
@@ -62,7 +54,7 @@ void SetPid(const Gains& gains, const std::string& inputs,
   if (gains.ki != 0) element->SetAttribute("ki", ExactText(gains.ki).c_str());
 }
 
-void SetMotor(const Gains& gains, const std::string& inputs, double limit,
+void SetMotor(const PidGains& gains, const std::string& inputs, double limit,
               double lag, XMLElement* element) {
   element->SetAttribute("input", inputs.c_str());
   element->SetAttribute("motorconst", "1 1");
@@ -102,7 +94,7 @@ std::string JointsWith(const RobotDescription& description,
 void AddDrive(const Joint& joint, const JointDrive& drive,
               const ControllerOptions& controller, const DriveLaw& law,
               XMLElement* actuators) {
-  const Gains gains = MultipliedOut(law, drive.gain);
+  const PidGains gains = TimesGain(law, drive.gain);
   const double limit = drive.gain * law.torque_limit;
   const std::string inputs = Inputs(controller, law);
   const bool plain = inputs == "pos" && gains.ki == 0;

@@ -41,6 +41,8 @@ struct RobotFormat {
   std::string (*write)(const RobotDescription&);
   // Further losses, a sentence each; may be null.
   std::vector<std::string> (*more_losses)(const RobotDescription&);
+  // A robot by itself; else what stands beside the bodies of robot.urdf.
+  bool is_whole = true;
 
   bool Holds(RobotField field) const;
   // All that the joint and its drive have.

@@ -1,5 +1,6 @@
 #include "model/robot_files/robot_formats.h"
 
+#include "model/robot_files/isaac_writer.h"
 #include "model/robot_files/mjcf_writer.h"
 #include "model/robot_files/sdf_writer.h"
 #include "model/robot_files/urdf_writer.h"
@@ -8,8 +9,8 @@
 namespace armcal {
 
 const std::vector<RobotFormat>& RobotFormats() {
-  static const std::vector<RobotFormat> formats = {UrdfFormat(), MjcfFormat(),
-                                                   SdfFormat(), YamlFormat()};
+  static const std::vector<RobotFormat> formats = {
+      UrdfFormat(), MjcfFormat(), SdfFormat(), YamlFormat(), IsaacFormat()};
   return formats;
 }
 

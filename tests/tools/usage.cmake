@@ -53,7 +53,8 @@ endif()
 
 # Help fits a screen, and its examples are command lines that armcal takes:
 # their files are not there, and nothing else is wrong (simulate lists effects).
-foreach(command calibrate verify diagnose simulate excite inspect reduce merge)
+foreach(command calibrate verify diagnose simulate excite inspect reduce merge
+        compare)
   run("help of ${command}" ${command} --help)
   string(REGEX MATCHALL "\n" lines "${out}")
   list(LENGTH lines count)
@@ -71,7 +72,7 @@ foreach(command calibrate verify diagnose simulate excite inspect reduce merge)
     string(REGEX REPLACE "^\n  armcal " "" example "${example}")
     separate_arguments(flags UNIX_COMMAND "${example}")
     run("${example}" ${flags})
-    if(NOT "${code} ${err}" MATCHES "^3 armcal: arm\\.(urdf|yaml)" AND
+    if(NOT "${code} ${err}" MATCHES "^3 armcal: (arm\\.(urdf|yaml)|monday)" AND
        NOT example MATCHES "list_effects")
       fail("exit code 3 for the robot file that is not there expected")
     endif()

@@ -1,6 +1,7 @@
 #include "tools/program/command_list.h"
 
 #include "tools/commands/calibrate.h"
+#include "tools/commands/compare.h"
 #include "tools/commands/diagnose.h"
 #include "tools/commands/excite.h"
 #include "tools/commands/inspect.h"
@@ -16,7 +17,7 @@ const std::vector<Command>& Commands() {
     std::vector<Command> commands = {
         CalibrateCommand(), VerifyCommand(), DiagnoseCommand(),
         SimulateCommand(),  ExciteCommand(), InspectCommand(),
-        ReduceCommand(),    MergeCommand(),
+        ReduceCommand(),    MergeCommand(),  CompareCommand(),
     };
     for (Command& command : commands) {
       command.groups.push_back(

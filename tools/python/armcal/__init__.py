@@ -13,18 +13,18 @@ from armcal import plot
 from armcal._armcal import (INERTIAL_NAMES, INERTIAL_UNITS, InputError,
                             PredictedLog, Robot, UsageError, __version__,
                             options, read_robot)
-from armcal.commands import (calibrate, diagnose, excite, inspect, merge,
-                             reduce, simulate, verify)
+from armcal.commands import (calibrate, compare, diagnose, excite, inspect,
+                             merge, reduce, simulate, verify)
 from armcal.log import Log, read_log
 from armcal.robot import from_arrays as _from_arrays  # Robot.from_arrays
-from armcal.results import (Calibration, Diagnosis, Estimates, Excitation,
-                            Inspection, Merger, Reduction, Result, Simulation,
-                            Verification)
+from armcal.results import (Calibration, Comparison, Diagnosis, Estimates,
+                            Excitation, Inspection, Merger, Reduction, Result,
+                            Simulation, Verification)
 
 __all__ = [
-    "Calibration", "Diagnosis", "Estimates", "Excitation", "INERTIAL_NAMES",
+    "Calibration", "Comparison", "Diagnosis", "Estimates", "Excitation", "INERTIAL_NAMES",
     "INERTIAL_UNITS", "InputError", "Inspection", "Log", "Merger",
     "PredictedLog", "Reduction", "Result", "Robot", "Simulation", "UsageError", "Verification",
-    "__version__", "calibrate", "diagnose", "excite", "inspect", "merge",
-    "options", "plot", "read_log", "read_robot", "reduce", "simulate", "verify",
+    "__version__", "calibrate", "compare", "diagnose", "excite", "inspect",
+    "merge", "options", "plot", "read_log", "read_robot", "reduce", "simulate", "verify",
 ]

@@ -13,8 +13,8 @@ from armcal import _armcal
 from armcal.inputs import Inputs
 from armcal.log import Log, read_log
 from armcal.option_kinds import default_of, kind_of, options_of, unit_of
-from armcal.results import (Calibration, Diagnosis, Excitation, Inspection,
-                            Merger, Reduction, Simulation,
+from armcal.results import (Calibration, Comparison, Diagnosis, Excitation,
+                            Inspection, Merger, Reduction, Simulation,
                             Verification)
 
 Path = Union[str, "os.PathLike[str]"]
@@ -37,7 +37,7 @@ def _robot(robot: RobotLike) -> _armcal.Robot:
     return _armcal.read_robot(robot)
 
 
-def _run(command: str, robot: _armcal.Robot, options: Dict[str, Any],
+def _run(command: str, robot: Optional[_armcal.Robot], options: Dict[str, Any],
          progress: Progress
          ) -> Tuple[_armcal.Outcome, str, Dict[str, bytes]]:
     for name in _ROBOT_FLAGS:
@@ -45,10 +45,11 @@ def _run(command: str, robot: _armcal.Robot, options: Dict[str, Any],
             raise _armcal.UsageError(f"{name}: give it to read_robot")
     with Inputs(options) as inputs:
         flags = inputs.texts(options)
-        for name in ("base", "tip"):
-            if getattr(robot, name):
-                flags[name] = getattr(robot, name)
-        flags["robot"] = robot.source
+        if robot is not None:
+            for name in ("base", "tip"):
+                if getattr(robot, name):
+                    flags[name] = getattr(robot, name)
+            flags["robot"] = robot.source
         try:
             outcome = _armcal.run(command, flags, robot, progress,
                                   inputs.logs, write="out" in flags)
@@ -206,6 +207,22 @@ def merge(robot: RobotLike, factors: Any, *, progress: Progress = None,
                         {**options, "factors": factors}, progress))
 
 
+def compare(results: Any, *, robot: Optional[RobotLike] = None,
+            log: Optional[Logs] = None, progress: Progress = None,
+            **options: Any) -> Comparison:
+    """Whether results of one robot agree within noise.
+
+    results  two or more: Calibrations, Diagnoses, Verifications, their files or
+             folders, or robot files
+    robot    of log; what calibrations are of
+    log      held out: what calibrations and robots leave of its torques
+    """
+    arm = None if robot is None else _robot(robot)
+    return Comparison(*_run("compare", arm,
+                            {**options, "results": results, "log": log},
+                            progress))
+
+
 def _sentence(option: _armcal.Option, annotation: str) -> List[str]:
     """Type, unit, meaning and default, in lines."""
     text = "str" if annotation.startswith("Literal") else annotation
@@ -241,6 +258,7 @@ def _say_options(function: Callable[..., Any]) -> None:
 
 #: In the order of armcal --help.
 FUNCTIONS: List[Callable[..., Any]] = [calibrate, verify, diagnose, simulate,
-                                       excite, inspect, reduce, merge]
+                                       excite, inspect, reduce, merge,
+                                       compare]
 for _function in FUNCTIONS:
     _say_options(_function)

@@ -17,7 +17,7 @@ import numpy as np
 from armcal import _armcal
 
 COMMANDS = ("calibrate", "verify", "diagnose", "simulate", "excite", "inspect",
-            "reduce", "merge")
+            "reduce", "merge", "compare")
 
 # Units that a form of value names.
 _UNITS = {"HZ": "Hz", "S": "s", "M": "m", "RAD": "rad", "KG": "kg"}

@@ -55,6 +55,7 @@ class Result:
         os.makedirs(folder, exist_ok=True)
         for name, content in self.files.items():
             temporary = os.path.join(folder, f"{name}.tmp{os.getpid()}")
+            os.makedirs(os.path.dirname(temporary), exist_ok=True)
             with open(temporary, "wb") as file:
                 file.write(content)
             os.replace(temporary, os.path.join(folder, name))
@@ -341,6 +342,18 @@ class Reduction(Result):
         found = json.loads(content[begin + 8:begin + 8 + size])
         assert isinstance(found, dict)
         return found
+
+
+class Comparison(Result):
+    """What compare found; to_dict() is comparison.json (docs/compare.md)."""
+
+    json_name = "comparison.json"
+
+    @property
+    def disagreements(self) -> List[str]:
+        """Sentences; none where all results agree within noise."""
+        return [sentence for pair in self.to_dict()["pairs"]
+                for sentence in pair["disagreements"]]
 
 
 class Merger(Result):

@@ -35,6 +35,10 @@
     diagnose: () => ({
       good: ['explained', 'absorbed', 'noise_floor'].includes(result.verdict),
       sentence: result.sentence, reasons: []}),
+    compare: () => ({
+      good: result.agrees,
+      sentence: result.sentence[0].toUpperCase() + result.sentence.slice(1) + '.',
+      reasons: [...result.notes, ...result.pairs.flatMap((pair) => pair.disagreements)]}),
     excite: () => ({
       good: result.designed !== false,
       sentence: result.designed === false ? 'No motion within the limits tells everything.'
@@ -132,9 +136,11 @@
   const {torques, positions, maps, spectra} = torqueSections(data);
   const {driveGains, jointTable, positionTable, geometry, poses, parameters, correlation, rank} = calibrationSections(data);
   const {changes} = changeSections(data);
+  const {compared, comparedValues, comparedTorques} = comparisonSections(data);
   const {poseEffects, poseGap, poseOrder, poseJoints, poseSpace, poseCorrection} = poseSections(data);
   const {dataFindings, effects, absorbed, gap, where, untestable} = diagnosisSections(data);
   const sections = [
+    ['What was compared', compared], ['Value by value', comparedValues], ['Torque left on the log', comparedTorques],
     ['The data', dataFindings], ['What changed from log to log', changes], ['Which effect', effects], ['What was only a wrong parameter', absorbed],
     ['How far the gap shrinks', gap], ['Where it lies', where],
     ['Which effect', poseEffects], ['How far the distances shrink', poseGap], ['In space', poseSpace],

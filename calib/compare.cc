@@ -1,0 +1,146 @@
+#include "calib/compare.h"
+
+#include <algorithm>
+
+#include "calib/compare/report.h"
+#include "calib/refine/calibration_reader.h"
+#include "calib/refine/parameter_posterior.h"
+#include "model/text/input_text.h"
+#include "model/text/option_error.h"
+#include "model/text/option_name.h"
+
+namespace armcal {
+namespace {
+
+using Kind = ComparedResult::Kind;
+
+constexpr double kErrors = .01;  // of 100 pairs that agree, one is called apart
+
+void CheckKinds(const std::vector<ComparedResult>& results) {
+  for (const ComparedResult& result : results) {
+    const Kind first = results[0].kind;
+    const auto predicts = [](Kind kind) {
+      return kind == Kind::kRobot || kind == Kind::kCalibration;
+    };
+    if (result.kind == first || (predicts(result.kind) && predicts(first))) {
+      continue;
+    }
+    throw OptionError(OptionName("results") + ": found a " +
+                      KindName(result.kind) + " (" + result.name +
+                      ") beside a " + KindName(first) +
+                      ", expected results of one kind, or robots beside "
+                      "calibrations");
+  }
+}
+
+std::vector<std::string> Shared(std::vector<std::string> a,
+                                std::vector<std::string> b) {
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  std::vector<std::string> both;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(),
+                        std::back_inserter(both));
+  return both;
+}
+
+void ComparePairs(Comparison* comparison) {
+  const auto& results = comparison->results;
+  const int count = static_cast<int>(results.size());
+  for (int a = 0; a < count; ++a) {
+    for (int b = a + 1; b < count; ++b) {
+      const Agreement& agreement =
+          comparison->pairs
+              .emplace_back(
+                  ComparedPair{a, b,
+                               CompareTwo(results[a], results[b],
+                                          2 * kErrors / (count * (count - 1)))})
+              .agreement;
+      const bool has_values = results[a].kind == Kind::kCalibration ||
+                              results[a].kind == Kind::kRobot;
+      if (has_values && agreement.values.empty()) {
+        throw OptionError(OptionName("results") + ": " + results[a].name +
+                          " and " + results[b].name +
+                          " have no parameter in common that both know");
+      }
+      const auto shared = Shared(results[a].logs, results[b].logs);
+      if (!shared.empty()) {
+        comparison->notes.push_back(
+            results[a].name + " and " + results[b].name + " are both of " +
+            JoinNames(shared) +
+            ": their errors are not independent, and differences should be "
+            "smaller than the standard deviations say");
+      }
+      if (results[a].robot != results[b].robot) {
+        comparison->notes.push_back(results[a].name + " is of a robot " +
+                                    results[a].robot + ", " + results[b].name +
+                                    " of " + results[b].robot);
+      }
+    }
+  }
+}
+
+// What predicts torques on the logs.
+PredictingRobot PredictingOf(const ComparedResult& result,
+                             const CompareOptions& options) {
+  const Robot& robot = *options.robot;
+  if (result.kind == Kind::kRobot) {
+    return {result.name, options.read_robot(result.name),
+            std::vector<CoulombTransition>(robot.num_joints())};
+  }
+  const CalibratedRobot calibrated =
+      ReadCalibration(CalibrationFile(result.name), robot);
+  return {result.name, calibrated.robot, calibrated.transitions};
+}
+
+void CompareHeldOut(const CompareOptions& options, Comparison* comparison) {
+  if (options.logs.logs.empty()) return;
+  std::vector<PredictingRobot> robots;
+  for (const ComparedResult& result : comparison->results) {
+    if (result.kind != Kind::kRobot && result.kind != Kind::kCalibration) {
+      throw OptionError(OptionName("log") + ": found it with a " +
+                        std::string(KindName(result.kind)) +
+                        ", expected calibrations or robots, which predict "
+                        "torques");
+    }
+    robots.push_back(PredictingOf(result, options));
+    for (const LogSource& log : options.logs.logs) {
+      if (std::count(result.logs.begin(), result.logs.end(), log.name) > 0) {
+        comparison->notes.push_back(result.name + " was calibrated on " +
+                                    log.name + ", which is not held out");
+      }
+    }
+  }
+  comparison->held_out = CompareOnLogs(
+      robots, options.bandwidth_hz, options.progress,
+      LogSet(options.logs.logs, options.reading, options.logs.crop));
+}
+
+}  // namespace
+
+Summary Compare(const std::vector<std::string>& results,
+                const CompareOptions& options) {
+  if (results.size() < 2) {
+    throw OptionError(OptionName("results") +
+                      ": expected two results or more, files or folders");
+  }
+  Comparison comparison;
+  comparison.errors = kErrors;
+  for (const std::string& path : results) {
+    comparison.results.push_back(ReadResult(path, options.read_robot));
+  }
+  CheckKinds(comparison.results);
+  ComparePairs(&comparison);
+  CompareHeldOut(options, &comparison);
+  Summary summary;
+  summary.positive = comparison.agrees();
+  summary.brief = BriefText(comparison);
+  for (const std::string& note : comparison.notes) {
+    summary.report += "note: " + note + "\n";
+  }
+  summary.report += ToText(comparison);
+  summary.json = ToJson(comparison).dump(2) + "\n";
+  summary.files = {{"comparison.json", summary.json}};
+  return summary;
+}
+
+}  // namespace armcal

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/compare/compared_result.h"
+
+namespace armcal {
+
+// A value that two results have.
+struct ValueDifference {
+  std::string name, unit;
+  double a, b;
+  double a_stddev, b_stddev;  // 0: exact
+  // b - a in standard deviations of the difference; NaN where none is known.
+  double deviations;
+  bool differs;  // beyond noise
+};
+
+// What two results say of one robot, the errors of the one taken for
+// independent of the other's.
+struct Agreement {
+  std::vector<ValueDifference> values;  // that both know
+  // Of all values together: d' (P_a + P_b)^-1 d, with the number of directions
+  // that are known and the probability of so much or more by noise. None: 0.
+  double chi_squared = 0;
+  int degrees = 0;
+  double probability = 1;
+  // Sentences; empty: they agree within noise.
+  std::vector<std::string> disagreements;
+  // Values that one of them alone knows are not compared.
+  std::vector<std::string> only_a, only_b;
+};
+
+// Compares values and claims of two results that are of one kind, or of which
+// at least one is a robot. `errors`: how often at most two results of one robot
+// may be found to disagree by noise alone, shared equally between the test of
+// all values together and those of each (Bonferroni).
+//
+// Exact values, of robots, differ by more than rounding (1e-9) or not at all.
+// Of diagnoses, an effect that one claims has to be claimed by the other, to be
+// named among what the other's claim may be instead, or not be testable there.
+Agreement CompareTwo(const ComparedResult& a, const ComparedResult& b,
+                     double errors);
+
+}  // namespace armcal

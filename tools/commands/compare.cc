@@ -1,0 +1,89 @@
+#include "tools/commands/compare.h"
+
+#include <gflags/gflags.h>
+
+#include <filesystem>
+
+#include "calib/compare.h"
+#include "tools/command_report.h"
+#include "tools/input_flags.h"
+#include "tools/log_flags.h"
+#include "tools/output_folder.h"
+
+DEFINE_string(results, "",
+              "`FILES` what to compare, also without --results=: results of "
+              "calibrate, diagnose or verify, folders of them, or robot files "
+              "A,B[,C..]");
+
+namespace armcal {
+namespace {
+
+CompareOptions OptionsFromFlags(const CommandInput& input) {
+  const FlagValues& flags = input.flags;
+  CompareOptions options;
+  options.read_robot = [&flags](const std::string& path) {
+    return RobotOfFile(path, flags);
+  };
+  if (!flags.Text("log").empty()) {
+    options.robot = RobotFromFlags(input);
+    options.reading = LogOptionsFromFlags(flags, *options.robot);
+    options.logs = LogInputFromFlags(input);
+  }
+  options.bandwidth_hz = BandwidthFromFlags(flags);
+  options.progress = input.progress;
+  return options;
+}
+
+void AddComparisonReport(const CommandInput& input,
+                         const std::vector<std::string>& results,
+                         const std::string& json, OutputFolder* out) {
+  if (!input.WantsReport()) return;
+  ReportContent content;
+  content.command = "compare";
+  content.result = nlohmann::json::parse(json);
+  content.robot = content.result.at("results").at(0).at("robot");
+  std::vector<std::string> files;
+  for (const std::string& path : results) {
+    if (!std::filesystem::is_directory(path)) files.push_back(path);
+  }
+  if (!input.flags.Text("log").empty()) {
+    for (const std::string& log : LogsFromFlags(input)) files.push_back(log);
+  }
+  AddProvenance(input, files, &content);
+  out->Add("report.html", ReportPage(content));
+}
+
+CommandOutcome RunCompare(const CommandInput& input) {
+  const std::string names = input.flags.Text("results");
+  if (names.empty()) {
+    throw UsageError("two results are needed: armcal compare A B");
+  }
+  const std::vector<std::string> results = FileNames("results", names);
+  const Summary summary = Compare(results, OptionsFromFlags(input));
+  CommandOutcome outcome;
+  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
+  for (const ResultFile& file : summary.files) out.Add(file.name, file.content);
+  AddComparisonReport(input, results, summary.json, &out);
+  outcome.output = {summary.json, summary.report, "", summary.positive, {}};
+  outcome.brief = summary.brief;
+  return outcome;
+}
+
+}  // namespace
+
+Command CompareCommand() {
+  return {"compare",
+          "whether results of one robot agree within noise",
+          {{"results", {"results"}},
+           {"torque left on a log", {"robot", "log", "crop", "bandwidth"}},
+           TorqueFlags(),
+           ChainFlags()},
+          {"armcal compare monday tuesday",
+           "armcal compare before/robot.urdf after/calibration.json",
+           "armcal compare monday tuesday --robot=arm.urdf --log=held_out.csv "
+           "--out=compared"},
+          &RunCompare,
+          "results"};
+}
+
+}  // namespace armcal
