@@ -12,6 +12,7 @@ packages=(
   libmatio-dev libceres-dev libsimbody-dev libtbb-dev libboost-dev
   libssl-dev libjs-dygraphs libgtest-dev libgmock-dev libmujoco-dev
   pybind11-dev python3-dev python3-numpy python3-distributed
+  python3-setuptools python3-venv python3-wheel
 )
 for argument in "$@"; do
   case $argument in

@@ -53,7 +53,7 @@ print(pybind11.get_include())')"
 done
 
 # One wheel with the modules of all Pythons becomes one for each.
-rm -rf "$work/plain" build/lib.* build/bdist.*
+rm -rf "$work/plain" "$build/wheel_files"
 ARMCAL_BUILD=$build pip wheel --quiet --no-deps --no-build-isolation \
   --disable-pip-version-check --wheel-dir "$work/plain" .
 python -B tools/wheel/wheels.py --plain="$work/plain" \

@@ -13,54 +13,29 @@ the bare systems.
 """
 
 import argparse
-import filecmp
 import pathlib
 import shutil
-import subprocess
 import tempfile
 import time
 
+import first_results
 from bare_root import BareRoot
+from first_results import MODULE, PROGRAM
 
-DATA = pathlib.Path(__file__).resolve().parents[2] / "data" / "scara"
 LIMIT = 60  # seconds
 # What a wheel may take from the system (PEP 600).
 OF_THE_SYSTEM = {"ld-linux-x86-64.so.2", "libc.so.6", "libgcc_s.so.1",
                  "libm.so.6", "libpthread.so.0", "libresolv.so.2",
                  "libstdc++.so.6", "libz.so.1", "linux-vdso.so.1"}
-# In a folder that has scara/; both write result/.
-PROGRAM = ("{armcal} simulate --robot=scara/robot.yaml --out=log >log.txt && "
-           "{armcal} calibrate --robot=scara/robot.yaml --log=log/log.csv "
-           "--out=result >result.txt")
-MODULE = """
-import armcal
-robot = armcal.read_robot("scara/robot.yaml")
-armcal.simulate(robot, out="log")
-armcal.calibrate(robot, "log/log.csv", out="result")
-"""
 INSTALL = ("python3 -m venv {venv} && {venv}/bin/pip install --quiet "
            "--disable-pip-version-check wheels/{wheel}")
 
 
-def files(folder):
-    return sorted(path.relative_to(folder) for part in ("log", "result")
-                  for path in (folder / part).rglob("*") if path.is_file())
-
-
-def compare(folder, expected, what):
-    if files(folder) != files(expected):
-        raise SystemExit(f"{what}: files {files(folder)}, "
-                         f"expected {files(expected)}")
-    for file in files(expected):
-        if not filecmp.cmp(folder / file, expected / file, shallow=False):
-            raise SystemExit(f"{what}: {file} is not what the build writes")
-
-
 def calibrate(system, name, command, expected):
     folder = system.path("/root") / name
-    shutil.copytree(DATA, folder / "scara")
+    shutil.copytree(first_results.DATA, folder / "scara")
     system.run(f"cd {name}; {command}")
-    compare(folder, expected, f"{system.root.name}, {name}")
+    first_results.compare(folder, expected, f"{system.root.name}, {name}")
 
 
 def tell(system, what, start):
@@ -127,10 +102,8 @@ def main():
         parser.add_argument("--" + name, type=pathlib.Path)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        expected = pathlib.Path(folder)
-        shutil.copytree(DATA, expected / "scara")
-        subprocess.run(PROGRAM.format(armcal=options.armcal.resolve()),
-                       shell=True, check=True, cwd=expected)
+        expected = first_results.calibrated(pathlib.Path(folder, "build"),
+                                            options.armcal.resolve())
         if options.wheels:
             try_wheels("bookworm", options, expected)
             try_wheels("trixie", options, expected)
