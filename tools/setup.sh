@@ -2,7 +2,7 @@
 # Installs the Debian 12 packages that armcal needs. Does nothing, and needs no
 # rights, where all of them are there.
 #   --full   those of tools/test.sh --full too: clang's sanitizers, clang-tidy,
-#            llvm-cov
+#            llvm-cov, debootstrap
 set -euo pipefail
 
 packages=(
@@ -16,7 +16,7 @@ packages=(
 )
 for argument in "$@"; do
   case $argument in
-    --full) packages+=(clang-tidy libclang-rt-14-dev lld llvm) ;;
+    --full) packages+=(clang-tidy debootstrap libclang-rt-14-dev lld llvm) ;;
     *) echo "setup.sh: unknown argument $argument; expected --full" >&2; exit 2 ;;
   esac
 done
