@@ -6,9 +6,10 @@
 
 Runs the command lines of same_outputs_commands.py with both binaries, each
 in a folder of its own, and compares exit code, stdout, stderr and every file
-that is left there. Nothing is normalised: armcal writes no time of day, no
+that is left there. Nothing else is normalised: armcal writes no time of day, no
 process id and no absolute path, so that not a byte may differ (but between
-versions, of armcal or of a library: reports and --version name them).
+versions, of armcal or of a library: reports and --version name them) but the
+hash of the sources, which is left out.
 
 --only takes the commands whose name matches, with those that they build on.
 --data and --shared (relative to the repository) are what commands see as
@@ -69,6 +70,10 @@ class Side:
         self.path.mkdir(parents=True)
         shutil.copy(binary, self.path / "armcal")
         (root / "told").mkdir(exist_ok=True)
+        version = subprocess.run([binary, "--version"], check=True,
+                                 capture_output=True).stdout
+        hashes = re.findall(rb"\(sources ([0-9a-f]+)\)", version)
+        self.source_hash = hashes[0] if hashes else b"(none)"
 
     def told(self, command: Command, what: str) -> pathlib.Path:
         return self.root / "told" / f"{command.name}.{what}"
@@ -149,8 +154,10 @@ def compare(command: Command, before: Side, after: Side) -> str:
     """What differs first; empty if nothing does."""
     sides = before.files(command), after.files(command)
     for name in sorted({**sides[0], **sides[1]}):  # (stderr), (stdout), files
-        one, other = (files[name].read_bytes() if name in files
-                      else b"(no such file)" for files in sides)
+        one, other = (
+            files[name].read_bytes().replace(side.source_hash, b"(sources)")
+            if name in files else b"(no such file)"
+            for side, files in zip((before, after), sides))
         if one != other:
             return difference(name, one, other)
     return ""

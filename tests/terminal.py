@@ -156,7 +156,8 @@ def writing():
     for run in runs:
         run.communicate()
         expect(run.returncode == 0, 'both runs must succeed')
-    expect(left('shared') == ['report.html', 'verification.json'],
+    expect(left('shared') ==
+           ['provenance.json', 'report.html', 'verification.json'],
            f'expected the results alone: {left("shared")}')
 
 

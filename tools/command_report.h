@@ -18,12 +18,12 @@ CommandOutcome OutcomeOf(const CommandInput& input, const Robot& robot,
                          const Summary& summary,
                          const std::vector<std::string>& notes);
 
-// The command line, and the hashes of files.
-void AddProvenance(const CommandInput& input,
-                   const std::vector<std::string>& files,
-                   ReportContent* content);
+// Adds provenance.json to the results, where the input wants files: the command
+// line, versions, the hashes of the robot file, of `files` and of the results.
+void AddProvenance(const CommandInput& input, const std::string& command,
+                   const std::vector<std::string>& files, OutputFolder* out);
 
-// Adds report.html to the results, where the input wants it: the
+// Adds provenance.json, and report.html, which holds that as well: the
 // summary's JSON, the command line, the robot at a bent posture, the hashes of
 // the robot file and of `files`, and what `complete` (or null) knows besides.
 void AddReport(const CommandInput& input, const std::string& command,
@@ -31,5 +31,13 @@ void AddReport(const CommandInput& input, const std::string& command,
                const std::vector<std::string>& files,
                const std::function<void(ReportContent*)>& complete,
                OutputFolder* out);
+// The same of a command whose robot is not drawn.
+void AddReportWithoutRobot(const CommandInput& input,
+                           const std::string& command,
+                           const std::string& robot_name,
+                           const std::string& json,
+                           const std::vector<std::string>& files,
+                           const std::function<void(ReportContent*)>& complete,
+                           OutputFolder* out);
 
 }  // namespace armcal

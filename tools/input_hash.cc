@@ -1,11 +1,15 @@
 #include "tools/input_hash.h"
 
+#include <filesystem>
+#include <set>
 #include <string_view>
 
 #include "calib/numerics/sha256.h"
 
 namespace armcal {
 namespace {
+
+namespace fs = std::filesystem;
 
 SourceFile HashArrays(const LogSource& log) {
   SourceFile source{log.name, "", 0};
@@ -22,11 +26,29 @@ SourceFile HashArrays(const LogSource& log) {
   return source;
 }
 
+SourceFile HashFolder(const std::string& name) {
+  std::set<std::string> files;
+  for (const auto& entry : fs::directory_iterator(name)) {
+    if (entry.is_regular_file()) files.insert(entry.path().string());
+  }
+  SourceFile source{name, "", 0};
+  Sha256 hash;
+  for (const std::string& path : files) {
+    const SourceFile file = HashFile(path);
+    hash.Add(file.sha256);
+    source.bytes += file.bytes;
+  }
+  source.sha256 = HexText(hash.Value());
+  return source;
+}
+
 }  // namespace
 
 SourceFile HashInput(const CommandInput& input, const std::string& name) {
   const auto log = input.logs.find(name);
-  return log == input.logs.end() ? HashFile(name) : HashArrays(log->second);
+  if (log != input.logs.end()) return HashArrays(log->second);
+  std::error_code error;
+  return fs::is_directory(name, error) ? HashFolder(name) : HashFile(name);
 }
 
 }  // namespace armcal

@@ -2,7 +2,7 @@
 # Installs the Debian 12 packages that armcal needs. Does nothing, and needs no
 # rights, where all of them are there.
 #   --full   those of tools/test.sh --full too: clang's sanitizers, clang-tidy,
-#            llvm-cov
+#            llvm-cov, debootstrap
 set -euo pipefail
 
 packages=(
@@ -12,10 +12,11 @@ packages=(
   libmatio-dev libceres-dev libsimbody-dev libtbb-dev libboost-dev
   libssl-dev libjs-dygraphs libgtest-dev libgmock-dev libmujoco-dev
   pybind11-dev python3-dev python3-numpy python3-distributed
+  python3-setuptools python3-venv python3-wheel
 )
 for argument in "$@"; do
   case $argument in
-    --full) packages+=(clang-tidy libclang-rt-14-dev lld llvm) ;;
+    --full) packages+=(clang-tidy debootstrap libclang-rt-14-dev lld llvm) ;;
     *) echo "setup.sh: unknown argument $argument; expected --full" >&2; exit 2 ;;
   esac
 done

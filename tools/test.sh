@@ -3,8 +3,9 @@
 #   --full   more, for hours: clang-tidy (tools/tidy.sh), the long tests, all
 #            others as GCC builds them (in build-gcc/) and under the address and
 #            undefined-behaviour sanitizers (in build-instrumented/), the lines
-#            they cover (tools/coverage.py) and damaged files for every reader
-#            (tools/fuzz.sh)
+#            they cover (tools/coverage.py), damaged files for every reader
+#            (tools/fuzz.sh), and as root packages on bare systems
+#            (tests/wheel/try.sh)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -57,6 +58,11 @@ if $full; then
   tools/tidy.sh
   selection=()
   run_tests build -DPYTHON=ON -DLONG_TESTS=ON
+  if [[ $(id -u) -eq 0 ]]; then
+    tests/wheel/try.sh
+  else
+    echo "test.sh: tests/wheel/try.sh needs root; it was not run"
+  fi
   selection=(-LE long)
   run_tests build-gcc -DPYTHON=ON -DCMAKE_CXX_COMPILER=g++
   run_instrumented

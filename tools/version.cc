@@ -2,13 +2,16 @@
 
 #include "model/text/input_error.h"
 #include "model/text/library_versions.h"
+#include "tools/source_hash.h"
 
 namespace armcal {
 
 std::string VersionText() {
   // What CMake found is linked in, or has its version in the file's name.
-  std::string text = "armcal " ARMCAL_VERSION "\nCeres " CERES_VERSION
-                     ", Eigen " EIGEN_VERSION ", Simbody " SIMBODY_VERSION;
+  std::string text = "armcal " ARMCAL_VERSION " (sources ";
+  text += SourceHash();
+  text += ")\nCeres " CERES_VERSION ", Eigen " EIGEN_VERSION
+          ", Simbody " SIMBODY_VERSION;
   const char* separator = "\n";
   for (const LibraryVersion& library : LoadedLibraries()) {
     text += separator + library.name + " " + library.loaded;

@@ -195,8 +195,7 @@ class OtherCommands(InFolder):
     def test_simulate_inspect_verify_excite(self):
         result = armcal.simulate(self.robot, duration=10, log_rate=100,
                                  robot_error=0.02, run=1)
-        for name, content in result.files.items():
-            self.assertEqual(content, pathlib.Path("run1", name).read_bytes())
+        self.expect_files(result, "run1")
         self.assertEqual(result.log.tau.shape, (len(result.log), 2))
 
         self.armcal("inspect", "--robot=arm.yaml", "--log=run1/log.csv",

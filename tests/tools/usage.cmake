@@ -17,7 +17,7 @@ expect_empty(out)
 run("version" --version)
 expect_code(0)
 set(number "[0-9]+\\.[0-9.]+")
-if(NOT out MATCHES "^armcal ${number}\nCeres 2\\.[0-9.]+, Eigen 3\\.[0-9.]+, \
+if(NOT out MATCHES "^armcal ${number} \\(sources [0-9a-f]+\\)\nCeres 2\\.[0-9.]+, Eigen 3\\.[0-9.]+, \
 Simbody 3\\.[0-9.]+\nzlib 1\\.[0-9.]+, zstd ${number}, LZ4 ${number}, SQLite \
 3\\.[0-9.]+, matio ${number}, HDF5 ${number}, oneTBB ${number}\n$")
   fail("armcal X.Y and the versions of its libraries expected")

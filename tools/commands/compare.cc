@@ -2,7 +2,7 @@
 
 #include <gflags/gflags.h>
 
-#include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "calib/compare.h"
 #include "tools/command_report.h"
@@ -34,25 +34,6 @@ CompareOptions OptionsFromFlags(const CommandInput& input) {
   return options;
 }
 
-void AddComparisonReport(const CommandInput& input,
-                         const std::vector<std::string>& results,
-                         const std::string& json, OutputFolder* out) {
-  if (!input.WantsReport()) return;
-  ReportContent content;
-  content.command = "compare";
-  content.result = nlohmann::json::parse(json);
-  content.robot = content.result.at("results").at(0).at("robot");
-  std::vector<std::string> files;
-  for (const std::string& path : results) {
-    if (!std::filesystem::is_directory(path)) files.push_back(path);
-  }
-  if (!input.flags.Text("log").empty()) {
-    for (const std::string& log : LogsFromFlags(input)) files.push_back(log);
-  }
-  AddProvenance(input, files, &content);
-  out->Add("report.html", ReportPage(content));
-}
-
 CommandOutcome RunCompare(const CommandInput& input) {
   const std::string names = input.flags.Text("results");
   if (names.empty()) {
@@ -63,7 +44,14 @@ CommandOutcome RunCompare(const CommandInput& input) {
   CommandOutcome outcome;
   OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
   for (const ResultFile& file : summary.files) out.Add(file.name, file.content);
-  AddComparisonReport(input, results, summary.json, &out);
+  std::vector<std::string> files = results;
+  if (!input.flags.Text("log").empty()) {
+    for (const std::string& log : LogsFromFlags(input)) files.push_back(log);
+  }
+  const std::string robot =
+      nlohmann::json::parse(summary.json).at("results").at(0).at("robot");
+  AddReportWithoutRobot(input, "compare", robot, summary.json, files, nullptr,
+                        &out);
   outcome.output = {summary.json, summary.report, "", summary.positive, {}};
   outcome.brief = summary.brief;
   return outcome;

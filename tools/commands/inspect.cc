@@ -47,6 +47,7 @@ CommandOutcome RunInspect(const CommandInput& input) {
                 // With logs the report is theirs.
                 logs.empty() ? robot.notes : std::vector<std::string>());
   outcome.output.verdict = "";
+  AddProvenance(input, "inspect", NamesOf(logs), &outcome.folders[0]);
   return outcome;
 }
 

@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include "calib/fleet/factor_calibration.h"
 #include "calib/fleet/factor_file.h"
 #include "calib/fleet/factor_report.h"
 #include "calib/fleet/log_reduction.h"
-#include "calib/numerics/sha256.h"
 #include "model/text/calendar_time.h"
 #include "model/text/input_error.h"
 #include "tools/commands/calibrate_flags.h"
@@ -30,21 +28,6 @@ namespace armcal {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Of a bag's folder: of its files' hashes, by name.
-std::string HashLog(const CommandInput& input, const std::string& path) {
-  std::error_code error;
-  if (input.logs.count(path) > 0 || !fs::is_directory(path, error)) {
-    return HashInput(input, path).sha256;
-  }
-  std::set<std::string> files;
-  for (const auto& entry : fs::directory_iterator(path)) {
-    if (entry.is_regular_file()) files.insert(entry.path().string());
-  }
-  Sha256 hash;
-  for (const std::string& file : files) hash.Add(HashFile(file).sha256);
-  return HexText(hash.Value());
-}
 
 std::optional<double> TimeFromFlags(const FlagValues& flags) {
   const std::string date = flags.Text("date");
@@ -107,7 +90,7 @@ CommandOutcome RunReduce(const CommandInput& input) {
     const LogSet log({SourceOf(input, path)}, LogOptionsFromFlags(flags, robot),
                      CropFromFlags(flags));
     ReducedLog reduced = ReduceLog(robot, model, input.progress, log);
-    reduced.sha256 = HashLog(input, path);
+    reduced.sha256 = HashInput(input, path).sha256;
     reduced.unit = flags.Text("unit");
     reduced.time = time;
     out.Add(FactorName(reduced), FactorFileBytes({model, {reduced}}));

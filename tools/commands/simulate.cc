@@ -9,6 +9,7 @@
 #include "model/plant/robot_variation.h"
 #include "model/text/input_text.h"
 #include "tools/command.h"
+#include "tools/command_report.h"
 #include "tools/commands/simulate_effects.h"
 #include "tools/commands/simulate_flags.h"
 #include "tools/commands/simulate_loop.h"
@@ -111,7 +112,9 @@ CommandOutcome Simulate(const CommandInput& input) {
                      "', expected Hz that divide the controller's rate of " +
                      NumberText(scenario.loop.controller.rate_hz));
   }
-  if (OutFromFlags(flags).empty()) throw UsageError("--out=DIR is needed");
+  if (OutFromFlags(flags).empty() && !input.report) {
+    throw UsageError("--out=DIR is needed");
+  }
   const LogWriterOptions writer =
       WriterFromFlags(flags, scenario.model.num_joints());
   input.Begin("simulating");
@@ -122,7 +125,12 @@ CommandOutcome Simulate(const CommandInput& input) {
   run.run.log.simulated = true;
   out.Add("log.csv", LogText(run.run.log, writer));
   const std::string truth = TruthJson(chosen.scenario, run).dump(2) + "\n";
-  (flags.Text("truth").empty() ? out : secret).Add("truth.json", truth);
+  // Beside the truth, as its command line has the effects.
+  OutputFolder& told = flags.Text("truth").empty() ? out : secret;
+  told.Add("truth.json", truth);
+  std::vector<std::string> motion = {flags.Text("motion")};
+  if (motion[0] == "fourier" || motion[0] == "points") motion.clear();
+  AddProvenance(input, "simulate", motion, &told);
   outcome.folders = {secret, out};
   outcome.output = {truth, Report(chosen), "", run.run.finite, {}};
   return outcome;

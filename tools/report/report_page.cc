@@ -35,8 +35,9 @@ std::string ScriptSafe(const nlohmann::json& data) {
   return safe;
 }
 
-nlohmann::json Versions() {
+nlohmann::json Versions(const std::string& source_hash) {
   return {{"armcal", ARMCAL_VERSION},
+          {"sources", source_hash},
           {"ceres", CERES_VERSION_STRING},
           {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." +
                         std::to_string(EIGEN_MAJOR_VERSION) + "." +
@@ -44,21 +45,13 @@ nlohmann::json Versions() {
 }
 
 nlohmann::json PageData(const ReportContent& content) {
-  nlohmann::json files = nlohmann::json::array();
-  for (const SourceFile& file : content.files) {
-    files.push_back(
-        {{"path", file.path}, {"sha256", file.sha256}, {"bytes", file.bytes}});
-  }
   return {{"command", content.command},
           {"robot", content.robot},
           {"result", content.result},
           {"torques", content.torques},
           {"skeleton", content.skeleton},
           {"extra", content.extra},
-          {"provenance",
-           {{"arguments", content.arguments},
-            {"versions", Versions()},
-            {"files", files}}}};
+          {"provenance", ProvenanceJson(content)}};
 }
 
 std::string Element(const std::string& tag, const std::string& attributes,
@@ -88,6 +81,17 @@ SourceFile HashDocument(const Document& document) {
   const std::string text = document.Text(std::numeric_limits<long>::max());
   return {document.name(), HexText(Sha256Of(text)),
           static_cast<long>(text.size())};
+}
+
+nlohmann::json ProvenanceJson(const ReportContent& content) {
+  nlohmann::json files = nlohmann::json::array();
+  for (const SourceFile& file : content.files) {
+    files.push_back(
+        {{"path", file.path}, {"sha256", file.sha256}, {"bytes", file.bytes}});
+  }
+  return {{"arguments", content.arguments},
+          {"versions", Versions(content.source_hash)},
+          {"files", files}};
 }
 
 std::string ReportPage(const ReportContent& content) {

@@ -29,7 +29,11 @@ struct ReportContent {
   nlohmann::json extra = nlohmann::json::object();   // of one command only
   std::vector<std::string> arguments;                // the command line
   std::vector<SourceFile> files;
+  std::string source_hash;  // of armcal (tools/source_hash.h)
 };
+
+// The command line, the versions and the files, which the page ends with.
+nlohmann::json ProvenanceJson(const ReportContent& content);
 
 // A page in one file: no network, scripts only those whose hashes its content
 // security policy names, and names of joints or files as text, never as HTML.

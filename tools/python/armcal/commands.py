@@ -175,12 +175,7 @@ def simulate(robot: RobotLike, *, progress: Progress = None,
     arm = _robot(robot)
     if options.get("list_effects"):
         raise _armcal.UsageError("list_effects is for the command line")
-    # The command wants a folder; without one nothing is written.
-    written = options.get("out") is not None
-    with tempfile.TemporaryDirectory(prefix="armcal-") as folder:
-        outcome, text, files = _run(
-            "simulate", arm,
-            options if written else {**options, "out": folder}, progress)
+    outcome, text, files = _run("simulate", arm, options, progress)
     constants = options.get("torque_constants")
     return Simulation(outcome, text, files, _log_of(
         "log.csv", files, arm, True, torque_constants=constants))
