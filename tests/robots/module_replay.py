@@ -31,15 +31,15 @@ sys.path.insert(0, str(HERE.parent / "peers"))
 import commanded_arm as ca  # noqa: E402
 
 CASES = [
-    ("stribeck", "stribeck@2:friction=.3"),
-    ("presliding", "presliding@2:friction=.3,displacement=.03"),
+    ("stribeck", "stribeck@2:friction=.15,velocity=.3"),
+    ("presliding", "presliding@2:friction=.2,displacement=.03"),
     ("ripple", "torque_ripple@2:amplitude=.15,harmonic=12"),
     ("thermal", "thermal_friction@2:beta=.04,time_constant=.3"),
     ("delay", "delay:delay=6ms"),
     ("elasticity", "elasticity@2:windup=.01"),
     ("backlash", "backlash@2:gap=.01"),
 ]
-BANDWIDTH = 3.  # Hz, of the drives
+BANDWIDTH = 6.  # Hz, of the drives
 ENOUGH, MOST_OF_OWN, MOST_OF_RIGID = 1e-5, 1.2, .2
 ARM = """name: arm
 convention: standard

@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 
 #include "calib/diagnose/modules/effects_json.h"
 #include "tests/calib/diagnose/modules/moved_arm.h"
@@ -66,9 +68,8 @@ TEST_P(ModulesOf, DoAsTheLawDoes) {
 
 std::vector<Effect> Held() {
   std::vector<Effect> held;
-  for (const Effect& effect : Effects()) {
-    if (effect.numbers) held.push_back(effect);
-  }
+  std::copy_if(Effects().begin(), Effects().end(), std::back_inserter(held),
+               [](const Effect& effect) { return bool(effect.numbers); });
   return held;
 }
 
@@ -93,8 +94,8 @@ TEST(Modules, HoldManyLawsTogether) {
   MovedArm moved;
   std::vector<GapCandidate> effects;
   bool yields = false;
-  for (const Effect& effect : Held()) {
-    if (effect.scope == Effect::Scope::kRobot) continue;
+  for (const Effect& effect : Effects()) {
+    if (!effect.numbers || effect.scope == Effect::Scope::kRobot) continue;
     const bool spring = !effect.proportional && effect.larger_sizes.size() > 0;
     if (spring && yields) continue;
     yields = yields || spring;
