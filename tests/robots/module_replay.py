@@ -31,15 +31,15 @@ sys.path.insert(0, str(HERE.parent / "peers"))
 import commanded_arm as ca  # noqa: E402
 
 CASES = [
-    ("stribeck", "stribeck@2:friction=.15,velocity=.3"),
-    ("presliding", "presliding@2:friction=.2,displacement=.03"),
+    ("stribeck", "stribeck@2:friction=.1"),
+    ("presliding", "presliding@2:friction=.15,displacement=.02"),
     ("ripple", "torque_ripple@2:amplitude=.15,harmonic=12"),
     ("thermal", "thermal_friction@2:beta=.04,time_constant=.3"),
-    ("delay", "delay:delay=6ms"),
+    ("delay", "delay:delay=6e-3s"),
     ("elasticity", "elasticity@2:windup=.01"),
     ("backlash", "backlash@2:gap=.01"),
 ]
-BANDWIDTH = 6.  # Hz, of the drives
+BANDWIDTH = 4.  # Hz, of the drives
 ENOUGH, MOST_OF_OWN, MOST_OF_RIGID = 1e-5, 1.2, .2
 ARM = """name: arm
 convention: standard
@@ -84,7 +84,7 @@ class Drives:
         self.before, self.velocity = None, np.zeros(log.n)
 
     def torque(self, t, position):
-        position = np.asarray(position)
+        position = np.array(position)
         if self.before is not None:
             difference = (position - self.before) * self.rate
             self.velocity = difference + self.decay * (self.velocity - difference)
@@ -166,7 +166,7 @@ def make(armcal, out, effect):
     kp, kd = gains(out / "file" / "robot.xml")
     controller = out / "controller.yaml"
     controller.write_text(f"law: pd\nfeedforward: none\nkp: {kp.tolist()}\n"
-                          f"kd: {kd.tolist()}\n", encoding="utf-8")
+                          f"kd: {kd.tolist()}\nki: [0, 0, 0]\n", encoding="utf-8")
     for k in (1, 2):
         run(armcal, "simulate", f"--robot={robot}", f"--controller={controller}",
             "--duration=40", "--robot_error=.02", "--seed=3", f"--run={k}",
