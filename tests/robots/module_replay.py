@@ -34,10 +34,10 @@ CASES = [
     ("stribeck", "stribeck@2:friction=.1"),
     ("presliding", "presliding@2:friction=.15,displacement=.02"),
     ("ripple", "torque_ripple@2:amplitude=.15,harmonic=12"),
-    ("thermal", "thermal_friction@2:beta=.04,time_constant=.3"),
-    ("delay", "delay:delay=6e-3s"),
+    ("thermal", "thermal_friction@2:beta=.1,time_constant=.5"),
+    ("delay", "delay:delay=.015s"),
     ("elasticity", "elasticity@2:windup=.01"),
-    ("backlash", "backlash@2:gap=.01"),
+    ("backlash", "backlash@1:gap=.02"),
 ]
 BANDWIDTH = 4.  # Hz, of the drives
 ENOUGH, MOST_OF_OWN, MOST_OF_RIGID = 1e-5, 1.2, .2

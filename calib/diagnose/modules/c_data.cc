@@ -142,19 +142,21 @@ std::string TestTable(const ModuleTest& test) {
       ";\nstatic const double effects_test_largest[] = {" +
       Number(test.LargestOf(&Step::reading)) + ", " +
       Number(test.LargestOf(&Step::torque)) + ", " +
-      Number(test.LargestOf(&Step::damping)) +
+      Number(test.LargestOf(&Step::damping)) + ", " +
+      Number(test.LargestOf(&Step::undamped)) +
       "};\nstatic const struct effects_test_step {\n"
       "  double q[EFFECTS_JOINTS], qd[EFFECTS_JOINTS];\n"
       "  double commanded[EFFECTS_JOINTS], load[EFFECTS_JOINTS];\n"
       "  int has_load;\n"
       "  double reading[EFFECTS_JOINTS], torque[EFFECTS_JOINTS];\n"
-      "  double damping[EFFECTS_JOINTS];\n} effects_test[] = {\n";
+      "  double damping[EFFECTS_JOINTS], undamped[EFFECTS_JOINTS];\n} "
+      "effects_test[] = {\n";
   for (const Step& step : test.steps) {
     text += "  {" + Numbers(step.q) + ", " + Numbers(step.qd) + ",\n   " +
             Numbers(step.commanded) + ", " + Numbers(step.load) + ", " +
             (step.load.size() > 0 ? "1" : "0") + ",\n   " +
             Numbers(step.reading) + ", " + Numbers(step.torque) + ",\n   " +
-            Numbers(step.damping) + "},\n";
+            Numbers(step.damping) + ", " + Numbers(step.undamped) + "},\n";
   }
   return text + "};\n#endif\n";
 }

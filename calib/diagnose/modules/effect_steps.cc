@@ -40,7 +40,8 @@ EffectSteps::EffectSteps(const CorrectedRobot& robot, const VectorXd& load)
   const VectorXd zero = VectorXd::Zero(n_);
   at_.position = at_.velocity = at_.link_position = at_.link_velocity = zero;
   at_.load = load_known_ ? load : zero;
-  at_.temperature = drive_ = heat_ = damping_ = zero;
+  at_.temperature = drive_ = heat_ = damping_ = undamped_ = change_ = zero;
+  missing_ = spring_ = zero;
 }
 
 VectorXd EffectSteps::Sense(double dt, const VectorXd& q, const VectorXd& qd) {
@@ -68,6 +69,7 @@ void EffectSteps::Start(const VectorXd& q, const VectorXd& qd) {
 void EffectSteps::Advance(double dt, const VectorXd& q, const VectorXd& qd) {
   AdvanceSlowStates(dt, qd);
   const VectorXd before = at_.link_position;
+  change_ = qd - at_.link_velocity;
   at_.link_position = q;
   at_.link_velocity = qd;
   for (int j = 0; j < n_; ++j) {
@@ -198,12 +200,16 @@ void EffectSteps::AdvanceMotor(int j, double dt, double link_before) {
   const int count = static_cast<int>(std::clamp(
       std::ceil(phase / kPhasePerSubstep), 1., 0. + kMostMotorSubsteps));
   at_.link_velocity[j] = (end - link_before) / dt;
+  missing_[j] = 0;
   for (int k = 0; k < count; ++k) {
     at_.link_position[j] = link_before + (end - link_before) * (k + .5) / count;
     MotorStep(j, dt / count);
   }
+  missing_[j] /= count;
   at_.link_position[j] = end;
   at_.link_velocity[j] = end_velocity;
+  // The mean that the motor felt, beside the ends' that the link is given.
+  missing_[j] -= (spring_[j] + SpringTorque(j, 0, 0)) / 2;
 }
 
 // By the implicit midpoint rule of the laws linearised where the motor is: with
@@ -214,11 +220,15 @@ void EffectSteps::MotorStep(int j, double h) {
   const double inertia = robot_.plant.robot.links[j].joint.armature;
   const double force = given_[j] + OnMotor(j) - SpringTorque(j, 0, 0);
   const double by_q = -SlopeOverDeflection(j);
-  const double by_v = FrictionSlope(j) - SlopeOverRate(j);
+  const double friction_by_v = FrictionSlope(j);
+  const double by_v = friction_by_v - SlopeOverRate(j);
   const double v = at_.velocity[j];
   const double acceleration =
       (force + h / 2 * by_q * v) / (inertia - h / 2 * by_v - h * h / 4 * by_q);
   const double move = h * (v + h / 2 * acceleration);
+  // The spring's mean: what the motor's momentum lacks.
+  missing_[j] +=
+      given_[j] + OnMotor(j) + (h / 2 * friction_by_v - inertia) * acceleration;
   Follow(j, move, h);
   at_.position[j] += move;
   at_.velocity[j] += h * acceleration;
@@ -241,7 +251,13 @@ VectorXd EffectSteps::Act(const VectorXd& commanded, const VectorXd& load) {
     heat_[j] = Heating(j);
     const bool rigid = springs_[j] == nullptr;
     drive_[j] = rigid ? given_[j] + OnMotor(j) : SpringTorque(j, 0, 0);
+    spring_[j] = drive_[j];
+    if (!rigid) drive_[j] += missing_[j];
     damping_[j] = std::max(0., rigid ? -FrictionSlope(j) : SlopeOverRate(j));
+    // The damper of a motor that yields is between it and its link: it goes
+    // along with the link, about as that went before.
+    undamped_[j] = drive_[j] + damping_[j] * (at_.link_velocity[j] +
+                                              (rigid ? 0 : change_[j]));
   }
   return drive_;
 }

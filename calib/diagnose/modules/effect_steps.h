@@ -17,7 +17,9 @@ namespace armcal {
 // step before, warmth the power of friction then, and a motor on a spring moves
 // while its link goes evenly from where it was to where it is. The torque is
 // that at the instant; a simulator that steps velocities first and positions by
-// them (semi-implicit) then errs by the square of its step.
+// them (semi-implicit) then errs by the square of its step. What a spring gave
+// its motor between steps, as a flank does that is struck, the link is given at
+// the next: momentum is kept.
 class EffectSteps {
  public:
   // Keeps a reference. `load`: what joints hold at rest at the begin, N m or N,
@@ -36,8 +38,11 @@ class EffectSteps {
   // joints hand to their links; empty: as follows from the torque before.
   Eigen::VectorXd Act(const Eigen::VectorXd& commanded,
                       const Eigen::VectorXd& load = {});
-  // After Act: how fast the torque falls with velocity, not below 0.
+  // After Act: how fast the torque falls with velocity, not below 0, and the
+  // torque with as much added to it: for simulators whose joints are implicit
+  // in their damping.
   const Eigen::VectorXd& damping() const { return damping_; }
+  const Eigen::VectorXd& undamped() const { return undamped_; }
 
  private:
   struct Bristles {  // of an effect's joint law
@@ -68,7 +73,10 @@ class EffectSteps {
   std::vector<Eigen::VectorXd> yielding_;  // per joint, a number per part
   ArmInstant at_;
   bool started_ = false, acted_ = false, load_known_;
-  Eigen::VectorXd lag_, commanded_, given_, drive_, heat_, damping_;
+  Eigen::VectorXd lag_, commanded_, given_, drive_, heat_, damping_, undamped_;
+  Eigen::VectorXd change_;  // of links' velocities in the last step
+  // What springs have given motors in the last step and their links not, mean.
+  Eigen::VectorXd missing_, spring_;
 };
 
 }  // namespace armcal

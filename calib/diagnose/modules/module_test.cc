@@ -64,7 +64,7 @@ ModuleTest MakeModuleTest(const CorrectedRobot& robot) {
   steps.SetTime(test.t);
   steps.SetWarmth(test.warmth);
   for (int k = 0; k < kTestSteps; ++k) {
-    ModuleTest::Step step{zero, zero, zero, zero, {}, {}, {}};
+    ModuleTest::Step step{zero, zero, zero, zero, {}, {}, {}, {}};
     const double t = k * kTestStep;
     for (int j = 0; j < zero.size(); ++j) {
       step.q[j] = motion.At(j, t);
@@ -76,6 +76,7 @@ ModuleTest MakeModuleTest(const CorrectedRobot& robot) {
     step.reading = steps.Sense(kTestStep, step.q, step.qd);
     step.torque = steps.Act(step.commanded, step.load);
     step.damping = steps.damping();
+    step.undamped = steps.undamped();
     test.steps.push_back(step);
   }
   return test;

@@ -12,7 +12,7 @@ namespace armcal {
 struct ModuleTest {
   struct Step {
     Eigen::VectorXd q, qd, commanded, load;  // load: empty in the second half
-    Eigen::VectorXd reading, torque, damping;
+    Eigen::VectorXd reading, torque, damping, undamped;
   };
   double dt, t;                  // s; t: at the begin
   Eigen::VectorXd warmth, load;  // at the begin, K; N m or N

@@ -37,7 +37,8 @@ json TestJson(const ModuleTest& test) {
                      {"load", nullptr},
                      {"reading", List(step.reading)},
                      {"torque", List(step.torque)},
-                     {"damping", List(step.damping)}});
+                     {"damping", List(step.damping)},
+                     {"undamped", List(step.undamped)}});
     if (step.load.size() > 0) steps.back()["load"] = List(step.load);
   }
   return {{"dt", test.dt},
@@ -47,7 +48,8 @@ json TestJson(const ModuleTest& test) {
           {"largest",
            {{"reading", test.LargestOf(&Step::reading)},
             {"torque", test.LargestOf(&Step::torque)},
-            {"damping", test.LargestOf(&Step::damping)}}},
+            {"damping", test.LargestOf(&Step::damping)},
+            {"undamped", test.LargestOf(&Step::undamped)}}},
           {"steps", steps}};
 }
 

@@ -39,7 +39,8 @@ typedef struct {
   /* The module's own. */
   double bristles[EFFECTS_LAWS];
   double lag[EFFECTS_JOINTS], commanded[EFFECTS_JOINTS], given[EFFECTS_JOINTS];
-  double drive[EFFECTS_JOINTS], heat[EFFECTS_JOINTS];
+  double drive[EFFECTS_JOINTS], heat[EFFECTS_JOINTS], change[EFFECTS_JOINTS];
+  double missing[EFFECTS_JOINTS], ends[EFFECTS_JOINTS];
   unsigned beside;
   int started, acted, load_known;
 } effects_state;

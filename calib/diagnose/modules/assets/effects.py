@@ -254,6 +254,9 @@ class Effects:
         if load is not None:
             self.load = [float(x) for x in load]
         self.warmth, self._heat, self.damping = zero[:], zero[:], zero[:]
+        self._change = zero[:]  # of links' velocities, in the last step
+        self._missing = zero[:]  # what springs gave motors in it and not links, mean
+        self._ends = zero[:]  # torques of springs at the call before
         self._lag = self._given = self._commanded = self._drive = None
         self._started = False
         for laws in self._laws + self._held:
@@ -296,8 +299,10 @@ class Effects:
         self._drive = given[:]
         for j in range(self.n):
             self._add_laws(j, own)
-        self.undamped = [f + d * v for f, d, v in
-                         zip(own, self.damping, self.link_velocity)]
+        # A motor that yields goes along with its link, about as that went before.
+        self.undamped = [f + d * (v + (change if j in self._springs else 0))
+                         for j, (f, d, v, change) in enumerate(zip(
+                             own, self.damping, self.link_velocity, self._change))]
         return own
 
     def take_over(self, model):
@@ -318,6 +323,7 @@ class Effects:
 
     def _advance(self, dt, q, qd):
         self._advance_slow_states(dt, qd)
+        self._change = [new - old for new, old in zip(qd, self.link_velocity)]
         before, self.link_position, self.link_velocity = self.link_position, q, qd
         for j in range(self.n):
             if j in self._springs:
@@ -384,22 +390,25 @@ class Effects:
         inertia, p = self._motor_inertia[j], self._springs[j][1]
         phase = dt * math.sqrt(p["stiffness"] / inertia)
         count = min(MOST_SUBSTEPS, max(1, math.ceil(phase / PHASE_PER_SUBSTEP)))
-        h = dt / count
+        h, spring = dt / count, 0.
         end, end_velocity = self.link_position[j], self.link_velocity[j]
         self.link_velocity[j] = (end - link_before) / dt
         for k in range(count):
             self.link_position[j] = link_before + (end - link_before) * (k + .5) / count
             force = self._given[j] + self._on_motor(j) - self._spring(j, 0, 0)
             by_q = -self._slope(lambda d: self._spring(j, d, 0), DEFLECTION_STEP)
-            by_v = self._friction_slope(j) - self._slope(
-                lambda r: self._spring(j, 0, r), VELOCITY_STEP)
+            friction_by_v = self._friction_slope(j)
+            by_v = friction_by_v - self._slope(lambda r: self._spring(j, 0, r), VELOCITY_STEP)
             v = self.velocity[j]
             rate = (force + h / 2 * by_q * v) / (inertia - h / 2 * by_v - h * h / 4 * by_q)
             move = h * (v + h / 2 * rate)
+            spring += (self._given[j] + self._on_motor(j)
+                       + (h / 2 * friction_by_v - inertia) * rate)
             self._follow(j, move)
             self.position[j] += move
             self.velocity[j] += h * rate
         self.link_position[j], self.link_velocity[j] = end, end_velocity
+        self._missing[j] = spring / count - (self._ends[j] + self._spring(j, 0, 0)) / 2
 
     def _add_laws(self, j, own):
         """The laws of joint j to what is given, and what warms it."""
@@ -411,7 +420,8 @@ class Effects:
                 heat -= torque * self.velocity[j]
         self._heat[j] = heat
         if j in self._springs:
-            self._drive[j] = own[j] = self._spring(j, 0, 0)
+            self._ends[j] = self._spring(j, 0, 0)
+            self._drive[j] = own[j] = self._ends[j] + self._missing[j]
             slope = self._slope(lambda r: self._spring(j, 0, r), VELOCITY_STEP)
         else:
             own[j] += self._on_motor(j)
@@ -429,8 +439,8 @@ def test(folder):
     worst = 0.
     for step in data["steps"]:
         found = {"reading": effects.sense(data["dt"], step["q"], step["qd"]),
-                 "torque": effects.act(step["commanded"], step["load"]),
-                 "damping": effects.damping}
+                 "torque": effects.act(step["commanded"], step["load"])}
+        found.update(damping=effects.damping, undamped=effects.undamped)
         for name, values in found.items():
             for value, expected in zip(values, step[name]):
                 worst = max(worst, abs(value - expected) / data["largest"][name])

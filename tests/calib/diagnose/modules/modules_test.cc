@@ -40,11 +40,11 @@ void Agree(const CorrectedRobot& robot, const std::string& name) {
   SCOPED_TRACE(name);
   const std::string folder = Written(robot, name);
   EXPECT_EQ(Run("python3 -B " + folder + "/effects.py --test"), 0);
-  EXPECT_EQ(Run("cc -std=c99 -pedantic -Wall -Wextra -Werror -DEFFECTS_TEST "
-                "-o " +
-                folder + "/test " + folder + "/effects.c -lm && " + folder +
-                "/test"),
-            0);
+  EXPECT_EQ(
+      Run("cc -std=c99 -pedantic -Wall -Wextra -Werror -DEFFECTS_TEST "
+          "-o " +
+          folder + "/test " + folder + "/effects.c -lm && " + folder + "/test"),
+      0);
 }
 
 // Some joint of which a random one is in `effect`.
@@ -83,10 +83,9 @@ TEST(Modules, HoldAllButTheseLaws) {
   for (const Effect& effect : Effects()) {
     if (!effect.numbers) others.push_back(effect.name);
   }
-  EXPECT_THAT(others,
-              ElementsAre("armature", "link_length", "base_tilt", "payload",
-                          "added_mass", "link_inertia", "external_contact",
-                          "time_base"));
+  EXPECT_THAT(others, ElementsAre("armature", "link_length", "base_tilt",
+                                  "payload", "added_mass", "link_inertia",
+                                  "external_contact", "time_base"));
 }
 
 // One joint has a spring, and all others at once whatever fits; commands lag.
