@@ -33,17 +33,20 @@ std::string Written(const CorrectedRobot& robot, const std::string& name) {
   return folder;
 }
 
-int Run(const std::string& command) { return std::system(command.c_str()); }
+int Returned(const std::string& command) {
+  return std::system(command.c_str());
+}
 
 // Both agree with the laws to 1e-9 at each of 50 steps.
 void Agree(const CorrectedRobot& robot, const std::string& name) {
   SCOPED_TRACE(name);
   const std::string folder = Written(robot, name);
-  EXPECT_EQ(Run("python3 -B " + folder + "/effects.py --test"), 0);
+  EXPECT_EQ(Returned("python3 -B " + folder + "/effects.py --test"), 0);
   EXPECT_EQ(
-      Run("cc -std=c99 -pedantic -Wall -Wextra -Werror -DEFFECTS_TEST "
-          "-o " +
-          folder + "/test " + folder + "/effects.c -lm && " + folder + "/test"),
+      Returned("cc -std=c99 -pedantic -Wall -Wextra -Werror -DEFFECTS_TEST "
+               "-o " +
+               folder + "/test " + folder + "/effects.c -lm && " + folder +
+               "/test"),
       0);
 }
 
@@ -102,6 +105,27 @@ TEST(Modules, HoldManyLawsTogether) {
   }
   EXPECT_GT(effects.size(), 20u);
   Agree(moved.With(effects, -.004), "together");
+}
+
+// A spring is in MJCF, of bristles their share, all else in the module; both
+// languages say the same.
+TEST(Modules, LeaveRobotFilesTheirPart) {
+  MovedArm moved;
+  const std::string folder =
+      Written(moved.With({moved.Drawn(*FindEffect("spring"), 0),
+                          moved.Drawn(*FindEffect("presliding"), 1),
+                          moved.Drawn(*FindEffect("torque_gain"), 1),
+                          moved.Drawn(*FindEffect("torque_ripple"), 2)}),
+              "beside");
+  const std::string here = TESTS_DIR "/calib/diagnose/modules/beside";
+  EXPECT_EQ(Returned("python3 -B " + here + ".py " + folder + " > " + folder +
+                     "/python.txt"),
+            0);
+  EXPECT_EQ(Returned("cc -std=c99 -I" + folder + " -o " + folder + "/beside " +
+                     here + ".c " + folder + "/effects.c -lm && " + folder +
+                     "/beside > " + folder + "/c.txt && cmp " + folder +
+                     "/c.txt " + folder + "/python.txt"),
+            0);
 }
 
 TEST(Modules, SayWhatTheyLack) {
