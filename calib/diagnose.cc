@@ -6,6 +6,7 @@
 #include "calib/diagnose/changes/changes.h"
 #include "calib/diagnose/changes/report.h"
 #include "calib/diagnose/diagnosis.h"
+#include "calib/diagnose/modules/modules.h"
 #include "calib/diagnose/report.h"
 #include "calib/log_clocks.h"
 #include "calib/logs/drawn_torques.h"
@@ -170,6 +171,23 @@ void AddChanges(const LogChanges& changes, nlohmann::json* json,
   summary->report = before + summary->report + FullChanges(changes);
 }
 
+void AddModules(const CorrectedRobot& corrected,
+                const std::vector<std::string>& names, nlohmann::json* json,
+                DiagnoseSummary* summary) {
+  const std::vector<EffectModule> modules = MakeEffectModules(corrected, names);
+  for (const EffectModule& module : modules) {
+    for (const auto& [name, text] : module.files) {
+      summary->files.push_back({name, text});
+    }
+  }
+  if (modules.empty()) return;
+  (*json)["modules"] = EffectModulesJson(modules);
+  const EffectModule& first = modules.front();  // others lose the same
+  for (const std::string& loss : first.losses) {
+    summary->report += first.files.front().first + "  " + loss + "\n";
+  }
+}
+
 DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
                           const std::optional<LogChanges>& changes,
                           const GapDiagnosis& diagnosis) {
@@ -187,6 +205,7 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
   const std::string losses =
       AddRobotFiles(corrected.files, &json, &summary.files);
   summary.report = FullReport(diagnosis, options.verbose) + losses;
+  AddModules(diagnosis.corrected, options.modules, &json, &summary);
   summary.brief = BriefReport(diagnosis);
   if (changes) AddChanges(*changes, &json, &summary);
   summary.json = json.dump(2) + "\n";

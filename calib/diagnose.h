@@ -49,6 +49,8 @@ struct DiagnoseOptions {
   std::uint64_t seed = 0;
   std::vector<std::string> exports;  // formats beside URDF: "mjcf", "sdf" ..
   RobotSource source;                // of the robot
+  // Laws that simulators lack as sources for their loops: "python", "c".
+  std::vector<std::string> modules;
   bool draw_torques = false;         // keeps `torques` of the summary
   bool verbose = false;              // a report with what is not testable, too
   Progress progress;

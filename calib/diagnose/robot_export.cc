@@ -3,11 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calib/diagnose/candidates/file_fields.h"
 #include "calib/diagnose/candidates/friction_share.h"
-#include "calib/numerics/json_figures.h"
+#include "calib/diagnose/modules/effects_json.h"
 #include "calib/refine/possible_links.h"
-#include "model/dynamics/joint_term.h"
-#include "model/robot_files/robot_formats.h"
 #include "model/robot_files/urdf_update.h"
 #include "model/robot_files/urdf_writer.h"
 
@@ -22,25 +21,6 @@ std::string Short(double x) {
   char text[40];
   std::snprintf(text, sizeof(text), "%.4g", x);
   return text;
-}
-
-// Adds the effect to what a robot file says of its joint; whether there is a
-// field for it.
-bool AddToFile(const GapCandidate& found, Joint* joint, JointDrive* drive) {
-  if (found.joint < 0) return false;
-  const Effect& effect = *found.effect;
-  if (effect.joint_term) {
-    *TermOf(*effect.joint_term, joint) += found.p[0];
-    return true;
-  }
-  return effect.set_drive && effect.set_drive(found.p, drive);
-}
-
-bool IsIn(const RobotFormat& format, const CarriedEffect& effect) {
-  Joint joint;
-  JointDrive drive;
-  return effect.in_robot || (AddToFile(effect.found, &joint, &drive) &&
-                             format.Holds(joint, drive));
 }
 
 // Friction that brakes: URDF readers refuse any other.
@@ -207,51 +187,6 @@ bool SameGeometry(const Robot& a, const Robot& b) {
   return a.X_LT.matrix() == b.X_LT.matrix();
 }
 
-json JointJson(const CorrectedRobot& corrected, int j) {
-  const Joint& joint = corrected.plant.robot.links[j].joint;
-  json coulomb = json::array();
-  for (const CoulombPart& part : corrected.coulomb[j]) {
-    const bool speed = part.transition.law == CoulombTransition::Law::kVelocity;
-    coulomb.push_back({{"force", JsonNumber(part.force)},
-                       {"width", JsonNumber(part.transition.width)},
-                       {"law", speed ? "velocity" : "displacement"}});
-  }
-  return {{"name", joint.name},
-          {"viscous", JsonNumber(joint.viscous)},
-          {"offset", JsonNumber(joint.offset)},
-          {"armature", JsonNumber(joint.armature)},
-          {"coulomb", coulomb},
-          {"effect_width", JsonNumber(corrected.width[j])}};
-}
-
-std::vector<std::string> FormatsWith(const CarriedEffect& effect) {
-  std::vector<std::string> names;
-  for (const RobotFormat& format : RobotFormats()) {
-    if (IsIn(format, effect)) names.push_back(format.name);
-  }
-  return names;
-}
-
-json EffectJson(const CarriedEffect& effect, const Robot& robot) {
-  const Effect& law = *effect.found.effect;
-  const int j = effect.found.joint;
-  const JointType type =
-      j < 0 ? JointType::kRevolute : robot.links[j].joint.type;
-  json parameters = json::array();
-  for (size_t k = 0; k < law.parameters.size(); ++k) {
-    parameters.push_back({{"name", law.parameters[k].name},
-                          {"unit", ParameterUnit(law.parameters[k].unit, type)},
-                          {"value", JsonNumber(effect.found.p[k])}});
-  }
-  return {{"effect", law.name},
-          {"joint", j < 0 ? "" : robot.links[j].joint.name},
-          {"joint_index", j + 1},
-          {"law", law.law},
-          {"in_urdf", IsIn(UrdfFormat(), effect)},
-          {"in", FormatsWith(effect)},
-          {"parameters", parameters}};
-}
-
 }  // namespace
 
 nlohmann::json RobotFilesJson(const std::vector<RobotFile>& files) {
@@ -279,16 +214,7 @@ RobotExport ExportCorrectedRobot(
   for (const RobotFormat* format : formats) {
     result.files.push_back(MakeFile(corrected, file, *format));
   }
-  json joints = json::array(), effects = json::array();
-  for (int j = 0; j < robot.num_joints(); ++j) {
-    joints.push_back(JointJson(corrected, j));
-  }
-  for (const CarriedEffect& effect : corrected.effects) {
-    effects.push_back(EffectJson(effect, robot));
-  }
-  result.effects = {{"delay_s", JsonNumber(corrected.delay)},
-                    {"joints", joints},
-                    {"effects", effects}};
+  result.effects = EffectsJson(corrected);
   return result;
 }
 

@@ -27,13 +27,7 @@ struct RobotExport {
   // What the URDF does not hold, a sentence each.
   std::vector<std::string> losses;
   std::vector<RobotFile> files;  // of the formats that were asked for
-  // All of it for simulators with laws of their own, SI units: delay_s;
-  // joints[] {name, viscous, offset, armature, coulomb[] {force, width, law},
-  // effect_width}; effects[] {effect, joint, joint_index, law, in_urdf,
-  // in[] (names of formats), parameters[] {name, unit, value}}. Coulomb
-  // friction is the sum of force * tanh(qd / width); `effect_width` is that of
-  // effects' sign(v).
-  nlohmann::json effects;
+  nlohmann::json effects;        // all of it: EffectsJson
 };
 
 // `urdf`: the file of `file`, the robot without corrections, which is kept but

@@ -144,6 +144,9 @@ simulators have for it. Figures are of one small arm and one motion (`figures.py
 they can be compared: left the residual against what orders it, right over time, shaded
 where the joint moves forwards.
 
+For simulators that lack a law, `diagnose --modules=python,c` writes it with its numbers as a
+source for their loop ([how](../robot_files.md#laws-that-your-simulator-lacks)).
+
 | effect | law | clear cases named | alike on an ordinary motion |
 |---|---|---|---|
 {rows}

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/dynamics/joint_term.h"
@@ -47,6 +48,9 @@ struct EffectEstimate {
   double value;
 };
 
+// Numbers with their names, in a law's own order.
+using EffectNumbers = std::vector<std::pair<std::string, double>>;
+
 // A law that rigid bodies with viscous and Coulomb friction lack. One
 // description serves estimation (recorded_torque.h makes its columns from
 // `apply`), forward simulation and export.
@@ -78,6 +82,11 @@ struct Effect {
   std::function<std::vector<EffectEstimate>(const EffectSite& site,
                                             const Eigen::VectorXd& p)>
       estimates;
+  // All numbers that its law has at p, those of the site included: what modules
+  // for other simulators (calib/diagnose/modules/assets) are given, which know
+  // the law by the effect's name. Empty: they do not hold it.
+  std::function<EffectNumbers(const EffectSite& site, const Eigen::VectorXd& p)>
+      numbers;
   // Empty, or why this joint of this robot cannot show it at all.
   std::function<std::string(const EffectSite& site)> unfit;
   // Whether it acts where friction passes zero velocity (or torque zero), which

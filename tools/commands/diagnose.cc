@@ -3,9 +3,11 @@
 #include <gflags/gflags.h>
 
 #include "calib/diagnose.h"
+#include "calib/diagnose/modules/modules.h"
 #include "tools/command_report.h"
 #include "tools/commands/diagnose_poses.h"
 #include "tools/export_flags.h"
+#include "tools/flag_choices.h"
 #include "tools/input_flags.h"
 #include "tools/log_flags.h"
 #include "tools/report/report_data.h"
@@ -20,6 +22,10 @@ DEFINE_bool(
 DEFINE_bool(forward, true,
             "simulate the held-out logs as well: along their commands with "
             "--controller, else over windows of 0.5 s");
+DEFINE_string(
+    modules, "",
+    "the laws found as sources for the loop of a simulator that lacks "
+    "them: effects.py, effects.c");
 DEFINE_string(reference, "",
               "`FILES` logs of the same robot from before: the diagnosis says "
               "what has changed since");
@@ -30,6 +36,16 @@ DEFINE_bool(verbose, false,
 
 namespace armcal {
 namespace {
+
+std::vector<std::pair<std::string, std::string>> ModuleChoices() {
+  std::vector<std::pair<std::string, std::string>> choices;
+  for (const std::string& name : EffectModuleNames()) {
+    choices.push_back({name, name});
+  }
+  return choices;
+}
+
+const FlagChoices<std::string> kModules("modules", ModuleChoices(), true);
 
 DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
                                          const Robot& robot) {
@@ -51,6 +67,9 @@ DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
   options.controller = flags.Text("controller");
   options.seed = SeedFromFlags(flags);
   options.exports = ExportFormatsFromFlags(flags);
+  for (const std::string& name : SplitAtCommas(flags.Text("modules"))) {
+    options.modules.push_back(kModules.Parse(name));
+  }
   options.source = RobotSourceFromFlags(input);
   options.draw_torques = input.WantsReport();
   options.progress = input.progress;
@@ -101,7 +120,7 @@ Command DiagnoseCommand() {
              "camera_on", "length_trust", "angle_trust"},
             false},
            TorqueFlags(),
-           {"robot files", {"export"}, false},
+           {"robot files", {"export", "modules"}, false},
            ChainFlags()},
           {"armcal diagnose --robot=arm.urdf --log=today.csv "
            "--reference=january.csv",

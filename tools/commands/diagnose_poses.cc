@@ -85,7 +85,8 @@ bool DiagnosesPoses(const CommandInput& input) {
 
 CommandOutcome RunDiagnosePoses(const CommandInput& input) {
   const FlagValues& flags = input.flags;
-  for (const char* other : {"log", "reference", "controller", "export"}) {
+  for (const char* other :
+       {"log", "reference", "controller", "export", "modules"}) {
     if (flags.Text(other).empty()) continue;
     throw UsageError("--poses and --" + std::string(other) +
                      ": expected one of them; a diagnosis is of measured "

@@ -41,10 +41,17 @@ size_t NumSlots(const SimulatedRobot& plant) {
 
 CarriedEffect Carry(const EffectSite& site, const GapCandidate& found,
                     SimulatedRobot* plant) {
+  const Effect& effect = *found.effect;
   const size_t slots = NumSlots(*plant);
-  found.effect->apply(site, found.p, plant);
-  return {found, EstimatesOf(*found.effect, site, found.p),
-          NumSlots(*plant) == slots};
+  const double delay = plant->torque_delay;
+  effect.apply(site, found.p, plant);
+  CarriedEffect carried;
+  carried.found = found;
+  carried.estimates = EstimatesOf(effect, site, found.p);
+  if (effect.numbers) carried.numbers = effect.numbers(site, found.p);
+  carried.in_robot = NumSlots(*plant) == slots;
+  carried.in_delay = plant->torque_delay != delay;
+  return carried;
 }
 
 }  // namespace
@@ -72,6 +79,8 @@ CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
     corrected.effects.push_back(
         Carry({&fitted, effect.joint, &scale}, effect, &corrected.plant));
   }
+  corrected.num_effect_laws =
+      static_cast<int>(corrected.plant.joint_laws.size());
   // Who replays a log applies all of it.
   corrected.delay += corrected.plant.torque_delay;
   corrected.plant.torque_delay = 0;

@@ -16,14 +16,18 @@ namespace armcal {
 struct CarriedEffect {
   GapCandidate found;
   std::vector<EffectEstimate> estimates;  // what it says of itself
+  EffectNumbers numbers;                  // of its law, for modules
   bool in_robot = false;  // all of it: a payload, a link's length, an armature
+  bool in_delay = false;  // it is part of CorrectedRobot::delay
 };
 
 // What a diagnosis found, as a robot that can be simulated.
 struct CorrectedRobot {
   // The baseline's robot as fitted, its joint terms as laws: friction changes
-  // sign as the regression says. On top of it the effects.
+  // sign as the regression says. On top of it the effects, whose joint laws
+  // come first.
   SimulatedRobot plant;
+  int num_effect_laws = 0;
   std::vector<std::vector<CoulombPart>> coulomb;  // per joint, in `plant`
   Eigen::VectorXd width;  // of effects' own friction: MotionScale's
   MotionScale scale;      // of the motion that it was fitted to

@@ -41,6 +41,9 @@ Effect Cable() {
         robot);
   };
   effect.means = {"torque_offset"};
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"cable", p[0]}, {"centre", p[1]}, {"softness", p[2]}};
+  };
   effect.experiment = "slow sweeps over the whole range, both ways";
   return effect;
 }

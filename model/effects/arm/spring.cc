@@ -41,6 +41,9 @@ Effect Spring() {
     drive->stiffness = p[0];
     return true;
   };
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"stiffness", p[0]}, {"preload", p[1]}};
+  };
   effect.experiment = "slow sweeps over the whole range, both ways";
   return effect;
 }

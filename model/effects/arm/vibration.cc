@@ -34,6 +34,9 @@ Effect Vibration() {
         {"frequency", "Hz", p[2]},
         {"phase", "rad", Phase(p[0], p[1])}};
   };
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"sine", p[0]}, {"cosine", p[1]}, {"frequency", p[2]}};
+  };
   effect.experiment = "the arm at rest";
   return effect;
 }

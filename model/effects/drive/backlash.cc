@@ -14,6 +14,11 @@ double ContactStiffness(const EffectSite& site, const Eigen::VectorXd& p) {
   return TorqueScale(site) / (p[1] * p[0]);
 }
 
+double ContactDamping(const EffectSite& site, const Eigen::VectorXd& p) {
+  return 2 * kDampingRatio *
+         std::sqrt(ContactStiffness(site, p) * CarriedInertia(site));
+}
+
 Transmission DeadZone(int joint, const FlankedSpring& spring) {
   Transmission law;
   law.joint = joint;
@@ -54,10 +59,9 @@ Effect Backlash() {
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     if (p[0] <= 0) return;
-    const double k = ContactStiffness(site, p);
-    const double damping =
-        2 * kDampingRatio * std::sqrt(k * CarriedInertia(site));
-    robot->transmissions.push_back(DeadZone(site.joint, {p[0], k, damping}));
+    const FlankedSpring spring = {p[0], ContactStiffness(site, p),
+                                  ContactDamping(site, p)};
+    robot->transmissions.push_back(DeadZone(site.joint, spring));
   };
   effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return std::vector<EffectEstimate>{
@@ -66,6 +70,11 @@ Effect Backlash() {
   };
   effect.proportional = false;
   effect.means = {"armature"};
+  effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"gap", p[0]},
+                         {"stiffness", ContactStiffness(site, p)},
+                         {"damping", ContactDamping(site, p)}};
+  };
   effect.experiment =
       "slow motion through poses in which the load changes sign, at 100 Hz or "
       "more; an encoder at the link";

@@ -66,6 +66,11 @@ Effect Elasticity() {
   };
   effect.proportional = false;
   effect.means = {"armature"};
+  effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"stiffness", 1 / p[0]},
+                         {"damping", Damping(site, p)},
+                         {"stiffening", Stiffening(site, p)}};
+  };
   effect.experiment = "fast motion and stops; an encoder at the link";
   return effect;
 }

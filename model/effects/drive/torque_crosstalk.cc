@@ -36,6 +36,9 @@ Effect TorqueCrosstalk() {
                                 }});
   };
   effect.unfit = WhyNoNeighbour;
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"gain", p[0]}, {"neighbour", p[1]}};
+  };
   effect.experiment = "the neighbour loaded while this joint rests";
   return effect;
 }

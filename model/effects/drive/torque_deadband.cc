@@ -51,6 +51,9 @@ Effect TorqueDeadband() {
   };
   effect.near_zero = true;
   effect.means = {"coulomb_friction"};
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"deadband", p[0]}, {"softness", p[1]}};
+  };
   effect.experiment = "slow motion through poses in which the load vanishes";
   return effect;
 }

@@ -22,6 +22,9 @@ Effect TorqueGain() {
     drive->gain /= 1 + p[0];
     return true;
   };
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"gain", p[0]}};
+  };
   effect.experiment = "a known payload, held and moved";
   return effect;
 }

@@ -42,6 +42,9 @@ Effect TorqueNonlinearity() {
         {"fall", "1", p[0]},
         {"fall_torque", UnitAt(site, "E"), FallTorque(site)}};
   };
+  effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"fall", p[0]}, {"fall_torque", FallTorque(site)}};
+  };
   effect.experiment = "loads from small to the joint's limit";
   return effect;
 }

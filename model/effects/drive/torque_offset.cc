@@ -18,6 +18,9 @@ Effect TorqueOffset() {
         site, [=](double commanded) { return commanded - offset; }, robot);
   };
   effect.joint_term = JointTerm::kOffset;
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"offset", p[0]}};
+  };
   effect.experiment = "poses in which gravity does not load the joint";
   return effect;
 }

@@ -37,6 +37,9 @@ Effect TorqueRipple() {
         {"phase", "rad", Phase(p[0], p[1])}};
   };
   effect.means = {"torque_offset"};
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"sine", p[0]}, {"cosine", p[1]}, {"harmonic", p[2]}};
+  };
   effect.experiment = "a slow constant velocity over the whole range";
   return effect;
 }

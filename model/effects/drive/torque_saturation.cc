@@ -77,6 +77,9 @@ Effect TorqueSaturation() {
                                        {"knee", "1", p[2]}};
   };
   effect.proportional = false;
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"share", p[0]}, {"limit", p[1]}, {"knee", p[2]}};
+  };
   effect.experiment = "slow and fast accelerations of the same motion";
   return effect;
 }

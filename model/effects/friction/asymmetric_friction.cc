@@ -27,6 +27,9 @@ Effect AsymmetricFriction() {
   };
   effect.velocity_friction = true;
   effect.means = {"viscous_friction"};
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"asymmetric", p[0]}};
+  };
   effect.experiment = "the same constant velocities both ways, slow and fast";
   return effect;
 }

@@ -27,6 +27,10 @@ Effect CoulombFriction() {
   };
   effect.joint_term = JointTerm::kCoulomb;
   effect.velocity_friction = true;
+  effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"coulomb", p[0]},
+                         {"width", site.scale->width[site.joint]}};
+  };
   effect.experiment = "slow constant velocities, both ways";
   return effect;
 }

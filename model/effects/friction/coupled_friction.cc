@@ -97,6 +97,13 @@ Effect CoupledFriction() {
                                        {"neighbour", "1", p[2]}};
   };
   effect.unfit = WhyNotCoupled;
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"friction", p[0]},
+                         {"viscous", p[1]},
+                         {"ratio", p[3]},
+                         {"width", p[4]},
+                         {"neighbour", p[2]}};
+  };
   effect.experiment =
       "this joint and its neighbour alone, then both, with equal and with "
       "opposite velocities";

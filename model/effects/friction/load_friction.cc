@@ -28,6 +28,10 @@ Effect LoadFriction() {
         robot);
   };
   effect.means = {"coulomb_friction"};
+  effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"load_friction", p[0]},
+                         {"width", site.scale->width[site.joint]}};
+  };
   effect.experiment =
       "the same slow motion both ways with the arm stretched and folded";
   return effect;

@@ -41,6 +41,12 @@ Effect PositionFriction() {
         {"phase", "rad", Phase(p[1], p[0])}};
   };
   effect.means = {"coulomb_friction"};
+  effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"sine", p[0]},
+                         {"cosine", p[1]},
+                         {"harmonic", p[2]},
+                         {"width", site.scale->width[site.joint]}};
+  };
   effect.experiment = "slow sweeps over the whole range and back";
   return effect;
 }

@@ -34,6 +34,9 @@ Effect Presliding() {
   effect.near_zero = true;
   effect.velocity_friction = true;
   effect.means = {"coulomb_friction"};
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"coulomb", p[0]}, {"displacement", p[1]}};
+  };
   effect.experiment = "small motions to and fro, from 0.01 to 10 degrees";
   return effect;
 }

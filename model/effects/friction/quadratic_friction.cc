@@ -33,6 +33,9 @@ Effect QuadraticFriction() {
   };
   effect.velocity_friction = true;
   effect.means = {"viscous_friction"};
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"quadratic", p[0]}};
+  };
   effect.experiment = "constant velocities up to the joint's limit";
   return effect;
 }

@@ -39,6 +39,11 @@ Effect Stribeck() {
   effect.near_zero = true;
   effect.velocity_friction = true;
   effect.means = {"coulomb_friction", "viscous_friction"};
+  effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"stribeck", p[0]},
+                         {"stribeck_velocity", p[1]},
+                         {"width", site.scale->width[site.joint]}};
+  };
   effect.experiment = "constant velocities from creeping to usual, both ways";
   return effect;
 }

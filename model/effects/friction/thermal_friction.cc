@@ -73,6 +73,14 @@ Effect ThermalFriction() {
   };
   effect.unfit = WhyNoFriction;
   effect.means = {"viscous_friction", "coulomb_friction"};
+  effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    const JointThermal thermal = Thermal(site, p[2]);
+    return EffectNumbers{{"viscous", p[0] * site.at().viscous},
+                         {"coulomb", p[1] * site.at().coulomb},
+                         {"width", site.scale->width[site.joint]},
+                         {"capacity", thermal.capacity},
+                         {"resistance", thermal.resistance}};
+  };
   effect.experiment = "the same motion again and again from cold";
   return effect;
 }

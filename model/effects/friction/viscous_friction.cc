@@ -22,6 +22,9 @@ Effect ViscousFriction() {
   };
   effect.joint_term = JointTerm::kViscous;
   effect.velocity_friction = true;
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"viscous", p[0]}};
+  };
   effect.experiment = "constant velocities, slow and fast, both ways";
   return effect;
 }

@@ -17,6 +17,9 @@ Effect Delay() {
       Linear("delay", "s", [](const EffectSite&) { return .002; })};
   effect.apply = [](const EffectSite&, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) { robot->torque_delay -= p[0]; };
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"delay", p[0]}};
+  };
   effect.experiment = "fast motion of small amplitude";
   return effect;
 }

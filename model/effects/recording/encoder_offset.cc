@@ -48,6 +48,9 @@ Effect EncoderOffset() {
                ? ""
                : "torques do not depend on the joint's position";
   };
+  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
+    return EffectNumbers{{"offset", p[0]}};
+  };
   effect.experiment = "poses around the joint's range, held";
   return effect;
 }
