@@ -9,8 +9,10 @@ import pathlib
 import re
 import shutil
 import subprocess
+from importlib import metadata
 
-# What is compiled in, which no file of the wheel shows.
+# What is compiled in, which no file of the wheel shows; pybind11's version is that
+# of requirements.txt.
 COMPILED_IN = ("libceres-dev", "libeigen3-dev", "nlohmann-json3-dev",
                "libjs-dygraphs", "pybind11-dev")
 COMMON = pathlib.Path("/usr/share/common-licenses")
@@ -51,8 +53,10 @@ def write(tree):
         package = package_of(library)
         packages.add(package)
         lines.append(f"{library.name}  {package} {version_of(package)}")
-    lines += [f"(compiled in)  {package} {version_of(package)}"
-              for package in COMPILED_IN]
+    for package in COMPILED_IN:
+        version = (f"{metadata.version('pybind11')} of PyPI"
+                   if package == "pybind11-dev" else version_of(package))
+        lines.append(f"(compiled in)  {package} {version}")
     (folder / "LIBRARIES.txt").write_text(HEADER + "\n".join(lines) + "\n")
     named = set()
     for package in packages:
