@@ -49,14 +49,12 @@ typedef struct {
 } effects_state;
 
 /* To the begin, cold. `beside`: the robot file whose part the simulator holds,
-   0: none. `load`: what joints hold at rest, which winds up springs, or NULL.
- */
+   0: none. `load`: what joints hold at rest and wind up springs by, or NULL. */
 void effects_reset(effects_state* s, unsigned beside, const double* load);
 /* The simulator's joints are at q, qd, dt after the call before. */
 void effects_sense(effects_state* s, double dt, const double* q,
                    const double* qd, double* positions);
-/* `load`: what joints hand to their links, if the simulator knows it, or NULL.
- */
+/* `load`: what joints hand to their links if the simulator knows, or NULL. */
 void effects_act(effects_state* s, const double* commanded, const double* load,
                  double* torque);
 /* The rotor inertia that the simulator's joint is to have. */
