@@ -51,8 +51,8 @@ struct DiagnoseOptions {
   RobotSource source;                // of the robot
   // Laws that simulators lack as sources for their loops: "python", "c".
   std::vector<std::string> modules;
-  bool draw_torques = false;         // keeps `torques` of the summary
-  bool verbose = false;              // a report with what is not testable, too
+  bool draw_torques = false;  // keeps `torques` of the summary
+  bool verbose = false;       // a report with what is not testable, too
   Progress progress;
 };
 

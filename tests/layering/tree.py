@@ -54,9 +54,10 @@ class Tree:
                 yield from (f"{place}/{name}" for name in names)
 
     def code(self, tops=LAYERS):
-        """Sources in C++ of these folders."""
+        """Sources in C++ of these folders, but for what armcal writes as it is."""
         return [path for path in self.files
-                if path.split("/")[0] in tops and path.endswith(CODE)]
+                if path.split("/")[0] in tops and path.endswith(CODE)
+                and "/assets/" not in path]
 
     @functools.lru_cache(maxsize=None)
     def text(self, path):

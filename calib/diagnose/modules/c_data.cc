@@ -23,17 +23,17 @@ std::string Upper(std::string text) {
 }
 
 // With an exponent or a point, as C has it of a double; 0 of what is none.
-std::string Number(double x) {
+std::string Literal(double x) {
   if (!std::isfinite(x)) return "0.";
   const std::string text = ExactText(x);
   const bool is_double = text.find_first_of(".e") != std::string::npos;
   return is_double ? text : text + ".";
 }
 
-std::string Numbers(const VectorXd& x) {
+std::string Literals(const VectorXd& x) {
   std::string text;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    text += (i == 0 ? "{" : ", ") + Number(x[i]);
+    text += (i == 0 ? "{" : ", ") + Literal(x[i]);
   }
   return text.empty() ? "{0.}" : text + "}";
 }
@@ -62,8 +62,8 @@ std::string Law(const std::string& kind, int joint, const std::string& mask,
                 const FrictionShare& share = {}, double width = 1) {
   return "  {EFFECTS_" + kind + ", " + std::to_string(joint) + ", " +
          std::to_string(neighbour) + ", " + mask + ", " +
-         Number(share.viscous) + ", " + Number(share.coulomb) + ", " +
-         Number(width) + ", " + Numbers(numbers) + "},\n";
+         Literal(share.viscous) + ", " + Literal(share.coulomb) + ", " +
+         Literal(width) + ", " + Literals(numbers) + "},\n";
 }
 
 std::string OwnLaws(const CorrectedRobot& robot, int j) {
@@ -131,19 +131,19 @@ std::string TestTable(const ModuleTest& test) {
   std::string text =
       "#ifdef EFFECTS_TEST\n"
       "static const double effects_test_dt = " +
-      Number(test.dt) +
+      Literal(test.dt) +
       ";\n"
       "static const double effects_test_t = " +
-      Number(test.t) +
+      Literal(test.t) +
       ";\n"
       "static const double effects_test_warmth[] = " +
-      Numbers(test.warmth) +
-      ";\nstatic const double effects_test_load[] = " + Numbers(test.load) +
+      Literals(test.warmth) +
+      ";\nstatic const double effects_test_load[] = " + Literals(test.load) +
       ";\nstatic const double effects_test_largest[] = {" +
-      Number(test.LargestOf(&Step::reading)) + ", " +
-      Number(test.LargestOf(&Step::torque)) + ", " +
-      Number(test.LargestOf(&Step::damping)) + ", " +
-      Number(test.LargestOf(&Step::undamped)) +
+      Literal(test.LargestOf(&Step::reading)) + ", " +
+      Literal(test.LargestOf(&Step::torque)) + ", " +
+      Literal(test.LargestOf(&Step::damping)) + ", " +
+      Literal(test.LargestOf(&Step::undamped)) +
       "};\nstatic const struct effects_test_step {\n"
       "  double q[EFFECTS_JOINTS], qd[EFFECTS_JOINTS];\n"
       "  double commanded[EFFECTS_JOINTS], load[EFFECTS_JOINTS];\n"
@@ -152,11 +152,11 @@ std::string TestTable(const ModuleTest& test) {
       "  double damping[EFFECTS_JOINTS], undamped[EFFECTS_JOINTS];\n} "
       "effects_test[] = {\n";
   for (const Step& step : test.steps) {
-    text += "  {" + Numbers(step.q) + ", " + Numbers(step.qd) + ",\n   " +
-            Numbers(step.commanded) + ", " + Numbers(step.load) + ", " +
+    text += "  {" + Literals(step.q) + ", " + Literals(step.qd) + ",\n   " +
+            Literals(step.commanded) + ", " + Literals(step.load) + ", " +
             (step.load.size() > 0 ? "1" : "0") + ",\n   " +
-            Numbers(step.reading) + ", " + Numbers(step.torque) + ",\n   " +
-            Numbers(step.damping) + ", " + Numbers(step.undamped) + "},\n";
+            Literals(step.reading) + ", " + Literals(step.torque) + ",\n   " +
+            Literals(step.damping) + ", " + Literals(step.undamped) + "},\n";
   }
   return text + "};\n#endif\n";
 }
@@ -169,7 +169,7 @@ std::string CData(const CorrectedRobot& robot, const ModuleTest& test) {
   for (int j = 0; j < n; ++j) {
     const Joint& joint = robot.plant.robot.links[j].joint;
     joints +=
-        "  {" + Quoted(joint.name) + ", " + Number(joint.armature) + "},\n";
+        "  {" + Quoted(joint.name) + ", " + Literal(joint.armature) + "},\n";
     laws += OwnLaws(robot, j);
   }
   for (const CarriedEffect& effect : robot.effects) {
@@ -184,7 +184,7 @@ std::string CData(const CorrectedRobot& robot, const ModuleTest& test) {
          "\n#ifdef EFFECTS_TABLES\n"
          "/* By how much torque is recorded later than it acts, s. */\n"
          "static const double effects_delay = " +
-         Number(robot.delay) +
+         Literal(robot.delay) +
          ";\nstatic const struct effects_joint {\n  const char* name;\n"
          "  double armature; /* of the motor */\n} effects_joints[] = {\n" +
          joints +

@@ -13,9 +13,9 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int kTestSteps = 50;
-constexpr double kTestStep = 2e-3;   // s
-constexpr double kTestWarmth = 12;   // K
-constexpr double kLeastScale = .01;  // of joints that do not move, any unit
+constexpr double kTestStep = 2e-3;       // s
+constexpr double kTestWarmth = 12;       // K
+constexpr double kLeastAmplitude = .01;  // of joints that do not move, any unit
 
 // Sines of all joints.
 struct Sines {
@@ -31,7 +31,7 @@ struct Sines {
 
 Sines DrawSines(const VectorXd& centre, const VectorXd& amplitude,
                 std::mt19937_64* random) {
-  Sines sines{centre, amplitude.cwiseMax(kLeastScale), centre, centre};
+  Sines sines{centre, amplitude.cwiseMax(kLeastAmplitude), centre, centre};
   for (Eigen::Index j = 0; j < centre.size(); ++j) {
     sines.omega[j] = 2 * M_PI * (10 + 15 * UniformDraw(random));  // rad/s
     sines.phase[j] = 2 * M_PI * UniformDraw(random);

@@ -248,6 +248,7 @@ def diagnose(
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
     export: Optional[Union[str, Sequence[str]]] = None,
+    modules: Optional[Union[str, Sequence[str]]] = None,
     posture: Optional[Mapping[str, float]] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
@@ -314,6 +315,9 @@ def diagnose(
                          /joint_states,effort:/torques
     export               Union[str, Sequence[str]]: formats to write the robot
                          in
+    modules              Union[str, Sequence[str]]: the laws found as sources
+                         for the loop of a simulator that lacks them:
+                         effects.py, effects.c
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none

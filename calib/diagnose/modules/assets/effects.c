@@ -33,7 +33,8 @@ static double softplus(double x) {
 
 static double saturation(double u, const double* p) {
   const double w = p[2] * p[1];
-  const double passed = w * (softplus(1 / p[2]) - softplus((p[1] - fabs(u)) / w));
+  const double passed =
+      w * (softplus(1 / p[2]) - softplus((p[1] - fabs(u)) / w));
   return u - p[0] * (u - copysign(passed, u));
 }
 
@@ -80,7 +81,9 @@ static void command(const law_t* law, double* torque) {
 
 /* Torques on joints. */
 
-static double wave(const double* p, double x) { return p[0] * sin(x) + p[1] * cos(x); }
+static double wave(const double* p, double x) {
+  return p[0] * sin(x) + p[1] * cos(x);
+}
 
 static double coupled(const effects_state* s, const law_t* law) {
   const double* p = law->p;
@@ -156,7 +159,9 @@ static double torque_on(const effects_state* s, int k, int j) {
   return 0;
 }
 
-static int is_held(const effects_state* s, int k) { return (effects_laws[k].in & s->beside) != 0; }
+static int is_held(const effects_state* s, int k) {
+  return (effects_laws[k].in & s->beside) != 0;
+}
 
 /* Of all laws that the simulator does not hold. */
 static double on_motor(const effects_state* s, int j) {
@@ -206,7 +211,8 @@ static void follow(effects_state* s, int j, double move) {
 static const law_t* spring_of(int j) {
   for (int k = 0; k < EFFECTS_LAWS; ++k) {
     const law_t* law = &effects_laws[k];
-    const int yields = law->kind == EFFECTS_ELASTICITY || law->kind == EFFECTS_BACKLASH;
+    const int yields =
+        law->kind == EFFECTS_ELASTICITY || law->kind == EFFECTS_BACKLASH;
     if (yields && law->joint == j) return law;
   }
   return NULL;
@@ -227,8 +233,8 @@ static double corner(double x, double* slope) {
   return fmax(x, 0) + log1p(tail);
 }
 
-static double spring_torque(const effects_state* s, const law_t* law, double more,
-                            double faster) {
+static double spring_torque(const effects_state* s, const law_t* law,
+                            double more, double faster) {
   const int j = law->joint;
   const double* p = law->p;
   const double d = s->position[j] - s->link_position[j] + more;
@@ -240,11 +246,13 @@ static double spring_torque(const effects_state* s, const law_t* law, double mor
   const double half = p[0] / 2, w = .05 * p[0];
   const double ahead = corner((d - half) / w, &touching_ahead);
   const double behind = corner((-d - half) / w, &touching_behind);
-  return p[1] * w * (ahead - behind) + p[2] * (touching_ahead + touching_behind) * rate;
+  return p[1] * w * (ahead - behind) +
+         p[2] * (touching_ahead + touching_behind) * rate;
 }
 
 static double slope_over_rate(const effects_state* s, const law_t* law) {
-  return (spring_torque(s, law, 0, velocity_step) - spring_torque(s, law, 0, -velocity_step)) /
+  return (spring_torque(s, law, 0, velocity_step) -
+          spring_torque(s, law, 0, -velocity_step)) /
          (2 * velocity_step);
 }
 
@@ -257,13 +265,15 @@ static double slope_over_deflection(const effects_state* s, const law_t* law) {
 /* An implicit midpoint step of the linearised law. */
 static void motor_step(effects_state* s, const law_t* spring, double h) {
   const int j = spring->joint;
-  const double force = s->given[j] + on_motor(s, j) - spring_torque(s, spring, 0, 0);
+  const double force =
+      s->given[j] + on_motor(s, j) - spring_torque(s, spring, 0, 0);
   const double by_q = -slope_over_deflection(s, spring);
   const double friction_by_v = friction_slope(s, j);
   const double by_v = friction_by_v - slope_over_rate(s, spring);
   const double v = s->velocity[j];
-  const double rate = (force + h / 2 * by_q * v) /
-                      (effects_joints[j].armature - h / 2 * by_v - h * h / 4 * by_q);
+  const double rate =
+      (force + h / 2 * by_q * v) /
+      (effects_joints[j].armature - h / 2 * by_v - h * h / 4 * by_q);
   const double move = h * (v + h / 2 * rate);
   s->missing[j] += s->given[j] + on_motor(s, j) +
                    (h / 2 * friction_by_v - effects_joints[j].armature) * rate;
@@ -273,12 +283,15 @@ static void motor_step(effects_state* s, const law_t* spring, double h) {
 }
 
 /* A motor on its spring while its link moves evenly. */
-static void advance_motor(effects_state* s, const law_t* spring, double dt, double link_before) {
+static void advance_motor(effects_state* s, const law_t* spring, double dt,
+                          double link_before) {
   if (!s->acted) return;
   const int j = spring->joint;
   const double end = s->link_position[j], end_velocity = s->link_velocity[j];
-  const double phase = dt * sqrt(stiffness_of(spring) / effects_joints[j].armature);
-  const int count = (int)fmin(most_substeps, fmax(1, ceil(phase / phase_per_substep)));
+  const double phase =
+      dt * sqrt(stiffness_of(spring) / effects_joints[j].armature);
+  const int count =
+      (int)fmin(most_substeps, fmax(1, ceil(phase / phase_per_substep)));
   s->link_velocity[j] = (end - link_before) / dt;
   s->missing[j] = 0;
   for (int k = 0; k < count; ++k) {
@@ -288,7 +301,8 @@ static void advance_motor(effects_state* s, const law_t* spring, double dt, doub
   s->link_position[j] = end;
   s->link_velocity[j] = end_velocity;
   /* What the motor felt in the mean and the ends did not show. */
-  s->missing[j] = s->missing[j] / count - (s->ends[j] + spring_torque(s, spring, 0, 0)) / 2;
+  s->missing[j] =
+      s->missing[j] / count - (s->ends[j] + spring_torque(s, spring, 0, 0)) / 2;
 }
 
 /* Lags of commands, warmth and loads until now. */
@@ -298,7 +312,8 @@ static void advance_slow_states(effects_state* s, double dt, const double* qd) {
     if (effects_delay < 0) {
       s->lag[j] -= expm1(dt / effects_delay) * (s->commanded[j] - s->lag[j]);
     }
-    s->load[j] = s->drive[j] - effects_armature(j) * (qd[j] - s->link_velocity[j]) / dt;
+    s->load[j] =
+        s->drive[j] - effects_armature(j) * (qd[j] - s->link_velocity[j]) / dt;
   }
   for (int k = 0; k < EFFECTS_LAWS; ++k) {
     const law_t* law = &effects_laws[k];
@@ -309,7 +324,8 @@ static void advance_slow_states(effects_state* s, double dt, const double* qd) {
   }
 }
 
-static void advance(effects_state* s, double dt, const double* q, const double* qd) {
+static void advance(effects_state* s, double dt, const double* q,
+                    const double* qd) {
   double before[N];
   advance_slow_states(s, dt, qd);
   memcpy(before, s->link_position, sizeof(before));
@@ -351,8 +367,8 @@ void effects_reset(effects_state* s, unsigned beside, const double* load) {
   s->load_known = 1;
 }
 
-void effects_sense(effects_state* s, double dt, const double* q, const double* qd,
-                   double* positions) {
+void effects_sense(effects_state* s, double dt, const double* q,
+                   const double* qd, double* positions) {
   if (s->started) {
     advance(s, dt, q, qd);
   } else {
@@ -378,7 +394,8 @@ static void set_drive(effects_state* s) {
   }
 }
 
-void effects_act(effects_state* s, const double* commanded, const double* load, double* torque) {
+void effects_act(effects_state* s, const double* commanded, const double* load,
+                 double* torque) {
   if (!s->acted) {
     memcpy(s->lag, commanded, sizeof(s->lag));
     if (!s->load_known) memcpy(s->load, commanded, sizeof(s->load));
@@ -396,14 +413,17 @@ void effects_act(effects_state* s, const double* commanded, const double* load, 
   for (int j = 0; j < N; ++j) {
     const law_t* spring = spring_of(j);
     torque[j] += on_motor(s, j);
-    s->damping[j] = fmax(0, spring ? slope_over_rate(s, spring) : -friction_slope(s, j));
+    s->damping[j] =
+        fmax(0, spring ? slope_over_rate(s, spring) : -friction_slope(s, j));
     if (spring != NULL) {
       s->ends[j] = spring_torque(s, spring, 0, 0);
       s->drive[j] = torque[j] = s->ends[j] + s->missing[j];
     }
-    /* A motor that yields goes along with its link, about as that went before. */
-    s->undamped[j] = torque[j] + s->damping[j] * (s->link_velocity[j] +
-                                                  (spring != NULL ? s->change[j] : 0));
+    /* A motor that yields goes along with its link, about as that went before.
+     */
+    s->undamped[j] =
+        torque[j] + s->damping[j] * (s->link_velocity[j] +
+                                     (spring != NULL ? s->change[j] : 0));
   }
 }
 
@@ -411,16 +431,20 @@ double effects_armature(int joint) {
   return spring_of(joint) != NULL ? 0 : effects_joints[joint].armature;
 }
 
-double effects_record_delay(void) { return effects_delay > 0 ? effects_delay : 0; }
+double effects_record_delay(void) {
+  return effects_delay > 0 ? effects_delay : 0;
+}
 
 #ifdef EFFECTS_TEST
 
 #include <stdio.h>
 
 /* The worst of N differences. */
-static double differs(const double* found, const double* expected, double largest) {
+static double differs(const double* found, const double* expected,
+                      double largest) {
   double worst = 0;
-  for (int j = 0; j < N; ++j) worst = fmax(worst, fabs(found[j] - expected[j]) / largest);
+  for (int j = 0; j < N; ++j)
+    worst = fmax(worst, fabs(found[j] - expected[j]) / largest);
   return worst;
 }
 
@@ -434,11 +458,15 @@ int main(void) {
     const struct effects_test_step* step = &effects_test[k];
     double reading[N], torque[N];
     effects_sense(&s, effects_test_dt, step->q, step->qd, reading);
-    effects_act(&s, step->commanded, step->has_load ? step->load : NULL, torque);
-    worst = fmax(worst, differs(reading, step->reading, effects_test_largest[0]));
+    effects_act(&s, step->commanded, step->has_load ? step->load : NULL,
+                torque);
+    worst =
+        fmax(worst, differs(reading, step->reading, effects_test_largest[0]));
     worst = fmax(worst, differs(torque, step->torque, effects_test_largest[1]));
-    worst = fmax(worst, differs(s.damping, step->damping, effects_test_largest[2]));
-    worst = fmax(worst, differs(s.undamped, step->undamped, effects_test_largest[3]));
+    worst =
+        fmax(worst, differs(s.damping, step->damping, effects_test_largest[2]));
+    worst = fmax(worst,
+                 differs(s.undamped, step->undamped, effects_test_largest[3]));
   }
   printf("%s: differs by %.1e\n", worst <= 1e-9 ? "ok" : "FAILED", worst);
   return worst <= 1e-9 ? 0 : 1;

@@ -6,7 +6,8 @@
 
 int main(void) {
   effects_state s;
-  double q[EFFECTS_JOINTS], qd[EFFECTS_JOINTS], u[EFFECTS_JOINTS], out[EFFECTS_JOINTS];
+  double q[EFFECTS_JOINTS], qd[EFFECTS_JOINTS], u[EFFECTS_JOINTS],
+      out[EFFECTS_JOINTS];
   effects_reset(&s, EFFECTS_IN_MJCF, NULL);
   for (int k = 0; k < 20; ++k) {
     for (int j = 0; j < EFFECTS_JOINTS; ++j) {
@@ -16,7 +17,8 @@ int main(void) {
     }
     effects_sense(&s, .01, q, qd, out);
     effects_act(&s, u, NULL, out);
-    for (int j = 0; j < EFFECTS_JOINTS; ++j) printf("%.9g %.9g\n", out[j], s.damping[j]);
+    for (int j = 0; j < EFFECTS_JOINTS; ++j)
+      printf("%.9g %.9g\n", out[j], s.damping[j]);
   }
   return 0;
 }

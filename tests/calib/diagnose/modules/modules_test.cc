@@ -12,6 +12,7 @@
 
 #include "calib/diagnose/modules/effects_json.h"
 #include "tests/calib/diagnose/modules/moved_arm.h"
+#include "tests/fixtures/effect_arm.h"  // names of effects
 
 namespace armcal::modules_test {
 
@@ -114,6 +115,7 @@ TEST(Modules, LeaveRobotFilesTheirPart) {
   const std::string folder =
       Written(moved.With({moved.Drawn(*FindEffect("spring"), 0),
                           moved.Drawn(*FindEffect("presliding"), 1),
+                          moved.Drawn(*FindEffect("stribeck"), 0),
                           moved.Drawn(*FindEffect("torque_gain"), 1),
                           moved.Drawn(*FindEffect("torque_ripple"), 2)}),
               "beside");
