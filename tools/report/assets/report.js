@@ -35,6 +35,12 @@
     diagnose: () => ({
       good: ['explained', 'absorbed', 'noise_floor'].includes(result.verdict),
       sentence: result.sentence, reasons: []}),
+    inspect: () => {
+      const found = [result.robot, ...(result.logs || [])].flatMap((of) => of.findings);
+      return {good: found.length === 0, reasons: found.map((f) => f.sentence),
+              sentence: found.length === 0 ? 'Nothing wrong was found.'
+                  : found.length === 1 ? 'One thing is wrong.' : `${found.length} things are wrong.`};
+    },
     excite: () => ({
       good: result.designed !== false,
       sentence: result.designed === false ? 'No motion within the limits tells everything.'
@@ -114,7 +120,7 @@
   // -- where it comes from -------------------------------------------------------
 
   const robot = () => {
-    if (data.command === 'diagnose' || !data.skeleton || data.extra.postures) return null;
+    if (['diagnose', 'inspect'].includes(data.command) || !data.skeleton || data.extra.postures) return null;
     if ((data.extra.geometry || {}).skeleton) return null;
     const drawn = skeleton([{points: data.skeleton.points}], data.skeleton.joints);
     return drawn && [drawn, note('Joint axes of the robot file, at a bent posture. Drag, or use the arrow keys.')];
@@ -132,9 +138,13 @@
   const {torques, positions, maps, spectra} = torqueSections(data);
   const {driveGains, jointTable, positionTable, geometry, poses, parameters, correlation, rank} = calibrationSections(data);
   const {changes} = changeSections(data);
+  const {findings, robotDrawn, jointsRead, linksRead, notesRead, logsRead, coverage, drawn} = inspectionSections(data);
   const {poseEffects, poseGap, poseOrder, poseJoints, poseSpace, poseCorrection} = poseSections(data);
   const {dataFindings, effects, absorbed, gap, where, untestable} = diagnosisSections(data);
   const sections = [
+    ['What is wrong', findings], ['The logs', logsRead], ['What the logs can tell', coverage],
+    ['The robot, as it is read', robotDrawn], ['Its joints', jointsRead], ['Its links', linksRead],
+    ['What was lumped, dropped or not used', notesRead], ['Positions, velocities and torques', drawn],
     ['The data', dataFindings], ['What changed from log to log', changes], ['Which effect', effects], ['What was only a wrong parameter', absorbed],
     ['How far the gap shrinks', gap], ['Where it lies', where],
     ['Which effect', poseEffects], ['How far the distances shrink', poseGap], ['In space', poseSpace],
