@@ -2,6 +2,7 @@
 
 #include "calib/inspect/inspection_report.h"
 #include "calib/inspect/robot_audit.h"
+#include "calib/logs/torque_trace.h"
 #include "calib/robot_outputs.h"
 #include "model/log_files/log_writer.h"
 #include "model/robot_files/controller_reader.h"
@@ -10,8 +11,8 @@ namespace armcal {
 namespace {
 
 LogInspection InspectWhole(const Robot& robot, const LogSource& source,
-                           const LogReaderOptions& reading) {
-  LogInspection log = InspectLog(robot, source, reading);
+                           const LogReaderOptions& reading, int drawn_bins) {
+  LogInspection log = InspectLog(robot, source, reading, drawn_bins);
   if (!log.as_it_is) return log;
   log.coverage = CoverageOf(robot, source, reading);
   log.findings.insert(log.findings.end(), log.coverage.findings.begin(),
@@ -48,11 +49,16 @@ InspectSummary Inspect(const Robot& robot, const std::vector<LogSource>& logs,
   LogReaderOptions reading = options.reading;
   reading.joint_names = robot.JointNames();
   std::vector<LogInspection> inspected;
+  const int most_bins =
+      MostTraceBins(static_cast<int>(logs.size()), robot.num_joints(), 2);
   for (const LogSource& source : logs) {
     begin("inspecting " + source.name);
-    inspected.push_back(InspectWhole(robot, source, reading));
+    const bool drawn = options.draw && inspected.size() < kMostDrawnLogs;
+    inspected.push_back(
+        InspectWhole(robot, source, reading, drawn ? most_bins : 0));
     const LogInspection& log = inspected.back();
-    summary.logs.push_back({source.name, log.as_it_is, log.findings});
+    summary.logs.push_back(
+        {source.name, log.as_it_is, log.findings, log.drawing});
     summary.positive = summary.positive && log.findings.empty();
   }
   nlohmann::json json = ToJson(robot, summary.of_robot, inspected);

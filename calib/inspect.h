@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/inspect/log_drawing.h"
 #include "calib/logs/inspection_finding.h"
 #include "calib/summary.h"
 #include "model/log_files/log_reader_options.h"
@@ -23,6 +24,7 @@ struct InspectOptions {
   // Path of the drives' law that goes into the exports (docs/simulate.md); the
   // gains that it leaves open are those of the posture of zeros. Empty: none.
   std::string controller;
+  bool draw = false;  // keeps what a page draws of the first 30 logs
   Progress progress;
 };
 
@@ -31,6 +33,7 @@ struct InspectedLog {
   std::string name;
   bool as_it_is = false;  // its torques fit the robot best as logged
   std::vector<InspectionFinding> findings;
+  LogDrawing drawing;  // of InspectOptions::draw
 };
 
 struct InspectSummary : Summary {

@@ -26,6 +26,12 @@ if command -v ccache >/dev/null; then
   # Else it finds nothing again of what has a precompiled header.
   export CCACHE_SLOPPINESS=pch_defines,time_macros
 fi
+# What only tests of the Python package need, in build/python-extras; where PyPI
+# cannot be reached these tests skip.
+install_extras() {
+  tools/python_extras.sh build/python-extras ||
+    echo "test.sh: nothing from PyPI; conversions of ROS 1 and Parquet are not tested"
+}
 # Configures, builds and tests in folder $1 with the CMake options that follow.
 run_tests() {
   local folder=$1
@@ -55,6 +61,7 @@ run_instrumented() {
 
 if $full; then
   tools/setup.sh --full
+  install_extras
   tools/tidy.sh
   selection=()
   run_tests build -DPYTHON=ON -DLONG_TESTS=ON
@@ -68,6 +75,7 @@ if $full; then
   run_instrumented
 else
   tools/setup.sh
+  install_extras
   selection=(-LE long)
   run_tests build -DPYTHON=ON
 fi

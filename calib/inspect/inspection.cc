@@ -5,11 +5,12 @@
 
 #include "calib/inspect/held_out_fit.h"
 #include "calib/inspect/reading_text.h"
-#include "calib/inspect/torque_scale.h"
+#include "calib/inspect/torque_unit.h"
 #include "calib/inspect/unsigned_torque.h"
 #include "calib/logs/clock_text.h"
 #include "calib/logs/held_values.h"
 #include "calib/logs/velocity_delay.h"
+#include "model/log_files/torque_columns.h"
 #include "model/robot/axis_rotation.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
@@ -32,12 +33,13 @@ class Inspector {
       : robot_(robot), result_(robot) {
     result_.path = log.name;
     LogReaderOptions wanted = options;
-    wanted.want_velocity = wanted.commands_do = true;
+    wanted.want_velocity = wanted.commands_do = wanted.currents_do = true;
     LogReader reader(log, wanted);
     reader.Read(kMostRows, &log_);
     Log more;
     result_.whole = !reader.Read(1, &more);
     result_.torque_source = reader.torque_source();
+    result_.currents = reader.currents_without_constants();
     result_.rows = log_.size();
     if (log_.size() < 3) {
       throw InputError(log.name, "", std::to_string(log_.size()) + " rows",
@@ -45,12 +47,14 @@ class Inspector {
     }
   }
 
-  LogInspection Run() {
+  LogInspection Run(int drawn_bins) {
     result_.stamps = AuditStamps(log_);
     log_.t = (result_.stamps.unit * (log_.t.array() - log_.t[0])).eval();
+    if (drawn_bins > 0) result_.drawing = DrawLog(log_, drawn_bins);
     result_.findings = AuditChannels(robot_, log_, result_.stamps);
     const auto held = AuditHeldValues(robot_, log_);
     result_.findings.insert(result_.findings.end(), held.begin(), held.end());
+    AddCurrents();
     AddVelocityDelays();
     AddClock();
     result_.duration = log_.t[log_.size() - 1];
@@ -131,7 +135,11 @@ class Inspector {
       return;
     }
     if (log_.tau.size() == 0) {
-      result_.coverage.reason = "no torque is logged";
+      result_.coverage.reason = result_.currents.empty()
+                                    ? "no torque is logged"
+                                    : "its currents (" + result_.currents +
+                                          ") need " +
+                                          OptionName("torque_constants");
       return;
     }
     const ReadingFinding found = FindReading(robot_, series, Tells());
@@ -142,7 +150,13 @@ class Inspector {
       result_.findings.push_back(FindingOf(change, found.reading, robot_));
     }
     AddUnsigned(series);
-    AddScale(SamplesAs(found.reading, robot_, series, kSamples));
+    Robot robot = robot_;
+    robot.gravity = found.reading.gravity;
+    const WiringSamples samples =
+        SamplesAs(found.reading, robot_, series, kSamples);
+    result_.torque_scales = TorqueScale(robot, samples);
+    const auto units = FindTorqueUnits(robot, samples, result_.torque_scales);
+    result_.findings.insert(result_.findings.end(), units.begin(), units.end());
   }
 
   // Which joints' torques have the values to tell a sign by.
@@ -152,6 +166,18 @@ class Inspector {
       if (f.finding == "quantised") tells[f.joint] = false;
     }
     return tells;
+  }
+
+  // What scale currents have, no motion tells: twice the constants and twice
+  // the inertias draw the same.
+  void AddCurrents() {
+    if (result_.currents.empty()) return;
+    result_.findings.push_back(
+        {"unscaled_currents",
+         "motor currents are logged, and nothing says what torque they make",
+         "columns " + result_.currents +
+             "; nothing is asked of them, as no motion tells their scale",
+         ConstantsWanted() + " (armcal calibrate)"});
   }
 
   void AddVelocityDelays() {
@@ -197,40 +223,6 @@ class Inspector {
     }
   }
 
-  // What is far from 1 for all joints that tell is a matter of units.
-  void AddScale(const WiringSamples& samples) {
-    constexpr double kFar = 4;
-    Robot robot = robot_;
-    robot.gravity = result_.reading.gravity;
-    const VectorXd scale = TorqueScale(robot, samples);
-    double low = 1e300, high = 0;
-    int told = 0;
-    for (const double x : scale) {
-      if (!std::isfinite(x)) continue;
-      low = std::min(low, x);
-      high = std::max(high, x);
-      ++told;
-    }
-    if (told == 0 || (told == 1 && robot_.num_joints() > 1)) return;
-    if (high > 0 && low > 0 && high < 1 / kFar) {
-      result_.findings.push_back(
-          {"torque_is_current",
-           "the torques are motor currents, or of the motors' side of gears",
-           Format("%.3g to %.3g of what the robot file's links need", low,
-                  high),
-           OptionName("torque_kind") + "=current " +
-               OptionName("torque_constants") + "=.., or " +
-               OptionName("torque_kind") + "=motor " +
-               OptionName("gear_ratios") + "=.."});
-    } else if (low > kFar) {
-      result_.findings.push_back(
-          {"torque_unit", "the torques are in another unit than N m",
-           Format("%.3g to %.3g times what the robot file's links need", low,
-                  high),
-           "name the columns tau1[mNm] ..."});
-    }
-  }
-
   const Robot& robot_;
   LogInspection result_;
   Log log_;
@@ -239,8 +231,8 @@ class Inspector {
 }  // namespace
 
 LogInspection InspectLog(const Robot& robot, const LogSource& log,
-                         const LogReaderOptions& options) {
-  return Inspector(robot, log, options).Run();
+                         const LogReaderOptions& options, int drawn_bins) {
+  return Inspector(robot, log, options).Run(drawn_bins);
 }
 
 Log Mended(const Robot& robot, const Log& log,

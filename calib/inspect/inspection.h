@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "calib/inspect/log_coverage.h"
+#include "calib/inspect/log_drawing.h"
 #include "calib/inspect/log_reading.h"
+#include "calib/inspect/torque_scale.h"
 #include "calib/logs/channel_audit.h"
 #include "calib/logs/inspection_finding.h"
 #include "calib/logs/sample_clock.h"
@@ -23,24 +25,28 @@ struct LogInspection {
   StampFigures stamps;
   SampleClock clock;
   bool rebuilds_time = false;  // the log fits better by the clock's time
-  std::string torque_source;   // empty: none, but commands
+  std::string torque_source;   // empty: none, but commands or currents
+  std::string currents;        // without constants, as LogReader names them
   Eigen::VectorXd travel;      // per joint, rad or m
   Eigen::VectorXd top_speed;   // rad/s or m/s
   // Rms of command minus position, rad or m; empty where no command is logged.
   Eigen::VectorXd tracking_rms;
+  TorqueScales torque_scales;   // empty where no torque was read
   double moving_share = 0;      // of the time
   double residual_percent = 0;  // of torques by the best fit of the arm
   std::vector<InspectionFinding> findings;
   bool as_it_is = false;  // its torques fit the robot best as logged
   LogReading reading;
   LogCoverage coverage;  // CoverageOf, where asked for
+  LogDrawing drawing;    // where bins are asked for
 
   explicit LogInspection(const Robot& robot) : reading(robot) {}
 };
 
-// Throws InputError for what cannot be read at all.
+// Throws InputError for what cannot be read at all. It is drawn in
+// `drawn_bins`, 0: not at all.
 LogInspection InspectLog(const Robot& robot, const LogSource& log,
-                         const LogReaderOptions& options);
+                         const LogReaderOptions& options, int drawn_bins = 0);
 
 // The log as the reading has it, with its time in s, or the clock's time.
 Log Mended(const Robot& robot, const Log& log, const LogInspection& inspection);

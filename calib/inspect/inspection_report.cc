@@ -58,6 +58,21 @@ json CoverageJson(const LogCoverage& coverage) {
           {"stamp_wander", JsonNumber(coverage.stamp_wander)}};
 }
 
+// Where the torque is from.
+std::string TorqueText(const LogInspection& log) {
+  if (!log.torque_source.empty()) return log.torque_source;
+  std::string text = "none";
+  if (!log.currents.empty()) {
+    text += "; currents (" + log.currents + ") that need " +
+            OptionName("torque_constants");
+  }
+  if (log.tracking_rms.size() > 0) {
+    text += "; commands (qref) that " + OptionName("controller") +
+            " lets a simulated robot follow";
+  }
+  return text;
+}
+
 std::string LogText(const Robot& robot, const LogInspection& log) {
   std::string text = log.path + "\n";
   text += Format("  %d rows in %.4g s, a step of %.4g ms, %.0f %% in motion\n",
@@ -72,11 +87,7 @@ std::string LogText(const Robot& robot, const LogInspection& log) {
     text +=
         Format("  the longest step is %.4g ms\n", 1e3 * log.stamps.longest_gap);
   }
-  text += "  torque: " +
-          (log.torque_source.empty()
-               ? "none; commands (qref) that " + OptionName("controller") +
-                     " lets a simulated robot follow"
-               : log.torque_source);
+  text += "  torque: " + TorqueText(log);
   if (log.residual_percent > 0) {
     text += Format("; the best fit of this arm leaves %.3g %%",
                    log.residual_percent);
@@ -87,7 +98,7 @@ std::string LogText(const Robot& robot, const LogInspection& log) {
     text += Format("    %-24s travels %7.3g %s, up to %6.3g %s/s",
                    joint.name.c_str(), log.travel[j], PositionUnit(joint.type),
                    log.top_speed[j], PositionUnit(joint.type));
-    if (log.torque_source.empty()) {
+    if (log.torque_source.empty() && log.tracking_rms.size() > 0) {
       text += Format(", %.3g %s rms off its command", log.tracking_rms[j],
                      PositionUnit(joint.type));
     }
@@ -137,6 +148,27 @@ json FindingsJson(const Robot& robot,
   return list;
 }
 
+// Null where nothing is told.
+json ScaleJson(const TorqueScales& scales, int j) {
+  if (!scales.told(j)) return nullptr;
+  return {{"value", JsonNumber(scales.scale[j])},
+          {"low", JsonNumber(scales.low[j])},
+          {"high", JsonNumber(scales.high[j])}};
+}
+
+json JointsJson(const Robot& robot, const LogInspection& log) {
+  json joints = json::array();
+  for (int j = 0; j < log.top_speed.size(); ++j) {
+    joints.push_back({{"name", robot.links[j].joint.name},
+                      {"travel", JsonNumber(log.travel[j])},
+                      {"top_speed", JsonNumber(log.top_speed[j])},
+                      {"torque_scale", ScaleJson(log.torque_scales, j)}});
+    if (log.tracking_rms.size() == 0) continue;
+    joints.back()["tracking_rms"] = JsonNumber(log.tracking_rms[j]);
+  }
+  return joints;
+}
+
 }  // namespace
 
 std::string FullReport(const Robot& robot,
@@ -158,14 +190,6 @@ json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
             const std::vector<LogInspection>& logs) {
   json list = json::array();
   for (const LogInspection& log : logs) {
-    json joints = json::array();
-    for (int j = 0; j < log.top_speed.size(); ++j) {
-      joints.push_back({{"name", robot.links[j].joint.name},
-                        {"travel", JsonNumber(log.travel[j])},
-                        {"top_speed", JsonNumber(log.top_speed[j])}});
-      if (log.tracking_rms.size() == 0) continue;
-      joints.back()["tracking_rms"] = JsonNumber(log.tracking_rms[j]);
-    }
     list.push_back({{"file", log.path},
                     {"rows", log.rows},
                     {"whole", log.whole},
@@ -178,7 +202,7 @@ json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
                     {"moving_share", JsonNumber(log.moving_share)},
                     {"torque", log.torque_source},
                     {"residual_percent", JsonNumber(log.residual_percent)},
-                    {"joints", joints},
+                    {"joints", JointsJson(robot, log)},
                     {"coverage", CoverageJson(log.coverage)},
                     {"findings", FindingsJson(robot, log.findings)}});
   }

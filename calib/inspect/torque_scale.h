@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "calib/logs/wiring.h"
 #include "model/robot/robot.h"
@@ -8,8 +9,30 @@
 namespace armcal {
 
 // How many times the torque that the robot file's links need is in the recorded
-// one, per joint, friction and an offset apart; NaN where they need hardly any
-// or the two are not alike (partial correlation below 0.7).
-Eigen::VectorXd TorqueScale(const Robot& robot, const WiringSamples& samples);
+// one, per joint, friction, armature and an offset apart. NaN where they need
+// hardly any or the two are not alike (partial correlation below 0.7).
+//
+//   tau_j = s_j x_j(q, qd, qdd) + (viscous, Coulomb, armature, offset) + e,
+//
+// x_j by the file's inertial parameters. s_j is 1 for a file that is right and
+// a torque in N m; wrong masses change it as far as they are wrong. It is the
+// robust slope of what is left of tau_j over what is left of x_j after both
+// were freed of the other four.
+struct TorqueScales {
+  Eigen::VectorXd scale;
+  // Its 95 % interval, from slopes that leave out an eighth of the samples each
+  // (jackknife of stretches: samples that follow each other err alike).
+  Eigen::VectorXd low, high;
+  // x_j and tau_j freed of the other terms, N m or N, samples x n.
+  Eigen::MatrixXd needed, recorded;
+
+  bool told(int joint) const {
+    return scale.size() > joint && std::isfinite(scale[joint]);
+  }
+  // Rms that needed leaves of recorded / unit, over the rms of recorded / unit.
+  double Left(int joint, double unit) const;
+};
+
+TorqueScales TorqueScale(const Robot& robot, const WiringSamples& samples);
 
 }  // namespace armcal

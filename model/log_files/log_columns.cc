@@ -249,6 +249,16 @@ std::string LogColumns::CountsOf(Signal signal) const {
   return text + list;
 }
 
+std::string LogColumns::Named(Signal signal) const {
+  std::string first, last;
+  for (const Match& match : matches_) {
+    if (match.signal != signal) continue;
+    last = names_[match.index];
+    if (first.empty()) first = last;
+  }
+  return first == last ? first : first + " to " + last;
+}
+
 std::string LogColumns::Unrecognised() const {
   constexpr int kShown = 6;
   std::string list;

@@ -48,6 +48,8 @@ class LogColumns {
                               const std::string& advice = "") const;
   // The columns Find() looks for where there are none: "tau2 or elbow/effort".
   std::string Missing(Signal signal) const;
+  // The columns that it has of a signal, as its header names them: "i1 to i6".
+  std::string Named(Signal signal) const;
   // What else the file has, which ends messages on missing columns: "; not
   // recognised: ...".
   std::string Unrecognised() const;

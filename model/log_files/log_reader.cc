@@ -69,8 +69,10 @@ struct LogReader::Impl {
       KnowScale(kTorqueScaleStddev, options);
       return;
     }
+    currents_without_constants = CurrentsWithoutConstants(columns, options);
     const bool commands_do = options.commands_do && qref != kUnused;
     if (commands_do && LacksTorque(columns, options)) return;
+    if (options.currents_do && !currents_without_constants.empty()) return;
     const TorqueColumns torque = FindTorqueColumns(path, columns, options);
     torque_source = torque.source;
     KnowScale(torque.scale_stddev, options);
@@ -270,7 +272,7 @@ struct LogReader::Impl {
   int q = kUnused, qd = kUnused, qdd = kUnused, tau = kUnused;  // in a row
   int qref = kUnused;
   int temperature = kUnused;
-  std::string torque_source;
+  std::string torque_source, currents_without_constants;
   double torque_constants_stddev = 0;
   std::shared_ptr<const MadeTorque> made;
   std::shared_ptr<const Eigen::VectorXd> sample_times;  // null: the stamps
@@ -309,6 +311,10 @@ bool LogReader::has_acceleration() const {
 
 const std::string& LogReader::torque_source() const {
   return impl_->torque_source;
+}
+
+const std::string& LogReader::currents_without_constants() const {
+  return impl_->currents_without_constants;
 }
 
 double LogReader::torque_constants_stddev() const {

@@ -45,6 +45,10 @@ class LogReader {
   // "currents times 14.87 13.26 N m/A"; empty where it is not needed.
   const std::string& torque_source() const;
 
+  // The columns of currents that have no constants, "i1 to i6"; empty where
+  // torques are read, or where there are none.
+  const std::string& currents_without_constants() const;
+
   // Relative standard deviation of its scale, each joint's: as the options say,
   // else 0 for a simulated log and by the torque's kind for any other.
   double torque_constants_stddev() const;

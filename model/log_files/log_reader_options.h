@@ -49,6 +49,9 @@ struct LogReaderOptions {
   bool commands_do = false;
   // By path: what such logs have instead.
   std::map<std::string, std::shared_ptr<const MadeTorque>> made_torque;
+  // Where torque is needed: a log will do whose motor currents have no
+  // constants. It has no torque then; LogReader names the currents.
+  bool currents_do = false;
   // By path: the time of each row, s since the first, for a log whose stamps
   // are known to be wrong.
   std::map<std::string, std::shared_ptr<const Eigen::VectorXd>> sample_times;

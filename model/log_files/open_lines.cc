@@ -20,8 +20,13 @@ namespace {
 void RefuseOthers(const std::string& path, const std::string& first) {
   if (first.rfind("#ROSBAG", 0) == 0) {
     throw InputError(path, "", "",
-                     "is a bag of ROS 1: convert it, `rosbags-convert --src " +
-                         path + " --dst FOLDER` makes one of ROS 2");
+                     "is a bag of ROS 1: `python3 -m armcal.convert " + path +
+                         " FOLDER` makes one of ROS 2");
+  }
+  if (first.rfind("PAR1", 0) == 0) {
+    throw InputError(path, "", "",
+                     "is a Parquet file: `python3 -m armcal.convert " + path +
+                         " log.npz` makes an .npz");
   }
   if (IsZstd(first)) {
     throw InputError(path, "", "",

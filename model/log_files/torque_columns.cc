@@ -114,6 +114,24 @@ bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options) {
   return !columns.HasAny(Signal::kCurrent) || options.torque_constants.empty();
 }
 
+std::string CurrentsWithoutConstants(const LogColumns& columns,
+                                     const LogReaderOptions& options) {
+  const bool wants_currents = options.torque_kind == TorqueKind::kCurrent ||
+                              (options.torque_kind == TorqueKind::kAuto &&
+                               !columns.HasAny(Signal::kEffort));
+  if (!wants_currents || !options.torque_constants.empty() ||
+      !columns.HasAll(Signal::kCurrent)) {
+    return "";
+  }
+  return columns.Named(Signal::kCurrent);
+}
+
+std::string ConstantsWanted() {
+  return OptionName("torque_constants") +
+         "=K1,.. in N m/A, one per joint, or " + OptionName("payload_mass") +
+         " and " + OptionName("payload_log") + " to estimate them";
+}
+
 TorqueColumns FindTorqueColumns(const std::string& file,
                                 const LogColumns& columns,
                                 const LogReaderOptions& options) {
@@ -127,14 +145,13 @@ TorqueColumns FindTorqueColumns(const std::string& file,
       return {columns.Find(Signal::kEffort), "commanded tau columns"};
     case TorqueKind::kCurrent:
       if (options.torque_constants.empty()) {
-        throw InputError(
-            file, "", "",
-            "the torque comes from currents, its scale is not observable "
-            "from them alone: expected " +
-                OptionName("torque_constants") +
-                "=K1,.. in N m/A, one per joint, or " +
-                OptionName("payload_mass") + " and " +
-                OptionName("payload_log") + " to estimate them");
+        const std::string names = columns.Named(Signal::kCurrent);
+        throw InputError(file, "", "",
+                         "the torque comes from currents" +
+                             (names.empty() ? "" : " (" + names + ")") +
+                             ", its scale is not observable from them alone: "
+                             "expected " +
+                             ConstantsWanted());
       }
       return FromCurrents(columns, options);
     default:

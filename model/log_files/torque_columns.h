@@ -37,6 +37,14 @@ std::string ScaleText(double scale_stddev);
 // currents or no constants for them. A part of the joints is no nothing.
 bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options);
 
+// The columns of currents that a torque would be made of if there were
+// constants for them: "i1 to i6"; empty where there is nothing to wait for.
+std::string CurrentsWithoutConstants(const LogColumns& columns,
+                                     const LogReaderOptions& options);
+
+// What to give for such currents, a phrase for messages.
+std::string ConstantsWanted();
+
 // Throws InputError where torque constants or gear ratios are given and are not
 // one non-zero finite number per joint.
 void CheckTorqueFactors(const LogReaderOptions& options);

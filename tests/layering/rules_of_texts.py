@@ -18,7 +18,7 @@ WRITE_FILES = {"calib/diagnose/robot_export.cc", "calib/diagnose/modules/effects
 
 FLAG = re.compile(r"(?<!-)--[A-Za-z][\w-]*")
 # The flags of other programs that messages recommend.
-OTHER_PROGRAMS = {"model/log_files/open_lines.cc": {"--src", "--dst"}}  # rosbags-convert
+OTHER_PROGRAMS = {}  # {path: {flags}}
 
 
 def libraries_print_nothing(tree):

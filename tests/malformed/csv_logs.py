@@ -55,8 +55,11 @@ GROUPS = [Group(
         "log.csv: row 1: no time column: expected t, time, timestamp or __time; not "
         'recognised: \'{"t": [0\', \'1]\', \'q1": [0\', \'1]}\''),
     Row("ROS 1 bag", written("log.csv", b"#ROSBAG V2.0\nE\0\0\0"),
-        "log.csv: is a bag of ROS 1: convert it, `rosbags-convert --src log.csv --dst "
-        "FOLDER` makes one of ROS 2"),
+        "log.csv: is a bag of ROS 1: `python3 -m armcal.convert log.csv FOLDER` makes one "
+        "of ROS 2"),
+    Row("Parquet", written("log.csv", b"PAR1\x15\x04\0\0"),
+        "log.csv: is a Parquet file: `python3 -m armcal.convert log.csv log.npz` makes an "
+        ".npz"),
     Row("ROS 1 topic as text", written("log.csv", "%time,field.position0\n1,2\n"),
         "log.csv: row 1: no time column: expected t, time, timestamp or __time; not "
         "recognised: '%time', 'field.position0'"),
@@ -136,7 +139,7 @@ GROUPS = [Group(
     Row("unit of time", headed("t [min],q1,q2,tau1,tau2"),
         "log.csv: row 1: column 't [min]': expected a unit of s, ms, us or ns"),
     Row("currents without constants", headed("t,q1,q2,i1,i2"),
-        "log.csv: the torque comes from currents, its scale is not observable from them "
+        "log.csv: the torque comes from currents (i1 to i2), its scale is not observable from them "
         "alone: expected --torque_constants=K1,.. in N m/A, one per joint, or "
         "--payload_mass and --payload_log to estimate them"),
 

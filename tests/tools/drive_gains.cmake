@@ -70,7 +70,7 @@ if("${out}${json}" MATCHES "[^a-z](nan|inf)[^a-z]")
 endif()
 
 run("no payload" calibrate ${flags} --out=out)
-expect_refusal(3 "bare.csv: the torque comes from currents, its scale is not observable"
+expect_refusal(3 "bare.csv: the torque comes from currents (i1 to "
                "--torque_constants" "--payload_mass and --payload_log")
 run("no such log" calibrate ${flags} --payload_mass=2 --payload_log=none.csv --out=out)
 expect_refusal(3 "none.csv: cannot be opened")

@@ -16,6 +16,8 @@ run("diagnosed" diagnose --robot=arm.yaml --log=made/log.csv --forward=false
     --out=diagnose)
 run("designed" excite --robot=arm.yaml --duration=5 --out=excite)
 expect_code(0)
+run("inspected" inspect --robot=arm.yaml --log=made/log.csv --out=inspect)
+expect_code(0)
 run("postures" excite --robot=arm.yaml --static_poses=6 --out=postures)
 
 # provenance.json names what was read and what was written by their hashes.
@@ -68,7 +70,7 @@ run("coupled poses" diagnose --robot=${DATA_DIR}/scara/robot.yaml --poses=couple
     --out=coupled_poses)
 
 set(pages)
-foreach(command calibrate verify diagnose excite postures poses coupled_poses)
+foreach(command inspect calibrate verify diagnose excite postures poses coupled_poses)
   set(file ${WORK_DIR}/${command}/report.html)
   if(NOT EXISTS ${file})
     fail("${command} must write report.html")

@@ -65,9 +65,17 @@ def nearest(times, time):
     return min(known, key=lambda k: abs(times[k] - time))
 
 
-def hover_says_the_data(browser, data):
+def first_plot(data):
+    """What it draws, and what its first line is called."""
+    for trace in data["torques"]:
+        return trace, "recorded"
+    for trace in data["extra"].get("signals", []):
+        return trace["position"], "position"
+    return None, None
+
+
+def hover_says_the_data(browser, trace, label):
     """What dygraphs shows under the pointer is the envelope's middle."""
-    trace = data["torques"][0]
     joint = trace["joints"][0]
     x, y = middle_of_plot(browser, 0)
     browser.move(x, y)
@@ -75,7 +83,7 @@ def hover_says_the_data(browser, data):
     said = browser.evaluate("document.querySelector('.plot .dygraph-legend')"
                             ".innerText")
     at = re.match(r"([-\u2212\d.e]+) s", said)
-    value = re.search(r"recorded:\s*([-\u2212\d.e]+)", said)
+    value = re.search(label + r":\s*([-\u2212\d.e]+)", said)
     expect(at and value, "the pointer reads: " + said)
     k = nearest(trace["t"], number(at.group(1)))
     expected = (joint["low"][0][k] + joint["high"][0][k]) / 2
@@ -84,7 +92,7 @@ def hover_says_the_data(browser, data):
            f"the pointer reads {said}, the data hold {expected}")
 
 
-def zoom_takes_all_along(browser):
+def zoom_takes_all_along(browser, label):
     x, y = middle_of_plot(browser, 0)
     whole = browser.evaluate("plots.all[0].chart.xAxisRange()")
     browser.move(x, y, "mousePressed", button="left", clickCount=1)
@@ -105,7 +113,7 @@ def zoom_takes_all_along(browser):
            "Home does not show all")
     browser.press("ArrowRight")
     said = browser.evaluate("document.querySelector('.said').textContent")
-    expect("recorded" in said, "the arrow keys read: " + said)
+    expect(label in said, "the arrow keys read: " + said)
     return seconds
 
 
@@ -132,9 +140,10 @@ def check(browser, path):
     ready = browser.open(path)
     names_are_text(browser, data)
     zoomed = None
-    if data["torques"] and data["torques"][0]["t"]:
-        hover_says_the_data(browser, data)
-        zoomed = zoom_takes_all_along(browser)
+    trace, label = first_plot(data)
+    if trace and trace["t"]:
+        hover_says_the_data(browser, trace, label)
+        zoomed = zoom_takes_all_along(browser, label)
     controls = keyboard_reaches_all(browser)
     browser.size(380, 800)
     browser.wait(.2)

@@ -7,6 +7,7 @@
 #include "tools/export_flags.h"
 #include "tools/input_flags.h"
 #include "tools/log_flags.h"
+#include "tools/report/report_data.h"
 
 DEFINE_bool(fix, false,
             "write the logs as they are understood: order, signs and units");
@@ -34,6 +35,43 @@ InspectOptions InspectOptionsFromFlags(const CommandInput& input) {
   return options;
 }
 
+// What the page draws of a log: {log, logs, position, velocity, torque}, each
+// as PositionsJson has it, null where it is not logged.
+nlohmann::json SignalsOfLog(const Robot& robot, const InspectedLog& log) {
+  const auto json = [&](const std::optional<SeriesEnvelope>& drawn,
+                        const std::vector<std::string>& labels) {
+    if (!drawn) return nlohmann::json();
+    return PositionsJson(robot, labels, {{log.name, *drawn}})[0];
+  };
+  std::vector<std::string> labels;
+  if (log.drawing.commanded) labels.emplace_back("command");
+  return {{"log", log.name},
+          {"position", json(log.drawing.position, labels)},
+          {"velocity", json(log.drawing.velocity, {})},
+          {"torque", json(log.drawing.torque, {})}};
+}
+
+void AddInspectionReport(const CommandInput& input, const Robot& robot,
+                         const InspectSummary& summary, OutputFolder* out) {
+  std::vector<std::string> files;
+  for (const InspectedLog& log : summary.logs) files.push_back(log.name);
+  AddReport(
+      input, "inspect", robot, summary.json, files,
+      [&](ReportContent* content) {
+        // The posture whose axes and centres of mass the tables have.
+        content->skeleton =
+            SkeletonJson(robot, Eigen::VectorXd::Zero(robot.num_joints()));
+        nlohmann::json signals = nlohmann::json::array();
+        for (const InspectedLog& log : summary.logs) {
+          if (!log.drawing.position) continue;
+          signals.push_back(SignalsOfLog(robot, log));
+          signals.back()["logs"] = summary.logs.size();
+        }
+        content->extra["signals"] = signals;
+      },
+      out);
+}
+
 CommandOutcome RunInspect(const CommandInput& input) {
   InspectOptions options = InspectOptionsFromFlags(input);
   const Robot robot = RobotFromFlags(input);
@@ -42,10 +80,13 @@ CommandOutcome RunInspect(const CommandInput& input) {
   if (!input.flags.Text("log").empty()) {
     logs = LogInputFromFlags(input).logs;
   }
+  options.draw = input.WantsReport();
+  const InspectSummary summary = Inspect(robot, logs, options);
   CommandOutcome outcome =
-      OutcomeOf(input, robot, Inspect(robot, logs, options),
+      OutcomeOf(input, robot, summary,
                 // With logs the report is theirs.
                 logs.empty() ? robot.notes : std::vector<std::string>());
+  AddInspectionReport(input, robot, summary, &outcome.folders[0]);
   outcome.output.verdict = "";
   AddProvenance(input, "inspect", NamesOf(logs), &outcome.folders[0]);
   return outcome;

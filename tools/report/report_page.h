@@ -21,7 +21,7 @@ SourceFile HashDocument(const Document& document);
 
 // What report.html shows. Everything but `result` may be empty.
 struct ReportContent {
-  std::string command;    // "calibrate", "verify", "diagnose", "excite"
+  std::string command;    // "calibrate", "diagnose", "inspect" ..
   std::string robot;      // its name
   nlohmann::json result;  // the command's own JSON
   nlohmann::json torques = nlohmann::json::array();  // TracesJson

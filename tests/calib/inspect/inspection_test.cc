@@ -154,4 +154,51 @@ TEST_F(InspectionTest, CommandsAloneAreDescribed) {
   EXPECT_EQ(mended.qref, commanded.qref);
 }
 
+// Of currents without constants the columns and what to give are named; the
+// motion is told as of any log.
+TEST_F(InspectionTest, CurrentsWithoutConstantsAreNamed) {
+  Log log = arm_.log;
+  log.qd.resize(0, 0);
+  path_ = WriteFile(LogText(log, {{2, 2, 2}}), "currents.csv");
+  const LogInspection inspection = InspectLog(arm_.robot, path_, options_);
+  ASSERT_EQ(inspection.findings.size(), 1u);
+  EXPECT_EQ(inspection.findings[0].finding, "unscaled_currents");
+  EXPECT_NE(inspection.findings[0].evidence.find("columns i1 to i3"),
+            std::string::npos);
+  EXPECT_EQ(inspection.findings[0].remedy.find("`torque_constants`=K1,.."), 0u);
+  EXPECT_GT(inspection.top_speed[1], 0);
+  const auto text = FullReport(arm_.robot, {}, {inspection});
+  EXPECT_NE(text.find("torque: none; currents (i1 to i3) that need "
+                      "`torque_constants`\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("rms off its command"), std::string::npos);
+  // With constants they are torques.
+  options_.torque_constants = {2, 2, 2};
+  EXPECT_TRUE(InspectLog(arm_.robot, path_, options_).findings.empty());
+}
+
+// Every sample is in a bin, with gaps where stamps have them.
+TEST_F(InspectionTest, DrawsWhatIsLogged) {
+  Log log = arm_.log;
+  log.t.tail(log.size() / 2).array() += 3;
+  path_ = WriteFile(LogText(log), "drawn.csv");
+  const LogDrawing drawing =
+      InspectLog(arm_.robot, path_, options_, 50).drawing;
+  ASSERT_TRUE(drawing.position && drawing.torque);
+  EXPECT_FALSE(drawing.commanded);
+  long samples = 0;
+  int breaks = 0;
+  double most = -1e300;
+  for (const SeriesEnvelope::Bin& bin : drawing.torque->bins()) {
+    samples += bin.samples;
+    breaks += !bin.follows;
+    most = std::max(most, bin.high[1]);
+  }
+  EXPECT_EQ(samples, log.size());
+  EXPECT_EQ(breaks, 2);  // the first bin follows none
+  EXPECT_NEAR(most, log.tau.col(1).maxCoeff(), 1e-6);
+  EXPECT_FALSE(InspectLog(arm_.robot, path_, options_).drawing.position);
+}
+
 }  // namespace armcal::inspection_test

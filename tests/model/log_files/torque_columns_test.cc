@@ -85,9 +85,10 @@ TEST(TorqueColumns, SayWhatIsMissing) {
             "`torque_constants`; or `controller`, under which calibrate and "
             "verify simulate how the log's commands (qref) are followed");
   EXPECT_EQ(Find("t,i1,i2", Options(TorqueKind::kAuto)),
-            "FILE: the torque comes from currents, its scale is not observable "
-            "from them alone: expected `torque_constants`=K1,.. in N m/A, one "
-            "per joint, or `payload_mass` and `payload_log` to estimate them");
+            "FILE: the torque comes from currents (i1 to i2), its scale is not "
+            "observable from them alone: expected `torque_constants`=K1,.. in "
+            "N m/A, one per joint, or `payload_mass` and `payload_log` to "
+            "estimate them");
   EXPECT_EQ(Find("t,tau2,i1", Options(TorqueKind::kAuto)),
             "FILE: row 1: missing tau1 or shoulder/effort; the robot has 2 "
             "joints, the log holds tau2");
@@ -102,6 +103,23 @@ TEST(TorqueColumns, SayWhatIsMissing) {
             "FILE: row 1: missing tau1 or shoulder/effort, tau2 or "
             "elbow/effort; the robot has 2 joints, the log holds 0 such "
             "columns");
+}
+
+TEST(TorqueColumns, NamesCurrentsThatWaitForConstants) {
+  const auto names = [](const std::string& header,
+                        const LogReaderOptions& options) {
+    return CurrentsWithoutConstants(
+        LogColumns("FILE", header, options.joint_names), options);
+  };
+  EXPECT_EQ(names("t,i1,i2", Options(TorqueKind::kAuto)), "i1 to i2");
+  EXPECT_EQ(names("t,shoulder/effort [A],elbow/effort [A]",
+                  Options(TorqueKind::kAuto)),
+            "shoulder/effort [A] to elbow/effort [A]");
+  EXPECT_EQ(names("t,i1,i2", Options(TorqueKind::kAuto, {1, 1})), "");
+  EXPECT_EQ(names("t,i1,i2,tau1,tau2", Options(TorqueKind::kAuto)), "");
+  EXPECT_EQ(names("t,i1,i2,tau1,tau2", Options(TorqueKind::kCurrent)),
+            "i1 to i2");
+  EXPECT_EQ(names("t,i1,tau1,tau2", Options(TorqueKind::kCurrent)), "");
 }
 
 TEST(TorqueColumns, RefuseFactorsThatDoNotFit) {

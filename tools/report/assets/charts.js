@@ -60,7 +60,8 @@ const charts = (() => {
     'with the effects': {colour: 'c3', dash: null},
     calibrated: {colour: 'c1', dash: null},
     'calibrated, for a simulator': {colour: 'c3', dash: [2, 3]},
-    position: {colour: 'c1', dash: null}, velocity: {colour: 'c2', dash: [7, 4]}};
+    position: {colour: 'c1', dash: null}, velocity: {colour: 'c2', dash: [7, 4]},
+    command: {colour: 'c2', dash: [7, 4]}, torque: {colour: 'c3', dash: null}};
   const styleOf = (label) => styles[label] || {colour: 'c4', dash: null};
   const legend = (labels) => html('div', {class: 'legend'}, labels.map((label) => {
     const {colour, dash, width} = styleOf(label);

@@ -39,6 +39,12 @@
       good: result.agrees,
       sentence: result.sentence[0].toUpperCase() + result.sentence.slice(1) + '.',
       reasons: [...result.notes, ...result.pairs.flatMap((pair) => pair.disagreements)]}),
+    inspect: () => {
+      const found = [result.robot, ...(result.logs || [])].flatMap((of) => of.findings);
+      return {good: found.length === 0, reasons: found.map((f) => f.sentence),
+              sentence: found.length === 0 ? 'Nothing wrong was found.'
+                  : found.length === 1 ? 'One thing is wrong.' : `${found.length} things are wrong.`};
+    },
     excite: () => ({
       good: result.designed !== false,
       sentence: result.designed === false ? 'No motion within the limits tells everything.'
@@ -118,7 +124,7 @@
   // -- where it comes from -------------------------------------------------------
 
   const robot = () => {
-    if (data.command === 'diagnose' || !data.skeleton || data.extra.postures) return null;
+    if (['diagnose', 'inspect'].includes(data.command) || !data.skeleton || data.extra.postures) return null;
     if ((data.extra.geometry || {}).skeleton) return null;
     const drawn = skeleton([{points: data.skeleton.points}], data.skeleton.joints);
     return drawn && [drawn, note('Joint axes of the robot file, at a bent posture. Drag, or use the arrow keys.')];
@@ -137,9 +143,13 @@
   const {driveGains, jointTable, positionTable, geometry, poses, parameters, correlation, rank} = calibrationSections(data);
   const {changes} = changeSections(data);
   const {compared, comparedValues, comparedTorques} = comparisonSections(data);
+  const {findings, robotDrawn, jointsRead, linksRead, notesRead, logsRead, coverage, drawn} = inspectionSections(data);
   const {poseEffects, poseGap, poseOrder, poseJoints, poseSpace, poseCorrection} = poseSections(data);
   const {dataFindings, effects, absorbed, gap, where, untestable} = diagnosisSections(data);
   const sections = [
+    ['What is wrong', findings], ['The logs', logsRead], ['What the logs can tell', coverage],
+    ['The robot, as it is read', robotDrawn], ['Its joints', jointsRead], ['Its links', linksRead],
+    ['What was lumped, dropped or not used', notesRead], ['Positions, velocities and torques', drawn],
     ['What was compared', compared], ['Value by value', comparedValues], ['Torque left on the log', comparedTorques],
     ['The data', dataFindings], ['What changed from log to log', changes], ['Which effect', effects], ['What was only a wrong parameter', absorbed],
     ['How far the gap shrinks', gap], ['Where it lies', where],

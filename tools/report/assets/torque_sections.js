@@ -104,5 +104,5 @@ const torqueSections = (data) => {
         'Over frequency: see the spectrum.' + heldOut)];
   };
 
-  return {torques, positions, maps, spectra};
+  return {torques, positions, maps, spectra, perLog, rows};
 };
