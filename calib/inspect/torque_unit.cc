@@ -111,7 +111,7 @@ InspectionFinding OfAll(const Robot& robot, const TorqueScales& scales,
     high = std::max(high, scales.high[j]);
   }
   finding.evidence = Format(
-      "%.3g to %.3g times what the robot file's links need (95 %%)", low, high);
+      "%.4g to %.4g times what the robot file's links need (95 %%)", low, high);
   if (unit == nullptr) return finding;
   finding.evidence += Format(
       "; read so, the file's links and friction leave %.0f %% of the torques, "
@@ -146,7 +146,7 @@ InspectionFinding OfOne(const Robot& robot, const TorqueScales& scales, int j,
   finding.held_out_before = percent(as_is);
   finding.held_out_after = percent(changed);
   finding.evidence = Format(
-      "%.3g times what the robot file's links need (95 %%: %.3g to %.3g); of "
+      "%.4g times what the robot file's links need (95 %%: %.4g to %.4g); of "
       "torques held out a fit leaves %.3g %% as logged and %.3g %% divided by "
       "that, rms over the joints",
       scales.scale[j], scales.low[j], scales.high[j], finding.held_out_before,
