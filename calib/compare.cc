@@ -33,13 +33,15 @@ void CheckKinds(const std::vector<ComparedResult>& results) {
   }
 }
 
-std::vector<std::string> Shared(std::vector<std::string> a,
-                                std::vector<std::string> b) {
-  std::sort(a.begin(), a.end());
-  std::sort(b.begin(), b.end());
+// Logs of which both have some.
+std::vector<std::string> Shared(const ComparedResult& a,
+                                const ComparedResult& b) {
   std::vector<std::string> both;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(),
-                        std::back_inserter(both));
+  for (const ComparedLog& log : a.logs) {
+    for (const ComparedLog& other : b.logs) {
+      if (log.Overlaps(other)) both.push_back(log.file);
+    }
+  }
   return both;
 }
 
@@ -62,7 +64,7 @@ void ComparePairs(Comparison* comparison) {
                           " and " + results[b].name +
                           " have no parameter in common that both know");
       }
-      const auto shared = Shared(results[a].logs, results[b].logs);
+      const auto shared = Shared(results[a], results[b]);
       if (!shared.empty()) {
         comparison->notes.push_back(
             results[a].name + " and " + results[b].name + " are both of " +
@@ -104,7 +106,12 @@ void CompareHeldOut(const CompareOptions& options, Comparison* comparison) {
     }
     robots.push_back(PredictingOf(result, options));
     for (const LogSource& log : options.logs.logs) {
-      if (std::count(result.logs.begin(), result.logs.end(), log.name) > 0) {
+      const ComparedLog held_out{log.name, options.logs.crop.begin,
+                                 options.logs.crop.end};
+      if (std::any_of(result.logs.begin(), result.logs.end(),
+                      [&](const ComparedLog& seen) {
+                        return seen.Overlaps(held_out);
+                      })) {
         comparison->notes.push_back(result.name + " was calibrated on " +
                                     log.name + ", which is not held out");
       }

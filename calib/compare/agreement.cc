@@ -1,6 +1,5 @@
 #include "calib/compare/agreement.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -61,24 +60,19 @@ MatrixXd CovarianceOf(const ComparedValues& set, const std::vector<int>& at) {
   return variances.asDiagonal();
 }
 
-// d' P^-1 d over the directions in which P, in units of its diagonal, is more
-// than rounding.
-void AddChiSquared(const VectorXd& d, const MatrixXd& P, Agreement* result) {
-  constexpr double kLeast = 1e-9;  // of a correlation matrix's eigenvalues
+// The sum of squares of differences d in their own deviations, of covariance P.
+// It is a sum of chi squared of one times the eigenvalues of the correlations
+// R, nearly that of h times tr R^2 / tr R (Box 1954).
+void AddSumOfSquares(const VectorXd& d, const MatrixXd& P, Agreement* result) {
   if (d.size() == 0) return;
   const VectorXd scale = P.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
-      MatrixXd(scale.asDiagonal() * P * scale.asDiagonal()));
-  const VectorXd along =
-      eigen.eigenvectors().transpose() * scale.cwiseProduct(d);
-  for (Eigen::Index k = 0; k < along.size(); ++k) {
-    if (eigen.eigenvalues()[k] < kLeast) continue;
-    result->chi_squared += along[k] * along[k] / eigen.eigenvalues()[k];
-    ++result->degrees;
-  }
-  if (result->degrees == 0) return;
-  result->probability = boost::math::cdf(boost::math::complement(
-      boost::math::chi_squared(result->degrees), result->chi_squared));
+  const MatrixXd R = scale.asDiagonal() * P * scale.asDiagonal();
+  result->sum_of_squares = scale.cwiseProduct(d).squaredNorm();
+  result->degrees = std::pow(R.trace(), 2) / R.squaredNorm();
+  const double factor = R.squaredNorm() / R.trace();
+  result->probability = boost::math::cdf(
+      boost::math::complement(boost::math::chi_squared(result->degrees),
+                              result->sum_of_squares / factor));
 }
 
 std::string WithStddev(double value, double stddev) {
@@ -133,14 +127,15 @@ void CompareValues(const ComparedResult& a, const ComparedResult& b,
         d[static_cast<Eigen::Index>(at_a.size())] = last.b - last.a;
         at_a.push_back(k_a), at_b.push_back(k_b);
       }
-      AddChiSquared(d.head(at_a.size()),
-                    CovarianceOf(of_a, at_a) + CovarianceOf(of_b, at_b),
-                    result);
+      AddSumOfSquares(d.head(at_a.size()),
+                      CovarianceOf(of_a, at_a) + CovarianceOf(of_b, at_b),
+                      result);
       if (result->probability < errors / 2) {
         result->disagreements.push_back(
-            Format("all values together differ more than noise does: chi "
-                   "squared %.4g of %d (p = %.2g)",
-                   result->chi_squared, result->degrees, result->probability));
+            Format("all values together differ more than noise does: squares "
+                   "of deviations are %.3g in the mean (p %s)",
+                   result->sum_of_squares / at_a.size(),
+                   ProbabilityText(result->probability).c_str()));
       }
       return;
     }
@@ -177,6 +172,11 @@ void CompareClaims(const ComparedResult& a, const ComparedResult& b,
 }
 
 }  // namespace
+
+std::string ProbabilityText(double probability) {
+  constexpr double kLeast = 1e-12;  // below, normal tails are a fiction
+  return probability < kLeast ? "below 1e-12" : Format("= %.2g", probability);
+}
 
 Agreement CompareTwo(const ComparedResult& a, const ComparedResult& b,
                      double errors) {

@@ -21,10 +21,13 @@ struct ValueDifference {
 // independent of the other's.
 struct Agreement {
   std::vector<ValueDifference> values;  // that both know
-  // Of all values together: d' (P_a + P_b)^-1 d, with the number of directions
-  // that are known and the probability of so much or more by noise. None: 0.
-  double chi_squared = 0;
-  int degrees = 0;
+  // Of all values together: the sum of squares of `deviations`, as how many
+  // independent ones it scatters, and the probability of so much or more by
+  // noise. (Not d' (P_a + P_b)^-1 d: that hangs on the sharpest combinations,
+  // of which a covariance that was estimated from as many scores as there are
+  // parameters, or a few times as many, tells little.)
+  double sum_of_squares = 0;
+  double degrees = 0;
   double probability = 1;
   // Sentences; empty: they agree within noise.
   std::vector<std::string> disagreements;
@@ -42,5 +45,8 @@ struct Agreement {
 // named among what the other's claim may be instead, or not be testable there.
 Agreement CompareTwo(const ComparedResult& a, const ComparedResult& b,
                      double errors);
+
+// "= 0.03", "below 1e-12".
+std::string ProbabilityText(double probability);
 
 }  // namespace armcal

@@ -56,11 +56,12 @@ void AddSet(const JsonValue& root, const std::string& list,
   result->sets.push_back(set);
 }
 
-std::vector<std::string> LogsOf(const JsonValue& root) {
-  std::vector<std::string> logs;
+std::vector<ComparedLog> LogsOf(const JsonValue& root) {
+  std::vector<ComparedLog> logs;
   if (!root.Has("logs")) return logs;
   for (const JsonValue& log : root.At("logs").Entries()) {
-    logs.push_back(log.At("file").Text());
+    logs.push_back({log.At("file").Text(), log.At("begin_s").Number(),
+                    log.At("end_s").Number()});
   }
   return logs;
 }

@@ -34,6 +34,16 @@ struct ComparedClaim {
   std::vector<std::string> rivals;  // what else it may be
 };
 
+// Part of a log that a result was made of, s.
+struct ComparedLog {
+  std::string file;
+  double begin, end;
+
+  bool Overlaps(const ComparedLog& other) const {
+    return file == other.file && begin < other.end && end > other.begin;
+  }
+};
+
 // A result file of armcal, or a robot file, as far as it can be compared.
 struct ComparedResult {
   enum class Kind { kCalibration, kDiagnosis, kVerification, kRobot };
@@ -41,7 +51,7 @@ struct ComparedResult {
   Kind kind;
   std::string robot;
   std::string verdict;  // in words
-  std::vector<std::string> logs;
+  std::vector<ComparedLog> logs;
   // The values in the order in which they are to be compared: the first that
   // both of two results have.
   std::vector<ComparedValues> sets;

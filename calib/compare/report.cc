@@ -34,12 +34,14 @@ std::string ValueText(double value, double stddev) {
 
 std::string Table(const ComparedPair& pair) {
   constexpr size_t kFewest = 5;  // shown where none or few differ
+  constexpr size_t kMost = 15;
   const std::vector<ValueDifference> sorted = Sorted(pair.agreement.values);
   if (sorted.empty()) return "";
   const auto differing = static_cast<size_t>(
       std::count_if(sorted.begin(), sorted.end(),
                     [](const ValueDifference& d) { return d.differs; }));
-  const size_t shown = std::min(sorted.size(), std::max(kFewest, differing));
+  const size_t shown =
+      std::min({sorted.size(), kMost, std::max(kFewest, differing)});
   std::string text = Format(
       "\n  %-30s %-22s %-22s %s\n", "", Letter(pair.a).c_str(),
       Letter(pair.b).c_str(),
@@ -60,18 +62,41 @@ std::string Table(const ComparedPair& pair) {
   return text;
 }
 
+// Of deviations, where there are some.
+double MeanSquare(const Agreement& agreement) {
+  double count = 0;
+  for (const ValueDifference& d : agreement.values) {
+    count += !std::isnan(d.deviations);
+  }
+  return agreement.sum_of_squares / count;
+}
+
 std::string PairText(const ComparedPair& pair) {
   const Agreement& agreement = pair.agreement;
   std::string text = Table(pair);
   if (agreement.degrees > 0) {
-    text +=
-        Format("together: chi squared %.4g of %d, p = %.2g\n",
-               agreement.chi_squared, agreement.degrees, agreement.probability);
+    text += Format("together: squares of deviations %.3g in the mean, p %s\n",
+                   MeanSquare(agreement),
+                   ProbabilityText(agreement.probability).c_str());
   }
   if (!agreement.only_a.empty() || !agreement.only_b.empty()) {
     text += Format("known to one alone, not compared: %zu of %s, %zu of %s\n",
                    agreement.only_a.size(), Letter(pair.a).c_str(),
                    agreement.only_b.size(), Letter(pair.b).c_str());
+  }
+  return text;
+}
+
+// The first of them: the table has all values that differ.
+std::string Reasons(const ComparedPair& pair) {
+  constexpr size_t kMost = 5;
+  const std::vector<std::string>& all = pair.agreement.disagreements;
+  std::string text;
+  for (size_t k = 0; k < std::min(kMost, all.size()); ++k) {
+    text += "  " + all[k] + "\n";
+  }
+  if (all.size() > kMost) {
+    text += Format("  and %zu more\n", all.size() - kMost);
   }
   return text;
 }
@@ -89,6 +114,15 @@ std::string HeldOutText(const HeldOutResiduals& held_out) {
                    Letter(ratio.a).c_str());
   }
   return text;
+}
+
+json LogsJson(const ComparedResult& result) {
+  json logs = json::array();
+  for (const ComparedLog& log : result.logs) {
+    logs.push_back(
+        {{"file", log.file}, {"begin_s", log.begin}, {"end_s", log.end}});
+  }
+  return logs;
 }
 
 json ValueJson(const ValueDifference& d) {
@@ -112,7 +146,7 @@ json PairJson(const ComparedPair& pair) {
           {"b", pair.b},
           {"agrees", agreement.disagreements.empty()},
           {"disagreements", agreement.disagreements},
-          {"chi_squared", JsonNumber(agreement.chi_squared)},
+          {"sum_of_squares", JsonNumber(agreement.sum_of_squares)},
           {"degrees", agreement.degrees},
           {"probability", JsonNumber(agreement.probability)},
           {"values", values},
@@ -174,11 +208,7 @@ std::string ToText(const Comparison& comparison) {
   for (const ComparedPair& pair : comparison.pairs) text += PairText(pair);
   if (comparison.held_out) text += HeldOutText(*comparison.held_out);
   text += "\n" + BriefText(comparison) + "\n";
-  for (const ComparedPair& pair : comparison.pairs) {
-    for (const std::string& sentence : pair.agreement.disagreements) {
-      text += "  " + sentence + "\n";
-    }
-  }
+  for (const ComparedPair& pair : comparison.pairs) text += Reasons(pair);
   return text;
 }
 
@@ -189,7 +219,7 @@ json ToJson(const Comparison& comparison) {
                        {"kind", KindName(result.kind)},
                        {"robot", result.robot},
                        {"verdict", result.verdict},
-                       {"logs", result.logs}});
+                       {"logs", LogsJson(result)}});
   }
   for (const ComparedPair& pair : comparison.pairs) {
     pairs.push_back(PairJson(pair));

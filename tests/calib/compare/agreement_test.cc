@@ -29,31 +29,30 @@ ComparedResult Calibration(const std::string& name, const VectorXd& values,
   return result;
 }
 
-// Of two values of correlation 1/2 and deviation 1 each, twice: d' (2 P)^-1 d =
-// 1/2 * 4/3 at d = (1, 1), which a chi squared of two exceeds with a
-// probability of exp(-1/3).
-TEST(Agreement, ChiSquaredIsThatOfTheDifference) {
-  MatrixXd P(2, 2);
-  P << 1, .5, .5, 1;
+// Of two values of deviation 1 each, twice, one apart: squares of 1/2 each. Of
+// two that are independent chi squared exceeds 1 with a probability of
+// exp(-1/2).
+TEST(Agreement, IndependentSquaresAreChiSquared) {
+  const MatrixXd P = MatrixXd::Identity(2, 2);
   const Agreement found =
       CompareTwo(Calibration("a", Eigen::Vector2d(3, 4), P),
                  Calibration("b", Eigen::Vector2d(4, 5), P), .01);
-  EXPECT_EQ(found.degrees, 2);
-  EXPECT_NEAR(found.chi_squared, 2. / 3, 1e-12);
-  EXPECT_NEAR(found.probability, std::exp(-1. / 3), 1e-12);
+  EXPECT_NEAR(found.degrees, 2, 1e-12);
+  EXPECT_NEAR(found.sum_of_squares, 1, 1e-12);
+  EXPECT_NEAR(found.probability, std::exp(-.5), 1e-12);
   ASSERT_EQ(found.values.size(), 2u);
   EXPECT_NEAR(found.values[0].deviations, 1 / std::sqrt(2.), 1e-12);
   EXPECT_THAT(found.disagreements, IsEmpty());
 }
 
-// A combination that is exact in both tells of no direction.
-TEST(Agreement, ASingularCovarianceHasFewerDirections) {
+// Two that are one: a normal deviation of 1 / sqrt(2).
+TEST(Agreement, SquaresOfOneNumberAreOne) {
   const MatrixXd P = MatrixXd::Ones(2, 2);
   const Agreement found =
       CompareTwo(Calibration("a", Eigen::Vector2d(0, 0), P),
                  Calibration("b", Eigen::Vector2d(1, 1), P), .01);
-  EXPECT_EQ(found.degrees, 1);
-  EXPECT_NEAR(found.chi_squared, .5, 1e-9);
+  EXPECT_NEAR(found.degrees, 1, 1e-12);
+  EXPECT_NEAR(found.probability, std::erfc(.5), 1e-9);
 }
 
 // Of results of one truth, as often as was allowed for at most. The two tests

@@ -29,7 +29,8 @@ json CalibrationJson() {
       {"format", "armcal calibration 1"},
       {"robot", "arm"},
       {"stacked_residual_percent", 1.25},
-      {"logs", {{{"file", "monday.csv"}}}},
+      {"logs",
+       json::array({{{"file", "monday.csv"}, {"begin_s", 1}, {"end_s", 9}}})},
       {"model_parameters",
        {{{"name", "Izz[1]"}, {"unit", "kg m^2"}, {"value", 2}, {"stddev", .5}},
         {{"name", "m[2]"}, {"unit", "kg"}, {"value", 3}, {"stddev", nullptr}}}},
@@ -47,7 +48,10 @@ TEST(ComparedResult, OfACalibration) {
   EXPECT_EQ(result.kind, Kind::kCalibration);
   EXPECT_EQ(result.robot, "arm");
   EXPECT_EQ(result.verdict, "calibrated, residual 1.25 %");
-  EXPECT_THAT(result.logs, ElementsAre("monday.csv"));
+  ASSERT_EQ(result.logs.size(), 1u);
+  EXPECT_TRUE(result.logs[0].Overlaps({"monday.csv", 8, 20}));
+  EXPECT_FALSE(result.logs[0].Overlaps({"monday.csv", 9, 20}));
+  EXPECT_FALSE(result.logs[0].Overlaps({"tuesday.csv", 8, 20}));
   ASSERT_EQ(result.sets.size(), 1u);
   EXPECT_EQ(result.sets[0].values[0].stddev, .5);
   EXPECT_TRUE(std::isnan(result.sets[0].values[1].stddev));

@@ -21,7 +21,7 @@ const comparisonSections = (data) => {
     const [a, b] = [letter(pair.a), letter(pair.b)];
     return [
       html('h3', {}, `${a} and ${b}: ${pair.agrees ? 'agree' : 'disagree'}`),
-      pair.degrees > 0 ? note(`All values together: chi squared ${number(pair.chi_squared)} of ${pair.degrees}, ` +
+      pair.degrees > 0 ? note(`All values together: their squares sum up to ${number(pair.sum_of_squares)}, ` +
           `by noise alone with a probability of ${number(pair.probability)}.`) : null,
       known.length ? bars(known.map((d) => ({label: d.name, value: apart(d), colour: d.differs ? 'c2' : 'c1'})),
                           'standard deviations of the difference') : null,
