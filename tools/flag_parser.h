@@ -19,8 +19,8 @@ struct ParsedFlags {
 // and by its --flagfile, whose flags count where the command line does not
 // have them. Throws UsageError: an unknown flag (with the nearest known
 // one), a flag without a value, a value of the wrong type, a word that is no
-// flag where the command takes none. Unlike gflags' own parser it never exits and knows only the command's
-// flags.
+// flag where the command takes none. Unlike gflags' own parser it never exits
+// and knows only the command's flags.
 ParsedFlags ParseFlags(const Command& command, int argc, char** argv);
 
 }  // namespace armcal

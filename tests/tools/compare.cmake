@@ -15,7 +15,7 @@ endforeach()
 
 run("of one robot" compare result1 result2 --out=compared)
 expect_code(0)
-expect_text(out "the two agree within noise" "together: squares of deviations")
+expect_text(out "together: squares of deviations" "the two agree within noise")
 file(READ ${WORK_DIR}/compared/comparison.json json)
 string(JSON agrees GET "${json}" agrees)
 if(NOT agrees STREQUAL "ON" AND NOT agrees STREQUAL "true")

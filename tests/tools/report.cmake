@@ -69,8 +69,12 @@ execute_process(COMMAND awk -F, -v OFS=, "NR > 1 {$2 += $1} {print}" ${DATA_DIR}
 run("coupled poses" diagnose --robot=${DATA_DIR}/scara/robot.yaml --poses=coupled.csv
     --out=coupled_poses)
 
+run("compare" compare calibrate again --robot=arm.yaml --log=made/log.csv
+    --out=compare)
+
 set(pages)
-foreach(command inspect calibrate verify diagnose excite postures poses coupled_poses)
+foreach(command inspect calibrate verify diagnose excite postures poses coupled_poses
+        compare)
   set(file ${WORK_DIR}/${command}/report.html)
   if(NOT EXISTS ${file})
     fail("${command} must write report.html")

@@ -22,9 +22,10 @@ const comparisonSections = (data) => {
     return [
       html('h3', {}, `${a} and ${b}: ${pair.agrees ? 'agree' : 'disagree'}`),
       pair.degrees > 0 ? note(`All values together: their squares sum up to ${number(pair.sum_of_squares)}, ` +
-          `by noise alone with a probability of ${number(pair.probability)}.`) : null,
+          `by noise alone with a probability ${pair.probability < 1e-12 ? 'below 1e-12'
+              : `of ${number(pair.probability)}`}.`) : null,
       known.length ? bars(known.map((d) => ({label: d.name, value: apart(d), colour: d.differs ? 'c2' : 'c1'})),
-                          'standard deviations of the difference') : null,
+                          'deviations') : null,
       table(['value', a, b, 'unit', `${b} − ${a}, deviations`, ''], values.map((d) =>
           [d.name, shown(d.a, d.a_stddev), shown(d.b, d.b_stddev), d.unit,
            isNumber(d.deviations) ? number(d.deviations) : '–', d.differs ? 'differ' : '']), values.length > 20),

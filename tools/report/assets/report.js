@@ -38,7 +38,7 @@
     compare: () => ({
       good: result.agrees,
       sentence: result.sentence[0].toUpperCase() + result.sentence.slice(1) + '.',
-      reasons: [...result.notes, ...result.pairs.flatMap((pair) => pair.disagreements)]}),
+      reasons: [...result.notes, ...firstOf(result.pairs.flatMap((pair) => pair.disagreements))]}),
     inspect: () => {
       const found = [result.robot, ...(result.logs || [])].flatMap((of) => of.findings);
       return {good: found.length === 0, reasons: found.map((f) => f.sentence),
@@ -52,6 +52,10 @@
           : 'Postures to measure at.',
       reasons: []}),
   };
+
+  // As many as are read; the sections have all of them.
+  const firstOf = (sentences) => sentences.length <= 5 ? sentences
+      : [...sentences.slice(0, 5), `and ${sentences.length - 5} more`];
 
   const rolloutSentence = () => {
     const last = (result.rollout || []).filter((r) => isNumber(r.ratio)).pop();
