@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Names = std::vector<std::string>;
 
-constexpr double kRounding = 1e-9;  // relative, of values that are exact
+constexpr double kSameNumber = 1e-9;  // relative, of values that are exact
 
 struct Pair {
   int a, b;  // places of one value in two sets
@@ -75,11 +75,6 @@ void AddSumOfSquares(const VectorXd& d, const MatrixXd& P, Agreement* result) {
                               result->sum_of_squares / factor));
 }
 
-std::string WithStddev(double value, double stddev) {
-  return stddev > 0 ? Format("%.4g +- %.2g", value, stddev)
-                    : Format("%.6g", value);
-}
-
 ValueDifference Difference(const ComparedValue& a, const ComparedValue& b,
                            double most) {
   ValueDifference d{a.name,   a.unit,   a.value, b.value,
@@ -90,7 +85,7 @@ ValueDifference Difference(const ComparedValue& a, const ComparedValue& b,
     d.differs = std::abs(d.deviations) > most;
   } else {
     const double size = std::max(std::abs(a.value), std::abs(b.value));
-    d.differs = std::abs(b.value - a.value) > kRounding * size + 1e-12;
+    d.differs = std::abs(b.value - a.value) > kSameNumber * size + 1e-12;
   }
   return d;
 }
@@ -172,6 +167,11 @@ void CompareClaims(const ComparedResult& a, const ComparedResult& b,
 }
 
 }  // namespace
+
+std::string WithStddev(double value, double stddev) {
+  return stddev > 0 ? Format("%.4g +- %.2g", value, stddev)
+                    : Format("%.6g", value);
+}
 
 std::string ProbabilityText(double probability) {
   constexpr double kLeast = 1e-12;  // below, normal tails are a fiction

@@ -46,6 +46,8 @@ struct Agreement {
 Agreement CompareTwo(const ComparedResult& a, const ComparedResult& b,
                      double errors);
 
+// "1.25 +- 0.03"; exact values with more digits.
+std::string WithStddev(double value, double stddev);
 // "= 0.03", "below 1e-12".
 std::string ProbabilityText(double probability);
 

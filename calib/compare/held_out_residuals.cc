@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Squares of residuals in cells of time (rows) and joints, and of torques.
-struct Squares {
+struct CellSquares {
   std::vector<VectorXd> residual, torque;  // sums over a cell
 
   VectorXd Sum(const std::vector<VectorXd>& cells) const {
@@ -35,14 +35,14 @@ ModelParameters ParametersOf(const PredictingRobot& predicting) {
   return ModelParameters(predicting.robot, options);
 }
 
-Squares SquaresOf(const PredictingRobot& predicting, double bandwidth_hz,
-                  const Progress& progress, const PreparedLogs& logs) {
+CellSquares SquaresOf(const PredictingRobot& predicting, double bandwidth_hz,
+                      const Progress& progress, const PreparedLogs& logs) {
   constexpr double kCellSeconds = .1;
   const ModelParameters parameters = ParametersOf(predicting);
   const VectorXd x = parameters.Values(predicting.robot);
   std::vector<MotionRegressor> regressors(logs.size(),
                                           MotionRegressor(parameters));
-  Squares squares;
+  CellSquares squares;
   logs.ForEach("residuals", progress, [&](int log, const Trajectory& t) {
     regressors[log].Enter(t);
     const FilteredTorques torques =
@@ -64,7 +64,7 @@ Squares SquaresOf(const PredictingRobot& predicting, double bandwidth_hz,
 }
 
 // Each cell's residual, relative to the log's torques, summed over joints.
-std::vector<double> RelativeCells(const Squares& squares) {
+std::vector<double> RelativeCells(const CellSquares& squares) {
   const VectorXd torque = squares.Sum(squares.torque);
   std::vector<double> cells;
   for (const VectorXd& cell : squares.residual) {
@@ -109,7 +109,7 @@ HeldOutResiduals CompareOnLogs(const std::vector<PredictingRobot>& robots,
   const PreparedLogs prepared = Prepare(logs, preparation);
   std::vector<std::vector<double>> cells;
   for (const PredictingRobot& robot : robots) {
-    const Squares squares =
+    const CellSquares squares =
         SquaresOf(robot, result.bandwidth_hz, progress, prepared);
     const VectorXd left = squares.Sum(squares.residual);
     const VectorXd torque = squares.Sum(squares.torque);

@@ -27,11 +27,6 @@ std::vector<ValueDifference> Sorted(std::vector<ValueDifference> values) {
   return values;
 }
 
-std::string ValueText(double value, double stddev) {
-  return stddev > 0 ? Format("%.4g +- %.2g", value, stddev)
-                    : Format("%.6g", value);
-}
-
 std::string Table(const ComparedPair& pair) {
   constexpr size_t kFewest = 5;  // shown where none or few differ
   constexpr size_t kMost = 15;
@@ -49,8 +44,8 @@ std::string Table(const ComparedPair& pair) {
   for (size_t k = 0; k < shown; ++k) {
     const ValueDifference& d = sorted[k];
     text += Format("  %-30s %-22s %-22s ", d.name.c_str(),
-                   ValueText(d.a, d.a_stddev).c_str(),
-                   ValueText(d.b, d.b_stddev).c_str());
+                   WithStddev(d.a, d.a_stddev).c_str(),
+                   WithStddev(d.b, d.b_stddev).c_str());
     text += std::isnan(d.deviations)
                 ? std::string(d.differs ? "differ" : "same")
                 : Format("%8.1f%s", d.deviations, d.differs ? "  differ" : "");

@@ -11,7 +11,7 @@ namespace armcal {
 namespace {
 
 // A text that Python reads as itself: JSON's strings, ASCII alone, are.
-std::string Quoted(const std::string& text) {
+std::string PythonText(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', true,
                                    nlohmann::json::error_handler_t::replace);
 }
@@ -25,7 +25,7 @@ std::string NamePattern(const std::string& name) {
     }
     pattern += c;
   }
-  return Quoted(pattern);
+  return PythonText(pattern);
 }
 
 void AddField(const char* key, double value, std::string* text) {
@@ -46,7 +46,7 @@ void AddActuator(const RobotDescription& description, int j,
                  std::string* text) {
   const Joint& joint = description.robot.links[j].joint;
   const PidGains gains = GainsOf(description, j);
-  *text += "        " + Quoted(joint.name) + ": " +
+  *text += "        " + PythonText(joint.name) + ": " +
            (IsDelayed(description) ? "DelayedPDActuatorCfg("
                                    : "IdealPDActuatorCfg(") +
            "\n            joint_names_expr=[" + NamePattern(joint.name) +

@@ -15,6 +15,8 @@ EFFECT_NAME = re.compile(r'\bname = "(\w+)"')
 # A diagnosis means the effect by them, but where it writes files.
 OTHER_MEANINGS = {"armature", "delay", "payload"}
 WRITE_FILES = {"calib/diagnose/robot_export.cc", "calib/diagnose/modules/effects_json.cc"}
+# Fields of other programs' files that are called as effects are.
+FIELDS = {"model/robot_files/isaac_writer.cc": {"viscous_friction"}}
 
 FLAG = re.compile(r"(?<!-)--[A-Za-z][\w-]*")
 # The flags of other programs that messages recommend.
@@ -50,6 +52,7 @@ def effects_are_named_by_themselves(tree):
         named = names.intersection(tree.strings(path))
         if not room_of(path).startswith("calib/diagnose") or path in WRITE_FILES:
             named -= OTHER_MEANINGS
+        named -= FIELDS.get(path, set())
         if named:
             yield f"{path}: names the effect {sorted(named)[0]}: ask the effect instead"
 

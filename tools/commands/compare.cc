@@ -67,7 +67,7 @@ Command CompareCommand() {
            TorqueFlags(),
            ChainFlags()},
           {"armcal compare monday tuesday",
-           "armcal compare before/robot.urdf after/calibration.json",
+           "armcal compare arm.urdf after/calibration.json",
            "armcal compare monday tuesday --robot=arm.urdf --log=held_out.csv "
            "--out=compared"},
           &RunCompare,

@@ -6,8 +6,8 @@ from armcal._armcal import INERTIAL_NAMES, INERTIAL_UNITS, InputError, Predicted
 from armcal.commands import Logs, Path, Progress, Range, RobotLike
 from armcal.log import Log, read_log
 from armcal.robot import from_arrays as _from_arrays
-from armcal.results import Calibration, Diagnosis, Estimates, Excitation, Inspection, Merger, Reduction, Result, Simulation, Verification
-__all__ = ['Calibration', 'Diagnosis', 'Estimates', 'Excitation', 'INERTIAL_NAMES', 'INERTIAL_UNITS', 'InputError', 'Inspection', 'Log', 'Merger', 'PredictedLog', 'Reduction', 'Result', 'Robot', 'Simulation', 'UsageError', 'Verification', '__version__', 'calibrate', 'diagnose', 'excite', 'inspect', 'merge', 'options', 'plot', 'read_log', 'read_robot', 'reduce', 'simulate', 'verify']
+from armcal.results import Calibration, Comparison, Diagnosis, Estimates, Excitation, Inspection, Merger, Reduction, Result, Simulation, Verification
+__all__ = ['Calibration', 'Comparison', 'Diagnosis', 'Estimates', 'Excitation', 'INERTIAL_NAMES', 'INERTIAL_UNITS', 'InputError', 'Inspection', 'Log', 'Merger', 'PredictedLog', 'Reduction', 'Result', 'Robot', 'Simulation', 'UsageError', 'Verification', '__version__', 'calibrate', 'compare', 'diagnose', 'excite', 'inspect', 'merge', 'options', 'plot', 'read_log', 'read_robot', 'reduce', 'simulate', 'verify']
 
 def calibrate(
     robot: RobotLike,
@@ -691,6 +691,57 @@ def merge(
     factors  factor files, folders of them, or Reductions, one or a list
 
     Options:
+    posture              Mapping[str, float]: where other joints are held, such
+                         as a gripper's, rad or m; default: next to 0
+    out                  Path: for the result files; default: write none
+    flagfile             Path: more flags, one --flag=value a line
+    threads              int: that share the work; default: one per core.
+                         Results are the same for any number (default 0)
+    """
+
+def compare(
+    results: Any,
+    *,
+    robot: Optional[RobotLike] = None,
+    log: Optional[Logs] = None,
+    progress: Progress = None,
+    crop: Optional[Range] = None,
+    bandwidth: Optional[float] = None,
+    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
+    torque_constants: Optional[Union[float, Sequence[float]]] = None,
+    torque_constants_stddev: Optional[float] = None,
+    gear_ratios: Optional[Union[float, Sequence[float]]] = None,
+    topics: Optional[Union[str, Sequence[str]]] = None,
+    posture: Optional[Mapping[str, float]] = None,
+    out: Optional[Path] = None,
+    flagfile: Optional[Path] = None,
+    threads: int = 0,
+) -> Comparison:
+    """Whether results of one robot agree within noise.
+
+    results  two or more: Calibrations, Diagnoses, Verifications, their files or
+             folders, or robot files
+    robot    of log; what calibrations are of
+    log      held out: what calibrations and robots leave of its torques
+
+    Options:
+    crop                 Range: of --log to use, s since its first row;
+                         default: all (standstill is left out by itself)
+    bandwidth            float, Hz: cutoff of the zero-phase low pass; 0: data
+                         as they are; default: 10 times the motion's frequency,
+                         8 to 20 Hz
+    torque_kind          str: what the log's torque is: auto, link, motor
+                         (motor side, times gear ratio), current, command
+                         (default auto)
+    torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
+                         torque = constant x gear ratio x current
+    torque_constants_stddev float: of each joint's torque by which its scale
+                         may be off, a standard deviation; default: .05 for
+                         currents, .02 for torques, 0 for logs of armcal
+                         simulate
+    gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
+    topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
+                         /joint_states,effort:/torques
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
