@@ -69,14 +69,30 @@ run("an effect that is not to be considered" diagnose ${robot}
 expect_json(unknown verdict)
 
 run("an effect of one joint, again" diagnose ${robot}
-    --log=rippled/log.csv --validate=again/log.csv --out=out)
+    --log=rippled/log.csv --validate=again/log.csv --modules=python,c
+    --out=out)
 file(READ ${WORK_DIR}/out/diagnosis.json once)
 run("the same command, the same bytes" diagnose ${robot}
-    --log=rippled/log.csv --validate=again/log.csv --out=out)
+    --log=rippled/log.csv --validate=again/log.csv --modules=python,c
+    --out=out)
 file(READ ${WORK_DIR}/out/diagnosis.json twice)
 if(NOT once STREQUAL twice)
   fail("the same command must give the same bytes")
 endif()
+
+# The laws as sources, which compare themselves with armcal's.
+function(tests_itself)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK_DIR}/out
+                  RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(result)
+    fail("${ARGN}: ${said}")
+  endif()
+endfunction()
+find_program(python python3 HINTS /usr/bin NO_DEFAULT_PATH)
+tests_itself(${python} -B effects.py --test)
+tests_itself(cc -std=c99 -Wall -Wextra -Werror -DEFFECTS_TEST effects.c -lm
+             -o effects_test)
+tests_itself(./effects_test)
 
 # A calibration: of a file whose masses and friction are wrong and that has no
 # armature, on one log of the true arm; then what other logs say is missing.
