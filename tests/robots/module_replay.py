@@ -38,6 +38,7 @@ CASES = [
     ("delay", "delay:delay=.01s"),
     ("elasticity", "elasticity@2:windup=.01"),
     ("backlash", "backlash@3:gap=.02"),
+    ("counterbalance", "spring@2:stiffness=.3,neutral=.4"),
 ]
 BANDWIDTH = 4.  # Hz, of the drives
 MOST_OF_OWN = 1.2
