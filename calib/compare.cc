@@ -45,6 +45,24 @@ std::vector<std::string> Shared(const ComparedResult& a,
   return both;
 }
 
+// Calibrations of fewer logs than tell how much a robot changes from log to log
+// may well disagree.
+void AddScatterNote(Comparison* comparison) {
+  constexpr size_t kEnough = 3;  // as calibrate needs
+  if (comparison->agrees()) return;
+  std::vector<std::string> few;
+  for (const ComparedResult& result : comparison->results) {
+    if (result.kind == Kind::kCalibration && result.logs.size() < kEnough) {
+      few.push_back(result.name);
+    }
+  }
+  if (few.empty()) return;
+  comparison->notes.push_back(
+      JoinNames(few) + (few.size() == 1 ? " is" : " are") +
+      " of fewer than three logs: how much a real robot changes from log to "
+      "log is not in the standard deviations; calibrate on three logs or more");
+}
+
 void ComparePairs(Comparison* comparison) {
   const auto& results = comparison->results;
   const int count = static_cast<int>(results.size());
@@ -137,6 +155,7 @@ Summary Compare(const std::vector<std::string>& results,
   }
   CheckKinds(comparison.results);
   ComparePairs(&comparison);
+  AddScatterNote(&comparison);
   CompareHeldOut(options, &comparison);
   Summary summary;
   summary.positive = comparison.agrees();

@@ -23,7 +23,8 @@ if(NOT agrees STREQUAL "ON" AND NOT agrees STREQUAL "true")
 endif()
 run("of a payload" compare result1 result2 result3)
 expect_code(1)
-expect_text(out "A and C, B and C disagree beyond noise")
+expect_text(out "are of fewer than three logs"
+            "A and C, B and C disagree beyond noise")
 run("on a log" compare result1/calibration.json result3 --robot=arm.yaml
     --log=log2/log.csv)
 expect_code(1)
