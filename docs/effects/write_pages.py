@@ -6,17 +6,34 @@ nothing and names the pages that differ. Python 3.11, no packages."""
 import json
 import pathlib
 import re
+import runpy
 import sys
 import tomllib
 
 import figures
 
 HERE = pathlib.Path(__file__).parent
+MODULES = HERE.parent.parent / "calib/diagnose/modules/assets/effects.py"
 EQUIVALENTS = HERE.parent.parent / "tests" / "blind" / "equivalents.json"
 
 
 def title(name):
     return name.replace("_", " ").capitalize()
+
+
+def in_modules():
+    """Effects whose laws effects.py has, by its tables."""
+    module = runpy.run_path(str(MODULES))
+    return set().union(*(module[table] for table in (
+        "COMMANDS", "FRICTION", "TORQUES", "TRANSMISSIONS", "ELSEWHERE")))
+
+
+def simulators(name, text):
+    if name not in in_modules():
+        return text["simulators"]
+    return (text["simulators"] + " In the loop of any simulator of rigid bodies: "
+            "the source that `diagnose --modules=python,c` writes "
+            "([how](../robot_files.md#laws-that-your-simulator-lacks)).")
 
 
 def alike():
@@ -120,7 +137,7 @@ def page(name, text, figures_of, others, names):
         "## What it is taken for", "", text["tell"], "",
         kin(name, others, names), "",
         "## How well it is recognised", "", recognised(name, figures_of), "",
-        "## In simulators", "", text["simulators"], "",
+        "## In simulators", "", simulators(name, text), "",
         f"Try it: `armcal simulate --robot=data/six_axis/real.yaml --effects=\""
         f"{text['inject']}\" --out=run`. [All effects](README.md)", ""]
     out = []
