@@ -14,6 +14,7 @@ namespace {
 
 using Kind = ComparedResult::Kind;
 
+constexpr size_t kMostResults = 26;  // a letter each
 constexpr double kErrors = .01;  // of 100 pairs that agree, one is called apart
 
 void CheckKinds(const std::vector<ComparedResult>& results) {
@@ -147,6 +148,11 @@ Summary Compare(const std::vector<std::string>& results,
   if (results.size() < 2) {
     throw OptionError(OptionName("results") +
                       ": expected two results or more, files or folders");
+  }
+  if (results.size() > kMostResults) {
+    throw OptionError(OptionName("results") + ": found " +
+                      std::to_string(results.size()) + " results, expected " +
+                      std::to_string(kMostResults) + " at most");
   }
   Comparison comparison;
   comparison.errors = kErrors;

@@ -53,6 +53,19 @@ void AddSet(const JsonValue& root, const std::string& list,
   set.covariance =
       ReadCovarianceCsv(fs::path(root.file()).replace_filename(name.filename()),
                         static_cast<int>(set.values.size()));
+  for (size_t k = 0; k < set.values.size(); ++k) {
+    const double stddev = set.values[k].stddev;
+    const double variance = set.covariance(k, k);
+    if (std::isnan(stddev) ||
+        std::abs(variance - stddev * stddev) <= .01 * stddev * stddev) {
+      continue;
+    }
+    root.At(covariance)
+        .At("file")
+        .Refuse("expected the covariance of " + list +
+                " in it, whose standard "
+                "deviations are others");
+  }
   result->sets.push_back(set);
 }
 
@@ -134,12 +147,12 @@ void ReadVerificationInto(const JsonValue& root, ComparedResult* result) {
   for (const JsonValue& rollout : root.At("rollout").Entries()) {
     const double seconds = rollout.At("window_s").Number();
     const std::vector<JsonValue> ci = rollout.At("ci95").Entries();
+    if (ci.size() != 2) rollout.At("ci95").Refuse("expected two numbers");
     const double after = rollout.At("after_rms").NumberOrNull();
     values.values.push_back(
         {Format("error after %g s", seconds), rollout.At("unit").Text(),
          std::isnan(after) ? rollout.At("before_rms").NumberOrNull() : after,
-         (ci.at(1).NumberOrNull() - ci.at(0).NumberOrNull()) /
-             (2 * kDeviations)});
+         (ci[1].NumberOrNull() - ci[0].NumberOrNull()) / (2 * kDeviations)});
   }
   result->sets.push_back(values);
   result->verdict = root.At("passed").Bool() ? "verified" : "not verified";

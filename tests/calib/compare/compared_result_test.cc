@@ -105,6 +105,20 @@ TEST(ComparedResult, OfAVerification) {
   EXPECT_NEAR(result.sets[0].values[0].stddev, .01, 1e-12);
 }
 
+// Of another calibration, or changed by hand.
+TEST(ComparedResult, AnotherCovarianceIsRefused) {
+  const std::filesystem::path path =
+      WriteFile(CalibrationJson().dump(), "calibration.json");
+  for (const char* variance : {"4", "", "-.25"}) {
+    std::filesystem::rename(
+        WriteFile("\"Izz[1]\",\"m[2]\"\n" + std::string(variance) + ",\n,\n",
+                  "covariance.csv"),
+        std::filesystem::path(path).replace_filename("covariance.csv"));
+    EXPECT_THAT(Refusal(path), HasSubstr("whose standard deviations"))
+        << variance;
+  }
+}
+
 TEST(ComparedResult, AFolderHasOneResult) {
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) / "compared_result";
