@@ -192,6 +192,25 @@ class OtherCommands(InFolder):
         self.assertTrue(result.brief_report())
         self.assertEqual(result.robot.num_joints, 2)
 
+    def test_compare_and_samples(self):
+        first = armcal.calibrate(self.robot, "run1/log.csv",
+                                 export=["samples:2"])
+        self.assertIn("samples/robot_2.urdf", first.files)
+        first.write("sampled")
+        self.assertTrue(pathlib.Path("sampled/samples/robot_2.urdf").exists())
+        self.armcal("calibrate", "--robot=arm.yaml", "--log=run2/log.csv",
+                    "--out=second")
+        compared = armcal.compare([first, "second"], robot=self.robot,
+                                  log="run2/log.csv")
+        found = compared.to_dict()
+        self.assertEqual(compared.passed, found["agrees"])
+        self.assertEqual(bool(compared.disagreements), not compared.passed)
+        self.assertEqual(len(found["held_out"]["results"]), 2)
+        of_files = json.loads(self.armcal(
+            "compare", "sampled", "second", "--robot=arm.yaml",
+            "--log=run2/log.csv", "--json"))
+        self.assertEqual(of_files["pairs"], found["pairs"])
+
     def test_simulate_inspect_verify_excite(self):
         result = armcal.simulate(self.robot, duration=10, log_rate=100,
                                  robot_error=0.02, run=1)
