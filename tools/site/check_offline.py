@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+"""check_offline.py FOLDER: fails where a page of the site loads something from
+the network: a script, a style, a font or a picture. Links may lead there."""
+
+import html.parser
+import pathlib
+import re
+import sys
+
+ADDRESS = re.compile(r"(https?:)?//")
+# Of <link> these are only told to machines, not loaded.
+NOT_LOADED = {"canonical", "next", "prev", "alternate"}
+
+
+class Sources(html.parser.HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.found = []
+
+    def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        loaded = [given.get("src")]
+        if tag == "link" and given.get("rel") not in NOT_LOADED:
+            loaded.append(given.get("href"))
+        self.found += [x for x in loaded if x and ADDRESS.match(x)]
+
+
+def main():
+    folder, faults = pathlib.Path(sys.argv[1]), []
+    for page in folder.rglob("*.html"):
+        sources = Sources()
+        sources.feed(page.read_text())
+        faults += [f"{page} loads {x}" for x in sources.found]
+    for style in folder.rglob("*.css"):
+        faults += [f"{style} loads {x}" for x in re.findall(
+            r"(?:url\(|@import )[\"']?((?:https?:)?//[^)\"']*)", style.read_text())]
+    sys.exit("\n".join(faults) if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
