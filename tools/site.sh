@@ -23,8 +23,12 @@ find README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE docs data tests 
   -type f \( -name '*.md' -o -name LICENSE -o -path 'docs/*.svg' \
   -o -path 'docs/*.png' \) -exec cp --parents {} "$pages" \;
 
-# --strict: warnings, as of links that lead nowhere, are errors.
-"$environment/bin/mkdocs" build \
-  --quiet --strict --config-file tools/site/mkdocs.yml --site-dir "$folder"
+# --strict: warnings, as of links that lead nowhere, are errors. Not --quiet, with
+# which mkdocs does not count them.
+if ! said=$(NO_MKDOCS_2_WARNING=1 "$environment/bin/mkdocs" build --strict \
+    --config-file tools/site/mkdocs.yml --site-dir "$folder" 2>&1); then
+  echo "$said" >&2
+  exit 1
+fi
 python3 tools/site/check_offline.py "$folder"
 echo "$folder/index.html"
