@@ -26,6 +26,13 @@ class Sources(html.parser.HTMLParser):
         self.found += [x for x in loaded if x]
 
 
+def there(folder, page, address):
+    """Addresses that begin with / are those of 404.html, which servers send."""
+    if page.name == "404.html":
+        return (folder / address.lstrip("/")).exists()
+    return (page.parent / address).exists()
+
+
 def main():
     folder, faults = pathlib.Path(sys.argv[1]), []
     for page in folder.rglob("*.html"):
@@ -33,7 +40,7 @@ def main():
         sources.feed(page.read_text())
         faults += [f"{page} loads {x}" for x in sources.found
                    if not x.startswith("data:")
-                   and (ADDRESS.match(x) or not (page.parent / x).exists())]
+                   and (ADDRESS.match(x) or not there(folder, page, x))]
     for style in folder.rglob("*.css"):
         faults += [f"{style} loads {x}" for x in re.findall(
             r"(?:url\(|@import )[\"']?((?:https?:)?//[^)\"']*)", style.read_text())]
