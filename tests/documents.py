@@ -16,8 +16,9 @@ agree within 5 %, a unit of the last digit shown, or where both are below 1e-7
 
 Besides, each page of a command explains every flag of its help (docs/README.md
 or docs/command_line.md those that all share) and every key of the JSON files that the documents made,
-links lead somewhere, and docs/effects is what its script writes. Prints each
-fault in a line; exit code 1 if there is any.
+links lead somewhere, docs/effects is what its script writes, and the picture of a
+terminal in README.md is what armcal prints. Prints each fault in a line; exit
+code 1 if there is any.
 """
 
 import argparse
@@ -194,6 +195,14 @@ class Documents:
             if done.returncode != 0:
                 self.fault(f"docs/effects/{page.name}", done.stderr)
 
+    def check_pictures(self):
+        done = subprocess.run([sys.executable, "docs/draw_readme_pictures.py",
+                               f"--armcal={self.armcal}", "--check"],
+                              cwd=self.root, text=True, capture_output=True,
+                              check=False)
+        if done.returncode != 0:
+            self.fault("README.md", done.stdout + done.stderr)
+
     def check_flags(self):
         shared = [self.root / "docs" / name
                   for name in ("README.md", "command_line.md")]
@@ -251,6 +260,7 @@ def main():
         all_of.run(name)
     if not options.only:
         all_of.check_effects()
+        all_of.check_pictures()
         all_of.check_flags()
         all_of.check_keys()
     print(f"{all_of.ran} blocks run, {all_of.left} left to the reader")

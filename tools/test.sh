@@ -4,8 +4,8 @@
 #            others as GCC builds them (in build-gcc/) and under the address and
 #            undefined-behaviour sanitizers (in build-instrumented/), the lines
 #            they cover (tools/coverage.py), damaged files for every reader
-#            (tools/fuzz.sh), and as root packages on bare systems
-#            (tests/wheel/try.sh)
+#            (tools/fuzz.sh), the documentation as a site (tools/site.sh), and as
+#            root packages on bare systems (tests/wheel/try.sh)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -31,6 +31,17 @@ fi
 install_extras() {
   tools/python_extras.sh build/python-extras ||
     echo "test.sh: nothing from PyPI; conversions of ROS 1 and Parquet are not tested"
+}
+# The documentation as a site, whose broken links are errors. Exit code 75: PyPI
+# cannot be reached.
+build_site() {
+  local code=0
+  tools/site.sh || code=$?
+  if [[ $code -eq 75 ]]; then
+    echo "test.sh: nothing from PyPI; the site of the documentation is not built"
+  elif [[ $code -ne 0 ]]; then
+    return "$code"
+  fi
 }
 # Configures, builds and tests in folder $1 with the CMake options that follow.
 run_tests() {
@@ -62,6 +73,7 @@ run_instrumented() {
 if $full; then
   tools/setup.sh --full
   install_extras
+  build_site
   tools/tidy.sh
   selection=()
   run_tests build -DPYTHON=ON -DLONG_TESTS=ON

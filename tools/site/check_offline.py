@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """check_offline.py FOLDER: fails where a page of the site loads something from
-the network: a script, a style, a font or a picture. Links may lead there."""
+the network: a script, a style, a font or a picture. Links may lead there. So it
+does where a file of the site that a page loads is not there."""
 
 import html.parser
 import pathlib
@@ -22,7 +23,14 @@ class Sources(html.parser.HTMLParser):
         loaded = [given.get("src")]
         if tag == "link" and given.get("rel") not in NOT_LOADED:
             loaded.append(given.get("href"))
-        self.found += [x for x in loaded if x and ADDRESS.match(x)]
+        self.found += [x for x in loaded if x]
+
+
+def there(folder, page, address):
+    """Addresses that begin with / are those of 404.html, which servers send."""
+    if page.name == "404.html":
+        return (folder / address.lstrip("/")).exists()
+    return (page.parent / address).exists()
 
 
 def main():
@@ -30,7 +38,9 @@ def main():
     for page in folder.rglob("*.html"):
         sources = Sources()
         sources.feed(page.read_text())
-        faults += [f"{page} loads {x}" for x in sources.found]
+        faults += [f"{page} loads {x}" for x in sources.found
+                   if not x.startswith("data:")
+                   and (ADDRESS.match(x) or not there(folder, page, x))]
     for style in folder.rglob("*.css"):
         faults += [f"{style} loads {x}" for x in re.findall(
             r"(?:url\(|@import )[\"']?((?:https?:)?//[^)\"']*)", style.read_text())]
