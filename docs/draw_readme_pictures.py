@@ -36,7 +36,7 @@ LAST = "  removed "
 COLUMNS, FONT_SIZE, LINE = 96, 13, 18
 ADVANCE = .602 * FONT_SIZE  # of a character in usual monospaced fonts
 PAPER, BAR, INK, PROMPT = "#1b2028", "#2b323d", "#d8dee6", "#7fd18b"
-REPORT_WIDTH, REPORT_HEIGHT = 1000, 820
+REPORT_WIDTH, REPORT_HEIGHT = 1000, 800
 
 
 def run(command, folder, armcal):
