@@ -19,6 +19,7 @@ PACKAGE = (pathlib.Path(__file__).resolve().parents[2] /
            "tools/python/armcal")
 
 HEADER = '''# Written by tests/python/write_stubs.py from the flags of the commands.
+import os
 from typing import Any, Literal, Mapping, Optional, Sequence, Union
 
 '''

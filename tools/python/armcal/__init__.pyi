@@ -1,4 +1,5 @@
 # Written by tests/python/write_stubs.py from the flags of the commands.
+import os
 from typing import Any, Literal, Mapping, Optional, Sequence, Union
 
 from armcal import plot
