@@ -4,7 +4,6 @@
 
 #include "calib/compare/report.h"
 #include "calib/refine/calibration_reader.h"
-#include "calib/refine/parameter_posterior.h"
 #include "model/text/input_text.h"
 #include "model/text/option_error.h"
 #include "model/text/option_name.h"
@@ -104,12 +103,11 @@ void ComparePairs(Comparison* comparison) {
 PredictingRobot PredictingOf(const ComparedResult& result,
                              const CompareOptions& options) {
   const Robot& robot = *options.robot;
-  if (result.kind == Kind::kRobot) {
-    return {result.name, options.read_robot(result.name),
+  if (result.robot_file) {
+    return {result.name, *result.robot_file,
             std::vector<CoulombTransition>(robot.num_joints())};
   }
-  const CalibratedRobot calibrated =
-      ReadCalibration(CalibrationFile(result.name), robot);
+  const CalibratedRobot calibrated = ReadCalibration(result.file, robot);
   return {result.name, calibrated.robot, calibrated.transitions};
 }
 
@@ -143,8 +141,8 @@ void CompareHeldOut(const CompareOptions& options, Comparison* comparison) {
 
 }  // namespace
 
-Summary Compare(const std::vector<std::string>& results,
-                const CompareOptions& options) {
+CompareSummary Compare(const std::vector<std::string>& results,
+                       const CompareOptions& options) {
   if (results.size() < 2) {
     throw OptionError(OptionName("results") +
                       ": expected two results or more, files or folders");
@@ -163,7 +161,8 @@ Summary Compare(const std::vector<std::string>& results,
   ComparePairs(&comparison);
   AddScatterNote(&comparison);
   CompareHeldOut(options, &comparison);
-  Summary summary;
+  CompareSummary summary;
+  summary.robot = comparison.results[0].robot;
   summary.positive = comparison.agrees();
   summary.brief = BriefText(comparison);
   for (const std::string& note : comparison.notes) {

@@ -21,11 +21,15 @@ struct CompareOptions {
   Progress progress;
 };
 
+struct CompareSummary : Summary {
+  std::string robot;  // the first result's
+};
+
 // Whether two or more results of one robot agree within noise: calibrations,
 // diagnoses or verifications among each other, robot files among each other and
 // beside calibrations. `results`: paths of the files, or of folders that hold
 // one. Throws InputError and OptionError.
-Summary Compare(const std::vector<std::string>& results,
-                const CompareOptions& options);
+CompareSummary Compare(const std::vector<std::string>& results,
+                       const CompareOptions& options);
 
 }  // namespace armcal

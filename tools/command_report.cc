@@ -48,11 +48,18 @@ void AddProvenanceOf(const ReportContent& content, OutputFolder* out) {
 CommandOutcome OutcomeOf(const CommandInput& input, const Robot& robot,
                          const Summary& summary,
                          const std::vector<std::string>& notes) {
+  CommandOutcome outcome = OutcomeWithoutRobot(input, summary);
+  outcome.output.verdict = robot.name + ": ";
+  outcome.output.notes = notes;
+  return outcome;
+}
+
+CommandOutcome OutcomeWithoutRobot(const CommandInput& input,
+                                   const Summary& summary) {
   CommandOutcome outcome;
   OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
   for (const ResultFile& file : summary.files) out.Add(file.name, file.content);
-  outcome.output = {summary.json, summary.report, robot.name + ": ",
-                    summary.positive, notes};
+  outcome.output = {summary.json, summary.report, "", summary.positive, {}};
   outcome.brief = summary.brief;
   return outcome;
 }

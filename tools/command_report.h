@@ -18,6 +18,10 @@ CommandOutcome OutcomeOf(const CommandInput& input, const Robot& robot,
                          const Summary& summary,
                          const std::vector<std::string>& notes);
 
+// The same of a command that is of no one robot.
+CommandOutcome OutcomeWithoutRobot(const CommandInput& input,
+                                   const Summary& summary);
+
 // Adds provenance.json to the results, where the input wants files: the command
 // line, versions, the hashes of the robot file, of `files` and of the results.
 void AddProvenance(const CommandInput& input, const std::string& command,

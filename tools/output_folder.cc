@@ -114,6 +114,7 @@ std::string BeginningOf(const std::string& name) {
 // Files in a folder that are of a series of `names` and none of them.
 std::vector<std::string> OlderOf(const fs::path& folder,
                                  const std::set<std::string>& names) {
+  if (names.empty()) return {};
   std::set<std::string> series;
   for (const std::string& name : names) series.insert(BeginningOf(name));
   std::vector<std::string> older;

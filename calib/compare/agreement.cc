@@ -129,7 +129,7 @@ void CompareValues(const ComparedResult& a, const ComparedResult& b,
         result->disagreements.push_back(
             Format("all values together differ more than noise does: squares "
                    "of deviations are %.3g in the mean (p %s)",
-                   result->sum_of_squares / at_a.size(),
+                   result->MeanSquare(),
                    ProbabilityText(result->probability).c_str()));
       }
       return;
@@ -167,6 +167,13 @@ void CompareClaims(const ComparedResult& a, const ComparedResult& b,
 }
 
 }  // namespace
+
+double Agreement::MeanSquare() const {
+  const auto known = std::count_if(
+      values.begin(), values.end(),
+      [](const ValueDifference& d) { return !std::isnan(d.deviations); });
+  return sum_of_squares / static_cast<double>(known);
+}
 
 std::string WithStddev(double value, double stddev) {
   return stddev > 0 ? Format("%.4g +- %.2g", value, stddev)

@@ -29,6 +29,7 @@ struct Agreement {
   double sum_of_squares = 0;
   double degrees = 0;
   double probability = 1;
+  double MeanSquare() const;  // of `deviations`, where there are some
   // Sentences; empty: they agree within noise.
   std::vector<std::string> disagreements;
   // Values that one of them alone knows are not compared.

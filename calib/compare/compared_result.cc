@@ -98,13 +98,17 @@ void ReadCalibrationInto(const JsonValue& root, ComparedResult* result) {
 
 using Names = std::vector<std::string>;
 
-// "payload", "stribeck of elbow", by a joint's number from 1.
-std::string PlaceOf(const JsonValue& entry, const Names& joints) {
+// "payload", "stribeck of elbow".
+std::string OfJoint(const JsonValue& entry, const std::string& joint) {
   const std::string effect = entry.At("effect").Text();
+  return joint.empty() ? effect : effect + " of " + joint;
+}
+
+// The same by a joint's number from 1.
+std::string PlaceOf(const JsonValue& entry, const Names& joints) {
   const auto joint = static_cast<size_t>(entry.At("joint_index").Count());
-  return joint < 1 || joint > joints.size()
-             ? effect
-             : effect + " of " + joints[joint - 1];
+  return OfJoint(entry,
+                 joint < 1 || joint > joints.size() ? "" : joints[joint - 1]);
 }
 
 void AddClaims(const JsonValue& list, const Names& joints,
@@ -133,9 +137,7 @@ void ReadDiagnosisInto(const JsonValue& root, ComparedResult* result) {
   AddClaims(root.At("effects"), joints, result, &values);
   result->sets.push_back(values);
   for (const JsonValue& entry : root.At("untestable").Entries()) {
-    const std::string joint = entry.At("joint").Text();
-    result->untestable.push_back(entry.At("effect").Text() +
-                                 (joint.empty() ? "" : " of " + joint));
+    result->untestable.push_back(OfJoint(entry, entry.At("joint").Text()));
   }
   result->verdict = root.At("verdict").Text();
 }
@@ -158,6 +160,20 @@ void ReadVerificationInto(const JsonValue& root, ComparedResult* result) {
   result->verdict = root.At("passed").Bool() ? "verified" : "not verified";
 }
 
+// Of a robot: its parameters, exact.
+ComparedResult ResultOf(const std::string& path, const Robot& robot) {
+  ComparedResult result{path, Kind::kRobot, robot.name, "robot file",
+                        {},   {},           {},         {}};
+  ComparedValues set;
+  const RobotParameters parameters(robot);
+  for (const auto& [name, parameter] : parameters.all()) {
+    set.values.push_back({name, parameter.unit, parameter.value, 0});
+  }
+  result.sets.push_back(set);
+  result.robot_file = robot;
+  return result;
+}
+
 }  // namespace
 
 const char* KindName(Kind kind) {
@@ -174,18 +190,6 @@ const char* KindName(Kind kind) {
   return "";
 }
 
-ComparedResult ResultOf(const std::string& path, const Robot& robot) {
-  ComparedResult result{path, Kind::kRobot, robot.name, "robot file",
-                        {},   {},           {},         {}};
-  ComparedValues set;
-  const RobotParameters parameters(robot);
-  for (const auto& [name, parameter] : parameters.all()) {
-    set.values.push_back({name, parameter.unit, parameter.value, 0});
-  }
-  result.sets.push_back(set);
-  return result;
-}
-
 ComparedResult ReadResult(const std::string& path,
                           const RobotReader& read_robot) {
   const std::string file = FileOf(path);
@@ -197,6 +201,7 @@ ComparedResult ReadResult(const std::string& path,
   const std::string format = root.At("format").Text();
   ComparedResult result{
       path, Kind::kCalibration, root.At("robot").Text(), "", {}, {}, {}, {}};
+  result.file = file;
   if (format == "armcal calibration 1") {
     ReadCalibrationInto(root, &result);
   } else if (format == "armcal diagnosis 1") {

@@ -57,6 +57,8 @@ struct ComparedResult {
   std::vector<ComparedValues> sets;
   std::vector<ComparedClaim> claims;
   std::vector<std::string> untestable;  // "friction of elbow"
+  std::string file = "";  // of a result of armcal: `name`, or in that folder
+  std::optional<Robot> robot_file = std::nullopt;  // where it is one
 };
 
 const char* KindName(ComparedResult::Kind kind);
@@ -66,8 +68,5 @@ const char* KindName(ComparedResult::Kind kind);
 using RobotReader = std::function<Robot(const std::string& path)>;
 ComparedResult ReadResult(const std::string& path,
                           const RobotReader& read_robot);
-
-// Of a robot: its parameters, exact.
-ComparedResult ResultOf(const std::string& path, const Robot& robot);
 
 }  // namespace armcal

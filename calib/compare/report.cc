@@ -57,21 +57,12 @@ std::string Table(const ComparedPair& pair) {
   return text;
 }
 
-// Of deviations, where there are some.
-double MeanSquare(const Agreement& agreement) {
-  double count = 0;
-  for (const ValueDifference& d : agreement.values) {
-    count += !std::isnan(d.deviations);
-  }
-  return agreement.sum_of_squares / count;
-}
-
 std::string PairText(const ComparedPair& pair) {
   const Agreement& agreement = pair.agreement;
   std::string text = Table(pair);
   if (agreement.degrees > 0) {
     text += Format("together: squares of deviations %.3g in the mean, p %s\n",
-                   MeanSquare(agreement),
+                   agreement.MeanSquare(),
                    ProbabilityText(agreement.probability).c_str());
   }
   if (!agreement.only_a.empty() || !agreement.only_b.empty()) {

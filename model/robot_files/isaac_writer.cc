@@ -42,15 +42,18 @@ bool IsDelayed(const RobotDescription& description) {
   return description.controller && description.controller->delay > 0;
 }
 
+// Of Isaac Lab's actuators the one that this robot's joints have.
+std::string ConfigurationOf(const RobotDescription& description) {
+  return IsDelayed(description) ? "DelayedPDActuatorCfg" : "IdealPDActuatorCfg";
+}
+
 void AddActuator(const RobotDescription& description, int j,
                  std::string* text) {
   const Joint& joint = description.robot.links[j].joint;
   const PidGains gains = GainsOf(description, j);
   *text += "        " + PythonText(joint.name) + ": " +
-           (IsDelayed(description) ? "DelayedPDActuatorCfg("
-                                   : "IdealPDActuatorCfg(") +
-           "\n            joint_names_expr=[" + NamePattern(joint.name) +
-           "],\n";
+           ConfigurationOf(description) + "(\n            joint_names_expr=[" +
+           NamePattern(joint.name) + "],\n";
   AddField("stiffness", gains.kp, text);
   AddField("damping", gains.kd, text);
   AddField("effort_limit", joint.effort, text);
@@ -102,8 +105,6 @@ std::vector<std::string> IsaacLosses(const RobotDescription& description) {
 
 std::string MakeIsaac(const RobotDescription& description) {
   const bool delayed = IsDelayed(description);
-  const std::string kind =
-      delayed ? "DelayedPDActuatorCfg" : "IdealPDActuatorCfg";
   std::string text =
       "\"\"\"Actuators of a robot for Isaac Lab 2.1 and later, whose bodies "
       "are in robot.urdf:\n\n"
@@ -114,7 +115,8 @@ std::string MakeIsaac(const RobotDescription& description) {
   text += description.controller
               ? " Commands are joint positions and velocities."
               : " Commands are joint efforts: stiffness and damping are 0.";
-  text += "\n\"\"\"\n\nfrom isaaclab.actuators import " + kind + "\n\n\n";
+  text += "\n\"\"\"\n\nfrom isaaclab.actuators import " +
+          ConfigurationOf(description) + "\n\n\n";
   if (delayed) {
     text += "DELAY = " + ExactText(description.controller->delay) +
             "  # s, of commands\n\n\n";

@@ -2,13 +2,10 @@
 
 #include <gflags/gflags.h>
 
-#include <nlohmann/json.hpp>
-
 #include "calib/compare.h"
 #include "tools/command_report.h"
 #include "tools/input_flags.h"
 #include "tools/log_flags.h"
-#include "tools/output_folder.h"
 
 DEFINE_string(results, "",
               "`FILES` what to compare, also without --results=: results of "
@@ -40,20 +37,14 @@ CommandOutcome RunCompare(const CommandInput& input) {
     throw UsageError("two results are needed: armcal compare A B");
   }
   const std::vector<std::string> results = FileNames("results", names);
-  const Summary summary = Compare(results, OptionsFromFlags(input));
-  CommandOutcome outcome;
-  OutputFolder& out = outcome.folders.emplace_back(OutFromFlags(input.flags));
-  for (const ResultFile& file : summary.files) out.Add(file.name, file.content);
+  const CompareSummary summary = Compare(results, OptionsFromFlags(input));
+  CommandOutcome outcome = OutcomeWithoutRobot(input, summary);
   std::vector<std::string> files = results;
   if (!input.flags.Text("log").empty()) {
     for (const std::string& log : LogsFromFlags(input)) files.push_back(log);
   }
-  const std::string robot =
-      nlohmann::json::parse(summary.json).at("results").at(0).at("robot");
-  AddReportWithoutRobot(input, "compare", robot, summary.json, files, nullptr,
-                        &out);
-  outcome.output = {summary.json, summary.report, "", summary.positive, {}};
-  outcome.brief = summary.brief;
+  AddReportWithoutRobot(input, "compare", summary.robot, summary.json, files,
+                        nullptr, &outcome.folders[0]);
   return outcome;
 }
 
