@@ -43,6 +43,12 @@ json LogsJson(const LogSet& logs) {
   return result;
 }
 
+json FrictionJson(const std::optional<FrictionBand>& friction) {
+  if (!friction) return nullptr;
+  return {{"position", friction->position_hz},
+          {"velocity", friction->velocity_hz}};
+}
+
 json TransitionJson(const CoulombTransition& t, JointType type) {
   const bool velocity = t.law == CoulombTransition::Law::kVelocity;
   return {{"law", velocity ? "velocity" : "displacement"},
@@ -205,7 +211,7 @@ json ToJson(const Robot& robot, const LinearCalibration& result) {
           {"trajectory",
            result.encoder_noise.size() > 0 ? "corrected" : "measured"},
           {"bandwidth_hz", result.rows.bandwidth_hz},
-          {"friction_bandwidth_hz", result.friction_bandwidth_hz},
+          {"friction_bandwidth_hz", FrictionJson(result.friction)},
           {"window_s", weak ? json(result.rows.window_s) : json(nullptr)},
           {"joints", JointsJson(robot, result)},
           {"model_parameters", ModelParametersJson(result)},

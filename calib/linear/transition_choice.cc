@@ -207,7 +207,8 @@ struct LogGrid {
 
 constexpr LogGrid kVelocities = {CoulombTransition::kSharpestVelocity,
                                  CoulombTransition::kWidestVelocity, 18};
-constexpr LogGrid kDisplacements = {1e-4, 2e-2, 15};
+constexpr LogGrid kDisplacements = {CoulombTransition::kSharpestDisplacement,
+                                    2e-2, 15};
 
 const LogGrid& GridOf(Law law) {
   return law == Law::kVelocity ? kVelocities : kDisplacements;

@@ -77,15 +77,17 @@ ArrayXd MeanSquareAcceleration(const RecordedPositions& read, double dt,
   return ((sum / count - 6 * variance) * to_rate).max(0);
 }
 
+constexpr double kSlow = .1;  // of the samples in which a joint moves
+
 // Sums over logs, weighted by the seconds that were read.
 struct Sums {
-  ArrayXd density, acceleration, low, high, torque;
+  ArrayXd density, slow_density, acceleration, low, high, torque;
   double seconds = 0;
 
   void Add(const RecordedPositions& read, double dt, double bandwidth_hz) {
     const Eigen::Index n = read.q.cols();
     if (seconds == 0) {
-      density = acceleration = ArrayXd::Zero(n);
+      density = slow_density = acceleration = ArrayXd::Zero(n);
       low = ArrayXd::Constant(n, std::numeric_limits<double>::infinity());
       high = -low;
     }
@@ -94,6 +96,7 @@ struct Sums {
         std::max(1, static_cast<int>(std::lround(1 / (4 * bandwidth_hz * dt))));
     const double length = static_cast<double>(read.t.size()) * dt;
     density += length * dt * variance;
+    slow_density += length * dt * PositionNoise(read.q, kSlow).array().square();
     acceleration += length * MeanSquareAcceleration(read, dt, lag, variance);
     low = low.min(read.q.colwise().minCoeff().transpose().array());
     high = high.max(read.q.colwise().maxCoeff().transpose().array());
@@ -121,8 +124,9 @@ EncoderNoise MeasureEncoderNoise(const LogSet& logs, double bandwidth_hz) {
   }
   EncoderNoise noise;
   if (sums.seconds > 0) {
-    noise = {sums.density / sums.seconds, sums.acceleration / sums.seconds,
-             sums.high - sums.low, sums.torque};
+    noise = {sums.density / sums.seconds, sums.slow_density / sums.seconds,
+             sums.acceleration / sums.seconds, sums.high - sums.low,
+             sums.torque};
   }
   known = std::make_shared<const EncoderNoise>(noise);
   return noise;

@@ -16,6 +16,8 @@ struct EncoderNoise {
   // Power spectral density of white noise, variance of a sample times the time
   // between samples, rad^2 s (m^2 s). Uneven stamps count as noise.
   Eigen::ArrayXd density;
+  // The same where a joint is slow, in the slowest tenth of what moves.
+  Eigen::ArrayXd slow_density;
   // Mean square of the acceleration, (rad/s^2)^2 or (m/s^2)^2, less what the
   // noise makes of it.
   Eigen::ArrayXd mean_square_acceleration;

@@ -4,21 +4,38 @@
 #include <cmath>
 
 #include "model/dynamics/joint_term.h"
-#include "model/signals/trajectory.h"
 
 namespace armcal {
+namespace {
 
-double FrictionBandwidth(const EncoderNoise& noise, double bandwidth_hz) {
-  // int x^2 / (1 + x^8)^2 dx from 0 is B(3/8, 13/8) / 8.
-  const double integral = 5 * M_PI / (64 * std::sin(3 * M_PI / 8));
-  constexpr double kNoise = CoulombTransition::kSharpestVelocity / 2;
-  double widest = kTorqueBand * bandwidth_hz;
-  for (Eigen::Index j = 0; j < noise.density.size(); ++j) {
-    if (noise.travel[j] < kLeastTravel || noise.density[j] <= 0) continue;
-    const double per_cube = 8 * M_PI * M_PI * noise.density[j] * integral;
-    widest = std::min(widest, std::cbrt(kNoise * kNoise / per_cube));
+constexpr double kVelocityNoise = CoulombTransition::kSharpestVelocity / 2;
+constexpr double kPositionNoise = CoulombTransition::kSharpestDisplacement / 2;
+
+// int x^(2 k) / (1 + x^8)^2 dx from 0 on.
+double NoisePower(int k) {
+  const double a = (2 * k + 1) / 8.;
+  return std::beta(a, 2 - a) / 8;
+}
+
+}  // namespace
+
+FrictionBand FrictionBandwidth(const EncoderNoise& noise, double bandwidth_hz) {
+  const double widest = kTorqueBand * bandwidth_hz;
+  FrictionBand band = {widest, widest};
+  for (Eigen::Index j = 0; j < noise.slow_density.size(); ++j) {
+    if (noise.travel[j] < kLeastTravel || noise.slow_density[j] <= 0) continue;
+    const double per_hz = 2 * noise.slow_density[j] * NoisePower(0);
+    const double per_cube =
+        8 * M_PI * M_PI * noise.slow_density[j] * NoisePower(1);
+    band.position_hz =
+        std::min(band.position_hz, kPositionNoise * kPositionNoise / per_hz);
+    band.velocity_hz =
+        std::min(band.velocity_hz,
+                 std::cbrt(kVelocityNoise * kVelocityNoise / per_cube));
   }
-  return std::max(widest, bandwidth_hz);
+  band.position_hz = std::max(band.position_hz, bandwidth_hz);
+  band.velocity_hz = std::max(band.velocity_hz, bandwidth_hz);
+  return band;
 }
 
 }  // namespace armcal

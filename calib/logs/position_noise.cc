@@ -1,5 +1,6 @@
 #include "calib/logs/position_noise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -14,9 +15,26 @@ constexpr int kOrder = 5;
 constexpr double kOverMedian = 1.4826;
 constexpr double kVariance = 252;
 
+struct Difference {
+  double size;   // of order kOrder, rad or m
+  double moved;  // between its first and last sample
+};
+
+// Keeps the share of those that moved least.
+void KeepSlowest(double share, std::vector<Difference>* all) {
+  const auto kept = static_cast<std::size_t>(
+      std::ceil(share * static_cast<double>(all->size())));
+  if (kept >= all->size()) return;
+  std::nth_element(all->begin(), all->begin() + static_cast<long>(kept),
+                   all->end(), [](const Difference& a, const Difference& b) {
+                     return a.moved < b.moved;
+                   });
+  all->resize(kept);
+}
+
 }  // namespace
 
-Eigen::VectorXd PositionNoise(const Eigen::MatrixXd& q) {
+Eigen::VectorXd PositionNoise(const Eigen::MatrixXd& q, double slowest) {
   if (q.rows() <= kOrder) return Eigen::VectorXd::Zero(q.cols());
   Eigen::MatrixXd d = q;
   for (int k = 0; k < kOrder; ++k) {
@@ -24,10 +42,15 @@ Eigen::VectorXd PositionNoise(const Eigen::MatrixXd& q) {
   }
   Eigen::VectorXd noise(q.cols());
   for (int j = 0; j < q.cols(); ++j) {
-    std::vector<double> sizes;
-    for (const double x : d.col(j)) {
-      if (x != 0) sizes.push_back(std::abs(x));
+    std::vector<Difference> moving;
+    for (Eigen::Index k = 0; k < d.rows(); ++k) {
+      if (d(k, j) == 0) continue;
+      moving.push_back(
+          {std::abs(d(k, j)), std::abs(q(k + kOrder, j) - q(k, j))});
     }
+    KeepSlowest(slowest, &moving);
+    std::vector<double> sizes;
+    for (const Difference& one : moving) sizes.push_back(one.size);
     noise[j] = kOverMedian * Median(std::move(sizes)) / std::sqrt(kVariance);
   }
   return noise;

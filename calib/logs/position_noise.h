@@ -8,7 +8,9 @@ namespace armcal {
 // spaced), resolution included, n entries, rad or m: from their fifth
 // differences, of which motion below a twentieth of the sample rate has next to
 // nothing, by the median, so that friction's jerks do not count. Differences
-// that are 0, of an encoder that stands, tell nothing; 0 where all are.
-Eigen::VectorXd PositionNoise(const Eigen::MatrixXd& q);
+// that are 0, of an encoder that stands, tell nothing; 0 where all are. Of the
+// others the `slowest` share counts, by how far the joint moves meanwhile: what
+// stamps that jitter make of a motion is not there where it turns round.
+Eigen::VectorXd PositionNoise(const Eigen::MatrixXd& q, double slowest = 1);
 
 }  // namespace armcal

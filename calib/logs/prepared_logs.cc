@@ -58,8 +58,7 @@ PreparedLogs::PreparedLogs(const LogSet& logs,
                            const PreparationOptions& options)
     : logs_(logs), options_(options) {
   if (const double hz = options.bandwidth_hz; hz > 0) {
-    friction_bandwidth_hz_ =
-        FrictionBandwidth(MeasureEncoderNoise(logs, hz), hz);
+    friction_ = FrictionBandwidth(MeasureEncoderNoise(logs, hz), hz);
   }
   RecordedLogs& recorded = *logs_.recorded_;
   const std::lock_guard<std::mutex> lock(recorded.pass);
@@ -81,10 +80,10 @@ long PreparedLogs::spikes() const { return kept_->spikes; }
 namespace {
 
 TrajectoryOptions OptionsOf(const PreparationOptions& prepared,
-                            double friction_bandwidth_hz,
+                            const std::optional<FrictionBand>& friction,
                             const TimeRange& crop) {
   TrajectoryOptions options;
-  options.friction_bandwidth_hz = friction_bandwidth_hz;
+  options.friction = friction;
   options.bandwidth_hz = prepared.bandwidth_hz;
   options.crop = crop;
   options.reach_s = prepared.reach_s;
@@ -140,8 +139,7 @@ void PreparedLogs::ForEach(const std::string& stage, const Progress& progress,
     kept.Begin();
     Make(
         [&](int log) { return recorded.Rows(log, options_.bandwidth_hz == 0); },
-        recorded.time_bases,
-        OptionsOf(options_, friction_bandwidth_hz_, recorded.crop),
+        recorded.time_bases, OptionsOf(options_, friction_, recorded.crop),
         options_.outliers,
         [&](Stretch* stretch) {
           see(stretch);
@@ -158,8 +156,7 @@ void PreparedLogs::ForEachAtFullRate(const std::string& stage,
                                      const Visit& visit) const {
   RecordedLogs& recorded = *logs_.recorded_;
   const std::lock_guard<std::mutex> lock(recorded.pass);
-  TrajectoryOptions options =
-      OptionsOf(options_, friction_bandwidth_hz_, recorded.crop);
+  TrajectoryOptions options = OptionsOf(options_, friction_, recorded.crop);
   options.every_sample = true;
   options.remove_spikes = false;
   Make([&](int log) { return recorded.Rows(log, options_.bandwidth_hz == 0); },

@@ -40,8 +40,8 @@ class PreparedLogs {
   int size() const { return logs_.size(); }
   const std::vector<TimeBase>& time_bases() const { return logs_.time_bases(); }
   const PreparationOptions& options() const { return options_; }
-  // As FrictionBandwidth has it, Hz; 0 for data as they are.
-  double friction_bandwidth_hz() const { return friction_bandwidth_hz_; }
+  // As FrictionBandwidth has it; none for data as they are.
+  const std::optional<FrictionBand>& friction() const { return friction_; }
 
   // Calls visit(log, trajectory) for all of them, in order.
   void ForEach(const std::string& stage, const Progress& progress,
@@ -62,7 +62,7 @@ class PreparedLogs {
 
   LogSet logs_;
   PreparationOptions options_;
-  double friction_bandwidth_hz_ = 0;
+  std::optional<FrictionBand> friction_;
   std::shared_ptr<KeptTrajectories> kept_;
 };
 

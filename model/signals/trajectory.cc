@@ -224,9 +224,13 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
     wide_q = low_passed(wide);
     velocity = MeanVelocity(wide_q, base.dt);
   }
-  if (const double hz = options.friction_bandwidth_hz; !raw && hz > 0) {
-    t.friction_q = hz == wide ? std::move(wide_q) : low_passed(hz);
-    t.friction_qd = Differentiate(t.friction_q, t.dt);
+  if (!raw && options.friction) {
+    const auto [position_hz, velocity_hz] = *options.friction;
+    t.friction_q =
+        position_hz == wide ? std::move(wide_q) : low_passed(position_hz);
+    t.friction_qd = Differentiate(
+        velocity_hz == position_hz ? t.friction_q : low_passed(velocity_hz),
+        t.dt);
   }
   const bool recorded = raw && velocity.size() > 0;
   if (velocity.size() == 0) velocity = MeanVelocity(grid.q, base.dt);

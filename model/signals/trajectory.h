@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,8 @@ struct Trajectory {
   Eigen::MatrixXd q;    // rad or m; low-passed unless the bandwidth is 0
   Eigen::MatrixXd qd;   // rad/s or m/s
   Eigen::MatrixXd qdd;  // rad/s^2 or m/s^2
-  // The motion that friction changes sign with, low-passed at
-  // TrajectoryOptions::friction_bandwidth_hz; empty: q and qd.
+  // The motion that friction changes sign with, low-passed as
+  // TrajectoryOptions::friction has it; empty: q and qd.
   Eigen::MatrixXd friction_q, friction_qd;
   Eigen::MatrixXd tau;  // N m or N, up to kTorqueBand, without outliers
   Eigen::MatrixXd tau_recorded;  // the same with its outliers
@@ -53,12 +54,16 @@ struct Trajectory {
 // What its numbers take.
 std::size_t BytesOf(const Trajectory& trajectory);
 
+// Cutoffs, Hz, of the motion that friction changes sign with.
+struct FrictionBand {
+  double position_hz, velocity_hz;
+};
+
 struct TrajectoryOptions {
   // Cutoff of the zero-phase low pass on positions, Hz. 0: data are taken as
   // they are, recorded velocities and accelerations where the log has them.
   double bandwidth_hz = 0;
-  // The same for the motion that friction changes sign with; 0: no other.
-  double friction_bandwidth_hz = 0;
+  std::optional<FrictionBand> friction;
   TimeRange crop;
   // How far rows reach beyond the sample they belong to, s.
   double reach_s = 0;

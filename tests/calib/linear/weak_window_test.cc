@@ -15,10 +15,12 @@ namespace armcal::weak_window_test {
 using Eigen::ArrayXd;
 
 EncoderNoise Noise(double density, double mean_square_acceleration) {
-  return {ArrayXd::Constant(1, density),
-          ArrayXd::Constant(1, mean_square_acceleration),
-          ArrayXd::Constant(1, 1.),
-          {}};
+  EncoderNoise noise;
+  noise.density = ArrayXd::Constant(1, density);
+  noise.mean_square_acceleration =
+      ArrayXd::Constant(1, mean_square_acceleration);
+  noise.travel = ArrayXd::Ones(1);
+  return noise;
 }
 
 constexpr double kBandwidth = 20;

@@ -29,6 +29,21 @@ TEST(PositionNoise, IsThatOfWhiteNoise) {
   const VectorXd noise = PositionNoise(q);
   EXPECT_NEAR(noise[0] / 1e-5, 1, .05);
   EXPECT_NEAR(noise[1] / 1e-4, 1, .05);
+  EXPECT_NEAR(PositionNoise(q, .1)[0] / 1e-5, 1, .1);
+}
+
+// Stamps that jitter by 0.2 ms make up to .4 mrad of a motion of 2 rad/s, but
+// nothing where it turns round.
+TEST(PositionNoise, OfSlowJointsHasNoJitter) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> jitter(0, 2e-4);
+  MatrixXd q(6000, 1);
+  for (int k = 0; k < q.rows(); ++k) {
+    q(k, 0) = .5 * std::sin(4 * (.004 * k + jitter(random)));
+  }
+  AddNoise(&random, VectorXd::Constant(1, 1e-5), &q);
+  EXPECT_GT(PositionNoise(q)[0], 1e-4);
+  EXPECT_LT(PositionNoise(q, .1)[0], 4e-5);
 }
 
 // A resolution r is uniform noise of r / sqrt(12) while the joint moves; what

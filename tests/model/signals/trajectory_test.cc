@@ -60,12 +60,15 @@ TEST(TrajectoryReader, CuttingChangesNothing) {
 // What friction changes sign with is low-passed elsewhere than the motion, and
 // cut and thinned alike.
 TEST(TrajectoryReader, FrictionHasAMotionOfItsOwn) {
-  const double dt = .001, bandwidth = 5, wider = 17;
+  const double dt = .001, bandwidth = 5, wide = 17, wider = 20;
   const LogFile log = MakeLog(100, dt, Position, 1e-3);
-  const MatrixXd q = ZeroPhaseLowPass(log.q, 1 / dt, wider, Ends::kExtrapolate);
-  const MatrixXd qd = Differentiate(q, dt);
+  const auto low_passed = [&](double hz) {
+    return ZeroPhaseLowPass(log.q, 1 / dt, hz, Ends::kExtrapolate);
+  };
+  const MatrixXd q = low_passed(wider),
+                 qd = Differentiate(low_passed(wide), dt);
   TrajectoryOptions options = Bandwidth(bandwidth, .3);
-  options.friction_bandwidth_hz = wider;
+  options.friction = {wider, wide};
   for (const Trajectory& t : Cut(log.path, options)) {
     ASSERT_EQ(t.friction_q.rows(), t.size());
     for (int k = t.core_begin; k < t.core_end; ++k) {
