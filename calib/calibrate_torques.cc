@@ -92,8 +92,17 @@ bool RefinesGeometry(const CalibrateOptions& options) {
   return options.geometry != RefineGeometry::kNothing || options.poses;
 }
 
+// Beside what is written anyway.
+bool WantsRobot(const CalibrateOptions& options) {
+  return !options.exports.empty() || options.samples > 0;
+}
+
 void CheckTarget(const CalibrateOptions& options) {
   FormatsNamed(options.exports);  // refused before anything is calculated
+  Expect(options.target != CalibrationTarget::kLinear || !WantsRobot(options),
+         "estimate", "linear",
+         "refined or auto with " + OptionName("export") +
+             ": model parameters alone are no robot to write");
   Expect(
       options.target != CalibrationTarget::kLinear || !RefinesGeometry(options),
       "estimate", "linear",
@@ -219,7 +228,7 @@ bool TorqueCalibrator::Refine(nlohmann::json* json) {
     return true;
   }
   const bool asked_for = options_.target == CalibrationTarget::kRefined ||
-                         RefinesGeometry(options_);
+                         RefinesGeometry(options_) || WantsRobot(options_);
   const std::string why_not = WhyNotRefined(robot_, options_.equations);
   if (!why_not.empty()) {
     summary_.report += "no robot file: " + why_not + "\n";

@@ -196,8 +196,13 @@ class OtherCommands(InFolder):
         first = armcal.calibrate(self.robot, "run1/log.csv",
                                  export=["samples:2"])
         self.assertIn("samples/robot_2.urdf", first.files)
+        samples = pathlib.Path("sampled/samples")
+        samples.mkdir(parents=True)
+        for name in ("robot_3.urdf", "mine.urdf"):
+            (samples / name).touch()
         first.write("sampled")
-        self.assertTrue(pathlib.Path("sampled/samples/robot_2.urdf").exists())
+        self.assertEqual({path.name for path in samples.iterdir()},
+                         {"robot_1.urdf", "robot_2.urdf", "mine.urdf"})
         self.armcal("calibrate", "--robot=arm.yaml", "--log=run2/log.csv",
                     "--out=second")
         compared = armcal.compare([first, "second"], robot=self.robot,

@@ -79,3 +79,6 @@ run("no number" calibrate --robot=arm.yaml --log=made/log.csv
 expect_refusal(2 "--export: found 'samples:0', expected samples:N with N robots")
 run("samples of a file" inspect --robot=arm.yaml --export=samples:2 --out=bad)
 expect_refusal(2 "--export: found 'samples', expected formats alone")
+run("a robot of model parameters" calibrate --robot=arm.yaml --log=made/log.csv
+    --estimate=linear --export=samples:2 --out=bad)
+expect_refusal(2 "--estimate: found 'linear', expected refined or auto with --export")

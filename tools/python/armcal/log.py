@@ -85,7 +85,8 @@ class Log:
     def savez(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes an .npz that read_log and the armcal binary read."""
         with open(path, "wb") as file:  # savez would add an ending
-            np.savez(file, **self._arrays())
+            arrays: Dict[str, Any] = dict(self._arrays())
+            np.savez(file, **arrays)
 
     def _arrays(self) -> Dict[str, Array]:
         """By their names in an .npz."""

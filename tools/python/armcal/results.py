@@ -7,7 +7,7 @@ import io
 import json
 import os
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Mapping, Optional, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Set, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,7 +51,9 @@ class Result:
 
     def write(self, folder: Path) -> None:
         """Writes the result files as the command line's --out does: all of
-        `files`, report.html too where the command has one."""
+        `files`, report.html too where the command has one. Of a folder of its
+        own ("samples/robot_1.urdf") what begins alike and is not written again
+        goes."""
         os.makedirs(folder, exist_ok=True)
         for name, content in self.files.items():
             temporary = os.path.join(folder, f"{name}.tmp{os.getpid()}")
@@ -59,6 +61,8 @@ class Result:
             with open(temporary, "wb") as file:
                 file.write(content)
             os.replace(temporary, os.path.join(folder, name))
+        for older in _older(os.fspath(folder), self.files):
+            os.remove(older)
 
     def __repr__(self) -> str:
         return f"<armcal.{type(self).__name__}: {self._first_line()}>"
@@ -74,6 +78,22 @@ class Result:
     def _first_line(self) -> str:
         text = self._outcome.brief or self._text
         return text.strip().split("\n", maxsplit=1)[0]
+
+
+def _older(folder: str, written: Mapping[str, bytes]) -> List[str]:
+    """Files of the series that were written in folders of their own, such as
+    robot_1.urdf, robot_2.urdf .. in samples/, but now are not."""
+    series: Dict[str, Set[str]] = {}
+    for name in written:
+        inner, last = os.path.split(name)
+        if inner and "_" in last:
+            series.setdefault(inner, set()).add(last.split("_")[0] + "_")
+    return [os.path.join(folder, inner, name)
+            for inner, beginnings in series.items()
+            for name in os.listdir(os.path.join(folder, inner))
+            if name.startswith(tuple(beginnings))
+            and os.path.isfile(os.path.join(folder, inner, name))
+            and f"{inner}/{name}" not in written]
 
 
 @dataclass(frozen=True)

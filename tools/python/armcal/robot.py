@@ -131,8 +131,9 @@ def from_arrays(*, joint_types: Sequence[str],
     """
     n = len(joint_types)
     types = _texts("joint_types", joint_types, n)
-    links = [{"joint": kind, "pose": pose} for kind, pose in
-             zip(types, _poses(n, poses, xyz, rpy))]
+    links: List[Dict[str, Any]] = [
+        {"joint": kind, "pose": pose} for kind, pose in
+        zip(types, _poses(n, poses, xyz, rpy))]
     rows: Dict[str, Optional[ArrayLike]] = {
         "axis": axes, "inertial": inertial_parameters}
     called = {"axis": "axes", "inertial": "inertial_parameters"}
