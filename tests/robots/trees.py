@@ -20,7 +20,10 @@ import armcal
 import numpy as np
 import pinocchio as pin
 
-import packages
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+import packages  # noqa: E402
+import result_files  # noqa: E402
 
 # Each with what it is; two arms on a torso, hands, an arm with its fingers.
 ROBOTS = {
@@ -155,9 +158,11 @@ def compare(path, free):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--work", type=pathlib.Path)
-    work = parser.parse_args().work or pathlib.Path(tempfile.mkdtemp())
+    result_files.add_flag(parser)
+    arguments = parser.parse_args()
+    work = arguments.work or pathlib.Path(tempfile.mkdtemp())
     folder, = packages.fetch(work, ["example-robot-data"]).values()
-    good = True
+    good, values = True, {}
     print("| Robot | | Joints | Tips | Torque | Mass matrix | Span of the "
           "regressor | Parameters | Pinocchio's rank |\n|" + "---|" * 9)
     for name, what in ROBOTS.items():
@@ -166,9 +171,12 @@ def main():
         same = (torque < 1e-10 and mass < 1e-10 and span < 1e-10 and
                 size == rank)
         good &= same
+        values[name] = [n, tips, torque, mass, span, size, rank]
         print(f"| {name} | {what} | {n} | {tips} | {torque:.0e} | {mass:.0e} | "
               f"{span:.0e} | {size} | {rank} |" + ("" if same else " DIFFERS"),
               flush=True)
+    if arguments.results:
+        result_files.write(arguments.results, "public robots that branch, against Pinocchio", values)
     return 0 if good else 1
 
 
