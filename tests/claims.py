@@ -163,11 +163,14 @@ class Page:
                          f"no such result: {error}"), found
         if values and not whole:
             found = found[-len(values):]
-        same = len(found) == len(values) and all(map(is_rounded, found, values))
-        text = " ".join(figure.text for figure in found)
-        has = " ".join(f"{value:.6g}" for value in values)
-        return Claim(self.line(found[0].at if found else begin), text, source, names,
-                     None if same else f"{source} has {has}, the text {text}"), found
+        at, fault = found[0].at if found else begin, None
+        if len(found) != len(values):
+            fault = f"{source} has {len(values)} numbers, the text {len(found)}"
+        for figure, value in zip(found, values):
+            if not fault and not is_rounded(figure, value):
+                at, fault = figure.at, f"{source} has {value:.6g}, the text {figure.text}"
+        return Claim(self.line(at), " ".join(figure.text for figure in found), source, names,
+                     fault), found
 
     def claims(self, results):
         """Every comment with a source, and every figure without one (source None)."""
@@ -184,7 +187,7 @@ class Page:
             if figure.at not in covered:
                 begin = max(self.bare.rfind("\n", 0, figure.at) + 1, figure.at - 40)
                 yield Claim(self.line(figure.at), figure.text, None, None,
-                            f"has no source: ... {self.words(begin, figure.at + 40)} ...")
+                            f"{figure.text} has no source: {self.words(begin, figure.at + 40)}")
 
 
 def command_is_there(root, command):
@@ -251,7 +254,7 @@ def pages(root):
 def check(page, whole, results):
     """(claims, faults, names of results used) of a page."""
     claims = list(page.claims(results))
-    faults = [f"{page.name}:{claim.line}: {claim.text}: {claim.fault}" for claim in claims
+    faults = [f"{page.name}:{claim.line}: {claim.fault}" for claim in claims
               if claim.fault and (claim.source or whole)]
     return claims, faults, {name for claim in claims for name in claim.result or []}
 
