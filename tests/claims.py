@@ -24,6 +24,7 @@ import collections
 import math
 import pathlib
 import re
+import subprocess
 import sys
 import tomllib
 
@@ -224,6 +225,18 @@ def wrong_results(root, results, used):
             yield f"tests/results/{name}.json: no text uses it"
 
 
+def strange_commits(root, results):
+    """Results whose commit the history here does not have; none where there is no history."""
+    def git(*words):
+        return subprocess.run(["git", "-C", root, *words], capture_output=True, text=True,
+                              check=False)
+    if git("rev-parse", "--is-shallow-repository").stdout.strip() == "false":
+        for name, result in results.items():
+            commit = result.get("commit", "").rstrip("+")
+            if git("cat-file", "-e", commit + "^{commit}").returncode:
+                yield f"note: tests/results/{name}.json: there is no commit {commit} here"
+
+
 def check_itself():
     """What would let everything pass is noticed."""
     results = {"r": {"values": {"one": [72, 75, 96.04], "two": 3.3e-4, "three": [7]}}}
@@ -294,6 +307,7 @@ def main():
     faults += wrong_results(options.root, results, used)
     faults += [f"tests/claims.toml: '{pattern}' is in no text"
                for pattern in given["not_measured"] if pattern not in excuses]
+    print("\n".join(strange_commits(options.root, results)))
     print(f"{sourced} figures are held to {len(results)} results; {others} numbers on pages "
           "that need none have no source")
     print("\n".join(faults), file=sys.stderr)

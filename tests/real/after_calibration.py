@@ -41,7 +41,7 @@ def main():
         return 77
     armcal, folder = Path(flags.armcal).resolve(), flags.data / "ur10e_free"
     robot = f"--robot={folder}/robot.urdf"
-    values = {"before": [], "after": [], "named": 0}
+    values = {"before": [], "after": [], "named": 0, "probabilities": []}
     with tempfile.TemporaryDirectory() as work:
         run(armcal, "calibrate", f"{work}/calibrated", robot, f"--log={folder}/{TRAINING}.csv")
         for log in OTHERS:
@@ -53,14 +53,16 @@ def main():
                 found = json.loads(Path(out, "diagnosis.json").read_text(encoding="utf-8"))
                 values[kind].append(found["gap"]["torque"]["nominal"])
                 named = claims(found, .5)
-                values["named"] += bool(named) and kind == "after"
+                if kind == "after":
+                    values["named"] += bool(named)
+                    values["probabilities"] += [100 * e["probability"] for e in named]
                 print(f"{log} {kind}: {values[kind][-1]:.1f} times the noise, "
                       f"{found['verdict']}", *(f"{e['effect']}@{e['joint_index']} "
                       f"{e['probability']:.2f}" for e in named), flush=True)
     if flags.results:
         result_files.write(flags.results, "real UR10e, calibrated on one log: gap of three "
                            "others in the noise's mean square by the file and by the calibrated "
-                           "robot; of how many of them an effect is named", values)
+                           "robot; of how many of them an effect is named, and how likely, %", values)
     return 0
 
 

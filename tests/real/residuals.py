@@ -58,6 +58,7 @@ def torques(calibrate):
     refined = calibrate("panda", *PANDA, *HELD_OUT, "--geometry=refine")
     panda = calibrate("panda", *PANDA, "--estimate=linear")
     return {"ur10e_itself": percents(own, "residual_percent"),
+            "ur10e_stacked": own["stacked_residual_percent"],
             "ur10e_points": left[:5],
             "ur10e_joint6": [left[5], rms, 100 * rms / left[5]],
             "ur10e_range": [min(left[:5]), max(left[:5])],
