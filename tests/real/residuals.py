@@ -23,6 +23,7 @@ import result_files  # noqa: E402
 DATA = HERE.parents[2] / "shared" / "data"
 UR10E = ("--torque_constants=14.87,13.26,11.13,10.62,11.03,11.47", "--bandwidth=6")
 PANDA = ("--log={}/log.csv", "--bandwidth=8")
+BANDWIDTHS = (2, 4, 8, 16, 32)
 HELD_OUT = ("--crop=0:14", "--validate={}/log.csv", "--validate_crop=14:21")
 POINTS = ("--log={}/id_30s.csv", "--validate={}/val_ptp.csv")
 
@@ -56,13 +57,14 @@ def torques(calibrate):
         held_out[name] = both["validation_stacked_residual_percent"]
         held_out[name + "_model"] = both["linear"]["validation_stacked_residual_percent"]
     refined = calibrate("panda", *PANDA, *HELD_OUT, "--geometry=refine")
-    panda = calibrate("panda", *PANDA, "--estimate=linear")
+    panda = {hz: calibrate("panda", PANDA[0], f"--bandwidth={hz}", "--estimate=linear")[
+        "stacked_residual_percent"] for hz in BANDWIDTHS}
     return {"ur10e_itself": percents(own, "residual_percent"),
             "ur10e_stacked": own["stacked_residual_percent"],
             "ur10e_points": left[:5],
             "ur10e_joint6": [left[5], rms, 100 * rms / left[5]],
             "ur10e_range": [min(left[:5]), max(left[:5])],
-            "panda": panda["stacked_residual_percent"],
+            "panda": panda[8], "panda_bandwidths": [x for pair in panda.items() for x in pair],
             "panda_held_out": held_out["panda_model"],
             "robots": [held_out["ur10e"], held_out["panda"],
                        refined["validation_stacked_residual_percent"]],
