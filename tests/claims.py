@@ -15,8 +15,9 @@ of a table; one that is a paragraph of its own is about all numbers of the block
 They have to be the result's, in its order, rounded as they are printed.
 
 Numbers that were not measured are skipped where tests/claims.toml lists them, with the
-reason. On the pages that are called `whole` there every number is one or the other. A result is used by some text, and its command names a test or a script
-that is there. --list prints every figure with its source. Python 3.11, no packages.
+reason. On the pages that are called `whole` there every number is one or the other. A
+result is used by some text, and its command names a test or a script that is there. --list
+prints every figure with its source. Python 3.11, no packages.
 """
 
 import argparse
