@@ -194,6 +194,7 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   LinearCalibration result =
       CalibrateWithoutOutliers(robot, options, rows, &prepared, &samples);
   result.preparation = prepared.options();
+  result.friction_bandwidth_hz = prepared.friction_bandwidth_hz();
   ++result.passes;  // the audit
   if (!result.solved) return result;
 

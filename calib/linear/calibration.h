@@ -59,6 +59,7 @@ struct LinearCalibration {
   // What the result is of: the training logs prepared like this, without the
   // torque samples that proved to be gross errors.
   PreparationOptions preparation;
+  double friction_bandwidth_hz = 0;  // FrictionBandwidth; 0: as recorded
   EquationMask used;  // [log][joint]
   // Standard deviations over those of independent rows, median.
   double inflation = 1;

@@ -205,6 +205,7 @@ json ToJson(const Robot& robot, const LinearCalibration& result) {
           {"trajectory",
            result.encoder_noise.size() > 0 ? "corrected" : "measured"},
           {"bandwidth_hz", result.rows.bandwidth_hz},
+          {"friction_bandwidth_hz", result.friction_bandwidth_hz},
           {"window_s", weak ? json(result.rows.window_s) : json(nullptr)},
           {"joints", JointsJson(robot, result)},
           {"model_parameters", ModelParametersJson(result)},

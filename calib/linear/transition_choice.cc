@@ -205,7 +205,8 @@ struct LogGrid {
   }
 };
 
-constexpr LogGrid kVelocities = {1e-3, CoulombTransition::kWidestVelocity, 18};
+constexpr LogGrid kVelocities = {CoulombTransition::kSharpestVelocity,
+                                 CoulombTransition::kWidestVelocity, 18};
 constexpr LogGrid kDisplacements = {1e-4, 2e-2, 15};
 
 const LogGrid& GridOf(Law law) {

@@ -109,6 +109,9 @@ struct Sums {
 EncoderNoise MeasureEncoderNoise(const LogSet& logs, double bandwidth_hz) {
   RecordedLogs& recorded = *logs.recorded_;
   const std::lock_guard<std::mutex> lock(recorded.pass);
+  std::shared_ptr<const EncoderNoise>& known =
+      recorded.encoder_noise[bandwidth_hz];
+  if (known != nullptr) return *known;
   Sums sums;
   for (int log = 0; log < logs.size(); ++log) {
     const RecordedPositions read = ReadPositions(
@@ -116,9 +119,13 @@ EncoderNoise MeasureEncoderNoise(const LogSet& logs, double bandwidth_hz) {
     if (read.q.rows() == 0) continue;
     sums.Add(read, logs.time_bases()[log].dt, bandwidth_hz);
   }
-  if (sums.seconds == 0) return {};
-  return {sums.density / sums.seconds, sums.acceleration / sums.seconds,
-          sums.high - sums.low, sums.torque};
+  EncoderNoise noise;
+  if (sums.seconds > 0) {
+    noise = {sums.density / sums.seconds, sums.acceleration / sums.seconds,
+             sums.high - sums.low, sums.torque};
+  }
+  known = std::make_shared<const EncoderNoise>(noise);
+  return noise;
 }
 
 }  // namespace armcal

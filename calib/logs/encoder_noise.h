@@ -25,7 +25,8 @@ struct EncoderNoise {
 };
 
 // Accelerations are second differences over a quarter period of
-// `bandwidth_hz` > 0 either way. One look at rows that are kept in memory.
+// `bandwidth_hz` > 0 either way. One look at rows that are kept in memory, the
+// first time.
 EncoderNoise MeasureEncoderNoise(const LogSet& logs, double bandwidth_hz);
 
 }  // namespace armcal

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "calib/logs/friction_bandwidth.h"
 #include "calib/logs/recorded_logs.h"
 
 namespace armcal {
@@ -56,6 +57,10 @@ struct KeptTrajectories {
 PreparedLogs::PreparedLogs(const LogSet& logs,
                            const PreparationOptions& options)
     : logs_(logs), options_(options) {
+  if (const double hz = options.bandwidth_hz; hz > 0) {
+    friction_bandwidth_hz_ =
+        FrictionBandwidth(MeasureEncoderNoise(logs, hz), hz);
+  }
   RecordedLogs& recorded = *logs_.recorded_;
   const std::lock_guard<std::mutex> lock(recorded.pass);
   if (recorded.last == nullptr || !recorded.last->Serves(options)) {
@@ -76,8 +81,10 @@ long PreparedLogs::spikes() const { return kept_->spikes; }
 namespace {
 
 TrajectoryOptions OptionsOf(const PreparationOptions& prepared,
+                            double friction_bandwidth_hz,
                             const TimeRange& crop) {
   TrajectoryOptions options;
+  options.friction_bandwidth_hz = friction_bandwidth_hz;
   options.bandwidth_hz = prepared.bandwidth_hz;
   options.crop = crop;
   options.reach_s = prepared.reach_s;
@@ -133,7 +140,8 @@ void PreparedLogs::ForEach(const std::string& stage, const Progress& progress,
     kept.Begin();
     Make(
         [&](int log) { return recorded.Rows(log, options_.bandwidth_hz == 0); },
-        recorded.time_bases, OptionsOf(options_, recorded.crop),
+        recorded.time_bases,
+        OptionsOf(options_, friction_bandwidth_hz_, recorded.crop),
         options_.outliers,
         [&](Stretch* stretch) {
           see(stretch);
@@ -150,7 +158,8 @@ void PreparedLogs::ForEachAtFullRate(const std::string& stage,
                                      const Visit& visit) const {
   RecordedLogs& recorded = *logs_.recorded_;
   const std::lock_guard<std::mutex> lock(recorded.pass);
-  TrajectoryOptions options = OptionsOf(options_, recorded.crop);
+  TrajectoryOptions options =
+      OptionsOf(options_, friction_bandwidth_hz_, recorded.crop);
   options.every_sample = true;
   options.remove_spikes = false;
   Make([&](int log) { return recorded.Rows(log, options_.bandwidth_hz == 0); },

@@ -40,6 +40,8 @@ class PreparedLogs {
   int size() const { return logs_.size(); }
   const std::vector<TimeBase>& time_bases() const { return logs_.time_bases(); }
   const PreparationOptions& options() const { return options_; }
+  // As FrictionBandwidth has it, Hz; 0 for data as they are.
+  double friction_bandwidth_hz() const { return friction_bandwidth_hz_; }
 
   // Calls visit(log, trajectory) for all of them, in order.
   void ForEach(const std::string& stage, const Progress& progress,
@@ -60,6 +62,7 @@ class PreparedLogs {
 
   LogSet logs_;
   PreparationOptions options_;
+  double friction_bandwidth_hz_ = 0;
   std::shared_ptr<KeptTrajectories> kept_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -11,10 +12,11 @@
 
 namespace armcal {
 
+struct EncoderNoise;      // encoder_noise.h
 struct KeptTrajectories;  // prepared_logs.cc
 
-// What copies of a LogSet share. Only `rows` and `last` change, under `pass`:
-// they hold what could be read or made again.
+// What copies of a LogSet share. Only `rows`, `last` and `encoder_noise`
+// change, under `pass`: they hold what could be read or made again.
 struct RecordedLogs {
   // A log's rows from the first; with recorded rates, if they are wanted.
   KeptLog* Rows(int log, bool rates);
@@ -30,6 +32,7 @@ struct RecordedLogs {
   std::mutex pass;
   std::vector<KeptLog> rows;
   std::shared_ptr<KeptTrajectories> last;  // of the last preparation
+  std::map<double, std::shared_ptr<const EncoderNoise>> encoder_noise;  // by Hz
 };
 
 }  // namespace armcal

@@ -37,6 +37,7 @@ bool TrajectoryCorrection::Enter(const Trajectory& trajectory) {
   const int size = trajectory.core_end - trajectory.core_begin;
   if (size < TrajectorySpline::kLeastSamples) return false;
   motion_ = trajectory;
+  motion_.friction_q.resize(0, 0);  // friction follows the spline
   recorded_ = trajectory.q.middleRows(trajectory.core_begin, size);
   spline_ = TrajectorySpline(size, trajectory.dt, knot_s_);
   points_ = spline_.Fit(recorded_);

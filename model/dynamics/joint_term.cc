@@ -140,6 +140,9 @@ int CoulombStates::NumKnown(const Trajectory& trajectory) const {
 }
 
 const Eigen::MatrixXd& CoulombStates::Follow(const Trajectory& trajectory) {
+  const bool apart = trajectory.friction_q.size() > 0;
+  const Eigen::MatrixXd& q = apart ? trajectory.friction_q : trajectory.q;
+  const Eigen::MatrixXd& qd = apart ? trajectory.friction_qd : trajectory.qd;
   Eigen::MatrixXd states(trajectory.size(), size());
   const int known = NumKnown(trajectory);
   const Eigen::Index shift = trajectory.first_index - first_index_;
@@ -148,9 +151,9 @@ const Eigen::MatrixXd& CoulombStates::Follow(const Trajectory& trajectory) {
     const CoulombTransition& transition = columns_[c].transition;
     auto of_these = states.middleCols(c, count);
     if (transition.law == CoulombTransition::Law::kVelocity) {
-      simd::BestKernels().hyperbolic_tangent(
-          trajectory.qd.col(j).data(), transition.width, trajectory.size(),
-          of_these.data());
+      simd::BestKernels().hyperbolic_tangent(qd.col(j).data(), transition.width,
+                                             trajectory.size(),
+                                             of_these.data());
     } else {
       of_these.row(0).setZero();
       if (known > 0) {
@@ -160,8 +163,7 @@ const Eigen::MatrixXd& CoulombStates::Follow(const Trajectory& trajectory) {
       for (int k = 0; k < count; ++k) {
         widths[k] = columns_[c + k].transition.width;
       }
-      FollowDisplacement(trajectory.q.col(j), widths, std::max(1, known),
-                         of_these);
+      FollowDisplacement(q.col(j), widths, std::max(1, known), of_these);
     }
     c += count;
   }

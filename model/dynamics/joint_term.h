@@ -27,11 +27,11 @@ double TermOf(JointTerm term, Joint joint);
 //                  stands still, as joints with harmonic drives do.
 struct CoulombTransition {
   enum class Law { kVelocity, kDisplacement };
-  // The largest width that is looked for in logs, rad/s or m/s. What changes
-  // sign over more is no dry friction but viscous friction that falls off with
-  // speed: width and viscous friction then trade, and what is called Coulomb
-  // friction grows with the width.
-  static constexpr double kWidestVelocity = 0.3;
+  // The widths that are looked for in logs, rad/s or m/s. What changes
+  // sign over more than the widest is no dry friction but viscous friction that
+  // falls off with speed: width and viscous friction then trade, and what is
+  // called Coulomb friction grows with the width.
+  static constexpr double kSharpestVelocity = 1e-3, kWidestVelocity = 0.3;
   Law law = Law::kVelocity;
   double width = 0.02;
 

@@ -32,7 +32,8 @@ std::size_t BytesOf(const Trajectory& t) {
   Eigen::Index numbers = t.samples.t.size() + t.samples.place.size() +
                          t.samples.tau.size() + t.standstill.size();
   for (const Eigen::MatrixXd* x :
-       {&t.q, &t.qd, &t.qdd, &t.tau, &t.tau_recorded, &t.temperature}) {
+       {&t.q, &t.qd, &t.qdd, &t.friction_q, &t.friction_qd, &t.tau,
+        &t.tau_recorded, &t.temperature}) {
     numbers += x->size();
   }
   return (static_cast<std::size_t>(numbers) + t.samples.row.size()) *
@@ -213,17 +214,23 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
   t.dt = base.dt;
   const bool raw = bandwidth <= 0;
   SetTorque(begin, end, core_begin, core_end, std::move(grid.tau), &t);
+  const auto low_passed = [&](double cutoff_hz) {
+    return ZeroPhaseLowPass(grid.q, 1 / base.dt, cutoff_hz, Ends::kExtrapolate);
+  };
   // Standstill is judged on what the band of the fit has not smeared.
-  Eigen::MatrixXd velocity =
-      raw ? grid.qd
-          : MeanVelocity(ZeroPhaseLowPass(grid.q, 1 / base.dt, 4 * bandwidth,
-                                          Ends::kExtrapolate),
-                         base.dt);
+  const double wide = kTorqueBand * bandwidth;
+  Eigen::MatrixXd wide_q, velocity = grid.qd;
+  if (!raw) {
+    wide_q = low_passed(wide);
+    velocity = MeanVelocity(wide_q, base.dt);
+  }
+  if (const double hz = options.friction_bandwidth_hz; !raw && hz > 0) {
+    t.friction_q = hz == wide ? std::move(wide_q) : low_passed(hz);
+    t.friction_qd = Differentiate(t.friction_q, t.dt);
+  }
   const bool recorded = raw && velocity.size() > 0;
   if (velocity.size() == 0) velocity = MeanVelocity(grid.q, base.dt);
-  t.q = raw ? std::move(grid.q)
-            : ZeroPhaseLowPass(grid.q, 1 / base.dt, bandwidth,
-                               Ends::kExtrapolate);
+  t.q = raw ? std::move(grid.q) : low_passed(bandwidth);
   t.qd =
       raw && grid.qd.size() > 0 ? std::move(grid.qd) : Differentiate(t.q, t.dt);
   t.qdd = raw && grid.qdd.size() > 0 ? std::move(grid.qdd)
@@ -234,10 +241,10 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
     for (Eigen::MatrixXd* x : {&t.tau, &t.tau_recorded}) {
       *x = x == &t.tau_recorded && as_recorded
                ? t.tau
-               : Thin(ZeroPhaseLowPass(*x, 1 / t.dt, 4 * bandwidth), thin);
+               : Thin(ZeroPhaseLowPass(*x, 1 / t.dt, wide), thin);
     }
-    for (Eigen::MatrixXd* x :
-         {&t.q, &t.qd, &t.qdd, &t.temperature, &velocity}) {
+    for (Eigen::MatrixXd* x : {&t.q, &t.qd, &t.qdd, &t.friction_q,
+                               &t.friction_qd, &t.temperature, &velocity}) {
       *x = Thin(*x, thin);
     }
     t.dt *= static_cast<double>(thin);

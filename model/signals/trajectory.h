@@ -12,23 +12,29 @@
 
 namespace armcal {
 
+// What is compared of torques reaches up to so many times the bandwidth.
+inline constexpr double kTorqueBand = 4;
+
 // A stretch of motion on a uniform time grid, samples in rows. Its core is the
 // part that belongs to no other stretch; what lies around it lets filters and
 // test functions reach across the border. A log sampled faster than 16 times
-// the bandwidth is thinned to that rate, after its torque was low-passed at 4
-// times the bandwidth.
+// the bandwidth is thinned to that rate, after its torque was low-passed at
+// kTorqueBand times the bandwidth.
 struct Trajectory {
   double t0 = 0;        // s since the log's first row, time of row 0
   double dt = 0;        // s
   Eigen::MatrixXd q;    // rad or m; low-passed unless the bandwidth is 0
   Eigen::MatrixXd qd;   // rad/s or m/s
   Eigen::MatrixXd qdd;  // rad/s^2 or m/s^2
-  Eigen::MatrixXd tau;  // N m or N, up to 4 times the bandwidth, no outliers
+  // The motion that friction changes sign with, low-passed at
+  // TrajectoryOptions::friction_bandwidth_hz; empty: q and qd.
+  Eigen::MatrixXd friction_q, friction_qd;
+  Eigen::MatrixXd tau;  // N m or N, up to kTorqueBand, without outliers
   Eigen::MatrixXd tau_recorded;  // the same with its outliers
   Eigen::MatrixXd temperature;   // deg C; empty: not recorded, or not wanted
   // All |qd| below 1e-3 rad/s (m/s) for 0.5 s or longer; qd here is the mean
-  // over 0.2 s of positions low-passed at 4 times the bandwidth, which rings
-  // less after a stop than `qd`.
+  // over 0.2 s of positions low-passed at kTorqueBand times the bandwidth,
+  // which rings less after a stop than `qd`.
   Eigen::Array<bool, Eigen::Dynamic, 1> standstill;
   // Per joint, samples of the core whose torque was a spike (spikes.h) and was
   // replaced; empty where spikes are not looked for.
@@ -51,6 +57,8 @@ struct TrajectoryOptions {
   // Cutoff of the zero-phase low pass on positions, Hz. 0: data are taken as
   // they are, recorded velocities and accelerations where the log has them.
   double bandwidth_hz = 0;
+  // The same for the motion that friction changes sign with; 0: no other.
+  double friction_bandwidth_hz = 0;
   TimeRange crop;
   // How far rows reach beyond the sample they belong to, s.
   double reach_s = 0;

@@ -152,4 +152,17 @@ TEST(CoulombStates, TakesEmptyStretchesAndModelsWithout) {
   EXPECT_EQ(states.Follow(Stretch({})).rows(), 0);
 }
 
+// Where friction has a motion of its own, its states are of that one.
+TEST(CoulombStates, FollowFrictionsOwnMotion) {
+  const std::vector<JointTermColumn> columns = {
+      {0, JointTerm::kCoulomb, {Law::kVelocity, .1}},
+      {1, JointTerm::kCoulomb, {Law::kDisplacement, 4}}};
+  Trajectory t = Stretch({0, 1, 2});
+  t.friction_q = 2 * t.q;
+  t.friction_qd = MatrixXd::Constant(3, 2, .05);
+  const MatrixXd states = CoulombStates(columns).Follow(t);
+  EXPECT_NEAR(states(2, 0), std::tanh(.5), 1e-12);
+  EXPECT_NEAR(states(1, 1), -1, 1e-12);  // -4 over a width of 4
+}
+
 }  // namespace armcal::joint_term_test

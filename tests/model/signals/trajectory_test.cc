@@ -57,6 +57,28 @@ TEST(TrajectoryReader, CuttingChangesNothing) {
   }
 }
 
+// What friction changes sign with is low-passed elsewhere than the motion, and
+// cut and thinned alike.
+TEST(TrajectoryReader, FrictionHasAMotionOfItsOwn) {
+  const double dt = .001, bandwidth = 5, wider = 17;
+  const LogFile log = MakeLog(100, dt, Position, 1e-3);
+  const MatrixXd q = ZeroPhaseLowPass(log.q, 1 / dt, wider, Ends::kExtrapolate);
+  const MatrixXd qd = Differentiate(q, dt);
+  TrajectoryOptions options = Bandwidth(bandwidth, .3);
+  options.friction_bandwidth_hz = wider;
+  for (const Trajectory& t : Cut(log.path, options)) {
+    ASSERT_EQ(t.friction_q.rows(), t.size());
+    for (int k = t.core_begin; k < t.core_end; ++k) {
+      const long row = std::lround(t.time(k) / dt);
+      ASSERT_NEAR(t.friction_q(k, 0), q(row, 0), 1e-8);
+      ASSERT_NEAR(t.friction_qd(k, 0), qd(row, 0), 1e-7);
+    }
+  }
+  for (const Trajectory& t : Cut(log.path, Bandwidth(bandwidth, .3))) {
+    EXPECT_EQ(t.friction_q.size(), 0);
+  }
+}
+
 // Also of a log whose stamps jitter, where the grid is interpolated.
 TEST(TrajectoryReader, ResamplesJitter) {
   std::string text = "t,q1,tau1\n";
