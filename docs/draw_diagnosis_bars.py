@@ -1,38 +1,82 @@
 #!/usr/bin/env python3
-"""Writes diagnosis_bars.svg: the diagnosis' shares of the last evaluation
-(tests/blind/EVALUATIONS.md), their 95 % intervals and the bars."""
+"""Writes diagnosis_bars.svg: the diagnosis' shares of the last evaluation, by
+tests/results/blind_face153e*.json, their 95 % intervals and the bars. With --check it
+writes nothing; exit code 1 where the file is another."""
 
+import json
+import math
 import pathlib
+import sys
 
-ROWS = [  # label, hits, of, low and high end of the interval (%), bar (%)
-    ("one clear effect, rich and poor", 72, 75, 88.8, 99.2, 96),
-    ("one faint effect", 12, 23, 30.6, 73.2, 70),
-    ("two clear effects, both", 12, 20, 36.1, 80.9, 80),
-    ("without a name: abstains", 17, 19, 66.9, 98.7, 92),
-    ("nothing wrong, rich: silent", 50, 50, 92.9, 100, 99),
-    ("nothing wrong, poor: silent", 20, 20, 83.2, 100, 95),
-    ("candidates hold the truth", 73, 73, 95.1, 100, 95),
-    ("errors of form: one clear", 57, 74, 65.8, 86.0, 88),
-    ("... two clear, both", 6, 20, 11.9, 54.3, 65),
-    ("... without a name: abstains", 18, 20, 68.3, 98.8, 85),
-    ("... nothing wrong: silent", 70, 70, 94.9, 100, 97),
-]
+HERE = pathlib.Path(__file__).parent
+RESULTS = HERE.parent / "tests" / "results"
+EVALUATION = "blind_face153e"
+
+
+def values(name):
+    return json.loads((RESULTS / f"{name}.json").read_text(encoding="utf-8"))["values"]
+
+
+def exact_95(hits, count):
+    """Clopper and Pearson's interval, %, by bisection."""
+    def tail(p, least):
+        return sum(math.comb(count, k) * p**k * (1 - p)**(count - k)
+                   for k in range(least, count + 1))
+
+    def solve(least, share):
+        low, high = 0., 1.
+        for _ in range(60):
+            middle = (low + high) / 2
+            low, high = (middle, high) if tail(middle, least) < share else (low, middle)
+        return 100 * low
+    return (solve(hits, .025) if hits else 0.,
+            solve(hits + 1, .975) if hits < count else 100.)
+
+
+def rows():
+    """(label, hits, of, low and high end of the interval (%), bar (%))"""
+    plain, misfit, bars = values(EVALUATION), values(EVALUATION + "_misfit"), values("blind_bars")
+
+    def row(label, counts, bar):
+        hits, count = counts[:2]
+        return label, hits, count, *exact_95(hits, count), bar
+
+    def silent(*counts):
+        alarms, count = (sum(c[k] for c in counts) for k in (0, 1))
+        return count - alarms, count
+    return [
+        row("one clear effect, rich and poor", plain["one"], bars["one"][0]),
+        row("one faint effect", plain["faint"], bars["faint"]),
+        row("two clear effects, both", plain["two"], bars["two"][0]),
+        row("without a name: abstains", plain["abstains"], bars["abstains"][0]),
+        row("nothing wrong, rich: silent", silent(plain["rich"]), 100 - bars["rich"][0]),
+        row("nothing wrong, poor: silent", silent(plain["poor"]), 100 - bars["poor"]),
+        row("candidates hold the truth", plain["candidates"], bars["candidates"]),
+        row("errors of form: one clear", misfit["one"], bars["one"][1]),
+        row("... one faint effect", misfit["faint"], bars["faint"]),
+        row("... two clear, both", misfit["two"], bars["two"][1]),
+        row("... without a name: abstains", misfit["abstains"], bars["abstains"][1]),
+        row("... nothing wrong: silent", silent(misfit["rich"], misfit["poor"]),
+            100 - bars["rich"][1]),
+    ]
+
+
 INK, MARK, BAR = "#808080", "#3080d0", "#d06020"
 
 
-def main():
+def picture(drawn):
     left, width, step = 220, 380, 26
-    at = lambda percent: left + width * (percent - 10) / 90
-    bottom = 14 + step * len(ROWS)
+    at = lambda percent: left + width * percent / 100
+    bottom = 14 + step * len(drawn)
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 640 '
            f'{bottom + 40}" font-family="sans-serif" font-size="12" '
            f'fill="{INK}">', "<title>Diagnosis: measured and asked</title>"]
-    for percent in range(10, 101, 10):
+    for percent in range(0, 101, 10):
         out.append(f'<path d="M{at(percent):.0f} 8V{bottom}" stroke="{INK}" '
                    'stroke-opacity=".3"/>')
         out.append(f'<text x="{at(percent):.0f}" y="{bottom + 16}" '
                    f'text-anchor="middle">{percent}</text>')
-    for k, (label, hits, count, low, high, bar) in enumerate(ROWS):
+    for k, (label, hits, count, low, high, bar) in enumerate(drawn):
         y = 24 + step * k
         out += [f'<text x="{left - 8}" y="{y + 4}" text-anchor="end">{label}'
                 "</text>",
@@ -44,8 +88,15 @@ def main():
                 'stroke-width="3"/>']
     out += [f'<text x="{left}" y="{bottom + 34}">% of cases: dot measured, '
             "line 95 % interval, upright mark the bar</text>", "</svg>", ""]
-    (pathlib.Path(__file__).parent / "diagnosis_bars.svg").write_text(
-        "\n".join(out))
+    return "\n".join(out)
+
+
+def main():
+    file, text = HERE / "diagnosis_bars.svg", picture(rows())
+    if "--check" not in sys.argv:
+        file.write_text(text, encoding="utf-8")
+    elif file.read_text(encoding="utf-8") != text:
+        sys.exit(f"{file} is not what draw_diagnosis_bars.py writes")
 
 
 if __name__ == "__main__":

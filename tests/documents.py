@@ -16,8 +16,8 @@ agree within 5 %, a unit of the last digit shown, or where both are below 1e-7
 
 Besides, each page of a command explains every flag of its help (docs/README.md
 or docs/command_line.md those that all share) and every key of the JSON files that the documents made,
-links lead somewhere, docs/effects is what its script writes, and the picture of a
-terminal in README.md is what armcal prints. Prints each fault in a line; exit
+links lead somewhere, docs/effects and the picture of the diagnosis' bars are what their scripts write, and the
+picture of a terminal in README.md is what armcal prints. Prints each fault in a line; exit
 code 1 if there is any.
 """
 
@@ -196,6 +196,10 @@ class Documents:
                 self.fault(f"docs/effects/{page.name}", done.stderr)
 
     def check_pictures(self):
+        done = subprocess.run([sys.executable, "docs/draw_diagnosis_bars.py", "--check"],
+                              cwd=self.root, text=True, capture_output=True, check=False)
+        if done.returncode != 0:
+            self.fault("docs/accuracy.md", done.stdout + done.stderr)
         done = subprocess.run([sys.executable, "docs/draw_readme_pictures.py",
                                f"--armcal={self.armcal}", "--check"],
                               cwd=self.root, text=True, capture_output=True,

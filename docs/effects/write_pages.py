@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the pages of this folder from effects.toml, figures.py,
-recognition.json and tests/blind/equivalents.json. With --check it writes
+tests/results/effects_recognition.json and tests/blind/equivalents.json. With --check it writes
 nothing and names the pages that differ. Python 3.11, no packages."""
 
 import json
@@ -14,6 +14,7 @@ import figures
 
 HERE = pathlib.Path(__file__).parent
 MODULES = HERE.parent.parent / "calib/diagnose/modules/assets/effects.py"
+RECOGNITION = HERE.parent.parent / "tests" / "results" / "effects_recognition.json"
 EQUIVALENTS = HERE.parent.parent / "tests" / "blind" / "equivalents.json"
 
 
@@ -60,26 +61,31 @@ def shares(hits, count):
     return f"{hits} of {count}"
 
 
+def source(keys):
+    """For tests/claims.py."""
+    return f"<!-- source: effects_recognition {keys} -->"
+
+
 def recognised(name, figures_of):
     if figures_of is None:
-        return "It has not been in an evaluation yet."
+        return ("It is younger than the last evaluation that was told by effect (2026-11-21); "
+                "[EVALUATIONS](../../tests/blind/EVALUATIONS.md) has benches since.")
     seen, faint = figures_of["seen"], figures_of["faint"]
-    text = (f"On the blind bench `{name}` was named, on the right joint, in "
+    text = (f"On the blind bench of 2026-11-21 (commit eaa5e611, simulated arms; the diagnosis has "
+            f"changed since) `{name}` was named, on the right joint, in "
             f"{shares(*seen)} cases in which it was clear (ENR 0.32 and more)")
     text += f" and in {shares(*faint)} in which it was faint (0.17 to 0.32)."
     told = [f"`{other}` {count}" for other, count in
             figures_of["instead"].items()]
-    elsewhere = seen[1] - seen[0] - sum(figures_of["instead"].values())
-    if elsewhere:
-        told.append(f"the same on another joint {elsewhere}")
+    told += [f"the same on another joint {count}" for count in figures_of["elsewhere"]]
     if told:
         text += " Told instead, of the clear ones: " + ", ".join(told) + "."
     error = figures_of["size_error"]
     if error:
-        text += (f" Its size is off by {100 * error[0]:.2g} % in the median "
-                 f"and by {100 * error[1]:.2g} % at the 90th percentile "
+        text += (f" Its size is off by {error[0]:.2g} % in the median "
+                 f"and by {error[1]:.2g} % at the 90th percentile "
                  f"({error[2]} cases).")
-    return text + (" So few cases leave wide margins: see "
+    return text + source(name) + (" So few cases leave wide margins: see "
                    "[accuracy](../accuracy.md#diagnosis).")
 
 
@@ -170,8 +176,9 @@ source for their loop ([how](../robot_files.md#laws-that-your-simulator-lacks)).
 
 "Clear" is an effect whose torque is at least 0.32 of the noise's after all that the model
 may vary has been fitted to it (ENR, [blind bench](../../tests/blind/README.md)); {hits} of
-{total} were named with class and joint right in the evaluation of 2026-11-21 (commit
-eaa5e611, seed 1789257233), on five arms, one fifth of them with poor motion. Seven cases of an
+{total}<!-- source: blind_eaa5e611 one --> were named with class and joint right in the evaluation of 2026-11-21 (commit
+eaa5e611, seed 1789257233), on five simulated arms, one fifth of them with poor motion. It is the last one whose
+figures were kept by effect; the diagnosis has changed since ([accuracy](../accuracy.md#diagnosis)). Seven cases of an
 effect say little about that effect: 7 of 7 is 59 to 100 % (95 %).
 
 ## Which of them is mine
@@ -192,7 +199,7 @@ effect say little about that effect: 7 of 7 is 59 to 100 % (95 %).
 What it has no name for (a brake that drags, a belt that slips, a load that sloshes ...):
 `armcal simulate --list_effects` has 13 of them. A diagnosis should then say `unknown`; it
 did, or named what cannot be told from it, in 47 of 56 cases, and named something else with
-confidence in 9.
+confidence in 9<!-- source: blind_eaa5e611 abstains abstains_wrong --> (2026-11-21, as above).
 """
 
 
@@ -207,12 +214,15 @@ def linked(text, names):
 def index(texts, known, others):
     rows, hits, total = [], 0, 0
     for name, text in texts.items():
-        seen = known[name]["seen"] if name in known else (0, 0)
-        hits, total = hits + seen[0], total + seen[1]
+        told = "not in it"
+        if name in known:
+            seen = known[name]["seen"]
+            hits, total = hits + seen[0], total + seen[1]
+            told = shares(*seen) + source(name + ".seen")
         kin_of = ", ".join(f"`{x}`" + (" of another joint" if x == name else "")
                            for x in sorted(others.get(name, {})))
         law = text["law"].replace("|", "\\|")
-        rows.append(f"| [`{name}`]({name}.md) | {law} | {shares(*seen)} | "
+        rows.append(f"| [`{name}`]({name}.md) | {law} | {told} | "
                     f"{kin_of} |")
     return linked(INDEX.format(count=len(texts), rows="\n".join(rows),
                                hits=hits, total=total), texts)
@@ -220,7 +230,7 @@ def index(texts, known, others):
 
 def main():
     texts = tomllib.loads((HERE / "effects.toml").read_text())
-    known = json.loads((HERE / "recognition.json").read_text())["effects"]
+    known = json.loads(RECOGNITION.read_text())["values"]
     others = alike()
     files = {"README.md": index(texts, known, others)}
     for name, text in texts.items():

@@ -24,6 +24,10 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+import result_files  # noqa: E402
+
 DURATION = 20.0
 WIDTHS = (.1, .5)  # s, from the middle to where most is over
 
@@ -189,6 +193,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--json", help="writes all pushes and answers there")
     parser.add_argument("--keep", help="folder that logs and answers are kept in")
+    result_files.add_flag(parser)
     arguments = parser.parse_args()
     armcal = str(Path(arguments.armcal).resolve())
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
@@ -207,14 +212,20 @@ def main():
     if arguments.json:
         Path(arguments.json).write_text(json.dumps(results, indent=1), encoding="utf-8")
     pushes = [(r["kind"], p) for r in results for p in r["pushes"]]
+    values = {}
     for kind in ("tool", "joint"):
         of = [p for k, p in pushes if k == kind]
+        values[kind] = [sum(p["found"] for p in of), len(of), sum(p["on_joint"] for p in of)]
         print(f"{kind}: {sum(p['found'] for p in of)} of {len(of)} pushes found, "
               f"{sum(p['on_joint'] for p in of)} on the joint")
     found, contacts = sum(p["found"] for _, p in pushes), sum(r["contacts"] for r in results)
     right = sum(r["right"] for r in results)
     print(f"recall {found} of {len(pushes)}, precision {right} of {contacts}; "
           f"{sum(bool(r['others']) for r in results)} arms with another effect named")
+    if arguments.results:
+        result_files.write(arguments.results, "simulated arms that are pushed", {
+            **values, "found": [found, len(pushes)], "right": [right, contacts],
+            "others": sum(bool(r["others"]) for r in results)})
     return 0 if found >= .9 * len(pushes) and right >= .95 * contacts else 1
 
 

@@ -16,12 +16,17 @@ photographed, mm.
 import argparse
 import json
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
 import cv2
 import numpy as np
 import yaml
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+import result_files  # noqa: E402
 
 ROBOT = Path(__file__).resolve().parents[2] / "data" / "six_axis" / "real.yaml"
 FIELDS = (".a", ".d", ".alpha", ".theta", ".beta")
@@ -169,7 +174,9 @@ def main():
     parser.add_argument("--armcal", default="build/armcal")
     parser.add_argument("--arms", type=int, default=5)
     parser.add_argument("--images", type=int, default=60)
+    result_files.add_flag(parser)
     options = parser.parse_args()
+    rows = []
     print("tool error, mm   OpenCV hand-eye   armcal frames    zeros      all   all, lens estimated")
     for seed in range(1, options.arms + 1):
         campaign = Campaign(seed, options.images)
@@ -177,8 +184,15 @@ def main():
             ours = [campaign.armcal(options.armcal, geometry, Path(folder))
                     for geometry in ("known", "offsets", "refine")]
             ours.append(campaign.armcal(options.armcal, "refine", Path(folder), "estimate"))
-        print(f"arm {seed:2d}         {campaign.opencv():15.3f}  {ours[0]:14.3f}"
+        rows.append([campaign.opencv(), *ours])
+        print(f"arm {seed:2d}         {rows[-1][0]:15.3f}  {ours[0]:14.3f}"
               f" {ours[1]:8.3f} {ours[2]:8.3f} {ours[3]:10.3f}", flush=True)
+    if options.results:
+        names = ("opencv", "known", "offsets", "refine", "lens")
+        result_files.write(options.results, "simulated arms, images of a board: tool error, mm",
+                           {name: [min(of), max(of)] for name, of in zip(names, zip(*rows))} |
+                           {"ratio": [1, min(r[0] / r[3] for r in rows),
+                                      1, max(r[0] / r[3] for r in rows)]})
 
 
 if __name__ == "__main__":

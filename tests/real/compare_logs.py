@@ -13,7 +13,12 @@ import argparse
 import json
 import pathlib
 import subprocess
+import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+import result_files  # noqa: E402
 
 ROBOTS = {
     "double pendulum A": ("dfki_double_pendulum/robot_A.urdf",
@@ -47,30 +52,44 @@ class Comparer:
 
 
 def say(name, pair):
+    """Prints it and returns {agree, p, the deviations of what differs}."""
     differ = [f"{v['name']} {v['deviations']:.1f}" for v in pair["values"]
               if v["differs"]]
     print(f"{name}: {'agree' if pair['agrees'] else 'disagree'}, "
           f"p = {pair['probability']:.1g}", *differ)
+    return {"agrees": int(pair["agrees"]), "p": pair["probability"],
+            "differ": sorted(abs(v["deviations"]) for v in pair["values"] if v["differs"])}
 
 
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--armcal", required=True)
     parser.add_argument("--data", default="../shared/data")
+    result_files.add_flag(parser)
     flags = parser.parse_args()
     data = pathlib.Path(flags.data)
     with tempfile.TemporaryDirectory() as folder:
         comparer = Comparer(flags.armcal, folder)
+        singles, every_other, halves = [], [], []
         for name, (robot, pattern) in ROBOTS.items():
             robot, logs = data / robot, sorted(data.glob(pattern))
             half = len(logs) // 2
             single = [comparer.compare(robot, [a], [b])["agrees"]
                       for a, b in zip(logs[:8:2], logs[1:8:2])]
             print(f"{name}: single logs, {sum(single)} of {len(single)} agree")
-            say(f"{name}: every other log",
-                comparer.compare(robot, logs[::2], logs[1::2]))
-            say(f"{name}: halves",
-                comparer.compare(robot, logs[:half], logs[half:]))
+            singles += single
+            every_other.append(say(f"{name}: every other log",
+                                   comparer.compare(robot, logs[::2], logs[1::2])))
+            halves.append(say(f"{name}: halves",
+                              comparer.compare(robot, logs[:half], logs[half:])))
+    if flags.results:
+        result_files.write(
+            flags.results, "real robots, their logs in ../shared/data",
+            {"single_disagree": [singles.count(False), len(singles)],
+             "every_other_agree": [sum(x["agrees"] for x in every_other), len(every_other)],
+             "every_other_p": sorted(x["p"] for x in every_other),
+             "halves_agree": [sum(x["agrees"] for x in halves), len(halves)],
+             "halves_differ": [d for x in halves for d in x["differ"][:1] + x["differ"][1:][-1:]]})
 
 
 if __name__ == "__main__":

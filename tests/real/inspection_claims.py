@@ -16,6 +16,10 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+import result_files  # noqa: E402
+
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 UR10E = "--torque_constants=14.87,13.26,11.13,10.62,11.03,11.47"
 
@@ -78,6 +82,7 @@ def proof(log, finding):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--armcal", required=True)
+    result_files.add_flag(parser)
     arguments = parser.parse_args()
     if not DATA.exists():
         print("no ../shared/data: skipped")
@@ -102,6 +107,10 @@ def main():
                 print("       and what --fix writes lowers nothing that was held out")
     print(f"{len(answers)} logs, {claims} findings, {wrong} of them not proven; "
           f"{fixes} fixes offered, {worse} that lower nothing")
+    if arguments.results:
+        result_files.write(arguments.results, "real robots, their logs in ../shared/data", {
+            "logs": len(answers), "findings": claims, "not_proven": wrong, "fixes": fixes,
+            "fixes_that_lower_nothing": worse})
     return 1 if wrong or worse else 0
 
 

@@ -22,7 +22,10 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-from runs import Runs, calibrate
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+import result_files  # noqa: E402
+from runs import Runs, calibrate  # noqa: E402
 
 TORQUE = "--torque_constants_stddev=0"
 KINDS = {"viscous": "viscous", "coulomb": "Coulomb", "offset": "offset",
@@ -104,6 +107,7 @@ def main():
     parser.add_argument("--armcal", default="build/armcal")
     parser.add_argument("--work", default="/tmp/intervals")
     parser.add_argument("--json")
+    result_files.add_flag(parser)
     arguments = parser.parse_args()
     rows = [row for repeat in REPEATS for row in study(arguments, repeat)]
     table(rows, lambda row: f"{row[0]}: {row[1]}")
@@ -111,6 +115,9 @@ def main():
     figures = table(rows, lambda row: row[1])
     if arguments.json:
         Path(arguments.json).write_text(json.dumps(rows, indent=1))
+    if arguments.results:
+        result_files.write(arguments.results, "real robots, their logs in ../shared/data: rms "
+                           "of differences over claimed deviations", figures)
     stays = [v for kind, v in figures.items() if "other days" not in kind]
     return 0 if all(LEAST <= v <= MOST for v in stays) else 1
 

@@ -20,6 +20,10 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+import result_files  # noqa: E402
+
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 UR10E = ("--torque_constants=14.87,13.26,11.13,10.62,11.03,11.47",)
 # (folder, log, robot, flags)
@@ -279,6 +283,7 @@ def main():
     parser.add_argument("--part", choices=("build", "final", "all"), default="all")
     parser.add_argument("--kind", default="", help="only kinds whose name holds this")
     parser.add_argument("--log", default="", help="only logs whose name holds this")
+    result_files.add_flag(parser)
     arguments = parser.parse_args()
     if not DATA.exists():
         print("no ../shared/data: skipped")
@@ -293,6 +298,9 @@ def main():
         print(f"{'found ' if found else 'MISSED'} {case[0]}/{case[1]}, {kind}{text}")
     found = sum(r[2] for r in results)
     print(f"{found} of {len(results)} found ({100 * found / max(1, len(results)):.1f} %)")
+    if arguments.results:
+        result_files.write(arguments.results, f"real logs with planted faults, part "
+                           f"{arguments.part}: found, of", {"found": [found, len(results)]})
     return 0 if found >= LEAST_SHARE * len(results) else 1
 
 

@@ -16,7 +16,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from planted_faults import DATA, Log, UR10E
+from planted_faults import DATA, Log, UR10E, result_files
 
 LOGS = [("panda", "log.csv", ()), ("ur10e_free", "id_20s.csv", UR10E),
         ("dvrk_psm", "reference.csv.gz", ()), ("schunk_lwa4p", "run_080.csv.gz", ()),
@@ -56,7 +56,9 @@ def names(armcal, work, folder, flags, log, factors):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--armcal", required=True)
-    armcal = Path(parser.parse_args().armcal).resolve()
+    result_files.add_flag(parser)
+    arguments = parser.parse_args()
+    armcal = Path(arguments.armcal).resolve()
     if not DATA.exists():
         print("no ../shared/data: skipped")
         return 77
@@ -77,6 +79,13 @@ def main():
             count[2] += sum(k != right for k in said)
     for case, (total, right, wrong) in counts.items():
         print(f"{case}: {right} of {total} right, {wrong} wrong claims")
+    if arguments.results:
+        single = [count for case, count in counts.items() if case.startswith("one")]
+        result_files.write(arguments.results, "real logs whose torques were multiplied: right, "
+                           "of; wrong claims", {
+            **{case: count[1::-1] for case, count in counts.items()},
+            "single": [sum(c[1] for c in single), sum(c[0] for c in single)],
+            "wrong": sum(c[2] for c in counts.values())})
     return 1 if any(wrong for _, _, wrong in counts.values()) else 0
 
 

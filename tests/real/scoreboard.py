@@ -4,6 +4,7 @@ armcal says it.
 
   python3 tests/real/scoreboard.py --armcal=build/armcal [--set=tx40,kr300]
       [--part=building|evaluation] [--markdown=FILE] [--work=FOLDER]
+      [--results=FILE]
 
 Each set is a file in sets/: its runs (commands on its logs) and its checks, from
 the TRUTH.md or SOURCE.md beside the logs. The part of a set was fixed on
@@ -16,12 +17,15 @@ check is not met.
 import argparse
 import importlib
 import os
+import re
 import sys
 from pathlib import Path
 
-from runs import Runs
-
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+
+import result_files  # noqa: E402
+from runs import Runs  # noqa: E402
 
 
 def judge(check, runs):
@@ -54,6 +58,19 @@ def markdown(rows):
     return "\n".join(lines) + "\n"
 
 
+def figures(rows):
+    """{set or part: [met, of]}, and {set_K: [count, of]} where its check K says so."""
+    found, counts = {}, {}
+    for name, part, _, met, said in rows:
+        for key in (name, part):
+            count = found.setdefault(key, [0, 0])
+            count[0] += met
+            count[1] += 1
+        if of := re.fullmatch(r"(\d+) of (\d+)", said):
+            counts[f"{name}_{found[name][1]}"] = [int(of[1]), int(of[2])]
+    return found | counts
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--armcal", default="build/armcal")
@@ -61,6 +78,7 @@ def main():
     parser.add_argument("--part", choices=["building", "evaluation"])
     parser.add_argument("--markdown")
     parser.add_argument("--work", default="/tmp/scoreboard")
+    result_files.add_flag(parser)
     arguments = parser.parse_args()
     every = sorted(p.stem for p in (HERE / "sets").glob("*.py"))
     rows = []
@@ -68,10 +86,13 @@ def main():
         part = importlib.import_module(f"sets.{name}").PART
         if arguments.part in (None, part):
             rows += score(arguments, name)
+    found = figures(rows)
     for part in ("building", "evaluation"):
-        of_part = [row for row in rows if row[1] == part]
-        if of_part:
-            print(f"{part}: {sum(r[3] for r in of_part)} of {len(of_part)}")
+        if part in found:
+            print(f"{part}: {found[part][0]} of {found[part][1]}")
+    if arguments.results:
+        result_files.write(arguments.results, "real robots, their logs in ../shared/data; "
+                           "the diagnosis has been changed after looking at all of them", found)
     if arguments.markdown:
         Path(arguments.markdown).write_text(markdown(rows))
     return 0 if all(row[3] for row in rows) else 1

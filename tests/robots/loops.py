@@ -17,7 +17,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-import packages
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+import packages  # noqa: E402
+import result_files  # noqa: E402
 
 ERD = "cmeel.prefix/share/example-robot-data/robots/"
 SUITE = "robosuite/models/assets/robots/"
@@ -122,6 +125,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--armcal", required=True)
     parser.add_argument("--work", help="where packages are kept")
+    result_files.add_flag(parser)
     arguments = parser.parse_args()
     armcal = str(Path(arguments.armcal).resolve())
     with tempfile.TemporaryDirectory() as folder:
@@ -134,6 +138,9 @@ def main():
                 failed += 1
                 print(f"FAILED {path}: {problem}")
     print(f"{len(PLANTED) - failed} of {len(PLANTED)} refused")
+    if arguments.results:
+        result_files.write(arguments.results, "public robot files with planted loops",
+                           {"refused": [len(PLANTED) - failed, len(PLANTED)]})
     sys.exit(1 if failed else 0)
 
 

@@ -27,8 +27,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "peers"))
+sys.path[:0] = [str(HERE.parent), str(HERE.parent / "peers")]
 import commanded_arm as ca  # noqa: E402
+import result_files  # noqa: E402
 
 CASES = [
     ("stribeck", "stribeck@2:friction=.1"),
@@ -197,7 +198,9 @@ def main():
     parser.add_argument("--work")
     parser.add_argument("--case", default="")
     parser.add_argument("--dt", type=float, default=5e-4)
+    result_files.add_flag(parser)
     flags = parser.parse_args()
+    values = {}
     failed = False
     with tempfile.TemporaryDirectory() as folder:
         print(f"{'case':12}{'rigid':>10}{'effects.py':>12}{'armcal':>10}"
@@ -215,9 +218,12 @@ def main():
             named, (_, own) = own_replay(out)
             good = module <= MOST_OF_OWN * own
             failed = failed or not good
+            values[name] = [rigid, module, own, module / own, module / rigid]
             print(f"{name:12}{rigid:10.2e}{module:12.2e}{own:10.2e}{module / own:11.2f}"
                   f"{module / rigid:10.2f}  {', '.join(named)}{'' if good else '  FAILED'}",
                   flush=True)
+    if flags.results:
+        result_files.write(flags.results, "simulated arms with one effect each", values)
     sys.exit(failed)
 
 

@@ -21,7 +21,10 @@ import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
-import packages
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+import packages  # noqa: E402
+import result_files  # noqa: E402
 
 HERE = pathlib.Path(__file__).parent
 BATCH = 20  # files that a process takes
@@ -104,6 +107,7 @@ def main():
     options.add_argument("--json")
     options.add_argument("--match", default="", help="part of paths to try")
     options.add_argument("--jobs", type=int, default=2)
+    result_files.add_flag(options)
     chosen = options.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(chosen.work or folder)
@@ -134,6 +138,11 @@ def main():
           "needed --robot_folder; "
           f"{sum(c.get('coarse', False) for c in chains)} differ by more than "
           "1e-9, as MuJoCo finds principal axes to 1e-8")
+    if chosen.results:
+        result_files.write(chosen.results, "robot files of public packages", {
+            "together": [sum(serial.values()), serial["read"], 100 * share, wrong],
+            **{f"{kind} {group}": verdicts(results, kind, group)
+               for kind in ("URDF", "MJCF") for group in ("serial", "floating")}})
     return share < SHARE or wrong > 0
 
 

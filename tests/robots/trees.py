@@ -24,7 +24,10 @@ import armcal
 import numpy as np
 import pinocchio as pin
 
-import packages
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+import packages  # noqa: E402
+import result_files  # noqa: E402
 
 # Each with what it is; two arms on a torso, hands, an arm with its fingers.
 ROBOTS = {
@@ -169,10 +172,11 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--armcal", required=True)
     parser.add_argument("--work", type=pathlib.Path)
+    result_files.add_flag(parser)
     flags = parser.parse_args()
     work = flags.work or pathlib.Path(tempfile.mkdtemp())
     folder, = packages.fetch(work, ["example-robot-data"]).values()
-    good = True
+    good, values = True, {}
     print("| Robot | | Joints | Tips | Torque | Mass matrix | Span of the "
           "regressor | Parameters | Pinocchio's rank | Simbody |\n|" +
           "---|" * 10)
@@ -188,9 +192,13 @@ def main():
                                       pathlib.Path(scratch))
         same = size == rank and max(torque, mass, span, simbody) < 1e-10
         good &= same
+        values[name] = [n, len(tips), torque, mass, span, size, rank, simbody]
         print(f"| {name} | {what} | {n} | {len(tips)} | {torque:.0e} | "
               f"{mass:.0e} | {span:.0e} | {size} | {rank} | {simbody:.0e} |" +
               ("" if same else " DIFFERS"), flush=True)
+    if flags.results:
+        result_files.write(flags.results, "public robots that branch, against Pinocchio and "
+                           "Simbody", values)
     return 0 if good else 1
 
 
