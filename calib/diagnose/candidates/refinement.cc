@@ -334,6 +334,9 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = kMostIterations;
   options.function_tolerance = 1e-5;
+  // Where there are bounds Ceres searches along every projected step as well,
+  // with a gradient a trial: two thirds of the evaluations, for the same steps.
+  options.max_num_line_search_step_size_iterations = 0;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
