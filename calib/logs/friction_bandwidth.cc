@@ -8,8 +8,9 @@
 namespace armcal {
 namespace {
 
-constexpr double kVelocityNoise = CoulombTransition::kSharpestVelocity / 2;
-constexpr double kPositionNoise = CoulombTransition::kSharpestDisplacement / 2;
+constexpr double kMostVelocityNoise = CoulombTransition::kSharpestVelocity / 2;
+constexpr double kMostPositionNoise =
+    CoulombTransition::kSharpestDisplacement / 2;
 
 // int x^(2 k) / (1 + x^8)^2 dx from 0 on.
 double NoisePower(int k) {
@@ -27,11 +28,11 @@ FrictionBand FrictionBandwidth(const EncoderNoise& noise, double bandwidth_hz) {
     const double per_hz = 2 * noise.slow_density[j] * NoisePower(0);
     const double per_cube =
         8 * M_PI * M_PI * noise.slow_density[j] * NoisePower(1);
-    band.position_hz =
-        std::min(band.position_hz, kPositionNoise * kPositionNoise / per_hz);
+    band.position_hz = std::min(
+        band.position_hz, kMostPositionNoise * kMostPositionNoise / per_hz);
     band.velocity_hz =
         std::min(band.velocity_hz,
-                 std::cbrt(kVelocityNoise * kVelocityNoise / per_cube));
+                 std::cbrt(kMostVelocityNoise * kMostVelocityNoise / per_cube));
   }
   band.position_hz = std::max(band.position_hz, bandwidth_hz);
   band.velocity_hz = std::max(band.velocity_hz, bandwidth_hz);
