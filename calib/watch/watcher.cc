@@ -1,0 +1,368 @@
+#include "calib/watch/watcher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "model/text/format.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Kind = WatchEvent::Kind;
+
+constexpr double kBlock = .25;      // s, of the rows of a block
+constexpr size_t kMostBlocks = 64;  // that changes are looked for in: 16 s
+constexpr size_t kFoldedTogether = 16;
+// The rows of a bandwidth f are 1 / (5 f) apart: what lies between is known.
+constexpr double kRowsPerPeriod = 5;
+// A contact is over when all residuals were below half of their limits so long.
+constexpr double kQuiet = .3;
+// Jeffreys: a Bayes factor of 20 is strong evidence for one against another.
+const double kClear = std::log(20.);
+constexpr double kStands = .5;  // of WatchRow::standing, of all joints
+constexpr double kUnclear = 2;  // s, after which it is said that it is unclear
+// A hole of more than three steps and of more than a tenth of a second.
+constexpr double kHoleSteps = 3, kHole = .1;
+
+}  // namespace
+
+Watcher::Watcher(WatchModel model, const WatcherOptions& options, Events events)
+    : model_(std::move(model)),
+      options_(options),
+      events_(std::move(events)),
+      rows_(model_, options.bandwidth_hz),
+      hypotheses_(MakeHypotheses(model_)),
+      null_options_{options.bandwidth_hz,
+                    1 / (kRowsPerPeriod * options.bandwidth_hz),
+                    options.false_alarms_per_hour},
+      block_(model_.size() + 6),
+      whole_log_(model_.size()) {
+  belief_ = {VectorXd::Zero(model_.size()), model_.covariance};
+  residual_ = VectorXd::Zero(model_.num_joints());
+}
+
+void Watcher::Add(double t, const VectorXd& q, const VectorXd& tau) {
+  if (last_ < 0) {
+    first_ = t;
+  } else if (t <= last_) {
+    return;  // the same instant again
+  } else if (step_ > 0 && t - last_ > std::max(kHoleSteps * step_, kHole)) {
+    events_({Kind::kHole,
+             t,
+             last_,
+             {},
+             {},
+             0,
+             false,
+             Format("%.3f s without rows", t - last_)});
+    rows_.Restart();
+    if (contact_) EndContact(t);
+    block_ = RowInformation(model_.size() + 6);
+  } else {
+    step_ = step_ > 0 ? .99 * step_ + .01 * (t - last_) : t - last_;
+  }
+  last_ = t;
+  if (!rows_.Add(t, q, tau)) return;
+  residual_ = rows_.y() - rows_.U() * (model_.x + belief_.mean);
+  if (null_) CheckResidual(t);
+  const double step = null_options_.row_step_s;
+  if (last_row_ >= 0 && t - last_row_ < step - 1e-9) return;
+  last_row_ =
+      last_row_ >= 0 && t - last_row_ < 1.5 * step ? last_row_ + step : t;
+  Keep(MakeRow(t));
+}
+
+WatchRow Watcher::MakeRow(double t) const {
+  WatchRow row;
+  row.t = t;
+  row.A.resize(model_.num_joints(), model_.size() + 6);
+  row.A << rows_.U(), WrenchColumns(model_.robot, rows_.q());
+  row.r = rows_.y() - rows_.U() * model_.x;
+  row.crossing = rows_.crossing();
+  row.standing = rows_.standing();
+  return row;
+}
+
+void Watcher::Keep(const WatchRow& row) {
+  if (!contact_) {
+    const VectorXd weight = model_.residual_rms.cwiseInverse();
+    for (Eigen::Index j = 0; j < row.r.size(); ++j) {
+      whole_log_.Add(row.A.row(j).head(model_.size()), row.r[j], weight[j]);
+    }
+    if (sink)
+      sink(weight.asDiagonal() * row.A.leftCols(model_.size()),
+           weight.cwiseProduct(row.r));
+  }
+  if (!null_) return Learn(row);
+  parameter_variance_ =
+      (row.A.leftCols(model_.size()) * root_).rowwise().squaredNorm();
+  if (block_.rows == 0) block_.begin = row.t;
+  block_.Add(row.A, row.r, null_->Weight(row));
+  block_.end = row.t;
+  if (row.t - block_.begin >= kBlock - 1.5 * null_options_.row_step_s)
+    EndBlock(row.t);
+}
+
+// From motion alone: what a standing arm's friction holds is anything.
+void Watcher::Learn(const WatchRow& row) {
+  if (row.standing.minCoeff() > kStands) return;
+  learning_rows_.push_back(row);
+  learned_s_ += null_options_.row_step_s;
+  if (learned_s_ >= options_.learn_s) EndLearning(row.t);
+}
+
+void Watcher::SetBelief(const ParameterBelief& belief) {
+  belief_ = belief;
+  root_ = CovarianceRoot(belief.covariance + null_->wander);
+}
+
+void Watcher::EndLearning(double t) {
+  ParameterBelief learned = belief_;
+  null_ =
+      LearnNull(learning_rows_, model_, hypotheses_, null_options_, &learned);
+  RowInformation all(model_.size() + 6);
+  for (const WatchRow& row : learning_rows_) {
+    all.Add(row.A, row.r, null_->Weight(row));
+  }
+  WatchEvent event{Kind::kLearned, t, learning_rows_.front().t, {}, {}, 0,
+                   false,          ""};
+  for (int j = 0; j < model_.num_joints(); ++j) {
+    const Joint& joint = model_.robot.links[j].joint;
+    event.text += Format(
+        "%s%s %.3g %s", j == 0 ? "a contact has more than " : ", ",
+        joint.name.c_str(), null_->threshold[j] * std::sqrt(null_->sigma2[j]),
+        EffortUnit(joint.type));
+  }
+  events_(event);
+  CompareWithCalibration(all, t);
+  SetBelief(learned);
+  learning_rows_ = {};
+}
+
+// All that was learned from, against the calibration. What is told first is
+// then known, as another change may be there beside it.
+void Watcher::CompareWithCalibration(const RowInformation& all, double t) {
+  constexpr int kMostChanges = 4;
+  ParameterBelief before = belief_;
+  before.covariance += null_->wander;
+  for (int round = 0; round < kMostChanges; ++round) {
+    const MatrixXd root = CovarianceRoot(before.covariance);
+    const ChangeTest test(all, before, root);
+    std::vector<ChangeEvidence> evidence;
+    for (const ChangeHypothesis& change : hypotheses_) {
+      if (change.kind == ChangeHypothesis::Kind::kContact) continue;
+      evidence.push_back(test.Of(change));
+    }
+    const auto best = std::max_element(
+        evidence.begin(), evidence.end(),
+        [](const auto& a, const auto& b) { return a.log_bayes < b.log_bayes; });
+    if (best->log_bayes < null_->log_bayes_threshold) return;
+    const size_t h = best - evidence.begin();
+    const bool payload =
+        hypotheses_[h].kind == ChangeHypothesis::Kind::kPayload;
+    WatchEvent event{payload ? Kind::kPayload : Kind::kFriction,
+                     t,
+                     first_,
+                     {},
+                     ValuesOf(h, *best),
+                     best->log_bayes,
+                     true,
+                     ""};
+    if (!payload) {
+      event.joints = {model_.robot.links[hypotheses_[h].joint].joint.name};
+    }
+    events_(event);
+    lasting_.push_back({h, first_, before, root, all});
+    before.covariance = WithChange(before.covariance, hypotheses_[h],
+                                   hypotheses_[h].stddev.cwiseAbs2());
+  }
+}
+
+double Watcher::PeakRatio() const {
+  return limit_.size() == 0
+             ? 0
+             : residual_.cwiseAbs().cwiseQuotient(limit_).maxCoeff();
+}
+
+void Watcher::CheckResidual(double t) {
+  if (parameter_variance_.size() == 0) return;  // no row yet
+  // Friction changes its sign within less than the step of rows.
+  const VectorXd crossing = rows_.crossing();
+  stddev_ = (null_->Variance(crossing, rows_.standing()) + parameter_variance_)
+                .cwiseSqrt();
+  limit_ = null_->Limit(crossing, stddev_);
+  const double ratio = PeakRatio();
+  if (!contact_ || slow_contact_) {
+    if (ratio > 1) BeginContact(t);
+    return;
+  }
+  Eigen::Index joint = 0;
+  const double most =
+      residual_.cwiseAbs().cwiseQuotient(limit_).maxCoeff(&joint);
+  if (most > peak_) {
+    peak_ = most;
+    peak_joint_ = static_cast<int>(joint);
+  }
+  if (ratio > .5) quiet_since_ = t;
+  if (t - quiet_since_ > kQuiet) EndContact(t);
+}
+
+void Watcher::BeginContact(double t) {
+  WatchEvent event{Kind::kContact, t, t - rows_.delay(), {}, {}, 0, false, ""};
+  for (int j = 0; j < model_.num_joints(); ++j) {
+    if (std::abs(residual_[j]) < limit_[j]) continue;
+    const Joint& joint = model_.robot.links[j].joint;
+    event.joints.push_back(joint.name);
+    event.values.push_back(
+        {"torque", EffortUnit(joint.type), residual_[j], stddev_[j]});
+  }
+  events_(event);
+  // What came before it is of the robot as it was.
+  Fold(blocks_.size());
+  block_ = RowInformation(model_.size() + 6);
+  contact_ = true;
+  slow_contact_ = undecided_told_ = false;
+  contact_onset_ = unclear_since_ = event.onset;
+  quiet_since_ = t;
+  peak_ = 0;
+}
+
+void Watcher::EndContact(double t) {
+  contact_ = slow_contact_ = undecided_told_ = false;
+  unclear_since_ = -1;
+  events_({Kind::kContactEnded, t, contact_onset_, {}, {}, 0, false, ""});
+  blocks_.clear();
+  block_ = RowInformation(model_.size() + 6);
+}
+
+void Watcher::EndBlock(double t) {
+  blocks_.push_back(std::exchange(block_, RowInformation(model_.size() + 6)));
+  if (!lasting_.empty() && !contact_) lasting_.back().since.Add(blocks_.back());
+  Decide(t);
+  if (blocks_.size() < kMostBlocks + kFoldedTogether) return;
+  if (contact_) {
+    blocks_.erase(blocks_.begin(), blocks_.begin() + kFoldedTogether);
+  } else {
+    Fold(kFoldedTogether);
+  }
+}
+
+// The oldest blocks go into the belief, which wanders meanwhile.
+void Watcher::Fold(size_t count) {
+  if (count == 0) return;
+  RowInformation all(model_.size() + 6);
+  for (size_t k = 0; k < count; ++k) all.Add(blocks_[k]);
+  blocks_.erase(blocks_.begin(), blocks_.begin() + count);
+  ParameterBelief wandered = belief_;
+  wandered.covariance +=
+      null_->wander * std::min(1., (all.end - all.begin) / options_.memory_s);
+  SetBelief(Updated(wandered, all));
+}
+
+void Watcher::Decide(double t) {
+  if (blocks_.empty()) return;
+  RowInformation window(model_.size() + 6);
+  std::vector<ChangeEvidence> best;
+  double most = -1, onset = t;
+  const size_t oldest = std::min(blocks_.size(), kMostBlocks);
+  size_t k = 0;
+  for (size_t length = 1; length <= oldest; length *= 2) {
+    for (; k < length; ++k) window.Add(blocks_[blocks_.size() - 1 - k]);
+    const ChangeTest test(window, belief_, root_);
+    std::vector<ChangeEvidence> evidence;
+    double largest = 0;
+    for (const ChangeHypothesis& change : hypotheses_) {
+      evidence.push_back(test.Of(change));
+      largest = std::max(largest, evidence.back().log_bayes);
+    }
+    if (largest <= most) continue;
+    most = largest;
+    best = std::move(evidence);
+    onset = window.begin;
+  }
+  if (slow_contact_ && most < 0) return EndContact(t);
+  if (most < null_->log_bayes_threshold) {
+    if (!contact_) unclear_since_ = -1;
+    return;
+  }
+  if (unclear_since_ < 0) unclear_since_ = t;
+  DecideBetween(t, contact_ ? contact_onset_ : onset, best);
+}
+
+void Watcher::DecideBetween(double t, double onset,
+                            const std::vector<ChangeEvidence>& evidence) {
+  size_t first = 0;
+  double second = -1e300;
+  for (size_t h = 1; h < evidence.size(); ++h) {
+    if (evidence[h].log_bayes > evidence[first].log_bayes) {
+      second = evidence[first].log_bayes;
+      first = h;
+    } else {
+      second = std::max(second, evidence[h].log_bayes);
+    }
+  }
+  if (evidence[first].log_bayes - second < kClear) {
+    if (t - unclear_since_ >= kUnclear) TellUndecided(t, onset);
+    return;
+  }
+  Tell(t, onset, first, evidence[first]);
+}
+
+void Watcher::TellUndecided(double t, double onset) {
+  if (undecided_told_) return;
+  undecided_told_ = true;
+  events_({Kind::kUndecided,
+           t,
+           onset,
+           {},
+           {},
+           0,
+           false,
+           "payload, friction or contact: more motion tells them apart"});
+}
+
+void Watcher::Tell(double t, double onset, size_t hypothesis,
+                   const ChangeEvidence& evidence) {
+  const ChangeHypothesis& change = hypotheses_[hypothesis];
+  WatchEvent event{
+      Kind::kPayload,     t,     onset, {}, ValuesOf(hypothesis, evidence),
+      evidence.log_bayes, false, ""};
+  if (change.kind == ChangeHypothesis::Kind::kContact) {
+    if (contact_) return;  // it was told when it began
+    event.kind = Kind::kContact;
+    event.text = "it lasts";
+    contact_ = slow_contact_ = true;
+    contact_onset_ = onset;
+    events_(event);
+    return;
+  }
+  if (change.kind == ChangeHypothesis::Kind::kFriction) {
+    event.kind = Kind::kFriction;
+    event.joints = {model_.robot.links[change.joint].joint.name};
+  }
+  if (contact_) event.text = "which is what the contact was";
+  events_(event);
+  Accept(hypothesis, onset);
+}
+
+// Blocks before the change are of the robot as it was, those after it of the
+// changed one.
+void Watcher::Accept(size_t hypothesis, double onset) {
+  size_t before = 0;
+  while (before < blocks_.size() && blocks_[before].end < onset) ++before;
+  Fold(before);
+  lasting_.push_back(
+      {hypothesis, onset, belief_, root_, RowInformation(model_.size() + 6)});
+  for (const RowInformation& block : blocks_) lasting_.back().since.Add(block);
+  const ChangeHypothesis& change = hypotheses_[hypothesis];
+  SetBelief({belief_.mean, WithChange(belief_.covariance, change,
+                                      change.stddev.cwiseAbs2())});
+  Fold(blocks_.size());
+  contact_ = slow_contact_ = undecided_told_ = false;
+  unclear_since_ = -1;
+}
+
+}  // namespace armcal
