@@ -40,7 +40,7 @@ ChangeHypothesis Payload(const WatchModel& model) {
   const double arm = .1 * Reach(model.robot);
   ChangeHypothesis change;
   change.kind = ChangeHypothesis::Kind::kPayload;
-  change.columns = MatrixXd::Zero(model.size() + kWrench, 10);
+  change.columns = MatrixXd::Zero(model.columns() + kWrench, 10);
   change.columns.topRows(model.size()) = PayloadColumns(model);
   change.stddev.resize(10);
   for (int k = 0; k < 10; ++k) {
@@ -72,7 +72,7 @@ ChangeHypothesis Friction(const WatchModel& model, int j) {
     change.names.push_back(JointTermName(term));
     change.units.push_back(JointTermUnit(term, joint.type));
   }
-  change.columns = MatrixXd::Zero(model.size() + kWrench, places.size());
+  change.columns = MatrixXd::Zero(model.columns() + kWrench, places.size());
   for (size_t k = 0; k < places.size(); ++k) change.columns(places[k], k) = 1;
   change.stddev = VectorXd::Map(stddev.data(), stddev.size());
   return change;
@@ -84,7 +84,7 @@ ChangeHypothesis Contact(const WatchModel& model) {
   const double force = .3 * FeltMass(model) * kGravity;
   ChangeHypothesis change;
   change.kind = ChangeHypothesis::Kind::kContact;
-  change.columns = MatrixXd::Zero(model.size() + kWrench, kWrench);
+  change.columns = MatrixXd::Zero(model.columns() + kWrench, kWrench);
   change.columns.bottomRows(kWrench).setIdentity();
   change.stddev = VectorXd::Constant(kWrench, force);
   change.stddev.tail(3) *= .1 * Reach(model.robot);

@@ -83,6 +83,18 @@ MatrixXd PayloadColumns(const WatchModel& model) {
   return columns;
 }
 
+MatrixXd CovarianceWithSlowLaws(const WatchModel& model) {
+  constexpr double kShare = .1;
+  const int n = model.num_joints(), p = model.size();
+  MatrixXd covariance = MatrixXd::Zero(model.columns(), model.columns());
+  covariance.topLeftCorner(p, p) = model.covariance;
+  for (int k = 0; k < WatchModel::kSlowLaws * n; ++k) {
+    const double size = kShare * model.robot.links[k % n].joint.coulomb;
+    covariance(p + k, p + k) = size * size;
+  }
+  return covariance;
+}
+
 int TermColumn(const ModelParameters& parameters, int j, JointTerm term) {
   for (int k = 0; k < parameters.size(); ++k) {
     const ModelParameter& p = parameters.parameters()[k];

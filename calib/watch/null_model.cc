@@ -14,7 +14,8 @@ constexpr double kSecondsPerHour = 3600;
 constexpr double kCrossing = .2;
 // Of which this much lies there, their residual is another than elsewhere.
 constexpr double kTouched = .002;
-constexpr long kFewest = 100;  // rows that a variance is learned from
+constexpr double kStanding = .02;  // of its variance, where a joint moves
+constexpr long kFewest = 100;      // rows that a variance is learned from
 // Changes are tested at the end of each such block of rows (watcher.h).
 constexpr double kTestsPerSecond = 4;
 constexpr double kLongestWindow = 16;  // s, that changes are looked for in
@@ -22,10 +23,8 @@ constexpr double kWanderWindow = 2;    // s, of the parameters' seeming changes
 constexpr int kWanderSteps = 40;       // of expectation and maximization
 
 // A joint that passes through zero has been "standing" for a twentieth, which
-// is then next to nothing.
-VectorXd Stands(const VectorXd& standing) {
-  return standing.cwiseAbs2().cwiseAbs2();
-}
+// is then next to nothing; one that starts slowly keeps it for a while.
+VectorXd Stands(const VectorXd& standing) { return standing.cwiseAbs2(); }
 
 // A level of a Gaussian whose variance is known, for one whose variance was
 // learned from so many independent values: its predictive distribution is
@@ -81,16 +80,23 @@ void LearnVariances(const std::vector<WatchRow>& rows,
 // The largest variance of batch means over what independent rows would have:
 // what a slowly changing weighting of the rows sees of the residual's spectrum
 // (batch means: Law & Kelton). One row where all are independent.
-double LongRun(const std::vector<double>& z, double row_step) {
+double LongRun(const std::vector<double>& z, const std::vector<bool>& asked,
+               double row_step) {
   double largest = 1;
   for (const double seconds : {.1, .25, .5, 1., 2.}) {
     const size_t length = std::max<size_t>(1, std::lround(seconds / row_step));
     double squares = 0;
     long batches = 0;
-    for (size_t k = 0; k + length <= z.size(); k += length, ++batches) {
+    for (size_t k = 0; k + length <= z.size(); k += length) {
       double sum = 0;
-      for (size_t i = k; i < k + length; ++i) sum += z[i];
+      bool whole = true;
+      for (size_t i = k; i < k + length; ++i) {
+        sum += z[i];
+        whole = whole && asked[i];
+      }
+      if (!whole) continue;
       squares += sum * sum / length;
+      ++batches;
     }
     if (batches >= 8) largest = std::max(largest, squares / batches);
   }
@@ -179,13 +185,17 @@ void LearnTails(const std::vector<WatchRow>& rows,
   // Half of the false alarms are the contacts', each joint has its share.
   const double rate = options.false_alarms_per_hour / (2 * n * kSecondsPerHour);
   for (int j = 0; j < n; ++j) {
-    std::vector<bool> far, near;
+    // Residuals of rows that stand are small beside what they might be.
+    std::vector<bool> far, near, moving;
     for (const WatchRow& row : rows) {
-      near.push_back(row.crossing[j] > kTouched);
-      far.push_back(!near.back());
+      moving.push_back(Stands(row.standing)[j] < kStanding);
+      near.push_back(moving.back() && row.crossing[j] > kTouched);
+      far.push_back(moving.back() && !near.back());
     }
-    null->long_run[j] = LongRun(z_of_row[j], options.row_step_s);
-    const double independent = rows.size() / null->long_run[j];
+    null->long_run[j] = LongRun(z_of_row[j], moving, options.row_step_s);
+    const double independent =
+        std::max<double>(std::count(moving.begin(), moving.end(), true), 1) /
+        null->long_run[j];
     null->threshold[j] =
         StudentLevel(TailLevel(z[j], far, options, rate / 2), independent);
     null->crossing_threshold[j] = std::max(

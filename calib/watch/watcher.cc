@@ -22,6 +22,11 @@ constexpr double kRowsPerPeriod = 5;
 constexpr double kQuiet = .3;
 // Jeffreys: a Bayes factor of 20 is strong evidence for one against another.
 const double kClear = std::log(20.);
+// After a change was told: blocks that are folded together, and how long, s.
+constexpr size_t kSoon = 4;
+constexpr double kLearnSoon = 16;
+// Standard deviations that no variance learned from motion leads to.
+constexpr double kNeverMoved = 1000;
 constexpr double kStands = .5;  // of WatchRow::standing, of all joints
 constexpr double kUnclear = 2;  // s, after which it is said that it is unclear
 // A hole of more than three steps and of more than a tenth of a second.
@@ -38,9 +43,9 @@ Watcher::Watcher(WatchModel model, const WatcherOptions& options, Events events)
       null_options_{options.bandwidth_hz,
                     1 / (kRowsPerPeriod * options.bandwidth_hz),
                     options.false_alarms_per_hour},
-      block_(model_.size() + 6),
+      block_(model_.columns() + 6),
       whole_log_(model_.size()) {
-  belief_ = {VectorXd::Zero(model_.size()), model_.covariance};
+  belief_ = {VectorXd::Zero(model_.columns()), CovarianceWithSlowLaws(model_)};
   residual_ = VectorXd::Zero(model_.num_joints());
 }
 
@@ -60,13 +65,15 @@ void Watcher::Add(double t, const VectorXd& q, const VectorXd& tau) {
              Format("%.3f s without rows", t - last_)});
     rows_.Restart();
     if (contact_) EndContact(t);
-    block_ = RowInformation(model_.size() + 6);
+    block_ = RowInformation(model_.columns() + 6);
   } else {
     step_ = step_ > 0 ? .99 * step_ + .01 * (t - last_) : t - last_;
   }
   last_ = t;
   if (!rows_.Add(t, q, tau)) return;
-  residual_ = rows_.y() - rows_.U() * (model_.x + belief_.mean);
+  residual_ = rows_.y() -
+              rows_.U() * (model_.x + belief_.mean.head(model_.size())) -
+              SlowTorque();
   if (null_) CheckResidual(t);
   const double step = null_options_.row_step_s;
   if (last_row_ >= 0 && t - last_row_ < step - 1e-9) return;
@@ -75,11 +82,24 @@ void Watcher::Add(double t, const VectorXd& q, const VectorXd& tau) {
   Keep(MakeRow(t));
 }
 
+// What friction at low speed is believed to be beside the model's.
+VectorXd Watcher::SlowTorque() const {
+  const Eigen::Map<const MatrixXd> sizes(belief_.mean.data() + model_.size(),
+                                         model_.num_joints(),
+                                         WatchModel::kSlowLaws);
+  return rows_.slow().cwiseProduct(sizes).rowwise().sum();
+}
+
 WatchRow Watcher::MakeRow(double t) const {
   WatchRow row;
   row.t = t;
-  row.A.resize(model_.num_joints(), model_.size() + 6);
-  row.A << rows_.U(), WrenchColumns(model_.robot, rows_.q());
+  const int n = model_.num_joints();
+  row.A = MatrixXd::Zero(n, model_.columns() + 6);
+  row.A.leftCols(model_.size()) = rows_.U();
+  for (int k = 0; k < WatchModel::kSlowLaws; ++k) {
+    row.A.middleCols(model_.size() + k * n, n).diagonal() = rows_.slow().col(k);
+  }
+  row.A.rightCols(6) = WrenchColumns(model_.robot, rows_.q());
   row.r = rows_.y() - rows_.U() * model_.x;
   row.crossing = rows_.crossing();
   row.standing = rows_.standing();
@@ -98,7 +118,8 @@ void Watcher::Keep(const WatchRow& row) {
   }
   if (!null_) return Learn(row);
   parameter_variance_ =
-      (row.A.leftCols(model_.size()) * root_).rowwise().squaredNorm();
+      (row.A.leftCols(model_.columns()) * root_).rowwise().squaredNorm();
+  if (row.t < settled_) return;
   if (block_.rows == 0) block_.begin = row.t;
   block_.Add(row.A, row.r, null_->Weight(row));
   block_.end = row.t;
@@ -123,7 +144,7 @@ void Watcher::EndLearning(double t) {
   ParameterBelief learned = belief_;
   null_ =
       LearnNull(learning_rows_, model_, hypotheses_, null_options_, &learned);
-  RowInformation all(model_.size() + 6);
+  RowInformation all(model_.columns() + 6);
   for (const WatchRow& row : learning_rows_) {
     all.Add(row.A, row.r, null_->Weight(row));
   }
@@ -131,10 +152,13 @@ void Watcher::EndLearning(double t) {
                    false,          ""};
   for (int j = 0; j < model_.num_joints(); ++j) {
     const Joint& joint = model_.robot.links[j].joint;
-    event.text += Format(
-        "%s%s %.3g %s", j == 0 ? "a contact has more than " : ", ",
-        joint.name.c_str(), null_->threshold[j] * std::sqrt(null_->sigma2[j]),
-        EffortUnit(joint.type));
+    event.text += j == 0 ? "a contact has more than " : ", ";
+    event.text +=
+        null_->threshold[j] > kNeverMoved
+            ? joint.name + " anything, as it hardly moved"
+            : Format("%s %.3g %s", joint.name.c_str(),
+                     null_->threshold[j] * std::sqrt(null_->sigma2[j]),
+                     EffortUnit(joint.type));
   }
   events_(event);
   CompareWithCalibration(all, t);
@@ -205,6 +229,7 @@ void Watcher::CheckResidual(double t) {
   if (most > peak_) {
     peak_ = most;
     peak_joint_ = static_cast<int>(joint);
+    peak_torque_ = residual_[joint];
   }
   if (ratio > .5) quiet_since_ = t;
   if (t - quiet_since_ > kQuiet) EndContact(t);
@@ -222,26 +247,42 @@ void Watcher::BeginContact(double t) {
   events_(event);
   // What came before it is of the robot as it was.
   Fold(blocks_.size());
-  block_ = RowInformation(model_.size() + 6);
+  block_ = RowInformation(model_.columns() + 6);
   contact_ = true;
   slow_contact_ = undecided_told_ = false;
   contact_onset_ = unclear_since_ = event.onset;
   quiet_since_ = t;
   peak_ = 0;
+  // Rows until then are in part of the robot as it was: no hypothesis's.
+  settled_ = t + rows_.memory();
 }
 
 void Watcher::EndContact(double t) {
   contact_ = slow_contact_ = undecided_told_ = false;
   unclear_since_ = -1;
-  events_({Kind::kContactEnded, t, contact_onset_, {}, {}, 0, false, ""});
+  WatchEvent event{
+      Kind::kContactEnded, t, contact_onset_, {}, {}, 0, false, ""};
+  if (peak_ > 0) {
+    const Joint& joint = model_.robot.links[peak_joint_].joint;
+    event.joints = {joint.name};
+    event.values = {
+        {"peak", EffortUnit(joint.type), peak_torque_,
+         std::abs(peak_torque_) / peak_ / null_->threshold[peak_joint_]}};
+  }
+  events_(event);
   blocks_.clear();
-  block_ = RowInformation(model_.size() + 6);
+  block_ = RowInformation(model_.columns() + 6);
 }
 
 void Watcher::EndBlock(double t) {
-  blocks_.push_back(std::exchange(block_, RowInformation(model_.size() + 6)));
+  blocks_.push_back(
+      std::exchange(block_, RowInformation(model_.columns() + 6)));
   if (!lasting_.empty() && !contact_) lasting_.back().since.Add(blocks_.back());
   Decide(t);
+  // What a change has made uncertain is learned soon.
+  if (!contact_ && t < learn_soon_until_ && blocks_.size() >= 2 * kSoon) {
+    Fold(kSoon);
+  }
   if (blocks_.size() < kMostBlocks + kFoldedTogether) return;
   if (contact_) {
     blocks_.erase(blocks_.begin(), blocks_.begin() + kFoldedTogether);
@@ -253,7 +294,7 @@ void Watcher::EndBlock(double t) {
 // The oldest blocks go into the belief, which wanders meanwhile.
 void Watcher::Fold(size_t count) {
   if (count == 0) return;
-  RowInformation all(model_.size() + 6);
+  RowInformation all(model_.columns() + 6);
   for (size_t k = 0; k < count; ++k) all.Add(blocks_[k]);
   blocks_.erase(blocks_.begin(), blocks_.begin() + count);
   ParameterBelief wandered = belief_;
@@ -264,7 +305,7 @@ void Watcher::Fold(size_t count) {
 
 void Watcher::Decide(double t) {
   if (blocks_.empty()) return;
-  RowInformation window(model_.size() + 6);
+  RowInformation window(model_.columns() + 6);
   std::vector<ChangeEvidence> best;
   double most = -1, onset = t;
   const size_t oldest = std::min(blocks_.size(), kMostBlocks);
@@ -354,12 +395,13 @@ void Watcher::Accept(size_t hypothesis, double onset) {
   size_t before = 0;
   while (before < blocks_.size() && blocks_[before].end < onset) ++before;
   Fold(before);
-  lasting_.push_back(
-      {hypothesis, onset, belief_, root_, RowInformation(model_.size() + 6)});
+  lasting_.push_back({hypothesis, onset, belief_, root_,
+                      RowInformation(model_.columns() + 6)});
   for (const RowInformation& block : blocks_) lasting_.back().since.Add(block);
   const ChangeHypothesis& change = hypotheses_[hypothesis];
   SetBelief({belief_.mean, WithChange(belief_.covariance, change,
                                       change.stddev.cwiseAbs2())});
+  if (!blocks_.empty()) learn_soon_until_ = blocks_.back().end + kLearnSoon;
   Fold(blocks_.size());
   contact_ = slow_contact_ = undecided_told_ = false;
   unclear_since_ = -1;

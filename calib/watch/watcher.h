@@ -69,6 +69,7 @@ class Watcher {
     RowInformation since;
   };
 
+  Eigen::VectorXd SlowTorque() const;
   WatchRow MakeRow(double t) const;
   void Keep(const WatchRow& row);
   void Learn(const WatchRow& row);
@@ -113,7 +114,8 @@ class Watcher {
   double quiet_since_ = 0;
   bool contact_ = false, slow_contact_ = false, undecided_told_ = false;
   double contact_onset_ = 0, unclear_since_ = -1;
-  double peak_ = 0;
+  double settled_ = 0, learn_soon_until_ = 0;
+  double peak_ = 0, peak_torque_ = 0;  // in limits, and in N m or N
   int peak_joint_ = 0;
 
   TriangularFactor whole_log_;
