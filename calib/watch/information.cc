@@ -70,6 +70,8 @@ ChangeEvidence ChangeTest::Of(const ChangeHypothesis& change) const {
   const VectorXd scaled = factor.solve(b);
   evidence.log_bayes =
       b.dot(scaled) / 2 - K.diagonal().array().max(1e-300).log().sum();
+  evidence.log_likelihood =
+      b.dot(scaled) - (scaled.dot(M * scaled) - scaled.squaredNorm()) / 2;
   evidence.theta = change.stddev.cwiseProduct(scaled);
   evidence.covariance = change.stddev.asDiagonal() *
                         factor.solve(MatrixXd::Identity(M.rows(), M.cols())) *

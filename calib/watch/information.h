@@ -43,6 +43,9 @@ struct ChangeHypothesis {
 // What rows say of one hypothesis against no change.
 struct ChangeEvidence {
   double log_bayes = 0;  // log p(rows | change) / p(rows | none)
+  // The same of the estimate theta alone, whatever its prior: how much better
+  // it fits.
+  double log_likelihood = 0;
   Eigen::VectorXd theta;
   Eigen::MatrixXd covariance;  // of theta
 };

@@ -333,23 +333,24 @@ void Watcher::Decide(double t) {
   DecideBetween(t, contact_ ? contact_onset_ : onset, best);
 }
 
+// The likeliest has to be clearly so, and not only because it has fewer
+// numbers to explain with: its estimate fits clearly better than any other's.
 void Watcher::DecideBetween(double t, double onset,
                             const std::vector<ChangeEvidence>& evidence) {
-  size_t first = 0;
-  double second = -1e300;
-  for (size_t h = 1; h < evidence.size(); ++h) {
-    if (evidence[h].log_bayes > evidence[first].log_bayes) {
-      second = evidence[first].log_bayes;
-      first = h;
-    } else {
-      second = std::max(second, evidence[h].log_bayes);
-    }
+  const auto best = std::max_element(
+      evidence.begin(), evidence.end(),
+      [](const auto& a, const auto& b) { return a.log_bayes < b.log_bayes; });
+  bool clear = true;
+  for (const ChangeEvidence& other : evidence) {
+    if (&other == &*best) continue;
+    clear = clear && best->log_bayes - other.log_bayes >= kClear &&
+            best->log_likelihood - other.log_likelihood >= kClear;
   }
-  if (evidence[first].log_bayes - second < kClear) {
-    if (t - unclear_since_ >= kUnclear) TellUndecided(t, onset);
-    return;
+  if (clear) {
+    Tell(t, onset, best - evidence.begin(), *best);
+  } else if (t - unclear_since_ >= kUnclear) {
+    TellUndecided(t, onset);
   }
-  Tell(t, onset, first, evidence[first]);
 }
 
 void Watcher::TellUndecided(double t, double onset) {

@@ -63,6 +63,18 @@ TEST(Information, BayesFactorIsThatOfTheDensities) {
   }
 }
 
+// With nothing unknown about the parameters: the squares that are explained.
+TEST(Information, LikelihoodIsThatOfTheEstimate) {
+  Case c(3);
+  c.belief.covariance.setZero();
+  const ChangeEvidence found =
+      ChangeTest(c.rows, c.belief, MatrixXd::Zero(kParameters, 1)).Of(c.change);
+  const VectorXd before = c.r - c.A.leftCols(kParameters) * c.belief.mean;
+  const VectorXd after = before - c.A * (c.change.columns * found.theta);
+  EXPECT_NEAR(found.log_likelihood,
+              (before.cwiseAbs2() - after.cwiseAbs2()).dot(c.weight) / 2, 1e-9);
+}
+
 // The conditional normal distribution, by its textbook formula.
 TEST(Information, BeliefIsTheConditionalDistribution) {
   const Case c(7);

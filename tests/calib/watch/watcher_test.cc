@@ -69,12 +69,12 @@ TEST(Watcher, NothingIsToldWhereNothingChanges) {
 TEST(Watcher, APayloadIsToldWithinTwoSeconds) {
   const Robot robot = WatchedRobot();
   Watched watched(robot);
-  watched.Add(Changing(robot, WithPayload(robot, .3), 22));
+  watched.Add(Changing(robot, WithPayload(robot, .3), 20));
   const auto changes = watched.Changes();
   ASSERT_FALSE(changes.empty());
   const WatchEvent& told = changes.back();
   EXPECT_EQ(told.kind, Kind::kPayload);
-  EXPECT_LT(told.time, 24);
+  EXPECT_LT(told.time, 22);
   EXPECT_NEAR(told.values[0].value, .3, 4 * told.values[0].stddev);
   // It is known better and better as it lasts.
   const WatchedValue now = watched.watcher.State().changes[0];
