@@ -16,7 +16,7 @@
 namespace armcal {
 namespace {
 
-constexpr double kBandwidth = 20;  // Hz
+constexpr double kUsualBandwidth = 20;  // Hz
 // Of a slow log's rate: four samples within a radian of the filter's pole, so
 // that straight lines between samples are good to some per cent of a sample.
 constexpr double kShareOfRate = 1. / 8;
@@ -80,8 +80,8 @@ void WatchRun::StartWatcher() {
   const size_t steps = first_rows_.size() - 1;
   const double rate =
       steps > 0 ? steps / (first_rows_.back().t - first_rows_.front().t) : 0;
-  options.bandwidth_hz =
-      options_.bandwidth_hz.value_or(std::min(kBandwidth, kShareOfRate * rate));
+  options.bandwidth_hz = options_.bandwidth_hz.value_or(
+      std::min(kUsualBandwidth, kShareOfRate * rate));
   if (!(options.bandwidth_hz > 0) ||
       options.bandwidth_hz > kShareOfRate * rate * 1.01) {
     throw OptionError(OptionName("bandwidth") + ": found " +

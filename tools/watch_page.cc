@@ -42,7 +42,8 @@ struct WatchPage::Impl {
         response.status = 403;
         return;
       }
-      response.set_header("Content-Security-Policy", "default-src 'self'");
+      response.set_header("Content-Security-Policy",
+                          "default-src 'self'; img-src data:");
       response.set_content(text.data(), text.size(), type);
     });
   }

@@ -12,13 +12,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const std::vector<JointTerm> kTerms = {JointTerm::kViscous, JointTerm::kCoulomb,
-                                       JointTerm::kOffset,
-                                       JointTerm::kArmature};
+const std::vector<JointTerm> kWatchedTerms = {
+    JointTerm::kViscous, JointTerm::kCoulomb, JointTerm::kOffset,
+    JointTerm::kArmature};
 
 ModelParameters ParametersOf(const CalibratedRobot& calibrated) {
   ModelParameters::Options options;
-  options.joint_terms = kTerms;
+  options.joint_terms = kWatchedTerms;
   for (const CoulombTransition& transition : calibrated.transitions) {
     options.transitions.push_back({transition});
   }

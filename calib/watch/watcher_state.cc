@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 
 // Singular values below this share of the largest show nothing of the
 // parameters, in units of their standard deviations.
-constexpr double kSeen = 1e-9;
+constexpr double kShown = 1e-9;
 
 }  // namespace
 
@@ -58,7 +58,7 @@ std::vector<WatchedValue> Watcher::WholeLogEstimate() const {
   VectorXd unit = R.colwise().norm();
   for (double& value : unit) value = value > 0 ? 1 / value : 1;
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> factor;
-  factor.setThreshold(kSeen);
+  factor.setThreshold(kShown);
   factor.compute(R * unit.asDiagonal());
   const VectorXd change =
       unit.cwiseProduct(factor.solve(triangle.col(p).head(p)));

@@ -9,10 +9,11 @@ on three logs of 30 s. Then 40 s of it are followed by 20 s in which something
 has changed, in rows of 1 kHz that follow each other: a payload of KG; or more
 Coulomb friction in one joint, a fifth of its usual torque; or a hand that pushes
 the tool once, F / cosh^2((t - t0) / 30 ms), in a random direction. All act in the
-simulated dynamics. Both parts begin and end where the arm stands, so the delay
+simulated dynamics. Parts begin and end where the arm stands, so the delay
 of a payload and of friction counts from the first motion of the changed arm; that
-of a push from the time on at which it has a tenth of its force. Prints a line
-for each and the delays' quantiles.
+of a push from the time on at which it has a tenth of its force. "Moving": the
+payload is there from one row to the next amid a motion, the rest of the log being
+that of the same motion with it. Prints a line for each and the delays' quantiles.
 """
 
 import argparse
@@ -93,6 +94,18 @@ class Trial:
                 [e["event"] for e in events if e.get("time_s", 0) >= change][:5],
                 early)
 
+    def moving(self, mass):
+        """Seconds from the first row with a payload to the event."""
+        _, without = read(self.simulate(53, duration=50))
+        _, loaded = read(self.simulate(53, duration=50,
+                                       effects=f"payload:mass={mass}kg"))
+        change = 36 + 1.3 * (self.seed % 7)
+        rows = numpy.vstack([without[without[:, 0] < change],
+                             loaded[loaded[:, 0] >= change]])
+        events = self.watch(rows)
+        event = told(events, ("payload",), change)
+        return None if event is None else event["time_s"] - change
+
     def push(self, force):
         """Milliseconds from a tenth of the force to the contact."""
         _, after = read(self.simulate(
@@ -121,7 +134,7 @@ def main():
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--first", type=int, default=1)
     arguments = parser.parse_args()
-    payloads, frictions = [], []
+    payloads, frictions, moving = [], [], []
     pushes = {force: [] for force in FORCES}
     for seed in range(arguments.first, arguments.first + arguments.seeds):
         with tempfile.TemporaryDirectory() as folder:
@@ -134,6 +147,8 @@ def main():
                   f"{mass and [round(x, 3) for x in mass['ci95']]}; {what}"
                   f"{'; EARLY ' + str(len(early)) if early else ''}", flush=True)
             payloads.append(delay)
+            moving.append(trial.moving(arguments.payload))
+            print(f"seed {seed}: payload while moving after {moving[-1]} s", flush=True)
             joint = 1 + seed % 6
             delay, event, what, early = trial.change(
                 f"coulomb_friction@{joint}:friction=0.2", "friction")
@@ -144,6 +159,7 @@ def main():
                 pushes[force].append(trial.push(force))
             print(f"seed {seed}: pushes of {FORCES} N after "
                   f"{[pushes[force][-1] for force in FORCES]} ms", flush=True)
+    summary("payload, moving", moving, "s")
     summary("payload, from first motion", payloads, "s")
     summary("friction, from first motion", frictions, "s")
     for force in FORCES:
