@@ -120,8 +120,9 @@ void Watcher::Decide(double t) {
   DecideBetween(t, contact_ ? contact_onset_ : onset, best);
 }
 
-// The likeliest has to be clearly so, and not only because it has fewer
-// numbers to explain with: its estimate fits clearly better than any other's.
+// The likeliest has to be clearly so, and against a cause that has more numbers
+// to explain with not only because it has fewer: its estimate fits clearly
+// better.
 void Watcher::DecideBetween(double t, double onset,
                             const std::vector<ChangeEvidence>& evidence) {
   const auto best = std::max_element(
@@ -130,8 +131,10 @@ void Watcher::DecideBetween(double t, double onset,
   bool clear = true;
   for (const ChangeEvidence& other : evidence) {
     if (&other == &*best) continue;
+    const bool simpler = other.theta.size() > best->theta.size();
     clear = clear && best->log_bayes - other.log_bayes >= kClearlyOver &&
-            best->log_likelihood - other.log_likelihood >= kClearlyOver;
+            (!simpler ||
+             best->log_likelihood - other.log_likelihood >= kClearlyOver);
   }
   if (clear) {
     Tell(t, onset, best - evidence.begin(), *best);
