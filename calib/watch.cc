@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "calib/watch/live_rows.h"
+#include "calib/watch/watcher.h"
 #include "model/log_files/log_reader.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"

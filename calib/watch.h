@@ -6,7 +6,6 @@
 
 #include "calib/summary.h"
 #include "calib/watch/event.h"
-#include "calib/watch/watcher.h"
 #include "model/log_files/log_reader_options.h"
 #include "model/log_files/log_source.h"
 #include "model/robot/robot.h"

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "calib/watch/watcher.h"
+#include "calib/watch/event.h"
+#include "model/robot/robot.h"
 
 namespace armcal {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -35,6 +36,15 @@ struct WatchEvent {
   std::string text;  // what else there is to say
 
   double delay() const { return time - onset; }
+};
+
+// What a page shows of the moment.
+struct WatchState {
+  double time = 0;  // s since the log's first row
+  bool learning = true;
+  bool contact = false;
+  Eigen::VectorXd residual, limit;    // per joint, N m or N; no limit at first
+  std::vector<WatchedValue> changes;  // that last, since the calibration
 };
 
 const char* WatchEventName(WatchEvent::Kind kind);

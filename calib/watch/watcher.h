@@ -21,15 +21,6 @@ struct WatcherOptions {
   double false_alarms_per_hour = .1;
 };
 
-// What a page shows of the moment.
-struct WatchState {
-  double time = 0;  // s since the log's first row
-  bool learning = true;
-  bool contact = false;
-  Eigen::VectorXd residual, limit;    // per joint, N m or N; no limit at first
-  std::vector<WatchedValue> changes;  // that last, since the calibration
-};
-
 // Follows a log sample by sample in bounded memory, and tells events.
 //   Fast: the momentum observer's residual of each joint against its limit: a
 //   contact. Slow: blocks of rows of the last 16 s; at each block's end the
