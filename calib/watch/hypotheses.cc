@@ -35,11 +35,11 @@ double FeltMass(const WatchModel& model) {
 // A body of a tenth of what the torques of the calibration lift (a tenth of
 // them is what a change has to be to matter), its centre within a tenth of the
 // arm's reach from the last link's origin; inertias of such a body.
-ChangeHypothesis Payload(const WatchModel& model) {
+WatchHypothesis Payload(const WatchModel& model) {
   const double mass = .3 * FeltMass(model);
   const double arm = .1 * Reach(model.robot);
-  ChangeHypothesis change;
-  change.kind = ChangeHypothesis::Kind::kPayload;
+  WatchHypothesis change;
+  change.kind = WatchHypothesis::Kind::kPayload;
   change.columns = MatrixXd::Zero(model.columns() + kWrench, 10);
   change.columns.topRows(model.size()) = PayloadColumns(model);
   change.stddev.resize(10);
@@ -53,11 +53,11 @@ ChangeHypothesis Payload(const WatchModel& model) {
 
 // Half of what the joint has; of what it does not have, 2 % of its torque (its
 // viscous part at 1 rad/s or m/s), which a diagnosis takes for worth naming.
-ChangeHypothesis Friction(const WatchModel& model, int j) {
+WatchHypothesis Friction(const WatchModel& model, int j) {
   const Joint& joint = model.robot.links[j].joint;
   const double least = .02 * model.torque_rms[j];
-  ChangeHypothesis change;
-  change.kind = ChangeHypothesis::Kind::kFriction;
+  WatchHypothesis change;
+  change.kind = WatchHypothesis::Kind::kFriction;
   change.joint = j;
   std::vector<double> stddev;
   std::vector<int> places;
@@ -79,11 +79,11 @@ ChangeHypothesis Friction(const WatchModel& model, int j) {
 }
 
 // The weight of the payload above, and its moment at a tenth of the reach.
-ChangeHypothesis Contact(const WatchModel& model) {
+WatchHypothesis Contact(const WatchModel& model) {
   constexpr double kGravity = 9.81;
   const double force = .3 * FeltMass(model) * kGravity;
-  ChangeHypothesis change;
-  change.kind = ChangeHypothesis::Kind::kContact;
+  WatchHypothesis change;
+  change.kind = WatchHypothesis::Kind::kContact;
   change.columns = MatrixXd::Zero(model.columns() + kWrench, kWrench);
   change.columns.bottomRows(kWrench).setIdentity();
   change.stddev = VectorXd::Constant(kWrench, force);
@@ -95,8 +95,8 @@ ChangeHypothesis Contact(const WatchModel& model) {
 
 }  // namespace
 
-std::vector<ChangeHypothesis> MakeHypotheses(const WatchModel& model) {
-  std::vector<ChangeHypothesis> hypotheses = {Payload(model)};
+std::vector<WatchHypothesis> MakeWatchHypotheses(const WatchModel& model) {
+  std::vector<WatchHypothesis> hypotheses = {Payload(model)};
   for (int j = 0; j < model.num_joints(); ++j) {
     hypotheses.push_back(Friction(model, j));
   }
@@ -104,7 +104,7 @@ std::vector<ChangeHypothesis> MakeHypotheses(const WatchModel& model) {
   return hypotheses;
 }
 
-MatrixXd WithChange(const MatrixXd& covariance, const ChangeHypothesis& change,
+MatrixXd WithChange(const MatrixXd& covariance, const WatchHypothesis& change,
                     const VectorXd& variance) {
   const MatrixXd B = change.columns.topRows(covariance.rows());
   return covariance + B * variance.asDiagonal() * B.transpose();

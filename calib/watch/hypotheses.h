@@ -12,11 +12,11 @@ namespace armcal {
 // The first is the payload, then come the joints in their order. Each has a
 // prior as wide as such changes are on this arm (its source has the numbers):
 // half of a joint's friction, a payload of a tenth of what the arm lifts.
-std::vector<ChangeHypothesis> MakeHypotheses(const WatchModel& model);
+std::vector<WatchHypothesis> MakeWatchHypotheses(const WatchModel& model);
 
 // Adds the covariance of a change to that of the parameters; a wrench is none.
 Eigen::MatrixXd WithChange(const Eigen::MatrixXd& covariance,
-                           const ChangeHypothesis& change,
+                           const WatchHypothesis& change,
                            const Eigen::VectorXd& variance);
 
 }  // namespace armcal

@@ -58,7 +58,7 @@ ChangeTest::ChangeTest(const RowInformation& rows,
 // log Bayes factor of theta ~ N(0, S^2) against theta = 0, of information I and
 // score b: b'(I + S^-2)^-1 b / 2 - log det(1 + S I S) / 2. Its second term is
 // Occam's: what could have explained anything has explained little.
-ChangeEvidence ChangeTest::Of(const ChangeHypothesis& change) const {
+ChangeEvidence ChangeTest::Of(const WatchHypothesis& change) const {
   const MatrixXd B = change.columns * change.stddev.asDiagonal();
   const MatrixXd shadow = half_ * B;
   MatrixXd M = B.transpose() * (AtA_ * B) - shadow.transpose() * shadow;

@@ -31,7 +31,7 @@ struct RowInformation {
 
 // A change that parameters or an outside force may make: z = columns theta with
 // theta ~ N(0, stddev^2), independent of each other.
-struct ChangeHypothesis {
+struct WatchHypothesis {
   enum class Kind { kPayload, kFriction, kContact };
   Kind kind = Kind::kPayload;
   int joint = -1;           // of friction, from 0
@@ -57,7 +57,7 @@ class ChangeTest {
   ChangeTest(const RowInformation& rows, const ParameterBelief& belief,
              const Eigen::MatrixXd& root);
 
-  ChangeEvidence Of(const ChangeHypothesis& change) const;
+  ChangeEvidence Of(const WatchHypothesis& change) const;
 
  private:
   Eigen::MatrixXd AtA_;

@@ -209,7 +209,7 @@ void LearnTails(const std::vector<WatchRow>& rows,
 // variance of that is a random effect's, by expectation and maximization
 // (Laird & Ware 1982), taken two standard errors high.
 MatrixXd LearnWander(const std::vector<WatchRow>& rows,
-                     const std::vector<ChangeHypothesis>& hypotheses,
+                     const std::vector<WatchHypothesis>& hypotheses,
                      const ParameterBelief& belief, const NullModel& null) {
   const Eigen::Index p = belief.mean.size();
   const MatrixXd root = CovarianceRoot(belief.covariance);
@@ -224,8 +224,8 @@ MatrixXd LearnWander(const std::vector<WatchRow>& rows,
   }
   MatrixXd wander = MatrixXd::Zero(p, p);
   const double high = 1 + 2 * std::sqrt(2. / windows.size());
-  for (ChangeHypothesis change : hypotheses) {
-    if (change.kind == ChangeHypothesis::Kind::kContact) continue;
+  for (WatchHypothesis change : hypotheses) {
+    if (change.kind == WatchHypothesis::Kind::kContact) continue;
     VectorXd variance = change.stddev.cwiseAbs2();
     for (int step = 0; step < kWanderSteps; ++step) {
       change.stddev = variance.cwiseSqrt();
@@ -278,7 +278,7 @@ VectorXd NullModel::Weight(const WatchRow& row) const {
 // ratios is smaller than the sum. `hypotheses` such sums share half of the
 // false alarms.
 NullModel LearnNull(const std::vector<WatchRow>& rows, const WatchModel& model,
-                    const std::vector<ChangeHypothesis>& hypotheses,
+                    const std::vector<WatchHypothesis>& hypotheses,
                     const NullOptions& options, ParameterBelief* belief) {
   const int n = model.num_joints();
   const Eigen::Index p = belief->mean.size();
@@ -288,8 +288,8 @@ NullModel LearnNull(const std::vector<WatchRow>& rows, const WatchModel& model,
   null.long_run = VectorXd::Ones(n);
   null.threshold = null.crossing_threshold = VectorXd::Zero(n);
   ParameterBelief free = *belief;
-  for (const ChangeHypothesis& change : hypotheses) {
-    if (change.kind == ChangeHypothesis::Kind::kContact) continue;
+  for (const WatchHypothesis& change : hypotheses) {
+    if (change.kind == WatchHypothesis::Kind::kContact) continue;
     free.covariance =
         WithChange(free.covariance, change, change.stddev.cwiseAbs2());
   }

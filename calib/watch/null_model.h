@@ -58,7 +58,7 @@ struct NullModel {
 // say of the parameters together. The change of a payload or of friction since
 // the calibration is free to be there, and is then no noise.
 NullModel LearnNull(const std::vector<WatchRow>& rows, const WatchModel& model,
-                    const std::vector<ChangeHypothesis>& hypotheses,
+                    const std::vector<WatchHypothesis>& hypotheses,
                     const NullOptions& options, ParameterBelief* belief);
 
 // The level which a stationary Gaussian signal of unit variance and two equal

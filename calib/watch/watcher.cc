@@ -31,7 +31,7 @@ Watcher::Watcher(WatchModel model, const WatcherOptions& options, Events events)
       options_(options),
       events_(std::move(events)),
       rows_(model_, options.bandwidth_hz),
-      hypotheses_(MakeHypotheses(model_)),
+      hypotheses_(MakeWatchHypotheses(model_)),
       null_options_{options.bandwidth_hz,
                     1 / (kRowsPerPeriod * options.bandwidth_hz),
                     options.false_alarms_per_hour},

@@ -87,7 +87,7 @@ class Watcher {
   WatcherOptions options_;
   Events events_;
   CausalRows rows_;
-  std::vector<ChangeHypothesis> hypotheses_;
+  std::vector<WatchHypothesis> hypotheses_;
   NullOptions null_options_;
   double first_ = 0, last_ = -1, last_row_ = -1;
   double step_ = 0;  // of the samples, s, slowly averaged

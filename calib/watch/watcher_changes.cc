@@ -32,8 +32,8 @@ void Watcher::CompareWithCalibration(const RowInformation& all, double t) {
     const MatrixXd root = CovarianceRoot(before.covariance);
     const ChangeTest test(all, before, root);
     std::vector<ChangeEvidence> evidence;
-    for (const ChangeHypothesis& change : hypotheses_) {
-      if (change.kind == ChangeHypothesis::Kind::kContact) continue;
+    for (const WatchHypothesis& change : hypotheses_) {
+      if (change.kind == WatchHypothesis::Kind::kContact) continue;
       evidence.push_back(test.Of(change));
     }
     const auto best = std::max_element(
@@ -41,8 +41,7 @@ void Watcher::CompareWithCalibration(const RowInformation& all, double t) {
         [](const auto& a, const auto& b) { return a.log_bayes < b.log_bayes; });
     if (best->log_bayes < null_->log_bayes_threshold) return;
     const size_t h = best - evidence.begin();
-    const bool payload =
-        hypotheses_[h].kind == ChangeHypothesis::Kind::kPayload;
+    const bool payload = hypotheses_[h].kind == WatchHypothesis::Kind::kPayload;
     WatchEvent event{payload ? Kind::kPayload : Kind::kFriction,
                      t,
                      first_,
@@ -102,7 +101,7 @@ void Watcher::Decide(double t) {
     const ChangeTest test(window, belief_, root_);
     std::vector<ChangeEvidence> evidence;
     double largest = 0;
-    for (const ChangeHypothesis& change : hypotheses_) {
+    for (const WatchHypothesis& change : hypotheses_) {
       evidence.push_back(test.Of(change));
       largest = std::max(largest, evidence.back().log_bayes);
     }
@@ -158,11 +157,11 @@ void Watcher::TellUndecided(double t, double onset) {
 
 void Watcher::Tell(double t, double onset, size_t hypothesis,
                    const ChangeEvidence& evidence) {
-  const ChangeHypothesis& change = hypotheses_[hypothesis];
+  const WatchHypothesis& change = hypotheses_[hypothesis];
   WatchEvent event{
       Kind::kPayload,     t,     onset, {}, ValuesOf(hypothesis, evidence),
       evidence.log_bayes, false, ""};
-  if (change.kind == ChangeHypothesis::Kind::kContact) {
+  if (change.kind == WatchHypothesis::Kind::kContact) {
     if (contact_) return;  // it was told when it began
     event.kind = Kind::kContact;
     event.text = "it lasts";
@@ -171,7 +170,7 @@ void Watcher::Tell(double t, double onset, size_t hypothesis,
     events_(event);
     return;
   }
-  if (change.kind == ChangeHypothesis::Kind::kFriction) {
+  if (change.kind == WatchHypothesis::Kind::kFriction) {
     event.kind = Kind::kFriction;
     event.joints = {model_.robot.links[change.joint].joint.name};
   }
@@ -189,7 +188,7 @@ void Watcher::Accept(size_t hypothesis, double onset) {
   lasting_.push_back({hypothesis, onset, belief_, root_,
                       RowInformation(model_.columns() + 6)});
   for (const RowInformation& block : blocks_) lasting_.back().since.Add(block);
-  const ChangeHypothesis& change = hypotheses_[hypothesis];
+  const WatchHypothesis& change = hypotheses_[hypothesis];
   SetBelief({belief_.mean, WithChange(belief_.covariance, change,
                                       change.stddev.cwiseAbs2())});
   if (!blocks_.empty()) learn_soon_until_ = blocks_.back().end + kLearnSoon;

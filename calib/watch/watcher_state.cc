@@ -18,11 +18,11 @@ constexpr double kShown = 1e-9;
 
 std::vector<WatchedValue> Watcher::ValuesOf(
     size_t hypothesis, const ChangeEvidence& evidence) const {
-  const ChangeHypothesis& change = hypotheses_[hypothesis];
+  const WatchHypothesis& change = hypotheses_[hypothesis];
   std::vector<WatchedValue> values;
   for (size_t k = 0; k < change.names.size(); ++k) {
     // Of a payload, mass and moments; its inertia shows little.
-    if (change.kind == ChangeHypothesis::Kind::kPayload && k > 3) break;
+    if (change.kind == WatchHypothesis::Kind::kPayload && k > 3) break;
     values.push_back({change.names[k], change.units[k], evidence.theta[k],
                       std::sqrt(evidence.covariance(k, k))});
   }
@@ -37,7 +37,7 @@ WatchState Watcher::State() const {
   state.residual = residual_;
   state.limit = limit_;
   for (const Lasting& lasting : lasting_) {
-    const ChangeHypothesis& change = hypotheses_[lasting.hypothesis];
+    const WatchHypothesis& change = hypotheses_[lasting.hypothesis];
     const ChangeTest test(lasting.since, lasting.before, lasting.root);
     for (WatchedValue value : ValuesOf(lasting.hypothesis, test.Of(change))) {
       value.name =

@@ -34,7 +34,7 @@ struct Case {
   MatrixXd A;
   VectorXd r, weight;
   ParameterBelief belief;
-  ChangeHypothesis change;
+  WatchHypothesis change;
   RowInformation rows{kColumns};
 };
 

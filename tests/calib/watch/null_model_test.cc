@@ -59,7 +59,7 @@ NullModel Learned(double sigma, double tail) {
   const WatchModel model = WatchedModel(WatchedRobot());
   ParameterBelief belief{VectorXd::Zero(model.size()), model.covariance};
   return LearnNull(NoiseRows(model, sigma, tail, 2), model,
-                   MakeHypotheses(model), {}, &belief);
+                   MakeWatchHypotheses(model), {}, &belief);
 }
 
 TEST(NullModel, LearnsTheNoise) {
