@@ -59,7 +59,7 @@ target_link_libraries(all_of_armcal INTERFACE ${exported})
 # Installed are the doors, what makes their arguments, and what these include:
 # nothing else of the libraries is promised to programs.
 set(public calib/calibrate.h calib/compare.h calib/diagnose.h calib/excite.h
-    calib/inspect.h calib/merge.h calib/verify.h model/dynamics/forward_dynamics.h
+    calib/inspect.h calib/merge.h calib/verify.h calib/watch.h model/dynamics/forward_dynamics.h
     model/dynamics/inverse_dynamics.h model/log_files/log_reader.h
     model/robot/kinematics.h model/robot_files/robot_reader.h
     model/robot_files/urdf_writer.h)

@@ -49,6 +49,7 @@ set(rooms
     calib/diagnose      # the diagnosis as a whole and its files
     calib/inspect       # what a log or robot file holds and what is wrong
     calib/compare       # whether results of one robot agree within noise
+    calib/watch         # a running log against a calibration, sample by sample
     calib               # the doors: one header for each command
     tools/report        # the page report.html
     tools               # what commands share: flags, help, what is printed

@@ -35,7 +35,8 @@ PAGES = {  # whose page explains the keys of a file
     "calibration.json": "calibrate", "verification.json": "verify",
     "diagnosis.json": "diagnose", "effects.json": "diagnose",
     "excite.json": "excite", "inspect.json": "inspect",
-    "truth.json": "simulate", "fleet.json": "fleet"}
+    "truth.json": "simulate", "fleet.json": "fleet",
+    "watch.json": "watch"}
 NUMBER = re.compile(r"(?<![A-Za-z_\d.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
 FENCE = re.compile(r"^```(\S*) *([^\n]*)\n(.*?)^```$", re.M | re.S)
 LINK = re.compile(r"\]\(([^)#: ]+)(?:#[^)]*)?\)")

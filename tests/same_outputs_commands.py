@@ -154,7 +154,7 @@ COMMANDS = [
 armcal help
 armcal --help
 armcal -h
-for c in calibrate verify diagnose simulate excite inspect reduce merge compare; do
+for c in calibrate verify diagnose simulate excite inspect reduce merge compare watch; do
   armcal help $c
   armcal help $c --all
   armcal $c --help

@@ -14,6 +14,8 @@ namespace {
 // Lock-free, as all that a signal's handler may touch.
 std::atomic<int> writing{0};
 std::atomic<int> awaited{0};
+std::atomic<int> running{0};  // what ends by itself where it is asked to
+std::atomic<bool> asked{false};
 
 void EndBy(int signal) {
   EndProgress();
@@ -22,7 +24,9 @@ void EndBy(int signal) {
 }
 
 void Handle(int signal) {
-  if (writing > 0) {
+  if (running > 0 && !asked) {
+    asked = true;
+  } else if (writing > 0) {
     awaited = signal;
   } else {
     EndBy(signal);
@@ -51,5 +55,14 @@ Uninterrupted::~Uninterrupted() {
 }
 
 bool Uninterrupted::IsAwaited() { return awaited != 0; }
+
+AskedToEnd::AskedToEnd() { ++running; }
+
+AskedToEnd::~AskedToEnd() {
+  --running;
+  asked = false;
+}
+
+bool AskedToEnd::Asked() { return asked; }
 
 }  // namespace armcal

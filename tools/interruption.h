@@ -23,4 +23,16 @@ class Uninterrupted {
   static bool IsAwaited();
 };
 
+// While one of these lives, the first signal does not end armcal but asks what
+// runs for its result; a second one ends it.
+class AskedToEnd {
+ public:
+  AskedToEnd();
+  ~AskedToEnd();
+  AskedToEnd(const AskedToEnd&) = delete;
+  AskedToEnd& operator=(const AskedToEnd&) = delete;
+
+  static bool Asked();
+};
+
 }  // namespace armcal

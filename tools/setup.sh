@@ -10,7 +10,7 @@ packages=(
   libeigen3-dev libgflags-dev libgoogle-glog-dev libtinyxml2-dev libyaml-cpp-dev
   nlohmann-json3-dev zlib1g-dev libsqlite3-dev libzstd-dev liblz4-dev
   libmatio-dev libceres-dev libsimbody-dev libtbb-dev libboost-dev
-  libssl-dev libjs-dygraphs libgtest-dev libgmock-dev libmujoco-dev
+  libssl-dev libcpp-httplib-dev libjs-dygraphs libgtest-dev libgmock-dev libmujoco-dev
   pybind11-dev python3-dev python3-numpy python3-pip python3-distributed
   python3-setuptools python3-venv python3-wheel
 )

@@ -438,6 +438,41 @@ SIMULATIONS = Group(
         "simulate --robot=robot.yaml --effects=payload:mass=-50 --out=out"),
 ])
 
+WATCHED = Group(
+    "watched log", "watch --robot=robot.yaml --calibration=made --log=log.csv --follow "
+    "--idle=0.2 --quiet --out=out", {"robot.yaml": SWINGING}, [
+    Row("missing", removed("log.csv"), "log.csv: cannot be opened: No such file or directory"),
+    Row("folder", a_folder("log.csv"),
+        "log.csv: is a folder: a bag that is being written cannot be followed; print its "
+        "topic into a pipe instead (docs/watch.md has the lines)"),
+    Row("empty", written("log.csv", ""), "log.csv: the file is empty"),
+    Row("header alone", written("log.csv", "t,q1,q2,tau1,tau2\n"),
+        "log.csv: expected two rows of different times"),
+    Row("one instant", written("log.csv", "t,q1,q2,tau1,tau2\n" + 99 * "0,1,2,3,4\n"),
+        "log.csv: expected two rows of different times"),
+    Row("no torque of a joint", written("log.csv", "t,q1,q2,tau1\n0,1,2,3\n"),
+        "log.csv: row 1: missing tau2 or joint2/effort; the robot has 2 joints, the log "
+        "holds tau1"),
+    Row("endless zeros", linked("log.csv", "/dev/zero"),
+        "log.csv: is no text: only CSV can be followed while it is written; unpack it, or "
+        "watch it when it is finished"),
+    Row("gzip", written("log.csv", compressed(LOG)),
+        "log.csv: is no text: only CSV can be followed while it is written; unpack it, or "
+        "watch it when it is finished"),
+    Row("MCAP", written("log.csv", b"\x89MCAP0\r\n"),
+        "log.csv: is a bag: one that is being written cannot be followed, as its messages "
+        "are found by what is written last; print its topic into a pipe instead "
+        "(docs/watch.md has the lines), or watch the bag when it is finished"),
+    Row("endless line", written("log.csv", lambda: "t," + "q" * (3 << 20)),
+        "log.csv: row 1: the line is longer than 1 MB; this is not a log in CSV"),
+    Row("words", written("log.csv", "t,q1,q2,tau1,tau2\n" + 2000 * "a,b,c,d,e\n"),
+        "log.csv: row 1001: 1000 rows in a row could not be used, the last one because: "
+        "log.csv: row 1001, column q1: found 'b': expected a finite number"),
+    Row("posterior missing", removed("made/parameters_posterior.csv"),
+        "made/parameters_posterior.csv: cannot be opened: No such file or directory"),
+])
+
 GROUPS = [FACTORS._replace(prepare=[SIMULATE, REDUCE]),
           CALIBRATIONS._replace(prepare=[SIMULATE, CALIBRATE]),
-          GIVEN._replace(prepare=[SIMULATE, CALIBRATE]), POSE_FILES, SIMULATIONS, COMMANDS]
+          GIVEN._replace(prepare=[SIMULATE, CALIBRATE]),
+          WATCHED._replace(prepare=[SIMULATE, CALIBRATE]), POSE_FILES, SIMULATIONS, COMMANDS]

@@ -15,7 +15,7 @@ file(MAKE_DIRECTORY ${WORK_DIR}/logs)
 file(WRITE ${WORK_DIR}/logs/a.csv "")
 file(WRITE ${WORK_DIR}/logs/b.csv "")
 complete("armcal " "calibrate verify diagnose simulate excite inspect reduce merge \
-compare completion help")
+compare watch completion help")
 complete("armcal completion " "bash zsh fish")
 complete("armcal ca" "calibrate")
 complete("armcal help ver" "verify")

@@ -54,7 +54,7 @@ endif()
 # Help fits a screen, and its examples are command lines that armcal takes:
 # their files are not there, and nothing else is wrong (simulate lists effects).
 foreach(command calibrate verify diagnose simulate excite inspect reduce merge
-        compare)
+        compare watch)
   run("help of ${command}" ${command} --help)
   string(REGEX MATCHALL "\n" lines "${out}")
   list(LENGTH lines count)

@@ -9,6 +9,7 @@
 #include "tools/commands/reduce.h"
 #include "tools/commands/simulate.h"
 #include "tools/commands/verify.h"
+#include "tools/commands/watch.h"
 
 namespace armcal {
 
@@ -18,6 +19,7 @@ const std::vector<Command>& Commands() {
         CalibrateCommand(), VerifyCommand(), DiagnoseCommand(),
         SimulateCommand(),  ExciteCommand(), InspectCommand(),
         ReduceCommand(),    MergeCommand(),  CompareCommand(),
+        WatchCommand(),
     };
     for (Command& command : commands) {
       command.groups.push_back(
