@@ -9,6 +9,11 @@ namespace {
 // Trust region radii: of no damping, and of Ceres' usual one.
 constexpr double kUndamped = 1e16, kDamped = 1e4;
 
+// One run of Ceres' Levenberg-Marquardt. Steps come from a QR factorisation of
+// the Jacobian J and not from the normal equations: these have the square of
+// J's condition number, and with it they lose the directions that only a weak
+// prior holds (Golub & Van Loan, Matrix Computations, 5.3). Ceres damps by
+// sqrt(diag(J'J) / radius), so that the first radius says how much.
 ceres::Solver::Summary Solve(double radius, int iterations,
                              double function_tolerance,
                              ceres::Problem* problem) {

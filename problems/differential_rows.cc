@@ -13,6 +13,11 @@ double DifferentialReach(const RowOptions& options) {
   return LowPassMemory(options.bandwidth_hz);
 }
 
+// Chooses the samples that become rows. Low-passed rows that lie closer than a
+// quarter of the bandwidth's period tell the same thing again: they cost time,
+// and their errors would be counted as independent. Places are multiples of
+// `apart` from the segment's beginning and not from the trajectory's, so that
+// the rows do not depend on how a log was cut into blocks.
 DifferentialRows::DifferentialRows(const Trajectory& trajectory,
                                    const RowOptions& options,
                                    const MotionFunctions& functions)
@@ -37,6 +42,9 @@ DifferentialRows::DifferentialRows(const Trajectory& trajectory,
   if (filter) Filter(options.bandwidth_hz);
 }
 
+// Passes each column of U, and tau, through one filter F. The model is linear
+// in X, so that F tau = (F U) X holds for any linear F. A filter of tau alone
+// would bias X; one of both only weighs the frequencies.
 void DifferentialRows::Filter(double bandwidth_hz) {
   std::vector<double*> columns;
   for (const int size : RowSizes(functions_, 1)) {
@@ -49,7 +57,7 @@ void DifferentialRows::Filter(double bandwidth_hz) {
   }
 }
 
-// Of samples that follow each other.
+// Writes U and tau, as they are, of samples that follow each other.
 void DifferentialRows::EvaluateRun(int first, long count, double* const* out,
                                    long stride) const {
   functions_.Differential(first, static_cast<int>(count), out, stride);
@@ -60,6 +68,8 @@ void DifferentialRows::EvaluateRun(int first, long count, double* const* out,
   }
 }
 
+// Filtered rows are copied. Others are evaluated now, in runs of samples that
+// follow each other, as the kernels take several samples in one instruction.
 void DifferentialRows::Evaluate(long begin, long count, double* const* out,
                                 long stride, RowScratch*) const {
   const size_t n = functions_.row_columns().size();

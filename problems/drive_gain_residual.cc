@@ -25,6 +25,14 @@ DriveGainResidual::DriveGainResidual(
                                       10};
 }
 
+// The residual is bilinear: r = g_j A (x + B p) - z. Its derivatives are
+//   dr/dg_j = A (x + B p),  dr/dx = g_j A,  dr/dp = g_j A B,
+// the last one only with the payload. A and z are triangular factors of all
+// rows (QR), so that an evaluation does not grow with the length of a log. Only
+// the known payload ends the freedom of scale between g and (x, p): without it
+// motion tells torques in units of a drive's constant and no more (Gautier &
+// Briot 2014, Global identification of joint drive gains and dynamic parameters
+// of robots, ASME J. Dyn. Syst. Meas. Control 136).
 bool DriveGainResidual::Evaluate(double const* const* parameters,
                                  double* residuals, double** jacobians) const {
   const Map<const VectorXd> g(parameters[0], num_joints_);

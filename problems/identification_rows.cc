@@ -10,6 +10,10 @@ void RowBatch::Evaluate(const IdentificationRows& rows,
   rows.Evaluate(begin, count, columns.data(), columns.stride(), scratch);
 }
 
+// Spreads each row over all parameters, with zeros for those that do not act on
+// the joint (U is block upper triangular, docs/theory.md, 1). It serves those
+// who want one equation at a time; passes over logs read the columns
+// themselves.
 void RowBatch::ForEachRow(const IdentificationRows& rows,
                           const MotionFunctions& functions,
                           IdentificationRow* row, const RowSink& sink) const {

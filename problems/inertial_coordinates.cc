@@ -11,8 +11,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Upper triangular U with U U' = F'F. Not by way of F'F, whose rounding hides
-// what is thin.
+// Upper triangular U with U U' = F'F, from QR of F with its columns reversed: J
+// being the matrix that reverses, F J = Q R gives F'F = (J R' J) (J R' J)', and
+// J R' J is upper triangular. F'F is not formed: it has the squares of F's
+// singular values, and a body thinner than 1e-8 of its length would be rounded
+// to a flat one.
 Matrix3d UpperCholesky(const Matrix3d& F) {
   const Eigen::HouseholderQR<Matrix3d> qr(F.rowwise().reverse().eval());
   Matrix3d R = qr.matrixQR().triangularView<Eigen::Upper>();
@@ -24,6 +27,12 @@ Matrix3d UpperCholesky(const Matrix3d& F) {
 
 }  // namespace
 
+// With c the centre of mass and S the second moments about the origin per mass,
+// the pseudo-inertia is m [S c; c' 1]. Its Schur complement S - c c' holds the
+// central second moments, which a body must have positive (Wensing, Kim &
+// Slotine 2018; Traversaro et al. 2016). Eigenvalues that are not are raised
+// there and not in the pseudo-inertia, so that mass and centre of mass stay
+// what they are. U of the rest and c are the coordinates.
 Vector10d LogCholeskyFromInertial(const Vector10d& V, double margin,
                                   double least_mass) {
   const double mass = std::max(V[0], least_mass);

@@ -15,8 +15,16 @@ constexpr int kEntries[10][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1},
                                  {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 constexpr double kLeast = 0.01;
 
-// C K with K K' = 1 + D, both upper triangular. Pivots of K below kLeast go on
-// smoothly and stay above 0.
+// C K with K K' = 1 + D, both upper triangular: one step of the solver. K is
+// found by Cholesky from the last column up, as upper triangular factors want
+// it, and the coordinates are read off the product C K. So the step is straight
+// in the pseudo-inertia, (C K) (C K)' = C (1 + D) C', though it is taken in the
+// logarithms.
+//
+// A pivot x below kLeast would be a body with no extent left in a direction. It
+// continues as kLeast^2 / (2 kLeast - x), which meets x at kLeast with the same
+// value and slope and stays above 0 for any x, so that the derivative that the
+// solver has is that of the step.
 template <class T>
 void Step(const double* c, const T* D, T* result) {
   using std::log;
@@ -55,6 +63,8 @@ bool InertialManifold::Plus(const double* x, const double* delta,
   return true;
 }
 
+// d Plus / d D at D = 0, by forward differentiation of the step itself (Ceres'
+// jets), so that both cannot disagree.
 bool InertialManifold::PlusJacobian(const double* x, double* jacobian) const {
   using Jet10 = ceres::Jet<double, 10>;
   Jet10 D[10], c[10];
@@ -66,6 +76,9 @@ bool InertialManifold::PlusJacobian(const double* x, double* jacobian) const {
   return true;
 }
 
+// The D that leads from x to y: with pseudo-inertias C_x C_x' and C_y C_y',
+//   K = C_x^-1 C_y,  D = K K' - 1.
+// K is e^(a_y - a_x) U_x^-1 U_y, a triangular solve.
 bool InertialManifold::Minus(const double* y, const double* x,
                              double* y_minus_x) const {
   const Eigen::Matrix4d C = LogCholeskyFactor(x);
@@ -79,6 +92,7 @@ bool InertialManifold::Minus(const double* y, const double* x,
   return true;
 }
 
+// Near x Minus undoes Plus, so that its derivative is the inverse of Plus'.
 bool InertialManifold::MinusJacobian(const double* x, double* jacobian) const {
   using Matrix10d = Eigen::Matrix<double, 10, 10, Eigen::RowMajor>;
   Matrix10d plus;

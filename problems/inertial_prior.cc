@@ -11,7 +11,11 @@ namespace armcal {
 
 using Matrix10d = Eigen::Matrix<double, 10, 10>;
 
-// h of the header at C = e^x, odd to first order: 2 x near 0.
+// The signed root h(e^x) of 2 (e^2x - 1 - 2x), which is the divergence of a
+// diagonal entry C = e^x. A solver wants residuals whose squares are the cost,
+// and the root has to change sign with x: |h| has a kink at 0, where the solver
+// comes to rest. Near 0 the difference e^2x - 1 - 2x cancels to nothing, and
+// the series 2 x (1 + x/3 + x^2/9 + ..) takes its place.
 template <class T>
 T SignedRoot(const T& x) {
   using std::abs;
@@ -24,6 +28,11 @@ T SignedRoot(const T& x) {
   return x < T(0) ? T(-h) : h;
 }
 
+// W is the prior's square root of information about V itself, at V_0. For a
+// change P of the pseudo-inertia A A' the divergence is, to second order, |A^-1
+// P A^-T|^2 (Frobenius) over trust^2: P relative to what the link has. W's
+// column k holds the entries for a unit of parameter k, those off the diagonal
+// once and by sqrt(2), as the norm counts them twice.
 InertialPrior::InertialPrior(const Vector10d& V_0, double trust)
     : c_0_(LogCholeskyFromInertial(V_0, 0.01, 0.01)), trust_(trust) {
   set_num_residuals(10);
@@ -47,6 +56,12 @@ InertialPrior::InertialPrior(const Vector10d& V_0, double trust)
   }
 }
 
+// Residuals of V in log-Cholesky coordinates. Both pseudo-inertias are products
+// of upper triangular factors, e^(2a) U U', so that
+//   C = e^(a - a_0) U_0^-1 U
+// is upper triangular, too, and X = C C' is V's pseudo-inertia as V_0 sees it.
+// The logarithms of C's diagonal are differences of coordinates. They are taken
+// as such and not from C, whose exponentials overflow far away.
 bool InertialPrior::Evaluate(double const* const* parameters, double* residuals,
                              double** jacobians) const {
   using Jet10 = ceres::Jet<double, 10>;

@@ -10,8 +10,11 @@ namespace {
 
 constexpr int kTogether = 256;  // samples evaluated together
 
-// Weight (in steps) of sample k of 0..steps. Simpson's rule of an odd number of
-// steps takes three eighths for the last three; one step is a trapezoid.
+// Weight (in steps) of sample k of 0..steps. The trapezoid rule has an error of
+// order dt^2, Simpson's of dt^4, but the latter asks for an even number of
+// steps. An odd number takes Simpson's three-eighths rule, of the same order,
+// for the last three; one step is a trapezoid (Davis & Rabinowitz 1984, Methods
+// of Numerical Integration).
 double QuadratureWeight(Quadrature rule, int k, int steps) {
   if (rule == Quadrature::kTrapezoid || steps == 1) {
     return k == 0 || k == steps ? 0.5 : 1;
@@ -45,6 +48,8 @@ IntegralRows::IntegralRows(const Trajectory& trajectory,
       intervals_.end());
 }
 
+// Given intervals whose first sample is in the core; the rest of each may reach
+// beyond it, into what the trajectory has of the next block.
 void IntegralRows::ListIntervals(const RowOptions& options) {
   const Trajectory& t = trajectory_;
   for (const TimeRange& interval : options.intervals) {
@@ -56,7 +61,8 @@ void IntegralRows::ListIntervals(const RowOptions& options) {
   }
 }
 
-// Side by side, in the core.
+// Intervals side by side that begin in the core. They begin at multiples of
+// their length from the segment's beginning, wherever blocks of the log begin.
 void IntegralRows::ListEqualIntervals(const RowOptions& options) {
   const Trajectory& t = trajectory_;
   if (options.interval_s > t.size() * t.dt) return;
@@ -96,6 +102,11 @@ void IntegralRows::Evaluate(long begin, long count, double* const* out,
   }
 }
 
+// One row by (2.27), w_k the quadrature's weights times dt:
+//   u_c = P_c(t2) - P_c(t1) - sum_k w_k D_c(t_k),   y = sum_k w_k tau(t_k).
+// The torque stands in D's last column, so that one kernel sums all columns.
+// Samples come in groups that stay in the cache. Weights behind the last sample
+// are 0 up to the kernel's width, whatever the columns hold there.
 void IntegralRows::EvaluateRow(const Interval& interval, double* const* out,
                                long stride, RowScratch* scratch) const {
   const std::vector<int> sizes = RowSizes(functions_, 1);

@@ -5,8 +5,9 @@
 namespace armcal {
 
 void JointColumns::Resize(const std::vector<int>& sizes, long rows) {
-  // Lanes of up to 8 without a tail. Eight more, or columns of a power of two
-  // would all share few lines of the cache.
+  // Columns have room for whole vectors of up to 8 lanes, so that kernels need
+  // no code for a rest. Eight more doubles keep columns of a power of two from
+  // falling into the same few lines of the cache.
   stride_ = (rows + 7) / 8 * 8 + 8;
   constexpr long kAlignment = 8;  // doubles, a line of the cache
   long size = kAlignment;

@@ -36,6 +36,11 @@ LinkFunctions::LinkFunctions(const Robot& robot,
                              const ArmGeometry& geometry,
                              const std::vector<int>& refined,
                              const std::vector<int>& inertial)
+    // Columns are ordered links, terms, geometry. A joint carries only the
+    // links beyond it, so its row has the last row_size(i) of the links'
+    // columns (U is block upper triangular), its own terms, and all of the
+    // geometry: an angle before the joint tilts gravity, and lengths on either
+    // side change how the links beyond it are accelerated.
     : terms_(terms),
       regressor_(geometry.ApplyTo(robot), inertial),
       geometry_(robot, geometry, refined),
@@ -71,7 +76,9 @@ MotionColumns LinkFunctions::Motion(int first) const {
                        states_, first);
 }
 
-// The terms come behind the links' columns, in order.
+// Calls `write` for each joint term with the place of its column in the joint's
+// row, behind the links' columns and in order, and with the states of Coulomb
+// friction (c of docs/theory.md, 1) where it is such a term.
 template <class Write>
 void LinkFunctions::ForEachTerm(int first, long stride,
                                 const Write& write) const {
@@ -99,6 +106,7 @@ std::vector<double*> LinkFunctions::Geometry(double* const* rows,
   return geometry;
 }
 
+// P and D of tau = (d/dt P - D) X. Terms of a joint act on its own row alone.
 void LinkFunctions::Momentum(int first, int count, double* const* P,
                              double* const* D, long stride) const {
   const MotionColumns motion = Motion(first);

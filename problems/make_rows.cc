@@ -8,6 +8,8 @@
 
 namespace armcal {
 
+// What a block of a log must have beyond its core, so that rows at the seam are
+// made of the same samples as if the log were whole.
 double RowReach(const RowOptions& options) {
   switch (options.identification) {
     case Identification::kWeak:

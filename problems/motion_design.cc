@@ -24,6 +24,17 @@ int MotionDesign::NumParameters() const {
   return static_cast<int>(units_.q.cols() * weight_.size());
 }
 
+// cost = log criterion(A(motion)) + barrier sum of -log(slack of each limit).
+// This is an interior-point method (Boyd & Vandenberghe 2004, Convex
+// Optimization, 11.3): the caller lowers `barrier` step by step, and every
+// motion on the way keeps all limits. No value means that the line search has
+// to go back.
+//
+// The gradient goes backwards by the chain rule: cost -> (A, torque) -> (q, qd,
+// qdd) of each sample -> the numbers p. Motion is linear in p, q = B_q p, so
+// the last step is B_q' dq + B_qd' dqd + B_qdd' dqdd. The price is a few times
+// that of the value, however many numbers there are; differences would cost one
+// value for each of them.
 bool MotionDesign::Evaluate(const double* numbers, double* cost,
                             double* gradient) const {
   const Eigen::Map<const MatrixXd> p(numbers, units_.q.cols(), weight_.size());

@@ -11,6 +11,9 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Coulomb friction must depend on the velocity of its sample alone: states that
+// follow a displacement have a memory, and A would no longer be a sum over
+// samples that threads can share.
 MotionInformation::MotionInformation(const Robot& robot,
                                      const ModelParameters& model)
     : num_parameters_(model.size()) {
@@ -32,7 +35,9 @@ MotionInformation::MotionInformation(const Robot& robot,
   }
 }
 
-// work(thread, sample) for every sample, each of which belongs to one thread.
+// Calls work(thread, sample) for every sample, each of which belongs to one
+// thread. Every sample writes only its own rows, so results do not depend on
+// the threads.
 template <typename Work>
 void MotionInformation::OnAllThreads(const Work& work) {
   const int threads = static_cast<int>(regressors_.size());
@@ -45,6 +50,10 @@ void MotionInformation::OnAllThreads(const Work& work) {
   for (std::future<void>& each : running) each.get();
 }
 
+// A = sum_j w_j U_j' U_j, U_j being joint j's rows with the columns that act on
+// it: U is block upper triangular, and most products would be by zero. It is
+// the Fisher information of X for independent normal errors of variance 1 /
+// w_j. The sum over samples is taken after the threads, in one order.
 void MotionInformation::Evaluate(const Motion& motion, const VectorXd& weight) {
   motion_ = motion;
   weight_ = weight;
@@ -85,6 +94,11 @@ MatrixXd MotionInformation::Torque(const VectorXd& x) const {
   return tau;
 }
 
+// The reverse of Evaluate. With G_A = df/dA symmetric and g_j = df/dtorque_j,
+//   df/dU_j = 2 w_j U_j G_A + g_j x',
+// since A = sum_j w_j U_j' U_j and torque_j = U_j x. RegressorGradient then
+// carries df/dU of a sample to its q, qd and qdd without dU/dq itself, which
+// has n times as many entries as U.
 void MotionInformation::AddGradient(const MatrixXd& of_A, const VectorXd& x,
                                     const MatrixXd& of_torque,
                                     MotionGradient* gradient) {

@@ -28,6 +28,10 @@ double LargestShare(const Band& band, const VectorXd& x) {
                   std::abs(band.Share(x.minCoeff())));
 }
 
+// The logarithmic barrier of one quantity over all samples, with u = (x -
+// centre) / reach:
+//   sum_s -log(1 - u_s^2),   d/dx = 2 u / (1 - u^2) / reach.
+// At or beyond the limit it is infinite, not NaN, and the motion is refused.
 double AddBand(const Band& band, const VectorXd& x, double factor,
                Eigen::Ref<VectorXd> gradient) {
   if (!std::isfinite(band.reach)) return 0;
@@ -67,6 +71,9 @@ double MotionLimits::Used(const Motion& motion, const MatrixXd& torque) const {
   return used;
 }
 
+// The file's limits, or cautious ones where it has none: a design without any
+// would run off to infinite speed, as information grows with it. Each
+// assumption is told, since a real arm's range may be smaller.
 MotionLimits LimitsOf(const Robot& robot, std::vector<std::string>* assumed) {
   const int n = robot.num_joints();
   MotionLimits limits{VectorXd(n), VectorXd(n), VectorXd(n), VectorXd(n),

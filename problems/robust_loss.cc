@@ -5,7 +5,11 @@
 namespace armcal {
 namespace {
 
-// rho(s) with s = r^2 has psi = r rho', hence psi' = rho' + 2 s rho''.
+// Ceres writes a loss as rho(s) with s = r^2, of which half is the cost. Its
+// derivative by r is the score psi = r rho'(s); hence the weight psi / r = rho'
+// and the slope psi' = rho' + 2 s rho''. The slope of Tukey's and Cauchy's
+// losses is negative for large residuals: covariances want it so, while
+// iterations go by the weight, which is never negative.
 LossAt FromCeres(const ceres::LossFunction& loss, double r) {
   double rho[3];
   loss.Evaluate(r * r, rho);
@@ -14,6 +18,11 @@ LossAt FromCeres(const ceres::LossFunction& loss, double r) {
 
 }  // namespace
 
+// Scales at which the estimate of a mean has 1 / .95 of the least variance if
+// errors are normal after all: (E psi')^2 / E psi^2 = .95. For one coordinate
+// they are the well-known 1.345 of Huber's loss (Huber 1964) and 4.685 of
+// Tukey's. The length of several normal coordinates is larger (chi), and so are
+// the scales.
 double LossScale(RobustLoss loss, int coordinates) {
   const int column = coordinates <= 3 ? coordinates - 1 : 3;
   CHECK(column < 3 || coordinates == 6) << coordinates;

@@ -44,6 +44,12 @@ TorqueFactorResidual::TorqueFactorResidual(const MatrixXd& R, const VectorXd& z,
   CHECK_EQ(R.cols(), columns);
 }
 
+// r = R theta - z, with theta = [V_1 .. V_n, y]. R and z are the triangular
+// factor of all weighted rows: |U theta - tau|^2 = |R theta - z|^2 + constant
+// (Golub & Van Loan, 5.3), so a step costs the square of the number of
+// parameters, not the length of the logs, and R is no worse conditioned than U.
+// The equations are linear in theta; only V(c) bends them, by the chain rule
+// dr/dc = R_i dV/dc.
 bool TorqueFactorResidual::Evaluate(double const* const* parameters,
                                     double* residuals,
                                     double** jacobians) const {

@@ -56,6 +56,14 @@ VectorXd TorqueSensitivity::Torque(const VectorXd& q, const VectorXd& qd,
   return U_ * x;
 }
 
+// T = [d tau/dq, d tau/dqd, d tau/dqdd] at fixed x. Positions and velocities go
+// by forward differences, 2 n + 1 evaluations of U x. The torque is affine in
+// the acceleration, and d tau/dqdd is the mass matrix, whose column j is the
+// momentum at the unit velocity of joint j: no difference of large numbers is
+// taken. Friction by velocity, c = tanh(qd / width), is held during the
+// differences, as a step may be no small part of a width, and adds
+//   x_c dc/dqd = x_c (1 - c^2) / width
+// by itself.
 void TorqueSensitivity::Differentiate(int sample, const VectorXd& x,
                                       MatrixXd* T) {
   VectorXd q = trajectory_->q.row(sample), qd = trajectory_->qd.row(sample);
@@ -86,6 +94,9 @@ void TorqueSensitivity::Differentiate(int sample, const VectorXd& x,
   }
 }
 
+// A central difference in log(width), between states 5 % wider and narrower.
+// Both are followed along the whole log: the displacement law has a memory, so
+// that its derivative cannot be had from one sample.
 double TorqueSensitivity::WidthDerivative(int sample, int w) const {
   return (wider_states_(sample, w) - narrower_states_(sample, w)) /
          (2 * std::log(kWidthFactor));

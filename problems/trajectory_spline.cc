@@ -12,8 +12,11 @@ namespace {
 using Eigen::MatrixXd;
 using Weights = Eigen::Matrix<double, 1, TrajectorySpline::kSupport>;
 
-// B-splines of the given degree, on knots at the whole numbers, that are not
-// zero at u in [0, 1]; the one that begins first comes first (de Boor).
+// The B-splines of the given degree, on knots at the whole numbers, that are
+// not zero at u in [0, 1], the one that begins first coming first. The
+// recursion is Cox and de Boor's (de Boor 1978, A Practical Guide to Splines,
+// ch. X): each degree is a mean of two of the degree before with weights in [0,
+// 1], so that nothing cancels.
 Weights Cardinal(int degree, double u) {
   Weights b = Weights::Zero();
   b[0] = 1;
@@ -26,8 +29,9 @@ Weights Cardinal(int degree, double u) {
   return b;
 }
 
-// Their derivatives, from the B-splines of one degree less (or derivatives of
-// those).
+// Derivatives of B-splines of degree p, per knot interval, from those of degree
+// p - 1 (or from derivatives of these): B_j' = B_{j-1} - B_j of the lower
+// degree (de Boor 1978, ch. X).
 Weights Derivative(const Weights& lower) {
   Weights d = -lower;
   d.tail<TrajectorySpline::kSupport - 1>() +=
@@ -37,6 +41,9 @@ Weights Derivative(const Weights& lower) {
 
 }  // namespace
 
+// Tables the weights of position, velocity and acceleration at every sample.
+// Six control points reach a sample, so that the equations of a fit have a band
+// of known width and are solved in time linear in the samples.
 TrajectorySpline::TrajectorySpline(int samples, double dt, double knot_s) {
   CHECK_GE(samples, kLeastSamples);
   const double duration = (samples - 1) * dt;
@@ -66,6 +73,10 @@ MatrixXd TrajectorySpline::Evaluate(const MatrixXd& points, int order) const {
   return x;
 }
 
+// Least squares of the positions alone, by the normal equations B'B c = B' q.
+// They are banded, and B-splines with three samples and more per knot interval
+// are well conditioned whatever their number (de Boor 1978). So B'B may square
+// the condition number, which rules normal equations out elsewhere.
 MatrixXd TrajectorySpline::Fit(const MatrixXd& samples) const {
   std::vector<Eigen::Triplet<double>> entries;
   for (int k = 0; k < size(); ++k) {

@@ -15,6 +15,10 @@ long Padded(long rows) { return (rows + 7) / 8 * 8; }
 
 }  // namespace
 
+// A window has `steps_` + 1 samples and at least 9, as the quadrature of phi
+// needs some. Windows begin at cells, hop_ samples long, and reach over
+// `phases_` of them: each cell's P and D are evaluated once and go into all
+// windows over it.
 WeakRows::WeakRows(const Trajectory& trajectory, const RowOptions& options,
                    const MotionFunctions& functions)
     : trajectory_(trajectory),
@@ -29,6 +33,12 @@ WeakRows::WeakRows(const Trajectory& trajectory, const RowOptions& options,
   ListWindows();
 }
 
+// Tables phi = (1 - s^2)^4 and d phi/dt = -8 s (1 - s^2)^3 ds/dt with ds/dt = 2
+// / (steps dt). Both are divided by the sum of phi, which makes phi's integral
+// 1 and includes the trapezoid rule's dt. phi and its first three derivatives
+// vanish at both ends, and with them the terms of low order of the trapezoid
+// rule's error (Euler and Maclaurin's formula). A cell's samples stand in a
+// column of each phase, so that a kernel takes all phases at once.
 void WeakRows::SetTestFunction() {
   phi_.assign(weight_stride_ * phases_, 0);
   rate_ = phi_;
@@ -46,7 +56,9 @@ void WeakRows::SetTestFunction() {
   for (double& x : rate_) x /= sum;
 }
 
-// Those whose middle lies in the core.
+// Windows whose middle lies in the core, so that each belongs to one block.
+// Those with a useless sample are left out: `useless` counts them up to each
+// sample, and two equal counts mean that there is none between.
 void WeakRows::ListWindows() {
   const long first = trajectory_.first_index;
   const long end = first + trajectory_.size();
@@ -69,7 +81,7 @@ double WeakRows::time(long row) const {
   return trajectory_.time(FirstSample(cells_[row]) + steps_ - steps_ / 2);
 }
 
-// Samples of one cell.
+// A run of samples that lie in one cell.
 struct WeakRows::Piece {
   long cell, within;  // the first one's place in the cell
   int place, length;  // in scratch->P and D
@@ -83,7 +95,8 @@ struct WeakRows::Output {
 };
 
 // Adds what samples in scratch->P and D contribute to the windows, cell by
-// cell, so that sums do not depend on what was evaluated together.
+// cell. Rounding depends on the order of a sum; in this one a row is the same
+// bits whichever rows were evaluated with it.
 void WeakRows::AddSamples(int first, int count, const Output& output,
                           RowScratch* scratch) const {
   for (int done = 0; done < count;) {
@@ -98,6 +111,11 @@ void WeakRows::AddSamples(int first, int count, const Output& output,
   }
 }
 
+// Subtracts a piece's share of all windows that reach over its cell,
+//   u_c = -sum_k (dphi/dt_k P_c(t_k) + phi_k D_c(t_k)) dt,
+// for one joint: phases x columns products of the same samples, which are a
+// small matrix product. Windows over cell m are those that begin at m - phases
+// + 1 .. m.
 void WeakRows::AddPiece(const Piece& piece, int joint, const Output& output,
                         RowScratch* scratch) const {
   const int size = output.sizes[joint];
@@ -131,6 +149,9 @@ void WeakRows::AddPiece(const Piece& piece, int joint, const Output& output,
   }
 }
 
+// Goes through the cells of the wanted rows once. The right side is made a
+// column like any other: with P = 0 and D = -tau the same sum gives +int phi
+// tau.
 void WeakRows::Evaluate(long begin, long count, double* const* out, long stride,
                         RowScratch* scratch) const {
   if (count == 0) return;

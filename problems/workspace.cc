@@ -34,6 +34,9 @@ std::string Text(const Box& box) {
 
 }  // namespace
 
+// The signed distance to a thing and its gradient. The floor's is along `up`.
+// In a box it is that to the nearest wall, with a minus where the box is an
+// obstacle; outside of an obstacle it is that to its nearest point.
 Workspace::Distance Workspace::Thing::DistanceOf(const Vector3d& p_W) const {
   if (kind == Kind::kFloor) return {up.dot(p_W) - height, up};
   // The nearest wall's, from inside.
@@ -60,7 +63,10 @@ Workspace::Workspace(const Robot& robot, const WorkspaceOptions& options,
   AddPairs(lower, upper);
 }
 
-// The last ball is the tool's point.
+// Balls along each link from its joint to the next joints and to the tool, at
+// most a diameter apart. Distances from balls are closed forms with gradients;
+// meshes would need a library and tell a design of motion little more. The last
+// ball, of radius 0, is the tool's point.
 void Workspace::AddBalls(double radius) {
   const int n = robot_.num_joints();
   for (int i = 0; i < n; ++i) {
@@ -104,6 +110,10 @@ void Workspace::AddThings(const WorkspaceOptions& options) {
   }
 }
 
+// Which balls are held against which things: 400 random postures within the
+// limits, always the same ones, give the least and the largest distance of each
+// pair. One that does not move cannot be kept clear by a motion; one that is
+// never clear is an error of the input.
 void Workspace::AddPairs(const VectorXd& lower, const VectorXd& upper) {
   constexpr int kPostures = 400;
   constexpr double kStill = 1e-3;  // m
@@ -165,6 +175,12 @@ double Workspace::Clearance(const MatrixXd& q) const {
   return least;
 }
 
+// b(d) = -log(1 - exp(-d / reach)) of each pair's room d: like -log(d / reach)
+// near 0 and like exp(-d / reach) far away, where a plain logarithm would go on
+// pushing across the whole room. db/dd = -1 / (reach (exp(d / reach) - 1));
+// expm1 keeps both exact near 0. The gradient in joints is the centre's force
+// times its velocity per joint's: z x (p - o) of a turning joint, z of a
+// sliding one.
 double Workspace::Barrier(const MatrixXd& q, double margin, double factor,
                           MotionGradient* gradient) const {
   if (empty()) return 0;

@@ -31,6 +31,8 @@ CommandedReference::CommandedReference(const Robot& known,
       dynamics_(known),
       motion_(CommandedMotion(log)) {}
 
+// The feedforward's rate is a central difference over 2 ms, which is needed for
+// its derivative by the delay.
 ReferenceSeries CommandedReference::At(double begin, double period, long count,
                                        double delay) const {
   constexpr double kAhead = 1e-3;  // s, for the feedforward's rate

@@ -56,7 +56,7 @@ ReferenceMotion MeasuredMotion(const CommandedLog& commanded) {
   return MotionThrough(commanded.path, log);
 }
 
-// Samples x as many as there are standard deviations.
+// White normal noise, as many samples of each as there are standard deviations.
 MatrixXd DrawWhite(const VectorXd& stddev, int samples, unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -73,6 +73,10 @@ bool Integrates(const DriveLaw& drive) {
 
 }  // namespace
 
+// Runs the drives over the log as they ran, at their own rate: positions
+// between rows are those of the motion through the rows. A row's torque is a
+// mean over the row's interval, from the torque's integral: at a point it would
+// jump from period to period by the noise of one velocity.
 MatrixXd CommandedTorque(const Robot& known,
                          const ControllerOptions& controller,
                          const CommandedLog& commanded, const VectorXd& times) {
@@ -111,6 +115,9 @@ MatrixXd CommandedTorque(const Robot& known,
   return torque;
 }
 
+// What position noise makes of the torque goes through the same drives, which
+// amplify it by their gains; so a draw of it is passed through them. The
+// derivative by the clock's rate is a difference over 1 %.
 MadeTorque MakeTorque(const Robot& known, const ControllerOptions& controller,
                       const CommandedLog& commanded, const VectorXd& times,
                       unsigned seed) {

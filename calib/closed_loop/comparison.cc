@@ -46,6 +46,8 @@ Deviation RmsOf(const ClosedLoopReplay& replay, int n) {
 
 }  // namespace
 
+// Both robots are driven by a controller that knows the file's robot, as the
+// real one is; the calibrated robot is to deviate from the log by less.
 ClosedLoopComparison CompareClosedLoop(const Robot& file,
                                        const CalibratedRobot* calibrated,
                                        const ControllerOptions& controller,

@@ -40,6 +40,10 @@ MatrixXd LoopFit::TorqueScores() const {
   return scores;
 }
 
+// The equations of the loop, those of torques and the normal priors, each a
+// block of rows of A x = b; links have their divergence in StartLinks, for
+// which all of this is one convex problem. Links that are held are moved to the
+// right side.
 bool LoopFit::Solve(const MatrixXd& R, const VectorXd& z, VectorXd* x) const {
   constexpr double kClear = 1e-6;  // of its prior, a start of what is positive
   const int links = unknowns_.links_size();
@@ -88,6 +92,8 @@ bool LoopFit::Solve(const MatrixXd& R, const VectorXd& z, VectorXd* x) const {
   return true;
 }
 
+// The same costs as Solve() minimises, but those of R: what a line search
+// weighs against the simulation's residuals.
 double LoopFit::PriorCost(const VectorXd& x) const {
   double cost = 0;
   if (torques_ != nullptr) {

@@ -38,6 +38,28 @@ class Squares {
 
 }  // namespace
 
+// The loop is linear about its track, so that a sum f of weighted residuals is
+// a sum over joints and periods of c_k e_k, with e_k the noise of the position
+// that the controller sees in period k. Noise is white: the covariance of
+// several such sums is sum_k noise^2 c_k c_k'. The c_k = df/de_k of all periods
+// come from one pass backwards (reverse differentiation; Griewank & Walther
+// 2008, Evaluating Derivatives, ch. 3); forwards, each e_k would need a
+// simulation of its own.
+//
+// For a joint, with x = (q, qd) of the arm, l the position seen last, v the
+// controller's velocity, i its integral and b the torque behind the lag, a
+// period is
+//   p = q + e                            what the controller sees
+//   v <- decay v + rate (p - l),  l <- p
+//   u = acts (i - by_q p - by_v v)       the command
+//   i <- i - integrates period (rate_by_q p + rate_by_v v)
+//   m = (1 - lag.mean) u + lag.mean b    the period's mean torque
+//   b <- (1 - lag.end) u + lag.end b
+//   x <- A_k (x, m).
+// The df/dstate behind a period become those before it by the transpose of each
+// line, the last line first. Then c_k = df/dp, and the weight of the row that
+// logged p itself, if one did: measured minus simulated has e as it is. A row
+// within a period has noise of its own, which no controller saw.
 MatrixXd LoopNoiseCovariance(const ControllerOptions& controller,
                              const LoopValues& values,
                              const LoopStretch& stretch, const LoopTrack& track,

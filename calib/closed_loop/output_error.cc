@@ -124,6 +124,9 @@ VectorXd Calibrator::Start() const {
   return x;
 }
 
+// Comes near the bottom by a few short windows, which are nearer to linear and
+// cost less. From there, or from the file's values where that went astray, the
+// whole is iterated.
 void Calibrator::Approach() {
   LoopRun of_files = std::move(run_);
   x_ = Start();
@@ -136,6 +139,7 @@ void Calibrator::Approach() {
   run_ = std::move(of_files);
 }
 
+// Halves the step until the cost falls (all windows simulated anew).
 bool Calibrator::Step(const VectorXd& x, LoopWindows* windows) {
   const VectorXd begin = x_, dx = x - x_;
   const auto cost_of = [&](const LoopRun& run) {
@@ -157,6 +161,10 @@ bool Calibrator::Step(const VectorXd& x, LoopWindows* windows) {
   return false;
 }
 
+// Gauss-Newton: linearise, solve the convex problem of the linear equations and
+// the prior, step. Far from the bottom residuals are model error and not noise;
+// they count by their own size (excess_) then, or the prior would be nothing
+// beside them and bodies would be driven to the boundary.
 void Calibrator::Iterate(bool far, LoopWindows* windows) {
   const double last = far ? kNear : kNearer;
   const double size = std::sqrt(static_cast<double>(unknowns_->size()));
@@ -184,6 +192,10 @@ void Calibrator::Iterate(bool far, LoopWindows* windows) {
   }
 }
 
+// The sandwich G (noise's scores + torques' scores + prior) G, as in
+// arm_covariance.cc. Noise's scores are multiplied by what residuals have in
+// excess of noise; deviations are raised to the scatter of scores summed over a
+// second each, which tells what else moves from second to second.
 void Calibrator::Report() {
   Tell("covariance", -1);
   const std::vector<int> free = unknowns_->FreeIndices();

@@ -31,7 +31,9 @@ Log CommandOf(const Log& log) {
   return command;
 }
 
-// When a clock shows `stamp`; clocks are nearly right.
+// When a clock shows `stamp`, by fixed-point iteration t <- t - (clock(t) -
+// stamp), which converges at the rate by which the clock is wrong: clocks are
+// nearly right.
 double TrueTime(const std::function<double(double)>& clock, double stamp) {
   double t = stamp;
   for (int k = 0; clock && k < 5; ++k) t -= clock(t) - stamp;
@@ -69,6 +71,8 @@ CommandedLog ReadCommandedLog(const LogSource& source,
   return CommandedRows(source.name, ReadWholeLog(source, options), crop);
 }
 
+// Rows whose stamp does not grow are left out: a clock that repeats has no
+// motion.
 CommandedLog CommandedRows(const std::string& path, const Log& all,
                            const TimeRange& crop) {
   if (all.qref.size() == 0) {
@@ -106,6 +110,8 @@ int FirstCounted(const Log& log) {
   return row;
 }
 
+// The loop runs in true time at the controller's rate and is logged in each
+// period; rows of the log are looked up where their stamps are in true time.
 ClosedLoopReplay ReplayClosedLoop(const SimulatedRobot& plant, double delay,
                                   const Robot& known,
                                   const ControllerOptions& controller,

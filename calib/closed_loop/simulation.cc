@@ -92,6 +92,9 @@ VectorXd LoopTrack::Residual(const LoopStretch& stretch) const {
   return residual;
 }
 
+// Windows run in lockstep, a lane each, with the torque held over each period
+// as drives hold it. A window that is shorter ends by itself; one whose
+// simulation is lost before its end is not finite.
 std::vector<LoopTrack> SimulateLoop(
     const ControllerOptions& controller, const LoopValues& values,
     const std::vector<const LoopStretch*>& stretches,

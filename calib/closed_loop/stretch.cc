@@ -19,6 +19,8 @@ RowWeights::RowWeights(double share, double period) {
   qd1 = -s * s * r * period;
 }
 
+// Rows within 1e-6 of a period's border are at it: stamps are rounded, and a
+// row at the border is what the controller saw there.
 LoopStretch::LoopStretch(const Log& log, const CommandedReference& command,
                          long first_row, long num_rows, double period)
     : log_(log),
@@ -53,6 +55,8 @@ ReferenceSeries LoopStretch::Reference(double delay) const {
   return at;
 }
 
+// Position and velocity by a line through the first rows (least squares): two
+// rows would make a velocity of their noise.
 LoopStart LoopStretch::Start() const {
   // A line through the first hundredth of a second, or four rows.
   constexpr double kSeconds = .01;

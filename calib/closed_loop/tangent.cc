@@ -13,6 +13,12 @@ using Eigen::MatrixXd;
 
 constexpr long kPeriodsAtOnce = 64;  // linearised at once
 
+// Derivatives of everything by all columns, carried forwards along the
+// simulation (forward sensitivities): they cost a few simulations whatever the
+// number of columns, and they are exact where differences of simulations would
+// need a step between rounding and curvature. The arm's part, d(q, qd) over a
+// period, is MotionTangent's; the drives' lines are those of
+// LoopNoiseCovariance.
 class Linearisation {
  public:
   Linearisation(const ControllerOptions& controller, const LoopValues& values,
@@ -88,7 +94,8 @@ class Linearisation {
       torque_, unit_torque_;
 };
 
-// Of the drives' commands and integrals by all that they saw before.
+// Derivatives of the drives' commands and integrals by all that they saw
+// before.
 void Linearisation::Control(long k) {
   const double rate = (1 - decay_) / period_;
   const long size = state_.stride();
@@ -110,7 +117,9 @@ void Linearisation::Control(long k) {
   AddGains(k);
 }
 
-// By the drives' own gains and the command's delay.
+// Adds the derivatives by the drives' own gains, command = kp error + kd w + ki
+// integral, and by the command's delay: a command that comes later by d is
+// q_ref - d qd_ref.
 void Linearisation::AddGains(long k) {
   for (const LoopColumns::Gain& gain : columns_.gains()) {
     const int j = gain.joint;
@@ -145,8 +154,9 @@ void Linearisation::AddGains(long k) {
   }
 }
 
-// From the commands to the torque's mean; `behind_` holds the torque at the
-// begin.
+// Derivatives of the torque's mean, from those of the commands; `behind_` holds
+// the torque at the begin. For a first-order lag both are shares of how far the
+// torque was behind.
 void Linearisation::Lag(long k) {
   const long size = state_.stride();
   if (!lags_) {
@@ -172,6 +182,8 @@ void Linearisation::Lag(long k) {
   }
 }
 
+// One period, and the rows of the log that lie in it: a row's position is a
+// Hermite cubic of the states at both ends, and so are its derivatives.
 void Linearisation::Advance(long k, long at, MatrixXd* by_columns) {
   const auto has_row = [&] {
     return row_ < stretch_.num_rows() && stretch_.period_of(row_) == k;

@@ -24,7 +24,8 @@ std::vector<int> OffsetColumns(int n) {
   return columns;
 }
 
-// By all columns, what those `known` explain of them.
+// For each column of R, the coefficients by which the `known` columns explain
+// it best.
 MatrixXd Explained(const MatrixXd& R, const std::vector<int>& known) {
   return MatrixXd(R(Eigen::all, known))
       .completeOrthogonalDecomposition()
@@ -52,6 +53,10 @@ double Excess(const ArmUnknowns& unknowns, const LinkInformation& information,
 
 }  // namespace
 
+// Equations about the estimate that the torques give alone. Offsets are
+// projected out of rows (what they explain is subtracted, Frisch & Waugh 1933)
+// and out of scores likewise: an offset may be a sensor's, which the loop does
+// not feel.
 TorqueInformation InformByTorques(const Robot& robot,
                                   const LinearCalibration& linear,
                                   const NonlinearCalibrationOptions& options,

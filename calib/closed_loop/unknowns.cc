@@ -23,6 +23,8 @@ const DriveParameter& ParameterOf(double DriveLaw::*gain) {
 
 }  // namespace
 
+// A prior of 0 holds a value. The width of Coulomb friction stays above a tenth
+// of its start, for which the simulation's substeps are chosen.
 LoopUnknowns::LoopUnknowns(const LoopValues& nominal, DriveKind kind,
                            const LoopTrust& trust,
                            const std::vector<JointTerm>& joint_terms,
@@ -60,7 +62,8 @@ LoopUnknowns::LoopUnknowns(const LoopValues& nominal, DriveKind kind,
   nominal_ = Stack(nominal);
 }
 
-// Gains that the drives do not have have no name.
+// Adds the drives' gains; those that drives of this kind do not have get no
+// name.
 void LoopUnknowns::AddGains(DriveKind kind, double trust) {
   for (double DriveLaw::*gain : EstimatedGains()) {
     const DriveParameter& parameter = ParameterOf(gain);

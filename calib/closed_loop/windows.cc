@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 // rad: next to nothing, but finite.
 constexpr double kStartPosition = .01, kStartVelocity = 1, kStartIntegral = 1;
 constexpr double kLeadIn = 1;  // s
-// Of a loop that resonates a few tell little.
+// How many probes estimate a trace. Of a loop that resonates a few tell little.
 constexpr int kProbes = 16;
 constexpr double kScoreBlock = 1;  // s, longer than errors of friction last
 
@@ -85,7 +85,10 @@ LoopWindows LoopWindows::Thinned(double window_s, int every) const {
   return thinned;
 }
 
-// Of equal length, about `window_s`.
+// Cuts a log into windows of equal length, about `window_s`: multiple shooting
+// (Bock & Plitt 1984, IFAC World Congress). A simulation of the whole log would
+// carry an early error on to its end, and would be far from linear in the
+// values.
 void LoopWindows::AddWindows(int log, double window_s, int every) {
   const VectorXd& t = logs_[log].log.t;
   const long size = t.size();
@@ -109,6 +112,7 @@ void LoopWindows::AddWindows(int log, double window_s, int every) {
   }
 }
 
+// All windows at once, since lanes of a register hold different windows.
 LoopRun LoopWindows::Simulate(const LoopValues& values) const {
   std::vector<const LoopStretch*> stretches;
   std::vector<LoopStart> starts;
@@ -136,6 +140,7 @@ LoopRun LoopWindows::Simulate(const LoopValues& values) const {
   return run;
 }
 
+// A start's integral is in torque, whose scale is the drive's stiffness.
 VectorXd LoopWindows::StartPrior() const {
   VectorXd prior(3 * n_);
   prior.head(n_).setConstant(kStartPosition);
@@ -159,7 +164,10 @@ VectorXd LoopWindows::RowScale(long rows) const {
   return noise_.cwiseInverse().replicate(rows, 1);
 }
 
-// The triangle of start, columns and residual.
+// The triangle of start, columns and residual. With the start's columns first,
+// the rows below them are what is left for the values with the start eliminated
+// (QR as in link_equations.cc), and those of the start give it back when the
+// values are known.
 LoopEquations::Window LoopWindows::Reduce(const Window& w,
                                           const LoopTangent& tangent,
                                           const VectorXd& residual) const {
@@ -179,6 +187,8 @@ LoopEquations::Window LoopWindows::Reduce(const Window& w,
   return {w.start, factor.Triangle()};
 }
 
+// Gauss-Newton's equations of all windows, their starts eliminated one by one:
+// the size of R does not grow with the number of windows.
 LoopEquations LoopWindows::Linearise(const LoopValues& values,
                                      const LoopColumns& columns,
                                      const LoopRun& run) const {
@@ -200,6 +210,7 @@ LoopEquations LoopWindows::Linearise(const LoopValues& values,
   return all;
 }
 
+// Back substitution: the start that goes with a step of the values.
 void LoopWindows::Move(const LoopColumns& columns,
                        const LoopEquations& equations, const VectorXd& dx,
                        double share) {
@@ -217,8 +228,12 @@ void LoopWindows::Move(const LoopColumns& columns,
   }
 }
 
-// Residuals of a whole log follow each other; its windows' do not, but for the
-// moment that a loop takes to forget.
+// The scores' covariance as far as it is encoder noise's. Their weights are the
+// columns with the start eliminated. Noise also makes a sum of squares, E
+// |r|^2, the trace of the residuals' covariance: the mean of (s'r)^2 over
+// random signs s has it without the matrix (Hutchinson 1990, Commun. Statist.
+// Simul. 19). Residuals of a whole log follow each other; its windows' do not,
+// but for the moment that a loop takes to forget.
 LoopScores LoopWindows::Scores(const LoopValues& values,
                                const LoopColumns& columns, const LoopRun& run,
                                const LoopEquations& equations) const {

@@ -31,7 +31,13 @@ void SetCovariance(const CovarianceEstimate& estimate,
   result->rows_per_window = estimate.rows_per_window;
 }
 
-// From the factor to the parameters and their covariance.
+// Goes from the factor to the parameters and their covariance, in this order:
+// the solution from the factor; robust weights, which need the rows and begin
+// there; the covariance for independent errors, which lengths are weighed with;
+// the one of errors that follow each other, which is reported; and what wrong
+// torque constants add. With fewer equations than twice the parameters a
+// residual is as much the fit's as the sample's, and robust weights would drop
+// good rows.
 void Estimate(const Robot& robot, const LinearCalibrationOptions& options,
               const RowOptions& rows, const BlockTriangularFactor& factor,
               const ReferenceScale& reference, const std::vector<bool>& frozen,
@@ -92,7 +98,7 @@ LinearCalibration::LinearCalibration(const ModelParameters& model)
 
 namespace {
 
-// From the logs as the set now gives them.
+// Calibrates from the logs as the set now gives them.
 LinearCalibration CalibrateOnce(const Robot& robot,
                                 const LinearCalibrationOptions& options,
                                 const RowOptions& rows,
@@ -140,7 +146,9 @@ LinearCalibration CalibrateOnce(const Robot& robot,
 // Calibrates, takes out the torque samples that the calibration shows to be
 // wrong, and again until these and the parameters stay the same; *training are
 // then the logs without these. *samples has looked at the result's residuals
-// last, or is empty.
+// last, or is empty. Rows' robust weights do not do this: a single wrong sample
+// is spread over all windows and over the low pass's memory, where no row
+// sticks out enough.
 LinearCalibration CalibrateWithoutOutliers(
     const Robot& robot, const LinearCalibrationOptions& options,
     const RowOptions& rows, PreparedLogs* training,

@@ -10,6 +10,8 @@
 
 namespace armcal {
 
+// A cutoff must lie between the lowest frequency that a log can tell, 1 / its
+// length, and the highest, half the sample rate (Nyquist), of the slowest log.
 void CheckBandwidth(const std::optional<double>& given,
                     const LogSet& training) {
   if (!given || *given == 0) return;

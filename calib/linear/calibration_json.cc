@@ -56,6 +56,8 @@ json TransitionJson(const CoulombTransition& t, JointType type) {
           {"unit", std::string(PositionUnit(type)) + (velocity ? "/s" : "")}};
 }
 
+// `noise_stddev` is of a row, which in the weak form is an average over a
+// window; `noise_density` is what rows of any length can be compared by.
 json JointsJson(const Robot& robot, const LinearCalibration& result) {
   json joints = json::array();
   const Eigen::VectorXd density = ErrorDensity(result);
@@ -122,6 +124,8 @@ json ParametersJson(const Robot& robot, const LinearCalibration& result) {
   return list;
 }
 
+// `blocks` of `of` is condition (2.30), block by block; `batch` of `total` that
+// of all equations at once.
 json RankJson(const Robot& robot, const LinearCalibration& result) {
   const Identifiability& id = result.identifiability;
   json unidentifiable = json::array(), blocks = json::array();
@@ -244,6 +248,8 @@ json ToJson(const Robot& robot, const LogSet& training,
   return out;
 }
 
+// Entries of parameters that are not identifiable are empty: they have no
+// variance.
 std::string CovarianceCsv(const LinearCalibration& result) {
   std::string text;
   for (const ModelParameter& p : result.parameters.parameters()) {

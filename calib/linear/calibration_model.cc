@@ -10,6 +10,8 @@
 
 namespace armcal {
 
+// What nobody gives follows from the logs: the bandwidth from their time bases
+// and the window from bandwidth, sample rate and encoder noise (weak_window.h).
 RowOptions MakeRowOptions(const LinearCalibrationOptions& options,
                           const LogSet& training) {
   RowOptions rows;

@@ -34,6 +34,7 @@ const char* IdentificationName(const LinearCalibration& result) {
   return "";
 }
 
+// Says what the result is of: the logs, the torque's source, and the equations.
 std::string DataText(const LogSet& training, const LinearCalibration& result) {
   std::string text;
   for (int k = 0; k < training.size(); ++k) {
@@ -64,6 +65,8 @@ std::string FigureCells(double torque, double residual, double percent,
          Percent(percent);
 }
 
+// Residuals of moving samples alone: at standstill friction can have any value,
+// and a log that mostly rests would look well explained.
 std::string ResidualTable(const Robot& robot, const LinearCalibration& result) {
   if (!result.training) return "";
   const auto fit = result.training->moving();
@@ -94,6 +97,8 @@ std::string ResidualTable(const Robot& robot, const LinearCalibration& result) {
   return text + "\n";
 }
 
+// Directions of single blocks are named only where the whole sees everything:
+// else they would be read as further faults beside those that matter.
 std::string RankText(const Robot& robot, const LinearCalibration& result) {
   const Identifiability& id = result.identifiability;
   std::string blocks;
@@ -193,6 +198,7 @@ std::string ParameterTable(const LinearCalibration& result) {
 
 }  // namespace
 
+// One line. Percentages are not finite where a log has no torque in motion.
 std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
   const Identifiability& id = result.identifiability;
   if (!result.solved) {

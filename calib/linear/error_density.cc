@@ -20,6 +20,9 @@ double SquareOverMean() {
 
 }  // namespace
 
+// A row is int phi tau dt with int phi dt = 1 over a window of length T. White
+// noise of density S makes a variance S int phi^2 dt = S SquareOverMean() 2 / T
+// of it; solved for S.
 VectorXd ErrorDensity(const LinearCalibration& linear) {
   if (linear.rows.identification != Identification::kWeak) {
     return VectorXd::Constant(linear.noise.size(), std::nan(""));

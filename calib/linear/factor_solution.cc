@@ -10,9 +10,11 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Weighted by re-estimated noise. The noise of a homogeneous equation must not
-// follow the parameters down to zero: it is taken where the other joints put
-// them, and kept.
+// Solves with weights from re-estimated noise. Equations without a drive torque
+// (frozen) are homogeneous, U x = 0: the smaller x, the smaller their residual,
+// and weights that followed it would lead to an arm without mass. So the other
+// joints find x first, the frozen joints' noise is what their equations have
+// there, and it is kept.
 LinearSolution SolveByNoise(const BlockTriangularFactor& factor,
                             const ReferenceScale& reference,
                             const std::vector<bool>& frozen, VectorXd* noise) {
@@ -31,6 +33,8 @@ LinearSolution SolveByNoise(const BlockTriangularFactor& factor,
 
 }  // namespace
 
+// The reference motion has the speed and the frequency of the logs, so that a
+// column is judged as what a rich motion like theirs would make of it.
 ReferenceScale MakeReference(const ModelParameters& parameters,
                              const RowOptions& rows, double motion_hz,
                              const LogFactors& factors) {
@@ -49,6 +53,8 @@ ReferenceScale MakeReference(const ModelParameters& parameters,
       parameters.nominal());
 }
 
+// The recursion needs the ranks of its blocks (2.30), which need the noise,
+// which needs a solution: the batch's, which asks for less.
 LinearSolution SolveFactor(const BlockTriangularFactor& factor,
                            const ReferenceScale& reference,
                            const std::vector<bool>& frozen, LinearSolver solver,

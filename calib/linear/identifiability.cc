@@ -17,9 +17,20 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Rank is decided on scaled singular values. With y = scale * x, a unit of y in
+// any direction makes a torque as large as the reference's in a rich motion,
+// and rows are divided by the noise; so the estimate of a singular direction of
+// y has the standard deviation 1 / s. Two questions are asked. Is s > 1, that
+// is, is the torque of that direction known to better than its own size? And is
+// s above kExcited times the largest, or could the logs' digits and rounding
+// have made it? Columns are never scaled by their own norms: a column that is
+// not excited would then be as long as the rest, and its noise would pass for
+// information. The answer is yes or no, so that what is not seen has no
+// standard deviation rather than a large one (docs/theory.md, 2).
 constexpr double kExcited = 1e-8;  // relative to the direction seen best
 
-// Those that the columns of `unseen` span, of the parameters from `begin` on.
+// Names the directions that the columns of `unseen` span. They are of the
+// parameters from `begin` on.
 std::vector<UnidentifiableDirection> MakeDirections(
     const MatrixXd& unseen, const VectorXd& scale, int begin, int block,
     const ModelParameters& parameters) {
@@ -36,8 +47,8 @@ std::vector<UnidentifiableDirection> MakeDirections(
   return directions;
 }
 
-// Of a system with unit noise in coordinates relative to the joint's torque: a
-// singular value below 1 leaves more than the whole torque undecided.
+// The rank of a system with unit noise, in coordinates relative to the joints'
+// torque. A singular value below 1 leaves more than the whole torque undecided.
 int Rank(const VectorXd& s) {
   int rank = 0;
   for (const double x : s) {
@@ -46,7 +57,11 @@ int Rank(const VectorXd& s) {
   return rank;
 }
 
-// rms of the columns of U over random states.
+// The rms of the columns of U over 200 random states, always the same ones: q
+// over a turn, qd and qdd uniform with the rms of a motion of this speed and
+// frequency (the factor sqrt(3) of a uniform distribution; an acceleration is 2
+// pi hz times the speed). Some per cent of error do no harm, since ranks are
+// decided over many orders.
 MatrixXd RichColumns(const ModelParameters& parameters, double speed,
                      double hz) {
   const int n = parameters.num_joints();
@@ -75,6 +90,8 @@ MatrixXd RichColumns(const ModelParameters& parameters, double speed,
 
 }  // namespace
 
+// torque_i = max(recorded rms, |columns_i * nominal|): terms are added as if
+// independent, root of the sum of squares.
 ReferenceScale MakeReferenceScale(const ModelParameters& parameters,
                                   double speed, double hz, double unit,
                                   const VectorXd& recorded,
@@ -91,6 +108,10 @@ ReferenceScale MakeReferenceScale(const ModelParameters& parameters,
   return reference;
 }
 
+// Stacks the joints' triangles, each divided by its noise, and triangularises
+// the stack: R'R = sum_i U_i'U_i / noise_i^2 without ever forming that sum,
+// whose condition is the square of R's. `scale` adds up over joints what a
+// parameter can do to their torques.
 WeightedSystem MakeWeightedSystem(const BlockTriangularFactor& factor,
                                   const VectorXd& noise,
                                   const ReferenceScale& reference) {
@@ -129,6 +150,10 @@ WeightedSystem MakeWeightedSystem(const BlockTriangularFactor& factor,
   return system;
 }
 
+// Frobenius norms bound the singular values, s_min >= 1 / |A^-1| and s_max <=
+// |A| (Golub & Van Loan, 2.3). If even the bounds pass Rank()'s thresholds, all
+// directions do, and a triangular inverse replaces an SVD of some twenty times
+// its cost.
 std::optional<MatrixXd> WeightedSystem::Inverse() const {
   const MatrixXd scaled = R * scale.cwiseInverse().asDiagonal();
   const MatrixXd inverse = scaled.triangularView<Eigen::Upper>().solve(
@@ -150,6 +175,11 @@ WeightedSystem::Directions WeightedSystem::Decompose() const {
   return d;
 }
 
+// The rank condition (2.30) of each diagonal block U_ii by itself, from the
+// corner of joint i's triangle, and then of the whole. Blocks may fail where
+// the whole does not: a parameter of block i may show in the torque of joints
+// before it alone. The right singular vectors beyond the rank span what cannot
+// be seen.
 Identifiability AnalyzeIdentifiability(const BlockTriangularFactor& factor,
                                        const ModelParameters& parameters,
                                        const VectorXd& noise,

@@ -14,7 +14,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// theta = (moments without lengths, joint terms, lengths) -> X_full.
+// The bilinear model theta = (moments without lengths, joint terms, lengths) ->
+// X_full: entry c of X_full is a first moment by itself, or times one of the
+// lengths before its joint (docs/theory.md, 1).
 class Bilinear {
  public:
   explicit Bilinear(const ModelParameters& parameters)
@@ -56,7 +58,9 @@ class Bilinear {
     J.block(m, num_moments_, num_terms_, num_terms_).setIdentity();
     return J;
   }
-  // From any X_full: lengths as ratios of moments seen with and without them.
+  // From any X_full: l = sum (l h) h / sum h^2 over the moments h that are seen
+  // with the length l and without it, the least-squares ratio of theory.md. It
+  // needs no nominal length.
   VectorXd Start(const VectorXd& x_full) const {
     VectorXd theta = VectorXd::Zero(size());
     const int m = static_cast<int>(columns_.size());
@@ -88,8 +92,11 @@ class Bilinear {
   int num_lengths_, full_, num_moments_, num_terms_;
 };
 
-// Rows of M and x that are usable, whitened by the covariance of independent
-// errors, and the covariance that the whitened x has in truth.
+// The usable rows of M and x, whitened by L^-1 of the covariance L L' of
+// independent errors, and the covariance L^-1 C L^-T that the whitened x has in
+// truth. Correlations instead of covariances are factored, with 1e-10 on the
+// diagonal, since parameters of different units and nearly dependent ones would
+// otherwise decide by rounding.
 struct Whitened {
   Whitened(const MatrixXd& M, const VectorXd& x, const MatrixXd& independent,
            const MatrixXd& covariance, const std::vector<bool>& usable) {
@@ -122,6 +129,8 @@ struct Step {
   VectorXd scale;
 };
 
+// The SVD of J with columns of length 1, so that the rank does not hang on
+// units.
 Step Decompose(const MatrixXd& J) {
   Step step;
   step.scale = J.colwise().norm();
@@ -133,13 +142,17 @@ Step Decompose(const MatrixXd& J) {
   return step;
 }
 
-// What of parameter k no data of a rank-deficient step tell, 0 to 1.
+// The share, 0 to 1, of parameter k that lies in the null space of a step,
+// which no data tell.
 double Unseen(const Step& step, Eigen::Index k) {
   const Eigen::Index beyond = step.svd.matrixV().cols() - step.svd.rank();
   return step.svd.matrixV().row(k).tail(beyond).squaredNorm();
 }
 constexpr double kUnseenAbove = 1e-8;
 
+// Gauss-Newton with the pseudo-inverse, d = J^+ r, and halved steps. Directions
+// that no data tell have no component in J^+ r and stay where they are; J'J
+// would be singular.
 VectorXd GaussNewton(const Whitened& w, const Bilinear& model, VectorXd theta) {
   double cost = (w.matrix * model.Value(theta) - w.value).squaredNorm();
   for (int iteration = 0; iteration < 100; ++iteration) {
@@ -176,8 +189,9 @@ VectorXd Nominal(const ModelParameters& parameters) {
   return nominal;
 }
 
-// The change of theta that no data tell, first order, and that takes its unseen
-// lengths nearest to `nominal`; nothing where all lengths are seen.
+// The change of theta, N a with N the null space of a step, that no data tell
+// to first order and that takes its unseen lengths nearest to `nominal`;
+// nothing where all lengths are seen.
 VectorXd UnseenChange(const Step& step, const VectorXd& theta,
                       const VectorXd& nominal) {
   const Eigen::Index begin = theta.size() - nominal.size();
@@ -197,9 +211,10 @@ VectorXd UnseenChange(const Step& step, const VectorXd& theta,
   return N * lengths.solve((wished - theta)(unseen));
 }
 
-// Of all lengths that fit like those of `theta`, the nearest to `nominal`: data
-// may tell a sum of lengths and none of them. Along the directions that no data
-// tell and back onto the fit; lengths that are free become nominal.
+// The lengths nearest to `nominal` of all that fit as well as those of `theta`:
+// data may tell a sum of lengths and none of them. It alternates between a step
+// along the null space towards `nominal` and Gauss-Newton back onto the fit, as
+// the set of fits is curved. Lengths that are free become nominal.
 VectorXd NearestLengths(const Whitened& w, const Bilinear& model,
                         const VectorXd& nominal, const VectorXd& theta) {
   constexpr double kSame = 1e-9;  // m
@@ -226,6 +241,8 @@ VectorXd NearestLengths(const Whitened& w, const Bilinear& model,
 
 }  // namespace
 
+// The deviations are of theta = J^+ x with x's true covariance, not (J'J)^-1:
+// the sandwich that the header speaks of.
 std::vector<RecoveredLength> RecoverLengths(const ModelParameters& parameters,
                                             const VectorXd& x,
                                             const MatrixXd& independent,

@@ -9,6 +9,9 @@
 
 namespace armcal {
 
+// Reads all logs once and makes each a factor of its own. Later questions, of
+// joints that are not powered or of the noise, are answered from the factors,
+// whose size does not depend on the logs' length.
 LogFactors::LogFactors(const ModelParameters& parameters,
                        const RowOptions& options, const Progress& progress,
                        const PreparedLogs& logs)
@@ -55,6 +58,10 @@ BlockTriangularFactor LogFactors::Merged(
   return merged;
 }
 
+// Compares |y_i|, the norm of the torques, with sqrt(sum_c x_c^2 |U_ic|^2),
+// what the terms would have if they did not cancel. Both norms are those of
+// columns of R, as Q keeps lengths. In free swing the terms are large and
+// cancel.
 std::vector<std::vector<bool>> FindPowered(const LogFactors& factors,
                                            const Eigen::VectorXd& x,
                                            double share) {

@@ -63,6 +63,7 @@ nlohmann::json OutlierJson(const Robot& robot, const LogSet& training,
   return list;
 }
 
+// Names stand in quotes, since paths and joints may hold commas.
 std::string OutlierCsv(const Robot& robot, const LogSet& training,
                        const LinearCalibration& result) {
   std::string text = "log,row,time,joint,value,residual\n";

@@ -35,6 +35,8 @@ OverlapCovariance::OverlapCovariance(int num_joints, int num_parameters,
 
 void OverlapCovariance::Break() { follows_ = false; }
 
+// Autocovariances c_l of a joint's errors begin as sums of r(t) r(t - l) over
+// rows that both count and follow each other without a gap.
 void OverlapCovariance::Add(const FittedRow& row) {
   if (recent_.added == kTogether) SumProducts();
   const int k = num_old() + recent_.added++;
@@ -71,8 +73,10 @@ void OverlapCovariance::SumProducts() {
   recent_.added = 0;
 }
 
-// Of one joint: the new rows, times what each product is to be, with the rows
-// a distance before them.
+// Adds sums of u(t)' u(t - d), for one joint, of the new rows with the rows a
+// distance d before them, as they are and times the slopes. Sixty-four rows are
+// taken together: a product of matrices instead of as many outer products,
+// which would go through the whole sum each time.
 void OverlapCovariance::AddSquares(int joint) {
   const int added = recent_.added, old = num_old();
   const auto U = recent_.U[joint].topRows(old + added);
@@ -115,9 +119,14 @@ void OverlapCovariance::AddSquares(int joint) {
   }
 }
 
-// How much smaller products_ are for the fit. With the hat matrix H, whose
-// rows the loss's slopes scale, and the errors' covariance W, residuals have
-// (I - H) W (I - H)'.
+// How much smaller products_ are for the fit. With the hat matrix H = scale^2 U
+// G U', whose rows the loss's slopes scale, and the errors' covariance W,
+// residuals have the covariance (1 - H) W (1 - H)' = W - (H W + W H' - H W H').
+// Summed over pairs of rows that are l apart,
+//   H W + W H' -> 2 sum_k c_|k| h_|l+k|,
+//   H W H'     -> scale^2 <cov, S_l>,
+// where h_d is the sum of H's entries of rows d apart, S_l = sum_t u(t)' u(t -
+// l), and cov the covariance of x.
 MatrixXd OverlapCovariance::Taken(const MatrixXd& gain, const VectorXd& scale,
                                   const MatrixXd& c,
                                   const MatrixXd& covariance) const {
@@ -139,6 +148,11 @@ MatrixXd OverlapCovariance::Taken(const MatrixXd& gain, const VectorXd& scale,
   return taken;
 }
 
+// The covariance G [sum_i scale_i^2 sum_|l| c_il S_il] G', S_il = sum_t u(t)'
+// u(t - l), with autocovariances c that are zero beyond the overlap (Hansen &
+// Hodrick 1980, J. Political Economy 88). c is a fixed point, of ten rounds:
+// what the fit has taken from the residuals depends on c and on the covariance,
+// and is given back.
 MatrixXd OverlapCovariance::Value(const MatrixXd& gain, const VectorXd& scale) {
   SumProducts();
   const auto count = rows_.cwiseMax(1).cwiseInverse().asDiagonal();
@@ -169,6 +183,8 @@ MatrixXd OverlapCovariance::Value(const MatrixXd& gain, const VectorXd& scale) {
   return covariance;
 }
 
+// D C D with D >= 1 diagonal: deviations grow, correlations stay, and C remains
+// positive semidefinite.
 MatrixXd RaiseTo(const VectorXd& least, const MatrixXd& covariance) {
   VectorXd factor(covariance.rows());
   for (Eigen::Index k = 0; k < factor.size(); ++k) {

@@ -52,6 +52,8 @@ ResidualPass::ResidualPass(const ModelParameters& parameters,
       logs_(logs),
       kept_(logs.logs().memory()) {}
 
+// Hands out rows one by one. U is set to 0 once, since the entries that rows
+// fill are the same in each.
 void ResidualPass::Run(const std::string& stage, const VectorXd& x,
                        const VectorXd& noise,
                        const std::function<void(const RowResidual&)>& visit) {
@@ -79,6 +81,8 @@ void ResidualPass::RunBatches(
   ++passes_;
 }
 
+// r = (y - U x) / noise of each joint, column by column: the batch lies in
+// columns.
 MatrixXd ResidualPass::Residuals(const KeptBatch& kept, const VectorXd& x,
                                  const VectorXd& noise) const {
   const JointColumns& columns = kept.rows.columns;
@@ -98,6 +102,9 @@ MatrixXd ResidualPass::Residuals(const KeptBatch& kept, const VectorXd& x,
   return residuals;
 }
 
+// Visits batches as kept by the last pass, if memory held all of them, or makes
+// them from the logs. Making rows is most of a pass's time, and robust weights
+// take several passes over the same rows.
 void ResidualPass::ForEachBatch(
     const std::string& stage,
     const std::function<void(const KeptBatch&)>& visit) {

@@ -8,7 +8,8 @@ namespace {
 
 using Eigen::MatrixXd;
 
-// to += factor * from, the same bits for a sample whichever others are there.
+// Adds factor * from to `to`, sample by sample, which gives the same bits for a
+// sample whichever others are there.
 void AddTimes(double factor, const double* from, long count, double* to) {
   for (long s = 0; s < count; ++s) to[s] += factor * from[s];
 }
@@ -46,6 +47,12 @@ void RobustReduction::Add(const IdentificationRows& rows,
       });
 }
 
+// One step of iteratively reweighted least squares on rows while they are in
+// the cache: with r = (y - u x) / noise, rows and right side are multiplied by
+// sqrt(psi(r) / r), so that least squares of them has the score of the loss
+// (Holland & Welsch 1977, Comm. Statist. A6). Nonlinear columns J are
+// derivatives, y - f(x) = J dx; adding J x to y makes x itself the unknown
+// instead of dx.
 void RobustReduction::WeighJoint(const ReducedRows& rows, int joint,
                                  bool used) {
   const std::vector<int>& columns = columns_[joint];
@@ -77,6 +84,8 @@ void RobustReduction::WeighJoint(const ReducedRows& rows, int joint,
   }
 }
 
+// Puts the joints' triangles into all parameters' columns, divides them by the
+// noise and triangularises them together.
 MatrixXd RobustReduction::Triangle() const {
   const auto size = static_cast<int>(at_.x.size());
   TriangularFactor all(size);

@@ -10,6 +10,13 @@ namespace {
 
 using Eigen::VectorXd;
 
+// Iteratively reweighted least squares (Holland & Welsch 1977, Comm. Statist.
+// A6). A pass weighs each row by psi(r) / r of its residual at the last
+// solution, factors the weighted rows and solves. The noise is 1.4826 times the
+// median of |r|, which half of the rows being wrong cannot move far, while a
+// rms would grow with the outliers and hide them. Huber's loss is convex and
+// converges from anywhere; one that gives residuals up has several minima and
+// therefore begins at Huber's solution.
 void Iterate(RobustLoss loss, const VectorXd& least,
              const std::vector<bool>& frozen, const ReferenceScale& reference,
              ResidualPass* pass, RobustSolution* result) {

@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// What a first pass finds.
+// What the first pass over the rows finds.
 struct RowStudy {
   // Of the worst joint's residuals, at the lag where rows no longer overlap.
   double autocorrelation = 0;
@@ -26,6 +26,12 @@ struct RowStudy {
   VectorXd slope;
 };
 
+// The first pass: it takes the residuals' autocorrelation, for the window, and
+// the matrix A = sum psi'(r) u'u of the sandwich A^-1 B A^-1 of an M-estimate
+// (Huber 1967; White 1980, Econometrica 48). A is a triangular factor of rows
+// times sqrt(psi'). psi' of losses that give up is negative in places and has
+// no root, so that rows have InformingSlope and each joint the mean ratio of
+// both.
 RowStudy StudyRows(const LinearSolution& solution, const VectorXd& noise,
                    RobustLoss loss, int rows_per_window, ResidualPass* pass) {
   const int n = static_cast<int>(noise.size());
@@ -72,6 +78,9 @@ FittedRow MakeFittedRow(const RowResidual& residual, RobustLoss loss,
   return row;
 }
 
+// A row's score sum_i w_i noise_i psi(r_i) u_i', whose sum over rows is 0 at
+// the solution. C and U are what ScoreCovariance needs for the part that the
+// fit took.
 Score MakeScore(const FittedRow& row, const LinearSolution& solution,
                 const VectorXd& noise, const ModelParameters& parameters) {
   const Eigen::Index n = noise.size(), m = parameters.size();
@@ -92,6 +101,10 @@ Score MakeScore(const FittedRow& row, const LinearSolution& solution,
 
 }  // namespace
 
+// The scatter of L logs about their common solution, L / (L - 1) sum_l (G
+// s_l)^2: errors may be as dependent as they like within a log (Liang & Zeger
+// 1986, Biometrika 73, for clusters). With few logs it is itself uncertain, so
+// that it only raises what the rows tell.
 MatrixXd RaiseToLogScatter(const MatrixXd& covariance, const MatrixXd& gain,
                            const MatrixXd& log_sums) {
   const double logs = static_cast<double>(log_sums.cols());
@@ -101,6 +114,18 @@ MatrixXd RaiseToLogScatter(const MatrixXd& covariance, const MatrixXd& gain,
                  covariance);
 }
 
+// The covariance G B G' of a solution x - X = G sum of scores. B is the
+// long-run covariance of the scores, sum_l E s(t) s(t + l)', of which scores
+// that overlap or follow slow errors have many terms. Newey & West (1987,
+// Econometrica 55) weigh the lags by 1 - |l| / window, which keeps B positive
+// semidefinite; Andrews (1991, Econometrica 59) tells how wide. (U' W U)^-1,
+// which takes rows for independent, would have deviations that shrink with the
+// number of windows cut from the same second of motion.
+//
+// Three estimates are combined, because each fails otherwise: Newey-West is
+// biased low with few windows; OverlapCovariance takes errors for alike at all
+// times; the scatter of logs needs several of them. Deviations are the largest
+// of the three.
 CovarianceEstimate EstimateRowCovariance(const LinearSolution& solution,
                                          const VectorXd& noise, RobustLoss loss,
                                          const ReferenceScale& reference,

@@ -63,6 +63,11 @@ void RowReduction::Add(const IdentificationRows& rows,
       change);
 }
 
+// QR of tall matrices in leaves (Demmel, Grigori, Hoemmen & Langou 2012, SIAM
+// J. Sci. Comput. 34): threads triangularise leaves of rows by themselves, and
+// the small triangles are put together in the order of rows. Leaves begin and
+// end at the same rows whatever the threads; hence the same bits. The first
+// leaf goes on with the one that earlier rows have left half full.
 template <class Take, class Put, class Change>
 void RowReduction::Run(const IdentificationRows& rows, long leaf_rows,
                        const Take& take, const Put& put, const Change& change) {
@@ -95,6 +100,8 @@ void RowReduction::Run(const IdentificationRows& rows, long leaf_rows,
   work_.Run(prepare, reduce, put);
 }
 
+// Batches are evaluated by several threads ahead of the one that `sink` is at,
+// one slot each; OrderedWork calls `sink` in the order of rows.
 void ForEachBatchOnThreads(const IdentificationRows& rows,
                            const MotionFunctions& functions,
                            const std::function<void(RowBatch*)>& sink) {

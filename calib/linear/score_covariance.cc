@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 Index Whole(Index rows) { return (rows + 7) / 8 * 8; }
 
-// A' x, both with rows to fill registers.
+// Sets A' x; both have rows to fill registers.
 void Multiply(const MatrixXd& A, const VectorXd& x, VectorXd* products) {
   simd::BestKernels().inner_products(A.data(), A.rows(),
                                      static_cast<int>(A.cols()), x.data(),
@@ -33,7 +33,9 @@ ScoreCovariance::ScoreCovariance(int size, int window, const MatrixXd& gain)
   gain_.topRows(size) = gain.transpose();
 }
 
-// M gain s of the window.
+// M G s of the window, with M = sum of its C'U, as C'(U (G s)): three products
+// with vectors instead of M, which would cost a product of matrices for each
+// window.
 VectorXd ScoreCovariance::TakenByFit(const VectorXd& sum) const {
   VectorXd s = VectorXd::Zero(gain_.rows()), x = s;
   s.head(sum.size()) = sum;
@@ -44,6 +46,10 @@ VectorXd ScoreCovariance::TakenByFit(const VectorXd& sum) const {
   return taken;
 }
 
+// Adds s s' of one window, with s corrected by (1 - x)^-1/2 = 1 + x/2 + 3/8 x^2
+// + 5/16 x^3 + .., x = M G (the header's CR2). Mean squares of sliding sums
+// over `window` terms have lag l in window - |l| of them: Bartlett's weights
+// (Newey & West 1987).
 void ScoreCovariance::AccumulateWindow() {
   VectorXd sum = sum_;
   if (gain_.size() > 0) {
@@ -86,6 +92,9 @@ void ScoreCovariance::Add(const Score& score) {
   AccumulateWindow();
 }
 
+// Ends a series. Sums over its beginning and end, shorter than the window,
+// count as well, so that every product of scores has the weight that its lag
+// gives it.
 void ScoreCovariance::Break() {
   // A series shorter than the window lies in so many windows as a whole.
   const int room = window_ - static_cast<int>(recent_.size());
@@ -102,6 +111,11 @@ MatrixXd ScoreCovariance::Value() {
   return squares_ / window_;
 }
 
+// Andrews (1991, Econometrica 59), section 6, for a first-order autoregression
+// of coefficient rho:
+//   window = 1.1447 (alpha count)^(1/3),
+//   alpha = 4 rho^2 / ((1 - rho)^2 (1 + rho)^2).
+// The bound on rho keeps a drift from asking for a window as long as the log.
 int BartlettWindow(double rho, long count, int least) {
   const double r = std::clamp(rho, 0.0, 0.97);
   const double alpha = 4 * r * r / (std::pow(1 - r, 2) * std::pow(1 + r, 2));

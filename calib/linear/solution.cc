@@ -16,6 +16,11 @@ MatrixXd LinearSolution::CovarianceFromScores(const MatrixXd& scores) const {
   return Sandwich(gain, scores);
 }
 
+// The covariance G S G' of x = G sum_i w_i U_i' y_i, with S = sum_i (w_i
+// noise_i)^2 U_i' U_i: errors of variance noise_i^2 that know nothing of each
+// other. For the weighted solution w_i = 1 / noise_i^2 makes S the inverse of
+// G, and (U' W U)^-1 is left; the paper's solvers have other weights and keep
+// the whole sandwich. U_i' U_i = R' R comes from the factor.
 MatrixXd LinearSolution::IndependentCovariance(
     const BlockTriangularFactor& factor, const VectorXd& noise) const {
   const int m = factor.num_parameters();
@@ -38,8 +43,10 @@ MatrixXd LinearSolution::IndependentCovariance(
 
 namespace {
 
-// gain * weight_i U_i' y_i of each joint, U_i restricted to its own block for
-// the recursion.
+// Column i is G w_i U_i' y_i, joint i's part in x. The estimate is linear in
+// the right sides, so that torques of joint i that are all 1 + e_i times as
+// large change x by e_i times this column (docs/theory.md, 2). For the
+// recursion U_i is restricted to its own block.
 MatrixXd ByScale(const BlockTriangularFactor& factor,
                  const LinearSolution& solution) {
   MatrixXd scores =
@@ -60,6 +67,14 @@ MatrixXd ByScale(const BlockTriangularFactor& factor,
 
 }  // namespace
 
+// Weighted least squares, min sum_i |U_i x - y_i|^2 / noise_i^2, from the
+// joints' triangular factors (QR; Golub & Van Loan, Matrix Computations, 5.3).
+// Where all directions count beyond doubt, the inverse of the triangle is
+// enough. Else the singular directions that count are solved, x = V s^-1 U'z,
+// and the others are left at 0: the truncated SVD (Bjorck 1996, 2.7), without
+// which the noise in a direction that hardly shows would swamp every parameter
+// in it. A parameter is identifiable where the unseen directions V_0 hold none
+// of it, (V_0 V_0')_cc < 1e-6.
 LinearSolution SolveWeighted(const BlockTriangularFactor& factor,
                              const VectorXd& noise,
                              const ReferenceScale& reference) {
@@ -106,6 +121,12 @@ LinearSolution SolveBatch(const BlockTriangularFactor& factor,
   return solution;
 }
 
+// The paper's (2.28), from the last joint to the first: with the blocks beyond
+// joint i known,
+//   x_i = (U_ii' U_ii)^-1 U_ii' (y_i - sum_{j > i} U_ij x_j).
+// Each step is a triangular solve with R_ii, the corner of joint i's factor.
+// The gain goes through the same recursion, column by column, so that the
+// errors that later blocks hand up are in the covariance.
 LinearSolution SolveRecursive(const BlockTriangularFactor& factor,
                               const Identifiability& identifiability) {
   const int m = factor.num_parameters();
@@ -148,6 +169,10 @@ LinearSolution SolveRecursive(const BlockTriangularFactor& factor,
   return solution;
 }
 
+// The noise of joint i is the rms of its residuals, times sqrt(N / (N - m)) of
+// all joints' N equations for the m parameters that were fitted to them. The
+// floors keep a joint that is fitted exactly (simulated logs without noise)
+// from getting all of the weight.
 VectorXd EstimateNoise(const BlockTriangularFactor& factor, const VectorXd& x) {
   const int n = factor.num_joints();
   double rows = 0;
@@ -165,6 +190,10 @@ VectorXd EstimateNoise(const BlockTriangularFactor& factor, const VectorXd& x) {
   return noise;
 }
 
+// Feasible generalised least squares: the weights need the noise, the noise
+// needs the residuals. Alternating between both maximises the likelihood of
+// normal errors whose variances, one per joint, are unknown. A round costs a
+// small QR, as only the factors are needed and no log.
 LinearSolution SolveReweighted(const BlockTriangularFactor& factor,
                                const ReferenceScale& reference,
                                const std::vector<bool>& excluded,

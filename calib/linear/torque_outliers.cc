@@ -19,7 +19,11 @@ constexpr int kMedianReach = 15;
 constexpr double kLeastJump = 0.5;
 constexpr double kLeastOfRms = 0.01;  // of the torque's rms
 
-// Adds those of one joint in the trajectory's core.
+// Adds the gross errors of one joint in the trajectory's core. `level` is the
+// running median of the residuals, so that what the model lacks for longer than
+// a few samples is no error. A sample's torque must itself jump from its
+// neighbours', or a jump of the prediction (friction at a reversal) would take
+// out good samples exactly where friction is told.
 void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
            std::vector<TorqueOutlier>* list) {
   const TorqueSamples& s = t.samples;
@@ -41,6 +45,8 @@ void Judge(const Trajectory& t, const MatrixXd& residuals, int joint,
 
 }  // namespace
 
+// Joints are judged side by side; lists are sorted, so that their order does
+// not tell which thread was first.
 OutlierLists FindTorqueOutliers(SamplePass* pass) {
   OutlierLists lists(pass->num_logs());
   pass->Run("outliers", [&](int log, const Trajectory& t,

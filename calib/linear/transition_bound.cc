@@ -20,6 +20,9 @@ bool SeesCoulomb(const LinearCalibration& result, int joint) {
 
 }  // namespace
 
+// A width at the end of the grid is a bound and no estimate: over the speeds of
+// the log, tanh(qd / width) is then nearly proportional to qd, which is viscous
+// friction's column.
 std::vector<std::string> TransitionWarnings(const Robot& robot,
                                             const LinearCalibration& result) {
   std::vector<std::string> sentences;

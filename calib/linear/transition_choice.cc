@@ -38,6 +38,10 @@ Stack StackFactors(const BlockTriangularFactor& factor) {
   return stack;
 }
 
+// Searches the widths as a separable least-squares problem: for given widths
+// all else is linear and is solved exactly (Golub & Pereyra 1973, SIAM J.
+// Numer. Anal. 10, variable projection), so that the search is over widths
+// alone. All of it works on the triangular factor and reads no log again.
 class Chooser {
  public:
   Chooser(const BlockTriangularFactor& factor,
@@ -86,7 +90,10 @@ class Chooser {
     }
     return A;
   }
-  // Those that are always there and independent, all candidates, torque.
+  // Orders the columns: first those that are always there and independent
+  // (pivoted QR), then all candidates, then the torque. One QR in this order
+  // leaves below the first always_ rows what the former cannot explain of the
+  // rest.
   void OrderColumns(const std::vector<int>& always) {
     if (!always.empty()) {
       const Eigen::ColPivHouseholderQR<MatrixXd> qr(Weighted(always));
@@ -121,7 +128,7 @@ class Chooser {
     return R_.col(column).tail(R_.rows() - always_).norm() >=
            1e-8 * R_.col(column).norm();
   }
-  // The chosen candidates, but joint `skip`'s.
+  // The places of the chosen candidates of all joints but `skip`.
   std::vector<int> Chosen(int skip) const {
     std::vector<int> columns;
     for (int j = 0; j < factor_.num_joints(); ++j) {
@@ -131,6 +138,10 @@ class Chooser {
     }
     return columns;
   }
+  // The gain of a candidate c is the fall (c'y)^2 / |c|^2 of the sum of
+  // squares, c and y being what all other columns leave of them: adding one
+  // column to a regression is a regression of what is left on what is left
+  // (Frisch & Waugh 1933, Econometrica 1). It costs one product per candidate.
   void ChooseFor(int joint) {
     if (candidates_[joint].size() < 2 || noise_[joint] <= 0) return;
     std::vector<int> columns = candidates_[joint];
@@ -155,6 +166,9 @@ class Chooser {
       choice_[joint] = static_cast<int>(k);
     }
   }
+  // Back substitution for the chosen columns, then the rms of each joint's
+  // residuals in units of the noise so far: the choice depends on the weights,
+  // and these on the choice.
   void ReestimateNoise() {
     const std::vector<int> chosen = Chosen(-1);
     const Eigen::Index last = R_.cols() - 1;

@@ -54,6 +54,10 @@ Transitions Refine(const Robot& robot, const LinearCalibrationOptions& options,
 
 }  // namespace
 
+// The residual as a function of a width has several minima (friction by
+// velocity and by displacement, sharp and wide), so that a descent from one
+// width may end in the wrong one. A grid over all of them comes first, and a
+// finer one about its best.
 Transitions FindTransitions(const Robot& robot,
                             const LinearCalibrationOptions& options,
                             const RowOptions& rows,

@@ -25,6 +25,9 @@ UsedEquations AllEquations(const LogFactors& factors, int num_joints) {
           {}};
 }
 
+// The robot file's inertia judges first, since without any scale the logs judge
+// themselves by a solution that may be the arm without mass. The logs' own
+// solution judges then, twice, as what it leaves out changes it.
 UsedEquations FindUsedEquations(const LogFactors& factors,
                                 const ModelParameters& parameters,
                                 const ReferenceScale& reference) {

@@ -58,6 +58,8 @@ void AddUnmoved(const Robot& robot, const Eigen::VectorXd& travel,
   }
 }
 
+// A fit that runs always has numbers. These are the cases in which they are of
+// no use to anyone; good fits are not graded.
 Sentences Shortcomings(const Robot& robot, const LinearCalibration& result) {
   if (!result.solved) return {result.reason};
   const Identifiability& id = result.identifiability;

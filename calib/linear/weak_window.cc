@@ -55,6 +55,9 @@ double AccelerationPower(double periods) {
 
 }  // namespace
 
+// Solves S AccelerationPower(T bandwidth) bandwidth^5 <= kNoiseShare qdd_rms^2
+// for the least T by bisection (docs/theory.md, 2), S being the encoder's power
+// spectral density, of the joint with the largest S / qdd_rms^2.
 double NoiseWindow(const EncoderNoise& noise, double bandwidth_hz) {
   double worst = 0;  // noise over motion, s^5
   for (Eigen::Index j = 0; j < noise.density.size(); ++j) {

@@ -18,9 +18,11 @@ int CorrelatedRows(const RowOptions& rows) {
   return std::max(rows.hops, static_cast<int>(0.33 * 4 * rows.bandwidth_hz));
 }
 
-// The model with the widths of Coulomb friction unknown as well: every joint
-// has a second Coulomb column of a slightly greater width, which together span
-// the width's own column. base[k] is the parameter that column k stands for.
+// The model with the widths of Coulomb friction unknown as well. Every joint
+// has a second Coulomb column, of a width 10 % greater. The difference of both
+// is the derivative by the width to first order, so that together they span its
+// column and a linear solution's covariance includes it. base[k] is the
+// parameter that column k stands for.
 struct WidthsUnknown {
   WidthsUnknown(const Robot& robot, const LinearCalibrationOptions& options,
                 const LinearCalibration& result)
@@ -63,6 +65,8 @@ struct WidthsUnknown {
 
 }  // namespace
 
+// A width that was fitted is an unknown like the others: taken for given, it
+// would leave Coulomb and viscous friction, which trade with it, too sure.
 CovarianceEstimate EstimateCovariance(
     const Robot& robot, const LinearCalibrationOptions& options,
     const RowOptions& rows, const LinearSolution& solution, RobustLoss loss,

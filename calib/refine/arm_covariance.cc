@@ -14,16 +14,30 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// The same trust with links to `inertia` and all else `geometry` times as far.
 ArmTrust Weaker(double inertia, const ArmTrust& trust, double geometry) {
   return {inertia, geometry * trust.length, geometry * trust.angle,
           geometry * trust.joint_terms};
 }
 
-// Of a variance by errors that follow each other.
+// How much larger errors that follow each other can make a variance.
 constexpr double kMostInflation = 1e8;
 
 }  // namespace
 
+// With A the information of the data and P that of the prior, the estimate's
+// error is G (scores + P times the prior's error), G = (A + P)^-1. Its
+// covariance is
+//   G (S + J'J + P) G,
+// S being the long-run covariance of the torques' scores and J the poses'
+// whitened Jacobian, whose errors are independent. With S = A it would be G
+// itself, the posterior's covariance; torque rows overlap, and S is larger.
+// Deviations are raised as those of the linear calibration are.
+//
+// Whether a parameter is identifiable must not hang on how far the file is
+// trusted for it: its variance is compared between a file trusted to 100 % and
+// one trusted to a hundred times as little. Where the data tell it, hardly
+// anything changes.
 ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
                                     const ArmFit& fit, const ArmTrust& trust,
                                     const ArmValues& at,

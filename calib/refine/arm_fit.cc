@@ -43,7 +43,8 @@ struct Blocks {
   std::vector<Vector10d> links;
 };
 
-// Keeps the entries of a block that are not free.
+// Keeps the entries of a block that are not free. A block without free entries
+// is constant, as a manifold needs at least one direction.
 void Hold(const ArmUnknowns& unknowns, int begin, int size, double* block,
           ceres::Problem* problem) {
   std::vector<int> held;
@@ -57,6 +58,7 @@ void Hold(const ArmUnknowns& unknowns, int begin, int size, double* block,
   }
 }
 
+// Adds (x - mean) / prior for every entry of a block that has a prior.
 void AddNormalPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
                     int begin, const VectorXd& mean, double* block,
                     ceres::Problem* problem) {
@@ -69,7 +71,8 @@ void AddNormalPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
                             block);
 }
 
-// The torque equations and, as equations of their own, the prior on terms.
+// Adds the prior on terms to the torque equations, as rows (term - nominal) /
+// prior: it is linear, and both the start and the fit then have it.
 LinkEquations WithTermPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
                             const LinkEquations& equations) {
   const Eigen::Index rows = equations.R.rows();
@@ -87,6 +90,8 @@ LinkEquations WithTermPrior(const ArmUnknowns& unknowns, const ArmTrust& trust,
   return all;
 }
 
+// Adds one residual for all torques, R x - z (TorqueFactorResidual). Robust
+// weights are in R already, since they are of rows, which R no longer has.
 void AddTorques(const ArmUnknowns& unknowns, const LinkEquations& equations,
                 Blocks* blocks, ceres::Problem* problem) {
   ArmValues& v = blocks->value;
@@ -102,6 +107,10 @@ void AddTorques(const ArmUnknowns& unknowns, const LinkEquations& equations,
       nullptr, all);
 }
 
+// Adds what the file says: the divergence of pseudo-inertias for each link
+// (Lee, Wensing & Park 2020), which also keeps links off the boundary, and
+// normal priors of tilt and geometry. Steps of links go by InertialManifold, in
+// which the torques are linear as they are in the inertial parameters.
 void AddPriors(const ArmUnknowns& unknowns, const ArmTrust& trust,
                Blocks* blocks, ceres::Problem* problem) {
   const ArmValues& nominal = unknowns.nominal();
@@ -119,7 +128,9 @@ void AddPriors(const ArmUnknowns& unknowns, const ArmTrust& trust,
                  problem);
 }
 
-// What is held, and friction and armature not below 0.
+// Keeps what is held, and keeps friction and armature from falling below 0:
+// these bounds are by coordinates, which Ceres projects on. Links need none,
+// since every value of their coordinates is a body.
 void AddLimits(const ArmUnknowns& unknowns, Blocks* blocks,
                ceres::Problem* problem) {
   ArmValues& v = blocks->value;
@@ -141,6 +152,9 @@ ArmFit::ArmFit(const ArmUnknowns& unknowns, const ArmTrust& trust,
                const PoseFit* poses)
     : unknowns_(unknowns), trust_(trust), poses_(poses) {}
 
+// For a given geometry the problem is convex in the inertial parameters, but
+// not in the coordinates that Solve() works in. StartLinks solves it in the
+// former from any start, so that Solve() has only geometry and poses to add.
 bool ArmFit::Start(const LinkEquations& torques, ArmValues* values) const {
   const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
   const int size = unknowns_.tilt_begin();
@@ -171,6 +185,9 @@ bool ArmFit::Start(const LinkEquations& torques, ArmValues* values) const {
   return true;
 }
 
+// The maximum of the posterior: the least of |R x - z|^2, the poses' squares
+// and the prior's, over bodies that can exist. The tolerance, 1e-9 of the cost,
+// is far below what rounds of the geometry leave.
 ArmFit::End ArmFit::Solve(const LinkEquations& torques,
                           ArmValues* values) const {
   const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
@@ -195,6 +212,8 @@ ArmFit::End ArmFit::Solve(const LinkEquations& torques,
   return end;
 }
 
+// Near the file's values the divergence of a link is |W (V - V_0)|^2, whence
+// W'W.
 MatrixXd ArmFit::PriorInformation(const ArmTrust& trust) const {
   MatrixXd information = MatrixXd::Zero(unknowns_.size(), unknowns_.size());
   for (int i = 0; i < unknowns_.num_links(); ++i) {
@@ -210,6 +229,8 @@ MatrixXd ArmFit::PriorInformation(const ArmTrust& trust) const {
   return information;
 }
 
+// The poses' Jacobian, divided by the root of what a robust loss makes of the
+// variance (VarianceFactor): its square is then the inverse of a covariance.
 MatrixXd ArmFit::PoseRows(const ArmValues& values) const {
   if (poses_ == nullptr) return MatrixXd::Zero(0, unknowns_.size());
   VectorXd residuals;

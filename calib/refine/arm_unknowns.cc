@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Of ArmGeometry's base: x y z yaw pitch roll.
+// The base of ArmGeometry has the parameters x y z yaw pitch roll.
 constexpr int kBaseSize = 6;
 constexpr int kBasePitch = 4, kBaseRoll = 5;
 
@@ -40,6 +40,9 @@ void ArmValues::SetStacked(const VectorXd& stacked) {
   poses.other = next(poses.other.size()).eval();
 }
 
+// A joint's torque says what is large for its terms' priors; a joint without
+// any has a thousandth of the largest, so that its prior is not infinitely
+// sharp.
 ArmUnknowns::ArmUnknowns(const Robot& robot, const LinearCalibration& linear,
                          RefineGeometry refine, const PoseMeasurements* poses)
     : robot_(robot), geometry_(robot), has_poses_(poses != nullptr) {
@@ -65,6 +68,9 @@ void ArmUnknowns::Add(const std::string& name, const std::string& unit,
   free_.push_back(is_free);
 }
 
+// All joints have all four terms, so that places do not depend on what was
+// asked for; those that the linear calibration has not are held at the file's
+// values.
 void ArmUnknowns::AddTerms(const LinearCalibration& linear) {
   const int n = robot_.num_joints();
   nominal_.terms.resize(4 * n);
@@ -85,8 +91,10 @@ void ArmUnknowns::AddTerms(const LinearCalibration& linear) {
   }
 }
 
-// The geometry is shared by torques and poses, but for the base: poses have it
-// in the instrument's frame, torques against gravity.
+// Adds the geometry, which torques and poses share, but for the base: poses
+// have it in the instrument's frame, torques against gravity. Torques see of
+// the base only its tilt, pitch and roll, as a turn about the vertical or a
+// shift changes none of them.
 void ArmUnknowns::AddGeometry(RefineGeometry refine,
                               const PoseMeasurements* poses) {
   const bool tilts = refine == RefineGeometry::kAll;
@@ -125,6 +133,10 @@ bool ArmUnknowns::is_positive(int k) const {
          terms_[k - terms_begin()].term != JointTerm::kOffset;
 }
 
+// The prior's standard deviation, in the order of Stacked(). That of joint
+// terms is a multiple of the joint's torque per unit of speed or acceleration:
+// wide enough to say nothing where the motion tells, narrow enough to keep the
+// rest finite.
 double ArmUnknowns::NormalPrior(int k, const ArmTrust& trust) const {
   if (k < terms_begin()) return 0;
   if (k < tilt_begin()) {
@@ -136,6 +148,8 @@ double ArmUnknowns::NormalPrior(int k, const ArmTrust& trust) const {
                        trust.angle);
 }
 
+// Where a column of LinkFunctions belongs among all unknowns: the base's pitch
+// and roll are the tilt and not the instrument's.
 std::vector<int> ArmUnknowns::TorqueColumns() const {
   std::vector<int> columns;
   for (int k = 0; k < tilt_begin(); ++k) columns.push_back(k);

@@ -32,6 +32,8 @@ void ExpectRefined(const JsonValue& root) {
   }
 }
 
+// Reads how each joint's Coulomb friction changes sign. Joints without friction
+// have no entry; CheckFriction asks for one where the robot has friction.
 std::vector<CoulombTransition> ReadTransitions(const JsonValue& root,
                                                const Robot& robot) {
   using Law = CoulombTransition::Law;
@@ -58,7 +60,8 @@ std::vector<CoulombTransition> ReadTransitions(const JsonValue& root,
   return transitions;
 }
 
-// With the lengths that the linear calibration recovered.
+// The robot with the lengths that the linear calibration recovered. Each must
+// be one of the robot file, with the value that it has there.
 Robot WithLengthsOf(const JsonValue& root, const Robot& nominal) {
   const std::vector<Length> known = MakeProximalChain(nominal).lengths;
   std::vector<Length> lengths;
@@ -89,6 +92,8 @@ bool IsNotTheRobots(const std::string& name) {
          term == "coulomb_width";
 }
 
+// Sets one parameter. The prior must be the value of the robot file at hand: a
+// file that was changed since has other meanings for what stands beside it.
 void SetFrom(const JsonValue& entry, RobotParameters* parameters,
              std::set<std::string>* were_set) {
   const JsonValue name = entry.At("name");
@@ -115,6 +120,8 @@ void SetFrom(const JsonValue& entry, RobotParameters* parameters,
   parameters->Set(name.Text(), value.Number());
 }
 
+// The robot of `parameters`, each of which must be there once. Geometry may be
+// missing: what was not refined is the file's.
 Robot ReadRobotOf(const JsonValue& root, const Robot& nominal) {
   RobotParameters values(WithLengthsOf(root, nominal));
   std::set<std::string> were_set;
@@ -147,6 +154,8 @@ std::string Canonical(const std::string& path) {
 
 }  // namespace
 
+// Asks for the format, the robot's name and its joints in their order: matrices
+// and lists of a calibration go by these places.
 void ExpectCalibrationOf(const Robot& robot, const JsonValue& root) {
   root.At("format").Expect("armcal calibration 1",
                            ", the format this version reads");
@@ -164,6 +173,8 @@ void ExpectCalibrationOf(const Robot& robot, const JsonValue& root) {
   }
 }
 
+// Paths are compared as what they lead to, since ./a.csv and a.csv are one
+// file. A held-out figure on a log that the fit has seen would be no evidence.
 bool CalibratedRobot::Saw(const std::string& log,
                           const TimeRange& range) const {
   for (size_t k = 0; k < logs.size(); ++k) {

@@ -12,6 +12,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Reads `size` rows of `size` numbers below a line of names; empty is NaN.
 MatrixXd ReadRows(const std::string& path, int size) {
   constexpr long kMaxBytes = 16L << 20;
   std::istringstream lines(ReadTextFile(path, kMaxBytes));
@@ -41,7 +42,8 @@ MatrixXd ReadRows(const std::string& path, int size) {
 
 }  // namespace
 
-// Rounding is of the size of the variances, sqrt(C_rr C_cc); a field is as
+// Checks that the matrix is symmetric. Rounding is of the size of the
+// variances, sqrt(C_rr C_cc), whatever the entry's own size is; a field is as
 // empty as its mirror image.
 MatrixXd ReadCovarianceCsv(const std::string& path, int size) {
   constexpr double kRounding = 1e-9;

@@ -32,7 +32,7 @@ SeenCovariance ReadSeenCovariance(const std::string& path, int size) {
   return seen;
 }
 
-// Of the model's parameters, the one of each name of the calibration.
+// For each wanted parameter of the calibration, the model's of the same name.
 std::vector<int> Places(const JsonValue& names, const std::vector<int>& wanted,
                         const ModelParameters& model) {
   std::map<std::string, int> place;
@@ -55,6 +55,9 @@ std::vector<int> Places(const JsonValue& names, const std::vector<int>& wanted,
 
 }  // namespace
 
+// The information is the inverse of the covariance of what was seen, C = D K D
+// with correlations K and deviations D: D^-1 K^-1 D^-1. K is what is factored,
+// as variances of inertias and of friction may be many orders apart.
 GivenCalibration ReadGivenCalibration(const std::string& path,
                                       const Robot& robot,
                                       const ModelParameters& model) {

@@ -19,7 +19,10 @@ using Eigen::VectorXd;
 
 constexpr double kWider = 1.1;
 
-// Without the last `count` unknowns, which are estimated too.
+// Takes the last `count` unknowns out, which are estimated too and would
+// otherwise count as known. In QR of the columns with these first, R = [N C; 0
+// R_2], R_2'R_2 is the Schur complement, the information about the others that
+// is left. Scores follow, s_p - (N^-1 C)' s_n, by T.
 void Eliminate(Eigen::Index count, LinkInformation* information) {
   if (count == 0) return;
   const Eigen::Index p = information->R.cols() - count;
@@ -40,7 +43,7 @@ void Eliminate(Eigen::Index count, LinkInformation* information) {
   information->least.conservativeResize(p);
 }
 
-// Of torque columns among all unknowns.
+// Puts the columns of the torques' unknowns to their places among all.
 LinkInformation Spread(const LinkInformation& torques,
                        const std::vector<int>& columns, int size) {
   LinkInformation all;
@@ -57,6 +60,7 @@ LinkInformation Spread(const LinkInformation& torques,
   return all;
 }
 
+// The score U' psi(r) of a row, in units in which weights are 1.
 Score LinkScore(const FittedRow& row) {
   Score score{row.U.transpose() * row.r, row.U, {}};
   for (int i = 0; i < row.r.size(); ++i) {
@@ -124,6 +128,8 @@ LinkPass::LinkPass(const ArmUnknowns& unknowns, const LinearCalibration& linear,
                    const Progress& progress, const PreparedLogs& logs)
     : unknowns_(unknowns), linear_(linear), progress_(progress), logs_(logs) {}
 
+// Makes every weak row U x = y at some values and its residual. Columns of the
+// geometry are derivatives there and no part of the torque, U_links,terms x.
 void LinkPass::ForEachResidual(
     const std::string& stage, const ArmValues& at, const VectorXd& noise,
     const std::vector<JointTermColumn>& terms,
@@ -152,8 +158,16 @@ void LinkPass::ForEachResidual(
   });
 }
 
-// Inertial parameters that this geometry does not tell apart have the same
-// columns in all rows, and so in what rows are reduced to.
+// Compresses all rows to R x = z. A known geometry tells some combinations of
+// inertial parameters only (base parameters: Gautier & Khalil 1990, IEEE T-RA
+// 6), and the columns of the others are combinations of theirs in all rows, and
+// so in what rows are reduced to. Only base columns are evaluated and factored,
+// 36 instead of 60 for a PUMA (Mayeda, Yoshida & Osuka 1990), and R is expanded
+// afterwards.
+//
+// Errors of rows follow each other, and R'R would be too sure against poses and
+// the file. Division by the linear calibration's inflation, the median of its
+// deviations over those of independent rows, makes up for it.
 LinkEquations LinkPass::Reduce(const ArmValues& at, const VectorXd& noise) {
   const Robot robot = unknowns_.WithInertia(at);
   const ArmGeometry geometry = unknowns_.Geometry(at);
@@ -191,7 +205,7 @@ LinkEquations LinkPass::Reduce(const ArmValues& at, const VectorXd& noise) {
   return equations;
 }
 
-// Whitened like the equations of Reduce.
+// A row whitened like the equations of Reduce.
 FittedRow LinkPass::MakeFittedRow(const Residual& residual,
                                   const Columns& columns,
                                   const VectorXd& noise) const {
@@ -207,7 +221,7 @@ FittedRow LinkPass::MakeFittedRow(const Residual& residual,
   return row;
 }
 
-// Of the torques' unknowns, all others known.
+// (A + P)^-1 of the torques' unknowns, all others known.
 MatrixXd LinkPass::Gain(const MatrixXd& R, const Columns& columns,
                         const MatrixXd& others, const MatrixXd& prior) const {
   const Eigen::Index count = columns.num_torques(), size = columns.size();
@@ -224,6 +238,11 @@ MatrixXd LinkPass::Gain(const MatrixXd& R, const Columns& columns,
   return Posterior(A, P, free).Gain();
 }
 
+// Two passes: the first sums the information, from which the gain follows; the
+// second sums the scores' long-run covariance, which needs the gain for what
+// the fit took of the residuals (ScoreCovariance, OverlapCovariance). With
+// fitted widths, wider Coulomb columns stand for the derivative by the width,
+// as in the linear calibration, and are eliminated at the end.
 LinkInformation LinkPass::Inform(const ArmValues& at, const VectorXd& noise,
                                  const MatrixXd& others,
                                  const MatrixXd& prior) {

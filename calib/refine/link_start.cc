@@ -18,7 +18,8 @@ using Eigen::VectorXd;
 constexpr double kTermBarrier = 1e-4;
 constexpr int kMaxSteps = 500;
 
-// The entries of a symmetric matrix, so that norms agree.
+// The ten entries of a symmetric matrix, those off the diagonal times sqrt(2),
+// so that |Vec(S)| is the Frobenius norm.
 Vector10d Vec(const Matrix4d& S) {
   Vector10d v;
   int k = 0;
@@ -34,6 +35,10 @@ Matrix4d Congruence(const Matrix4d& C, const Matrix4d& P) {  // C^-1 P C^-T
   return L.solve(half);
 }
 
+// The cost is quadratic plus -log det of matrices that are linear in x, which
+// is self-concordant: damped Newton steps converge from any point inside, in a
+// number that depends neither on scales nor on how near the boundary is (Boyd &
+// Vandenberghe 2004, Convex Optimization, 9.6 and 11.5).
 class Interior {
  public:
   Interior(const MatrixXd& R, const VectorXd& z,
@@ -74,6 +79,9 @@ class Interior {
   std::vector<Matrix4d> P_0_;
 };
 
+// |R x - z|^2 + 2 weight sum (tr X - log det X - 4) - 2 kTermBarrier sum
+// log(term), with log det X = 2 sum log L_ii by Cholesky. It is asked for
+// inside the boundary alone, where the factor exists (LongestStep).
 double Interior::Cost(const VectorXd& x, double weight) const {
   double cost = (R_ * x - z_).squaredNorm();
   for (int i = 0; i < links_; ++i) {
@@ -89,7 +97,9 @@ double Interior::Cost(const VectorXd& x, double weight) const {
   return cost;
 }
 
-// At most 1; 0.9 of the way to the boundary.
+// How much of a step to take: all of it, or 0.9 of the way to the boundary
+// where that is less. Along a step, P(V) = C C' becomes C (1 + t D) C', which
+// is positive until 1 + t lambda = 0 for the least eigenvalue lambda of D.
 double Interior::LongestStep(const VectorXd& step) const {
   double fastest = 0.9;
   for (int i = 0; i < links_; ++i) {
@@ -106,8 +116,12 @@ double Interior::LongestStep(const VectorXd& step) const {
   return 0.9 / fastest;
 }
 
-// With D = C^-1 P(dV) C^-T, C C' = P(V), the divergence is to second order
-// |D + C' P_0^-1 C - 1|^2 up to a constant: linear least squares.
+// With D = C^-1 P(dV) C^-T, C C' = P(V), the divergence is to second order |D +
+// C' P_0^-1 C - 1|^2 up to a constant: each Newton step is a linear
+// least-squares problem, solved by QR so that R'R is never formed. Columns are
+// scaled to length 1, as those of thin links are many orders longer than
+// others. The step is halved until the cost falls by a tenth of what it
+// promised (Armijo).
 double Interior::Step(double weight) {
   const Eigen::Index m = R_.rows(), p = R_.cols();
   MatrixXd J = MatrixXd::Zero(m + p, p);
@@ -154,6 +168,10 @@ double Interior::Step(double weight) {
 
 }  // namespace
 
+// Follows the minimum from a file that is trusted as much as all data together
+// to one that is trusted as asked for, by tenths of the weight: each minimum is
+// a good start for the next one, while logs without noise would send the first
+// step of the last problem to the boundary.
 std::optional<VectorXd> StartLinks(const MatrixXd& R, const VectorXd& z,
                                    double trust,
                                    const std::vector<TermRange>& terms,

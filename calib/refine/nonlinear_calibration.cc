@@ -53,7 +53,10 @@ VectorXd Weights(const LinearCalibration& linear) {
   return weights;
 }
 
-// Links (of no body) and terms that have the linear estimate's torques.
+// Links and terms that have the linear estimate's torques: the least-norm
+// solution of K (links, terms) = X, K being how the model parameters X follow
+// from the robot's. They are of no body, but weights of the equations only ask
+// for torques.
 ArmValues LinearValues(const ArmUnknowns& unknowns,
                        const LinearCalibration& linear) {
   ArmValues values = unknowns.nominal();
@@ -76,7 +79,7 @@ ArmValues LinearValues(const ArmUnknowns& unknowns,
   return values;
 }
 
-// The terms that the linear model has as parameters of their own.
+// Sets the terms that the linear model has as parameters of their own.
 void SetTerms(const ArmUnknowns& unknowns, const LinearCalibration& linear,
               VectorXd* terms) {
   for (int k = 0; k < linear.parameters.size(); ++k) {
@@ -140,8 +143,10 @@ std::string NonlinearCalibrator::StartPoses(const PoseMeasurements& measured,
   return alone.refusal;
 }
 
-// Torques are linear in all but the geometry, in which they are taken so about
-// the last estimate, with the noise that it leaves.
+// Torques are linear in all but the geometry. In this they are taken linearly
+// about the last estimate, with the noise that it leaves, round after round:
+// Gauss-Newton in the geometry with all else solved to the end in each. It
+// rests where a round moves the torques by less than kConverged of their noise.
 bool NonlinearCalibrator::Solve(const PreparedLogs& training, const ArmFit& fit,
                                 NonlinearCalibration* result) {
   LinkPass pass(unknowns_, linear_, options_.progress, training);
@@ -179,6 +184,8 @@ bool NonlinearCalibrator::Solve(const PreparedLogs& training, const ArmFit& fit,
   return true;
 }
 
+// Parameters that only the file tells have an infinite deviation, but their
+// posterior variance is in `covariance`: sums of them may be known well.
 void NonlinearCalibrator::Report(const ArmCovariance& covariance,
                                  NonlinearCalibration* result) const {
   const VectorXd value = values_.Stacked();
@@ -207,6 +214,8 @@ void NonlinearCalibrator::Report(const ArmCovariance& covariance,
   result->unseen = covariance.unseen;
 }
 
+// Residuals of the robot itself, by its own inverse dynamics: what a simulator
+// will leave and not what the equations did.
 TorqueResidual NonlinearCalibrator::Evaluate(const Robot& robot,
                                              const PreparedLogs& logs) const {
   ModelParameters::Options options;
@@ -221,6 +230,8 @@ TorqueResidual NonlinearCalibrator::Evaluate(const Robot& robot,
                                 options_.progress, logs);
 }
 
+// Poses are solved first by themselves, for the instrument's frame and the
+// noise; torques and poses then together, so that one covariance has both.
 NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
                                               const LogSet& training,
                                               const LogSet* validation) {

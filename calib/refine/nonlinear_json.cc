@@ -86,6 +86,8 @@ std::string MatrixCsv(const NonlinearCalibration& result,
 
 }  // namespace
 
+// Beyond 0.9 in size, deviations of single parameters say little: what the data
+// tell is a combination of both.
 std::vector<Correlation> StrongCorrelations(
     const NonlinearCalibration& result) {
   constexpr double kStrong = 0.9;
@@ -123,6 +125,9 @@ void AddParameters(const NonlinearCalibration& result, json* calibration) {
                                 {"unidentifiable", result.unseen}};
 }
 
+// Keys of the linear estimate that the refined one has anew move under
+// "linear", so that a reader of "joints" or "parameters" always has the
+// estimate that is named.
 void AddRefined(const NonlinearCalibration& result, json* calibration) {
   json& c = *calibration;
   if (!result.solved) {

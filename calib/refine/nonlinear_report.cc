@@ -40,6 +40,8 @@ std::string Percent(const TorqueResidual& residual) {
                                 : "unknown (no torque)";
 }
 
+// Masses beside the file's; the centre of mass is the first moment over the
+// mass.
 std::string LinkTable(const Robot& nominal, const Robot& robot) {
   const std::string title = "robot for a simulator";
   size_t width = title.size() + 1;
@@ -60,6 +62,7 @@ std::string LinkTable(const Robot& nominal, const Robot& robot) {
   return text;
 }
 
+// Trailing blanks are cut from each row, since cells are padded.
 std::string JointTable(const NonlinearCalibration& result) {
   size_t width = 8;
   for (const Link& link : result.robot.links) {
@@ -97,7 +100,8 @@ std::string GeometryTable(const NonlinearCalibration& result) {
   return "\ngeometry                        file       estimate\n" + text;
 }
 
-// Which lengths of the linear calibration this robot has.
+// Says which lengths of the linear calibration this robot has: those that were
+// seen by themselves, those of which only sums were, and those of the file.
 std::string LengthText(const NonlinearCalibration& result) {
   std::string seen, moved, kept;
   for (const RecoveredLength& l : result.lengths) {
@@ -131,6 +135,7 @@ std::string PoseText(const NonlinearCalibration& result) {
                 1e3 * poses.max);
 }
 
+// How many parameters the data determine, and the three strongest correlations.
 std::string CertaintyText(const NonlinearCalibration& result) {
   int estimated = 0, identifiable = 0;
   for (const PhysicalParameter& p : result.parameters) {

@@ -17,7 +17,7 @@ constexpr JointTerm kEstimatedTerms[] = {
     JointTerm::kViscous, JointTerm::kCoulomb, JointTerm::kOffset,
     JointTerm::kArmature};
 
-// Of a robot, by the names that calibrations give them.
+// A robot's parameters by the names that calibrations give them.
 std::map<std::string, Parameter> ParametersOf(const Robot& robot) {
   std::map<std::string, Parameter> parameters;
   for (int i = 0; i < robot.num_joints(); ++i) {
@@ -48,6 +48,8 @@ std::string CalibrationFile(const std::string& path) {
   return std::filesystem::exists(inside, error) ? inside.string() : path;
 }
 
+// Rows and columns of what is not the robot's links and terms are left out:
+// what remains of a Gaussian's covariance is that of its marginal.
 ParameterPosterior ReadParameterPosterior(const std::string& path,
                                           const Robot& robot) {
   const nlohmann::json text = ReadJson(path);

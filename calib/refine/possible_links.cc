@@ -17,8 +17,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kStates = 200;
-// Of a joint's rms torque, what counts: where links only share out what logs
-// show, and, over all states together, where no links could have all of it.
+// What of a joint's rms torque counts as a difference: where links only share
+// out what logs show, and, over all states together, where no links could have
+// all of it.
 constexpr double kDifference = 1e-2;
 constexpr double kLooseDifference = .1;
 constexpr double kFarPercent = 5;
@@ -32,7 +33,8 @@ double Draw(double low, double high, std::mt19937_64* random) {
   return low + (high - low) * UniformDraw(random);
 }
 
-// Uniform over the range of positions, and as large as usual.
+// A state of motion as the log has it: positions are uniform over their range,
+// velocities and accelerations have the log's rms.
 State DrawState(const MotionScale& scale, std::mt19937_64* random) {
   const Eigen::Index n = scale.low.size();
   const double usual = std::sqrt(3.);  // of a uniform draw of rms 1
@@ -46,7 +48,9 @@ State DrawState(const MotionScale& scale, std::mt19937_64* random) {
 }
 
 // The torque is linear in the inertial parameters of links[k] and in the
-// joints' armature: columns in that order, a row per state and joint.
+// joints' armature (Atkeson, An & Hollerbach 1986, Int. J. Robotics Research
+// 5). Columns are in that order, with a row per state and joint, and come from
+// inverse dynamics of one unit parameter at a time.
 MatrixXd TorqueColumns(Robot robot, const std::vector<int>& links,
                        const MotionScale& scale) {
   const int n = robot.num_joints(), m = 10 * static_cast<int>(links.size());
@@ -73,7 +77,8 @@ double Rms(const VectorXd& torque, int joint, int n) {
   return std::sqrt(of_joint.squaredNorm() / of_joint.size());
 }
 
-// Bodies inside what can exist, then the joints' armature.
+// Bodies inside what can exist, then the joints' armature. A fitted link that
+// cannot exist begins as the file's.
 VectorXd StartValues(const Robot& robot, const Robot& file,
                      const std::vector<int>& links) {
   const int m = 10 * static_cast<int>(links.size());
@@ -100,7 +105,7 @@ std::vector<int> LinksWithInertia(const Robot& robot) {
   return links;
 }
 
-// In units of what a joint's torque may differ by.
+// The columns in units of what a joint's torque may differ by.
 MatrixXd Weighted(MatrixXd columns, const VectorXd& usual_torque,
                   double difference) {
   const Eigen::Index n = usual_torque.size();
@@ -124,6 +129,12 @@ Robot WithValues(Robot robot, const std::vector<int>& links,
 
 }  // namespace
 
+// Solves |columns (x - fitted)|^2 in these units plus the divergence of the
+// links from where they start (StartLinks): torques are kept, and what torques
+// do not show moves as little as it takes to be a body. Traversaro et al.
+// (2016, IROS) and Wensing, Kim & Slotine (2018) have the conditions for one.
+// If no links come within kFarPercent of a joint's torque, the torques count
+// for less.
 std::optional<PossibleLinks> FindPossibleLinks(
     const Robot& robot, const Robot& file, const MotionScale& scale,
     const std::vector<bool>& free_armature) {

@@ -27,7 +27,8 @@ void KeepPositive(double at, double along, LineRange* range) {
 // Values of parameters at which a robot can exist.
 class PossibleRobots {
  public:
-  // `drawn`: which of `all` change.
+  // `drawn`: which of `all` change. Of each link it is noted which of these its
+  // ten parameters are; the others are held at the estimate.
   PossibleRobots(const Robot& robot, const std::vector<PhysicalParameter>& all,
                  const std::vector<int>& drawn) {
     std::map<std::string, int> places;
@@ -49,6 +50,11 @@ class PossibleRobots {
     }
   }
 
+  // The part of a line at + t along on which a robot can exist. A link's
+  // pseudo-inertia is C (1 + t D) C' with C C' the one at `at` and D = C^-1
+  // P(along) C^-T, positive as long as 1 + t lambda > 0 for all eigenvalues
+  // lambda of D (docs/theory.md, 3). The set is convex, so that there is one
+  // range.
   LineRange OnLine(const VectorXd& at, const VectorXd& along) const {
     constexpr double kInside = 1 - 1e-9;  // of rounding at the ends
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -88,6 +94,9 @@ class PossibleRobots {
 
 }  // namespace
 
+// Hit-and-run (Smith 1984; Belisle, Romeijn & Smith 1993) by DrawWithin.
+// Rejection, drawing Gaussians and dropping impossible ones, would hardly ever
+// hit where a link that only the file tells is thin.
 RobotDraws DrawRobots(const NonlinearCalibration& calibrated, int count) {
   constexpr uint64_t kSeed = 1;
   const std::vector<PhysicalParameter>& all = calibrated.parameters;

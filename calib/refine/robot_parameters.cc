@@ -19,6 +19,8 @@ std::string NameOf(const Joint& joint, JointTerm term) {
 
 }  // namespace
 
+// A robot stands in its world only by its tilt against gravity: x, y, z and yaw
+// of the base are the instrument's.
 RobotParameters::RobotParameters(const Robot& nominal)
     : nominal_(nominal), geometry_(nominal) {
   const auto add = [this](const std::string& name, const std::string& unit,
@@ -45,6 +47,8 @@ RobotParameters::RobotParameters(const Robot& nominal)
   }
 }
 
+// The geometry is left alone unless a value of it has changed: applying it
+// writes frames anew, with rounding that would make an equal robot differ.
 Robot RobotParameters::Apply() const {
   Robot robot = nominal_;
   for (Link& link : robot.links) {

@@ -18,6 +18,8 @@ constexpr int kSupport = TrajectorySpline::kSupport;
 // Control points in a block: a sample never reaches beyond the next one.
 constexpr int kBlockPoints = kSupport - 1;
 
+// The blocks of control points that a spline needs; the last may be partly
+// empty.
 int NumBlocks(const TrajectorySpline& spline) {
   return (spline.num_points() + kBlockPoints - 1) / kBlockPoints;
 }
@@ -56,7 +58,11 @@ MatrixXd TrajectoryCorrection::PositionErrors() const {
   return recorded_ - motion_.q.middleRows(sample(0), size());
 }
 
-// Residuals at the present spline, and how they count.
+// Finds residuals at the present spline, z = (tau - U x) / sigma, and how they
+// count. Huber's loss multiplies row and residual by sqrt(psi(z) / z).
+// Linearised, for covariances, rows have mean psi' / rms psi and residuals psi
+// / rms psi: an information of (E psi')^2 / E psi^2 and scores of variance 1,
+// as an M-estimate has.
 void TrajectoryCorrection::Weigh() {
   const int n = num_joints();
   z_.resize(size(), n);
@@ -87,6 +93,8 @@ void TrajectoryCorrection::Weigh() {
   }
 }
 
+// d tau / d c by the chain rule: T = d tau / d (q, qd, qdd), and the weights of
+// the six control points in these.
 MatrixXd TrajectoryCorrection::SplineRows(int k) const {
   const int n = num_joints();
   const auto& w = spline_.basis(k).weights;
@@ -99,6 +107,7 @@ MatrixXd TrajectoryCorrection::SplineRows(int k) const {
   return whitening_.row(k).asDiagonal() * rows;
 }
 
+// d tau / d (x, log widths): U, and x_c d state / d log(width).
 MatrixXd TrajectoryCorrection::BorderRows(int k) {
   MatrixXd rows(num_joints(), border()), U;
   rows.rightCols(border() - m_).setZero();
@@ -112,7 +121,8 @@ MatrixXd TrajectoryCorrection::BorderRows(int k) {
   return whitening_.row(k).asDiagonal() * rows;
 }
 
-// Samples begin..end - 1, which share their control points.
+// Adds samples begin..end - 1, which share their control points, by one
+// product.
 void TrajectoryCorrection::AddTorques(int begin, int end, bool with_border,
                                       Equations* equations) {
   const int n = num_joints(), first = n * spline_.basis(begin).first;
@@ -132,6 +142,8 @@ void TrajectoryCorrection::AddTorques(int begin, int end, bool with_border,
   equations->g_border += V.transpose() * r;
 }
 
+// Adds B'B / sigma^2 joint by joint: recorded positions have independent
+// errors.
 void TrajectoryCorrection::AddPositions(int begin, int end,
                                         Equations* equations) const {
   const int n = num_joints(), first = spline_.basis(begin).first * n;
@@ -158,6 +170,13 @@ void TrajectoryCorrection::AddPositions(int begin, int end,
   equations->H.Add(first, square);
 }
 
+// Errors in the regressor shrink an estimate (attenuation; Fuller 1987,
+// Measurement Error Models, 1.1). So the true motion is an unknown, too:
+// orthogonal distance regression (Boggs, Byrd & Schnabel 1987, SIAM J. Sci.
+// Stat. Comput. 8). The normal equations of control points c and border b = (x,
+// log widths) are
+//   [H  B; B' A] [dc; db] = [g; g_b].
+// H is block tridiagonal, so that a stretch costs time linear in its length.
 TrajectoryCorrection::Equations TrajectoryCorrection::Assemble(
     bool with_border) {
   const int n = num_joints(), blocks = NumBlocks(spline_);
@@ -179,6 +198,8 @@ TrajectoryCorrection::Equations TrajectoryCorrection::Assemble(
   return equations;
 }
 
+// Gauss-Newton steps in the control points alone. T stays that of the first
+// spline: steps are small, and it is most of the work.
 bool TrajectoryCorrection::Fit(const VectorXd& x, const TrajectoryNoise& noise,
                                TorqueWeighting weighting, int steps) {
   x_ = x;
@@ -208,6 +229,8 @@ bool TrajectoryCorrection::Fit(const VectorXd& x, const TrajectoryNoise& noise,
   return true;
 }
 
+// Adds the Schur complement of the control points and its right side,
+//   (A - B' H^-1 B) db = g_b - B' H^-1 g.
 bool TrajectoryCorrection::Eliminate(MatrixXd* information, VectorXd* gradient,
                                      NoiseSums* encoder, NoiseSums* torque) {
   const Equations equations = Assemble(true);
@@ -220,6 +243,10 @@ bool TrajectoryCorrection::Eliminate(MatrixXd* information, VectorXd* gradient,
   return true;
 }
 
+// Counts what the spline takes of each residual: the diagonal of the hat matrix
+// J H^-1 J', whose sum is the degrees of freedom spent. Without it, noise would
+// come out too small by what knots half a period apart can follow. Only blocks
+// of H^-1 within the band are needed.
 void TrajectoryCorrection::SumNoise(
     const BlockTridiagonalFactor::Blocks& inverse, NoiseSums* encoder,
     NoiseSums* torque) const {
@@ -258,6 +285,9 @@ void TrajectoryCorrection::SumNoise(
   }
 }
 
+// A sample's score about b with c eliminated: (V - J H^-1 B)' r of its torques
+// and -(w H^-1 B)' e / sigma^2 of its positions, V and J being the rows of
+// border and spline.
 void TrajectoryCorrection::ForEachScore(const ScoreSink& sink) {
   const int n = num_joints();
   for (int k = 0; k < size(); ++k) {

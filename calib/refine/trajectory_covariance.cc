@@ -17,7 +17,10 @@ using Eigen::VectorXd;
 
 constexpr double kBlock = 0.25;  // s, over which residuals are to be white
 
-// By which standard deviations grow for errors that follow each other.
+// By what standard deviations grow for errors that follow each other: the
+// sandwich C S C with Newey-West's S of the scores, over C, never below 1. Only
+// factors are taken, since a window holds too few scores to tell correlations
+// of many parameters.
 VectorXd LongRunFactor(const TrajectoryEstimate& estimate,
                        const MatrixXd& covariance, int window,
                        TrajectoryPass* pass) {
@@ -45,6 +48,9 @@ double Median(VectorXd x) {
 
 }  // namespace
 
+// V (V' A V)^-1 V' by Cholesky, V being `seen`. Its columns are of the size of
+// standard deviations, so that V' A V is near 1 and well conditioned, which A
+// is not.
 std::optional<MatrixXd> InverseWithin(const MatrixXd& seen,
                                       const MatrixXd& information) {
   const Eigen::LLT<MatrixXd> inner(seen.transpose() * information * seen);
@@ -54,6 +60,9 @@ std::optional<MatrixXd> InverseWithin(const MatrixXd& seen,
   return root.transpose() * root;
 }
 
+// Residuals decide which covariance is used. White ones have that of
+// independent samples; Newey-West on white residuals would only add its own
+// scatter to every deviation.
 std::optional<TrajectoryCovariance> EstimateTrajectoryCovariance(
     const TrajectoryEstimate& estimate, const MatrixXd& seen,
     double least_window_s, TrajectoryPass* pass) {

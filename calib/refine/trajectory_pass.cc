@@ -29,8 +29,9 @@ TrajectoryNoise NoiseOf(const TrajectoryEstimate& estimate, int log) {
   return noise;
 }
 
-// The noise over what it was taken for; `spent`: the share of degrees of
-// freedom that the parameters took.
+// The noise over what it was taken for, by sum psi^2 / (E psi^2 degrees).
+// `spent` is the share of degrees of freedom that the parameters took, `fitted`
+// what the splines took.
 ArrayXd NoiseFactor(const NoiseSums& sums, double spent, double mean_square) {
   const ArrayXd degrees =
       ((1 - spent) * (sums.count - sums.fitted)).max(0.05 * sums.count).max(1);
@@ -50,6 +51,9 @@ void TrajectoryPass::ForEach(const std::string& stage,
   ++passes_;
 }
 
+// Sums the border's normal equations over all stretches, each with its spline
+// fitted at the present x. Widths that the data do not see would make them
+// singular; a prior of one on their logarithm keeps them where they are.
 TrajectoryEquations TrajectoryPass::Gather(const std::string& stage,
                                            const TrajectoryEstimate& estimate,
                                            TorqueWeighting weighting,
@@ -85,6 +89,9 @@ TrajectoryEquations TrajectoryPass::Gather(const std::string& stage,
   return sum;
 }
 
+// The encoders' noise from what splines leave of N positions with p control
+// points, sum e^2 / (N - p); the torques' from the median of what x leaves at
+// these splines, since Huber's loss needs a scale that outliers did not make.
 TrajectoryNoise GuessTrajectoryNoise(const TrajectoryEstimate& estimate,
                                      TrajectoryPass* pass) {
   const int n = estimate.parameters.num_joints();
@@ -114,6 +121,10 @@ TrajectoryNoise GuessTrajectoryNoise(const TrajectoryEstimate& estimate,
   return noise;
 }
 
+// Scales sigma so that sum psi(z)^2 = E psi^2 degrees: Huber's second proposal
+// (Huber 1964, Annals of Mathematical Statistics 35). As psi of outliers does
+// not grow when sigma shrinks, the plain ratio falls short; near the solution
+// Newton's step in log sigma makes up for it.
 double UpdateTrajectoryNoise(const TrajectoryEquations& equations, bool huber,
                              TrajectoryEstimate* estimate) {
   const NoiseSums& sums = equations.torque;

@@ -20,8 +20,11 @@ using Eigen::VectorXd;
 constexpr char kLostToRounding[] =
     "the torques are so exact beside the positions that rounding decides";
 
-// Directions that the start has seen, each as large as its standard deviation
-// there (columns): in them the problem is well scaled.
+// The directions that the start has seen, V with V V' = covariance, each as
+// large as its standard deviation there: in them the problem is well scaled.
+// Eigenvectors are of the correlations, as those of the covariance would depend
+// on units; eigenvalues below 1e-12 of the largest are rounding. Widths are a
+// direction each.
 MatrixXd SeenDirections(const MatrixXd& covariance, Eigen::Index widths) {
   const Eigen::Index m = covariance.rows();
   const VectorXd scale = covariance.diagonal().cwiseMax(0).cwiseSqrt();
@@ -92,7 +95,9 @@ class Refinement {
   VectorXd outliers_;
 };
 
-// The largest move, in standard deviations; nothing where there is no step.
+// One Gauss-Newton step in x and the log widths. Returns the largest move, in
+// standard deviations; nothing where there is no step. Widths move by 30 % at
+// most, since the torque is far from linear in them.
 std::optional<double> Refinement::Step(const TrajectoryEquations& equations) {
   const std::optional<MatrixXd> inverse =
       InverseWithin(seen_, equations.information);
@@ -116,6 +121,7 @@ void Refinement::SetWidths() {
   estimate_.parameters = MakeParameters(robot_, options_, all);
 }
 
+// Alternates steps with re-estimated noise until both stay.
 bool Refinement::Run() {
   constexpr int kMostPasses = 12;
   constexpr double kSettledMove = 0.05;   // standard deviations
@@ -148,6 +154,8 @@ bool Refinement::Run() {
   return true;
 }
 
+// Newey-West's window is at least 1.5 windows of the weak rows that the start
+// was found with. What wrong torque constants add is the start's.
 bool Refinement::Report() {
   const auto covariance = EstimateTrajectoryCovariance(
       estimate_, seen_, 1.5 * start_.rows.window_s, &pass_);
@@ -180,6 +188,9 @@ bool Refinement::Report() {
 
 }  // namespace
 
+// Knots half a period of the bandwidth apart let splines follow the motion that
+// the bandwidth passes and no more (the sampling theorem); closer ones would
+// follow the noise.
 TrajectoryRefinement RefineTrajectories(const Robot& robot,
                                         const LinearCalibrationOptions& options,
                                         const LinearCalibration& start,

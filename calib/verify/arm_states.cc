@@ -43,6 +43,8 @@ std::vector<ArmState> RandomStates(const Robot& robot, int count,
   return states;
 }
 
+// At most `count` states, evenly spread over all logs: one is due whenever
+// `passed` samples have reached the next multiple of `step`.
 std::vector<ArmState> LoggedStates(int count, const Progress& progress,
                                    const PreparedLogs& logs) {
   double samples = 0;

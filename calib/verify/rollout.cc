@@ -17,7 +17,8 @@ using Eigen::VectorXd;
 
 constexpr double kNeverLost = std::numeric_limits<double>::infinity();
 
-// Of each length, model and stretch of a log as many are repeated by referees.
+// How many simulations referees repeat, of each length, model and stretch of a
+// log.
 constexpr int kRefereed = 1;
 // A referee's local error, and how many steps it may take for it. Unstable
 // motion makes errors grow a thousandfold within a second: where a referee
@@ -37,6 +38,9 @@ class Roller {
     }
   }
 
+  // Multiple shooting: each window begins at the log's own state. Over a whole
+  // log errors would grow with the loop open until they say nothing of the
+  // model.
   void Add(int log, const Trajectory& trajectory) {
     std::vector<std::vector<int>> begins;  // of windows, per length
     for (Rollouts& rollouts : rollouts_) {
@@ -80,7 +84,7 @@ class Roller {
     return begins;
   }
 
-  // Model m over the last windows of the rollouts.
+  // Simulates model m over the last windows of the rollouts.
   void Simulate(const Trajectory& trajectory, const std::vector<int>& begins,
                 int m, const MatrixXd& coulomb, Rollouts* rollouts) {
     const int length = Length(*rollouts, trajectory);
@@ -107,6 +111,9 @@ class Roller {
     }
   }
 
+  // Repeats a window in the other engine and with another integrator. Where
+  // they differ, it is asked again more exactly, so that what is left is not
+  // its own error.
   void Referee(const Trajectory& trajectory, int begin, const VectorXd& coulomb,
                const MatrixXd& q, TorqueReplay* referee,
                Rollouts* rollouts) const {
@@ -141,7 +148,9 @@ double InterpolatedMedian(std::vector<double> values) {
   return (below + values[half]) / 2;
 }
 
-// `statistic` of all windows, and its interval.
+// `statistic` of all windows, with an interval by a block bootstrap (Kuensch
+// 1989, Annals of Statistics 17): blocks as long as windows stay correlated are
+// drawn whole.
 RolloutFigure WithInterval(
     int windows, double correlation_time, std::uint64_t seed,
     const std::function<double(const std::vector<int>&)>& statistic) {
@@ -247,6 +256,8 @@ double MedianVelocityError(const Rollouts& rollouts, int model,
   return InterpolatedMedian(std::move(errors));
 }
 
+// Both medians are of the same drawn windows. Blocks are as long as the worst
+// of both errors and of their ratio stays correlated.
 RolloutFigure MedianRatio(const Rollouts& rollouts, int a, int b,
                           const std::vector<int>& joints, std::uint64_t seed) {
   const std::vector<double> of_a = Errors(rollouts, a, joints);

@@ -28,6 +28,8 @@ struct Model {
   TorqueReplay referee;
 };
 
+// Medians over windows, since a window in which the arm is unstable or touches
+// something has an error as large as one likes.
 RolloutComparison Compare(const Robot& robot, const Rollouts& rollouts,
                           const std::string& unit, bool calibrated,
                           std::uint64_t seed) {
@@ -62,6 +64,8 @@ bool RolloutComparison::is_judged() const {
          (after->value >= kIntegrated || before.value >= kIntegrated);
 }
 
+// Both robots run over the same windows, so that their ratio is of pairs: what
+// makes a window hard is in both.
 RolloutComparisons CompareRollouts(const Robot& file,
                                    const CalibratedRobot* calibrated,
                                    const RolloutOptions& options,

@@ -18,7 +18,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Of two independent double-precision engines (issue 4).
+// Two independent engines in double precision agree to 1e-16 times what their
+// sums lose; more than kSame is a difference of models.
 constexpr double kSame = 1e-10;
 constexpr double kDrift = 1e-6;
 // Solving with the mass matrix loses its condition number.
@@ -66,6 +67,9 @@ double LargestTorque(const Robot& robot, const std::vector<ArmState>& states) {
   return largest;
 }
 
+// Compares tau = M qdd + c + g, M, g and the energies of both engines at the
+// same states. The torque alone would do if states were rich; the parts say
+// what is wrong.
 void CompareWithSimbody(const Robot& robot, const std::vector<ArmState>& states,
                         const Progress& progress, SimbodyArm* arm,
                         Verification* result) {
@@ -95,8 +99,11 @@ void CompareWithSimbody(const Robot& robot, const std::vector<ArmState>& states,
   result->energy_max_rel = energy.value();
 }
 
-// Forward dynamics after inverse dynamics give the acceleration back: the
-// torque of what they give differs by this.
+// Whether forward dynamics invert inverse dynamics: |tau(qdd(tau)) - tau| /
+// |tau|. Torques are compared and not accelerations, which a light wrist may
+// have to only a few digits (Higham 2002, ch. 7: the residual is small though
+// the error is not). Armature is left out, as it makes any mass matrix well
+// conditioned.
 double Inconsistency(const Robot& robot, const std::vector<ArmState>& states) {
   const double floor = kSmallTorque * LargestTorque(robot, states);
   Robot bare = robot;
@@ -135,6 +142,9 @@ class Drift {
   double start_, drift_ = 0, kinetic_ = 0;
 };
 
+// The energy of a passive swing is constant. That tests forward dynamics,
+// kinetic and potential energy against each other along a motion that nobody
+// chose.
 double SwingInSimbody(const ArmState& start, double duration,
                       const Progress& progress, SimbodyArm* arm) {
   VectorXd q = start.q, qd = start.qd;
@@ -150,7 +160,7 @@ double SwingInSimbody(const ArmState& start, double duration,
   return drift.relative();
 }
 
-// Ours; a reason where it does not come to its end.
+// The same by our dynamics; *reason says why where it does not come to its end.
 double Swing(const Robot& robot, const ArmState& start, double duration,
              std::string* reason) {
   const int n = robot.num_joints();
@@ -185,8 +195,9 @@ double Swing(const Robot& robot, const ArmState& start, double duration,
   return drift.relative();
 }
 
-// The longest swing that both engines follow, else one that ours does. `arm`:
-// Simbody's; null where it refuses the robot.
+// Takes the longest swing that both engines follow, else one that ours does:
+// chaotic arms with light links need steps without end. `arm`: Simbody's; null
+// where it refuses the robot.
 void CompareSwings(const Robot& robot, const VerificationOptions& options,
                    SimbodyArm* arm, Verification* result) {
   const ArmState start = SwingStart(robot, options.seed);

@@ -65,7 +65,8 @@ std::string RolloutRow(const RolloutComparison& c) {
   return row;
 }
 
-// What the rollouts that are judged do not show.
+// Says what the rollouts that are judged do not show: an interval of the ratio
+// that holds 1 does not show that the calibrated robot is better.
 std::string JudgementText(const RolloutComparison& c) {
   if (c.window_s != kJudgedWindow || !c.ratio || c.windows == 0) return "";
   const std::string joints = "  joints in " + c.unit + ": ";
@@ -183,6 +184,8 @@ std::vector<VerificationCheck> VerificationReport::Checks() const {
   return checks;
 }
 
+// A sentence for each check that was missed, and for what could not be compared
+// unless a reason has said so already.
 std::vector<std::string> VerificationReport::Shortcomings() const {
   std::vector<std::string> list = verification.reasons;
   if (closed_loop && !closed_loop->after_finite) {

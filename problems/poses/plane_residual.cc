@@ -14,7 +14,10 @@ double NormalLength(const double* abc) {
   return std::sqrt(1 + abc[0] * abc[0] + abc[1] * abc[1]);
 }
 
-// Normal of least squares of distances, of length 1, and mean of points.
+// Total least squares: the plane through the mean whose normal, of length 1, is
+// the eigenvector of the scatter's least eigenvalue. It minimises distances and
+// not heights along an axis, so that no orientation of the plane is special
+// (Golub & Van Loan 1980, SIAM J. Numer. Anal. 17).
 void FitPlane(const Eigen::Matrix3Xd& p, Vector3d* normal, Vector3d* mean) {
   *mean = p.rowwise().mean();
   const Eigen::Matrix3Xd about = p.colwise() - *mean;
@@ -38,7 +41,8 @@ double TouchedPlane::Distance(const double* abc, const Vector3d& p) const {
   return Normal(abc).dot(p) - abc[2] / NormalLength(abc);
 }
 
-// Of u / s with u linear in a and b: du / s - u da / s^3.
+// The distance is u / s with u = p_k + a p_i + b p_j - c linear and s the
+// normal's length, s^2 = 1 + a^2 + b^2. Hence d/da = p_i / s - u a / s^3.
 Eigen::RowVector3d TouchedPlane::Derivative(const double* abc,
                                             const Vector3d& p) const {
   const double s = NormalLength(abc), distance = Distance(abc, p);
@@ -46,6 +50,10 @@ Eigen::RowVector3d TouchedPlane::Derivative(const double* abc,
           p[second()] / s - distance * abc[1] / (s * s), -1 / s};
 }
 
+// The coordinate that is eliminated is the normal's largest one, so that |a|,
+// |b| <= 1 at the start and three numbers describe any plane without a
+// constraint. It is chosen once, by the file's geometry, and stays while the
+// solver runs.
 std::vector<TouchedPlane> TouchedPlanes(const ArmGeometry& geometry,
                                         const PoseMeasurements& measured,
                                         VectorXd* abc) {

@@ -30,6 +30,9 @@ MatrixXd InstrumentMoves(const PoseMeasurements& measured, int pose) {
   return measured.instrument.moves[pose];
 }
 
+// W = L^-1 of the covariance L L', so that W e has covariance 1 (generalised
+// least squares; Bjorck 1996, ch. 4). The instrument's own covariance and what
+// the arm adds are independent and add up.
 Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
                        int pose) {
   Eigen::Matrix<double, 6, 1> deviations;
@@ -43,6 +46,12 @@ Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
   return covariance.llt().matrixL().solve(Matrix6d::Identity());
 }
 
+// The sandwich for M-estimates with errors that are alike, A^-1 B A^-1 with A =
+// mean psi' J'J and B = mean psi^2 J'J, is the factor of the header times
+// (J'J)^-1. Blocks share a loss by their length: psi(r) = rho'(s) r, s = |r|^2,
+// of which the sum of squares is rho'^2 s, and the trace of its derivative d
+// rho' + 2 rho'' s for d coordinates. With no loss it is the usual variance,
+// |r|^2 / (N - p).
 double VarianceFactor(const Eigen::VectorXd& residuals, int block,
                       RobustLoss loss, int num_unknowns) {
   const std::unique_ptr<ceres::LossFunction> rho(MakeLoss(loss, block));
@@ -104,6 +113,10 @@ Eigen::VectorXd PoseUnknowns::OtherPriors(const PoseMeasurements& measured) {
   return Eigen::VectorXd::Zero(NumOther(measured));
 }
 
+// Decides by what the measurement can tell, before any number is looked at.
+// Directions that the postures leave open are found later, by rank. What no
+// instrument of this kind can tell must not be free at all, or it would be set
+// by noise.
 std::vector<bool> FreeGeometry(const ArmGeometry& geometry,
                                RefineGeometry refine,
                                const PoseMeasurements* measured) {
@@ -135,6 +148,9 @@ std::vector<bool> FreeGeometry(const ArmGeometry& geometry,
   return free;
 }
 
+// One residual block for each thing that was measured at a posture. A block is
+// what the robust loss judges as one: all coordinates of a point, or position
+// and rotation of a pose, since one bump of the tracker spoils them together.
 void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
                       const PoseMeasurements& measured,
                       const std::vector<int>& rows, const PoseNoise& noise,

@@ -10,8 +10,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// d(rotation vector) / d(small rotation w applied from the left): the inverse
-// of the left Jacobian of SO(3).
+// How the rotation vector v of R = exp([v]x) changes with a small rotation w
+// that is applied from the left, dv = J^-1 w, the inverse of the left Jacobian
+// of SO(3) (Barfoot 2017, State Estimation for Robotics, 7.1):
+//   J^-1 = 1 - [v]x / 2 + c [v]x^2,
+//   c = 1 / a^2 - (1 + cos a) / (2 a sin a),  a = |v|.
+// Its two terms cancel for small a, where the series 1/12 + a^2 / 720 stands
+// in.
 Matrix3d LeftJacobianInverse(const Vector3d& v) {
   const double angle = v.norm();
   const Matrix3d S = CrossProductMatrix(v);
@@ -42,6 +47,9 @@ PoseResidual::PoseResidual(std::shared_ptr<const ArmGeometry> geometry,
   }
 }
 
+// The derivative in the geometry: each parameter moves the tool by a twist,
+// whose velocity at the tool's origin changes the position and whose rotation
+// changes the rotation vector by J^-1 axis.
 bool PoseResidual::Evaluate(double const* const* parameters, double* residuals,
                             double** jacobians) const {
   std::vector<ParameterTwist> twists;

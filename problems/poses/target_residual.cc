@@ -13,6 +13,8 @@ TargetResidual::TargetResidual(std::shared_ptr<const ArmGeometry> geometry,
   *mutable_parameter_block_sizes() = {geometry_->size(), 3};
 }
 
+// p = X_WT p_TQ: a geometric parameter moves it by its twist's velocity there,
+// dp/dg = twist.At(p), and p_TQ by the tool's rotation.
 bool TargetResidual::Evaluate(double const* const* parameters,
                               double* residuals, double** jacobians) const {
   const Eigen::Map<const Eigen::Vector3d> p_TQ(parameters[1]);

@@ -18,6 +18,7 @@ Vector2d TiltErrors(const Eigen::Matrix3d& R_WT, const Vector2d& tilt) {
   return (up.array() - tilt.array().sin()) / tilt.array().cos();
 }
 
+// Lengths have derivative 0 here, since a direction does not depend on them.
 bool TiltResidual::Evaluate(double const* const* parameters, double* residuals,
                             double** jacobians) const {
   std::vector<ParameterTwist> twists;

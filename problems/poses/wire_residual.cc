@@ -10,6 +10,8 @@ WireResidual::WireResidual(std::shared_ptr<const ArmGeometry> geometry,
   *mutable_parameter_block_sizes() = {geometry_->size(), 4};
 }
 
+// The length's derivative is the velocity's part along the wire: the rest turns
+// the wire and leaves its length as it is, to first order.
 bool WireResidual::Evaluate(double const* const* parameters, double* residuals,
                             double** jacobians) const {
   const Eigen::Map<const Eigen::Vector3d> p_WA(parameters[1]);
