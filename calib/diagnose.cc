@@ -10,7 +10,7 @@
 #include "calib/diagnose/report.h"
 #include "calib/log_clocks.h"
 #include "calib/logs/drawn_torques.h"
-#include "calib/made_torques.h"
+#include "calib/reconstructed_torques.h"
 #include "calib/refine/calibration_reader.h"
 #include "calib/refine/parameter_posterior.h"
 #include "calib/robot_outputs.h"
@@ -237,7 +237,8 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   const std::vector<WrongClock> clocks =
       MendClocks(AllLogs(logs, options), &reading);
   if (!options.controller.empty()) {
-    MakeTorques(robot, options.controller, AllLogs(logs, options), &reading);
+    ReconstructTorques(robot, options.controller, AllLogs(logs, options),
+                       &reading);
   }
   DiagnosisOptions fit = FitOptions(options);
   if (!clocks.empty()) LeaveOutLaws(&fit.without);

@@ -118,31 +118,32 @@ MatrixXd CommandedTorque(const Robot& known,
 // What position noise makes of the torque goes through the same drives, which
 // amplify it by their gains; so a draw of it is passed through them. The
 // derivative by the clock's rate is a difference over 1 %.
-MadeTorque MakeTorque(const Robot& known, const ControllerOptions& controller,
-                      const CommandedLog& commanded, const VectorXd& times,
-                      unsigned seed) {
+ReconstructedTorque ReconstructTorque(const Robot& known,
+                                      const ControllerOptions& controller,
+                                      const CommandedLog& commanded,
+                                      const VectorXd& times, unsigned seed) {
   constexpr double kRate = .01;  // over which it is next to linear
   const Log& log = commanded.log;
   const auto torque = [&](const CommandedLog& of) {
     return CommandedTorque(known, controller, of, of.log.t);
   };
   const MatrixXd tau = torque(commanded);
-  MadeTorque made;
-  made.tau = times.size() == tau.rows()
-                 ? tau
-                 : CommandedTorque(known, controller, commanded, times);
-  made.t = log.t;
-  made.position_noise = DrawWhite(PositionNoise(log.q - log.qref),
-                                  static_cast<int>(log.t.size()), seed);
+  ReconstructedTorque result;
+  result.tau = times.size() == tau.rows()
+                   ? tau
+                   : CommandedTorque(known, controller, commanded, times);
+  result.t = log.t;
+  result.position_noise = DrawWhite(PositionNoise(log.q - log.qref),
+                                    static_cast<int>(log.t.size()), seed);
   CommandedLog other = commanded;
-  other.log.q += made.position_noise;
-  made.torque_noise = torque(other) - tau;
+  other.log.q += result.position_noise;
+  result.torque_noise = torque(other) - tau;
   other.log.q = log.q;
   other.log.t = log.t / (1 + kRate);
-  made.by_rate = (tau - torque(other)) / kRate;
-  made.drifts = std::any_of(controller.drives.begin(), controller.drives.end(),
-                            &Integrates);
-  return made;
+  result.by_rate = (tau - torque(other)) / kRate;
+  result.drifts = std::any_of(controller.drives.begin(),
+                              controller.drives.end(), &Integrates);
+  return result;
 }
 
 }  // namespace armcal

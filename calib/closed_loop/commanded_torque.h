@@ -26,8 +26,10 @@ Eigen::MatrixXd CommandedTorque(const Robot& known,
 // as large as that of the positions, which the tracking error tells, for it
 // hardly changes between rows at uneven times or over lost ones; and a clock
 // that stamps other times than those of the drives.
-MadeTorque MakeTorque(const Robot& known, const ControllerOptions& controller,
-                      const CommandedLog& commanded,
-                      const Eigen::VectorXd& times, unsigned seed);
+ReconstructedTorque ReconstructTorque(const Robot& known,
+                                      const ControllerOptions& controller,
+                                      const CommandedLog& commanded,
+                                      const Eigen::VectorXd& times,
+                                      unsigned seed);
 
 }  // namespace armcal

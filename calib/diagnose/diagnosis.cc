@@ -56,7 +56,7 @@ class Diagnoser {
   }
   // Friction is the model's at the temperature of the first sample read.
   void KnowUsualTemperature(std::vector<GapSegment>* segments);
-  void FitBaseline(const LackedFamilies& lacked,
+  void FitBaseline(const MissingTerms& missing,
                    std::vector<GapSegment>* segments,
                    std::vector<GapSegment>* before);
   void Fit(const std::vector<GapSegment>& segments,
@@ -97,21 +97,21 @@ void Diagnoser::KnowUsualTemperature(std::vector<GapSegment>* segments) {
 // The model and its freedom; a reference moves it to what that shows.
 // Afterwards both kinds of segments have their torque as if it came without
 // delay.
-void Diagnoser::FitBaseline(const LackedFamilies& lacked,
+void Diagnoser::FitBaseline(const MissingTerms& missing,
                             std::vector<GapSegment>* segments,
                             std::vector<GapSegment>* before) {
   BaselineOptions trust = options_.baseline;
-  for (const LackedFamily& family : lacked.families) {
-    trust.missing_terms[family.term] = family.usual;
+  for (const MissingTerm& term : missing.terms) {
+    trust.missing_terms[term.joint_term] = term.usual;
   }
   // How late a log's torque is, a reference tells.
   if (!before->empty()) trust.timing_s = Limits().timing_with_reference;
   if (HaveNoiseOfPositions(*segments)) {
-    trust.reversal_s = Limits().reversal_of_made_torques;
+    trust.reversal_s = Limits().reversal_of_reconstructed_torques;
   }
   // A reference is fitted on another day than a calibration was.
   trust.of_another_day = !before->empty();
-  baseline_.emplace(lacked.robot, trust, UsualTorque(*segments));
+  baseline_.emplace(missing.robot, trust, UsualTorque(*segments));
   if (before->empty() && trust.posterior != nullptr) baseline_->FreeDays();
   if (!before->empty()) {
     const ReferenceModel model =
@@ -135,11 +135,11 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   std::vector<GapSegment> before;
   if (reference != nullptr) before = Read(*reference, LogPart::kAll);
   Tell("fitting the baseline");
-  const LackedFamilies lacked =
-      FitLackedFamilies(robot_, options_.baseline, bandwidth_hz_,
-                        before.empty() ? segments : before);
-  FitBaseline(lacked, &segments, &before);
-  result_.ladder = lacked;
+  const MissingTerms missing =
+      FitMissingTerms(robot_, options_.baseline, bandwidth_hz_,
+                      before.empty() ? segments : before);
+  FitBaseline(missing, &segments, &before);
+  result_.ladder = missing;
   result_.has_reference = reference != nullptr;
   result_.has_calibration = options_.baseline.posterior != nullptr;
   result_.torque_constants_stddev = training.torque_constants_stddev();
@@ -161,7 +161,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   TellUnexplained();
   GapFindings findings = ListFindings(
       robot_, *fit_, *held_out_, result_.torque,
-      result_.has_reference ? std::vector<LackedFamily>() : lacked.families);
+      result_.has_reference ? std::vector<MissingTerm>() : missing.terms);
   if (ClaimNoMore(&findings)) residuals = held_out_->AllResiduals();
   result_.effects = findings.effects;
   result_.unnamed = findings.unnamed;
@@ -178,7 +178,8 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   return result_;
 }
 
-// Torques that are made of commands have noise of another kind, which is known.
+// Torques that are reconstructed from commands have noise of another kind,
+// which is known.
 void Diagnoser::KnowWhatModelsLack(const std::vector<GapSegment>& segments,
                                    const std::vector<GapSegment>& before) {
   if (HaveNoiseOfPositions(segments)) return;
@@ -204,7 +205,7 @@ void Diagnoser::Fit(const std::vector<GapSegment>& segments,
   GapFit all(*fit_, LogPart::kAll);
   all.FindEvents(fit_->events());
   std::vector<GapEvent> events = fit_->events();
-  for (const GapEvent& event : all.EventsBeside(fit_->refined().effects)) {
+  for (const GapEvent& event : all.EventsGiven(fit_->refined().effects)) {
     const bool fitted =
         2 * RowsOf(fit_->rows(), event) >= RowsOf(all.rows(), event);
     if ((!fitted || event.beyond_friction) && !Overlaps(events, event)) {
@@ -212,12 +213,13 @@ void Diagnoser::Fit(const std::vector<GapSegment>& segments,
     }
   }
   SortByTime(&events);
-  if (events.size() > fit_->events().size()) fit_->ChooseBeside(events);
+  if (events.size() > fit_->events().size()) fit_->ChooseGiven(events);
 }
 
 GapFigures Diagnoser::FiguresOf(const HeldOut::Residuals& residuals) const {
-  return ShrinkFigures(held_out_->SquaresOf(residuals),
-                       VarianceDoubt(fit_->noise().source) / 2, options_.seed);
+  return RemovedShareFigures(held_out_->SquaresOf(residuals),
+                             ExtraVariance(fit_->noise().source) / 2,
+                             options_.seed);
 }
 
 // Fits what is claimed again without what is not, so that every figure, file
@@ -234,7 +236,7 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
       SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
     }
   } while (result_.torque.ci95[1] < 0 && GiveUpWorst(findings));
-  DoubtWhatDoesNotHelp(result_.torque, &findings->effects);
+  LowerWhatDoesNotHelp(result_.torque, &findings->effects);
   if (fit_->refined().effects.size() == fitted) return false;
   if (result_.torque.joints.rows() > 0) {
     for (int j = 0; j < robot_.num_joints(); ++j) {

@@ -21,7 +21,7 @@
 #include "calib/diagnose/judge/testability.h"
 #include "calib/diagnose/judge/verdict.h"
 #include "calib/diagnose/judge/where.h"
-#include "calib/diagnose/select/families.h"
+#include "calib/diagnose/select/missing_terms.h"
 #include "calib/diagnose/select/selection.h"
 #include "calib/logs/log_set.h"
 #include "calib/logs/torque_trace.h"
@@ -45,7 +45,7 @@ struct DiagnosisOptions {
   Progress progress;
 };
 
-// What is left beside the effects that were found.
+// What is left given the effects that were found.
 struct Unexplained {
   std::string joint;
   std::string organised_by;
@@ -75,7 +75,7 @@ struct GapDiagnosis {
   bool has_calibration = false;  // whether the robot is a calibrated one
   GapFigures torque;
   std::optional<ForwardGap> forward;
-  LackedFamilies ladder;  // what the file gives no joint at all
+  MissingTerms ladder;  // what the file gives no joint at all
   CorrectedRobot corrected;
   std::vector<JointGap> joints;
   std::vector<TorqueTrace> traces;  // of what is held out, TraceHeldOut

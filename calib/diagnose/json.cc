@@ -92,16 +92,16 @@ json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   return effect;
 }
 
-json LadderJson(const LackedFamilies& ladder) {
+json LadderJson(const MissingTerms& ladder) {
   json steps = json::array();
   const auto add = [&](const std::string& name, const Eigen::VectorXd& left) {
     steps.push_back(
         {{"with", name},
          {"left_rms", std::vector<double>(left.begin(), left.end())}});
   };
-  if (!ladder.families.empty()) add("", ladder.without);
-  for (const LackedFamily& family : ladder.families) {
-    add(family.effect->name, family.left);
+  if (!ladder.terms.empty()) add("", ladder.without);
+  for (const MissingTerm& term : ladder.terms) {
+    add(term.effect->name, term.left);
   }
   return steps;
 }

@@ -105,8 +105,8 @@ std::string WhereTable(const GapDiagnosis& diagnosis) {
 }
 
 std::string Ladder(const GapDiagnosis& diagnosis) {
-  const LackedFamilies& ladder = diagnosis.ladder;
-  if (ladder.families.empty()) return "";
+  const MissingTerms& ladder = diagnosis.ladder;
+  if (ladder.terms.empty()) return "";
   std::string text = "\nwhat the robot file gives no joint, fitted; rms left\n";
   const auto row = [&](const std::string& name, const Eigen::VectorXd& left) {
     text += Format("  %-20s", name.c_str());
@@ -114,8 +114,8 @@ std::string Ladder(const GapDiagnosis& diagnosis) {
     text += "\n";
   };
   row("none of it", ladder.without);
-  for (const LackedFamily& family : ladder.families) {
-    row("+ " + family.effect->name, family.left);
+  for (const MissingTerm& term : ladder.terms) {
+    row("+ " + term.effect->name, term.left);
   }
   return text;
 }
@@ -272,7 +272,7 @@ std::string FrictionChanged(const GapDiagnosis& diagnosis) {
   return text + ".";
 }
 
-// What is left beside friction that has changed.
+// What is left given friction that has changed.
 std::string BriefVerdict(const GapDiagnosis& diagnosis) {
   constexpr double kNoisy = 2;  // times the noise's mean square
   const bool nothing_named = diagnosis.verdict == GapVerdict::kNoiseFloor ||

@@ -21,9 +21,10 @@ LogSet::LogSet(const std::vector<LogSource>& sources,
     r.torque_source = r.rows.back().torque_source();
     r.torque_constants_stddev = std::max(
         r.torque_constants_stddev, r.rows.back().torque_constants_stddev());
-    const auto made = log_options.made_torque.find(source.name);
-    r.made.push_back(made == log_options.made_torque.end() ? nullptr
-                                                           : made->second);
+    const auto found = log_options.reconstructed_torque.find(source.name);
+    r.reconstructed.push_back(found == log_options.reconstructed_torque.end()
+                                  ? nullptr
+                                  : found->second);
   }
 }
 
@@ -49,8 +50,8 @@ double LogSet::torque_constants_stddev() const {
   return recorded_->torque_constants_stddev;
 }
 
-const MadeTorque* LogSet::made_torque(int log) const {
-  return recorded_->made[log].get();
+const ReconstructedTorque* LogSet::reconstructed_torque(int log) const {
+  return recorded_->reconstructed[log].get();
 }
 
 const std::shared_ptr<MemoryBudget>& LogSet::memory() const {

@@ -43,7 +43,7 @@ class LogSet {
   // logs of the robot: the largest of the logs'.
   double torque_constants_stddev() const;
   // What a log has instead of recorded torques; null where it has these.
-  const MadeTorque* made_torque(int log) const;
+  const ReconstructedTorque* reconstructed_torque(int log) const;
   // What passes may keep what they made in.
   const std::shared_ptr<MemoryBudget>& memory() const;
 

@@ -27,7 +27,7 @@ struct RecordedLogs {
   std::vector<TimeBase> time_bases;
   std::string torque_source;
   double torque_constants_stddev = 0;
-  std::vector<std::shared_ptr<const MadeTorque>> made;
+  std::vector<std::shared_ptr<const ReconstructedTorque>> reconstructed;
 
   std::mutex pass;
   std::vector<KeptLog> rows;

@@ -4,10 +4,10 @@
 
 namespace armcal {
 
-// Torques that were made of commands are right but for what integrals of the
-// drives held when the log began, and for what the positions that a log leaves
-// out add up to in these: a level that walks at random. It is told as a
-// broken line over time, which takes what is slow out of a signal.
+// Torques that were reconstructed from commands are right but for what
+// integrals of the drives held when the log began, and for what the positions
+// that a log leaves out add up to in these: a level that walks at random. It is
+// told as a broken line over time, which takes what is slow out of a signal.
 class TorqueDrift {
  public:
   // `times`, s, rising.

@@ -219,9 +219,9 @@ class CouplingSearch {
     if (fitted.empty() || !IsLarge(fitted[0])) return false;
     const double models = static_cast<double>(measured_.q.cols()) *
                           static_cast<double>(measured_.q.cols());
-    const double price = std::log(measured_.size()) + 2 * std::log(models);
+    const double penalty = std::log(measured_.size()) + 2 * std::log(models);
     const Fitted& best = fitted[0];
-    if (without.deviance - best.deviance - price < kVeryStrong) return false;
+    if (without.deviance - best.deviance - penalty < kVeryStrong) return false;
     if (fitted.size() > 1 && fitted[1].deviance - best.deviance < kVeryStrong) {
       return false;
     }

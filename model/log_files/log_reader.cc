@@ -62,10 +62,10 @@ struct LogReader::Impl {
       temperature = row.Use(columns.Find(Signal::kTemperature));
     }
     if (!options.need_torque) return;
-    const auto found = options.made_torque.find(path);
-    if (found != options.made_torque.end()) {
-      made = found->second;
-      torque_source = made->source;
+    const auto found = options.reconstructed_torque.find(path);
+    if (found != options.reconstructed_torque.end()) {
+      reconstructed = found->second;
+      torque_source = reconstructed->source;
       KnowScale(kTorqueScaleStddev, options);
       return;
     }
@@ -220,7 +220,8 @@ struct LogReader::Impl {
     log->q = Signals(q);
     log->qd = Signals(qd);
     log->qdd = Signals(qdd);
-    log->tau = made != nullptr ? MadeTorques(rows) : Signals(tau);
+    log->tau =
+        reconstructed != nullptr ? ReconstructedTorques(rows) : Signals(tau);
     log->qref = Signals(qref);
     log->temperature = Signals(temperature);
     return true;
@@ -235,10 +236,10 @@ struct LogReader::Impl {
   }
 
   // Both of the next `count` rows.
-  Eigen::MatrixXd MadeTorques(int count) {
-    RefuseGrowth(next_made + count > made->tau.rows());
-    next_made += count;
-    return made->tau.middleRows(next_made - count, count);
+  Eigen::MatrixXd ReconstructedTorques(int count) {
+    RefuseGrowth(next_reconstructed + count > reconstructed->tau.rows());
+    next_reconstructed += count;
+    return reconstructed->tau.middleRows(next_reconstructed - count, count);
   }
   Eigen::VectorXd SampleTimes(int count) {
     RefuseGrowth(next_sample + count > sample_times->size());
@@ -252,7 +253,7 @@ struct LogReader::Impl {
   }
 
   void Rewind() {
-    next_made = next_sample = 0;
+    next_reconstructed = next_sample = 0;
     source->Rewind();
     Header();
     lines.clear();
@@ -274,9 +275,9 @@ struct LogReader::Impl {
   int temperature = kUnused;
   std::string torque_source, currents_without_constants;
   double torque_constants_stddev = 0;
-  std::shared_ptr<const MadeTorque> made;
+  std::shared_ptr<const ReconstructedTorque> reconstructed;
   std::shared_ptr<const Eigen::VectorXd> sample_times;  // null: the stamps
-  long next_made = 0, next_sample = 0;                  // rows of both
+  long next_reconstructed = 0, next_sample = 0;         // rows of both
 
   std::vector<std::string_view> lines;  // that the source has given
   size_t next_line = 0;
@@ -302,7 +303,7 @@ bool LogReader::has_velocity() const {
 }
 
 bool LogReader::has_torque() const {
-  return impl_->tau != Impl::kUnused || impl_->made != nullptr;
+  return impl_->tau != Impl::kUnused || impl_->reconstructed != nullptr;
 }
 
 bool LogReader::has_acceleration() const {

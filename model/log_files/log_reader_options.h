@@ -20,9 +20,9 @@ enum class TorqueKind {
   kCommand,  // tau columns that hold commanded torques
 };
 
-// Torques that were made for a log that has none, N m or N, a row for each of
-// the log's, joints in columns.
-struct MadeTorque {
+// Torques that were reconstructed for a log that has none, N m or N, a row for
+// each of the log's, joints in columns.
+struct ReconstructedTorque {
   Eigen::MatrixXd tau;
   // What makes them wrong, rows at the times t, s since the log's first row;
   // empty: not known.
@@ -48,7 +48,8 @@ struct LogReaderOptions {
   // (nor --torque_constants for these) but the commands of all joints.
   bool commands_do = false;
   // By path: what such logs have instead.
-  std::map<std::string, std::shared_ptr<const MadeTorque>> made_torque;
+  std::map<std::string, std::shared_ptr<const ReconstructedTorque>>
+      reconstructed_torque;
   // Where torque is needed: a log will do whose motor currents have no
   // constants. It has no torque then; LogReader names the currents.
   bool currents_do = false;

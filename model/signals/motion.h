@@ -30,8 +30,9 @@ struct Motion {
   // As the controller recorded it. Wanted where what is asked for says more
   // than what is given: at a limit, and where it comes late.
   SmoothTorque torque;
-  // Of torques that were made of these positions: what they grow by per unit of
-  // rate of the stamps' clock beyond time, N m or N; empty: they were recorded.
+  // Of torques that were reconstructed from these positions: what they grow by
+  // per unit of rate of the stamps' clock beyond time, N m or N; empty: they
+  // were recorded.
   Eigen::MatrixXd torque_by_rate;
 
   int size() const { return static_cast<int>(q.rows()); }

@@ -13,7 +13,7 @@
 // The screen of a diagnosis: from 60 s of a six-joint arm's motion and torque
 // in memory, at 250 Hz, to the effects that stand out (none does here): the
 // baseline's columns and fit, the noise, every candidate's torque, and their
-// drops of chi^2. On all cores: in seconds of wall clock, or
+// delta chi^2. On all cores: in seconds of wall clock, or
 // (DiagnosisScreenOf, of a part of the catalogue) of all cores' time. Counter
 // `candidates`: columns of the screen, so that growth over their number can be
 // told.

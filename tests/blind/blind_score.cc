@@ -58,7 +58,7 @@ void BlindScore::Add(const CaseScore& score) {
       AddTwo(score);
     }
     AddSizes(score);
-    AddShrink(score);
+    AddRemovedShare(score);
   }
   AddFault(score);
   AddSizeLimits(score);
@@ -157,23 +157,24 @@ void BlindScore::AddSizes(const CaseScore& score) {
   }
 }
 
-void BlindScore::AddShrink(const CaseScore& score) {
+void BlindScore::AddRemovedShare(const CaseScore& score) {
   const BlindLabel& label = score.label();
   if (label.least_enr() < kVisible || label.removable < kRemovable) return;
   const BlindAnswer::Gap& torque = score.answer().torque;
   const BlindAnswer::Gap& forward = score.answer().forward;
   // Who names nothing removes nothing.
   const double removed = torque.removed_percent.value_or(0);
-  shrink_.Measure("torque", "removed, % (0 where not told)", removed);
-  if (torque.removed_percent) shrink_.Measure("torque", "removed, %", removed);
+  removed_share_.Measure("torque", "removed, % (0 where not told)", removed);
+  if (torque.removed_percent)
+    removed_share_.Measure("torque", "removed, %", removed);
   if (label.oracle_removed_percent) {
-    shrink_.Measure("torque", "share of the oracle's",
-                    removed / *label.oracle_removed_percent);
+    removed_share_.Measure("torque", "share of the oracle's",
+                           removed / *label.oracle_removed_percent);
   }
   AddInterval(label, score.answer());
   const auto measure = [this](const char* row, const char* column,
                               const std::optional<double>& value) {
-    if (value) shrink_.Measure(row, column, *value);
+    if (value) removed_share_.Measure(row, column, *value);
   };
   measure("torque", "removed from nominal, %",
           torque.removed_from_nominal_percent);
@@ -193,16 +194,17 @@ void BlindScore::AddInterval(const BlindLabel& label,
   const auto holds = [&torque](double share) {
     return *torque.low <= share && !(torque.high && *torque.high < share);
   };
-  shrink_.Measure("torque", "truly removed, %", removed);
-  shrink_.Count("torque", "interval holds what is truly removed",
-                holds(removed));
+  removed_share_.Measure("torque", "truly removed, %", removed);
+  removed_share_.Count("torque", "interval holds what is truly removed",
+                       holds(removed));
   if (const auto oracle = label.oracle_removed_percent) {
-    shrink_.Measure("torque", "truly removed, share of the oracle's",
-                    removed / *oracle);
-    shrink_.Count("torque", "  the oracle's", holds(*oracle));
+    removed_share_.Measure("torque", "truly removed, share of the oracle's",
+                           removed / *oracle);
+    removed_share_.Count("torque", "  the oracle's", holds(*oracle));
   }
-  shrink_.Count("torque", "  it is below the interval", *torque.low > removed);
-  shrink_.Count("torque", "interval is open", !torque.high);
+  removed_share_.Count("torque", "  it is below the interval",
+                       *torque.low > removed);
+  removed_share_.Count("torque", "interval is open", !torque.high);
 }
 
 void BlindScore::AddFault(const CaseScore& score) {
@@ -233,8 +235,8 @@ void BlindScore::AddSizeLimits(const CaseScore& score) {
 
 std::string BlindScore::Text() const {
   std::string text;
-  for (const ScoreTable* table :
-       {&none_, &one_, &by_effect_, &two_, &outside_, &sizes_, &shrink_}) {
+  for (const ScoreTable* table : {&none_, &one_, &by_effect_, &two_, &outside_,
+                                  &sizes_, &removed_share_}) {
     text += table->Text() + "\n";
   }
   text += reliability_.Text() + "\n## Confusion, one effect, ENR >= 0.32\n";
@@ -269,12 +271,16 @@ std::string BlindScore::ListsText() const {
 }
 
 json BlindScore::Json() const {
-  return {
-      {"none", none_.Json()},           {"one", one_.Json()},
-      {"by_effect", by_effect_.Json()}, {"two", two_.Json()},
-      {"outside", outside_.Json()},     {"sizes", sizes_.Json()},
-      {"shrink", shrink_.Json()},       {"probabilities", reliability_.Json()},
-      {"confusion", confusion_},        {"faults", faults_}};
+  return {{"none", none_.Json()},
+          {"one", one_.Json()},
+          {"by_effect", by_effect_.Json()},
+          {"two", two_.Json()},
+          {"outside", outside_.Json()},
+          {"sizes", sizes_.Json()},
+          {"shrink", removed_share_.Json()},
+          {"probabilities", reliability_.Json()},
+          {"confusion", confusion_},
+          {"faults", faults_}};
 }
 
 }  // namespace armcal

@@ -28,7 +28,7 @@ class BlindScore {
   const ScoreTable& two() const { return two_; }
   const ScoreTable& outside() const { return outside_; }
   const ScoreTable& sizes() const { return sizes_; }
-  const ScoreTable& shrink() const { return shrink_; }
+  const ScoreTable& removed_share() const { return removed_share_; }
   const Reliability& reliability() const { return reliability_; }
 
  private:
@@ -38,7 +38,7 @@ class BlindScore {
   void AddTwo(const CaseScore& score);
   void AddOutside(const CaseScore& score);
   void AddSizes(const CaseScore& score);
-  void AddShrink(const CaseScore& score);
+  void AddRemovedShare(const CaseScore& score);
   void AddInterval(const BlindLabel& label, const BlindAnswer& answer);
   void AddFault(const CaseScore& score);
   void AddSizeLimits(const CaseScore& score);
@@ -50,7 +50,8 @@ class BlindScore {
   ScoreTable two_{"Two effects"};
   ScoreTable outside_{"Out of catalogue"};
   ScoreTable sizes_{"Relative error of sizes named rightly, ENR >= 0.32"};
-  ScoreTable shrink_{"Shrink, ENR >= 0.32 and removable gap >= 0.3 floors"};
+  ScoreTable removed_share_{
+      "Shrink, ENR >= 0.32 and removable gap >= 0.3 floors"};
   Reliability reliability_;
   // Of cases with one effect and ENR >= 0.32: truth, then answer.
   std::map<std::string, std::map<std::string, int>> confusion_;

@@ -180,7 +180,7 @@ TEST(CaseScore, FrictionOfTwoJointsHasTwoSides) {
   EXPECT_EQ(top(1, 2), Match::kWrong);
 }
 
-TEST(BlindScore, Shrink) {
+TEST(BlindScore, RemovedShare) {
   BlindScore score;
   const auto add = [&score](double removable, std::optional<double> removed) {
     BlindLabel label = Label({True("spring", 1, .5)});
@@ -197,17 +197,19 @@ TEST(BlindScore, Shrink) {
   add(1, 84);
   add(1, std::nullopt);
   add(.1, 10);  // nothing to remove
-  const ScoreTable& shrink = score.shrink();
-  EXPECT_EQ(shrink.At("torque", "removed, % (0 where not told)").values,
+  const ScoreTable& removed_share = score.removed_share();
+  EXPECT_EQ(removed_share.At("torque", "removed, % (0 where not told)").values,
             (std::vector<double>{76, 84, 0}));
-  EXPECT_EQ(shrink.At("torque", "share of the oracle's").values,
+  EXPECT_EQ(removed_share.At("torque", "share of the oracle's").values,
             (std::vector<double>{.95, 1.05, 0}));
   // 80 is not in 70 to 76, but in 70 to 84 and above 70.
-  EXPECT_EQ(Cell(shrink, "torque", "interval holds what is truly removed"),
-            Counts(2, 3));
-  EXPECT_EQ(Cell(shrink, "torque", "interval is open"), Counts(1, 3));
-  EXPECT_EQ(shrink.At("torque", "truly removed, share of the oracle's").values,
-            (std::vector<double>{1, 1, 1}));
+  EXPECT_EQ(
+      Cell(removed_share, "torque", "interval holds what is truly removed"),
+      Counts(2, 3));
+  EXPECT_EQ(Cell(removed_share, "torque", "interval is open"), Counts(1, 3));
+  EXPECT_EQ(
+      removed_share.At("torque", "truly removed, share of the oracle's").values,
+      (std::vector<double>{1, 1, 1}));
 }
 
 TEST(TrueShare, IsOfTheSameClaimsOnMotionWithoutNoise) {

@@ -35,7 +35,9 @@ std::vector<Shape> Expand(const std::vector<Shape>& shapes, int k,
   return more;
 }
 
-// At the times that stand out, in the log they are of.
+// Shapes at the times that stand out, in the log that they are of. `tried`
+// counts how many windows were looked through, not how many are left: the
+// penalty of what happened once is that of a search over all of the time.
 std::vector<Shape> AtTimes(const Effect& effect, const GapProposals& proposals,
                            const std::vector<Shape>& shapes, int* tried) {
   std::vector<Shape> windows;
@@ -59,7 +61,11 @@ std::vector<Shape> AtTimes(const Effect& effect, const GapProposals& proposals,
   return windows;
 }
 
-// All combinations of values of the nonlinear parameters.
+// All combinations of values of an effect's nonlinear parameters, a Cartesian
+// product. Frequencies come from peaks of the residual and not from a grid, of
+// which one fine enough to hit an oscillation would have thousands; `tried`
+// counts those that the search passed, since that is what they were chosen
+// from.
 std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
                           const GapProposals& proposals, int* tried) {
   // Frequencies that a search passes.
@@ -100,6 +106,10 @@ std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
   return happens_once ? AtTimes(effect, proposals, shapes, tried) : shapes;
 }
 
+// Candidates of one effect at one place, a column per linear parameter, each in
+// units of a size that matters to the motion (EffectParameter::size), so that
+// coefficients of all candidates are of the order of 1. Those of which that
+// size is undefined, as of a joint that never moves, are left out.
 void ListShapes(const Effect& effect, const EffectSite& site,
                 const GapProposals& proposals,
                 std::vector<GapCandidate>* candidates) {
@@ -205,6 +215,10 @@ bool HasShape(const GapCandidate& candidate) {
          !candidate.effect->larger_sizes.empty();
 }
 
+// A candidate at the shape that a fit found, its linear parameters 0 and in
+// units of their fitted values: the column then is the effect's torque at that
+// size, which for what grows otherwise than linearly is not the derivative at
+// 0.
 std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects) {
   std::vector<GapCandidate> sharper;
   for (GapCandidate effect : effects) {
@@ -222,6 +236,9 @@ std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects) {
   return sharper;
 }
 
+// Torques of one segment, low-passed and thinned, into the thinned samples of
+// all of them, kColumns of them at a time whichever joint and torque they are
+// of.
 void AddThinned(const GapRows& rows, int segment,
                 const std::vector<RecordedTorque::OfJoints>& torques,
                 const std::vector<JointRows*>& thin) {
@@ -249,7 +266,8 @@ void AddThinned(const GapRows& rows, int segment,
 
 namespace {
 
-// One of a candidate's torques.
+// One linear parameter of a candidate: the robot with the effect at its size in
+// this parameter alone, all others 0, since its column is a derivative.
 struct TorqueOf {
   GapCandidate* candidate;
   size_t k;
@@ -266,6 +284,9 @@ struct TorqueOf {
   }
 };
 
+// Torques of several candidates at once, segment by segment.
+// RecordedTorque::Changes simulates what differs from the same recorded motion
+// for all of them in one pass; positions and their kinematics are common.
 void Evaluate(const std::vector<TorqueOf>& torques, const GapBaseline& baseline,
               const GapRows& rows, const MotionScale& scale,
               std::vector<RecordedTorque>* recorded) {
@@ -300,6 +321,9 @@ void ReuseTorques(std::vector<GapCandidate>* evaluated,
   }
 }
 
+// Fills in the torques of those candidates that have none, kTogether of them to
+// a task and tasks in parallel. Each thread has its own copy of the recorded
+// torques, which hold what they have evaluated.
 void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
                         const MotionScale& scale,
                         const std::vector<RecordedTorque>& torques,

@@ -32,7 +32,11 @@ bool IsChoice(const EffectParameter& parameter, const EffectSite& site) {
          });
 }
 
-// Nothing where it is not varied. `size`: of linear ones.
+// A parameter as a solver sees it, nothing where it is not varied, as whole
+// numbers are not; `size`: of linear ones. A step of the order of 1 changes the
+// torque noticeably: a frequency of position is scaled by what turns the phase
+// by a radian over the joint's range, one of time by .3 cycles over the logs'
+// time.
 std::optional<Coordinate> CoordinateOf(const EffectParameter& parameter,
                                        const EffectSite& site, double value,
                                        double size) {
@@ -78,6 +82,9 @@ bool IsAbsent(const GapCandidate& effect, int linear) {
 
 }  // namespace
 
+// The parameters that a fit may vary, of one effect or of all. Linear
+// parameters without any torque in these logs are not: their coefficient would
+// be whatever the starting point was, and a covariance of it undefined.
 std::vector<Coordinate> ListCoordinates(
     const GapBaseline& baseline, const MotionScale& scale,
     const std::vector<GapCandidate>& effects, int only) {

@@ -14,6 +14,10 @@ using Eigen::VectorXd;
 // feel it, and not so light that it rings faster than can be simulated.
 constexpr double kLightMotor = .02;
 
+// A joint that yields between motor and link needs a mass on both sides. One
+// without armature gets a motor of kLightMotor of the inertia that it moves in
+// the middle of its range, so small that its link does not feel it and not so
+// small that it rings beyond what can be simulated; `notes` says so.
 void GiveMotors(const MotionScale& scale, CorrectedRobot* corrected) {
   Robot& robot = corrected->plant.robot;
   const VectorXd inertia =
@@ -39,6 +43,9 @@ size_t NumSlots(const SimulatedRobot& plant) {
          (plant.torque_delay != 0 ? 1 : 0);
 }
 
+// An effect put into a plant, with what it says of itself. Whether it is in the
+// robot alone (`in_robot`) is told by whether anything but the robot grew: a
+// law, a wrench, a sensor, a delay.
 CarriedEffect Carry(const EffectSite& site, const GapCandidate& found,
                     SimulatedRobot* plant) {
   const Effect& effect = *found.effect;
@@ -56,6 +63,12 @@ CarriedEffect Carry(const EffectSite& site, const GapCandidate& found,
 
 }  // namespace
 
+// The robot with the fitted numbers, the laws that the reference showed and the
+// effects that were found, as something that can be simulated and written to a
+// file. Friction is added last, with the mixture of widths that the fit found,
+// since effects may have changed the joint's own Coulomb friction, and the
+// delay of the torque is taken out of the plant, as only who replays a log
+// knows whether a torque is given or recorded.
 CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
                                   const VectorXd& x,
                                   const std::vector<GapCandidate>& effects,

@@ -13,7 +13,9 @@ constexpr double kFastest = 2;  // of the rms
 constexpr int kSteps = 2000;
 constexpr double kTravel = .1;  // rad or m, after which friction is steady
 
-// Against the motion, at velocity v after some way.
+// A friction law with states is stepped at a steady velocity until kTravel of
+// way, as far as its states go; what it then gives is what a law of velocity
+// alone would have.
 double SteadyTorque(const JointLaw& law, const MotionScale& scale, double v) {
   const Eigen::Index n = scale.low.size();
   ArmInstant at;
@@ -36,6 +38,9 @@ double SteadyTorque(const JointLaw& law, const MotionScale& scale, double v) {
 
 }  // namespace
 
+// The viscous and Coulomb friction that fits a law best over the joint's usual
+// speeds, by least squares of kSpeeds of them in each direction: what a robot
+// file without other laws can hold of it.
 FrictionShare ShareOfFriction(const CarriedEffect& effect, const Robot& robot,
                               const MotionScale& scale) {
   const int j = effect.found.joint;

@@ -25,6 +25,9 @@ double GainAt(double f, double bandwidth_hz) {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Residuals in units of each joint's noise, 0 where it rests, against position
+// and time. Standstill is not part of a vibration, and its samples would add
+// their own noise to every frequency.
 GapProposals::GapProposals(const GapRows& rows, const MatrixXd& residual)
     : rows_(rows) {
   const int n = rows.num_joints();
@@ -69,9 +72,11 @@ std::vector<double> GapProposals::Frequencies(int joint) const {
   return f;
 }
 
-// Thinned samples take f for what is as far beyond half their rate; the
-// recorded torque does not: it stands out there, and is as large as what the
-// low pass has left of it.
+// Samples that are thinned to `rate` cannot tell f from rate - f and rate + f.
+// The unthinned recorded torque can: the frequency is the one of the three at
+// which it has the most power over its neighbourhood, of those where the low
+// pass leaves at least kLeastPassed of the amplitude that the thinned residual
+// has. Beyond kHighestFrequency times the bandwidth it leaves nothing.
 double GapProposals::Unaliased(int joint, double f) const {
   const auto& segments = rows_.segments();
   const auto longest =

@@ -44,7 +44,7 @@ class ProjectedResidual : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(
         static_cast<int>(coordinates_.size()));
     set_num_residuals(static_cast<int>(
-        screen.ResidualBeside(JointRows(screen.num_joints())).size()));
+        screen.ResidualGiven(JointRows(screen.num_joints())).size()));
   }
 
   std::vector<GapCandidate> At(const VectorXd& u) const {
@@ -56,8 +56,11 @@ class ProjectedResidual : public ceres::CostFunction {
     return effects;
   }
 
-  // The lowest around what a search found. What rings has a minimum wherever
-  // its oscillation is in phase for a while, and only one where it stays so.
+  // The lowest of a grid around what a search found. What rings has a minimum
+  // wherever its oscillation is in phase with the residual for a while, and
+  // only one where it stays so; a solver ends in the one that it starts in. The
+  // grid is of each linear size, from half to twice of it, by the low end of
+  // each shape that is refined.
   VectorXd LowestAround(const VectorXd& u) const {
     std::vector<VectorXd> points = {u};
     for (const Coordinate& shape : coordinates_) {
@@ -76,7 +79,7 @@ class ProjectedResidual : public ceres::CostFunction {
     if (points.size() == 1) return best;
     const std::vector<JointRows> torques = Torques(points);
     for (size_t k = 0; k < points.size(); ++k) {
-      const double left = screen_.ResidualBeside(torques[k]).squaredNorm();
+      const double left = screen_.ResidualGiven(torques[k]).squaredNorm();
       if (!(left < lowest)) continue;
       lowest = left;
       best = points[k];
@@ -85,7 +88,7 @@ class ProjectedResidual : public ceres::CostFunction {
   }
 
   VectorXd BaselineAt(const VectorXd& u) const {
-    return screen_.BaselineBeside(Find(u).torque);
+    return screen_.BaselineGiven(Find(u).torque);
   }
 
   bool Evaluate(double const* const* parameters, double* residuals,
@@ -108,7 +111,7 @@ class ProjectedResidual : public ceres::CostFunction {
     JointRows torque;  // whitened
     VectorXd residual;
     RowMajorMatrix jacobian;        // empty: not asked for yet
-    std::vector<JointRows> beside;  // torques of its neighbours, likewise
+    std::vector<JointRows> around;  // torques of its neighbours, likewise
   };
 
   const EffectParameter& ParameterOf(const Coordinate& c) const {
@@ -141,6 +144,10 @@ class ProjectedResidual : public ceres::CostFunction {
     return torques;
   }
 
+  // Residuals and jacobians of what was evaluated before are kept, by value:
+  // solvers ask again for what they have accepted, and a torque is a
+  // simulation. Where a point costs as much alone as with its neighbours, those
+  // are evaluated with it.
   Point& Find(const VectorXd& u) const {
     for (Point& point : points_) {
       if (point.u == u) return point;
@@ -151,9 +158,9 @@ class ProjectedResidual : public ceres::CostFunction {
     }
     std::vector<JointRows> torques = Torques(all);
     points_.push_back(
-        {u, torques[0], screen_.ResidualBeside(torques[0]), {}, {}});
+        {u, torques[0], screen_.ResidualGiven(torques[0]), {}, {}});
     torques.erase(torques.begin());
-    points_.back().beside = std::move(torques);
+    points_.back().around = std::move(torques);
     return points_.back();
   }
 
@@ -175,17 +182,19 @@ class ProjectedResidual : public ceres::CostFunction {
     return neighbours;
   }
 
+  // Forward differences of the residual over the neighbours' steps, like those
+  // of Ceres, whose torques may be there already.
   void Differentiate(Point* point) const {
     const std::vector<Neighbour> neighbours = NeighboursOf(point->u);
-    if (point->beside.empty()) {
+    if (point->around.empty()) {
       std::vector<VectorXd> all;
       for (const Neighbour& next : neighbours) all.push_back(next.u);
-      point->beside = Torques(all);
+      point->around = Torques(all);
     }
     point->jacobian.resize(num_residuals(), point->u.size());
     for (Eigen::Index k = 0; k < point->u.size(); ++k) {
       point->jacobian.col(k) =
-          (screen_.ResidualBeside(point->beside[k]) - point->residual) *
+          (screen_.ResidualGiven(point->around[k]) - point->residual) *
           (1 / neighbours[k].step);
     }
   }
@@ -218,7 +227,11 @@ void SetBounds(const std::vector<Coordinate>& coordinates, double* u,
   }
 }
 
-// (J'J)^-1 in the units of p, without the directions that bounds hold.
+// The covariance of the parameters in their own units: (J' J)^-1 of the
+// coordinates times their slopes on both sides (the delta method). Parameters
+// at their bound are told by the bound and not by the data, and those on which
+// nothing depends by nothing; both have no variance. A pseudoinverse covers
+// what is left without rank.
 MatrixXd CovarianceAt(const ceres::CostFunction& cost,
                       const std::vector<Coordinate>& coordinates,
                       const VectorXd& u) {
@@ -275,6 +288,7 @@ MatrixXd Spread(const std::vector<GapCandidate>& effects,
 
 }  // namespace
 
+// What effects with these parameters add to the torque of these logs.
 JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
                        const std::vector<GapCandidate>& effects,
                        GapData* data) {
@@ -282,6 +296,9 @@ JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
                        data->mutable_torques())[0];
 }
 
+// The torque of several sets of effects along the same recorded motion,
+// evaluated together (RecordedTorque::Changes). What happened once is in its
+// own log only.
 std::vector<JointRows> EffectTorques(
     const GapBaseline& baseline, const MotionScale& scale,
     const std::vector<std::vector<GapCandidate>>& sets, const GapRows& rows,
@@ -314,6 +331,12 @@ JointRows WhitenEach(const GapRows& rows, const JointRows& thin) {
   return white;
 }
 
+// All parameters of the effects together, linear or not, by least squares of
+// what they leave once the baseline has taken what it can (ResidualGiven):
+// variable projection (Golub and Pereyra 1973), whose baseline is eliminated at
+// every point and whose jacobian is of the projected residual. Parameters are
+// held within their bounds by the solver. delta_chi2 is chi squared without the
+// effects less twice Ceres' final cost.
 RefinedEffects RefineEffects(const GapScreen& screen,
                              const GapBaseline& baseline,
                              const MotionScale& scale,
@@ -344,8 +367,8 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   refined.covariance =
       Spread(effects, coordinates, CovarianceAt(*cost, coordinates, u));
   refined.baseline = cost->BaselineAt(u);
-  refined.drop =
-      screen.ResidualBeside(JointRows(screen.num_joints())).squaredNorm() -
+  refined.delta_chi2 =
+      screen.ResidualGiven(JointRows(screen.num_joints())).squaredNorm() -
       2 * summary.final_cost;
   return refined;
 }

@@ -10,14 +10,14 @@
 namespace armcal {
 
 // Effects with all their parameters fitted together, linear or not, the
-// baseline free beside them.
+// baseline free given them.
 struct RefinedEffects {
   std::vector<GapCandidate> effects;  // p: all parameters
   // Of all parameters one after the other, in SI units; a parameter at its
   // bound has no variance.
   Eigen::MatrixXd covariance;
   Eigen::VectorXd baseline;
-  double drop = 0;  // of chi^2 against the baseline alone
+  double delta_chi2 = 0;  // against the baseline alone
 };
 
 // Variable projection by Ceres from the effects' p, of effect `only` or (-1) of

@@ -79,6 +79,12 @@ std::vector<double> Powers(const VectorXd& residual, const VectorXd& place,
 
 }  // namespace
 
+// Frequencies at which a residual has the most power along position or time,
+// its largest peaks. Power is |sum r exp(i w place)|^2, the periodogram
+// (Schuster 1898), which asks for no even spacing, on a grid of kOversampling
+// points per resolution 2 pi / range; each peak is then searched between the
+// grid's points. kMost points bound the time that long logs take, by a grid
+// that is coarser.
 std::vector<double> PeakFrequencies(const VectorXd& residual,
                                     const VectorXd& place, double low,
                                     double high, int count) {
@@ -113,6 +119,12 @@ std::vector<double> PeakFrequencies(const VectorXd& residual,
   return found;
 }
 
+// Windows of several lengths slide over time, a quarter of their length at a
+// step, and their strength is (w' r)^2 / w' w with the biweight w = (1 -
+// u^2)^2, the score of a matched filter of that shape, summed over joints. The
+// strongest of each length are kept, as long as they are half of one away from
+// another. `searched` counts all of them, which is what one that is chosen was
+// chosen from.
 std::vector<TimeWindow> StrongWindows(const MatrixXd& residual,
                                       const VectorXd& t,
                                       const std::vector<double>& durations,
@@ -155,7 +167,10 @@ std::vector<TimeWindow> StrongWindows(const MatrixXd& residual,
 
 namespace {
 
-// Hann's window, of mean 1, keeps what is large and slow out.
+// A raised cosine of mean 1 (Hann). It has side lobes far below those of no
+// window, so that a peak of a large and slow motion does not leak into the
+// frequency that is looked at, and it keeps the amplitude of an oscillation of
+// the whole signal.
 VectorXd Windowed(const VectorXd& signal, const VectorXd& t) {
   const double range = t.maxCoeff() - t.minCoeff();
   const Waves waves(2 * M_PI / range * (t.array() - t.minCoeff()));

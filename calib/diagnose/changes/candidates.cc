@@ -80,7 +80,7 @@ ScatterGrid MakeGrid(const SeriesProblem& problem, const Scatter& scatter,
     }
     for (int step = -kDown; step <= kUp; ++step) {
       Scatter at = from;
-      double size = 0;  // beside the usual, mean
+      double size = 0;  // relative to the usual, mean
       for (const int k : own) {
         const double usual = problem.components[k].usual;
         at.stddev[k] = std::exp2(kGridStep * step) *

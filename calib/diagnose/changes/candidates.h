@@ -26,7 +26,7 @@ struct SeriesProblem {
   const Eigen::VectorXd& times;
 };
 
-// All candidates beside the changes whose columns (with priors) are given,
+// All candidates given the changes whose columns (with priors) are given,
 // likeliest first. First all at the scatter as it is; those of the likeliest
 // hypotheses then also over how large their scatter may be: with few logs, two
 // that differ from two others may do so by chance.

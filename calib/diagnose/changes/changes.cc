@@ -74,7 +74,7 @@ std::string ChangeReading(const NamedHypothesis& what, const FoundChange& found,
   return "";
 }
 
-// Beside the parameter as it was, where it is friction.
+// Relative to the parameter as it was, where it is friction.
 double RelativeOf(const NamedHypothesis& what, size_t amount, double value,
                   const LogSeries& series, const VectorXd& level) {
   if (what.units[amount] == "1") return value;

@@ -26,7 +26,7 @@ struct ParameterSeries {
   bool is_joint_term = false;
   Eigen::VectorXd value, stddev;  // of each log alone; infinite: not seen
   Eigen::VectorXd model;          // with the changes
-  double scatter = 0;  // by which logs differ beside them, standard deviation
+  double scatter = 0;  // by which logs differ given them, standard deviation
 };
 
 struct NamedChange {
@@ -36,8 +36,8 @@ struct NamedChange {
   std::string reading;  // what makes such changes as a rule
   // Amounts, NamedHypothesis::names.
   Eigen::VectorXd value, stddev;
-  // Of each amount: beside the parameter in the first log; NaN where that is
-  // not meant. Of factors, the factor.
+  // Of each amount: relative to the parameter in the first log; NaN where that
+  // is not meant. Of factors, the factor.
   std::vector<double> relative;
   std::vector<bool> seen;           // whether the logs tell the amount
   std::vector<std::string> rivals;  // likelier than 2 %
@@ -57,7 +57,7 @@ struct LogChanges {
   // order of their speed cannot tell that from a drift.
   std::vector<NamedChange> with_motion;
   std::vector<ParameterSeries> parameters;
-  // By which logs differ beside the changes, relative, all joints together.
+  // By which logs differ given the changes, relative, all joints together.
   double viscous_scatter = 0, coulomb_scatter = 0;
   double inflation = 1;  // Scatter::inflation
 };

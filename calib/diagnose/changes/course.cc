@@ -15,7 +15,7 @@ namespace {
 // Time constants of drifts that settle, of what is left of the series.
 constexpr std::array<double, kDriftShapes> kSettlingShare = {0, .25, .1};
 
-// Of each joint beside its mean over the logs; of those that never move 0.
+// Of each joint relative to its mean over the logs; of those that never move 0.
 MatrixXd Logarithms(const MatrixXd& sizes) {
   constexpr double kLeast = 1e-3;  // of the joint's most
   MatrixXd logarithms = MatrixXd::Zero(sizes.rows(), sizes.cols());

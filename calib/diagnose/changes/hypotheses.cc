@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 constexpr double kShareOfAllFriction = .25, kShareOfFriction = .3,
                  kShareOfMass = .25, kShareOfOther = .2;
 // Standard deviations of changes: of friction relative to itself; of all else
-// (and of friction that there is none of) beside the joint's usual torque.
+// (and of friction that there is none of) relative to the joint's usual torque.
 constexpr double kFrictionChange = .5, kTorqueChange = .2, kNewFriction = .05;
 // By which joints' factors differ where all friction changes: a fifth of it, as
 // the joints of a warming arm do (-20 to -25 %, shared/data/schunk_lwa4p).

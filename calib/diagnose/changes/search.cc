@@ -37,7 +37,7 @@ class ChangeSelection {
 
   int size() const { return static_cast<int>(taken_.size()); }
 
-  // All candidates beside those taken.
+  // All candidates given those taken.
   ChangeCandidates Judge() const {
     ChangeCandidates all =
         JudgeCandidates({logs_, components_, hypotheses_, times_}, scatter_,
@@ -76,7 +76,7 @@ class ChangeSelection {
     scatter_ = FitScatter(logs_, components_, columns, Prior(), scatter_,
                           fit_inflation_);
   }
-  // Beside all changes taken; then it stays, or it would take the place of a
+  // Given all changes taken; then it stays, or it would take the place of a
   // change that is taken out.
   void FitInflation() {
     fit_inflation_ = true;
@@ -184,9 +184,9 @@ std::vector<int> LogsOf(const FamilyShare& share) {
   return logs;
 }
 
-// The likeliest change, with what is told of it beside all candidates.
-FoundChange ToldBeside(const ChangeCandidates& all,
-                       const std::vector<ChangeHypothesis>& hypotheses) {
+// The likeliest change, with what is told of it among all candidates.
+FoundChange ToldAmong(const ChangeCandidates& all,
+                      const std::vector<ChangeHypothesis>& hypotheses) {
   const ChangeCandidate& best = all.front();
   FoundChange found;
   found.hypothesis = best.hypothesis;
@@ -232,7 +232,7 @@ bool LeaveOut(const std::vector<ChangeHypothesis>& hypotheses,
   int least = -1;
   for (int k = 0; k < selection->size(); ++k) {
     const ChangeCandidate own = selection->TakeOut(k);
-    told->push_back(ToldBeside(selection->Judge(), hypotheses));
+    told->push_back(ToldAmong(selection->Judge(), hypotheses));
     selection->PutBack(k, own);
     if (told->back().any < kCertain &&
         (least < 0 || told->back().any < (*told)[least].any)) {

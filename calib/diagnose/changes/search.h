@@ -30,12 +30,12 @@ struct FoundChange {
 
 struct SeriesChanges {
   std::vector<FoundChange> changes;  // in the order of their logs
-  Scatter scatter;                   // beside them
+  Scatter scatter;                   // given them
   Eigen::VectorXd level;             // the parameters of the first log
 };
 
 // Bayesian selection of changes. Each is given a prior probability (its share,
-// spread over its forms and places) and its Bayes factor beside the others,
+// spread over its forms and places) and its Bayes factor given the others,
 // integrated over its size and over how much logs differ anyway. The likeliest
 // is taken in while there is one likelier than none; then each is exchanged for
 // the likeliest in its place until all stay, and those that are not `certain`

@@ -158,7 +158,7 @@ Scatter FitScatter(const std::vector<LogEquations>& logs,
                    const LogColumns& columns, const VectorXd& prior,
                    const Scatter& start, bool fit_inflation) {
   constexpr int kMostSteps = 100;
-  constexpr double kSettled = .003;  // relative, beside the usual scatter
+  constexpr double kSettled = .003;  // relative to the usual scatter
   Scatter scatter = start;
   for (int step = 0; step < kMostSteps; ++step) {
     const Scatter last = scatter;

@@ -46,7 +46,7 @@ struct ColumnSums {
   std::vector<Eigen::VectorXd> score;
 };
 
-// What columns beside a fit explain.
+// What columns given a fit explain.
 struct Gain {
   double log_bayes_factor = 0;  // of the fit with them over the one without
   Eigen::VectorXd value;
@@ -67,7 +67,7 @@ class SeriesFit {
 
   // Of all right sides, up to a constant of the logs.
   double log_evidence() const { return log_evidence_; }
-  // What each log says of further columns, beside itself and the fit's own.
+  // What each log says of further columns, given itself and the fit's own.
   ColumnSums Sums(const LogColumns& columns) const;
   // The fit with further columns, log l's times weight[l], with normal priors
   // of these standard deviations.
@@ -101,7 +101,7 @@ class SeriesFit {
   double log_evidence_ = 0;
 };
 
-// The scatter of largest posterior density beside these columns, from `start`.
+// The scatter of largest posterior density given these columns, from `start`.
 Scatter FitScatter(const std::vector<LogEquations>& logs,
                    const std::vector<ScatterComponent>& components,
                    const LogColumns& columns, const Eigen::VectorXd& prior,

@@ -9,8 +9,8 @@
 namespace armcal {
 namespace {
 
-// Scatter that is usual, beside the joint's torque: what models lack as a rule
-// is a per cent or less of it (discrepancy.h).
+// Scatter that is usual, relative to the joint's torque: what models lack as a
+// rule is a per cent or less of it (discrepancy.h).
 constexpr double kUsualScatter = .005;
 
 const std::pair<JointTerm, double> kFrictions[] = {kShareOfDays[0],

@@ -17,8 +17,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of the joint's torque: below it the arm hardly accelerates.
-
 // Thinned, all segments: the recorded torque, what it takes to accelerate the
 // links and armatures, and (per joint) torque at rest per unit of the links'
 // parameters, and a constant.
@@ -27,6 +25,12 @@ struct StaticRegression {
   std::vector<MatrixXd> columns;
 };
 
+// The torque of a chain of rigid links is, in momentum form, d/dt (P phi) - D
+// phi with phi the inertial parameters. At rest only -D phi is left, the
+// gravity's torque: its columns at the recorded positions span every law of
+// position that a rigid arm can have, whatever its masses. The inertial torque
+// is the difference of two inverse dynamics at velocity 0, with and without the
+// recorded acceleration.
 StaticRegression Prepare(const Robot& robot, const GapRows& rows) {
   const int n = robot.num_joints();
   StaticRegression all;
@@ -63,6 +67,11 @@ double Rms(const VectorXd& x) {
 
 }  // namespace
 
+// Some loggers write a torque that they computed from positions by a model
+// without accelerations. It is told by a fit of a law of position alone: a
+// measured torque leaves at least what the links need to accelerate. Joints
+// that hardly accelerate cannot tell (least_inertial). The worst joint decides,
+// since one that was measured is enough.
 std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows) {
   const StaticRegression all = Prepare(robot, rows);
   int told = 0;

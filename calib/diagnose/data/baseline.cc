@@ -31,7 +31,11 @@ double WidthUnit(const Joint& joint) {
 }
 
 // Torque of joint j per unit of the inertial parameters of links j to n, which
-// are those that it moves: per joint, samples x 10 (n - j).
+// are those that it moves: per joint, samples x 10 (n - j). By Lagrange's
+// equations
+//   tau = d/dt (P phi) - D phi,  P phi = dT/dqd,  D phi = dT/dq - dV/dq,
+// the momentum form of the regressor, which takes one numeric derivative of
+// what is smooth in time instead of products with noisy accelerations.
 std::vector<MatrixXd> InertialTorque(const Robot& robot, const Motion& motion) {
   const int n = robot.num_joints();
   const BatchRegressor regressor(robot);
@@ -85,6 +89,12 @@ VectorXd TermTorque(JointTerm term, const CoulombTransition& transition,
 
 }  // namespace
 
+// The columns that a model of rigid links may vary, each scaled by its prior's
+// standard deviation, so that their values are N(0, 1): inertial parameters and
+// joint terms by the trust in the file, mixtures of how friction changes sign,
+// the time at which it does, and a delay that all torques share. A
+// calibration's posterior replaces the prior of the parameters that it told,
+// with all of their correlations.
 GapBaseline::GapBaseline(const Robot& robot, const BaselineOptions& options,
                          const VectorXd& usual_torque)
     : robot_(robot) {
@@ -109,6 +119,9 @@ GapBaseline GapBaseline::MovedTo(const VectorXd& x) const {
   return moved;
 }
 
+// Viscous and Coulomb friction of the diagnosed day, beside that of the
+// reference: their prior is the scatter from day to day, a share of the
+// friction itself (day_shares.h).
 void GapBaseline::FreeDays() {
   for (int j = 0; j < robot_.num_joints(); ++j) {
     for (const auto& [term, share] : kShareOfDays) {
@@ -161,6 +174,11 @@ int GapBaseline::num_model_columns() const {
   return count;
 }
 
+// The prior of a link's ten inertial parameters is `trust` of its mass, of its
+// mass times its size for the first moments, and of its mass times the square
+// of its size for the inertias, with size^2 = tr(I) / (2 m) the mean squared
+// distance of the mass from the link's origin. A parameter that is 0 in the
+// file is thus as uncertain as one that is not.
 void GapBaseline::AddLink(int link, double trust) {
   const InertialParameters& inertial = robot_.links[link].inertial;
   if (inertial.mass <= 0) return;
@@ -172,6 +190,13 @@ void GapBaseline::AddLink(int link, double trust) {
   }
 }
 
+// Friction, armature and torque's zero of joint j. Terms that the file gives no
+// joint are open to the size that MissingTermFit calls usual, those of the file
+// by their own size times `trust`, and those that a calibration found to be 0
+// by its standard deviation. Where friction changes sign there is one column
+// per width beside the joint's own (kOtherWidths), each the difference of two
+// curves: a mixture of widths is a law of its own, of which no single width
+// would do.
 void GapBaseline::AddTerms(int j, const BaselineOptions& options,
                            double usual_torque) {
   const Joint& joint = robot_.links[j].joint;
@@ -207,13 +232,20 @@ void GapBaseline::AddTerms(int j, const BaselineOptions& options,
   }
 }
 
+// Coulomb friction changes sign when the joint's velocity does, and the
+// recorded one passes 0 at another time where a low pass takes a stop for a
+// turn. To first order that is minus its derivative in time, times a time that
+// is N(0, timing^2).
 void GapBaseline::AddReversal(int j, double timing) {
   const double spread = timing * robot_.links[j].joint.coulomb;
   if (spread <= 0) return;
   columns_.push_back({BaselineColumn::Kind::kReversal, j, 0, spread});
 }
 
-// Joint j's torque per unit of a column; empty where it has none.
+// Joint j's torque per unit of a column; empty where it has none. An inertial
+// parameter of link k acts on all joints up to it, others on their own joint
+// only; the column of the delay is the slope of the torque in time, on all
+// joints.
 VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
                                  const MatrixXd& inertial,
                                  const RecordedTorque& torque) const {
@@ -250,7 +282,9 @@ VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
   return {};
 }
 
-// Joint j's torque per unit of all columns in a segment, those that act on it.
+// Joint j's torque per unit of all columns in a segment, those that act on it,
+// times their spreads. Known effects and the discrepancy come last and are
+// evaluated together, since their shapes share the motion.
 BaselineColumns GapBaseline::FineColumns(int j, const GapSegment& segment,
                                          const MatrixXd& inertial,
                                          const std::vector<MatrixXd>& known,
@@ -281,6 +315,9 @@ BaselineColumns GapBaseline::FineColumns(int j, const GapSegment& segment,
   return fine;
 }
 
+// Columns are low-passed and thinned exactly as the recorded torque is: a
+// filter is linear, so that the filtered torque is the same linear function of
+// the parameters.
 std::vector<BaselineColumns> GapBaseline::ThinColumns(
     const GapRows& rows, const std::vector<RecordedTorque>& torques) const {
   const int n = robot_.num_joints();
@@ -308,6 +345,8 @@ double GapBaseline::WidthOf(const BaselineColumn& column) const {
   return kOtherWidths[column.index] * transitions_[column.joint].width;
 }
 
+// The robot at these values, as far as a robot file goes: discrepancy, delay
+// and how friction changes sign are in none.
 Robot GapBaseline::With(const VectorXd& x) const {
   CHECK_EQ(x.size(), size());
   Robot robot = robot_;
@@ -327,6 +366,8 @@ Robot GapBaseline::With(const VectorXd& x) const {
   return robot;
 }
 
+// How joint j's Coulomb friction changes sign at x: the parts of the mixture,
+// whose forces sum up to its Coulomb friction.
 std::vector<CoulombPart> GapBaseline::CoulombAt(int j,
                                                 const VectorXd& x) const {
   std::vector<CoulombPart> parts = {

@@ -26,9 +26,9 @@ struct BaselineColumn {
                   // KnownEffects or shape of Discrepancy
   double spread;  // SI units per unit of the column
 
-  // Whether it is one of the changes of friction near zero velocity that show
-  // where that is doubtful: half and twice the usual width.
-  bool IsZeroVelocityDoubt() const {
+  // Whether it is one of the changes of friction near zero velocity that are
+  // fitted where its width is not known: half and twice the usual width.
+  bool IsZeroVelocityWidth() const {
     return kind == Kind::kZeroVelocity && (index == 1 || index == 2);
   }
 };

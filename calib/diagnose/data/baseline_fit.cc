@@ -74,8 +74,12 @@ void BaselineFit::AddKnown(const std::vector<BaselineColumns>& columns,
   FindArms();
 }
 
-// What acts on one joint only, here and in other data, is of its arm, unless
-// the prior ties it to others.
+// Which columns act on one joint alone, in these data and in others, and are no
+// part of the prior's correlations: those are the joint's arm. Sorted so, the
+// information matrix is an arrow, block diagonal but for the columns that
+// joints share, and its factor costs the cube of an arm's size per joint
+// instead of the cube of all columns. A calibration's prior ties its columns to
+// each other, whose joints are then shared.
 void BaselineFit::FindArms() {
   constexpr int kNone = -1, kSeveral = -2;
   std::vector<int> joint_of(size(), kNone);
@@ -125,7 +129,10 @@ VectorXd BaselineFit::ScaleOf(int joint) const {
   return weight_[joint] * scale_(rows(joint).columns.which);
 }
 
-// On the first `columns` alone, the prior's included.
+// The information on the first `columns` of the baseline,
+//   precision of the prior + sum_j S_j A_j' A_j S_j,
+// A_j the whitened columns of joint j and S_j their scales. Products are summed
+// once, so that weighing rows again is one product with their squared weights.
 MatrixXd BaselineFit::Information(int columns) const {
   MatrixXd information = prior_.Precision(columns);
   const auto add = [&](const Rows& rows, double weight) {
@@ -143,6 +150,11 @@ MatrixXd BaselineFit::Information(int columns) const {
   return information;
 }
 
+// The normal equations of the fit: their right-hand side is the prior's
+// precision times its mean, plus the columns' products with the target. They
+// are factored as an arrow; the gradient of each arm is solved there, and what
+// is left for the shared columns follows from it (the Schur complement), so
+// that a further right-hand side touches only the arm that it is of.
 void BaselineFit::Factor() {
   gradient_ = prior_.PrecisionTimesMean(size());
   for (int j = 0; j < num_joints(); ++j) {
@@ -186,7 +198,7 @@ VectorXd BaselineFit::KnownResidual(const VectorXd& x) const {
   return residual;
 }
 
-VectorXd BaselineFit::GradientBeside(const JointRows& torque) const {
+VectorXd BaselineFit::GradientGiven(const JointRows& torque) const {
   VectorXd taken = VectorXd::Zero(size());
   for (int j = 0; j < num_joints(); ++j) {
     if (torque[j].size() > 0) AddProducts(j, torque[j], taken);
@@ -194,19 +206,26 @@ VectorXd BaselineFit::GradientBeside(const JointRows& torque) const {
   return gradient_ - taken;
 }
 
-VectorXd BaselineFit::Beside(const JointRows& torque) const {
-  return factor_.Solve(GradientBeside(torque));
+// The values of the baseline that fit the data best if this torque is there as
+// well: its products are taken off the right-hand side, and the factor stays.
+VectorXd BaselineFit::ValuesGiven(const JointRows& torque) const {
+  return factor_.Solve(GradientGiven(torque));
 }
 
-VectorXd BaselineFit::Beside(const JointRows& torque, int columns) const {
+VectorXd BaselineFit::ValuesGiven(const JointRows& torque, int columns) const {
   VectorXd x = VectorXd::Zero(size());
   x.head(columns) =
-      Information(columns).llt().solve(GradientBeside(torque).head(columns));
+      Information(columns).llt().solve(GradientGiven(torque).head(columns));
   return x;
 }
 
-VectorXd BaselineFit::ResidualBeside(const JointRows& torque) const {
-  const VectorXd x = Beside(torque), known = KnownResidual(x);
+// All that a least squares fit leaves, in units of its standard deviations: the
+// rows of all joints, what the values differ from their prior by, and what
+// other data have of them. Its squared norm is chi squared, in which a torque
+// that the prior would have to explain costs as much as one that the data
+// would.
+VectorXd BaselineFit::ResidualGiven(const JointRows& torque) const {
+  const VectorXd x = ValuesGiven(torque), known = KnownResidual(x);
   Eigen::Index count = x.size() + known.size(), at = 0;
   for (const Rows& own : *rows_) count += own.target.size();
   VectorXd residual(count);
@@ -222,6 +241,12 @@ VectorXd BaselineFit::ResidualBeside(const JointRows& torque) const {
   return residual;
 }
 
+// How many of joint j's rows the baseline fits: tr(A_j C A_j'), C the
+// covariance of its values, which is the trace of the product of its
+// information with C. It is the effective number of parameters of a penalised
+// fit (Hastie, Tibshirani and Friedman 2009, 7.6). Only C between the joint's
+// arm and the shared columns is needed, which the arrow's factor has without
+// inverting the rest.
 VectorXd BaselineFit::FittedRows() const {
   VectorXd fitted(num_joints());
   for (int j = 0; j < num_joints(); ++j) {

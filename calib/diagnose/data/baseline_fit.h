@@ -74,13 +74,13 @@ class BaselineFit {
                    Eigen::Ref<Eigen::VectorXd> products) const;
   // Residual of other data, of as many rows as they tell of columns.
   Eigen::VectorXd KnownResidual(const Eigen::VectorXd& x) const;
-  // Values that fit best beside a torque (whitened, per joint).
-  Eigen::VectorXd Beside(const JointRows& torque) const;
+  // Values that fit best given a torque (whitened, per joint).
+  Eigen::VectorXd ValuesGiven(const JointRows& torque) const;
   // The same of the first `columns` alone, 0 for the others.
-  Eigen::VectorXd Beside(const JointRows& torque, int columns) const;
+  Eigen::VectorXd ValuesGiven(const JointRows& torque, int columns) const;
   // What that leaves, all joints, the prior's and other data's share included:
   // its squared norm is chi^2.
-  Eigen::VectorXd ResidualBeside(const JointRows& torque) const;
+  Eigen::VectorXd ResidualGiven(const JointRows& torque) const;
   // How many of joint j's rows are fitted: tr(A_j C A_j'), C the covariance.
   Eigen::VectorXd FittedRows() const;
   Eigen::MatrixXd Covariance() const;
@@ -88,7 +88,7 @@ class BaselineFit {
  private:
   void FindArms();
   Eigen::MatrixXd Information(int columns) const;
-  Eigen::VectorXd GradientBeside(const JointRows& torque) const;
+  Eigen::VectorXd GradientGiven(const JointRows& torque) const;
 
   std::shared_ptr<const std::vector<Rows>> rows_;
   // Of other data: the root of what they tell, as if these were their rows.

@@ -33,6 +33,11 @@ double VarianceOfDays(const Parameter& parameter, const Robot& robot) {
 
 }  // namespace
 
+// The posterior of a calibration as the prior of the columns that it told of,
+// in units of their spreads: with the correlations that make weakly told
+// combinations weakly told here, too. Of another day, friction has the scatter
+// from day to day besides, which is independent of what the calibration does
+// not know.
 ColumnPrior CalibratedPrior(const ParameterPosterior& posterior,
                             const Robot& robot,
                             const std::vector<BaselineColumn>& columns,

@@ -45,6 +45,9 @@ VectorXd ColumnPrior::PrecisionTimesMean(int columns) const {
   return product;
 }
 
+// What values differ from their prior by, in units of its deviations: U (x -
+// mean) with U' U the precision, so that its squared norm is chi squared of the
+// prior; of columns it does not know of N(0, 1).
 VectorXd ColumnPrior::Residual(const VectorXd& x) const {
   VectorXd residual = x;
   residual(which_) = root_ * (x(which_) - mean_);

@@ -12,23 +12,29 @@ using Eigen::VectorXd;
 
 constexpr double kNothing = 1e3;
 
-// A doubtful sample is in the whitened rows of all that follow it within the
-// noise's memory, and filters spread it as far before. Torques that are
-// recorded have more noise than that.
-MatrixXd Spread(const MatrixXd& doubt) {
+// A sample of extra variance is in the whitened rows of all that follow it
+// within the noise's memory, and filters spread it as far before. Torques that
+// are recorded have more noise than that.
+MatrixXd Spread(const MatrixXd& extra_stddev) {
   constexpr Eigen::Index kReach = Autoregression::kOrder;
-  MatrixXd spread = doubt;
-  for (Eigen::Index k = 0; k < doubt.rows(); ++k) {
+  MatrixXd spread = extra_stddev;
+  for (Eigen::Index k = 0; k < extra_stddev.rows(); ++k) {
     const Eigen::Index first = std::max<Eigen::Index>(0, k - kReach);
-    const Eigen::Index last = std::min(doubt.rows() - 1, k + kReach);
+    const Eigen::Index last = std::min(extra_stddev.rows() - 1, k + kReach);
     spread.row(k) =
-        doubt.middleRows(first, last - first + 1).colwise().maxCoeff();
+        extra_stddev.middleRows(first, last - first + 1).colwise().maxCoeff();
   }
   return spread;
 }
 
 }  // namespace
 
+// Everything about the logs that does not depend on which rows count is
+// computed once: thinned residual, thinned columns and each sample's usual
+// extra deviation. The latter is where friction changes sign, a share of what
+// the columns of widths (a half and twice the usual one) would do there. What
+// is filtered over kOrder samples reaches that far, which only reconstructed
+// torques are exact enough to show (Spread).
 GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
                  double bandwidth_hz, LogPart part)
     : signals_(std::make_shared<Signals>()),
@@ -40,20 +46,21 @@ GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
   signals_->residual = rows_->ThinAll(FineResidual());
   signals_->columns = columns_ =
       std::make_shared<const Columns>(baseline.ThinColumns(*rows_, torques_));
-  MatrixXd& usual = signals_->usual_doubt;
+  MatrixXd& usual = signals_->usual_extra_stddev;
   usual = MatrixXd::Zero(residual().rows(), residual().cols());
   for (int c = 0; c < baseline.size(); ++c) {
     const BaselineColumn& column = baseline.columns()[c];
-    if (!column.IsZeroVelocityDoubt()) continue;
-    auto doubt = usual.col(column.joint);
-    doubt = doubt.cwiseMax(columns()[column.joint].Column(c).cwiseAbs());
+    if (!column.IsZeroVelocityWidth()) continue;
+    auto extra_stddev = usual.col(column.joint);
+    extra_stddev =
+        extra_stddev.cwiseMax(columns()[column.joint].Column(c).cwiseAbs());
   }
   for (size_t i = 0; i < signals_->segments.size(); ++i) {
     const int s = static_cast<int>(i), begin = rows_->thin_begin(s);
     auto here = usual.middleRows(begin, rows_->thin_begin(s + 1) - begin);
-    const bool made = signals_->segments[i].made_torque;
-    here *= Limits().reversal_doubt;
-    if (made) here = Spread(here);
+    const bool reconstructed = signals_->segments[i].reconstructed_torque;
+    here *= Limits().reversal_extra_stddev;
+    if (reconstructed) here = Spread(here);
   }
   for (size_t i = 0; i < signals_->segments.size(); ++i) {
     for (const TimeRange& lost : signals_->segments[i].lost) {
@@ -100,11 +107,11 @@ MatrixXd GapData::ResidualWith(const VectorXd& x,
 }
 
 void GapData::SetNoise(std::vector<Autoregression> noise) {
-  rows_->SetNoise(std::move(noise), doubt_);
+  rows_->SetNoise(std::move(noise), extra_stddev_);
 }
 
 void GapData::SetEvidence(const VectorXd& stddev) {
-  rows_->SetEvidence(stddev, doubt_);
+  rows_->SetEvidence(stddev, extra_stddev_);
 }
 
 void GapData::ScaleEvidence(const VectorXd& factor) {
@@ -130,20 +137,23 @@ void GapData::Hold(int column) {
 void GapData::Mask(int log, const TimeRange& window) {
   for (size_t i = 0; i < signals_->segments.size(); ++i) {
     if (signals_->segments[i].log != log) continue;
-    MaskIn(static_cast<int>(i), window, &doubt_);
+    MaskIn(static_cast<int>(i), window, &extra_stddev_);
   }
 }
 
+// A masked sample has an extra deviation so large (kNothing times all of the
+// residual) that its row says nothing, and its neighbours stay as they are:
+// rows are removed without the ones around them being whitened anew.
 void GapData::MaskIn(int segment, const TimeRange& window,
-                     MatrixXd* doubt) const {
+                     MatrixXd* extra_stddev) const {
   const int end = rows_->thin_begin(segment + 1);
   for (int k = rows_->thin_begin(segment); k < end; ++k) {
     if (!window.Contains(rows_->thin_time(segment, k))) continue;
-    doubt->row(k) = kNothing * residual().colwise().norm();
+    extra_stddev->row(k) = kNothing * residual().colwise().norm();
   }
 }
 
-void GapData::Unmask() { doubt_ = signals_->usual_doubt; }
+void GapData::Unmask() { extra_stddev_ = signals_->usual_extra_stddev; }
 
 std::vector<BaselineColumns> GapData::WhitenedColumns() const {
   std::vector<BaselineColumns> white;

@@ -35,13 +35,14 @@ class GapData {
   const std::vector<BaselineColumns>& columns() const { return *columns_; }
   // What the baseline at x leaves.
   Eigen::MatrixXd ResidualWith(const Eigen::VectorXd& x) const;
-  // The same beside a torque: per joint thinned samples, empty where it is 0.
+  // The same given a torque: per joint thinned samples, empty where it is 0.
   Eigen::MatrixXd ResidualWith(
       const Eigen::VectorXd& x,
       const std::vector<Eigen::VectorXd>& torque) const;
 
-  // Friction near zero velocity is doubted beyond what the baseline's columns
-  // can vary: laws differ, and encoders do not see slow creep.
+  // Friction near zero velocity has an extra variance beyond what the
+  // baseline's columns can vary: laws differ, and encoders do not see slow
+  // creep.
   void SetNoise(std::vector<Autoregression> noise);
   // Rows are from now on whitened as GapRows::SetEvidence says.
   void SetEvidence(const Eigen::VectorXd& stddev);
@@ -68,11 +69,11 @@ class GapData {
     std::vector<GapSegment> segments;
     Eigen::MatrixXd residual;
     std::shared_ptr<const Columns> columns;  // none of them held
-    Eigen::MatrixXd usual_doubt;
+    Eigen::MatrixXd usual_extra_stddev;
   };
 
   void MaskIn(int segment, const TimeRange& window,
-              Eigen::MatrixXd* doubt) const;
+              Eigen::MatrixXd* extra_stddev) const;
 
   std::shared_ptr<Signals> signals_;  // not changed once it is complete
   std::unique_ptr<GapRows> rows_;
@@ -80,7 +81,7 @@ class GapData {
   std::shared_ptr<const Columns> columns_;
   int num_columns_;
   ColumnPrior prior_;
-  Eigen::MatrixXd doubt_;
+  Eigen::MatrixXd extra_stddev_;
 };
 
 }  // namespace armcal

@@ -20,6 +20,12 @@ std::vector<int> DayColumns(const GapBaseline& baseline) {
   return columns;
 }
 
+// Columns x of friction from day to day are N(0, 1) before, and an estimate of
+// one is N(0, 1 - c), c what is left of its variance: an estimate within a
+// prior scatters the less, the less the data say. With S that covariance, x'
+// S^-1 x is chi squared of as many degrees as columns, and (sum x)^2 / sum(S)
+// of one, the mean's, which is the sharper test of all joints going one way, as
+// temperature makes them. The smaller tail counts, twice (Bonferroni).
 std::vector<int> ChangedTogether(const GapBaseline& baseline, JointTerm term,
                                  const Eigen::VectorXd& x,
                                  const Eigen::MatrixXd& covariance) {

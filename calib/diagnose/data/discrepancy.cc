@@ -31,13 +31,21 @@ constexpr int kOfState = 2 * kHarmonics + 2 * kSignHarmonics +
                          static_cast<int>(kSpeedShares.size()) + kLoadShapes +
                          kStateShapes + 1;
 
+// A Gaussian over the frequency of position: ripples of gears are of few cycles
+// per turn, and what is quick belongs to no routine.
 double HarmonicSize(int k) {
   const double cycles = kHarmonicStep * (k + 1);
-  return std::exp(-std::pow(cycles / Limits().lacked_cycles, 2) / 2);
+  return std::exp(-std::pow(cycles / Limits().discrepancy_cycles, 2) / 2);
 }
 
 }  // namespace
 
+// Random Fourier features (Rahimi and Recht 2007): cosines of w' state + b, w
+// drawn from the spectral density of the kernel, normal here, and b from [0, 2
+// pi), have the covariance exp(-|s - s'|^2 kappa^2 / 2) of a Gaussian kernel in
+// expectation, with kStateShapes of them per joint. They are drawn with a fixed
+// seed, so that the same robot has the same discrepancy. A joint that slides
+// has its way for a turn.
 Discrepancy::Discrepancy(const Robot& robot, const MotionScale& scale, int logs,
                          double torque_constants_stddev)
     : scale_(scale),
@@ -53,7 +61,8 @@ Discrepancy::Discrepancy(const Robot& robot, const MotionScale& scale, int logs,
     }
   }
   std::mt19937_64 random(1);
-  std::normal_distribution<double> normal(0, Limits().lacked_state_frequency);
+  std::normal_distribution<double> normal(0,
+                                          Limits().discrepancy_state_frequency);
   std::uniform_real_distribution<double> angle(0, 2 * M_PI);
   for (int j = 0; j < n; ++j) {
     frequency_.emplace_back(2 * n, kStateShapes);
@@ -63,6 +72,11 @@ Discrepancy::Discrepancy(const Robot& robot, const MotionScale& scale, int logs,
   }
 }
 
+// How large each shape of joint j may be, one after the other as Torque has
+// them, as shares of the joint's usual torque (Limits().discrepancy and
+// discrepancy_of_sign). The friction curve may differ by a share of the joint's
+// Coulomb friction. Shapes of time are as large as friction along the way, and
+// are of one log each.
 VectorXd Discrepancy::Spreads(int j, const Joint& joint) const {
   VectorXd spreads(kOfState + kTimeShapes * logs_);
   const double usual = scale_.torque[j];
@@ -72,18 +86,18 @@ VectorXd Discrepancy::Spreads(int j, const Joint& joint) const {
     at += count;
   };
   for (int k = 0; k < kHarmonics; ++k) {
-    add(2, Limits().lacked * usual * HarmonicSize(k));
+    add(2, Limits().discrepancy * usual * HarmonicSize(k));
   }
   for (int k = 0; k < kHarmonics; k += kSignStep) {
-    add(2, Limits().lacked_of_sign * usual * HarmonicSize(k));
+    add(2, Limits().discrepancy_of_sign * usual * HarmonicSize(k));
   }
   add(kSpeedShares.size(),
-      Limits().lacked_friction_curve * std::abs(joint.coulomb));
-  add(kLoadShapes, Limits().lacked * usual);
-  add(kStateShapes, Limits().lacked * usual);
+      Limits().discrepancy_friction_curve * std::abs(joint.coulomb));
+  add(kLoadShapes, Limits().discrepancy * usual);
+  add(kStateShapes, Limits().discrepancy * usual);
   // Of the model's torque: the recorded one would explain whatever is recorded.
   add(1, torque_constants_stddev_ * usual);
-  add(kTimeShapes * logs_, Limits().lacked_of_sign * usual);
+  add(kTimeShapes * logs_, Limits().discrepancy_of_sign * usual);
   return spreads;
 }
 
@@ -100,6 +114,11 @@ MatrixXd Discrepancy::State(const Motion& motion) const {
   return state;
 }
 
+// The shapes, one after the other: cosines and sines of position, the same
+// times the direction of motion, friction laws of other widths less the sign,
+// five shapes of the load, random Fourier features of the state of the whole
+// arm, the model's own torque (a wrong torque constant), and half cosines over
+// each log's time, which are 0 in every other. All are of the order of 1.
 MatrixXd Discrepancy::Torque(int j, const GapSegment& segment,
                              const RecordedTorque& torque) const {
   const Motion& motion = segment.motion;

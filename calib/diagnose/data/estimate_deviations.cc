@@ -14,6 +14,12 @@ double WithTorqueScale(double stddev, double value, const std::string& unit,
   return has_mass ? std::hypot(stddev, scale_stddev * value) : stddev;
 }
 
+// The delta method: an estimate is a function f of the fitted parameters with
+// the gradient J, and var f = J C J'. J is taken by forward differences, a step
+// of 1e-4 of a parameter's deviation, since estimates are laws' own formulas.
+// What the torque constants have of uncertainty comes on top, as a share of
+// estimates that hold a mass. An estimate of which nothing tells has the
+// deviation 0, which reports leave out.
 std::vector<double> EstimateDeviations(const Effect& effect,
                                        const EffectSite& site,
                                        const VectorXd& p,

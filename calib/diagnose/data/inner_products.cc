@@ -4,6 +4,9 @@
 
 namespace armcal {
 
+// a' b by the widest vectors that the machine has, in blocks of eight rows;
+// what is left over, fewer than eight rows, by plain products. Screens are made
+// of these.
 Eigen::MatrixXd InnerProducts(const Eigen::MatrixXd& a,
                               const Eigen::MatrixXd& b) {
   const Eigen::Index whole = a.rows() / 8 * 8, rest = a.rows() - whole;

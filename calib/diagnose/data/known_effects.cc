@@ -10,6 +10,9 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Only the linear parameters of a known effect stay free, each with the prior
+// of its own value or of the size of its effect that matters, whichever is
+// more; shapes are held at what the reference showed.
 KnownEffects::KnownEffects(const Robot& robot, std::vector<KnownEffect> effects,
                            const MotionScale& scale)
     : effects_(std::move(effects)), scale_(scale) {
@@ -27,6 +30,8 @@ KnownEffects::KnownEffects(const Robot& robot, std::vector<KnownEffect> effects,
   }
 }
 
+// Torque per unit of each parameter, by evaluating the law with that parameter
+// alone: it is linear in them.
 std::vector<MatrixXd> KnownEffects::Torques(const Robot& robot,
                                             RecordedTorque torque) const {
   std::vector<MatrixXd> torques;

@@ -30,6 +30,10 @@ std::vector<JointThermal> RecordedThermal(
 
 }  // namespace
 
+// What the effects of the catalogue are sized by, as the logs have it: rms
+// torque, load, speed and acceleration of each joint, those of speed and
+// acceleration over the time in which it moves, and the largest of them. Sums
+// of squares are added segment by segment and divided by their samples once.
 MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
                     const std::vector<RecordedTorque>& torques) {
   const int n = rows.num_joints();

@@ -33,7 +33,10 @@ int RepeatLag(const Motion& motion) {
   return lag ? static_cast<int>(std::lround(*lag / motion.dt)) : 0;
 }
 
-// Whether the motion at each sample is that of `lag` samples later.
+// Whether the motion at each sample is that of `lag` samples later: positions
+// to repeat_tolerance of their usual size and velocities to three times as
+// much, joints all together. Half a milliradian and 5 mrad/s are added, which
+// encoders have.
 std::vector<bool> Repeats(const Motion& motion, int lag) {
   const auto usual = [](const MatrixXd& x) -> Eigen::RowVectorXd {
     return (x.colwise().squaredNorm() / x.rows()).cwiseSqrt();
@@ -55,8 +58,10 @@ std::vector<bool> Repeats(const Motion& motion, int lag) {
   return repeats;
 }
 
-// What differs from one repeat to the next over root 2, thinned, all segments;
-// rows that have no repeat are NaN.
+// What differs from one repeat of a motion to the next, over root 2 so that it
+// has the noise's variance: everything that a model lacks is in both and falls
+// out, whatever it is (a residual of any model does). Thinned, all segments;
+// samples that have no repeat are NaN.
 MatrixXd RepeatDifferences(const GapRows& rows,
                            const std::vector<MatrixXd>& residual) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -108,18 +113,18 @@ std::vector<VectorXd> Known(const std::vector<VectorXd>& stretches) {
 
 }  // namespace
 
-double VarianceDoubt(NoiseFloor source) {
+double ExtraVariance(NoiseFloor source) {
   switch (source) {
     case NoiseFloor::kRepeats:
     case NoiseFloor::kReference:
     case NoiseFloor::kPositions:
-      return Limits().doubt_of_noise;
+      return Limits().extra_variance_of_noise;
     case NoiseFloor::kStandstill:
-      return Limits().doubt_of_rest;
+      return Limits().extra_variance_of_rest;
     case NoiseFloor::kAssumed:
       break;
   }
-  return Limits().doubt_of_residual;
+  return Limits().extra_variance_of_residual;
 }
 
 const char* NoiseFloorName(NoiseFloor source) {
@@ -138,6 +143,11 @@ const char* NoiseFloorName(NoiseFloor source) {
   return "";
 }
 
+// The sources in the order of how much they can be trusted: repeats, which hold
+// none of what the model lacks; standstill, whose noise lacks what motion adds;
+// and a refit's residual, which holds everything. Each joint takes the best
+// that has noise_rows of it, and the source told is the worst of the joints'
+// sources, since that is what claims of all of them are worth.
 GapNoise EstimateGapNoise(const GapRows& rows,
                           const std::vector<MatrixXd>& residual,
                           const MatrixXd& assumed) {

@@ -13,19 +13,20 @@ enum class NoiseFloor {
   kRepeats,     // motion done twice: what the model lacks falls out
   kStandstill,  // the scatter while joints stand
   kReference,  // what a model fitted to logs of the robot before leaves of them
-  kPositions,  // of the encoders, which torques made of commands have
+  kPositions,  // of the encoders, which reconstructed torques have
   kAssumed     // what a refit leaves: holds what the model lacks as well
 };
 const char* NoiseFloorName(NoiseFloor source);
-// By what share its variance may be wrong, two standard deviations: standstill
-// hears less than motion, and what a refit left holds what it lacks.
-double VarianceDoubt(NoiseFloor source);
+// The extra variance, as a share of the noise's: by how much that may be wrong,
+// two standard deviations. Standstill hears less than motion, and what a refit
+// left holds what it lacks.
+double ExtraVariance(NoiseFloor source);
 
 struct GapNoise {
   std::vector<Autoregression> joints;
   NoiseFloor source = NoiseFloor::kAssumed;
   // Share of each joint's variance that other motion may add; empty: none.
-  std::vector<double> doubt;
+  std::vector<double> extra_variance;
 };
 
 // Noise of `residual` (per segment, fine samples x n; of any model, since only

@@ -17,7 +17,10 @@ class NoiseTorque {
     for (Link& link : robot_.links) link.joint.coulomb = 0;
   }
 
-  // Of what drives gave, less of what the motion needs; samples x n, N m or N.
+  // Of what the drives gave, less of what the motion needs; samples x n, N m or
+  // N. The noise of the positions is in the torque through the drives' law and
+  // in the inverse dynamics through differentiated motion: what is told apart
+  // from the model is their difference.
   MatrixXd Of(const GapSegment& segment) const {
     Motion shaken = segment.motion;
     const MatrixXd qd = Differentiate(segment.position_noise, shaken.dt);

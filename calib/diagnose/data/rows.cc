@@ -31,6 +31,9 @@ int NumBlocks(double size, double guards) {
 
 }  // namespace
 
+// Samples are thinned to 2.5 times the bandwidth, above which the low pass
+// leaves nothing, and whole periods of the bandwidth at both ends of a segment
+// are skipped, where the filter has no neighbours.
 GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
                  LogPart part)
     : segments_(segments), bandwidth_hz_(bandwidth_hz), part_(part) {
@@ -54,7 +57,8 @@ GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
                                 kPeriodsAtEnds / bandwidth_hz / step(s)));
   }
   MakeRuns();
-  made_doubt_ = Limits().made_torque_doubt * UsualTorque(segments, true);
+  reconstructed_stddev_ =
+      Limits().reconstructed_torque_stddev * UsualTorque(segments, true);
   for (size_t i = 0; i < segments.size(); ++i) {
     const int s = static_cast<int>(i), first = thin_begin_[i];
     drift_.emplace_back();
@@ -94,6 +98,9 @@ bool GapRows::IsHeld(int segment, int joint, int k) const {
          segments_[segment].BreaksAway(sample, joint);
 }
 
+// A sample of which the joint rests tells the noise and not the torque; one in
+// which it breaks away from a rest tells neither, since its friction is then on
+// its way from what holds it to what brakes it.
 GapRows::Use GapRows::UseOf(int segment, int joint, int k) const {
   if (!IsInPart(segment, k)) return Use::kNone;
   if (!IsHeld(segment, joint, k)) return Use::kMoving;
@@ -103,6 +110,10 @@ GapRows::Use GapRows::UseOf(int segment, int joint, int k) const {
                                                       : Use::kStill;
 }
 
+// Runs of samples that are uninterrupted and used alike, of kShortestRun and
+// longer: an autoregression needs as many samples before the first whitened one
+// as it remembers, and a run shorter than a few times that would be all of what
+// comes before it.
 void GapRows::MakeRuns() {
   const int n = segments_.empty() ? 0 : segments_[0].motion.num_joints();
   runs_.resize(n);
@@ -158,21 +169,28 @@ MatrixXd GapRows::Pick(int segment, const MatrixXd& signal) const {
   return thin;
 }
 
+// The zero-phase low pass runs over all of a segment and is then thinned: a
+// filter of one part of it would bend its ends.
 MatrixXd GapRows::Thin(int segment, const MatrixXd& signal) const {
   return Pick(segment,
               ZeroPhaseLowPass(signal, 1 / segments_[segment].motion.dt,
                                bandwidth_hz_));
 }
 
+// Rows are whitened by the joint's autoregression, and weighed by sqrt(v / (v +
+// extra^2)), v the noise's variance: what else may be wrong with a sample is
+// white and known for itself. Reconstructed torques are known to a share of
+// their usual size at best, which is white noise added to theirs.
 void GapRows::SetNoise(std::vector<Autoregression> noise,
-                       const MatrixXd& doubt) {
+                       const MatrixXd& extra_stddev) {
   CHECK_EQ(static_cast<int>(noise.size()), num_joints());
-  CHECK_EQ(doubt.rows(), num_thin());
+  CHECK_EQ(extra_stddev.rows(), num_thin());
   noise_ = std::move(noise);
   for (int j = 0; j < num_joints(); ++j) {
-    if (made_doubt_[j] > 0) noise_[j] = PlusWhite(noise_[j], made_doubt_[j]);
+    if (reconstructed_stddev_[j] > 0)
+      noise_[j] = PlusWhite(noise_[j], reconstructed_stddev_[j]);
   }
-  variance_ = doubt.cwiseAbs2();
+  variance_ = extra_stddev.cwiseAbs2();
   weight_.resize(num_thin(), num_joints());
   for (int j = 0; j < num_joints(); ++j) {
     const double own = std::pow(noise_[j].stddev(), 2);
@@ -181,16 +199,18 @@ void GapRows::SetNoise(std::vector<Autoregression> noise,
   }
 }
 
+// The same with white noise of these deviations in place of the autoregression,
+// for questions about how likely a model is (evidence_noise.h).
 void GapRows::SetEvidence(const Eigen::VectorXd& stddev,
-                          const MatrixXd& doubt) {
+                          const MatrixXd& extra_stddev) {
   CHECK_EQ(stddev.size(), num_joints());
-  CHECK_EQ(doubt.rows(), num_thin());
+  CHECK_EQ(extra_stddev.rows(), num_thin());
   evidence_ = stddev;
   evidence_weight_.resize(num_thin(), num_joints());
   for (int j = 0; j < num_joints(); ++j) {
     const double own = stddev[j] * stddev[j];
     evidence_weight_.col(j) =
-        (own / (own + doubt.col(j).array().square())).sqrt();
+        (own / (own + extra_stddev.col(j).array().square())).sqrt();
   }
 }
 
@@ -210,6 +230,10 @@ int GapRows::num_rows() const {
   return rows;
 }
 
+// A torque whose integrals began anywhere has a level that walks at random
+// (torque_drift.h). That level is told by a fit of broken lines where the joint
+// moves, weighed as its rows are, and taken off all columns of `thin` alike;
+// torque that is not known keeps its NaN.
 MatrixXd GapRows::WithoutDrift(int joint, const MatrixXd& thin) const {
   CHECK_EQ(thin.rows(), num_thin());
   MatrixXd without = thin;
@@ -236,6 +260,8 @@ MatrixXd GapRows::WithoutDrift(int joint, const MatrixXd& thin) const {
   return without;
 }
 
+// Rows of all runs of a joint, one below the other, each run whitened for
+// itself: between runs there is no time over which noise could be predicted.
 template <typename Rows>
 MatrixXd GapRows::RowsOfRuns(int joint, const MatrixXd& thin,
                              const MatrixXd& weight, Rows rows_of_run) const {

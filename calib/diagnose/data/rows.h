@@ -72,21 +72,22 @@ class GapRows {
     return still_runs_[joint];
   }
 
-  // `doubt`: standard deviation of what else may be wrong with single samples
-  // (thinned samples x n, N m or N); rows count the less.
+  // `extra_stddev`: standard deviation of what else may be wrong with single
+  // samples (thinned samples x n, N m or N); rows count the less.
   void SetNoise(std::vector<Autoregression> noise,
-                const Eigen::MatrixXd& doubt);
+                const Eigen::MatrixXd& extra_stddev);
   // From now on Whiten() takes what the model leaves for white noise of these
   // standard deviations (n, N m or N), not for the noise of the torque alone:
   // what is right of the model is told by what it leaves, samples of which are
   // not all independent.
-  void SetEvidence(const Eigen::VectorXd& stddev, const Eigen::MatrixXd& doubt);
-  // Times the standard deviations, doubts included.
+  void SetEvidence(const Eigen::VectorXd& stddev,
+                   const Eigen::MatrixXd& extra_stddev);
+  // Times the standard deviations, extra ones included.
   void ScaleEvidence(const Eigen::VectorXd& factor);
   bool has_evidence() const { return evidence_.size() > 0; }
   const Eigen::VectorXd& evidence() const { return evidence_; }
   const Autoregression& noise(int joint) const { return noise_[joint]; }
-  // Variance of a thinned sample: of the noise and the doubt.
+  // Variance of a thinned sample: of the noise, and the extra one.
   double variance(int joint, int sample) const {
     return variance_(sample, joint);
   }
@@ -133,7 +134,7 @@ class GapRows {
   std::vector<int> thin_begin_;                    // per segment, and the end
   std::vector<int> blocks_;                        // per segment, for LogPart
   std::vector<std::optional<TorqueDrift>> drift_;  // per segment
-  Eigen::VectorXd made_doubt_;                     // per joint, N m or N
+  Eigen::VectorXd reconstructed_stddev_;           // per joint, N m or N
   std::vector<std::vector<Run>> runs_, still_runs_;
   std::vector<Autoregression> noise_;
   Eigen::MatrixXd variance_, weight_;  // thinned samples x n

@@ -14,6 +14,9 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Inner products of a joint's new columns with each other, with its baseline
+// and with the target. Rows are gone through once, here; whatever is asked
+// afterwards is products of these matrices.
 void GapScreen::Products::Add(const std::vector<Column>& all, int first,
                               int joint, const BaselineFit::Rows& rows) {
   const Eigen::Index before = static_cast<Eigen::Index>(columns.size());
@@ -105,6 +108,11 @@ void GapScreen::Factor() {
   Project(before);
 }
 
+// One joint's share of the Schur complements: its columns' products with the
+// arm of the baseline are solved with the arm's factor, what is left of them
+// for the shared columns is added to common_half_, and the joint's own part of
+// the projected Gram matrix is returned. Arms are independent of each other, so
+// that joints can do it at the same time.
 MatrixXd GapScreen::ProjectOnArm(int joint, int before) {
   const Products& own = products_[joint];
   const BaselineFit::Places& places = baseline_.places(joint);
@@ -134,6 +142,13 @@ MatrixXd GapScreen::ProjectOnArm(int joint, int before) {
   return squared * own.of_columns.rightCols(more) - InnerProducts(half, added);
 }
 
+// Candidates projected on what the baseline cannot absorb (Frisch and Waugh
+// 1933): with A the baseline's columns and C the candidates',
+//   G = C' C - C' A (A' A)^-1 A' C,   g = C' r - C' A (A' A)^-1 A' r,
+// where (A' A) holds the prior and other data. Whatever is asked of any set of
+// candidates is then asked of G and g, whose size is the number of candidates,
+// and the rows are not needed any more. Halves H = L^-1 A' C are kept, so that
+// new columns cost products with these only.
 void GapScreen::Project(int before) {
   if (before == 0) {
     baseline_.Factor();
@@ -177,6 +192,11 @@ VectorXd GapScreen::Gradient(const JointRows& target) const {
   return Gradients(target, one, 1);
 }
 
+// g of the screen for another target, and of parts of its rows, each in a
+// column of its own: rows of a part are contiguous in time, so that the
+// products with each part's rows are one product with a block of them. Blocks
+// of a residual are made of these (null.cc) without the columns being
+// multiplied again.
 MatrixXd GapScreen::Gradients(const JointRows& target,
                               const std::vector<std::vector<int>>& part_of_row,
                               int parts) const {
@@ -205,6 +225,10 @@ MatrixXd GapScreen::Gradients(const JointRows& target,
   return g - cross_.transpose() * baseline_.factor().Solve(gradient);
 }
 
+// The candidates' normal equations with the baseline free, whose Schur
+// complement is G:
+//   x = (G_SS + ridge)^-1 g_S,  cov = (G_SS + ridge)^-1,  delta_chi2 = g_S' x,
+// by how much chi squared is lower with them than with the baseline alone.
 GapScreen::Fit GapScreen::Solve(const std::vector<int>& columns) const {
   Fit fit;
   fit.columns = columns;
@@ -216,11 +240,14 @@ GapScreen::Fit GapScreen::Solve(const std::vector<int>& columns) const {
   const Eigen::LLT<MatrixXd> factor(G);
   fit.coefficients = factor.solve(g);
   fit.covariance = factor.solve(MatrixXd::Identity(size, size));
-  fit.drop = g.dot(fit.coefficients);
+  fit.delta_chi2 = g.dot(fit.coefficients);
   return fit;
 }
 
-double GapScreen::DropOf(const std::vector<JointRows>& columns) const {
+// Delta chi^2 of columns that are not among those of the screen: their Gram
+// matrix and gradient are projected here, once, by the baseline's factor. A
+// ridge of 1e-9 keeps columns that are the same from dividing by nothing.
+double GapScreen::DeltaChi2Of(const std::vector<JointRows>& columns) const {
   const int size = static_cast<int>(columns.size());
   MatrixXd G = MatrixXd::Zero(size, size);
   MatrixXd cross = MatrixXd::Zero(baseline_.size(), size);
@@ -237,9 +264,9 @@ double GapScreen::DropOf(const std::vector<JointRows>& columns) const {
     }
   }
   G.diagonal() *= 1 + 1e-9;
-  const MatrixXd beside = baseline_.factor().Solve(cross);
-  G -= cross.transpose() * beside;
-  g -= beside.transpose() * baseline_.gradient();
+  const MatrixXd absorbed = baseline_.factor().Solve(cross);
+  G -= cross.transpose() * absorbed;
+  g -= absorbed.transpose() * baseline_.gradient();
   return g.dot(G.ldlt().solve(g));
 }
 
@@ -276,6 +303,9 @@ double GapScreen::PriorCost(const Fit& fit) const {
          baseline_.KnownResidual(x).squaredNorm();
 }
 
+// ln det of the information on baseline and columns together, by the
+// determinant of a partitioned matrix: ln det A' A + ln det G_SS, the latter
+// from the covariance's.
 double GapScreen::LogDeterminant(const Fit& fit) const {
   const double sum = baseline_.factor().LogDeterminant();
   if (fit.columns.empty()) return sum;

@@ -15,7 +15,7 @@ namespace armcal {
 // absorb (Frisch and Waugh 1933; Plumlee 2017: a discrepancy orthogonal to the
 // model), so that whatever is asked afterwards needs the small matrices G and g
 // only:
-//   drop of chi^2 by a set S of candidate columns = g_S' G_SS^-1 g_S.
+//   delta chi^2 of a set S of candidate columns = g_S' G_SS^-1 g_S.
 // Copies share rows.
 class GapScreen {
  public:
@@ -72,31 +72,31 @@ class GapScreen {
     std::vector<int> columns;
     Eigen::VectorXd coefficients;
     Eigen::MatrixXd covariance;  // of them, baseline free
-    double drop = 0;             // of chi^2 against the baseline alone
+    double delta_chi2 = 0;       // against the baseline alone
   };
   Fit Solve(const std::vector<int>& columns) const;
-  // Drop of chi^2 by columns that are not among those of the screen.
-  double DropOf(const std::vector<JointRows>& columns) const;
+  // Delta chi^2 of columns that are not among those of the screen.
+  double DeltaChi2Of(const std::vector<JointRows>& columns) const;
   // Estimates of the baseline with these columns fitted.
   Eigen::VectorXd Baseline(const Fit& fit) const;
   // Whitened residual of joint j.
   Eigen::VectorXd Residual(int joint, const Fit& fit) const;
-  // The baseline that fits best beside a torque (whitened, per joint).
-  Eigen::VectorXd BaselineBeside(const JointRows& torque) const {
-    return baseline_.Beside(torque);
+  // The baseline that fits best given a torque (whitened, per joint).
+  Eigen::VectorXd BaselineGiven(const JointRows& torque) const {
+    return baseline_.ValuesGiven(torque);
   }
   // The same of its first `columns` alone, 0 for the others.
-  Eigen::VectorXd BaselineBeside(const JointRows& torque, int columns) const {
-    return baseline_.Beside(torque, columns);
+  Eigen::VectorXd BaselineGiven(const JointRows& torque, int columns) const {
+    return baseline_.ValuesGiven(torque, columns);
   }
   // What that leaves, all joints, the prior's and other data's share included:
   // its squared norm is chi^2.
-  Eigen::VectorXd ResidualBeside(const JointRows& torque) const {
-    return baseline_.ResidualBeside(torque);
+  Eigen::VectorXd ResidualGiven(const JointRows& torque) const {
+    return baseline_.ResidualGiven(torque);
   }
   // Joint j's rows of a column, less what the baseline absorbs of it.
   Eigen::VectorXd Projected(int column, int joint) const;
-  // Of chi^2: what the baseline's values beside `fit` cost by their prior and
+  // Of chi^2: what the baseline's values given `fit` cost by their prior and
   // other data.
   double PriorCost(const Fit& fit) const;
   // ln det of the information on the baseline and the columns of `fit`.

@@ -7,7 +7,7 @@ namespace armcal {
 using Eigen::VectorXd;
 
 VectorXd UsualTorque(const std::vector<GapSegment>& segments,
-                     bool of_made_torques) {
+                     bool of_reconstructed_torques) {
   double samples = 0;
   VectorXd sum;
   for (const GapSegment& segment : segments) {
@@ -15,7 +15,7 @@ VectorXd UsualTorque(const std::vector<GapSegment>& segments,
     for (int k = 0; k < segment.size(); ++k) {
       if (segment.IsLost(segment.motion.time(k))) continue;
       ++samples;
-      if (of_made_torques && !segment.made_torque) continue;
+      if (of_reconstructed_torques && !segment.reconstructed_torque) continue;
       sum += segment.tau.row(k).cwiseAbs2().transpose();
     }
   }

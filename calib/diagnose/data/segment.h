@@ -26,14 +26,14 @@ struct GapSegment {
   // interval to the value of sliding; samples x n, empty: nowhere.
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> breaks_away;
 
-  bool made_torque = false;    // of commands, by the law of the drives
-  bool torque_drifts = false;  // torque_drift.h
+  bool reconstructed_torque = false;  // of commands, by the law of the drives
+  bool torque_drifts = false;         // torque_drift.h
   // A draw of the positions' noise and of what it makes of such torques,
   // samples x n; empty: none.
   Eigen::MatrixXd position_noise, torque_noise;
   // Where rows were lost, or a loop its stability (torque_bursts.h): neither
-  // the motion nor a torque made of it is as good there. Of recorded torques,
-  // whose noise is larger, none.
+  // the motion nor a torque reconstructed from it is as good there. Of recorded
+  // torques, whose noise is larger, none.
   std::vector<TimeRange> lost;
 
   int size() const { return motion.size(); }
@@ -48,11 +48,12 @@ struct GapSegment {
 };
 
 // rms of the torque, n entries, N m or N, where rows are not lost;
-// `of_made_torques`: with recorded ones as 0.
+// `of_reconstructed_torques`: with recorded ones as 0.
 Eigen::VectorXd UsualTorque(const std::vector<GapSegment>& segments,
-                            bool of_made_torques = false);
+                            bool of_reconstructed_torques = false);
 
-// Whether their torques, if any, were made of commands, with a draw of noise.
+// Whether their torques, if any, were reconstructed from commands, with a draw
+// of noise.
 bool HaveNoiseOfPositions(const std::vector<GapSegment>& segments);
 
 }  // namespace armcal

@@ -49,8 +49,9 @@ void AppendCore(const Trajectory& trajectory, GapSegment* segment) {
              &motion.temperature);
 }
 
-// Rows of x, of the times t (two or more), at the motion's samples; between
-// rows, and as the nearest beyond their ends.
+// Rows of x, of the times t (two or more), at the motion's samples:
+// interpolated linearly between rows, and as the nearest beyond their ends.
+// Both ascend, so that one index goes forwards.
 MatrixXd AtSamples(const VectorXd& t, const MatrixXd& x, const Motion& motion) {
   MatrixXd at(motion.size(), x.cols());
   Eigen::Index k = 1;
@@ -76,18 +77,18 @@ VectorXd StampErrors(const std::vector<StampError>& errors,
                           kSmoothStampHz);
 }
 
-// What makes a made torque wrong, low-passed as motion and torque are.
-void AddErrors(const MadeTorque& made, double bandwidth_hz,
+// What makes a reconstructed torque wrong, low-passed as motion and torque are.
+void AddErrors(const ReconstructedTorque& reconstructed, double bandwidth_hz,
                GapSegment* segment) {
-  if (made.t.size() < 2) return;
+  if (reconstructed.t.size() < 2) return;
   Motion& motion = segment->motion;
   const auto smooth = [&](const MatrixXd& x) {
-    return ZeroPhaseLowPass(AtSamples(made.t, x, motion), 1 / motion.dt,
-                            MotionBandwidth(bandwidth_hz));
+    return ZeroPhaseLowPass(AtSamples(reconstructed.t, x, motion),
+                            1 / motion.dt, MotionBandwidth(bandwidth_hz));
   };
-  segment->position_noise = smooth(made.position_noise);
-  segment->torque_noise = smooth(made.torque_noise);
-  motion.torque_by_rate = smooth(made.by_rate);
+  segment->position_noise = smooth(reconstructed.position_noise);
+  segment->torque_noise = smooth(reconstructed.torque_noise);
+  motion.torque_by_rate = smooth(reconstructed.by_rate);
 }
 
 // Joint by joint, on positions that are smooth already.
@@ -97,9 +98,9 @@ void FindStillJoints(const MatrixXd& velocity, GapSegment* segment) {
   const int reach =
       static_cast<int>(std::ceil(kStandstillMeanTime / 2 / motion.dt));
   // Drives creep for a while when their command has come to rest: a torque that
-  // was made of it is more certain than what friction is there.
+  // was reconstructed from it is more certain than what friction is there.
   const double speed =
-      segment->made_torque ? Limits().creep_speed : kStandstillSpeed;
+      segment->reconstructed_torque ? Limits().creep_speed : kStandstillSpeed;
   for (int j = 0; j < motion.num_joints(); ++j) {
     segment->still.col(j) =
         FindStandstill(velocity.col(j), motion.dt, reach, speed)
@@ -109,9 +110,9 @@ void FindStillJoints(const MatrixXd& velocity, GapSegment* segment) {
 }
 
 // Joint by joint, once it is known where they stand still. A log that begins
-// without motion began in a rest. Torques that were made of commands tell of
-// friction by how far it keeps drives from these, which is most when a joint
-// leaves a rest.
+// without motion began in a rest. Torques that were reconstructed from commands
+// tell of friction by how far it keeps drives from these, which is most when a
+// joint leaves a rest.
 void FindBreakaway(const MatrixXd& velocity, GapSegment* segment) {
   const Motion& motion = segment->motion;
   segment->breaks_away.setConstant(motion.size(), motion.num_joints(), false);
@@ -132,6 +133,11 @@ void FindBreakaway(const MatrixXd& velocity, GapSegment* segment) {
 
 }  // namespace
 
+// Trajectories that a log yields, smoothed at kMotionBandwidth times the
+// bandwidth and cut where rows are missing, with what the diagnosis has to know
+// of them: where each joint stands still, where it breaks away from a rest,
+// what makes a reconstructed torque wrong, and which times are not to be
+// believed. Segments that are too short for one run have no part in it.
 std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                                      const Progress& progress,
                                      const LogSet& logs) {
@@ -152,9 +158,10 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
                  if (index != log || trajectory.segment != part) {
                    segments.emplace_back();
                    segments.back().log = log = index;
-                   if (const MadeTorque* made = logs.made_torque(index)) {
-                     segments.back().made_torque = true;
-                     segments.back().torque_drifts = made->drifts;
+                   if (const ReconstructedTorque* reconstructed =
+                           logs.reconstructed_torque(index)) {
+                     segments.back().reconstructed_torque = true;
+                     segments.back().torque_drifts = reconstructed->drifts;
                      segments.back().lost = logs.time_bases()[index].gaps;
                    }
                    part = trajectory.segment;
@@ -169,9 +176,10 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
   for (GapSegment& segment : segments) {
     const MatrixXd velocity = MeanVelocity(segment.motion.q, segment.motion.dt);
     FindStillJoints(velocity, &segment);
-    if (!segment.made_torque) FindBreakaway(velocity, &segment);
-    if (const MadeTorque* made = logs.made_torque(segment.log)) {
-      AddErrors(*made, bandwidth_hz, &segment);
+    if (!segment.reconstructed_torque) FindBreakaway(velocity, &segment);
+    if (const ReconstructedTorque* reconstructed =
+            logs.reconstructed_torque(segment.log)) {
+      AddErrors(*reconstructed, bandwidth_hz, &segment);
     }
     for (const TimeRange& burst :
          TimesOf(FindTorqueBursts(segment, bandwidth_hz))) {

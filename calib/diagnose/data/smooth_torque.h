@@ -7,8 +7,8 @@ namespace armcal {
 
 // A segment's torque without its noise, which a regressor of what the torque
 // itself says must not hold. Recorded torques are low-passed at 3 Hz; those
-// made of positions as far up as they stand well above what the positions'
-// noise makes of them.
+// reconstructed from positions as far up as they stand well above what the
+// positions' noise makes of them.
 SmoothTorque SmoothTorqueOf(const GapSegment& segment);
 
 }  // namespace armcal

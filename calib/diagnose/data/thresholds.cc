@@ -16,9 +16,10 @@ const std::vector<ThresholdInfo> kAll = {
      "How far torque may lag behind position where a reference tells by "
      "how much",
      Kind::kTuned, "a UR10e whose torque is 18 ms late, three times that"},
-    {"reversal_of_made_torques", &T::reversal_of_made_torques, "s",
-     "When friction changes sign, beside a velocity whose low pass takes "
-     "a stop for a turn; torques made of commands",
+    {"reversal_of_reconstructed_torques", &T::reversal_of_reconstructed_torques,
+     "s",
+     "When friction changes sign, against a velocity whose low pass takes "
+     "a stop for a turn; reconstructed torques",
      Kind::kTuned, "the 618 cases of seed 850757257, after their evaluation"},
     {"reversal_width", &T::reversal_width, "rad/s",
      "Speed over which friction changes sign (0.3 of it in m/s), where "
@@ -30,40 +31,42 @@ const std::vector<ThresholdInfo> kAll = {
     {"offset_share", &T::offset_share, "usual torque",
      "How well a torque's zero is known", Kind::kTuned,
      "nothing that was noted, on 2026-11-20"},
-    {"reversal_doubt", &T::reversal_doubt, "prior deviation",
-     "Of the ways through zero velocity, how much of them is doubt of "
-     "the samples next to it",
+    {"reversal_extra_stddev", &T::reversal_extra_stddev, "prior deviation",
+     "Of the ways through zero velocity, how much of them is an extra "
+     "deviation of the samples next to it",
      Kind::kTuned, "107 calibration cases of seed 301 and a UR10e"},
-    {"made_torque_doubt", &T::made_torque_doubt, "usual torque",
-     "How well torques made of commands are known, at best", Kind::kTuned,
+    {"reconstructed_torque_stddev", &T::reconstructed_torque_stddev,
+     "usual torque", "How well reconstructed torques are known, at best",
+     Kind::kTuned,
      "the 618 cases of seed 850757257, after their evaluation, and seed 93: "
      ".005 and .002 were tried"},
     // What models lack as a rule
-    {"lacked", &T::lacked, "usual torque",
+    {"discrepancy", &T::discrepancy, "usual torque",
      "Torque of position, of the joint's load, and of all positions and "
      "velocities, rms each",
      Kind::kTuned,
      "90 simulated arms with and without misfit, and a KR300, a TX40 and "
      "a UR10e"},
-    {"lacked_of_sign", &T::lacked_of_sign, "usual torque",
+    {"discrepancy_of_sign", &T::discrepancy_of_sign, "usual torque",
      "Torque of position that turns with the direction of motion, and "
      "torque of time, rms each",
      Kind::kTuned,
      "90 simulated arms with and without misfit, and a KR300, a TX40 and "
      "a UR10e"},
-    {"least_lacked", &T::least_lacked, "lacked torque",
+    {"least_discrepancy", &T::least_discrepancy, "discrepancy",
      "The best of models lack no less than this share of it: a smaller effect "
      "is none",
      Kind::kDefinition, "the smallest discrepancy that a log can ask for"},
-    {"lacked_friction_curve", &T::lacked_friction_curve, "Coulomb friction",
-     "How far its curve over speed may differ", Kind::kTuned,
+    {"discrepancy_friction_curve", &T::discrepancy_friction_curve,
+     "Coulomb friction", "How far its curve over speed may differ",
+     Kind::kTuned,
      "90 simulated arms with and without misfit, and a KR300, a TX40 and "
      "a UR10e"},
-    {"lacked_cycles", &T::lacked_cycles, "1 per turn",
+    {"discrepancy_cycles", &T::discrepancy_cycles, "1 per turn",
      "Cycles over position, rms; higher ones are smaller", Kind::kTuned,
      "90 simulated arms with and without misfit, and a KR300, a TX40 and "
      "a UR10e"},
-    {"lacked_state_frequency", &T::lacked_state_frequency, "1",
+    {"discrepancy_state_frequency", &T::discrepancy_state_frequency, "1",
      "rms rad per unit of a state's standard deviation", Kind::kTuned,
      "90 simulated arms with and without misfit, and a KR300, a TX40 and "
      "a UR10e"},
@@ -94,16 +97,16 @@ const std::vector<ThresholdInfo> kAll = {
     {"repeat_tolerance", &T::repeat_tolerance, "rms motion",
      "Motion is the same again within this share", Kind::kTuned,
      "nothing that was noted, on 2026-11-20"},
-    {"doubt_of_noise", &T::doubt_of_noise, "variance",
+    {"extra_variance_of_noise", &T::extra_variance_of_noise, "variance",
      "By what share the noise told from repeats, a reference or "
      "positions may be larger",
      Kind::kTuned,
      "107 calibration cases of seed 301; 250 independent rows tell a variance "
      "so well"},
-    {"doubt_of_rest", &T::doubt_of_rest, "variance",
+    {"extra_variance_of_rest", &T::extra_variance_of_rest, "variance",
      "The same of what was told at rest: motion adds clocks and encoders",
      Kind::kTuned, "107 calibration cases of seed 301"},
-    {"doubt_of_residual", &T::doubt_of_residual, "variance",
+    {"extra_variance_of_residual", &T::extra_variance_of_residual, "variance",
      "The same of what a refit leaves", Kind::kTuned,
      "107 calibration cases of seed 301"},
     {"creep_speed", &T::creep_speed, "rad/s or m/s",
@@ -136,18 +139,19 @@ const std::vector<ThresholdInfo> kAll = {
      "handguided log of a pendulum, and logs with torques"},
     // Choice
     {"score", &T::score, "chi^2",
-     "An effect's drop of chi^2 less its price has to exceed it", Kind::kTuned,
+     "An effect's delta chi^2 less its penalty has to exceed it", Kind::kTuned,
      "the misses and false alarms of calibration cases of seeds 303 and 304: "
      "25 before"},
-    {"same_joint_share", &T::same_joint_share, "drop",
+    {"same_joint_share", &T::same_joint_share, "delta_chi2",
      "One more effect on a joint has to explain this share of the "
-     "strongest's drop: laws' forms are never quite right",
+     "strongest's delta chi^2: laws' forms are never quite right",
      Kind::kTuned, "a prototype's simulated arm of six joints"},
-    {"other_joint_share", &T::other_joint_share, "drop", "The same elsewhere",
-     Kind::kTuned, "a prototype's simulated arm of six joints"},
+    {"other_joint_share", &T::other_joint_share, "delta_chi2",
+     "The same elsewhere", Kind::kTuned,
+     "a prototype's simulated arm of six joints"},
     {"most_effects", &T::most_effects, "effects", "More are not chosen",
      Kind::kDefinition, "what a report can hold"},
-    {"near_zero_price", &T::near_zero_price, "chi^2",
+    {"near_zero_penalty", &T::near_zero_penalty, "chi^2",
      "More for laws that act next to zero velocity only, where models of "
      "friction err",
      Kind::kTuned,
@@ -217,8 +221,8 @@ const std::vector<ThresholdInfo> kAll = {
     {"likely_unseen", &T::likely_unseen, "1",
      "The same of what held-out data do not show", Kind::kTuned,
      "the 618 cases of seed 567429353, after their evaluation"},
-    {"form_error", &T::form_error, "drop",
-     "What the form of a law may have wrong of its drop", Kind::kTuned,
+    {"form_error", &T::form_error, "delta_chi2",
+     "What the form of a law may have wrong of its delta chi^2", Kind::kTuned,
      "cases 938 and 426 of seed 962768770, after their evaluation"},
     {"visible", &T::visible, "chi^2",
      "Held-out data that should have more of an effect contradict it "
@@ -240,7 +244,7 @@ const std::vector<ThresholdInfo> kAll = {
     {"untold", &T::untold, "1",
      "What held-out data cannot tell is at most this probable", Kind::kLaw,
      "indifference"},
-    {"tells", &T::tells, "drop",
+    {"tells", &T::tells, "delta_chi2",
      "A joint that has less of a delay tells nothing of it", Kind::kTuned,
      "calibration cases of seeds 3301 and 3302 and the building sets of real "
      "robots"},

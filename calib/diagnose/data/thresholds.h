@@ -14,20 +14,20 @@ namespace armcal {
 struct Thresholds {
   // What the model may vary
   double timing_with_reference = .05;
-  double reversal_of_made_torques = .005;
+  double reversal_of_reconstructed_torques = .005;
   double reversal_width = 6e-3;
   double width_mixture = .5;
   double offset_share = .02;
-  double reversal_doubt = .3;
-  double made_torque_doubt = .001;
+  double reversal_extra_stddev = .3;
+  double reconstructed_torque_stddev = .001;
 
   // What models lack as a rule
-  double lacked = .01;
-  double lacked_of_sign = .005;
-  double least_lacked = .1;
-  double lacked_friction_curve = .1;
-  double lacked_cycles = 4;
-  double lacked_state_frequency = .6;
+  double discrepancy = .01;
+  double discrepancy_of_sign = .005;
+  double least_discrepancy = .1;
+  double discrepancy_friction_curve = .1;
+  double discrepancy_cycles = 4;
+  double discrepancy_state_frequency = .6;
 
   // From day to day
   double told_of_day = .8;
@@ -39,9 +39,9 @@ struct Thresholds {
   double shortest_period = 2;
   double ends_without_repeat = .12;
   double repeat_tolerance = .01;
-  double doubt_of_noise = .25;
-  double doubt_of_rest = 1;
-  double doubt_of_residual = 2;
+  double extra_variance_of_noise = .25;
+  double extra_variance_of_rest = 1;
+  double extra_variance_of_residual = 2;
   double creep_speed = .004;
   double smooth_power = 1000;
   double burst = 1;
@@ -55,7 +55,7 @@ struct Thresholds {
   double same_joint_share = .03;
   double other_joint_share = .004;
   double most_effects = 3;
-  double near_zero_price = 20;
+  double near_zero_penalty = 20;
   double chance_quantile = .99;
   double block = 2;
 

@@ -52,10 +52,15 @@ double Middle(const std::vector<Second>& seconds, double Second::*value) {
 
 }  // namespace
 
+// A loop that rings, or lost its stability for a moment, has torque above the
+// bandwidth which the motion does not ask for. Second by second, joint by
+// joint, that torque is compared with what is usual for the joint
+// (Limits().burst) and with what its own seconds usually have up there
+// (burst_over_fast): a joint that always swings is its own measure.
 std::vector<TorqueBurst> FindTorqueBursts(const GapSegment& segment,
                                           double bandwidth_hz) {
   std::vector<TorqueBurst> bursts;
-  if (!segment.made_torque || bandwidth_hz <= 0) return bursts;
+  if (!segment.reconstructed_torque || bandwidth_hz <= 0) return bursts;
   const Motion& motion = segment.motion;
   const MatrixXd fast =
       segment.tau - ZeroPhaseLowPass(segment.tau, 1 / motion.dt, bandwidth_hz);
@@ -84,6 +89,8 @@ std::vector<TimeRange> TimesOf(const std::vector<TorqueBurst>& bursts) {
   return times;
 }
 
+// What a report says of them: the joint and the second that stand out most from
+// the joint's usual torque, in words that name what was not judged by.
 std::vector<DataFinding> TellTorqueBursts(
     const Robot& robot, const std::vector<GapSegment>& segments,
     double bandwidth_hz) {

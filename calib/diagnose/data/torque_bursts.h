@@ -16,7 +16,7 @@ struct TorqueBurst {
 };
 
 // Seconds in which a loop was next to losing its stability, or lost it: its
-// torque, made of positions that swing faster than what is judged
+// torque, reconstructed from positions that swing faster than what is judged
 // (`bandwidth_hz`), is as large as that of a motion, up to thousands of times,
 // and whatever such a second says, a delay's or a gain's, would drown the rest
 // of the log. Of recorded torques, which drives limit, there are none.

@@ -17,6 +17,8 @@ namespace {
 // Three standard deviations of a normal variable, both sides.
 constexpr double kChance = .0027;
 
+// The tail probability of chi squared with `freedom` degrees below that of
+// three standard deviations of a normal variable.
 bool IsMoreThanChance(double chi_squared, int freedom) {
   const boost::math::chi_squared chance(freedom);
   return boost::math::cdf(boost::math::complement(chance, chi_squared)) <
@@ -24,7 +26,7 @@ bool IsMoreThanChance(double chi_squared, int freedom) {
 }
 
 // What was chosen as columns that come one after the other, without the
-// baseline's own delay of all joints: beside that no joint would see one, only
+// baseline's own delay of all joints: given that no joint would see one, only
 // its prior would tell that it is too large.
 GapScreen WithoutTiming(const GapFit& fit) {
   GapScreen screen =
@@ -43,10 +45,19 @@ GapScreen WithoutTiming(const GapFit& fit) {
 }  // namespace
 
 bool Agreement::Differ(double form) const {
-  return freedom > 0 && chi_squared > form * drop &&
+  return freedom > 0 && chi_squared > form * delta_chi2 &&
          IsMoreThanChance(chi_squared, freedom);
 }
 
+// The fit of all chosen effects has one size x of the k-th for all joints. With
+// P_j its projected columns on joint j and r_j what all effects leave there,
+// joint j by itself would have the size x + d_j,
+//   d_j = (P_j' P_j)^-1 P_j' r_j,
+// and the fit would be better by d_j' P_j' P_j d_j = (P_j' r_j)' d_j. Their sum
+// is chi squared of (joints - 1) times as many degrees as there are columns
+// where all joints have the same size: Cochran's Q of a meta-analysis (1954). A
+// joint with less than Limits().tells of the effect's squared torque has no
+// say. A ridge of 1e-9 keeps joints solvable that have one of two columns only.
 Agreement AgreementOn(const GapFit& fit, size_t k) {
   const GapScreen screen = WithoutTiming(fit);
   const std::vector<int>& chosen = fit.selection().chosen;
@@ -74,7 +85,7 @@ Agreement AgreementOn(const GapFit& fit, size_t k) {
     agreement.moving += screen.num_rows(j) > 0;
     MatrixXd information = rows[j].transpose() * rows[j];
     information.diagonal().array() += 1e-9 * information.trace() + 1e-12;
-    agreement.drop += x.dot(information * x);
+    agreement.delta_chi2 += x.dot(information * x);
     const VectorXd wanted = rows[j].transpose() * screen.Residual(j, all);
     const VectorXd further = information.ldlt().solve(wanted);
     const VectorXd alone = x + further;

@@ -11,23 +11,24 @@ namespace armcal {
 // How far they are from it is, of chi^2, by what each would rather have it,
 // rows whitened as the evidence is,
 //   chi_squared = sum_j r_j' P_j (P_j' P_j)^-1 P_j' r_j,
-// r_j joint j's residual beside all effects, P_j its rows of this one's
+// r_j joint j's residual given all effects, P_j its rows of this one's
 // columns, the baseline free but for the delay of all joints that it has
-// itself: beside that one, a delay would show in no joint. `drop`: what it
-// explains of chi^2 so, sum_j x' P_j' P_j x of its sizes x. `freedom`: of the
-// chi squared that this is where joints agree; 0 where one joint alone tells.
+// itself: with that one free, a delay would show in no joint. `delta_chi2`:
+// what it explains of chi^2 so, sum_j x' P_j' P_j x of its sizes x. `freedom`:
+// of the chi squared that this is where joints agree; 0 where one joint alone
+// tells.
 //
 // A joint that has the columns' sizes x_j = x + (P_j' P_j)^-1 P_j' r_j by
 // itself sees the effect where x_j' P_j' P_j x_j is more than chance.
 struct Agreement {
   double chi_squared = 0;
-  double drop = 0;
+  double delta_chi2 = 0;
   int freedom = 0;
   int moving = 0;   // joints with rows
   int seen_by = 0;  // joints
 
   // Whether they differ by more than chance (three standard deviations), and by
-  // more than `form`: what of its drop an effect's form may have wrong.
+  // more than `form`: what of its delta chi^2 an effect's form may have wrong.
   bool Differ(double form) const;
   // Whether one joint alone sees what all that move should.
   bool IsOfOneJoint() const { return moving > 1 && seen_by < 2; }

@@ -11,11 +11,11 @@ bool IsLikely(const FoundEffect& found) {
   return found.probability >= Limits().likely;
 }
 
-bool IsNeeded(const FoundEffect& found, double variance_doubt) {
-  const bool has_gap = !(found.gap < 1 - variance_doubt);
+bool IsNeeded(const FoundEffect& found, double extra_variance) {
+  const bool has_gap = !(found.gap < 1 - extra_variance);
   const bool is_seen = IsSeenAgain(found) && !SwingsInTime(*found.effect);
   return (has_gap || is_seen) &&
-         found.size >= Limits().least_lacked * Limits().lacked;
+         found.size >= Limits().least_discrepancy * Limits().discrepancy;
 }
 
 bool IsBeyondScatter(const FoundEffect& found) {
@@ -25,7 +25,7 @@ bool IsBeyondScatter(const FoundEffect& found) {
 bool IsSeenAgain(const FoundEffect& found) {
   const Confirmation& confirmation = found.evidence.confirmation;
   return confirmation.IsTold() ? confirmation.Share() > Limits().seen_again
-                               : found.evidence.shrinks;
+                               : found.evidence.removes_gap;
 }
 
 bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
@@ -43,7 +43,8 @@ bool IsPossible(const FoundEffect& found) {
 bool IsContradicted(const FoundEffect& found) {
   const Confirmation& confirmation = found.evidence.confirmation;
   return confirmation.expected >
-             std::max(Limits().visible, Limits().form_error * found.drop) &&
+             std::max(Limits().visible,
+                      Limits().form_error * found.delta_chi2) &&
          confirmation.explained < 0 && found.evidence.gain < Limits().helps;
 }
 

@@ -15,7 +15,7 @@ bool IsLikely(const FoundEffect& found);
 // as well (what is far below white noise is seen all the same; but what swings
 // in time has its phase from each log, and is no confirmation); and its torque
 // is not smaller than what the best of models lack.
-bool IsNeeded(const FoundEffect& found, double variance_doubt);
+bool IsNeeded(const FoundEffect& found, double extra_variance);
 
 // Whether it is more than the reference's logs differ by among each other.
 bool IsBeyondScatter(const FoundEffect& found);
@@ -34,8 +34,8 @@ bool IsPossible(const FoundEffect& found);
 
 // Whether held-out data should show it, and have neither chi^2 nor the mean
 // square lower with it. A form that is a little too large raises chi^2 alone;
-// and what is small beside what it explained where it was fitted may be what
-// its form has wrong.
+// and what is small compared to what it explained where it was fitted may be
+// what its form has wrong.
 bool IsContradicted(const FoundEffect& found);
 
 // Whether it is told as an effect; what is not is a candidate. It has to be

@@ -6,6 +6,10 @@
 
 namespace armcal {
 
+// Where the share s of what is predicted is there, `explained` is N((2 s - 1)
+// E, 4 E) with E = expected: chi squared falls by s^2 E - (1 - s)^2 E, and the
+// noise along the effect has the variance 4 E. Of u = 2 s - 1, with N(0, 1)
+// before, the posterior mean is explained / (E + 4).
 double Confirmation::Share() const {
   return std::clamp(explained / (expected + Limits().confirmation), -1., 1.);
 }

@@ -18,7 +18,7 @@ struct Confirmation {
   bool IsTold() const { return expected > 1; }
 };
 
-// From whitened residuals per joint with and without the effect, each beside
+// From whitened residuals per joint with and without the effect, each given
 // the baseline that was fitted so.
 Confirmation Confirm(const PredictedChi2& chi2, const JointRows& without,
                      const JointRows& with);

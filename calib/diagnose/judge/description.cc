@@ -10,6 +10,9 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Estimates of an effect in the units of a report, with standard deviations by
+// the delta method (EstimateDeviations) from the covariance of its fitted
+// parameters.
 void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
                     const MatrixXd& covariance, FoundEffect* found) {
   const EffectSite site = {&fit.baseline().robot(), effect.joint, &fit.scale()};
@@ -23,6 +26,11 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
   found->stddev.insert(found->stddev.end(), stddev.begin(), stddev.end());
 }
 
+// A missing term's values are those of the model with the effects, told for the
+// joints where the data have narrowed its prior: covariance(c, c) is the
+// posterior variance in units of the prior's, and one near 1 is the prior
+// itself. A torque scale that is known to a share adds that share of the value
+// to its deviation.
 void DescribeMissingTerm(const GapFit& fit, const MatrixXd& covariance,
                          FoundEffect* found) {
   const GapBaseline& baseline = fit.baseline();
@@ -45,6 +53,7 @@ void DescribeMissingTerm(const GapFit& fit, const MatrixXd& covariance,
   }
 }
 
+// The parameters of all effects stand one after the other in the covariance.
 MatrixXd CovarianceOf(const RefinedEffects& refined, size_t k) {
   Eigen::Index begin = 0;
   for (size_t i = 0; i < k; ++i) begin += refined.effects[i].p.size();

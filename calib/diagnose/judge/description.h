@@ -16,7 +16,7 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
                     const Eigen::MatrixXd& covariance, FoundEffect* found);
 
 // Adds each joint's value of a term that the file gives no joint, as it is
-// beside the fit's effects, whose torque a fit without them had taken for it.
+// given the fit's effects, whose torque a fit without them had taken for it.
 // A joint that does not show it has none. `covariance`: of the baseline.
 void DescribeMissingTerm(const GapFit& fit, const Eigen::MatrixXd& covariance,
                          FoundEffect* found);

@@ -38,7 +38,9 @@ constexpr double kMostOdds = 12;  // to have a number where there is no rival
 
 double Logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
-// Of mean squares beyond the noise's: after the effects, over before.
+// Which share of the held-out gap all effects leave, of one joint or of all:
+// the mean squares beyond the noise's after over before. rms are in units of
+// the noise's standard deviation, so that rms^2 - 1 is the gap.
 double LeftOf(const GapFigures& figures, int joint) {
   double after = 0, before = 0;
   for (int j = 0; j < figures.joints.rows(); ++j) {
@@ -53,14 +55,17 @@ double LeftOf(const GapFigures& figures, int joint) {
 
 }  // namespace
 
+// What is said of all effects alike: how many were chosen, and how well the
+// best candidate that was not chosen scores, which tells whether something is
+// still missing.
 GapEvidence::GapEvidence(const GapFit& fit, const HeldOut& held_out,
                          const GapFigures& figures)
     : fit_(fit), held_out_(held_out), figures_(figures) {
-  common_.chosen =
-      static_cast<int>(fit.selection().drops.size()) + !fit.events().empty();
+  common_.chosen = static_cast<int>(fit.selection().delta_chi2.size()) +
+                   !fit.events().empty();
   common_.next = std::max(
-      0., ScoresBeside(fit.screen(), fit.candidates(), fit.selection_options(),
-                       fit.selection().chosen, -1)
+      0., ScoresGiven(fit.screen(), fit.candidates(), fit.selection_options(),
+                      fit.selection().chosen, -1)
               .maxCoeff());
 }
 
@@ -72,6 +77,16 @@ bool GapEvidence::IsBeside(size_t i, size_t k) const {
          !HasMean(*other.effect, *one.effect);
 }
 
+// `odds` is the log odds of this effect at this place against the next best
+// one, by a softmax of scores at the temperature T: scores are on the scale of
+// chi squared, of which half is a log likelihood, and T corrects that neither
+// noise nor forms are as a score assumes. `strength` is ln(delta_chi2).
+// `stronger` and `stronger_beside` count what could have made this one by an
+// error of its form. With held-out data there are two more: by how much the
+// mean square falls without noise being modelled, and what the posterior
+// predicts of the effect there (Confirmation). `removes_gap` is asked where the
+// effect is the only one, since the interval of the removed share is that of
+// all of them together.
 EffectEvidence GapEvidence::ForEffect(
     size_t k, const std::vector<PlacedEffect>& all) const {
   EffectEvidence evidence = common_;
@@ -84,11 +99,11 @@ EffectEvidence GapEvidence::ForEffect(
   }
   evidence.odds = std::clamp((own - others) / (2 * Limits().temperature),
                              -kMostOdds, kMostOdds);
-  evidence.strength = std::log(std::max(1., fit_.selection().drops[k]));
-  const std::vector<double>& drops = fit_.selection().drops;
-  for (size_t i = 0; i < drops.size(); ++i) {
+  evidence.strength = std::log(std::max(1., fit_.selection().delta_chi2[k]));
+  const std::vector<double>& delta_chi2 = fit_.selection().delta_chi2;
+  for (size_t i = 0; i < delta_chi2.size(); ++i) {
     evidence.beside += IsBeside(i, k);
-    if (i == k || drops[i] <= drops[k]) continue;
+    if (i == k || delta_chi2[i] <= delta_chi2[k]) continue;
     ++evidence.stronger;
     evidence.stronger_beside += fit_.rows().num_joints() > 1 && IsBeside(i, k);
   }
@@ -98,25 +113,33 @@ EffectEvidence GapEvidence::ForEffect(
   evidence.gain = merit.gain;
   evidence.confirmation = merit.confirmation;
   evidence.left = LeftOf(figures_, effect.joint);
-  evidence.shrinks = fit_.refined().effects.size() == 1 && figures_.ci95[0] > 0;
+  evidence.removes_gap =
+      fit_.refined().effects.size() == 1 && figures_.ci95[0] > 0;
   return evidence;
 }
 
+// Events are told as one effect: their delta_chi2 add up, being of different
+// samples, and the strongest one says how much of it a single joint feels.
+// There is no rival that comes and goes, so that the odds are the largest ones.
 EffectEvidence GapEvidence::ForEvents() const {
   EffectEvidence evidence = common_;
-  double drop = 0, most = 0;
+  double delta_chi2 = 0, most = 0;
   for (const GapEvent& event : fit_.events()) {
-    drop += event.drop;
-    if (event.drop <= most) continue;
-    most = event.drop;
+    delta_chi2 += event.delta_chi2;
+    if (event.delta_chi2 <= most) continue;
+    most = event.delta_chi2;
     evidence.one_joint = event.one_joint;
   }
   evidence.odds = kMostOdds;
-  evidence.strength = std::log(std::max(1., drop));
+  evidence.strength = std::log(std::max(1., delta_chi2));
   evidence.events = static_cast<int>(fit_.events().size());
   return evidence;
 }
 
+// A logistic regression, log(P / (1 - P)) = w' e (Hosmer and Lemeshow 2000),
+// whose weights were fitted to which claims of the calibration cases were
+// right. `rest` is ln(1 + next) - ln(delta_chi2): how much could still be
+// there, over how much this one explains.
 double ProbabilityOf(const EffectEvidence& e) {
   const double rest = std::log1p(e.next) - e.strength;
   if (e.events > 0) {
@@ -136,12 +159,17 @@ double ProbabilityOf(const EffectEvidence& e) {
                          w.confirmed * e.confirmation.Share());
 }
 
+// Chi squared of joint j's residual, whitened by the noise of the torque alone,
+// less what the noise explains: its number of rows, and by a share more for how
+// well its source tells the variance (ExtraVariance).
 double Excess(const GapFit& fit, int joint, bool with_effects) {
   const Eigen::VectorXd residual = fit.LeftByNoise(joint, with_effects);
   const GapNoise& noise = fit.noise();
-  const double doubt = VarianceDoubt(noise.source) +
-                       (noise.doubt.empty() ? 0 : noise.doubt[joint]);
-  return std::max(0., residual.squaredNorm() - (1 + doubt) * residual.size());
+  const double extra_variance =
+      ExtraVariance(noise.source) +
+      (noise.extra_variance.empty() ? 0 : noise.extra_variance[joint]);
+  return std::max(
+      0., residual.squaredNorm() - (1 + extra_variance) * residual.size());
 }
 
 }  // namespace armcal

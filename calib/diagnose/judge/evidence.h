@@ -12,7 +12,7 @@ namespace armcal {
 // What speaks for an effect besides its score, and against it.
 struct EffectEvidence {
   double odds = 0;      // ln of its softmax probability against the next
-  double strength = 0;  // ln of its drop of chi^2
+  double strength = 0;  // ln of its delta chi^2
   int chosen = 1;       // how many effects were, all events being one
   // How many others are on its joint (if it has one), a law and its mean being
   // one: what has no name may be pieced together from several that have.
@@ -32,10 +32,10 @@ struct EffectEvidence {
   // Whether the interval of the share of the held-out gap that it removes is
   // above 0, where it is alone: what is large may do so though chi^2 (that
   // leaves the baseline free) hardly changes.
-  bool shrinks = false;
+  bool removes_gap = false;
 
   // Whether held-out data tell of it at all.
-  bool IsTold() const { return confirmation.IsTold() || shrinks; }
+  bool IsTold() const { return confirmation.IsTold() || removes_gap; }
 };
 
 // The evidence for what a fit chose. Keeps references.

@@ -30,7 +30,9 @@ void SetShare(const GapFit& fit, const GapFigures& torque, double gain,
   }
 }
 
-// FoundEffect::size and FoundEffect::gap.
+// FoundEffect::size: the rms of the effect's torque over that of the joint's,
+// on the joint where this is largest. FoundEffect::gap: what a refit leaves of
+// the joint's held-out mean square.
 double SizeOf(const GapFit& fit, const GapCandidate& effect) {
   double size = 0;
   const JointRows torque = fit.TorqueOf(effect);
@@ -61,7 +63,7 @@ class Findings {
         evidence_(fit, held_out, torque),
         torque_(torque) {}
 
-  GapFindings List(const std::vector<LackedFamily>& families);
+  GapFindings List(const std::vector<MissingTerm>& terms);
 
  private:
   FoundEffect Describe(const GapCandidate& effect,
@@ -71,7 +73,7 @@ class Findings {
   double scale_stddev() const {
     return fit_.baseline().discrepancy().torque_constants_stddev();
   }
-  void AddFamilies(const std::vector<LackedFamily>& families);
+  void AddMissingTerms(const std::vector<MissingTerm>& terms);
   void AddChangedFriction();
   void ShareTheRest(FoundEffect* found, bool is_first);
 
@@ -91,13 +93,20 @@ FoundEffect Findings::Describe(const GapCandidate& effect,
   return found;
 }
 
+// All that is said of the k-th effect. Others that could stand in its place are
+// told where they are in the 95 % set of its place. The effect's own gap is
+// known with a reference only: without one, a refit may have taken up what is
+// the effect's. Two further tests are asked of what they can be asked of:
+// whether joints agree, of clocks and delays, which are one for all joints; and
+// whether it is beyond the scatter from log to log of the reference, of what
+// does not swing in time, since the phase of that is of each log.
 FoundEffect Findings::Found(size_t k) const {
   const RefinedEffects& refined = fit_.refined();
   const GapCandidate& effect = refined.effects[k];
   FoundEffect found = Describe(effect, CovarianceOf(refined, k));
   found.fitted = {static_cast<int>(k)};
   found.score = fit_.selection().scores[k];
-  found.drop = fit_.selection().drops[k];
+  found.delta_chi2 = fit_.selection().delta_chi2[k];
   found.size = SizeOf(fit_, effect);
   // Without a reference a refit may have taken up what is the effect's.
   if (fit_.noise().source == NoiseFloor::kReference) {
@@ -126,13 +135,16 @@ FoundEffect Findings::Found(size_t k) const {
   return found;
 }
 
-// All windows in which the arm was touched, as one effect: the strongest's
-// estimates.
+// All windows in which the arm was touched, as one effect with the estimates of
+// the strongest. Its probability is the largest of its events': of those beyond
+// friction by the chance that noise gets as far (ProbabilityBeyondChance), of
+// the others by the regression on evidence.
 FoundEffect Findings::Contacts() const {
   const std::vector<GapEvent>& events = fit_.events();
   const GapEvent& strongest = *std::max_element(
-      events.begin(), events.end(),
-      [](const GapEvent& a, const GapEvent& b) { return a.drop < b.drop; });
+      events.begin(), events.end(), [](const GapEvent& a, const GapEvent& b) {
+        return a.delta_chi2 < b.delta_chi2;
+      });
   FoundEffect found;
   if (strongest.fitted) {
     found = Describe(strongest.fitted->effect, strongest.fitted->covariance);
@@ -144,7 +156,7 @@ FoundEffect Findings::Contacts() const {
   found.score = strongest.score;
   found.evidence = evidence_.ForEvents();
   for (const GapEvent& event : events) {
-    found.drop += event.drop;
+    found.delta_chi2 += event.delta_chi2;
     found.contacts.push_back(event.contact);
     found.probability = std::max(
         found.probability,
@@ -155,22 +167,26 @@ FoundEffect Findings::Contacts() const {
   return found;
 }
 
-// What the file gives no joint at all, as one effect each.
-void Findings::AddFamilies(const std::vector<LackedFamily>& families) {
-  if (families.empty()) return;
+// What the file gives no joint at all, as one effect each. Its probability is
+// 1: it was asked for with the threshold of an effect before anything else was
+// fitted, and that a robot has friction is no hypothesis.
+void Findings::AddMissingTerms(const std::vector<MissingTerm>& terms) {
+  if (terms.empty()) return;
   const MatrixXd covariance = fit_.screen().BaselineCovariance();
-  for (const LackedFamily& family : families) {
+  for (const MissingTerm& term : terms) {
     FoundEffect found;
-    found.effect = family.effect;
-    found.missing_term = family.term;
+    found.effect = term.effect;
+    found.missing_term = term.joint_term;
     found.probability = 1;
-    found.score = found.drop = family.drop;
+    found.score = found.delta_chi2 = term.delta_chi2;
     DescribeMissingTerm(fit_, covariance, &found);
     result_.effects.push_back(found);
   }
 }
 
-// Friction that differs from the reference's on several joints, as one effect.
+// Friction that differs from the reference's on several joints together, as one
+// effect per term. Its columns are in units of the usual scatter from day to
+// day, so that the sum of their squares is chi squared of that many changes.
 void Findings::AddChangedFriction() {
   const GapBaseline& baseline = fit_.baseline();
   const VectorXd& x = fit_.refined().baseline;
@@ -195,15 +211,21 @@ void Findings::AddChangedFriction() {
       found.stddev.push_back(
           WithTorqueScale(std::sqrt(covariance(c, c)) * column.spread,
                           term.value, term.unit, scale_stddev()));
-      found.drop += x[c] * x[c];
+      found.delta_chi2 += x[c] * x[c];
     }
-    found.score = found.drop;
+    found.score = found.delta_chi2;
     result_.effects.push_back(found);
   }
 }
 
-GapFindings Findings::List(const std::vector<LackedFamily>& families) {
-  AddFamilies(families);
+// Everything that was fitted is described, sorted by delta_chi2, and joined
+// where a law and its mean are one thing. Then two sieves: what explains
+// nothing that needs explaining (IsNeeded), and what is needed but not sure
+// enough (IsClaimed). Both stand as `fitted, not named`; if the second leaves
+// nothing that is claimed, and held-out data have it again, something is there
+// without a name.
+GapFindings Findings::List(const std::vector<MissingTerm>& terms) {
+  AddMissingTerms(terms);
   AddChangedFriction();
   if (!fit_.events().empty()) result_.effects.push_back(Contacts());
   for (size_t k = 0; k < fit_.refined().effects.size(); ++k) {
@@ -214,10 +236,12 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
   for (FoundEffect& found : result_.effects) {
     ShareTheRest(&found, &found == &result_.effects.front());
   }
-  const double doubt = VarianceDoubt(fit_.noise().source);
-  const auto unneeded = std::stable_partition(
-      result_.effects.begin(), result_.effects.end(),
-      [&](const FoundEffect& found) { return IsNeeded(found, doubt); });
+  const double extra_variance = ExtraVariance(fit_.noise().source);
+  const auto unneeded =
+      std::stable_partition(result_.effects.begin(), result_.effects.end(),
+                            [&](const FoundEffect& found) {
+                              return IsNeeded(found, extra_variance);
+                            });
   result_.unnamed.assign(unneeded, result_.effects.end());
   result_.effects.erase(unneeded, result_.effects.end());
   const auto unclaimed = std::stable_partition(
@@ -233,10 +257,11 @@ GapFindings Findings::List(const std::vector<LackedFamily>& families) {
   return result_;
 }
 
-// The probability that an effect does not have is that of all others together;
-// of a further one, which may not be there at all, others have as much of it as
-// scores say. The set of candidates ends where 95 % are in it, or where each of
-// the others has next to nothing.
+// The probability that an effect does not have is that of all others together,
+// since one of them is there if it is not. Of a further effect, which may not
+// be there at all, the others have as much of it as their scores say. The set
+// of candidates ends where 95 % are in it, or where each of the others has less
+// than kLeastCandidate.
 void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
   constexpr double kLeastCandidate = .01;
   double others = 0;
@@ -262,16 +287,20 @@ void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
 
 }  // namespace
 
+// By delta_chi2, largest first. What a file has a number for (the mean of a
+// law) is put behind the law of which it is one where the latter explains
+// form_error of it: it had taken the law's mean for its own, and would
+// otherwise hide the cause behind its average.
 void SortFindings(std::vector<FoundEffect>* effects) {
   std::stable_sort(effects->begin(), effects->end(),
                    [](const FoundEffect& a, const FoundEffect& b) {
-                     return a.drop > b.drop;
+                     return a.delta_chi2 > b.delta_chi2;
                    });
   for (size_t k = 1; k < effects->size(); ++k) {
     for (size_t i = k; i > 0; --i) {
       FoundEffect &before = (*effects)[i - 1], &law = (*effects)[i];
-      const double least = Limits().form_error * before.drop;
-      if (!IsMeanOf(before, law) || law.drop < least) break;
+      const double least = Limits().form_error * before.delta_chi2;
+      if (!IsMeanOf(before, law) || law.delta_chi2 < least) break;
       std::swap(before, law);
     }
   }
@@ -299,10 +328,13 @@ void JoinMeans(std::vector<FoundEffect>* effects) {
 
 GapFindings ListFindings(const Robot& robot, const GapFit& fit,
                          const HeldOut& held_out, const GapFigures& torque,
-                         const std::vector<LackedFamily>& families) {
-  return Findings(robot, fit, held_out, torque).List(families);
+                         const std::vector<MissingTerm>& terms) {
+  return Findings(robot, fit, held_out, torque).List(terms);
 }
 
+// Effects that are not claimed leave the fit, and everything that is shown is
+// of the fit without them: estimates, covariances and, later, the figures. What
+// they explained may go to the others, which is why these are described anew.
 void FitClaimed(GapFindings* findings, GapFit* fit) {
   std::vector<int> kept;
   for (const FoundEffect& found : findings->effects) {
@@ -355,7 +387,12 @@ void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
   }
 }
 
-void DoubtWhatDoesNotHelp(const GapFigures& torque,
+// An effect that removes nothing of the held-out gap, or makes it larger, is
+// not seen there: it may be what chance gave in the fitted data. Its
+// probability is at most indifference (Limits().untold), where a refit leaves
+// more than noise. The removed share is the whole fit's where the effect is
+// alone, and else its own gain.
+void LowerWhatDoesNotHelp(const GapFigures& torque,
                           std::vector<FoundEffect>* effects) {
   if (std::isnan(torque.removed_percent)) return;
   const auto fitted =

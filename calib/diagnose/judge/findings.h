@@ -5,13 +5,13 @@
 #include "calib/diagnose/judge/found_effect.h"
 #include "calib/diagnose/judge/held_out.h"
 #include "calib/diagnose/judge/removed_share.h"
-#include "calib/diagnose/select/families.h"
 #include "calib/diagnose/select/fit.h"
+#include "calib/diagnose/select/missing_terms.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
 
-// By their drops, but for what the file has a number for: that may take the
+// By delta chi^2, but for what the file has a number for: that may take the
 // mean of a law on the same joint for its own, more than it leaves of the law,
 // and comes after it.
 void SortFindings(std::vector<FoundEffect>* effects);
@@ -33,11 +33,11 @@ struct GapFindings {
   bool without_name = false;
 };
 
-// `families`: what the file gives no joint at all; empty where that is nothing
+// `terms`: what the file gives no joint at all; empty where that is nothing
 // new.
 GapFindings ListFindings(const Robot& robot, const GapFit& fit,
                          const HeldOut& held_out, const GapFigures& torque,
-                         const std::vector<LackedFamily>& families);
+                         const std::vector<MissingTerm>& terms);
 
 // Keeps the claimed effects alone in the fit, and tells them as they are then;
 // what they remove is told by SetClaimedShares, once the figures are known.
@@ -53,7 +53,7 @@ void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
 // What leaves no less of held-out data, where a refit leaves more than the
 // noise of them, is not seen there: it is at most as likely as not. (Where it
 // leaves the noise, they cannot tell.)
-void DoubtWhatDoesNotHelp(const GapFigures& torque,
+void LowerWhatDoesNotHelp(const GapFigures& torque,
                           std::vector<FoundEffect>* effects);
 
 }  // namespace armcal

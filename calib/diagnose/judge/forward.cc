@@ -45,7 +45,8 @@ void Append(const MatrixXd& rows, MatrixXd* to) {
   to->bottomRows(rows.rows()) = rows;
 }
 
-// Where bins of a log begin that count.
+// Starts of the bins of a log whose times count, the first one after what a
+// loop takes to settle (FirstCounted).
 std::vector<int> Bins(const Log& log, int per_bin,
                       const std::function<bool(double)>& counts) {
   std::vector<int> bins;
@@ -69,13 +70,16 @@ std::vector<int> Rows(const MatrixXd& squares) {
   return rows;
 }
 
+// Mean squares over the squared floor, so that they are in units of the
+// floor's: the noise of the positions, or what that noise makes of a right
+// robot. The figures take the floor for exactly known.
 void SetFigures(const Squares& squares, const VectorXd& floor,
                 std::uint64_t seed, ForwardGap* gap) {
   gap->has_figures = squares[0].rows() > 0;
   if (!gap->has_figures) return;
   gap->floor = floor.cwiseMax(kLeastFloor);
   const VectorXd weight = gap->floor.cwiseAbs2().cwiseInverse();
-  gap->figures = ShrinkFigures(
+  gap->figures = RemovedShareFigures(
       {squares[0] * weight.asDiagonal(), squares[1] * weight.asDiagonal(),
        squares[2] * weight.asDiagonal()},
       0, seed);
@@ -84,7 +88,9 @@ void SetFigures(const Squares& squares, const VectorXd& floor,
   }
 }
 
-// A robot that is too stiff to simulate, as an absurd fit may be, diverges.
+// A fit may be so absurd that its simulation is too stiff to take a step. That
+// is no error of a user's input: the robot then counts as diverged, and the
+// figures are of the others.
 template <typename Simulate>
 MatrixXd OrDiverged(const MatrixXd& diverged, const Simulate& simulate) try {
   return simulate();
@@ -92,7 +98,8 @@ MatrixXd OrDiverged(const MatrixXd& diverged, const Simulate& simulate) try {
   return diverged;
 }
 
-// Mean squares of a loop over bins, infinite where it diverges.
+// Mean squares of a loop's position errors in bins, infinite where it diverges:
+// a loop that runs away has no error that could be compared.
 MatrixXd LoopSquares(const CorrectedRobot& robot, const Robot& known,
                      const ControllerOptions& controller,
                      const CommandedLog& log, const std::vector<int>& bins) {
@@ -149,6 +156,11 @@ CountedTimes TimesWithRows(const GapRows& rows) {
   };
 }
 
+// Each log is simulated in closed loop along its commands, once with each of
+// three robots: as the file has it, refitted, and with the effects. Their
+// errors are deviations of the simulated position from the recorded one. The
+// floor is the noise of the positions themselves, which no model can remove,
+// averaged over the logs.
 ForwardGap ForwardGapInLoop(const ForwardRobots& robots, const Robot& known,
                             const ControllerOptions& controller,
                             const std::vector<CommandedLog>& logs,
@@ -174,6 +186,13 @@ ForwardGap ForwardGapInLoop(const ForwardRobots& robots, const Robot& known,
   return gap;
 }
 
+// The same over short windows in open loop, where nothing is known of a
+// controller. Every window starts from the recorded state, so that errors do
+// not pile up, and is short enough to hold none of the instability of an open
+// loop. The floor has to be simulated too: what noise of positions, velocities
+// and torques alone does to the best of the three robots, over the same
+// windows. Windows of which any robot is undefined (too stiff, or diverged)
+// count in none, so that the three are compared on the same ones.
 ForwardGap ForwardGapInWindows(const ForwardRobots& robots,
                                const std::vector<GapSegment>& segments,
                                const MeasurementNoise& noise,

@@ -20,7 +20,7 @@ using CountedTimes = std::function<bool(int log, double t)>;
 CountedTimes TimesWithRows(const GapRows& rows);
 
 // The robots of a forward-simulated gap, MakeCorrectedRobot of: the baseline at
-// 0; at its refit; at its fit beside the effects, with them.
+// 0; at its refit; at its fit given the effects, with them.
 struct ForwardRobots {
   CorrectedRobot nominal, refit, after;
 };

@@ -19,7 +19,7 @@ struct FoundEffect {
   int joint = -1;  // from 0; -1: all joints or the whole robot
   double probability = 0;
   double score = 0;
-  double drop = 0;  // of chi^2 when it is left out
+  double delta_chi2 = 0;  // by which chi^2 rises without it
   EffectEvidence evidence;
   // Which of the fit's effects it is of: one, or a law and then its mean; none
   // of what is no effect of the fit's.
@@ -35,7 +35,7 @@ struct FoundEffect {
   double gap = std::numeric_limits<double>::quiet_NaN();
   // Others that these data cannot tell from it.
   std::vector<PlacedEffect> equivalent;
-  // Of the held-out gap, by this one beside the others; NaN: not known.
+  // Of the held-out gap, by this one given the others; NaN: not known.
   double removed_percent = NAN;
   double ci95[2] = {NAN, NAN};
   std::string separate_by;        // the experiment that would tell them apart

@@ -15,6 +15,7 @@ using Eigen::VectorXd;
 
 namespace {
 
+// Seconds that the rows cover, gaps left out.
 double TimeOf(const GapRows& rows) {
   double time = 0;
   for (size_t i = 0; i < rows.segments().size(); ++i) {
@@ -30,7 +31,9 @@ struct LogWindow {
   TimeWindow window;
 };
 
-// Of deviations, NaN where joints rest; none where all may be chance.
+// The strongest window of .4 to 2 s over all joints (StrongWindows); none where
+// that is no more than Limits().real, which chance may give. Deviations are NaN
+// where a joint rests, and count as 0.
 std::optional<LogWindow> StrongestWindow(const GapRows& rows,
                                          const MatrixXd& deviations) {
   const std::vector<double> durations = {.4, 1, 2};  // s
@@ -131,6 +134,12 @@ std::vector<GapCandidate> HeldOut::InTheirPhase(
   return here;
 }
 
+// A vibration has its frequency and its amplitude from the fit and its phase
+// from each log: that is when the log began. With unit torques of cosine and
+// sine, the projection (a, b) of the residual on both, by their 2 x 2 normal
+// equations, gives the phase, and its magnitude is set to that of the fit. Only
+// a phase is told from held-out data: an amplitude told there would remove
+// anything periodic.
 GapCandidate HeldOut::InPhase(const GapCandidate& effect, int log,
                               const MatrixXd& residual) const {
   GapCandidate one = effect;
@@ -158,6 +167,9 @@ GapCandidate HeldOut::InPhase(const GapCandidate& effect, int log,
   return one;
 }
 
+// The residual in units of its own standard deviation at each sample, extra
+// variance included; NaN where the joint has no rows, so that standstill is in
+// no mean.
 MatrixXd HeldOut::Deviations(const MatrixXd& residual) const {
   MatrixXd deviations = residual;
   for (int j = 0; j < deviations.cols(); ++j) {
@@ -199,15 +211,18 @@ const PredictedChi2& HeldOut::chi2() const {
   return *chi2_;
 }
 
-// What the model leaves tells by how much the gap shrinks; whether the effect
-// is there again is asked beside what models lack as a rule.
+// What the k-th effect does given the others. `gain`: by how much the mean
+// square is larger without it, the model fitted with the others alone, so that
+// it may do what it can. Confirmation: chi squared that the effect should
+// change and does, with what models lack as a rule fitted too, under the
+// posterior's uncertainty.
 HeldOut::Merit HeldOut::MeritOf(size_t k, double after) const {
   const RefinedEffects& refined = fit_.refined();
   const std::vector<GapCandidate> others = AllBut(refined.effects, k);
-  const MatrixXd left = Residual(others, fit_.ModelBeside(others));
+  const MatrixXd left = Residual(others, fit_.ModelGiven(others));
   return {
       MeanSquare(Deviations(left).cwiseAbs2()) - after,
-      Confirm(chi2(), Whitened(Residual(others, fit_.BaselineBeside(others))),
+      Confirm(chi2(), Whitened(Residual(others, fit_.BaselineGiven(others))),
               Whitened(Residual(refined.effects, refined.baseline)))};
 }
 

@@ -32,7 +32,7 @@ class HeldOut {
   };
   Residuals AllResiduals() const;
   HeldOutSquares SquaresOf(const Residuals& residuals) const;
-  // What the k-th effect does beside the others: by how much it lowers the mean
+  // What the k-th effect does given the others: by how much it lowers the mean
   // square, that of all being `after`, and whether these data are what it says.
   struct Merit {
     double gain = 0;

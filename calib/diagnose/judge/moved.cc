@@ -34,6 +34,11 @@ MovedParameter Describe(const BaselineColumn& column, const Robot& robot) {
 
 }  // namespace
 
+// Parameters of the model that are far from the file's, in units of their
+// prior's standard deviation, largest first: where the data have not enough of
+// them, a large value is the data's noise, so that they have to be clear of
+// their own deviation too. With a reference, columns of the day are told and
+// not those that the reference already moved.
 std::vector<MovedParameter> ListMoved(const GapFit& fit,
                                       const Eigen::VectorXd& x) {
   const Eigen::MatrixXd covariance = fit.screen().BaselineCovariance();

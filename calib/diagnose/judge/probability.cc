@@ -8,12 +8,21 @@
 
 namespace armcal {
 
+// Every effect at every place that could stand where the k-th does, with its
+// best score over all shapes, as a softmax
+//   P_i = exp((s_i - s_max) / (2 T)) / sum.
+// Scores are on the scale of chi squared and T divides them, since neither
+// noise nor catalogue nor the form of a law is as they assume: with T = 1 they
+// would be posterior odds and far too certain (a tempered likelihood, Holmes
+// and Walker 2017). Where the shape of the chosen one was fitted, the others
+// get the same gain, unless they were fitted too; a rival that no real arm can
+// have is out.
 std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
   const std::vector<GapCandidate>& candidates = fit.candidates();
   const GapCandidate& chosen = candidates[fit.selection().chosen[k]];
   const Eigen::VectorXd scores =
-      ScoresBeside(fit.screen(), candidates, fit.selection_options(),
-                   fit.selection().chosen, static_cast<int>(k));
+      ScoresGiven(fit.screen(), candidates, fit.selection_options(),
+                  fit.selection().chosen, static_cast<int>(k));
   std::map<std::pair<const Effect*, int>, double> best;
   for (size_t i = 0; i < candidates.size(); ++i) {
     if (!std::isfinite(scores[i])) continue;
@@ -58,12 +67,19 @@ std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
   return all;
 }
 
+// A p-value is no probability of the hypothesis. For p below 1/e the odds
+// against an effect that is there are at least -e p ln p times those before,
+// over all alternatives that make small p-values likelier (Sellke, Bayarri and
+// Berger 2001). That bound is taken for their value, and the probability is no
+// larger than 1 / (1 + odds_before (-e p ln p)).
 double ProbabilityBeyondChance(double chance, double odds_before) {
   if (chance <= 0) return 1;
   const double bound = chance < 1 / M_E ? -M_E * chance * std::log(chance) : 1;
   return 1 / (1 + odds_before * bound);
 }
 
+// The smallest set of the most probable ones whose sum is Limits().credible:
+// the highest posterior density set of a discrete distribution.
 std::vector<PlacedEffect> CredibleSet(const std::vector<PlacedEffect>& all) {
   std::vector<PlacedEffect> set;
   double sum = 0;

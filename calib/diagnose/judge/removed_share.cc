@@ -18,6 +18,9 @@ struct TimeSeries {
   VectorXd count;  // of joints that moved
 };
 
+// Sums over joints at each time, with how many of them moved: a mean over
+// joints and samples is then the ratio of two sums over time, which blocks of
+// the bootstrap may take apart.
 TimeSeries SumJoints(const MatrixXd& squares) {
   TimeSeries series{VectorXd::Zero(squares.rows()),
                     VectorXd::Zero(squares.rows())};
@@ -31,7 +34,9 @@ TimeSeries SumJoints(const MatrixXd& squares) {
   return series;
 }
 
-// Nothing where there is no more than `least` to remove.
+// 100 (from - after) / (from - floor): of what is beyond the noise, how much is
+// removed. NaN where there is no more than `least` beyond it, since a ratio of
+// two noises says nothing.
 double Removed(double from, double after, double floor, double least = 0) {
   return from > floor + least ? 100 * (from - after) / (from - floor)
                               : std::numeric_limits<double>::quiet_NaN();
@@ -53,7 +58,13 @@ double BelowWhatIsLeft(double floor, double left) {
   return floor > left ? std::max(0., 2 * left - floor) : floor;
 }
 
-// The interval of what is removed between two of them; `removed` is in it.
+// The 95 % interval of what is removed between two of them, by a bootstrap of
+// blocks over time (block_bootstrap.h), their length told by the correlation
+// time of the gain: samples of one log are not independent, blocks of it nearly
+// are. Each draw has a floor of its own, normal about it with `floor_stddev`,
+// so that the interval holds how well the noise is known. Where that floor is
+// what is left, draws of it lie below, and the point estimate closes the
+// interval.
 void SetInterval(const TimeSeries& from, const TimeSeries& after, double floor,
                  double floor_stddev, std::uint64_t seed, double removed,
                  double* ci95) {
@@ -89,8 +100,13 @@ double MeanSquare(const MatrixXd& squares) {
   return count > 0 ? series.sum.sum() / count : 1;
 }
 
-GapFigures ShrinkFigures(const HeldOutSquares& squares, double floor_stddev,
-                         std::uint64_t seed) {
+// Means over all samples and joints of squares in units of the noise's
+// variance: of the robot as its file has it, of a refit, and with the effects.
+// The floor is 1, the noise itself, or what is left where that is less. Shares
+// are of the refit's gap, not the file's: what fitting numbers alone explains
+// is no effect's.
+GapFigures RemovedShareFigures(const HeldOutSquares& squares,
+                               double floor_stddev, std::uint64_t seed) {
   GapFigures figures;
   const TimeSeries nominal = SumJoints(squares.nominal);
   const TimeSeries refit = SumJoints(squares.refit);

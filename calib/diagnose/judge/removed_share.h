@@ -7,9 +7,9 @@
 
 namespace armcal {
 
-// How far a gap shrinks on data that nothing was chosen on. Squares of what is
-// left of the torque, in units of each joint's noise variance: samples (in
-// time) x joints; NaN where a joint stands still.
+// The removed share: how far a gap shrinks on data that nothing was chosen on.
+// Squares of what is left of the torque, in units of each joint's noise
+// variance: samples (in time) x joints; NaN where a joint stands still.
 struct HeldOutSquares {
   Eigen::MatrixXd nominal;  // the robot as its file has it
   Eigen::MatrixXd refit;    // with the baseline fitted
@@ -38,7 +38,7 @@ struct GapFigures {
 double MeanSquare(const Eigen::MatrixXd& squares);
 
 // `floor_stddev`: how well the floor is known, relative; intervals hold it.
-GapFigures ShrinkFigures(const HeldOutSquares& squares, double floor_stddev,
-                         std::uint64_t seed);
+GapFigures RemovedShareFigures(const HeldOutSquares& squares,
+                               double floor_stddev, std::uint64_t seed);
 
 }  // namespace armcal

@@ -41,6 +41,9 @@ std::vector<std::vector<int>> RowsOfLogs(const GapRows& rows, int j) {
   return logs;
 }
 
+// By how much one log alone would have a joint's terms otherwise, given what
+// the fit to all of them leaves: a ridge regression whose penalty is the prior
+// of the term itself, which keeps a log that does not move the joint at 0.
 OwnChange ChangeIn(const MatrixXd& columns, const VectorXd& left) {
   // As much as the prior of the parameter itself.
   const MatrixXd information =
@@ -52,8 +55,10 @@ OwnChange ChangeIn(const MatrixXd& columns, const VectorXd& left) {
   return change;
 }
 
-// The weighted line through the values, over the number of the log; its
-// standard deviation holds the scatter about it.
+// The weighted line through the values, over the number of the log:
+//   b = sum w (k - m) y_k / sum w (k - m)^2,  w = 1 / stddev^2.
+// Its standard deviation is multiplied by the Birge ratio (1932), the rms of
+// the values about the line over their own deviations, where that is above 1.
 void FitLine(RunDrift* drift) {
   const Eigen::Index size = drift->value.size();
   const Eigen::ArrayXd weight = drift->stddev.array().square().inverse();
@@ -70,7 +75,10 @@ void FitLine(RunDrift* drift) {
   drift->per_log_stddev = std::sqrt(std::max(1., scatter) / spread);
 }
 
-// Of each of joint j's terms; none where a log has no rows of it.
+// A line over the logs for each of joint j's terms; none where a log has no
+// rows of the joint, since a line through the others would say nothing of it.
+// The change of a log is told by the joint's own terms alone: inertias are
+// those of all logs.
 std::vector<RunDrift> DriftsOf(const GapFit& fit, const VectorXd& x, int j) {
   const GapBaseline& baseline = fit.baseline();
   const std::vector<int> terms = TermsOf(baseline, j);

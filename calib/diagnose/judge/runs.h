@@ -17,7 +17,7 @@ struct RunDrift {
 };
 
 // Of three logs or more: viscous and Coulomb friction and offset fitted to each
-// beside what was fitted to all, and those that follow a line over the logs by
+// given what was fitted to all, and those that follow a line over the logs by
 // more than five standard deviations, as far as its scatter allows; x: the
 // baseline's values.
 std::vector<RunDrift> ListRunDrifts(const GapFit& fit,

@@ -6,6 +6,10 @@ namespace armcal {
 
 using Eigen::MatrixXd;
 
+// Laws that a reference shows by itself, with the values and the deviations
+// that all logs together give them. Their parameters are the last columns of
+// the baseline, so that their covariance is a corner of its, scaled from units
+// of the column to those of the law.
 std::vector<ShownEffect> ListShown(const GapFit& fit,
                                    const Eigen::VectorXd& x) {
   const GapBaseline& baseline = fit.baseline();

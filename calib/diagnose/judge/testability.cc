@@ -15,6 +15,10 @@ struct Visibility {
   double size = 0;   // rms over the noise's, of an effect of usual size
 };
 
+// The effect-to-noise ratio (ENR): the rms of the effect's torque in units of
+// the noise, after the baseline has taken of it what it could, G_cc being its
+// squared norm then. Where its joint does not move, the others may feel it.
+// `share`: what of the column's own square is left.
 Visibility VisibilityOf(const GapFit& fit, const GapCandidate& candidate) {
   Visibility visibility;
   const GapScreen& screen = fit.screen();
@@ -45,6 +49,11 @@ std::string WhyNot(const Visibility& visibility, bool moves) {
 
 }  // namespace
 
+// For every effect of the catalogue at every joint, why it could neither be
+// found nor excluded: the law does not fit the joint (Effect::unfit), the user
+// left it out, it was never a candidate (nothing stood out where it would be
+// looked for), or even one that matters would be smaller than Limits().material
+// of the noise.
 std::vector<UntestableEffect> ListUntestable(const GapFit& fit) {
   std::map<std::pair<const Effect*, int>, Visibility> seen;
   for (const GapCandidate& candidate : fit.candidates()) {

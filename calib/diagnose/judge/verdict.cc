@@ -16,6 +16,13 @@ double UnexplainedOf(const JointLeft& left) {
   return left.excess;
 }
 
+// What the figures come to. What is left of all joints in sample counts where
+// it is more than Limits().real (chi squared that is not chance) and more than
+// Limits().left of what a refit leaves; of held-out data, where it is more than
+// Limits().left of the noise and of their gap. A refit that leaves half of what
+// the file left absorbed it: numbers of the file, not a law, were the reason.
+// Without held-out data nothing can be confirmed, and what was found is `partly
+// explained` at best.
 GapVerdict JudgeGap(const GapFacts& facts) {
   const bool much_left =
       facts.left > Limits().real && facts.left_share > Limits().left;

@@ -34,6 +34,15 @@ double ChiSquaredOfBins(const VectorXd& x, const VectorXd& y) {
 
 }  // namespace
 
+// Residuals are ordered by a coordinate where means over its quantiles are not
+// zero:
+//   chi^2 = sum over bins of (mean of r)^2 n,
+// of kBins bins with as many samples each, chi squared of 10 degrees where they
+// are white. Friction shows along the speed as r times the direction of motion,
+// since a law that is odd in velocity has a mean of 0 over bins of |velocity|.
+// The coordinate with the largest excess over Limits().order (99.9 %, seven
+// coordinates) names it; a residual louder than its noise is divided by its rms
+// first, lest every coordinate order it.
 Organisation OrganisedBy(const JointCourse& course) {
   Organisation best;
   if (course.residual.size() < 5 * kBins) return best;

@@ -142,7 +142,9 @@ MatrixXd White(int samples, const VectorXd& stddev, std::mt19937_64* random) {
   return x * stddev.asDiagonal();
 }
 
-// `samples` values dt apart of noise whose samples are `step` apart.
+// Autoregressive noise of the coarse grid on a finer one: drawn at its own
+// step, and interpolated linearly in between, since it has no power beyond its
+// grid. The first kSettled values settle the filter from zero.
 VectorXd Coloured(const Autoregression& noise, double step, int samples,
                   double dt, std::mt19937_64* random) {
   std::normal_distribution<double> normal(0, noise.sigma);
@@ -209,6 +211,10 @@ MatrixXd ReplaySquares(const CorrectedRobot& robot, const GapSegment& segment,
   return squares;
 }
 
+// What noise alone makes of the windows: the same robot is simulated twice,
+// from the recorded start and torque, and from these with one draw of noise,
+// and their difference less the drawn position is what a right model would
+// leave.
 MatrixXd NoiseSquares(const CorrectedRobot& robot, const GapSegment& segment,
                       const ReplayWindows& windows,
                       const MeasurementNoise& noise, std::uint64_t seed) {

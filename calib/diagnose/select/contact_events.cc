@@ -39,23 +39,28 @@ bool IsKnown(const std::vector<GapEvent>& events, const Contact& contact) {
 
 }  // namespace
 
-FrictionExcess ExcessBeside(const GapRegression& regression,
-                            const std::vector<GapCandidate>& effects) {
+FrictionExcess ExcessGiven(const GapRegression& regression,
+                           const std::vector<GapCandidate>& effects) {
   const JointRows torque = regression.TorqueOf(effects);
-  const VectorXd x = regression.BaselineBeside(torque);
+  const VectorXd x = regression.BaselineGiven(torque);
   return ExcessOverFriction(regression.baseline(), x, regression.rows(),
                             regression.data()->ResidualWith(x, torque));
 }
 
-std::vector<GapEvent> ContactsBeside(const GapRegression& regression,
-                                     const std::vector<GapCandidate>& effects,
-                                     const std::vector<GapEvent>& known,
-                                     ContactSearch search) {
+// The threshold is the excess that a log without a contact passes with the
+// probability false_contacts, by the tail of its block maxima (maxima_tail.h):
+// of the reference for arms of several joints, also of the log itself for one
+// joint. Neither knows of a distribution of friction, which nobody has; they
+// know how large its excess got.
+std::vector<GapEvent> ContactsGiven(const GapRegression& regression,
+                                    const std::vector<GapCandidate>& effects,
+                                    const std::vector<GapEvent>& known,
+                                    ContactSearch search) {
   const GapRows& rows = regression.rows();
   const bool of_itself = search == ContactSearch::kInMotion;
   if (HaveNoiseOfPositions(rows.segments())) return {};
   if (of_itself ? rows.num_joints() > 1 : !regression.reference()) return {};
-  const FrictionExcess excess = ExcessBeside(regression, effects);
+  const FrictionExcess excess = ExcessGiven(regression, effects);
   const UsualMaximum usual = UsualExcess(regression, excess, of_itself);
   std::vector<GapEvent> events;
   for (const Contact& contact :

@@ -11,18 +11,18 @@
 namespace armcal {
 
 // What the baseline and effects leave of the torque beyond friction.
-FrictionExcess ExcessBeside(const GapRegression& regression,
-                            const std::vector<GapCandidate>& effects);
+FrictionExcess ExcessGiven(const GapRegression& regression,
+                           const std::vector<GapCandidate>& effects);
 
-// Contacts beside effects, in windows in which nothing is known yet. They
+// Contacts given effects, in windows in which nothing is known yet. They
 // stand out from all that friction does when nothing touches the arm, which
 // only a reference tells. What one joint alone feels in motion may be its own:
 // where the arm has no other, it has to stand out from the rest of the log as
-// well. None of torques that are made of commands: these have the drives'
-// integrals in them, which wind up where friction holds.
-std::vector<GapEvent> ContactsBeside(const GapRegression& regression,
-                                     const std::vector<GapCandidate>& effects,
-                                     const std::vector<GapEvent>& known,
-                                     ContactSearch search);
+// well. None of reconstructed torques: these have the drives' integrals in
+// them, which wind up where friction holds.
+std::vector<GapEvent> ContactsGiven(const GapRegression& regression,
+                                    const std::vector<GapCandidate>& effects,
+                                    const std::vector<GapEvent>& known,
+                                    ContactSearch search);
 
 }  // namespace armcal

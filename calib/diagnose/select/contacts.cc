@@ -29,8 +29,10 @@ Span Widened(const GapRows& rows, Span span, double time) {
   return span;
 }
 
-// Runs above the threshold, as long as half of it is passed, and by the time
-// that means are over on either side; those that then touch are one.
+// Stretches of time that pass `threshold`, found with hysteresis: from a sample
+// above it on to both sides for as long as half of it is passed, so that one
+// push whose excess flickers is one stretch. They are widened by the time over
+// which the excess was averaged, and joined where they then touch.
 std::vector<Span> SpansAbove(const GapRows& rows, const VectorXd& largest,
                              double threshold) {
   std::vector<Span> spans;
@@ -150,6 +152,14 @@ double UsualForce(const MatrixXd& lever, const VectorXd& torque) {
           std::max(1e-9, lever.colwise().norm().maxCoeff()));
 }
 
+// The force at the tool that gives the joints these torques, tau = J' f with J
+// the levers (3 x n), by weighted least squares with the prior f ~ N(0, usual^2
+// I):
+//   f = (J W J' + I / usual^2)^-1 J W tau,  W = diag(1 / stddev^2).
+// It is told where the arm has more joints than the three components, where
+// what it leaves passes a chi squared test at 99 % with n - 3 degrees of
+// freedom, and where it is no larger than usual: a push elsewhere on the arm is
+// not taken for one at the tool.
 std::optional<Contact::Force> ForceBehind(const MatrixXd& lever,
                                           const Contact& contact) {
   const int n = static_cast<int>(lever.cols());
@@ -167,6 +177,10 @@ std::optional<Contact::Force> ForceBehind(const MatrixXd& lever,
   return force;
 }
 
+// What acted on the joints at the peak of a span. On a joint that slides
+// friction is what the model has of it, and the torque is known to the noise. A
+// joint at rest may hold anything between -coulomb and coulomb: within the
+// `room` that is left there it is uniform, whose variance is room^2 / 3.
 Contact Describe(const Robot& robot, const GapRows& rows,
                  const FrictionExcess& excess, const RestingArm& arm,
                  const Span& span) {
@@ -191,7 +205,9 @@ Contact Describe(const Robot& robot, const GapRows& rows,
   return contact;
 }
 
-// The samples of a time in one segment, or the one that is nearest to it.
+// The samples of a time in one segment, or the one that is nearest to it. A
+// window that was told in another set of segments need not have a sample at its
+// centre here.
 Span SpanOf(const GapRows& rows, int log, const TimeRange& window) {
   const double centre = (window.begin + window.end) / 2;
   Span nearest{0, 0, 0};
@@ -216,6 +232,12 @@ Span SpanOf(const GapRows& rows, int log, const TimeRange& window) {
 
 }  // namespace
 
+// Each stretch whose excess passes the threshold is one contact, if it is where
+// `search` looks. At rest a push has to act on an arm that rests in the same
+// posture just before or after, held by its friction: the model's torque is
+// known best there, and the window then lasts until it rests again. In motion
+// two joints have to feel it at once, or one alone where the arm has one only:
+// a single joint has friction of its own that comes and goes.
 std::vector<Contact> FindContacts(const Robot& robot, const GapRows& rows,
                                   const FrictionExcess& excess,
                                   double threshold, ContactSearch search) {
@@ -254,6 +276,10 @@ ContactStrength StrengthOf(const GapRows& rows, const FrictionExcess& excess,
   return {joints.sum(), joints.maxCoeff()};
 }
 
+// The force where one is told, with its magnitude's standard deviation by the
+// delta method, |f| having the gradient f / |f|; else the torque on the joint
+// that felt it most. Times are known to the window over which the excess was
+// averaged.
 std::vector<EffectEstimate> ContactEstimates(const Robot& robot,
                                              const Contact& contact,
                                              std::vector<double>* stddev) {

@@ -14,9 +14,9 @@ namespace armcal {
 // A stretch of time in which something from outside acted on the arm.
 struct Contact {
   int log = 0;
-  TimeRange window;  // s since the log's first row
-  double time = 0;   // of its peak, s
-  int joint = 0;     // from 0: that felt it most, beside noise and friction
+  TimeRange window;       // s since the log's first row
+  double time = 0;        // of its peak, s
+  int joint = 0;          // from 0: that felt it most, over noise and friction
   double deviations = 0;  // that joint's, beyond friction, over the noise's
   // At the peak, as the environment acts on the joints, n entries, N m or N. At
   // rest a joint's friction may hold any part of it.

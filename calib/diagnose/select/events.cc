@@ -20,7 +20,7 @@ GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
   GapEvent event;
   event.contact = contact;
   event.beyond_friction = true;
-  event.drop = event.score = strength.all;
+  event.delta_chi2 = event.score = strength.all;
   event.one_joint = strength.one_joint / strength.all;
   return event;
 }
@@ -33,13 +33,13 @@ void SortByTime(std::vector<GapEvent>* events) {
 }
 
 void DescribeAgain(const Robot& robot, const GapRows& rows,
-                   const FrictionExcess& alone, const FrictionExcess& beside,
+                   const FrictionExcess& alone, const FrictionExcess& given,
                    std::vector<GapEvent>* events) {
   SortByTime(events);
   for (GapEvent& event : *events) {
     if (event.pulse) continue;
     const Contact before = event.contact;
-    event.contact = DescribeContact(robot, rows, event.at_rest ? alone : beside,
+    event.contact = DescribeContact(robot, rows, event.at_rest ? alone : given,
                                     before.log, before.window);
     event.contact.window = before.window;
     if (event.fitted) event.contact.force = before.force;
@@ -97,6 +97,10 @@ VectorXd CourseOf(const GapRows& rows, const GapEvent& event) {
   return course;
 }
 
+// A touch is felt by all joints between it and the base; what one joint alone
+// feels may be its own friction. The same course in time, as a torque on one
+// joint each, is asked for its delta_chi2, and the best of them is divided by
+// the event's: near 1 where that joint alone explains it.
 double OneJointShare(const GapScreen& screen, const GapRows& rows,
                      const GapEvent& event) {
   const VectorXd course = CourseOf(rows, event);
@@ -105,9 +109,9 @@ double OneJointShare(const GapScreen& screen, const GapRows& rows,
     JointRows column(rows.num_joints());
     column[j] = rows.Whiten(j, course);
     if (column[j].norm() < 1e-9) continue;
-    most = std::max(most, screen.DropOf({column}));
+    most = std::max(most, screen.DeltaChi2Of({column}));
   }
-  return most / std::max(1., event.drop);
+  return most / std::max(1., event.delta_chi2);
 }
 
 }  // namespace armcal

@@ -26,25 +26,25 @@ struct GapEvent {
   // Of what was found beyond friction: how probable such an excess is in a log
   // without a contact.
   double chance = 1;
-  // Found at rest: what effects that were fitted to motion say of rest, it is
-  // not told beside.
+  // Found at rest: it is told without what effects that were fitted to motion
+  // say of rest.
   bool at_rest = false;
   // A pulse of torque on joints that move (pulse_events.h).
   bool pulse = false;
-  double drop = 0;  // of chi^2
+  double delta_chi2 = 0;
   double score = 0;
-  // The drop that a torque of the same course on one joint alone would bring,
-  // over `drop`: a touch is felt by several joints.
+  // The delta chi^2 that a torque of the same course on one joint alone would
+  // bring, over `delta_chi2`: a touch is felt by several joints.
   double one_joint = 0;
 };
 
 GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
                              const Contact& contact);
 void SortByTime(std::vector<GapEvent>* events);
-// As they are beside what was fitted without them, in the order of time: the
-// excess beside the baseline alone, and beside effects as well.
+// As they are given what was fitted without them, in the order of time: the
+// excess given the baseline alone, and given effects as well.
 void DescribeAgain(const Robot& robot, const GapRows& rows,
-                   const FrictionExcess& alone, const FrictionExcess& beside,
+                   const FrictionExcess& alone, const FrictionExcess& given,
                    std::vector<GapEvent>* events);
 
 // Where in time a candidate with a time and a duration is.
@@ -62,7 +62,7 @@ void MaskEvents(const std::vector<GapEvent>& events, GapData* data);
 // sample: exp(-((t - centre) / width)^2), 0 in other logs.
 Eigen::VectorXd CourseOf(const GapRows& rows, const GapEvent& event);
 
-// GapEvent::one_joint of an event whose window and drop are known.
+// GapEvent::one_joint of an event whose window and delta chi^2 are known.
 double OneJointShare(const GapScreen& screen, const GapRows& rows,
                      const GapEvent& event);
 

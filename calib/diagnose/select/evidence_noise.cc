@@ -36,7 +36,13 @@ struct Weighed {
   }
   // Joint j's, in its own unit.
   VectorXd Residual(int j) const { return stddev[j] * screen.Residual(j, fit); }
-  // `fitted`: rows that the baseline fits, of variance `before`.
+  // The variance of joint j's rows at the fixed point of the fit,
+  //   v = (|r|^2 + tr(A C A')) / N,
+  // where tr(A C A') = fitted v: the residual of a fit is smaller than the
+  // noise by what its parameters took up, and the posterior of these gives it
+  // back (the expectation step of Dempster, Laird and Rubin 1977). `fitted`:
+  // how many of the rows the baseline fits, in units of rows of variance
+  // `before`, of which it can be no more than nine tenths of all.
   double Variance(int j, double fitted, double before) const {
     const double rows = std::max(1, screen.num_rows(j));
     const double left = Residual(j).squaredNorm();
@@ -53,7 +59,10 @@ double MostChange(const VectorXd& before, const VectorXd& after) {
   return (after.array() / before.array()).log().abs().maxCoeff();
 }
 
-// Rounds of variances and weights, times as they are.
+// Alternates weights 1 / (v_j time_j) and variances until these change by less
+// than kVarianceSettled, with the times held. The number of fitted rows costs
+// an inverse of the information, changes slowly, and is renewed every third
+// round only.
 void Settle(int rounds, Weighed* weighed, EvidenceNoise* noise) {
   for (int round = 0; round < rounds; ++round) {
     weighed->Weigh(noise->stddev());
@@ -74,7 +83,9 @@ void Settle(int rounds, Weighed* weighed, EvidenceNoise* noise) {
   weighed->Weigh(noise->stddev());
 }
 
-// Variances under given times, the rows that a baseline fits being known.
+// Variances of one model under times that are given, a few rounds from `start`.
+// The number of rows that the baseline fits is taken over from there, the same
+// for both models that are compared.
 VectorXd VariancesUnder(const VectorXd& time, const EvidenceNoise& start,
                         Weighed* weighed) {
   VectorXd variance = start.variance;
@@ -89,6 +100,10 @@ VectorXd VariancesUnder(const VectorXd& time, const EvidenceNoise& start,
 
 }  // namespace
 
+// First as if all rows were independent, which has the variance right and says
+// how the residual is correlated; then with each joint's integrated
+// autocorrelation time, 1 + 2 sum of the correlations over Geyer's initial
+// positive sequence (1992), as the factor by which its rows count less.
 EvidenceNoise SettleNoise(GapScreen screen, VectorXd stddev) {
   const int n = screen.num_joints();
   Weighed weighed{std::move(screen), std::move(stddev), {}};
@@ -101,6 +116,14 @@ EvidenceNoise SettleNoise(GapScreen screen, VectorXd stddev) {
   return noise;
 }
 
+// The marginal likelihood of a linear model with Gaussian priors, by Laplace's
+// formula, which is exact here (MacKay 1992; Rasmussen and Williams 2006,
+// 2.2.4):
+//   2 log p = -[sum_j N_j / time_j log v_j + chi^2 + ln det(information)],
+// chi^2 holding both the residual and the prior's share. Dividing N_j by time_j
+// is the composite likelihood of Ribatet, Cooley and Davison (2012), which
+// counts independent samples and not rows. Constants that models of the same
+// rows and times share are left out.
 double LogEvidence(GapScreen screen, const EvidenceNoise& before) {
   EvidenceNoise noise = before;
   Weighed weighed{std::move(screen), noise.stddev(), {}};
@@ -115,6 +138,12 @@ double LogEvidence(GapScreen screen, const EvidenceNoise& before) {
   return -cost;
 }
 
+// The correlation time of each joint is the smaller one of what both models
+// leave, in practice the larger model's: two likelihoods that are tempered by
+// different exponents are not comparable, and the better model is the better
+// judge of how white the rest is. With variances at each model's own fixed
+// point the quadratic terms are N_j / time_j in both and cancel; the logarithms
+// of the variances remain, and what the baseline's values cost by their prior.
 double LargerModelOdds(const GapScreen& smaller, const GapScreen& larger,
                        const EvidenceNoise& noise) {
   const int n = smaller.num_joints();

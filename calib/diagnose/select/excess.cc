@@ -45,6 +45,9 @@ MatrixXd MovingMean(const MatrixXd& x, int size) {
 // Where a joint may be breaking away: from when it rests last to this long
 // after, the sign of the velocity it then has (rows x n); 0 elsewhere.
 
+// Where a joint may be breaking away: from when it rests last to
+// rows_of_breakaway samples after, the sign of the velocity it then has; 0
+// elsewhere (rows x n).
 MatrixXd BreakawayDirection(const MatrixXd& moves, const MatrixXd& velocity,
                             int rows_of_breakaway) {
   MatrixXd direction = MatrixXd::Zero(moves.rows(), moves.cols());
@@ -77,6 +80,14 @@ double MoreFriction(const VectorXd& left, const VectorXd& friction,
 
 }  // namespace
 
+// What cannot be friction. The residual and the model's Coulomb friction
+// together are what the joint feels of friction and contact, averaged over
+// shortest_push, the shortest contact that is looked for. Its magnitude less
+// what friction can hold, over the noise's standard deviation, is the excess.
+// What friction can hold is Coulomb friction, raised by what the day shows of
+// more (MoreFriction), whatever the joint does; and while a joint breaks away
+// in the direction in which it is driven, static friction, which is
+// static_friction times that.
 FrictionExcess ExcessOverFriction(const GapBaseline& baseline,
                                   const VectorXd& x, const GapRows& rows,
                                   const MatrixXd& residual) {

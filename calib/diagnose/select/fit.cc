@@ -9,9 +9,9 @@
 #include "calib/diagnose/select/contact_events.h"
 #include "calib/diagnose/select/form_error.h"
 #include "calib/diagnose/select/growth.h"
-#include "calib/diagnose/select/idle.h"
 #include "calib/diagnose/select/null.h"
 #include "calib/diagnose/select/pulse_events.h"
+#include "calib/diagnose/select/redundant.h"
 #include "calib/diagnose/select/reference.h"
 #include "calib/diagnose/select/unknown_law.h"
 #include "model/effects/effects.h"
@@ -43,7 +43,7 @@ GapFit::GapFit(const GapFit& other, LogPart part)
 std::vector<GapEvent> GapFit::NewContacts(
     const std::vector<GapCandidate>& effects, ContactSearch search) const {
   if (IsLeftOut(ContactEffect())) return {};
-  return ContactsBeside(regression_, effects, events_, search);
+  return ContactsGiven(regression_, effects, events_, search);
 }
 
 bool GapFit::TakeOut(const std::vector<GapEvent>& found) {
@@ -52,9 +52,10 @@ bool GapFit::TakeOut(const std::vector<GapEvent>& found) {
   return !found.empty();
 }
 
-// Beside the chosen effects. Columns are of small effects on a grid of shapes:
-// what a large one leaves beyond its column is no contact, so that contacts
-// have to be there beside the fitted effects as well.
+// Contacts given the chosen effects, looked for twice. Columns are of small
+// effects on a grid of shapes, and what a large one leaves beyond its column is
+// no contact; so that contacts have to stand out from the effects as fitted
+// too, for which the cheap search decides whether the fit is worth it.
 bool GapFit::TakeOutContacts(ContactSearch search) {
   const std::vector<GapCandidate> effects = pool_.Fitted(selection_.chosen);
   std::vector<GapEvent> found = NewContacts(effects, search);
@@ -90,7 +91,10 @@ void GapFit::MakeScreen() {
   pool_.List();
 }
 
-// Effects beside the noise that they leave, where that is not known.
+// Effects given the noise that they leave, where that is not known. A choice
+// needs a noise and the noise needs a choice: GrowEffects starts it, by odds
+// that compare models under their own variances, and SelectEffects is repeated
+// with the noise of its own last answer until the choice stays as it is.
 void GapFit::SelectWithTheirNoise() {
   constexpr int kRounds = 3;
   if (!rows().has_evidence()) {
@@ -112,7 +116,12 @@ void GapFit::SelectWithTheirNoise() {
 }
 
 // Effects, and again with the shapes and sizes that fit best: what the nearest
-// of a grid left is no effect.
+// of a grid left is no effect of its own. A first choice is made under the
+// noise that it leaves, by which the size of the discrepancy is chosen, which
+// changes the weights and so asks for another choice. Then the shapes of the
+// chosen ones are fitted, kRounds times at most; candidates at these shapes are
+// added to the pool, and the choice is made again, until the same places come
+// out.
 void GapFit::Select() {
   constexpr int kRounds = 2;
   const auto select = [this] {
@@ -143,6 +152,11 @@ void GapFit::Select() {
   }
 }
 
+// Fits the event that was chosen, k-th of the selection, and takes it out of
+// the data. A force larger than levers allow (largest_force) is no force at the
+// tool: then the event is told by what the excess over friction says of its
+// window, and its own estimates are not believed. delta_chi2 and score stay
+// those that it was chosen by.
 void GapFit::TakeOutEvent(size_t k) {
   GapEvent event;
   const RefinedEffects refined =
@@ -150,7 +164,7 @@ void GapFit::TakeOutEvent(size_t k) {
                     {pool_.Fitted(selection_.chosen)[k]}, -1, data());
   const GapCandidate& fitted = refined.effects[0];
   event.contact =
-      DescribeContact(baseline().robot(), rows(), ExcessBeside(regression_, {}),
+      DescribeContact(baseline().robot(), rows(), ExcessGiven(regression_, {}),
                       fitted.log, WindowOf(fitted));
   event.contact.window = WindowOf(fitted);
   if (fitted.p.head<3>().norm() < event.contact.largest_force) {
@@ -158,21 +172,24 @@ void GapFit::TakeOutEvent(size_t k) {
     event.contact.force = {fitted.p.head<3>(),
                            refined.covariance.topLeftCorner<3, 3>()};
   }
-  event.drop = selection_.drops[k];
+  event.delta_chi2 = selection_.delta_chi2[k];
   event.score = selection_.scores[k];
   event.one_joint = OneJointShare(screen(), rows(), event);
   data()->Mask(event.contact.log, event.contact.window);
   events_.push_back(event);
 }
 
-// chi^2 that a selection and the events so far leave, and what they cost:
-// what is not believed any more is as if each row had been fitted.
+// Chi squared that a selection and the events so far leave, plus the penalties
+// of both. Samples in an event's window are not believed any more, which is
+// worth as much as if each of them had been fitted, and its force, time and
+// duration are parameters of its own.
 double GapFit::Cost(const Selection& selection) const {
   constexpr int kParametersOfAnEvent = 5;  // force, time and duration
   double cost =
-      screen().ResidualBeside(JointRows(rows().num_joints())).squaredNorm() -
-      TotalDrop(screen(), candidates(), selection.chosen);
-  for (const int c : selection.chosen) cost += Price(screen(), candidates()[c]);
+      screen().ResidualGiven(JointRows(rows().num_joints())).squaredNorm() -
+      TotalDeltaChi2(screen(), candidates(), selection.chosen);
+  for (const int c : selection.chosen)
+    cost += Penalty(screen(), candidates()[c]);
   for (const GapEvent& event : events_) {
     cost += RowsOf(rows(), event) +
             kParametersOfAnEvent * std::log(rows().num_rows());
@@ -196,7 +213,7 @@ void GapFit::ForgetTouchesOfWhatLasts() {
   SelectionOptions options = options_.selection;
   options.events = false;
   if (Cost(SelectEffects(screen(), candidates(), options)) < touches) {
-    SelectBeside(contacts);
+    SelectGiven(contacts);
   } else {
     TakeAsKnown(all);
     MakeScreen();
@@ -210,7 +227,7 @@ void GapFit::TakeAsKnown(const std::vector<GapEvent>& events) {
   MaskEvents(events_, data());
 }
 
-void GapFit::SelectBeside(const std::vector<GapEvent>& events) {
+void GapFit::SelectGiven(const std::vector<GapEvent>& events) {
   TakeAsKnown(events);
   options_.selection.events = false;
   MakeScreen();
@@ -251,10 +268,10 @@ void GapFit::ForgetPulsesOfALaw() {
         std::count(joints.begin(), joints.end(), event.contact.joint) > 0;
     if (!event.pulse || !of_law) kept.push_back(event);
   }
-  SelectBeside(kept);
+  SelectGiven(kept);
 }
 
-std::vector<GapEvent> GapFit::EventsBeside(
+std::vector<GapEvent> GapFit::EventsGiven(
     const std::vector<GapCandidate>& effects) const {
   if (effects.empty() ||
       std::none_of(events_.begin(), events_.end(),
@@ -267,52 +284,59 @@ std::vector<GapEvent> GapFit::EventsBeside(
 void GapFit::FindEvents(const std::vector<GapEvent>& known) {
   TakeAsKnown(known);
   SelectWithEvents();
-  if (regression_.IsTheSameDayBeside(pool_.Fitted(selection_.chosen))) {
+  if (regression_.IsTheSameDayGiven(pool_.Fitted(selection_.chosen))) {
     SelectWithEvents();
   }
-  DescribeAgain(baseline().robot(), rows(), ExcessBeside(regression_, {}),
-                ExcessBeside(regression_, pool_.Fitted(selection_.chosen)),
+  DescribeAgain(baseline().robot(), rows(), ExcessGiven(regression_, {}),
+                ExcessGiven(regression_, pool_.Fitted(selection_.chosen)),
                 &events_);
 }
 
 void GapFit::Choose() {
   FindEvents({});
   Finish();
-  const std::vector<GapEvent> kept = EventsBeside(refined_.effects);
-  if (kept.size() < events_.size()) ChooseBeside(kept);
+  const std::vector<GapEvent> kept = EventsGiven(refined_.effects);
+  if (kept.size() < events_.size()) ChooseGiven(kept);
 }
 
-void GapFit::ChooseBeside(const std::vector<GapEvent>& events) {
-  SelectBeside(events);
+void GapFit::ChooseGiven(const std::vector<GapEvent>& events) {
+  SelectGiven(events);
   Finish();
 }
 
+// What is left of the selection after chance (WithoutChance), with shapes that
+// are fitted and without effects that have nothing left to do once they are.
+// Leaving one out changes what the others explain, so that it is asked again
+// until none is.
 void GapFit::Finish() {
   selection_ = WithoutChance(screen(), rows(), candidates(), options_.selection,
                              selection_, kSeed);
   while (true) {
     Refine();
-    const int idle =
-        FindIdle(regression_, pool_, options_.selection, selection_, refined_);
-    if (idle < 0) break;
+    const int redundant = FindRedundant(regression_, pool_, options_.selection,
+                                        selection_, refined_);
+    if (redundant < 0) break;
     selection_ = DescribeSelection(screen(), candidates(), options_.selection,
-                                   Without(selection_.chosen, idle));
+                                   Without(selection_.chosen, redundant));
   }
   FitModels();
 }
 
-// The models, and what they leave, beside the refined effects.
+// The models, and what they leave, given the refined effects.
 void GapFit::FitModels() {
   const MatrixXd left = data()->ResidualWith(
       refined_.baseline, regression_.TorqueOf(refined_.effects));
-  model_refit_ = ModelBeside({});
-  model_after_ = ModelBeside(refined_.effects);
+  model_refit_ = ModelGiven({});
+  model_after_ = ModelGiven(refined_.effects);
   left_.resize(left.cols());
   for (int j = 0; j < left.cols(); ++j) {
     left_[j] = rows().Whiten(j, left.col(j));
   }
 }
 
+// The fit with these effects alone, as a report shows it: candidates, rivals
+// and baseline are of the model that is claimed and of no other. Nothing is
+// chosen anew, which could bring another effect back in.
 void GapFit::KeepOnly(const std::vector<int>& kept) {
   std::vector<int> chosen;
   std::vector<Rivals> rivals;
@@ -351,13 +375,12 @@ void GapFit::Refine() {
   }
 }
 
-VectorXd GapFit::BaselineBeside(
-    const std::vector<GapCandidate>& effects) const {
-  return regression_.BaselineBeside(regression_.TorqueOf(effects));
+VectorXd GapFit::BaselineGiven(const std::vector<GapCandidate>& effects) const {
+  return regression_.BaselineGiven(regression_.TorqueOf(effects));
 }
 
-VectorXd GapFit::ModelBeside(const std::vector<GapCandidate>& effects) const {
-  return regression_.ModelBeside(regression_.TorqueOf(effects));
+VectorXd GapFit::ModelGiven(const std::vector<GapCandidate>& effects) const {
+  return regression_.ModelGiven(regression_.TorqueOf(effects));
 }
 
 VectorXd GapFit::LeftByNoise(int joint, bool with_effects) const {

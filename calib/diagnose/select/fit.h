@@ -33,11 +33,11 @@ class GapFit {
   // Chooses effects and refines them; events are taken out of the data one by
   // one first, since nothing else can be told while they last.
   void Choose();
-  // The events alone, beside those that are known.
+  // The events alone, given those that are known.
   void FindEvents(const std::vector<GapEvent>& known);
-  // Effects beside these events, in the order of time, which are all that there
+  // Effects given these events, in the order of time, which are all that there
   // were.
-  void ChooseBeside(const std::vector<GapEvent>& events);
+  void ChooseGiven(const std::vector<GapEvent>& events);
   // Of the effects that were chosen, those with these numbers alone, fitted
   // again: what is not claimed is no part of what is shown.
   void KeepOnly(const std::vector<int>& kept);
@@ -62,9 +62,9 @@ class GapFit {
   const RefinedEffects& refined() const { return refined_; }
   // In the order of time.
   const std::vector<GapEvent>& events() const { return events_; }
-  // The same without pulses that stood out beside what was chosen when they
-  // were found, and do not beside these effects.
-  std::vector<GapEvent> EventsBeside(
+  // The same without pulses that stood out given what was chosen when they
+  // were found, and do not given these effects.
+  std::vector<GapEvent> EventsGiven(
       const std::vector<GapCandidate>& effects) const;
   // Of the k-th effect.
   const std::vector<RefinedScore>& rivals(size_t k) const {
@@ -73,7 +73,7 @@ class GapFit {
   // GapRegression's.
   const Eigen::VectorXd& before() const { return regression_.before(); }
   const Eigen::VectorXd& refit() const { return regression_.refit(); }
-  // Whitened residual of joint j beside the refined effects: their torque as it
+  // Whitened residual of joint j given the refined effects: their torque as it
   // is, not as columns have it.
   const Eigen::VectorXd& Left(int joint) const { return left_[joint]; }
   // Of an effect, per joint thinned samples, N m or N.
@@ -83,13 +83,12 @@ class GapFit {
   ReferenceScatter ScatterOf(const GapCandidate& effect) const {
     return regression_.ScatterOf(effect);
   }
-  // The baseline's values beside other effects.
-  Eigen::VectorXd BaselineBeside(
-      const std::vector<GapCandidate>& effects) const;
-  // The model's values beside other effects, without what models lack as a
+  // The baseline's values given other effects.
+  Eigen::VectorXd BaselineGiven(const std::vector<GapCandidate>& effects) const;
+  // The model's values given other effects, without what models lack as a
   // rule: what a robot file can hold.
-  Eigen::VectorXd ModelBeside(const std::vector<GapCandidate>& effects) const;
-  // The same without any effect, and beside the refined ones.
+  Eigen::VectorXd ModelGiven(const std::vector<GapCandidate>& effects) const;
+  // The same without any effect, and given the refined ones.
   const Eigen::VectorXd& model_refit() const { return model_refit_; }
   const Eigen::VectorXd& model_after() const { return model_after_; }
   // What the model leaves of joint j's torque, whitened by the torque's noise
@@ -110,7 +109,7 @@ class GapFit {
   double Cost(const Selection& selection) const;
   void ForgetTouchesOfWhatLasts();
   void ForgetPulsesOfALaw();
-  void SelectBeside(const std::vector<GapEvent>& events);
+  void SelectGiven(const std::vector<GapEvent>& events);
   void TakeAsKnown(const std::vector<GapEvent>& events);
   void SelectWithEvents();
   void Finish();

@@ -11,19 +11,19 @@ namespace armcal {
 // The form of an effect is never quite right: what that leaves looks like other
 // effects, on its joint most of all. One more effect has to be larger.
 
-// Of chi^2, by these together.
-double TotalDrop(const GapScreen& screen,
-                 const std::vector<GapCandidate>& candidates,
-                 const std::vector<int>& chosen);
-// When each is left out.
-std::vector<double> Drops(const GapScreen& screen,
-                          const std::vector<GapCandidate>& candidates,
-                          const std::vector<int>& chosen);
+// By which chi^2 falls with these together, against the baseline alone.
+double TotalDeltaChi2(const GapScreen& screen,
+                      const std::vector<GapCandidate>& candidates,
+                      const std::vector<int>& chosen);
+// By which chi^2 rises when each is left out.
+std::vector<double> DeltaChi2OfEach(const GapScreen& screen,
+                                    const std::vector<GapCandidate>& candidates,
+                                    const std::vector<int>& chosen);
 
 // What one more effect explains.
 struct Gain {
   const std::vector<int>&fewer, &more;
-  double gain, before;  // of chi^2, by `more` beside `fewer`, by those before
+  double gain, before;  // of chi^2, by `more` given `fewer`, by those before
 };
 
 // Whether that is more than an error in the form of the strongest would be,
@@ -33,8 +33,8 @@ bool IsLarge(const GapScreen& screen,
              const SelectionOptions& options, int strongest, int other,
              const Gain& gain);
 
-// Whether each of `more` is large enough beside the strongest of them, and
-// those that are new beside what `fewer` explain.
+// Whether each of `more` is large enough compared to the strongest of them, and
+// those that are new given what `fewer` explain.
 bool AreLarge(const GapScreen& screen,
               const std::vector<GapCandidate>& candidates,
               const SelectionOptions& options, const std::vector<int>& fewer,

@@ -16,20 +16,24 @@ using Eigen::VectorXd;
 constexpr int kPlaces = 8;  // that are looked at in full, by each ranking
 
 // The best places by their scores, and by those that they would have if all
-// rows were independent: what an effect leaves unexplained is correlated, and
-// so makes itself small.
+// rows were independent. Rows are weighed by 1 / (v time), time the
+// autocorrelation time of what is left (evidence_noise.h); an effect that is
+// missing makes that residual correlated, and so hides itself. Multiplied by
+// the time again its delta_chi2 is that of white noise, which is too hopeful,
+// but leaves no effect out of the few that are then compared in full.
 std::vector<int> Shortlist(const GapRegression& regression,
                            const std::vector<GapCandidate>& candidates,
                            const SelectionOptions& options,
                            const std::vector<int>& set) {
   const GapScreen& screen = regression.screen();
-  const VectorXd scores = ScoresBeside(screen, candidates, options, set, -1);
+  const VectorXd scores = ScoresGiven(screen, candidates, options, set, -1);
   const VectorXd& time = regression.evidence().time;
   VectorXd hopeful = scores;
   for (size_t i = 0; i < candidates.size(); ++i) {
     const int j = candidates[i].joint;
-    const double price = Price(screen, candidates[i]);
-    hopeful[i] = (scores[i] + price) * (j < 0 ? time.mean() : time[j]) - price;
+    const double penalty = Penalty(screen, candidates[i]);
+    hopeful[i] =
+        (scores[i] + penalty) * (j < 0 ? time.mean() : time[j]) - penalty;
   }
   std::vector<int> list = BestPlaces(candidates, scores, kPlaces);
   for (const int c : BestPlaces(candidates, hopeful, kPlaces)) {
@@ -40,6 +44,15 @@ std::vector<int> Shortlist(const GapRegression& regression,
 
 }  // namespace
 
+// Forward selection by the odds of the larger model against the smaller one,
+//   LargerModelOdds(set, set + candidate) - Penalty(candidate),
+// both under the correlation that the larger one leaves. This differs from the
+// scores of SelectEffects in that variance and correlation time are functions
+// of the model and not of the data: N / time log(v0 / v1) grows without bound
+// as an effect explains the whole residual, whereas delta_chi2 under the
+// smaller model's variance is N / time at most. After each step the regression
+// is weighed by what the set leaves (SettleEvidence), for which the next
+// candidate has to be seen.
 std::vector<int> GrowEffects(const std::vector<GapCandidate>& candidates,
                              const SelectionOptions& options,
                              GapRegression* regression) {
@@ -58,7 +71,7 @@ std::vector<int> GrowEffects(const std::vector<GapCandidate>& candidates,
       scores[i] =
           LargerModelOdds(smaller, screen.Only(ColumnsOf(candidates, more)),
                           regression->evidence()) -
-          Price(screen, candidates[list[i]]);
+          Penalty(screen, candidates[list[i]]);
     });
     int best;
     if (!(scores.maxCoeff(&best) > options.threshold)) break;

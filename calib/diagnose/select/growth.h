@@ -8,8 +8,8 @@
 
 namespace armcal {
 
-// Effects one by one, each the one whose larger model is the most likely beside
-// those before (LargerModelOdds less the price of its parameters), as long as
+// Effects one by one, each the one whose larger model is the most likely given
+// those before (LargerModelOdds less the penalty of its parameters), as long as
 // that is above the threshold. The regression's noise is then that of what the
 // last of these models leaves: an effect that explains most of the torque shows
 // how small the noise is only once it is in the model.

@@ -13,11 +13,23 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Blocks of Limits().block seconds from each log's beginning: what is left of
+// the torque is correlated within a block, and nearly independent from one to
+// the next, as the blocks of Newey and West (1987) and Kuensch (1989) have to
+// be.
 std::pair<int, long> BlockOf(const GapRows::Place& place) {
   return {place.segment,
           static_cast<long>(std::floor(place.time / Limits().block))};
 }
 
+// The sandwich estimator of a least squares fit (White 1980; with blocks in
+// place of single samples, Newey and West 1987) has the covariance
+//   G^-1 V G^-1,  V = sum over blocks of s_b s_b',  s_b = sum of c_k r_k in b,
+// c_k the candidate's projected columns and r_k the residual at row k. With
+// white noise of unit variance V = G in the mean, and delta_chi2 = g' G^-1 g
+// has the mean k; with V it is tr(G^-1 V). Their ratio is by how much
+// delta_chi2 is too large on average: the first-order correction of Rao and
+// Scott (1981) for a likelihood ratio under a wrong model.
 double Inflation(const GapScreen& screen, const GapRows& rows,
                  const GapCandidate& candidate, const GapScreen::Fit& fit) {
   const int size = static_cast<int>(candidate.columns.size());

@@ -8,6 +8,10 @@
 
 namespace armcal {
 
+// Each of `further` maxima is above the median with the probability `share` and
+// beyond x of it with (1 + x / (m scale))^-m, the predictive distribution of an
+// exponential tail whose scale m exceedances tell. The expected number of those
+// that are beyond bounds the probability of one.
 double MaximaTail::Chance(double further, double value) const {
   if (exceedances == 0 || value <= median) return 1;
   if (scale == 0) return 0;
@@ -22,6 +26,9 @@ double MaximaTail::Quantile(double further, double probability) const {
          m * scale * (std::pow(further * share / probability, 1 / m) - 1);
 }
 
+// The scale of an exponential tail is the mean of its exceedances over the
+// threshold, here the median: maximum likelihood for that tail, and as many of
+// them as there are say how well it is known.
 MaximaTail TailOf(std::vector<double> maxima) {
   MaximaTail tail;
   if (maxima.size() < 2) return tail;

@@ -28,7 +28,9 @@ MatrixXd Accelerations(const GapRows& rows) {
   return rows.ThinAll(all).cwiseAbs();
 }
 
-// Of each column, of samples that are in the part.
+// Of each joint the value that all but 5 % of its samples stay below
+// (usual_motion), and not the largest: one jump of an encoder would else widen
+// the range for all of the log.
 VectorXd UsualLargest(const GapRows& rows, const MatrixXd& all) {
   VectorXd largest = VectorXd::Zero(all.cols());
   for (int i = 0; i < all.cols(); ++i) {

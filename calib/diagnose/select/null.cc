@@ -23,7 +23,10 @@ constexpr int kDraws = 200;
 constexpr double kRounding = 1e-9;  // of a score
 constexpr double kLowest = -100;    // of scores that no candidate has
 
-// Gradients of the screen's columns with each block of the residual alone.
+// Gradients of the screen's columns with each block of the residual alone,
+// screen columns x blocks. Their sum over blocks is the gradient of the
+// residual, and with signs it is that of a residual whose blocks have these
+// signs, without the rows being touched again.
 MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
                         const GapScreen::Fit& fit) {
   const int n = rows.num_joints();
@@ -62,6 +65,10 @@ struct PlaceExcess {
   VectorXd deviations;
 };
 
+// Standardised by median and upper tail, not by mean and deviation: one draw in
+// which a place scores high by chance must not hide that it does so rarely. A
+// scale of at least 1 keeps places whose candidates never score from being
+// divided by nothing.
 PlaceExcess Excess(const VectorXd& scores) {
   PlaceExcess excess;
   excess.median = OrderStatistic(scores, .5);
@@ -72,6 +79,19 @@ PlaceExcess Excess(const VectorXd& scores) {
 
 }  // namespace
 
+// A randomisation test (Fisher 1935; as wild bootstrap of blocks, Wu 1986 and
+// Shao 2010). Under the hypothesis that nothing but the chosen effects is
+// there, each block of what they leave is as likely to have come with the
+// opposite sign. The residual is drawn kDraws times with random signs of its
+// blocks, each draw goes through the whole search for one more effect, and the
+// best score of each place (joint or whole robot) is kept: the maximum over all
+// candidates accounts for how many were looked at (Westfall and Young 1993).
+//
+// Of two thresholds the lower one counts: the quantile of the largest score of
+// all, and the quantile of the largest in units of each place's own tail, put
+// back into those of the asked joint. The second asks less of a joint that is
+// well explained where another one is not, whose structured residual would else
+// set the threshold for all.
 double ScoreByChance(const GapScreen& screen, const GapRows& rows,
                      const std::vector<GapCandidate>& candidates,
                      const SelectionOptions& options,
@@ -107,6 +127,13 @@ double ScoreByChance(const GapScreen& screen, const GapRows& rows,
           own.scale * OrderStatistic(largest, Limits().chance_quantile));
 }
 
+// Backward elimination: of all chosen effects the one with the least margin
+// goes first, and the rest is asked again, since what it explained is part of
+// the residual from then on. The margin is the smaller of two, both on the
+// scale of a score: delta_chi2 / Inflation - Penalty less the threshold, which
+// judges the effect against its own rows' scatter, and the score less what
+// chance gives, which judges it against a search as wide as the one that found
+// it.
 Selection WithoutChance(const GapScreen& screen, const GapRows& rows,
                         const std::vector<GapCandidate>& candidates,
                         const SelectionOptions& options, Selection selection,
@@ -119,8 +146,8 @@ Selection WithoutChance(const GapScreen& screen, const GapRows& rows,
     for (int k = 0; k < static_cast<int>(selection.chosen.size()); ++k) {
       const GapCandidate& candidate = candidates[selection.chosen[k]];
       const double deflated =
-          selection.drops[k] / Inflation(screen, rows, candidate, fit) -
-          Price(screen, candidate);
+          selection.delta_chi2[k] / Inflation(screen, rows, candidate, fit) -
+          Penalty(screen, candidate);
       const double by_chance =
           ScoreByChance(screen, rows, candidates, options,
                         Without(selection.chosen, k), candidate.joint, seed);

@@ -24,8 +24,8 @@ double ScoreByChance(const GapScreen& screen, const GapRows& rows,
                      std::uint64_t seed);
 
 // What is left of a selection without those, weakest first, that may have come
-// by chance: whose score does not exceed ScoreByChance beside the others, or
-// the threshold once their drop is divided by Inflation.
+// by chance: whose score does not exceed ScoreByChance given the others, or
+// the threshold once their delta chi^2 is divided by Inflation.
 Selection WithoutChance(const GapScreen& screen, const GapRows& rows,
                         const std::vector<GapCandidate>& candidates,
                         const SelectionOptions& options, Selection selection,

@@ -24,6 +24,12 @@ CandidatePool::CandidatePool(GapRegression* regression,
   Forget();
 }
 
+// Columns are derivatives of the torque at a small size of the effect, which is
+// all there is to know of a law that is in proportion to its size. A backlash
+// or a wind-up is not: its torque at ten times the size has another course. For
+// these larger sizes are candidates of their own, a few for every joint whose
+// residual is more than noise, and all sizes and shapes at the places where the
+// small ones already score best.
 void CandidatePool::List() {
   Forget();
   Add(ListCandidates(
@@ -42,6 +48,8 @@ void CandidatePool::Add(std::vector<GapCandidate> more) {
   regression_.mutable_screen()->Factor();
 }
 
+// The linear parameters of the candidates, solved together: the coefficients of
+// the screen's columns are in units of the candidate's `size`.
 std::vector<GapCandidate> CandidatePool::Fitted(
     const std::vector<int>& which) const {
   std::vector<GapCandidate> fitted;
@@ -70,6 +78,10 @@ std::vector<GapCandidate> CandidatePool::AFewLargerOnes() const {
   return larger;
 }
 
+// The kPlaces best places by delta_chi2 - penalty of the small candidates
+// decide where all larger sizes are evaluated, which costs a simulation each.
+// Solve is asked and not the score, since the latter holds coefficients at
+// their known sign.
 std::vector<GapCandidate> CandidatePool::LargerOnesWhereTheyShow() const {
   constexpr int kPlaces = 3;
   if (std::none_of(candidates_.begin(), candidates_.end(),
@@ -81,8 +93,8 @@ std::vector<GapCandidate> CandidatePool::LargerOnesWhereTheyShow() const {
   VectorXd scores = VectorXd::Zero(candidates_.size());
   for (size_t i = 0; i < candidates_.size(); ++i) {
     if (candidates_[i].effect->larger_sizes.empty()) continue;
-    scores[i] = screen.Solve(candidates_[i].columns).drop -
-                Price(screen, candidates_[i]);
+    scores[i] = screen.Solve(candidates_[i].columns).delta_chi2 -
+                Penalty(screen, candidates_[i]);
   }
   std::vector<GapCandidate> larger;
   for (const int place : BestPlaces(candidates_, scores, kPlaces)) {

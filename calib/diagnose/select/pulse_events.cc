@@ -21,8 +21,12 @@ using Eigen::VectorXd;
 // large as its prior says.
 class ModelOfPulses {
  public:
+  // The model's values x given the effects, and their covariance C: what the
+  // fit knows of its own columns, and the prior of the discrepancy's, which was
+  // not fitted here. PulseScan adds X C X' to the variance of every pulse, so
+  // that what the model may have wrong is no push.
   ModelOfPulses(const GapRegression& regression, const JointRows& torque)
-      : x_(regression.ModelBeside(torque)),
+      : x_(regression.ModelGiven(torque)),
         robot_(regression.baseline().With(x_)),
         range_(regression.reference()->rows()),
         covariance_(MatrixXd::Identity(x_.size(), x_.size())) {
@@ -45,11 +49,15 @@ class ModelOfPulses {
       model.noise[j].sigma *= std::sqrt(growth[j]);
     }
     return PulseScan(data.rows(), model, data.ResidualWith(x_, torque),
-                     DoubtOf(data.rows(), model.noise));
+                     ExtraStddev(data.rows(), model.noise));
   }
 
  private:
-  // Of all that is seen in a log without a push, joints at rest included.
+  // The noise that a pulse is held against: an autoregression fitted to what
+  // the model leaves of the reference, which nothing touched, in all
+  // uninterrupted stretches that count, joints at rest included. Samples whose
+  // variance is more than twice the noise's are masked or next to a reversal of
+  // friction, and end a stretch.
   static Autoregression NoiseOf(const GapRows& rows, int joint,
                                 const VectorXd& left) {
     std::vector<VectorXd> stretches;
@@ -69,29 +77,34 @@ class ModelOfPulses {
     return FitYuleWalker(stretches);
   }
 
-  // What rows are doubted by. Where the motion is beyond what the reference
-  // has, the model leaves more than the `noise` that was told there. A joint
-  // that does not slide holds any torque up to its Coulomb friction, and the
-  // torque of joints without a motor is told in no unit.
-  MatrixXd DoubtOf(const GapRows& rows,
-                   const std::vector<Autoregression>& noise) const {
+  // The standard deviation of what else may be wrong with samples, a row each.
+  // Three causes are added. The rows have an extra variance of their own around
+  // reversals of friction (GapData). Where the motion is beyond what the
+  // reference has, errors of inertias and of drag grow by MotionRange's factor
+  // f, and what the model leaves has the variance f^2 of that in the reference.
+  // A joint that does not slide holds any torque up to its Coulomb friction,
+  // and the torque of joints without a motor is told in no unit: these samples
+  // say nothing, and have an infinite one.
+  MatrixXd ExtraStddev(const GapRows& rows,
+                       const std::vector<Autoregression>& noise) const {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
     const Eigen::ArrayXd growth = range_.Growth(rows);
     const VectorXd usual = UsualTorque(rows.segments());
-    MatrixXd doubt(rows.num_thin(), rows.num_joints());
+    MatrixXd extra_stddev(rows.num_thin(), rows.num_joints());
     for (int j = 0; j < rows.num_joints(); ++j) {
       const double own = std::pow(rows.noise(j).stddev(), 2);
       const double left = std::pow(noise[j].stddev(), 2);
       const bool sticks = robot_.links[j].joint.coulomb > 0;
       for (int k = 0; k < rows.num_thin(); ++k) {
         const bool holds = sticks && rows.IsHeld(rows.SegmentOf(k), j, k);
-        doubt(k, j) = holds || usual[j] == 0
-                          ? kUnknown
-                          : std::sqrt(std::max(0., rows.variance(j, k) - own) +
-                                      left * (growth[k] * growth[k] - 1));
+        extra_stddev(k, j) =
+            holds || usual[j] == 0
+                ? kUnknown
+                : std::sqrt(std::max(0., rows.variance(j, k) - own) +
+                            left * (growth[k] * growth[k] - 1));
       }
     }
-    return doubt;
+    return extra_stddev;
   }
 
   VectorXd x_;
@@ -115,13 +128,17 @@ std::vector<double> Looks(const GapRows& rows, const PulseScan& scan) {
 // Of motion that no fit has seen (ReferenceNoise).
 VectorXd GrowthOf(const GapNoise& noise, int n) {
   VectorXd growth = VectorXd::Ones(n);
-  for (size_t j = 0; j < noise.doubt.size(); ++j) growth[j] += noise.doubt[j];
+  for (size_t j = 0; j < noise.extra_variance.size(); ++j)
+    growth[j] += noise.extra_variance[j];
   return growth;
 }
 
-// How probable it is that noise alone gets as far in any of the time. What a
-// filter of this width makes of noise is correlated as exp(-(dt / width)^2 / 2)
-// and crosses +-d at the rate exp(-d^2 / 2) / (pi width) (Rice 1945).
+// How probable it is that noise alone gets as far at any time, on any joint,
+// for any width that is looked for. What a Gaussian pulse of this width makes
+// of white noise has the autocorrelation exp(-(dt / width)^2 / 2), and
+// upcrosses d at the rate exp(-d^2 / 2) / (2 pi width) (Rice 1945); of both
+// signs twice that. For large d the expected number of crossings is the
+// probability of one, which is a bound in any case (Boole).
 double ChanceOfNoise(const GapRows& rows, double deviations) {
   double crossings = 0;
   for (const double width : PulseScan::Widths()) {
@@ -130,6 +147,11 @@ double ChanceOfNoise(const GapRows& rows, double deviations) {
   return crossings * std::exp(-deviations * deviations / 2);
 }
 
+// The pulse at a sample that stands out most on `joint`, told on all joints:
+// the same course is fitted to each, since a push is felt by several.
+// delta_chi2 is the sum of the squared deviations, chi squared of as many
+// degrees as there are joints, and `one_joint` the share of the strongest. Of
+// joints that are not seen there the torque is 0 within their Coulomb friction.
 GapEvent EventOf(const GapRows& rows, const Robot& robot, const PulseScan& scan,
                  int sample, int joint) {
   const double width = scan.widths()(sample, joint);
@@ -150,10 +172,10 @@ GapEvent EventOf(const GapRows& rows, const Robot& robot, const PulseScan& scan,
     contact.stddev[j] = std::isfinite(pulse.stddev)
                             ? pulse.stddev
                             : std::max(0., robot.links[j].joint.coulomb);
-    event.drop += pulse.deviations * pulse.deviations;
+    event.delta_chi2 += pulse.deviations * pulse.deviations;
   }
-  event.score = event.drop;
-  event.one_joint = std::pow(contact.deviations, 2) / event.drop;
+  event.score = event.delta_chi2;
+  event.one_joint = std::pow(contact.deviations, 2) / event.delta_chi2;
   event.pulse = event.beyond_friction = true;
   return event;
 }
@@ -220,7 +242,10 @@ class PulseSearch {
     return std::max(usual_.Chance(deviations * deviations),
                     ChanceOfNoise(rows_, deviations));
   }
-  // Each of them, from the largest on.
+  // Each of them, from the largest on, until noise or the reference's own
+  // pulses give one as large with a probability of false_contacts. The window
+  // of one that was found is not looked at again: its flanks are no pushes of
+  // their own.
   std::vector<GapEvent> Find() const {
     MatrixXd deviations = scan_.deviations().cwiseAbs();
     std::vector<GapEvent> events;
@@ -269,6 +294,10 @@ GapRegression MaskedBy(const std::vector<GapEvent>& events,
 
 }  // namespace
 
+// Pulses that stand out in more of the time than contacts may take are what the
+// model lacks, and forces that only ever brake a joint are friction that comes
+// and goes. Either spoils all of them: one that is real cannot be told among
+// them.
 std::vector<GapEvent> FindPulses(const GapRegression& regression,
                                  const std::vector<GapCandidate>& effects) {
   if (!regression.reference()) return {};

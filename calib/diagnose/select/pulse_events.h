@@ -9,7 +9,7 @@
 namespace armcal {
 
 // Pushes on joints that move, one joint or several, as pulses of torque
-// (PulseScan) beside the baseline and `effects`. Only a reference, in which
+// (PulseScan) given the baseline and `effects`. Only a reference, in which
 // nothing touched the arm, tells what pulses a model leaves by itself, of
 // motion as it has (MotionRange): one of the log has to stand out from them.
 // None where there is no reference, nor where they would take more of the time
@@ -18,8 +18,8 @@ namespace armcal {
 std::vector<GapEvent> FindPulses(const GapRegression& regression,
                                  const std::vector<GapCandidate>& effects);
 
-// Events without the pulses that no longer stand out beside these effects, all
-// samples of theirs seen: they were found beside others, which left more.
+// Events without the pulses that no longer stand out given these effects, all
+// samples of theirs seen: they were found given others, which left more.
 std::vector<GapEvent> WithoutExplainedPulses(
     const GapRegression& regression, const std::vector<GapCandidate>& effects,
     const std::vector<GapEvent>& events);

@@ -15,12 +15,14 @@ using Eigen::VectorXd;
 
 constexpr int kMemory = Autoregression::kOrder;
 constexpr double kLeastSeen = .5;  // of a pulse's g'g
-// Of the noise in a sample's variance: one that is doubted a hundred times as
-// much is not seen. Of a pulse that is masked but for its tails these would
-// else be all that is fitted, ever again.
+// Of the noise in a sample's variance: one of a hundred times its standard
+// deviation is not seen. Of a pulse that is masked but for its tails these
+// would else be all that is fitted, ever again.
 constexpr double kLeastOfNoise = 1e-4;
 
-// X C^(1/2) for the columns that act on one joint.
+// X C^(1/2) for the columns that act on one joint, so that X C X' is its
+// product with its transpose: the covariance of what the model's uncertain
+// values make of the torque, thinned samples x columns, never formed.
 MatrixXd TimesHalf(const BaselineColumns& columns, const MatrixXd& covariance) {
   return columns.values *
          SquareRoot(covariance(columns.which, columns.which)).transpose();
@@ -37,7 +39,7 @@ std::vector<double> PulseScan::Widths() {
 }
 
 PulseScan::PulseScan(const GapRows& rows, const Model& model,
-                     const MatrixXd& residual, const MatrixXd& doubt)
+                     const MatrixXd& residual, const MatrixXd& extra_stddev)
     : rows_(rows), joints_(rows.num_joints()) {
   widths_ = deviations_ = MatrixXd::Zero(rows.num_thin(), rows.num_joints());
   for (int j = 0; j < rows.num_joints(); ++j) {
@@ -48,15 +50,21 @@ PulseScan::PulseScan(const GapRows& rows, const Model& model,
     joint.residual = joint.weight = VectorXd::Zero(rows.num_thin());
     joint.half = MatrixXd::Zero(rows.num_thin(), half.cols());
     for (size_t i = 0; i < rows.segments().size(); ++i) {
-      Whiten(static_cast<int>(i), residual.col(j), half, doubt.col(j), &joint);
+      Whiten(static_cast<int>(i), residual.col(j), half, extra_stddev.col(j),
+             &joint);
     }
     for (const double width : Widths()) Scan(j, width);
   }
 }
 
-// A sample is seen once as many as the noise remembers have been.
+// Residual and X C^(1/2) of one segment, filtered by the noise's autoregression
+// so that its samples are independent, times weights sqrt(v / (v + extra^2))
+// for what else may be wrong with a sample. The weight of an infinite extra
+// deviation is 0. A sample is seen once as many before it as the autoregression
+// remembers have been: its filtered value would else hold samples that do not
+// count.
 void PulseScan::Whiten(int segment, const VectorXd& residual,
-                       const MatrixXd& half, const VectorXd& doubt,
+                       const MatrixXd& half, const VectorXd& extra_stddev,
                        Joint* joint) const {
   const int begin = rows_.thin_begin(segment) + kMemory;
   const int end = rows_.thin_begin(segment + 1);
@@ -65,7 +73,8 @@ void PulseScan::Whiten(int segment, const VectorXd& residual,
   int seen = 0;  // uninterrupted
   for (int k = begin - kMemory; k < end; ++k) {
     seen = rows_.IsInPart(segment, k) ? seen + 1 : 0;
-    const double share = variance / (variance + doubt[k] * doubt[k]);
+    const double share =
+        variance / (variance + extra_stddev[k] * extra_stddev[k]);
     if (seen > kMemory && share > kLeastOfNoise) {
       joint->weight[k] = std::sqrt(share);
     }
@@ -93,6 +102,10 @@ void PulseScan::Scan(int joint, double width) {
   }
 }
 
+// The pulse exp(-(t / width)^2), event_reach widths to both sides, and what
+// whitening makes of it: the filter needs kMemory samples before, and leaves a
+// tail as long after. It is the same at every sample, so that it is computed
+// once per joint and width.
 PulseScan::Course PulseScan::CourseOf(int joint, double step,
                                       double width) const {
   Course course;
@@ -108,6 +121,13 @@ PulseScan::Course PulseScan::CourseOf(int joint, double step,
   return course;
 }
 
+// The matched filter (Kay 1998, 4.3) of one pulse, by generalised least
+// squares. With g the whitened course and r the whitened residual, recorded
+// less model, the torque that acts against the drives is
+//   f = -g' r / g' g,  var f = (1 + |(X C^(1/2))' g|^2 / g' g) / g' g,
+// the first term that of the noise and the second that of the model's uncertain
+// values along g. A pulse of which less than kLeastSeen of g' g is seen has no
+// deviation: from its tails alone any height could be told.
 Pulse PulseScan::Fit(int joint, int segment, int sample,
                      const Course& course) const {
   const Joint& own = joints_[joint];

@@ -38,10 +38,11 @@ class PulseScan {
     std::vector<Autoregression> noise;     // per joint, of what it leaves
   };
   // `residual`: recorded torque less the model's, thinned samples x n, N m or
-  // N; `doubt`: standard deviation of what else a sample of it may be off by,
-  // infinite where it is not seen.
+  // N; `extra_stddev`: standard deviation of what else a sample of it may be
+  // off by, infinite where it is not seen.
   PulseScan(const GapRows& rows, const Model& model,
-            const Eigen::MatrixXd& residual, const Eigen::MatrixXd& doubt);
+            const Eigen::MatrixXd& residual,
+            const Eigen::MatrixXd& extra_stddev);
 
   // Of every thinned sample and joint (thinned samples x n) the width of the
   // pulse that stands out most, and by how many standard deviations of either
@@ -70,7 +71,7 @@ class PulseScan {
   };
 
   void Whiten(int segment, const Eigen::VectorXd& residual,
-              const Eigen::MatrixXd& half, const Eigen::VectorXd& doubt,
+              const Eigen::MatrixXd& half, const Eigen::VectorXd& extra_stddev,
               Joint* joint) const;
   void Scan(int joint, double width);
   Course CourseOf(int joint, double step, double width) const;

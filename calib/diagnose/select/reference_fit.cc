@@ -16,7 +16,7 @@ constexpr int kRounds = 3;
 VectorXd Refit(const GapData& data) {
   GapScreen screen = data.Screen();
   screen.Factor();
-  return screen.BaselineBeside(JointRows(data.rows().num_joints()));
+  return screen.BaselineGiven(JointRows(data.rows().num_joints()));
 }
 
 }  // namespace

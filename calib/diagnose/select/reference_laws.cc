@@ -47,6 +47,12 @@ class LawSearch {
                        &candidates_);
   }
 
+  // Effects are chosen with the noise that the last choice leaves, three times:
+  // the first noise holds all of the laws that are to be found, and only their
+  // residual shows smaller ones. What is kept in the end has to help where it
+  // was not fitted, since a reference that is short, or of one motion, has
+  // structure by chance. The sizes that stay are those of a last fit to all of
+  // it.
   KnownEffects Run() {
     std::vector<int> chosen;
     GapScreen::Fit fit;
@@ -77,8 +83,11 @@ class LawSearch {
     return screen;
   }
 
-  // Gives up laws, the worst first, without which fits to the other parts of
-  // the reference leave less of the part that each has not seen.
+  // Cross-validation (Stone 1974) over logs or thirds of one: of each law it is
+  // asked whether fits to the other parts leave less of the part that they have
+  // not seen with it than without. The worst goes first, as long as leaving one
+  // out helps; the parts' screens are made once, since only the columns that
+  // are solved for change.
   void KeepWhatIsSeenAgain(std::vector<int>* chosen) {
     if (chosen->empty()) return;
     std::vector<Unseen> parts;

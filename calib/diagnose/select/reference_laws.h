@@ -9,7 +9,7 @@
 
 namespace armcal {
 
-// Laws of the catalogue that a reference shows by itself, beside `baseline`,
+// Laws of the catalogue that a reference shows by itself, given `baseline`,
 // and shows again in those of its parts (reference_folds.h) that they were not
 // fitted to: a short log alone would show many. `data` are of the segments;
 // they then have the noise that these laws leave.

@@ -14,13 +14,15 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// What the fit leaves, divided by how much more than the noise (of `rows`) it
-// has to leave of samples that it has not seen, its parameters being uncertain.
+// What a fit leaves of samples that it has not seen, divided by sqrt(1 + a' C a
+// / v), a a sample's columns and C the covariance of their values: the
+// predictive standard deviation over that of the noise. What remains above 1 is
+// misfit, which parameters do not account for.
 MatrixXd Unforeseen(const GapData& data, const GapRows& rows) {
   GapScreen screen = data.Screen();
   screen.Factor();
   const JointRows none(data.rows().num_joints());
-  MatrixXd left = data.ResidualWith(screen.BaselineBeside(none));
+  MatrixXd left = data.ResidualWith(screen.BaselineGiven(none));
   const MatrixXd covariance = screen.BaselineCovariance();
   for (int j = 0; j < left.cols(); ++j) {
     const BaselineColumns& own = data.columns()[j];
@@ -35,10 +37,12 @@ MatrixXd Unforeseen(const GapData& data, const GapRows& rows) {
   return left;
 }
 
-// By how much what a fit leaves of samples that it has not seen is larger than
-// of those that it has, of each joint: between whole logs as it is over all of
-// them, which is what another log of such motion will have; between thirds of
-// one log as in the worst, since motion elsewhere is less alike than they are.
+// By which factor the residual of samples that a fit has not seen is larger
+// than of those that it has, each joint for itself: leave-one-out
+// cross-validation over the reference's parts, a ratio of root mean squares
+// that is 1 or more. Between whole logs it is taken over all of them, which is
+// what another log of such motion will have; between thirds of one log it is
+// the worst, since motion elsewhere is less alike than these thirds are.
 VectorXd GrowthOfUnseen(const std::vector<GapSegment>& segments,
                         const GapData& all,
                         const std::vector<Autoregression>& noise,
@@ -70,6 +74,10 @@ VectorXd GrowthOfUnseen(const std::vector<GapSegment>& segments,
 
 }  // namespace
 
+// The noise of a joint is what a fit to the reference leaves, times that
+// growth; and since other motion may be as unlike these parts as they are to
+// each other, its square less 1 is an extra variance of which no claim may be
+// made.
 GapNoise ReferenceNoise(const GapBaseline& baseline, double bandwidth_hz,
                         const std::vector<GapSegment>& segments) {
   GapData all(segments, baseline, bandwidth_hz);
@@ -81,7 +89,7 @@ GapNoise ReferenceNoise(const GapBaseline& baseline, double bandwidth_hz,
   for (int j = 0; j < grows.size(); ++j) {
     noise.joints[j].sigma *= grows[j];
     // Motion may as well be as unlike these parts as they are to each other.
-    noise.doubt.push_back(grows[j] * grows[j] - 1);
+    noise.extra_variance.push_back(grows[j] * grows[j] - 1);
   }
   return noise;
 }

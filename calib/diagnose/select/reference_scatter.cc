@@ -31,6 +31,12 @@ bool ReferenceScatter::IsBeyond(double quantile) const {
   return usual * boost::math::quantile(t, (1 + quantile) / 2) < 1;
 }
 
+// A regression of each log's residual on the effect's torque c alone gives what
+// that log shows of it, b_l = c' r / c' c, in units of the effect; 0 where the
+// log has none of it. Their mean square is how far logs of the same robot
+// differ: an effect of that size is the scatter from log to log, and no change.
+// The divisor is one less than their number, though the mean is not taken out:
+// the model they were fitted with took it, so that they are deviations from it.
 ReferenceScatter ScatterBetweenLogs(const GapBaseline& baseline,
                                     const MotionScale& scale,
                                     const GapCandidate& effect,

@@ -8,7 +8,7 @@
 
 namespace armcal {
 
-// How much of an effect the logs of a reference show by themselves, beside the
+// How much of an effect the logs of a reference show by themselves, given the
 // model that all of them have: robots are not the same from log to log (cables
 // lie otherwise, grease is warm), and an effect of that size is no change.
 struct ReferenceScatter {

@@ -14,13 +14,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// With the model's columns alone; 0 for others.
+// The model's own columns are fitted alone, those of the discrepancy held at 0:
+// what a robot file can hold, as it is before anything is diagnosed.
 VectorXd RefitModel(const GapBaseline& baseline, const GapData& data) {
   GapScreen screen = data.Screen(baseline.num_model_columns());
   screen.Factor();
   VectorXd x = VectorXd::Zero(baseline.size());
   x.head(baseline.num_model_columns()) =
-      screen.BaselineBeside(JointRows(data.rows().num_joints()));
+      screen.BaselineGiven(JointRows(data.rows().num_joints()));
   return x;
 }
 
@@ -34,6 +35,13 @@ VectorXd Start(const GapData& data) {
 
 }  // namespace
 
+// The noise of the torque is told first, from the best source that there is: of
+// reconstructed torques from a draw of their positions' noise, else from a
+// reference (which holds what a model leaves where nothing is wrong), else from
+// the log's own repeats and rests. A reference is fitted with the discrepancy
+// left out for that purpose, since it would take up what is to be measured;
+// columns of the day are held in it, so that they are the difference between
+// the days.
 GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
                              std::vector<GapSegment> training, LogPart part,
                              std::vector<GapSegment> reference)
@@ -68,6 +76,10 @@ GapRegression::GapRegression(const GapRegression& other, LogPart part)
   EstimateNoise();
 }
 
+// The noise and the baseline's values before these logs. Without a reference a
+// refit with white noise comes first, whose residual is then looked at where
+// the motion repeats or rests (noise.h); differences between repeats do not
+// depend on how good that fit is.
 void GapRegression::EstimateNoise() {
   before_ = VectorXd::Zero(baseline_.size());
   if (reference_) {
@@ -82,6 +94,10 @@ void GapRegression::EstimateNoise() {
   data_->SetNoise(noise_.joints);
 }
 
+// The reference is weighed by what the baseline leaves of it, variance and
+// correlation both (SettleNoise), not by the noise of the torque: parameters
+// are as uncertain as the misfit around them says, and a reference weighed by
+// noise alone would hold them far too tightly in the diagnosed log.
 void GapRegression::SettleReference() {
   if (noise_.source != NoiseFloor::kPositions) {
     const VectorXd start = Start(*reference_);
@@ -93,6 +109,11 @@ void GapRegression::SettleReference() {
   before_ = RefitModel(baseline_, *reference_);
 }
 
+// The screen of the diagnosed rows, with the reference's rows as known data of
+// the baseline: both have the same x but for columns of the day and of time. It
+// is weighed by what an empty selection leaves; SettleEvidence does so again as
+// effects are taken in. Where columns of the day turn out to have no place
+// (HoldDays) they are held and all is done once more.
 void GapRegression::Refit() {
   data_->SetNoise(noise_.joints);
   const bool of_positions = noise_.source == NoiseFloor::kPositions;
@@ -104,22 +125,31 @@ void GapRegression::Refit() {
   }
   screen_->Factor();
   SettleEvidence({});
-  refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
+  refit_ = screen_->BaselineGiven(JointRows(data_->rows().num_joints()));
   if (HoldDays()) Refit();
 }
 
+// The standard deviations of what models lack as a rule are those of an average
+// robot, and some robots are better. One factor a for all of them is chosen by
+// the evidence, the marginal likelihood with the coefficients integrated out
+// (type II maximum likelihood, Good 1965; MacKay 1992),
+//   a = argmax log p(r | a),  a in {1, 3 least, least},
+// given the effects that are chosen so far, lest a small a be refused because
+// an effect is missing. It is never above 1: a discrepancy that may grow
+// swallows effects. The factor multiplies the columns, so that their prior
+// stays N(0, 1); the reference is scaled alike and settled again.
 bool GapRegression::ChooseDiscrepancy(const std::vector<int>& columns) {
-  const double least = Limits().least_lacked;
+  const double least = Limits().least_discrepancy;
   const int first = baseline_.num_model_columns();
   if (discrepancy_chosen_ || first == baseline_.size()) return false;
   discrepancy_chosen_ = true;
   const GapScreen screen = screen_->Only(columns);
-  std::vector<int> lacked(baseline_.size() - first);
-  std::iota(lacked.begin(), lacked.end(), first);
+  std::vector<int> discrepancy(baseline_.size() - first);
+  std::iota(discrepancy.begin(), discrepancy.end(), first);
   double most = LogEvidence(screen, evidence_);
   for (const double size : {3 * least, least}) {
     GapScreen scaled = screen;
-    scaled.ScaleBaseline(lacked, size);
+    scaled.ScaleBaseline(discrepancy, size);
     const double evidence = LogEvidence(std::move(scaled), evidence_);
     if (evidence <= most) continue;
     most = evidence;
@@ -140,17 +170,24 @@ void GapRegression::SettleEvidence(const std::vector<int>& columns) {
   WeighBy(evidence_.stddev());
 }
 
+// Rows are whitened by dividing them by their standard deviations, so that new
+// ones are a factor on each joint's rows, of the data and of the screen's
+// products alike: no row is touched again.
 void GapRegression::WeighBy(const VectorXd& stddev) {
   if (noise_.source == NoiseFloor::kPositions) return;
   const VectorXd before = data_->rows().evidence();
   data_->ScaleEvidence(stddev.cwiseQuotient(before));
   screen_->Weigh(before.cwiseQuotient(stddev));
-  refit_ = screen_->BaselineBeside(JointRows(data_->rows().num_joints()));
+  refit_ = screen_->BaselineGiven(JointRows(data_->rows().num_joints()));
 }
 
-// What changed on one joint or two only is to be explained, not absorbed; so is
-// what changed by more than from day to day where others did not change with
-// it. Whether a column is held now that was not.
+// Which columns of the day stay free. They are viscous and Coulomb friction of
+// the diagnosed logs beside that of the reference, with the scatter from day to
+// day as their prior (days.h). Where no other day shows at all, or a change is
+// of one joint or two, or beyond kUsual deviations of that scatter without
+// others that changed with it, the change is held at 0: it is to be explained
+// by an effect and not absorbed. The others stay free. The answer is whether a
+// column is held now that was not, so that the regression has to be done anew.
 bool GapRegression::HoldDays() {
   constexpr double kUsual = 3;  // standard deviations
   const std::vector<int> days = DayColumns(baseline_);
@@ -178,10 +215,10 @@ bool GapRegression::HoldDays() {
 }
 
 // An effect of the whole robot may have looked like another day.
-bool GapRegression::IsTheSameDayBeside(
+bool GapRegression::IsTheSameDayGiven(
     const std::vector<GapCandidate>& effects) {
   if (!another_day_.value_or(false) || effects.empty()) return false;
-  another_day_ = IsAnotherDay(baseline_, BaselineBeside(TorqueOf(effects)),
+  another_day_ = IsAnotherDay(baseline_, BaselineGiven(TorqueOf(effects)),
                               screen_->BaselineCovariance());
   return !*another_day_;
 }
@@ -197,13 +234,13 @@ JointRows GapRegression::TorqueOf(
   return EffectTorque(baseline_, scale_, effects, data_.get());
 }
 
-VectorXd GapRegression::ModelBeside(const JointRows& torque) const {
-  return screen_->BaselineBeside(WhitenEach(data_->rows(), torque),
-                                 baseline_.num_model_columns());
+VectorXd GapRegression::ModelGiven(const JointRows& torque) const {
+  return screen_->BaselineGiven(WhitenEach(data_->rows(), torque),
+                                baseline_.num_model_columns());
 }
 
-VectorXd GapRegression::BaselineBeside(const JointRows& torque) const {
-  return screen_->BaselineBeside(WhitenEach(data_->rows(), torque));
+VectorXd GapRegression::BaselineGiven(const JointRows& torque) const {
+  return screen_->BaselineGiven(WhitenEach(data_->rows(), torque));
 }
 
 }  // namespace armcal

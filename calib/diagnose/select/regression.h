@@ -33,17 +33,17 @@ class GapRegression {
   // Anew, with an empty screen: at first, and where masks have changed.
   void Refit();
   // Whether what had looked like another day than the reference's is none
-  // beside these effects; friction is held from the next Refit on.
-  bool IsTheSameDayBeside(const std::vector<GapCandidate>& effects);
+  // given these effects; friction is held from the next Refit on.
+  bool IsTheSameDayGiven(const std::vector<GapCandidate>& effects);
 
   // What the baseline and these columns of the screen leave is the noise of the
   // evidence from now on; the screen's rows are weighed anew. Torques that were
-  // made of commands keep the noise of their positions.
+  // reconstructed from commands keep the noise of their positions.
   void SettleEvidence(const std::vector<int>& columns);
   // The same with this noise, per joint (N m or N), of another fit.
   void WeighBy(const Eigen::VectorXd& stddev);
   // Gives what models lack as a rule the size, of the routine one and smaller
-  // ones, that is the most likely beside these columns; once, before the next
+  // ones, that is the most likely given these columns; once, before the next
   // Refit. Whether that changed it.
   bool ChooseDiscrepancy(const std::vector<int>& columns);
   const EvidenceNoise& evidence() const { return evidence_; }
@@ -64,10 +64,10 @@ class GapRegression {
   const Eigen::VectorXd& refit() const { return refit_; }
   // Per joint thinned samples, N m or N.
   JointRows TorqueOf(const std::vector<GapCandidate>& effects) const;
-  // The baseline's values beside such a torque.
-  Eigen::VectorXd BaselineBeside(const JointRows& torque) const;
+  // The baseline's values given such a torque.
+  Eigen::VectorXd BaselineGiven(const JointRows& torque) const;
   // The same of the model alone, 0 for what models lack as a rule.
-  Eigen::VectorXd ModelBeside(const JointRows& torque) const;
+  Eigen::VectorXd ModelGiven(const JointRows& torque) const;
 
  private:
   void EstimateNoise();

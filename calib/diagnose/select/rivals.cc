@@ -25,19 +25,28 @@ bool IsPossible(const GapCandidate& effect, const EffectSite& site) {
 
 }  // namespace
 
+// A grid of shapes samples some effects densely and others hardly, and so
+// favours the former. The candidates whose scores in the k-th place are within
+// max(20, half of its delta_chi2) of the chosen one's, kMostRivals of them at
+// most, therefore have their shapes fitted as the chosen one has, while all
+// other effects stay as they are. The score is then
+//   delta_chi2 of all - delta_chi2 of the others - RefinedPenalty,
+// where a fitted shape counts as parameters. A rival whose estimates no real
+// arm can have (Effect::plausible) stands behind every one that is possible,
+// whatever its score.
 Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
                      const SelectionOptions& options,
                      const Selection& selection, int k) {
   constexpr int kMostRivals = 3;
-  constexpr double kNear = .5;  // of the drop
+  constexpr double kNear = .5;  // of delta chi^2
   const GapScreen& screen = regression.screen();
   const std::vector<GapCandidate>& candidates = pool.candidates();
   VectorXd scores =
-      ScoresBeside(screen, candidates, options, selection.chosen, k);
+      ScoresGiven(screen, candidates, options, selection.chosen, k);
   const double least =
-      selection.scores[k] - std::max(20., kNear * selection.drops[k]);
+      selection.scores[k] - std::max(20., kNear * selection.delta_chi2[k]);
   const double by_others =
-      TotalDrop(screen, candidates, Without(selection.chosen, k));
+      TotalDeltaChi2(screen, candidates, Without(selection.chosen, k));
   // What happened once is no rival of what lasts: it was taken out.
   for (int i = 0; i < scores.size(); ++i) {
     if (candidates[i].log >= 0) scores[i] = kOut;
@@ -66,8 +75,9 @@ Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
   for (size_t r = 0; r < near.size(); ++r) {
     const GapCandidate& rival = candidates[near[r]];
     const size_t varied = ListCoordinates(baseline, scale, {rival}, 0).size();
-    const double score = refined[r].drop - by_others -
-                         RefinedPrice(screen, rival, static_cast<int>(varied));
+    const double score =
+        refined[r].delta_chi2 - by_others -
+        RefinedPenalty(screen, rival, static_cast<int>(varied));
     const bool is_possible =
         IsPossible(refined[r].effects[k],
                    EffectSite{&baseline.robot(), rival.joint, &scale});

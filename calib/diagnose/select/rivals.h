@@ -28,7 +28,7 @@ struct Rivals {
 };
 
 // A grid may be kinder to one effect than to another: those near the k-th
-// chosen one in score take its place in turn, each with its shape fitted beside
+// chosen one in score take its place in turn, each with its shape fitted given
 // the others, which stay.
 Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
                      const SelectionOptions& options,

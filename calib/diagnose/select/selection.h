@@ -5,24 +5,24 @@
 
 #include "calib/diagnose/candidates/candidates.h"
 #include "calib/diagnose/data/screen.h"
-#include "calib/diagnose/select/drop.h"
+#include "calib/diagnose/select/delta_chi2.h"
 #include "calib/diagnose/select/selection_options.h"
 
 namespace armcal {
 
 // A set of candidates (indices) that together explain the residual.
 struct Selection {
-  std::vector<int> chosen;     // in the order of their drops, strongest first
-  std::vector<double> drops;   // of chi^2 when each is left out
-  std::vector<double> scores;  // of these drops
+  std::vector<int> chosen;         // in the order of delta_chi2, largest first
+  std::vector<double> delta_chi2;  // by which chi^2 rises without each
+  std::vector<double> scores;      // delta_chi2 less the penalties
 };
 
 // Scores of every candidate as a replacement of chosen[k] (-1: in addition to
 // all).
-Eigen::VectorXd ScoresBeside(const GapScreen& screen,
-                             const std::vector<GapCandidate>& candidates,
-                             const SelectionOptions& options,
-                             const std::vector<int>& chosen, int k);
+Eigen::VectorXd ScoresGiven(const GapScreen& screen,
+                            const std::vector<GapCandidate>& candidates,
+                            const SelectionOptions& options,
+                            const std::vector<int>& chosen, int k);
 // The same in addition to `others`, for one gradient after the other.
 class ScoresInAddition {
  public:
@@ -35,9 +35,9 @@ class ScoresInAddition {
   Eigen::VectorXd operator()(const Eigen::VectorXd& g) const;
 
  private:
-  DropsBeside drops_;
+  DeltaChi2Given delta_chi2_;
   double inflation_;
-  std::vector<double> price_;  // infinite where it is out of the question
+  std::vector<double> penalty_;  // infinite where it is out of the question
 };
 
 // The best of these scores above 0, one of each effect at each place, at most
@@ -51,19 +51,20 @@ Selection SelectEffects(const GapScreen& screen,
                         const std::vector<GapCandidate>& candidates,
                         const SelectionOptions& options);
 
-// Drops and scores of these.
+// Delta chi^2 and scores of these.
 Selection DescribeSelection(const GapScreen& screen,
                             const std::vector<GapCandidate>& candidates,
                             const SelectionOptions& options,
                             const std::vector<int>& chosen);
 
-// What has to be paid for a candidate's parameters and the shapes it was chosen
-// from: k ln N + 2 ln M, and more near zero velocity.
-double Price(const GapScreen& screen, const GapCandidate& candidate);
+// The penalty of a candidate's k parameters (as BIC has it, Schwarz 1978) and
+// of the M shapes it was chosen from: k ln N + 2 ln M, and more near zero
+// velocity.
+double Penalty(const GapScreen& screen, const GapCandidate& candidate);
 
 // The same where `varied` parameters, linear ones included, were fitted instead
 // of chosen from shapes.
-double RefinedPrice(const GapScreen& screen, const GapCandidate& candidate,
-                    int varied);
+double RefinedPenalty(const GapScreen& screen, const GapCandidate& candidate,
+                      int varied);
 
 }  // namespace armcal

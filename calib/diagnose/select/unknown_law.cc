@@ -26,21 +26,22 @@ GapScreen WithColumns(GapScreen screen, const std::vector<JointRows>& more) {
   return screen;
 }
 
-GapScreen Sized(GapScreen screen, const std::vector<int>& lacked, double size) {
-  screen.ScaleBaseline(lacked, size);
+GapScreen Sized(GapScreen screen, const std::vector<int>& discrepancy,
+                double size) {
+  screen.ScaleBaseline(discrepancy, size);
   return screen;
 }
 
-std::vector<int> LackedOf(const GapBaseline& baseline, int joint) {
-  std::vector<int> lacked;
+std::vector<int> DiscrepancyColumns(const GapBaseline& baseline, int joint) {
+  std::vector<int> discrepancy;
   for (int c = 0; c < baseline.size(); ++c) {
     const BaselineColumn& column = baseline.columns()[c];
     if (column.kind == BaselineColumn::Kind::kDiscrepancy &&
         column.joint == joint) {
-      lacked.push_back(c);
+      discrepancy.push_back(c);
     }
   }
-  return lacked;
+  return discrepancy;
 }
 
 // A pulse's course on its joint, whitened.
@@ -52,6 +53,9 @@ JointRows ColumnOf(const GapRows& rows, const VectorXd& usual_torque,
   return column;
 }
 
+// In how many places a pulse could have been: how many of a width's length fit
+// into the time, over all widths and joints. A pulse had to be chosen among
+// them.
 double PlacesOfPulses(const GapRows& rows) {
   double places = 0;
   for (const double width : PulseScan::Widths()) places += rows.time() / width;
@@ -60,34 +64,46 @@ double PlacesOfPulses(const GapRows& rows) {
 
 }  // namespace
 
-double LackedSize(const GapScreen& screen, const std::vector<int>& lacked,
-                  const VectorXd& stddev) {
+// All sizes are compared under one correlation time, the least that any of them
+// leaves: evidences that are tempered by different exponents cannot be compared
+// (LargerModelOdds).
+double DiscrepancySize(const GapScreen& screen,
+                       const std::vector<int>& discrepancy,
+                       const VectorXd& stddev) {
   std::vector<EvidenceNoise> noise;
   VectorXd time = VectorXd::Constant(screen.num_joints(), -kMinusInfinity);
   for (const double size : kSizes) {
-    noise.push_back(SettleNoise(Sized(screen, lacked, size), stddev));
+    noise.push_back(SettleNoise(Sized(screen, discrepancy, size), stddev));
     time = time.cwiseMin(noise.back().time);
   }
   double most = kMinusInfinity, likeliest = kSizes.front();
   for (size_t i = 0; i < kSizes.size(); ++i) {
     noise[i].time = time;
     const double evidence =
-        LogEvidence(Sized(screen, lacked, kSizes[i]), noise[i]);
+        LogEvidence(Sized(screen, discrepancy, kSizes[i]), noise[i]);
     if (evidence > most) most = evidence, likeliest = kSizes[i];
   }
   return likeliest;
 }
 
-double UnknownLawOdds(const GapScreen& screen, const std::vector<int>& lacked,
-                      double usual_size, const std::vector<JointRows>& pulses,
-                      double places, const VectorXd& stddev) {
+// Two models of what a joint has left, under the same effects and the same
+// data: a law of state and time that no catalogue has, told by a discrepancy of
+// s times its usual size, and pulses that came and went, a column each. The
+// first acts in all of the log and pays for its freedom by the determinant in
+// the evidence; the second pays for the places it was chosen from, 2 ln(places)
+// each, and both for the choice among sizes and joints. Above 0 the law is
+// likelier.
+double UnknownLawOdds(const GapScreen& screen,
+                      const std::vector<int>& discrepancy, double usual_size,
+                      const std::vector<JointRows>& pulses, double places,
+                      const VectorXd& stddev) {
   const GapScreen with_pulses =
-      WithColumns(Sized(screen, lacked, usual_size), pulses);
+      WithColumns(Sized(screen, discrepancy, usual_size), pulses);
   const EvidenceNoise of_pulses = SettleNoise(with_pulses, stddev);
   double odds = kMinusInfinity;
   for (const double size : kSizes) {
     if (size <= usual_size) continue;
-    const GapScreen law = Sized(screen, lacked, size);
+    const GapScreen law = Sized(screen, discrepancy, size);
     EvidenceNoise common = SettleNoise(law, stddev);
     common.time = common.time.cwiseMin(of_pulses.time);
     odds = std::max(
@@ -97,6 +113,11 @@ double UnknownLawOdds(const GapScreen& screen, const std::vector<int>& lacked,
          2 * std::log(kSizes.size() * screen.num_joints());
 }
 
+// Events that are no pulses stay masked, and each pulse becomes a column of its
+// own joint: the log is seen as it is, and only what explains it differs.
+// Effects that were chosen, and the pulses of other joints, are in both models,
+// lest what they explain be taken for a law of this one. How large a
+// discrepancy the reference already shows is where the larger ones start from.
 std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
                                       const std::vector<GapCandidate>& effects,
                                       const std::vector<GapEvent>& events) {
@@ -124,11 +145,12 @@ std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
       (event.contact.joint == joint ? own : lasting)
           .push_back(ColumnOf(rows, usual_torque, event));
     }
-    const std::vector<int> lacked = LackedOf(unmasked.baseline(), joint);
+    const std::vector<int> discrepancy =
+        DiscrepancyColumns(unmasked.baseline(), joint);
     const double usual_size =
-        LackedSize(before, lacked, reference.rows().evidence());
+        DiscrepancySize(before, discrepancy, reference.rows().evidence());
     const double odds =
-        UnknownLawOdds(WithColumns(unmasked.screen(), lasting), lacked,
+        UnknownLawOdds(WithColumns(unmasked.screen(), lasting), discrepancy,
                        usual_size, own, PlacesOfPulses(rows), rows.evidence());
     if (odds > 0) found.push_back(joint);
   }

@@ -12,11 +12,12 @@ namespace armcal {
 
 // How large what models lack as a rule is, of the routine size, by the evidence
 // of a screen's rows (LogEvidence): one of 1, 3, 10 and 30, the last being as
-// much as all of the torque. `lacked`: its columns in the baseline; `stddev`:
-// those of the rows as they are (SettleNoise). The size that leaves the least
-// correlation says how many samples are independent.
-double LackedSize(const GapScreen& screen, const std::vector<int>& lacked,
-                  const Eigen::VectorXd& stddev);
+// much as all of the torque. `discrepancy`: its columns in the baseline;
+// `stddev`: those of the rows as they are (SettleNoise). The size that leaves
+// the least correlation says how many samples are independent.
+double DiscrepancySize(const GapScreen& screen,
+                       const std::vector<int>& discrepancy,
+                       const Eigen::VectorXd& stddev);
 
 // 2 log of the odds that a joint's torque obeys a law of state and time that no
 // catalogue has, against pulses that came and went,
@@ -30,12 +31,13 @@ double LackedSize(const GapScreen& screen, const std::vector<int>& lacked,
 // `screen`: factored, with the columns of effects that last. `pulses`: whitened
 // as its rows, of a torque that is usual on their joint, which is the standard
 // deviation of what a push may be.
-double UnknownLawOdds(const GapScreen& screen, const std::vector<int>& lacked,
-                      double usual_size, const std::vector<JointRows>& pulses,
-                      double places, const Eigen::VectorXd& stddev);
+double UnknownLawOdds(const GapScreen& screen,
+                      const std::vector<int>& discrepancy, double usual_size,
+                      const std::vector<JointRows>& pulses, double places,
+                      const Eigen::VectorXd& stddev);
 
 // The joints of the pulses among these events of which a law is the likelier
-// cause: beside effects that last, and beside more of what models lack than the
+// cause: given effects that last, and given more of what models lack than the
 // reference shows, where no other event was. `regression` has a reference.
 std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
                                       const std::vector<GapCandidate>& effects,

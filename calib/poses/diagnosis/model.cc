@@ -131,7 +131,7 @@ double DesignEffect(const PoseStudy& study, const PoseModel& model) {
   return effect;
 }
 
-double PriorPrice(const PoseCampaign& campaign, const PoseEffect& effect) {
+double PriorPenalty(const PoseCampaign& campaign, const PoseEffect& effect) {
   const double count =
       effect.count != nullptr
           ? effect.count(campaign)
@@ -174,7 +174,7 @@ double EvidenceOf(const PoseStudy& study, const PoseModel& model,
              static_cast<double>((seen.array() > kUnseen).count());
   }
   for (const PlacedPoseEffect& placed : model.effects) {
-    score += PriorPrice(model.campaign, *placed.effect);
+    score += PriorPenalty(model.campaign, *placed.effect);
   }
   return score;
 }

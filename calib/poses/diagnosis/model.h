@@ -67,7 +67,7 @@ double OrderCorrelation(const Eigen::MatrixXd& by_pose);
 double EvidenceOf(const PoseStudy& study, const PoseModel& model,
                   double design_effect);
 // The part of it that an effect pays for being there and for its place.
-double PriorPrice(const PoseCampaign& campaign, const PoseEffect& effect);
+double PriorPenalty(const PoseCampaign& campaign, const PoseEffect& effect);
 // Information on the amounts with the geometry unknown, 1 / unit^2.
 Eigen::MatrixXd AmountsInformation(const PoseStudy& study,
                                    const PoseModel& model);

@@ -67,7 +67,7 @@ class EffectScan {
     const double left = std::max(1e-6, 1 - gain / chi2_);
     scanned.score = count_ * std::log(left) +
                     rank * std::log(std::max(2.0, count_)) +
-                    PriorPrice(model_.campaign, *placed.effect);
+                    PriorPenalty(model_.campaign, *placed.effect);
     return scanned;
   }
 

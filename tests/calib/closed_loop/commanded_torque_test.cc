@@ -86,11 +86,12 @@ TEST(CommandedTorque, KnowsTheNoiseOfPositions) {
       log.log.q = MatrixXd(log.log.q(kept, Eigen::all));
       log.log.qref = MatrixXd(log.log.qref(kept, Eigen::all));
     }
-    const MadeTorque made = MakeTorque(truth, controller, log, log.log.t, 1);
-    EXPECT_EQ(made.t, log.log.t);
-    EXPECT_EQ(made.torque_noise.rows(), log.log.size());
+    const ReconstructedTorque reconstructed =
+        ReconstructTorque(truth, controller, log, log.log.t, 1);
+    EXPECT_EQ(reconstructed.t, log.log.t);
+    EXPECT_EQ(reconstructed.torque_noise.rows(), log.log.size());
     for (int j = 0; j < 3; ++j) {
-      const auto x = made.position_noise.col(j);
+      const auto x = reconstructed.position_noise.col(j);
       EXPECT_NEAR(x.norm() / std::sqrt(x.size()) / stddev, 1, .2) << j;
     }
   }
@@ -103,10 +104,11 @@ TEST(CommandedTorque, KnowsWhatItsClockMakes) {
   CommandedLog log = RecordCommands(truth, controller, 8, {0, 0});
   controller.delay += kCommandDelay;
   log.log.t *= 1.02;
-  const MadeTorque made = MakeTorque(truth, controller, log, log.log.t, 1);
-  const long rows = made.tau.rows() - FirstCounted(log.log);
-  MatrixXd error = (made.tau - log.log.tau).bottomRows(rows);
-  MatrixXd left = error - .02 * made.by_rate.bottomRows(rows);
+  const ReconstructedTorque reconstructed =
+      ReconstructTorque(truth, controller, log, log.log.t, 1);
+  const long rows = reconstructed.tau.rows() - FirstCounted(log.log);
+  MatrixXd error = (reconstructed.tau - log.log.tau).bottomRows(rows);
+  MatrixXd left = error - .02 * reconstructed.by_rate.bottomRows(rows);
   for (MatrixXd* x : {&error, &left}) {
     x->rowwise() -= x->colwise().mean().eval();
   }

@@ -82,7 +82,7 @@ TEST_F(GapRefinementTest, AStribeckVelocityOffTheGridIsFound) {
     EXPECT_NEAR(p[k], truth[k], 4 * stddev) << k;
     EXPECT_LT(stddev, .2 * truth[k]) << k;
   }
-  EXPECT_GT(refined.drop, 100);
+  EXPECT_GT(refined.delta_chi2, 100);
 }
 
 TEST_F(GapRefinementTest, ARipplesHarmonicIsFoundBetweenPeaks) {

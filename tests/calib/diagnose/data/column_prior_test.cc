@@ -87,7 +87,7 @@ TEST_F(ColumnPriorTest, ASharpSumOfOpenParameters) {
 TEST_F(ColumnPriorTest, AScreenFitsWithinIt) {
   GapScreen screen(Columns(), kSize, target_, prior_);
   screen.Factor();
-  const VectorXd x = screen.BaselineBeside(JointRows(2));
+  const VectorXd x = screen.BaselineGiven(JointRows(2));
   const VectorXd expected = Estimate(VectorXd::Zero(kSize));
   EXPECT_LT((x - expected).norm(), 1e-9 * expected.norm());
   double chi_squared = x.dot(all_.inverse() * x);
@@ -95,7 +95,7 @@ TEST_F(ColumnPriorTest, AScreenFitsWithinIt) {
   for (int j = 0; j < 2; ++j) {
     chi_squared += (target_[j] - rows_[j] * x).squaredNorm();
   }
-  EXPECT_NEAR(screen.ResidualBeside(JointRows(2)).squaredNorm(), chi_squared,
+  EXPECT_NEAR(screen.ResidualGiven(JointRows(2)).squaredNorm(), chi_squared,
               1e-9 * chi_squared);
 }
 
@@ -108,7 +108,7 @@ TEST_F(ColumnPriorTest, ItStaysWhereItIsWhenZeroMoves) {
   GapScreen screen(Columns(), kSize, target_, prior_);
   screen.Factor();
   const VectorXd expected = Estimate(mean);
-  EXPECT_LT((screen.BaselineBeside(JointRows(2)) - expected).norm(),
+  EXPECT_LT((screen.BaselineGiven(JointRows(2)) - expected).norm(),
             1e-9 * expected.norm());
 }
 

@@ -24,21 +24,22 @@ class GapPositionNoiseTest : public testing::Test {
  protected:
   GapPositionNoiseTest() : truth_(CommandedTruth(3)) {}
 
-  std::vector<GapSegment> Read(Encoder encoder, bool made) {
+  std::vector<GapSegment> Read(Encoder encoder, bool reconstructed) {
     ControllerOptions controller = CommandedController(truth_);
     controller.feedforward = Feedforward::kInverseDynamics;
     CommandedLog commanded = RecordCommands(truth_, controller, 20, encoder);
     LogReaderOptions reader;
     reader.joint_names = truth_.JointNames();
-    if (made) {
+    if (reconstructed) {
       commanded.log.tau.resize(0, 0);
       reader.commands_do = true;
     }
     const std::string path = WriteFile(LogText(commanded.log));
-    if (made) {
+    if (reconstructed) {
       controller.delay += kCommandDelay;
-      reader.made_torque[path] = std::make_shared<const MadeTorque>(
-          MakeTorque(truth_, controller, commanded, commanded.log.t, 1));
+      reader.reconstructed_torque[path] =
+          std::make_shared<const ReconstructedTorque>(ReconstructTorque(
+              truth_, controller, commanded, commanded.log.t, 1));
     }
     LogSet logs({path}, reader, {});
     return ReadSegments(kBandwidth, {}, logs);

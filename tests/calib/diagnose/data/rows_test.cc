@@ -167,13 +167,13 @@ TEST(GapRows, WhitenTheirNoise) {
   EXPECT_NEAR(rows.Whiten(0, x)(0, 0), x(4, 0) / .5, 1e-9);
 }
 
-// A sample of variance sigma^2 + doubt^2 counts as one.
-TEST(GapRows, DoubtfulSamplesCountLess) {
+// A sample of variance sigma^2 + extra_stddev^2 counts as one.
+TEST(GapRows, SamplesOfExtraVarianceCountLess) {
   const std::vector<GapSegment> segments = {Segment(5000)};
   GapRows rows(segments, kBandwidth);
-  MatrixXd doubt = MatrixXd::Zero(292, 1);
-  doubt(10, 0) = 4;
-  rows.SetNoise(White({3}), doubt);
+  MatrixXd extra_stddev = MatrixXd::Zero(292, 1);
+  extra_stddev(10, 0) = 4;
+  rows.SetNoise(White({3}), extra_stddev);
   const MatrixXd white = rows.Whiten(0, MatrixXd::Constant(292, 1, 1));
   EXPECT_NEAR(rows.variance(0, 9), 9, 1e-9);
   EXPECT_NEAR(rows.variance(0, 10), 25, 1e-9);
@@ -181,11 +181,11 @@ TEST(GapRows, DoubtfulSamplesCountLess) {
   EXPECT_NEAR(white(10 - 4, 0), 1. / 5, 1e-9);
 }
 
-// Of torques that were made of commands the level is not known, and no more of
-// the rest than to a thousandth.
-TEST(GapRows, DoubtMadeTorques) {
+// Of reconstructed torques the level is not known, and the rest to no better
+// than a thousandth.
+TEST(GapRows, GiveReconstructedTorquesExtraVariance) {
   std::vector<GapSegment> segments = {Segment(5000), Segment(5000)};
-  segments[0].made_torque = segments[0].torque_drifts = true;
+  segments[0].reconstructed_torque = segments[0].torque_drifts = true;
   for (GapSegment& segment : segments) segment.tau.setConstant(8);
   GapRows rows(segments, kBandwidth);
   const MatrixXd level = MatrixXd::Constant(584, 1, 7);

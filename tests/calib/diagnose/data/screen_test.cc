@@ -86,7 +86,7 @@ class GapScreenTest : public testing::Test {
     screen.Factor();
     double chi_squared;
     Estimate({}, &chi_squared);
-    EXPECT_NEAR(screen.ResidualBeside(JointRows(2)).squaredNorm(), chi_squared,
+    EXPECT_NEAR(screen.ResidualGiven(JointRows(2)).squaredNorm(), chi_squared,
                 tolerance * chi_squared);
   }
 
@@ -108,7 +108,8 @@ TEST_F(GapScreenTest, ColumnsMayComeLater) {
   double none, chi_squared;
   Estimate({}, &none);
   Estimate({0, 1, 2}, &chi_squared);
-  EXPECT_NEAR(screen.Solve({0, 1, 2}).drop, none - chi_squared, kTight * none);
+  EXPECT_NEAR(screen.Solve({0, 1, 2}).delta_chi2, none - chi_squared,
+              kTight * none);
 }
 
 // A column's product with what the baseline leaves of a part of the target.
@@ -144,7 +145,7 @@ TEST_F(GapScreenTest, IsLeastSquaresWithThePriorsRows) {
     SCOPED_TRACE(testing::Message() << which.size() << " from " << which[0]);
     const VectorXd x = Estimate(which, &chi_squared);
     const GapScreen::Fit fit = screen.Solve(which);
-    EXPECT_NEAR(fit.drop, none - chi_squared, kTight * none);
+    EXPECT_NEAR(fit.delta_chi2, none - chi_squared, kTight * none);
     EXPECT_TRUE(fit.coefficients.isApprox(x.tail(which.size()), kTight));
     EXPECT_TRUE(screen.Baseline(fit).isApprox(x.head(kBaseline), kTight));
     MatrixXd A;
@@ -157,7 +158,7 @@ TEST_F(GapScreenTest, IsLeastSquaresWithThePriorsRows) {
     EXPECT_TRUE(screen.Residual(0, fit).isApprox(left.head(40), kTight));
     EXPECT_TRUE(screen.Residual(1, fit).isApprox(left.segment(40, 30), kTight));
   }
-  EXPECT_EQ(screen.Solve({}).drop, 0);
+  EXPECT_EQ(screen.Solve({}).delta_chi2, 0);
 }
 
 TEST_F(GapScreenTest, BaselinesCovarianceIsOfTheBaselineAlone) {
@@ -181,32 +182,32 @@ TEST_F(GapScreenTest, InformationIsAsGoodAsTheRowsItIsOf) {
   const VectorXd alone = Estimate({}, &none);
   const VectorXd x = Estimate({0, 1}, &with);
   const GapScreen::Fit fit = screen.Solve({0, 1});
-  EXPECT_NEAR(fit.drop, none - with, kTight * none);
+  EXPECT_NEAR(fit.delta_chi2, none - with, kTight * none);
   EXPECT_TRUE(fit.coefficients.isApprox(x.tail(2), kTight));
   EXPECT_TRUE(screen.Baseline(fit).isApprox(x.head(kBaseline), kTight));
-  EXPECT_TRUE(screen.BaselineBeside(JointRows(2)).isApprox(alone, kTight));
+  EXPECT_TRUE(screen.BaselineGiven(JointRows(2)).isApprox(alone, kTight));
 }
 
-TEST_F(GapScreenTest, ResidualBesideATorqueHasChiSquaredAsItsNorm) {
+TEST_F(GapScreenTest, ResidualGivenATorqueHasChiSquaredAsItsNorm) {
   const GapScreen screen = Screen();
   const JointRows torque = {VectorXd(), .5 * RandomVector(&random_, 30)};
   target_[1] -= torque[1];
   double chi_squared;
   const VectorXd x = Estimate({}, &chi_squared);
-  EXPECT_TRUE(screen.BaselineBeside(torque).isApprox(x, kTight));
-  EXPECT_NEAR(screen.ResidualBeside(torque).squaredNorm(), chi_squared,
+  EXPECT_TRUE(screen.BaselineGiven(torque).isApprox(x, kTight));
+  EXPECT_NEAR(screen.ResidualGiven(torque).squaredNorm(), chi_squared,
               kTight * chi_squared);
 }
 
 // But for what the other data's own noise leaves, whatever the torque is.
-TEST_F(GapScreenTest, ResidualBesideATorqueHoldsOtherDatasShare) {
+TEST_F(GapScreenTest, ResidualGivenATorqueHoldsOtherDatasShare) {
   SeeThreeDirections(1);
   ExpectTheJointResidual(1e-5);
 }
 
 // However sure they are of the directions that they see (a long log beside
 // noise that is small): nothing of the others is theirs.
-TEST_F(GapScreenTest, ResidualBesideATorqueKnowsWhatOtherDataDoNotSee) {
+TEST_F(GapScreenTest, ResidualGivenATorqueKnowsWhatOtherDataDoNotSee) {
   for (int k = 0; k < 20; ++k) {
     SeeThreeDirections(1e5);
     ExpectTheJointResidual(1e-3);
@@ -259,7 +260,8 @@ TEST_F(GapScreenTest, SomeColumnsAreAsIfThereWereNoOthers) {
   columns_ = {columns_[2], columns_[0]};
   const GapScreen expected = Screen();
   EXPECT_LT((only.G() - expected.G()).norm(), kTight);
-  EXPECT_NEAR(only.Solve({0, 1}).drop, expected.Solve({0, 1}).drop, kTight);
+  EXPECT_NEAR(only.Solve({0, 1}).delta_chi2, expected.Solve({0, 1}).delta_chi2,
+              kTight);
 }
 
 // Of columns that are k times as large a value with the same prior makes k
@@ -277,10 +279,10 @@ TEST_F(GapScreenTest, BaselinesAreAsUncertainAsTheirColumnsAreLarge) {
 // The first columns alone, as by least squares without the others.
 TEST_F(GapScreenTest, TheFirstColumnsMayBeFittedAlone) {
   const GapScreen screen = Screen();
-  const VectorXd x = screen.BaselineBeside(JointRows(2), 3);
+  const VectorXd x = screen.BaselineGiven(JointRows(2), 3);
   EXPECT_EQ(x.tail(2).norm(), 0);
   for (MatrixXd& A : baseline_) A.rightCols(2).setZero();
-  EXPECT_LT((x - Screen().BaselineBeside(JointRows(2))).norm(), kTight);
+  EXPECT_LT((x - Screen().BaselineGiven(JointRows(2))).norm(), kTight);
 }
 
 // The trace of the matrix that makes a joint's fitted rows of its rows.

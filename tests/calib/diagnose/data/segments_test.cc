@@ -133,8 +133,9 @@ TEST(GapSegments, KnowWhichJointLeavesARest) {
   }
 }
 
-// A joint that creeps stands still where its torque was made of commands.
-TEST(GapSegments, CreepingStandsStillWhereTorquesAreMade) {
+// A joint that creeps stands still where its torque was reconstructed from
+// commands.
+TEST(GapSegments, CreepingStandsStillWhereTorquesAreReconstructed) {
   Log log = Swing(12);
   for (int k = 0; k < log.size(); ++k) {
     if (log.t[k] >= 4 && log.t[k] <= 7) log.q(k, 1) += .002 * (log.t[k] - 5.5);
@@ -148,13 +149,13 @@ TEST(GapSegments, CreepingStandsStillWhereTorquesAreMade) {
     return segments.at(0).still.col(1).count() * segments[0].motion.dt;
   };
   EXPECT_EQ(still(), 0);
-  const auto made = std::make_shared<MadeTorque>();
-  made->tau = log.tau;
+  const auto torque = std::make_shared<ReconstructedTorque>();
+  torque->tau = log.tau;
   log.tau.resize(0, 0);
   log.qref = log.q;
   WriteFile(LogCsv(log));
   reader.commands_do = true;
-  reader.made_torque[path] = made;
+  reader.reconstructed_torque[path] = torque;
   EXPECT_NEAR(still(), 3, .3);
 }
 

@@ -31,11 +31,11 @@ GapSegment Swing(double noise) {
     segment.tau(k, 0) = 20 * Sine(1, k) + Fast(k) + noise * normal(random);
     segment.torque_noise(k, 0) = noise * normal(random);
   }
-  segment.made_torque = true;
+  segment.reconstructed_torque = true;
   return segment;
 }
 
-TEST(SmoothTorque, OfMadeTorquesEndsWhereTheirNoiseBegins) {
+TEST(SmoothTorque, OfReconstructedTorquesEndsWhereTheirNoiseBegins) {
   // Each has 2 N m^2; the noise has a thirtieth of its own between 6.5 and 8
   // Hz.
   const SmoothTorque clear = SmoothTorqueOf(Swing(.05));
@@ -62,7 +62,7 @@ TEST(SmoothTorque, DoesNotCountWhatIsLost) {
 
 TEST(SmoothTorque, OfRecordedTorquesIsSlow) {
   GapSegment segment = Swing(.05);
-  segment.made_torque = false;
+  segment.reconstructed_torque = false;
   segment.torque_noise.resize(0, 0);
   const SmoothTorque smooth = SmoothTorqueOf(segment);
   EXPECT_EQ(smooth.hz, 3);

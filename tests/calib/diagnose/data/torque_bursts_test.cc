@@ -17,10 +17,10 @@ constexpr double kStep = .01;  // s
 constexpr int kSamples = 3000;
 constexpr double kBandwidth = 8;  // Hz
 
-// Two joints that swing for 30 s with 20 and 5 N m; made torques.
+// Two joints that swing for 30 s with 20 and 5 N m; reconstructed torques.
 GapSegment Swing() {
   GapSegment segment;
-  segment.made_torque = true;
+  segment.reconstructed_torque = true;
   segment.motion.dt = kStep;
   segment.motion.q = segment.motion.qd = segment.motion.qdd = segment.tau =
       Eigen::MatrixXd::Zero(kSamples, 2);
@@ -97,9 +97,9 @@ TEST(TorqueBursts, AreNoMotionsAfterALongRest) {
 }
 
 // Drives limit what they record.
-TEST(TorqueBursts, AreOfMadeTorquesOnly) {
+TEST(TorqueBursts, AreOfReconstructedTorquesOnly) {
   GapSegment segment = Burst();
-  segment.made_torque = false;
+  segment.reconstructed_torque = false;
   EXPECT_THAT(Find(segment), IsEmpty());
 }
 

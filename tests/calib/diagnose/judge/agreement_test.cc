@@ -32,7 +32,7 @@ TEST(AgreementTest, OneOfSeveralJointsIsNotAll) {
 // seen by both joints nevertheless.
 class AgreementOnTest : public DiagnosedArm<32> {};
 
-TEST_F(AgreementOnTest, ADelayIsSeenBesideTheBaselinesOwn) {
+TEST_F(AgreementOnTest, ADelayIsSeenGivenTheBaselinesOwn) {
   Add("delay", -1, {.006});
   const GapDiagnosis diagnosis = Diagnose(File());
   ASSERT_FALSE(diagnosis.effects.empty());

@@ -52,7 +52,7 @@ TEST(IsSeenAgain, ByChiSquaredOrByWhatIsRemoved) {
   FoundEffect found = Found("torque_saturation", 0, 1600);
   found.evidence.confirmation = {.04, .04};
   EXPECT_FALSE(IsSeenAgain(found));
-  found.evidence.shrinks = true;
+  found.evidence.removes_gap = true;
   EXPECT_TRUE(IsSeenAgain(found));
   found.evidence.confirmation = {50, -20};
   EXPECT_FALSE(IsSeenAgain(found));
@@ -99,7 +99,7 @@ TEST_F(IsClaimedTest, WhatHeldOutDataContradictIsNot) {
   // Too little to tell.
   EXPECT_TRUE(Claimed(.99, -.01, 20, -10));
   // Less than a law's form is wrong by, of what was fitted.
-  found_.drop = 5000;
+  found_.delta_chi2 = 5000;
   EXPECT_TRUE(Claimed(.99, -.01, 500, -20));
   EXPECT_FALSE(Claimed(.99, -.01, 1500, -20));
 }

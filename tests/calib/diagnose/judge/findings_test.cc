@@ -43,7 +43,7 @@ TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
 }
 
 // A name for what left-out data do not show is at most as likely as not.
-TEST(DoubtWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
+TEST(LowerWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
   std::vector<FoundEffect> effects = {Found("spring", 1, 9),
                                       Found("stribeck", 1, 8)};
   for (FoundEffect& found : effects) found.probability = .9;
@@ -53,26 +53,26 @@ TEST(DoubtWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
   effects[1].removed_percent = -3;
   GapFigures torque;
   torque.removed_percent = NAN;  // a refit leaves the noise
-  DoubtWhatDoesNotHelp(torque, &effects);
+  LowerWhatDoesNotHelp(torque, &effects);
   EXPECT_EQ(effects[1].probability, .9);
   torque.removed_percent = 57;
-  DoubtWhatDoesNotHelp(torque, &effects);
+  LowerWhatDoesNotHelp(torque, &effects);
   EXPECT_EQ(effects[0].probability, .9);
   EXPECT_EQ(effects[1].probability, .5);
 }
 
-TEST(DoubtWhatDoesNotHelp, IsOfAllThatIsRemovedWhereItIsTheOnlyOne) {
+TEST(LowerWhatDoesNotHelp, IsOfAllThatIsRemovedWhereItIsTheOnlyOne) {
   std::vector<FoundEffect> effects = {Found("link_inertia", 3, 40)};
   effects[0].probability = .7;
   effects[0].fitted = {0};
   effects[0].removed_percent = 20;
   GapFigures torque;
   torque.removed_percent = -17;
-  DoubtWhatDoesNotHelp(torque, &effects);
+  LowerWhatDoesNotHelp(torque, &effects);
   EXPECT_EQ(effects[0].probability, .5);
 }
 
-TEST(SortFindings, ByDrop) {
+TEST(SortFindings, ByDeltaChi2) {
   EXPECT_THAT(Sorted({Found("stribeck", 1, 50), Found("spring", 1, 80),
                       Found("payload", -1, 60)}),
               ElementsAre("spring@2", "payload@0", "stribeck@2"));

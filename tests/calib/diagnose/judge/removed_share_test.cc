@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 constexpr double kStill = std::numeric_limits<double>::quiet_NaN();
 
 // Two joints, of which the second stands still half of the time.
-TEST(GapShrink, FiguresAreThoseCountedByHand) {
+TEST(RemovedShare, FiguresAreThoseCountedByHand) {
   HeldOutSquares squares;
   squares.nominal.resize(4, 2);
   squares.nominal << 16, 4, 16, kStill, 16, 4, 16, kStill;
@@ -23,7 +23,7 @@ TEST(GapShrink, FiguresAreThoseCountedByHand) {
   squares.refit << 9, 1, 7, kStill, 9, 1, 7, kStill;
   squares.after.resize(4, 2);
   squares.after << 1, 2, 3, kStill, 1, 2, 3, kStill;
-  const GapFigures figures = ShrinkFigures(squares, 0, 1);
+  const GapFigures figures = RemovedShareFigures(squares, 0, 1);
   EXPECT_NEAR(figures.nominal, 72 / 6., 1e-9);
   EXPECT_NEAR(figures.refit, 34 / 6., 1e-9);
   EXPECT_NEAR(figures.after, 2, 1e-9);
@@ -41,41 +41,41 @@ TEST(GapShrink, FiguresAreThoseCountedByHand) {
 }
 
 // All but the floor is exact: 100 (9 - 2) / (9 - floor).
-TEST(GapShrink, AnUncertainFloorIsInTheInterval) {
+TEST(RemovedShare, AnUncertainFloorIsInTheInterval) {
   HeldOutSquares squares;
   squares.nominal = squares.refit = MatrixXd::Constant(400, 1, 9);
   squares.after = MatrixXd::Constant(400, 1, 2);
-  const GapFigures exact = ShrinkFigures(squares, 0, 1);
+  const GapFigures exact = RemovedShareFigures(squares, 0, 1);
   EXPECT_NEAR(exact.ci95[0], 87.5, 1e-9);
   EXPECT_NEAR(exact.ci95[1], 87.5, 1e-9);
-  const GapFigures doubted = ShrinkFigures(squares, .2, 1);
-  EXPECT_NEAR(doubted.ci95[0], 700 / 8.4, .4);
-  EXPECT_NEAR(doubted.ci95[1], 700 / 7.6, .4);
+  const GapFigures uncertain = RemovedShareFigures(squares, .2, 1);
+  EXPECT_NEAR(uncertain.ci95[0], 700 / 8.4, .4);
+  EXPECT_NEAR(uncertain.ci95[1], 700 / 7.6, .4);
 }
 
-TEST(GapShrink, MeanSquareIsOfWhatMoves) {
+TEST(RemovedShare, MeanSquareIsOfWhatMoves) {
   MatrixXd squares(2, 2);
   squares << 1, kStill, 2, 6;
   EXPECT_NEAR(MeanSquare(squares), 3, 1e-12);
   EXPECT_EQ(MeanSquare(MatrixXd::Constant(2, 2, kStill)), 1);
 }
 
-TEST(GapShrink, WhereNothingCanBeRemovedNoShareIs) {
+TEST(RemovedShare, WhereNothingCanBeRemovedNoShareIs) {
   HeldOutSquares squares;
   squares.nominal = MatrixXd::Constant(50, 1, 3);
   squares.refit = squares.after = MatrixXd::Constant(50, 1, .9);
-  const GapFigures figures = ShrinkFigures(squares, 0, 1);
+  const GapFigures figures = RemovedShareFigures(squares, 0, 1);
   EXPECT_TRUE(std::isnan(figures.removed_percent));
   EXPECT_NEAR(figures.floor, .9, 1e-9);
   EXPECT_NEAR(figures.removed_from_nominal_percent, 100, 1e-9);
 }
 
 // The noise is at most what is left: .6 of what was taken for it.
-TEST(GapShrink, AFloorToldTooHighRemovesAllNotMore) {
+TEST(RemovedShare, AFloorToldTooHighRemovesAllNotMore) {
   HeldOutSquares squares;
   squares.nominal = squares.refit = MatrixXd::Constant(400, 1, 9);
   squares.after = MatrixXd::Constant(400, 1, .6);
-  const GapFigures figures = ShrinkFigures(squares, .2, 1);
+  const GapFigures figures = RemovedShareFigures(squares, .2, 1);
   EXPECT_NEAR(figures.removed_percent, 100, 1e-9);
   EXPECT_NEAR(figures.ci95[1], 100, 1e-9);
   // 8.4 of 8.4 + 2 x .2 x .6 and somewhat more.
@@ -83,24 +83,24 @@ TEST(GapShrink, AFloorToldTooHighRemovesAllNotMore) {
   EXPECT_GT(figures.ci95[0], 96);
 }
 
-TEST(GapShrink, AJointThatNeverMovesHasNoFigure) {
+TEST(RemovedShare, AJointThatNeverMovesHasNoFigure) {
   HeldOutSquares squares;
   squares.nominal.setConstant(50, 2, 4);
   squares.nominal.col(1).setConstant(kStill);
   squares.refit = squares.after = squares.nominal;
-  const GapFigures figures = ShrinkFigures(squares, 0, 1);
+  const GapFigures figures = RemovedShareFigures(squares, 0, 1);
   EXPECT_EQ(figures.joints(0, 0), 2);
   EXPECT_TRUE(std::isnan(figures.joints(1, 0)));
   EXPECT_EQ(figures.nominal, 4);
 }
 
 // What is the same everywhere is known exactly.
-TEST(GapShrink, SteadyGapsHaveNoInterval) {
+TEST(RemovedShare, SteadyGapsHaveNoInterval) {
   HeldOutSquares squares;
   squares.nominal = MatrixXd::Constant(100, 2, 10);
   squares.refit = MatrixXd::Constant(100, 2, 5);
   squares.after = MatrixXd::Constant(100, 2, 2);
-  const GapFigures figures = ShrinkFigures(squares, 0, 1);
+  const GapFigures figures = RemovedShareFigures(squares, 0, 1);
   EXPECT_NEAR(figures.ci95[0], 75, 1e-9);
   EXPECT_NEAR(figures.ci95[1], 75, 1e-9);
   EXPECT_NEAR(figures.nominal_ci95[0], 800 / 9., 1e-9);
@@ -108,7 +108,7 @@ TEST(GapShrink, SteadyGapsHaveNoInterval) {
 }
 
 // Mean squares 5 and 2 of independent samples: 75 % is what is removed.
-TEST(GapShrink, IntervalsHoldTheTruthAsOftenAsTheySay) {
+TEST(RemovedShare, IntervalsHoldTheTruthAsOftenAsTheySay) {
   constexpr int kRuns = 100, kSamples = 400;
   std::mt19937_64 random(4);
   int covered = 0;
@@ -121,7 +121,7 @@ TEST(GapShrink, IntervalsHoldTheTruthAsOftenAsTheySay) {
     squares.nominal *= 10;
     squares.refit *= 5;
     squares.after *= 2;
-    const GapFigures figures = ShrinkFigures(squares, 0, run);
+    const GapFigures figures = RemovedShareFigures(squares, 0, run);
     covered += figures.ci95[0] < 75 && 75 < figures.ci95[1];
   }
   // 95 of 100 within three binomial deviations.

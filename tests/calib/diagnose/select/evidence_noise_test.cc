@@ -46,7 +46,7 @@ class EvidenceNoiseTest : public testing::Test {
 };
 
 // Rows that the baseline fits are not noise that is small.
-TEST_F(EvidenceNoiseTest, TellsTheVarianceBesideWhatIsFitted) {
+TEST_F(EvidenceNoiseTest, TellsTheVarianceGivenWhatIsFitted) {
   const EvidenceNoise noise =
       SettleNoise(Screen(Noise(0), 1), VectorXd::Ones(1));
   EXPECT_NEAR(noise.variance[0], kSigma * kSigma, .1 * kSigma * kSigma);

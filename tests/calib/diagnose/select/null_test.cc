@@ -73,7 +73,7 @@ class GapNullTest : public testing::Test {
     return ScoreByChance(screen, *rows_, candidates_, {}, chosen, 0, 1);
   }
   double Best(const GapScreen& screen) {
-    return ScoresBeside(screen, candidates_, {}, {}, -1).maxCoeff();
+    return ScoresGiven(screen, candidates_, {}, {}, -1).maxCoeff();
   }
 
   std::mt19937_64 random_{3};

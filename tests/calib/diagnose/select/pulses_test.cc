@@ -37,7 +37,7 @@ class Pulses : public testing::Test {
     rows_->SetNoise(noise_, MatrixXd::Zero(size(), 2));
     VectorXd course(size());
     for (int k = 0; k < size(); ++k) course[k] = std::sin(time(k));
-    doubt_ = MatrixXd::Zero(size(), 2);
+    extra_stddev_ = MatrixXd::Zero(size(), 2);
     columns_ = {{{0}, course}, {{1}, course}};
   }
   int size() const { return rows_->num_thin(); }
@@ -72,14 +72,14 @@ class Pulses : public testing::Test {
   PulseScan Scan(const MatrixXd& residual, double stddev) const {
     return PulseScan(
         *rows_, {columns_, stddev * stddev * MatrixXd::Identity(2, 2), noise_},
-        residual, doubt_);
+        residual, extra_stddev_);
   }
 
   std::vector<GapSegment> segments_;
   std::optional<GapRows> rows_;
   std::vector<Autoregression> noise_ = std::vector<Autoregression>(2);
   std::vector<BaselineColumns> columns_;
-  MatrixXd doubt_;
+  MatrixXd extra_stddev_;
   std::mt19937_64 random_{1};
 };
 
@@ -130,28 +130,31 @@ TEST_F(Pulses, AreNotToldFromTheirTails) {
   EXPECT_GT(std::abs(Scan(residual, 0).deviations()(sample, 0)), 30);
   for (int k = 0; k < size(); ++k) {
     if (std::abs(time(k) - 11) <= 2.5 * width) {
-      doubt_(k, 0) = 1e6 * noise_[0].stddev();
+      extra_stddev_(k, 0) = 1e6 * noise_[0].stddev();
     }
   }
   EXPECT_EQ(Scan(residual, 0).deviations()(sample, 0), 0);
 }
 
-// A doubt lets a pulse stand out less, as far as its samples have it. What is
-// doubted a thousandfold says as little as that, and what is doubted without
-// bound is not seen.
-TEST_F(Pulses, StandOutLessWhereSamplesAreDoubted) {
+// An extra variance lets a pulse stand out less, as far as its samples have it.
+// With a thousand times the deviation they say as little as that, and with one
+// without bound they are not seen.
+TEST_F(Pulses, StandOutLessWhereSamplesHaveExtraVariance) {
   MatrixXd residual = Draw(0);
   Push(0, 4, 11, .3, &residual);
   const double clear = Scan(residual, 0).At(0, SampleAt(11), .3).deviations;
-  doubt_.col(0).segment(SampleAt(10), 50).setConstant(noise_[0].stddev() / 3);
-  const double doubted = Scan(residual, 0).At(0, SampleAt(11), .3).deviations;
+  extra_stddev_.col(0)
+      .segment(SampleAt(10), 50)
+      .setConstant(noise_[0].stddev() / 3);
+  const double with_extra =
+      Scan(residual, 0).At(0, SampleAt(11), .3).deviations;
   EXPECT_GT(clear, 5);
-  EXPECT_NEAR(doubted, clear / std::sqrt(1 + 1. / 9), .15 * clear);
-  EXPECT_LT(doubted, clear);
-  doubt_.col(0).setConstant(1e3 * noise_[0].stddev());
+  EXPECT_NEAR(with_extra, clear / std::sqrt(1 + 1. / 9), .15 * clear);
+  EXPECT_LT(with_extra, clear);
+  extra_stddev_.col(0).setConstant(1e3 * noise_[0].stddev());
   EXPECT_LT(std::abs(Scan(residual, 0).At(0, SampleAt(11), .3).deviations),
             .05);
-  doubt_.col(0).setConstant(std::numeric_limits<double>::infinity());
+  extra_stddev_.col(0).setConstant(std::numeric_limits<double>::infinity());
   const PulseScan scan = Scan(residual, 0);
   const Pulse pulse = scan.At(0, SampleAt(11), .3);
   EXPECT_EQ(pulse.torque, 0);

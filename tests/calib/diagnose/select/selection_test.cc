@@ -162,7 +162,7 @@ TEST_F(GapSelectionTest, NoMoreThanAskedFor) {
 }
 
 // Columns that touch different rows: every figure is known without solving.
-TEST_F(GapSelectionTest, DropsAndScoresAreThoseCountedByHand) {
+TEST_F(GapSelectionTest, DeltaChi2AndScoresAreThoseCountedByHand) {
   VectorXd first = VectorXd::Zero(kRows), second = first;
   first.head(100).setConstant(1);
   second.tail(50).setConstant(2);
@@ -171,8 +171,8 @@ TEST_F(GapSelectionTest, DropsAndScoresAreThoseCountedByHand) {
   target_[0] = 3 * first - second;
   const Selection selection = Select();
   EXPECT_THAT(selection.chosen, ElementsAre(1, 0));  // 900 and 200
-  EXPECT_NEAR(selection.drops[0], 900, .1);
-  EXPECT_NEAR(selection.drops[1], 200, .1);
+  EXPECT_NEAR(selection.delta_chi2[0], 900, .1);
+  EXPECT_NEAR(selection.delta_chi2[1], 200, .1);
   EXPECT_NEAR(selection.scores[0], 900 - std::log(1000), .1);
   EXPECT_NEAR(selection.scores[1], 200 - std::log(1000) - 2 * std::log(10), .1);
   SelectionOptions options;
@@ -180,14 +180,14 @@ TEST_F(GapSelectionTest, DropsAndScoresAreThoseCountedByHand) {
   EXPECT_NEAR(Select(options).scores[0], 225 - std::log(1000), .1);
 }
 
-TEST_F(GapSelectionTest, ThePriceIsOfItsJointsRowsAndShapes) {
+TEST_F(GapSelectionTest, ThePenaltyIsOfItsJointsRowsAndShapes) {
   Add(0, 0, Noise(&random_), 7);
   candidates_[0].linear = {0, 1};
   const GapScreen screen = Screen();
-  EXPECT_NEAR(Price(screen, candidates_[0]),
+  EXPECT_NEAR(Penalty(screen, candidates_[0]),
               2 * std::log(1000) + 2 * std::log(7), 1e-9);
   candidates_[0].joint = -1;  // of all joints
-  EXPECT_NEAR(Price(screen, candidates_[0]),
+  EXPECT_NEAR(Penalty(screen, candidates_[0]),
               2 * std::log(2000) + 2 * std::log(7), 1e-9);
 }
 
@@ -196,16 +196,16 @@ TEST_F(GapSelectionTest, AFittedShapeIsPaidFor) {
   Add(0, 0, Noise(&random_), 9);
   const GapScreen screen = Screen();
   const double row = std::log(1000);
-  EXPECT_NEAR(RefinedPrice(screen, candidates_[0], 3), 3 * row, 1e-9);
-  EXPECT_NEAR(RefinedPrice(screen, candidates_[0], 1), row + 2 * std::log(9),
+  EXPECT_NEAR(RefinedPenalty(screen, candidates_[0], 3), 3 * row, 1e-9);
+  EXPECT_NEAR(RefinedPenalty(screen, candidates_[0], 1), row + 2 * std::log(9),
               1e-9);
 }
 
 // Where one effect stands already, its form is never quite right.
 TEST_F(GapSelectionTest, ASmallOneCountsOnAnotherJointOnly) {
   VectorXd large = VectorXd::Zero(kRows), small = large;
-  large.head(100).setConstant(10);  // drop 10000
-  small.tail(100).setConstant(1);   // drop 100, 1 %
+  large.head(100).setConstant(10);  // delta chi^2 10000
+  small.tail(100).setConstant(1);   // delta chi^2 100, 1 %
   Add(0, 0, large);
   const int same = Add(1, 0, small);
   target_[0] = large + small;
@@ -222,7 +222,7 @@ TEST_F(GapSelectionTest, OnlyWhatIsNewHasToBeLarge) {
   AddRandom(2);
   const int other = Add(2, 1, Noise(&random_));
   target_[0] = 3 * Column(0) + 2 * Column(1);
-  target_[1] = .4 * Column(other);  // 1 % of the drop
+  target_[1] = .4 * Column(other);  // 1 % of it
   EXPECT_THAT(Select().chosen, UnorderedElementsAre(0, 1, other));
 }
 
@@ -252,15 +252,15 @@ TEST_F(GapSelectionTest, ScoresOfWhatCouldStandInAPlace) {
   AddRandom(4);
   target_[0] = .5 * Column(1) + .4 * Column(2);
   const GapScreen screen = Screen();
-  // In the place of 1 beside 2, and beside both.
-  const VectorXd in_place = ScoresBeside(screen, candidates_, {}, {1, 2}, 0);
-  const VectorXd beside = ScoresBeside(screen, candidates_, {}, {1, 2}, -1);
+  // In the place of 1 given 2, and given both.
+  const VectorXd in_place = ScoresGiven(screen, candidates_, {}, {1, 2}, 0);
+  const VectorXd given = ScoresGiven(screen, candidates_, {}, {1, 2}, -1);
   EXPECT_GT(in_place[1], 100);
   EXPECT_LT(in_place[0], 30);
   EXPECT_TRUE(std::isinf(in_place[2]));
-  EXPECT_TRUE(std::isinf(beside[1]) && std::isinf(beside[2]));
-  EXPECT_LT(beside[0], 0);
-  EXPECT_LT(beside[3], 0);
+  EXPECT_TRUE(std::isinf(given[1]) && std::isinf(given[2]));
+  EXPECT_LT(given[0], 0);
+  EXPECT_LT(given[3], 0);
 }
 
 }  // namespace armcal::selection_test

@@ -19,13 +19,13 @@ constexpr double kRoutine = .1, kPlaces = 1000;
 // One joint whose noise is 1: what models lack is a few slow waves.
 class UnknownLawTest : public testing::Test {
  protected:
-  UnknownLawTest() : shapes_(kRows, kShapes), lacked_(kShapes) {
+  UnknownLawTest() : shapes_(kRows, kShapes), discrepancy_(kShapes) {
     for (int k = 0; k < kShapes; ++k) {
       for (int i = 0; i < kRows; ++i) {
         shapes_(i, k) = kRoutine * std::cos(M_PI * (k + 1) * i / kRows);
       }
     }
-    std::iota(lacked_.begin(), lacked_.end(), 0);
+    std::iota(discrepancy_.begin(), discrepancy_.end(), 0);
   }
   VectorXd Noise() {
     return VectorXd::NullaryExpr(kRows, [&] { return Normal(&random_); });
@@ -52,19 +52,19 @@ class UnknownLawTest : public testing::Test {
     const GapScreen screen = Screen(target);
     std::vector<JointRows> pulses;
     for (const int at : times) pulses.push_back({10 * Pulse(at)});
-    return UnknownLawOdds(screen, lacked_, usual_size, pulses, kPlaces,
+    return UnknownLawOdds(screen, discrepancy_, usual_size, pulses, kPlaces,
                           VectorXd::Ones(1));
   }
 
   MatrixXd shapes_;
-  std::vector<int> lacked_;
+  std::vector<int> discrepancy_;
   std::mt19937_64 random_{3};
 };
 
-TEST_F(UnknownLawTest, EvidenceTellsHowMuchIsLacked) {
+TEST_F(UnknownLawTest, EvidenceTellsTheDiscrepancysSize) {
   for (const double size : {1., 10., 30.}) {
     const GapScreen screen = Screen(Law(size) + Noise());
-    EXPECT_EQ(LackedSize(screen, lacked_, VectorXd::Ones(1)), size);
+    EXPECT_EQ(DiscrepancySize(screen, discrepancy_, VectorXd::Ones(1)), size);
   }
 }
 
@@ -95,9 +95,9 @@ TEST_F(UnknownLawTest, APulseHasToOutweighItsPlaces) {
   const GapScreen screen = Screen(weak);
   const VectorXd noise = VectorXd::Ones(1);
   const double few =
-      UnknownLawOdds(screen, lacked_, 1, {{Pulse(500)}}, 1, noise);
+      UnknownLawOdds(screen, discrepancy_, 1, {{Pulse(500)}}, 1, noise);
   const double many =
-      UnknownLawOdds(screen, lacked_, 1, {{Pulse(500)}}, kPlaces, noise);
+      UnknownLawOdds(screen, discrepancy_, 1, {{Pulse(500)}}, kPlaces, noise);
   EXPECT_NEAR(many - few, 2 * std::log(kPlaces), 1e-9);
 }
 

@@ -10,8 +10,8 @@ namespace armcal {
 // The effect (its place in the selection) without which the others, fitted as
 // they are and not as columns have them, explain as much: it stood for what is
 // not linear in them. -1: there is none, or no other.
-int FindIdle(const GapRegression& regression, const CandidatePool& pool,
-             const SelectionOptions& options, const Selection& selection,
-             const RefinedEffects& refined);
+int FindRedundant(const GapRegression& regression, const CandidatePool& pool,
+                  const SelectionOptions& options, const Selection& selection,
+                  const RefinedEffects& refined);
 
 }  // namespace armcal

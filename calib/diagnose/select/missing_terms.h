@@ -12,32 +12,31 @@ namespace armcal {
 
 // A term that a robot file gives no joint (friction of a frictionless model),
 // as the logs say it is.
-struct LackedFamily {
+struct MissingTerm {
   const Effect* effect = nullptr;
-  JointTerm term;
+  JointTerm joint_term;
   // n, SI units of the term; 0 where it would be negative.
   Eigen::VectorXd value;
   Eigen::VectorXd stddev;  // with the noise that is left when all are fitted
   // The value at which the term alone would make the joint's usual torque: how
   // large it may be where the file does not say.
   Eigen::VectorXd usual;
-  double drop = 0;  // of chi^2 when it is left out
-  // rms of what is left of each joint's torque with this and the families
+  double delta_chi2 = 0;  // by which chi^2 rises when it is left out
+  // rms of what is left of each joint's torque with this and the terms
   // before it, N m or N.
   Eigen::VectorXd left;
 };
 
-struct LackedFamilies {
-  std::vector<LackedFamily> families;  // empty: the file gives all
-  Eigen::VectorXd without;             // rms left with none of them
-  Robot robot;                         // the file's with all of them
+struct MissingTerms {
+  std::vector<MissingTerm> terms;  // empty: the file gives all
+  Eigen::VectorXd without;         // rms left with none of them
+  Robot robot;                     // the file's with all of them
 };
 
 // Viscous friction, Coulomb friction, armature and offsets, those of which the
-// file gives none, fitted beside the baseline to the segments.
-LackedFamilies FitLackedFamilies(const Robot& robot,
-                                 const BaselineOptions& options,
-                                 double bandwidth_hz,
-                                 const std::vector<GapSegment>& segments);
+// file gives none, fitted with the baseline to the segments.
+MissingTerms FitMissingTerms(const Robot& robot, const BaselineOptions& options,
+                             double bandwidth_hz,
+                             const std::vector<GapSegment>& segments);
 
 }  // namespace armcal

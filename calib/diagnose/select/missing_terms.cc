@@ -1,4 +1,4 @@
-#include "calib/diagnose/select/families.h"
+#include "calib/diagnose/select/missing_terms.h"
 
 #include <glog/logging.h>
 
@@ -24,8 +24,8 @@ using Eigen::VectorXd;
 // EffectParameter::size, as a share of what the joint does.
 constexpr double kSizeThatMatters = .05;
 
-// Whether a calibration looked for the term, which the robot has then, if only
-// as none.
+// Whether a calibration looked for the term. Then the robot has it, if only as
+// none, and its posterior says how far it may be from that.
 bool IsCalibrated(JointTerm term, const BaselineOptions& options) {
   if (options.posterior == nullptr) return false;
   const auto& known = options.posterior->parameters;
@@ -34,26 +34,28 @@ bool IsCalibrated(JointTerm term, const BaselineOptions& options) {
   });
 }
 
-// Effects that are a joint term which the robot gives no joint. Not those of a
-// recording: a torque's zero is in no robot file, and is known within a prior.
-std::vector<const Effect*> LackedTerms(const Robot& robot,
-                                       const BaselineOptions& options) {
+// The effects of the catalogue that are a joint term (viscous friction, Coulomb
+// friction, armature, ..) which the robot file gives no joint at all. A file
+// that gives it to one joint is taken at its word for the others. Terms of a
+// recording are left to their prior: a torque's zero is in no robot file.
+std::vector<const Effect*> TermsNotIn(const Robot& robot,
+                                      const BaselineOptions& options) {
   std::vector<const Effect*> terms;
   for (const Effect& effect : Effects()) {
     if (!effect.joint_term || effect.nature == Effect::Nature::kRecording) {
       continue;
     }
     if (IsCalibrated(*effect.joint_term, options)) continue;
-    const bool lacked = std::all_of(
+    const bool is_missing = std::all_of(
         robot.links.begin(), robot.links.end(), [&](const Link& link) {
           return TermOf(*effect.joint_term, link.joint) == 0;
         });
-    if (lacked) terms.push_back(&effect);
+    if (is_missing) terms.push_back(&effect);
   }
   return terms;
 }
 
-// A candidate per joint and lacked term, family after family.
+// A candidate per joint and missing term, term after term.
 std::vector<GapCandidate> Candidates(const Robot& robot,
                                      const std::vector<const Effect*>& terms,
                                      const MotionScale& scale) {
@@ -74,11 +76,16 @@ std::vector<GapCandidate> Candidates(const Robot& robot,
   return candidates;
 }
 
-class FamilyFit {
+class MissingTermFit {
  public:
-  FamilyFit(const Robot& robot, const BaselineOptions& options,
-            double bandwidth_hz, const std::vector<GapSegment>& segments,
-            const std::vector<const Effect*>& terms)
+  // All missing terms are fitted at once as columns of a screen, a column per
+  // joint and term. Their noise is what they leave themselves: weights 1 /
+  // sigma_j^2 with sigma_j the rms of joint j's residual, found by iterating
+  // fit and weights (iteratively reweighted least squares, Carroll and Ruppert
+  // 1988), since the first residual holds all of the friction that is missing.
+  MissingTermFit(const Robot& robot, const BaselineOptions& options,
+                 double bandwidth_hz, const std::vector<GapSegment>& segments,
+                 const std::vector<const Effect*>& terms)
       : robot_(robot),
         terms_(terms),
         baseline_(robot, options, UsualTorque(segments)),
@@ -88,7 +95,7 @@ class FamilyFit {
     EvaluateCandidates(baseline_, data_.rows(), scale_, data_.torques(),
                        &candidates_);
     noise_ = WhiteNoise(data_.residual());
-    // Joints count by what all families leave of them.
+    // Joints count by what all terms leave of them.
     for (int round = 0; round < 3; ++round) {
       Weigh();
       const VectorXd left = Left(static_cast<int>(terms_.size()));
@@ -97,22 +104,26 @@ class FamilyFit {
       }
     }
     Weigh();
-    DropNegative();
+    RemoveNegative();
   }
 
-  LackedFamilies Result() const {
-    LackedFamilies result;
+  // Terms that the logs ask for, and the file's robot with them. A joint whose
+  // value is not told gets 1e-6 of a size that would show instead of 0: columns
+  // in proportion to a term (how Coulomb friction changes sign) need one to act
+  // on.
+  MissingTerms Result() const {
+    MissingTerms result;
     result.robot = robot_;
     result.without = Left(0);
     for (int f = 0; f < static_cast<int>(terms_.size()); ++f) {
-      const LackedFamily family = Family(f);
-      const bool lacked = family.drop > LeastDrop(family);
+      const MissingTerm term = Term(f);
+      const bool is_missing = term.delta_chi2 > LeastDeltaChi2(term);
       for (int j = 0; j < robot_.num_joints(); ++j) {
         const double least = 1e-6 * candidates_[CandidateOf(f, j)].size[0];
-        *TermOf(family.term, &result.robot.links[j].joint) =
-            lacked && family.value[j] != 0 ? family.value[j] : least;
+        *TermOf(term.joint_term, &result.robot.links[j].joint) =
+            is_missing && term.value[j] != 0 ? term.value[j] : least;
       }
-      if (lacked) result.families.push_back(family);
+      if (is_missing) result.terms.push_back(term);
     }
     return result;
   }
@@ -124,17 +135,19 @@ class FamilyFit {
     AddCandidates(data_.rows(), &candidates_, &*screen_);
     screen_->Factor();
   }
-  int CandidateOf(int family, int joint) const {
-    return family * robot_.num_joints() + joint;
+  int CandidateOf(int f, int joint) const {
+    return f * robot_.num_joints() + joint;
   }
-  int FamilyOf(int candidate) const { return candidate / robot_.num_joints(); }
+  int TermIndexOf(int candidate) const {
+    return candidate / robot_.num_joints();
+  }
   JointTerm TermOfCandidate(int candidate) const {
-    return *terms_[FamilyOf(candidate)]->joint_term;
+    return *terms_[TermIndexOf(candidate)]->joint_term;
   }
 
   // Joints whose friction or armature would be negative have none: what asks
   // for it is something else.
-  void DropNegative() {
+  void RemoveNegative() {
     while (true) {
       const std::vector<int> all = Members(static_cast<int>(terms_.size()));
       const GapScreen::Fit fit = screen_->Solve(ColumnsOf(candidates_, all));
@@ -151,55 +164,60 @@ class FamilyFit {
     }
   }
 
-  // As an effect has to: a file without friction may be right.
-  double LeastDrop(const LackedFamily& family) const {
+  // As of an effect, at least the threshold and ln N for each joint's parameter
+  // is asked (Penalty): a file without friction may be right.
+  double LeastDeltaChi2(const MissingTerm& term) const {
     return SelectionOptions().threshold +
-           (family.value.array() != 0).count() *
+           (term.value.array() != 0).count() *
                std::log(static_cast<double>(data_.rows().num_rows()));
   }
 
-  LackedFamily Family(int f) const {
+  // The f-th term with its values, standard deviations and delta_chi2 given all
+  // other missing terms. `usual` inverts how the catalogue defines a size that
+  // matters, as kSizeThatMatters of the joint's torque: it is the value with
+  // which the term alone would make all of it, the widest prior that is still
+  // sensible.
+  MissingTerm Term(int f) const {
     const int n = robot_.num_joints(), count = static_cast<int>(terms_.size());
-    LackedFamily family;
-    family.effect = terms_[f];
-    family.term = *terms_[f]->joint_term;
-    family.value = family.stddev = family.usual = VectorXd::Zero(n);
+    MissingTerm term;
+    term.effect = terms_[f];
+    term.joint_term = *terms_[f]->joint_term;
+    term.value = term.stddev = term.usual = VectorXd::Zero(n);
     for (int j = 0; j < n; ++j) {
-      family.usual[j] =
-          candidates_[CandidateOf(f, j)].size[0] / kSizeThatMatters;
+      term.usual[j] = candidates_[CandidateOf(f, j)].size[0] / kSizeThatMatters;
     }
     const GapScreen::Fit all = Solve(count);
     std::vector<int> others;
     const std::vector<int> members = Members(count);
     for (size_t k = 0; k < members.size(); ++k) {
-      if (FamilyOf(members[k]) != f) {
+      if (TermIndexOf(members[k]) != f) {
         others.push_back(members[k]);
         continue;
       }
       const int j = members[k] - CandidateOf(f, 0);
       const double size = candidates_[members[k]].size[0];
-      family.value[j] = all.coefficients[k] * size;
-      family.stddev[j] = std::sqrt(all.covariance(k, k)) * size;
+      term.value[j] = all.coefficients[k] * size;
+      term.stddev[j] = std::sqrt(all.covariance(k, k)) * size;
     }
-    family.drop =
-        all.drop - screen_->Solve(ColumnsOf(candidates_, others)).drop;
-    family.left = Left(f + 1);
-    return family;
+    term.delta_chi2 = all.delta_chi2 -
+                      screen_->Solve(ColumnsOf(candidates_, others)).delta_chi2;
+    term.left = Left(f + 1);
+    return term;
   }
 
-  // Candidates of the first `families` that are not known to be zero.
-  std::vector<int> Members(int families) const {
+  // Candidates of the first `terms` that are not known to be zero.
+  std::vector<int> Members(int terms) const {
     std::vector<int> members;
-    for (int c = 0; c < CandidateOf(families, 0); ++c) {
+    for (int c = 0; c < CandidateOf(terms, 0); ++c) {
       if (none_.count(c) == 0) members.push_back(c);
     }
     return members;
   }
-  GapScreen::Fit Solve(int families) const {
-    return screen_->Solve(ColumnsOf(candidates_, Members(families)));
+  GapScreen::Fit Solve(int terms) const {
+    return screen_->Solve(ColumnsOf(candidates_, Members(terms)));
   }
-  VectorXd Left(int families) const {
-    const GapScreen::Fit fit = Solve(families);
+  VectorXd Left(int terms) const {
+    const GapScreen::Fit fit = Solve(terms);
     VectorXd left(robot_.num_joints());
     for (int j = 0; j < left.size(); ++j) {
       const VectorXd residual = screen_->Residual(j, fit);
@@ -223,15 +241,15 @@ class FamilyFit {
 
 }  // namespace
 
-LackedFamilies FitLackedFamilies(const Robot& robot,
-                                 const BaselineOptions& options,
-                                 double bandwidth_hz,
-                                 const std::vector<GapSegment>& segments) {
-  const std::vector<const Effect*> lacked = LackedTerms(robot, options);
-  LackedFamilies none;
+MissingTerms FitMissingTerms(const Robot& robot, const BaselineOptions& options,
+                             double bandwidth_hz,
+                             const std::vector<GapSegment>& segments) {
+  const std::vector<const Effect*> missing = TermsNotIn(robot, options);
+  MissingTerms none;
   none.robot = robot;
-  if (lacked.empty()) return none;
-  return FamilyFit(robot, options, bandwidth_hz, segments, lacked).Result();
+  if (missing.empty()) return none;
+  return MissingTermFit(robot, options, bandwidth_hz, segments, missing)
+      .Result();
 }
 
 }  // namespace armcal

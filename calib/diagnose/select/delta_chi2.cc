@@ -1,4 +1,4 @@
-#include "calib/diagnose/select/drop.h"
+#include "calib/diagnose/select/delta_chi2.h"
 
 #include <Eigen/Cholesky>
 #include <vector>
@@ -18,7 +18,9 @@ bool IsPositive(const GapCandidate& candidate, int k) {
          EffectParameter::Sign::kPositive;
 }
 
-// Zero for columns that are not used.
+// The solution of G x = g over the used columns alone, the normal equations of
+// a fit in which the others have the coefficient 0: their rows and columns of G
+// are replaced by those of the identity.
 VectorXd Coefficients(const MatrixXd& G, const VectorXd& g,
                       const std::vector<bool>& used) {
   MatrixXd equations = MatrixXd::Identity(G.rows(), G.cols());
@@ -35,9 +37,19 @@ VectorXd Coefficients(const MatrixXd& G, const VectorXd& g,
 
 }  // namespace
 
-DropsBeside::DropsBeside(const GapScreen& screen,
-                         const std::vector<GapCandidate>& candidates,
-                         const std::vector<int>& S)
+// What all candidates have in common is computed once. With G the Gram matrix
+// of the projected columns and g their products with the residual, adding
+// columns A to a set S that is fitted with them lowers chi squared by
+//   g_A|S' G_AA|S^-1 g_A|S,
+//   G_AA|S = G_AA - G_AS G_SS^-1 G_SA,  g_A|S = g_A - G_AS G_SS^-1 g_S,
+// the Schur complements of the partitioned normal equations (Frisch and Waugh
+// 1933; Boyd and Vandenberghe 2004, A.5.5). With G_SS = L L' and H = L^-1 G_S.
+// the complements are differences of products of H's columns: one triangular
+// solve serves every candidate. Ridges of S are those of the screen, by which
+// columns that the baseline all but absorbs stay solvable.
+DeltaChi2Given::DeltaChi2Given(const GapScreen& screen,
+                               const std::vector<GapCandidate>& candidates,
+                               const std::vector<int>& S)
     : screen_(screen), candidates_(candidates), S_(S) {
   const int size = static_cast<int>(S.size());
   if (size > 0) {
@@ -55,7 +67,10 @@ DropsBeside::DropsBeside(const GapScreen& screen,
   }
 }
 
-DropsBeside::Own DropsBeside::OwnOf(const GapCandidate& candidate) const {
+// G_AA|S of one candidate. A column of which the baseline and S leave less than
+// kVisibleShare of its squared norm is not used: what is left of it is
+// rounding, and dividing by it would make chi squared of nothing.
+DeltaChi2Given::Own DeltaChi2Given::OwnOf(const GapCandidate& candidate) const {
   const int size = static_cast<int>(candidate.columns.size());
   Own own{MatrixXd(size, size), std::vector<bool>(size)};
   for (int k = 0; k < size; ++k) {
@@ -71,13 +86,23 @@ DropsBeside::Own DropsBeside::OwnOf(const GapCandidate& candidate) const {
   return own;
 }
 
-VectorXd DropsBeside::Conditioned(const VectorXd& gradient) const {
+// g - G_.S G_SS^-1 g_S for all columns at once: what a gradient has beyond what
+// S explains of it. It is asked for each of the 200 draws of chance (null.cc),
+// so that it must not cost a factorisation.
+VectorXd DeltaChi2Given::Conditioned(const VectorXd& gradient) const {
   if (S_.empty()) return gradient;
   const VectorXd g = gradient(S_);
   return gradient - half_.transpose() * factor_.matrixL().solve(g);
 }
 
-double DropsBeside::Of(size_t i, const VectorXd& conditioned) const {
+// delta_chi2 = g' G^-1 g = g' x, with coefficients of a known sign kept at that
+// sign. That is a small non-negative least squares problem, solved as by Lawson
+// and Hanson (1974, chapter 23) without their way back: the coefficient that is
+// the most negative leaves, and the rest is fitted again. Candidates have so
+// few columns that one which would have to come back is rare, and then
+// delta_chi2 is too small rather than too large. Where every coefficient has
+// the wrong sign the law would have to act backwards, and explains nothing.
+double DeltaChi2Given::Of(size_t i, const VectorXd& conditioned) const {
   const GapCandidate& candidate = candidates_[i];
   const Own& own = own_[i];
   if (candidate.columns.size() == 1) {

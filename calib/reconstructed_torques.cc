@@ -1,4 +1,4 @@
-#include "calib/made_torques.h"
+#include "calib/reconstructed_torques.h"
 
 #include <memory>
 #include <utility>
@@ -14,9 +14,9 @@ constexpr unsigned kNoiseSeed = 1;  // the same answer to the same logs
 
 }  // namespace
 
-void MakeTorques(const Robot& robot, const std::string& controller,
-                 const std::vector<LogSource>& logs,
-                 LogReaderOptions* reading) {
+void ReconstructTorques(const Robot& robot, const std::string& controller,
+                        const std::vector<LogSource>& logs,
+                        LogReaderOptions* reading) {
   LogReaderOptions commands_do = *reading;
   commands_do.commands_do = true;
   for (const LogSource& source : logs) {
@@ -25,10 +25,11 @@ void MakeTorques(const Robot& robot, const std::string& controller,
     const CommandedLog log = CommandedRows(source.name, all, {});
     const ControllerOptions law =
         ReadController(controller, robot, log.log.qref.row(0));
-    MadeTorque made = MakeTorque(robot, law, log, all.t, kNoiseSeed);
-    made.source = "commands and positions, by " + controller;
-    reading->made_torque[source.name] =
-        std::make_shared<const MadeTorque>(std::move(made));
+    ReconstructedTorque torque =
+        ReconstructTorque(robot, law, log, all.t, kNoiseSeed);
+    torque.source = "commands and positions, by " + controller;
+    reading->reconstructed_torque[source.name] =
+        std::make_shared<const ReconstructedTorque>(std::move(torque));
   }
 }
 

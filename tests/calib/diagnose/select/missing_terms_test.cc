@@ -1,17 +1,17 @@
-#include "calib/diagnose/select/families.h"
+#include "calib/diagnose/select/missing_terms.h"
 
 #include "tests/fixtures/diagnosed_arm.h"
 
-namespace armcal::families_test {
+namespace armcal::missing_terms_test {
 
-using GapFamiliesTest = DiagnosedArm<32>;
+using MissingTermsTest = DiagnosedArm<32>;
 
 Robot WithoutFriction(Robot robot) {
   for (Link& link : robot.links) link.joint.viscous = link.joint.coulomb = 0;
   return robot;
 }
 
-TEST_F(GapFamiliesTest, AFrictionlessFileLacksFrictionOnAllJoints) {
+TEST_F(MissingTermsTest, AFrictionlessFileLacksFrictionOnAllJoints) {
   const GapDiagnosis diagnosis = Diagnose(WithoutFriction(File()));
   for (const auto& [effect, name, truth] :
        {std::make_tuple("viscous_friction", ".viscous", .8),
@@ -30,16 +30,15 @@ TEST_F(GapFamiliesTest, AFrictionlessFileLacksFrictionOnAllJoints) {
     }
   }
   // Every step of the ladder leaves less, the last little.
-  const LackedFamilies& ladder = diagnosis.ladder;
-  ASSERT_GE(ladder.families.size(), 2u);
-  EXPECT_LT(ladder.families[0].left.norm(), .8 * ladder.without.norm());
-  EXPECT_LT(ladder.families[1].left.norm(),
-            .3 * ladder.families[0].left.norm());
+  const MissingTerms& ladder = diagnosis.ladder;
+  ASSERT_GE(ladder.terms.size(), 2u);
+  EXPECT_LT(ladder.terms[0].left.norm(), .8 * ladder.without.norm());
+  EXPECT_LT(ladder.terms[1].left.norm(), .3 * ladder.terms[0].left.norm());
 }
 
 // What a spring took for friction of the fit without it, friction gives back:
 // the file says nothing of it that the fit had to stay near to.
-TEST_F(GapFamiliesTest, AreToldAsTheyAreBesideTheEffects) {
+TEST_F(MissingTermsTest, AreToldAsTheyAreGivenTheEffects) {
   Add("spring", 1, {12, 3});
   const GapDiagnosis diagnosis = Diagnose(WithoutFriction(File()));
   const auto told = [&](const std::string& effect) {
@@ -51,36 +50,36 @@ TEST_F(GapFamiliesTest, AreToldAsTheyAreBesideTheEffects) {
   };
   EXPECT_EQ(told("spring").joint, 1);
   const FoundEffect coulomb = told("coulomb_friction");
-  const LackedFamilies& ladder = diagnosis.ladder;
+  const MissingTerms& ladder = diagnosis.ladder;
   const auto first = std::find_if(
-      ladder.families.begin(), ladder.families.end(),
-      [](const LackedFamily& f) { return f.term == JointTerm::kCoulomb; });
-  ASSERT_NE(first, ladder.families.end());
+      ladder.terms.begin(), ladder.terms.end(),
+      [](const MissingTerm& f) { return f.joint_term == JointTerm::kCoulomb; });
+  ASSERT_NE(first, ladder.terms.end());
   for (int j = 0; j < 2; ++j) {
     ExpectEstimate(coulomb, File().links[j].joint.name + ".coulomb", 1.5, .05);
   }
   EXPECT_GT(std::abs(first->value[1] - 1.5), .15);
 }
 
-TEST_F(GapFamiliesTest, AFileWithFrictionLacksNone) {
-  EXPECT_TRUE(Diagnose(File()).ladder.families.empty());
+TEST_F(MissingTermsTest, AFileWithFrictionLacksNone) {
+  EXPECT_TRUE(Diagnose(File()).ladder.terms.empty());
 }
 
 // Not all that a file leaves out is there: this arm has no offsets, and the
 // armature that its file has.
-TEST_F(GapFamiliesTest, WhatTheRobotDoesNotHaveEitherIsNotLacked) {
+TEST_F(MissingTermsTest, WhatTheRobotDoesNotHaveEitherIsNotMissing) {
   Robot file = WithoutFriction(File());
-  for (const LackedFamily& family : Diagnose(file).ladder.families) {
-    EXPECT_THAT(family.effect->name,
+  for (const MissingTerm& term : Diagnose(file).ladder.terms) {
+    EXPECT_THAT(term.effect->name,
                 testing::AnyOf("viscous_friction", "coulomb_friction"));
   }
 }
 
 // With a log from before, it is no news that the file had none.
-TEST_F(GapFamiliesTest, AreNoEffectBesideAReference) {
+TEST_F(MissingTermsTest, AreNoEffectGivenAReference) {
   const GapDiagnosis diagnosis = Diagnose(WithoutFriction(File()), true);
-  EXPECT_GE(diagnosis.ladder.families.size(), 2u);
+  EXPECT_GE(diagnosis.ladder.terms.size(), 2u);
   EXPECT_TRUE(diagnosis.effects.empty());
 }
 
-}  // namespace armcal::families_test
+}  // namespace armcal::missing_terms_test

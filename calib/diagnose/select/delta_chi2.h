@@ -9,25 +9,25 @@
 
 namespace armcal {
 
-// Drops of chi^2 when candidates are added to a set of columns S that is fitted
-// with them.
-class DropsBeside {
+// By how much chi^2 falls when a candidate is added to a set of columns S that
+// is fitted with it: delta_chi2 given S.
+class DeltaChi2Given {
  public:
   // Keeps `screen` and `candidates`.
-  DropsBeside(const GapScreen& screen,
-              const std::vector<GapCandidate>& candidates,
-              const std::vector<int>& S);
+  DeltaChi2Given(const GapScreen& screen,
+                 const std::vector<GapCandidate>& candidates,
+                 const std::vector<int>& S);
 
   // The screen's gradient, or what it would be for another residual, less what
   // S explains of it.
   Eigen::VectorXd Conditioned(const Eigen::VectorXd& gradient) const;
-  // Drop by candidate i, `g` conditioned. Columns of which nothing is left to
-  // see have no part in it, nor those that would have the wrong sign beside
-  // others; 0 where no sign is right.
+  // Of candidate i, `g` conditioned. Columns of which nothing is left to see
+  // have no part in it, nor those that would have the wrong sign given others;
+  // 0 where no sign is right.
   double Of(size_t i, const Eigen::VectorXd& g) const;
 
  private:
-  // A candidate's columns beside S, and which of them can be seen.
+  // A candidate's columns given S, and which of them can be seen.
   struct Own {
     Eigen::MatrixXd G;
     std::vector<bool> used;
