@@ -80,6 +80,7 @@ int PoseUnknowns::NumOther(const PoseMeasurements& measured) {
          (static_cast<int>(measured.targets.size()) + measured.num_points());
 }
 
+// Names follow the order in which the unknowns are stacked, three per thing.
 std::vector<std::string> PoseUnknowns::OtherNames(
     const PoseMeasurements& measured) {
   if (measured.lengths.size() > 0) {
@@ -201,6 +202,8 @@ void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
   }
 }
 
+// The errors of AddPoseResiduals before they are whitened, by the same formulas
+// of each kind: what people read is in m (rad) and not in standard deviations.
 MatrixXd PositionErrors(const ArmGeometry& geometry,
                         const PoseMeasurements& measured,
                         const PoseUnknowns& unknowns) {
