@@ -46,12 +46,12 @@ Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
   return covariance.llt().matrixL().solve(Matrix6d::Identity());
 }
 
-// The sandwich for M-estimates with errors that are alike, A^-1 B A^-1 with A =
-// mean psi' J'J and B = mean psi^2 J'J, is the factor of the header times
-// (J'J)^-1. Blocks share a loss by their length: psi(r) = rho'(s) r, s = |r|^2,
-// of which the sum of squares is rho'^2 s, and the trace of its derivative d
-// rho' + 2 rho'' s for d coordinates. With no loss it is the usual variance,
-// |r|^2 / (N - p).
+// The sandwich A^-1 B A^-1 of an M-estimate with errors that are alike has A =
+// mean psi' J'J and B = mean psi^2 J'J: it is the factor of the header times
+// (J'J)^-1. Blocks of d coordinates share a loss by their length, psi(r) =
+// rho'(s) r with s = |r|^2, of which
+//   |psi|^2 = rho'^2 s,   trace dpsi/dr = d rho' + 2 rho'' s.
+// Without a loss it is the usual variance, |r|^2 / (N - p).
 double VarianceFactor(const Eigen::VectorXd& residuals, int block,
                       RobustLoss loss, int num_unknowns) {
   const std::unique_ptr<ceres::LossFunction> rho(MakeLoss(loss, block));
