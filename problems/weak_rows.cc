@@ -33,9 +33,9 @@ WeakRows::WeakRows(const Trajectory& trajectory, const RowOptions& options,
   ListWindows();
 }
 
-// Tables the test function and its rate,
-//   phi = (1 - s^2)^4,  d phi/dt = -8 s (1 - s^2)^3 ds/dt,  ds/dt = 2 / (steps
-//   dt).
+// Tables the test function and its rate, s going from -1 to 1 in `steps_`:
+//   phi = (1 - s^2)^4,
+//   d phi/dt = -8 s (1 - s^2)^3 ds/dt,  ds/dt = 2 / (steps dt).
 // Both are divided by the sum of phi, which makes phi's integral 1 and includes
 // the trapezoid rule's dt. phi and its first three derivatives vanish at both
 // ends, and with them the terms of low order of the trapezoid rule's error
