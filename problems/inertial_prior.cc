@@ -29,10 +29,11 @@ T SignedRoot(const T& x) {
 }
 
 // W is the prior's square root of information about V itself, at V_0. For a
-// change P of the pseudo-inertia A A' the divergence is, to second order, |A^-1
-// P A^-T|^2 (Frobenius) over trust^2: P relative to what the link has. W's
-// column k holds the entries for a unit of parameter k, those off the diagonal
-// once and by sqrt(2), as the norm counts them twice.
+// change P of the pseudo-inertia A A' the divergence is, to second order,
+//   |A^-1 P A^-T|^2 / trust^2  (Frobenius norm),
+// P relative to what the link has. W's column k holds the entries for a unit of
+// parameter k, those off the diagonal once and by sqrt(2), as the norm counts
+// them twice.
 InertialPrior::InertialPrior(const Vector10d& V_0, double trust)
     : c_0_(LogCholeskyFromInertial(V_0, 0.01, 0.01)), trust_(trust) {
   set_num_residuals(10);

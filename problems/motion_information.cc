@@ -52,8 +52,9 @@ void MotionInformation::OnAllThreads(const Work& work) {
 
 // A = sum_j w_j U_j' U_j, U_j being joint j's rows with the columns that act on
 // it: U is block upper triangular, and most products would be by zero. It is
-// the Fisher information of X for independent normal errors of variance 1 /
-// w_j. The sum over samples is taken after the threads, in one order.
+// the Fisher information of X for independent normal errors whose variances are
+// the weights' inverses. The sum over samples is taken after the threads, in
+// one order.
 void MotionInformation::Evaluate(const Motion& motion, const VectorXd& weight) {
   motion_ = motion;
   weight_ = weight;

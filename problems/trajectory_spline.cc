@@ -13,10 +13,10 @@ using Eigen::MatrixXd;
 using Weights = Eigen::Matrix<double, 1, TrajectorySpline::kSupport>;
 
 // The B-splines of the given degree, on knots at the whole numbers, that are
-// not zero at u in [0, 1], the one that begins first coming first. The
+// not zero at u from 0 to 1, the one that begins first coming first. The
 // recursion is Cox and de Boor's (de Boor 1978, A Practical Guide to Splines,
-// ch. X): each degree is a mean of two of the degree before with weights in [0,
-// 1], so that nothing cancels.
+// ch. X): each degree is a mean of two of the degree before, with weights that
+// are not negative, so that nothing cancels.
 Weights Cardinal(int degree, double u) {
   Weights b = Weights::Zero();
   b[0] = 1;

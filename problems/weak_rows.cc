@@ -33,12 +33,14 @@ WeakRows::WeakRows(const Trajectory& trajectory, const RowOptions& options,
   ListWindows();
 }
 
-// Tables phi = (1 - s^2)^4 and d phi/dt = -8 s (1 - s^2)^3 ds/dt with ds/dt = 2
-// / (steps dt). Both are divided by the sum of phi, which makes phi's integral
-// 1 and includes the trapezoid rule's dt. phi and its first three derivatives
-// vanish at both ends, and with them the terms of low order of the trapezoid
-// rule's error (Euler and Maclaurin's formula). A cell's samples stand in a
-// column of each phase, so that a kernel takes all phases at once.
+// Tables the test function and its rate, s going from -1 to 1 in `steps_`:
+//   phi = (1 - s^2)^4,
+//   d phi/dt = -8 s (1 - s^2)^3 ds/dt,  ds/dt = 2 / (steps dt).
+// Both are divided by the sum of phi, which makes phi's integral 1 and includes
+// the trapezoid rule's dt. phi and its first three derivatives vanish at both
+// ends, and with them the terms of low order of the trapezoid rule's error
+// (Euler and Maclaurin's formula). A cell's samples stand in a column of each
+// phase, so that a kernel takes all phases at once.
 void WeakRows::SetTestFunction() {
   phi_.assign(weight_stride_ * phases_, 0);
   rate_ = phi_;
@@ -114,8 +116,8 @@ void WeakRows::AddSamples(int first, int count, const Output& output,
 // Subtracts a piece's share of all windows that reach over its cell,
 //   u_c = -sum_k (dphi/dt_k P_c(t_k) + phi_k D_c(t_k)) dt,
 // for one joint: phases x columns products of the same samples, which are a
-// small matrix product. Windows over cell m are those that begin at m - phases
-// + 1 .. m.
+// small matrix product. The windows over a cell begin at it or at one of the
+// phases - 1 cells before it.
 void WeakRows::AddPiece(const Piece& piece, int joint, const Output& output,
                         RowScratch* scratch) const {
   const int size = output.sizes[joint];

@@ -110,10 +110,10 @@ void Workspace::AddThings(const WorkspaceOptions& options) {
   }
 }
 
-// Which balls are held against which things: 400 random postures within the
-// limits, always the same ones, give the least and the largest distance of each
-// pair. One that does not move cannot be kept clear by a motion; one that is
-// never clear is an error of the input.
+// Finds which balls are held against which things: 400 random postures within
+// the limits, always the same ones, give the least and the largest distance of
+// each pair. One that does not move cannot be kept clear by a motion; one that
+// is never clear is an error of the input.
 void Workspace::AddPairs(const VectorXd& lower, const VectorXd& upper) {
   constexpr int kPostures = 400;
   constexpr double kStill = 1e-3;  // m

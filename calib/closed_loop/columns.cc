@@ -6,6 +6,9 @@
 
 namespace armcal {
 
+// Of the links only base parameters get a column, since torques and so motions
+// see no others (Gautier & Khalil 1990); `spread_` gives the rest their
+// multiples.
 LoopColumns::LoopColumns(const Robot& robot, const std::vector<bool>& free)
     : n_(robot.num_joints()) {
   const LoopOrder order(n_);

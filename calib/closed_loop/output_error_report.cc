@@ -77,6 +77,9 @@ std::vector<std::string> Shortcomings(const OutputErrorCalibration& result) {
   return sentences;
 }
 
+// Positions in and out of the fit beside the encoders' noise, which is what is
+// left of a model that is right; then what was estimated, and what stays the
+// file's.
 std::string OutputErrorReport(const Robot& robot,
                               const OutputErrorCalibration& result) {
   std::string text;

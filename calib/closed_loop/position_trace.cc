@@ -4,6 +4,8 @@
 
 namespace armcal {
 
+// Simulated minus commanded is measured minus commanded less the residual,
+// measured minus simulated.
 std::vector<PositionTrace> TracePositions(const LoopWindows& windows,
                                           const std::vector<LoopRun>& runs,
                                           int most_bins) {

@@ -9,6 +9,10 @@ namespace armcal {
 
 using Eigen::VectorXd;
 
+// Friction of slope b = viscous + coulomb / width stops a joint with the time
+// constant 1 / ((M^-1)_jj b). Steps are to be a share of the fastest one that
+// joints can have together; its rate, an eigenvalue of M^-1 diag(b), is at most
+// the trace of that matrix, the sum over joints.
 int EnoughSubsteps(const LoopValues& values, double rate_hz) {
   // Of the time constant with which friction alone stops a joint; and how much
   // faster it may be.

@@ -190,6 +190,9 @@ LinearCalibration CalibrateWithoutOutliers(
 
 }  // namespace
 
+// Everything that is reported of a calibration, once its parameters are found:
+// lengths, residuals in the logs it was fitted to and in those held out, and
+// the noise of samples.
 LinearCalibration CalibrateLinear(const Robot& robot,
                                   const LinearCalibrationOptions& options,
                                   const LogSet& training,

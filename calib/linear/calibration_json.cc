@@ -206,6 +206,8 @@ void AddResiduals(const LogSet* validation, const LinearCalibration& result,
 
 }  // namespace
 
+// What follows from the result alone; the other ToJson adds what is of its
+// logs.
 json ToJson(const Robot& robot, const LinearCalibration& result) {
   const bool weak = result.rows.identification == Identification::kWeak;
   return {{"format", "armcal calibration 1"},

@@ -7,8 +7,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Of the weak form's test function (1 - s^2)^4: int phi^2 ds / (int phi ds)^2
-// over [-1, 1], by Wallis' integrals 2 (2 4 .. 2 n) / (3 5 .. 2 n + 1).
+// int phi^2 ds / (int phi ds)^2 over [-1, 1] of the weak form's test function
+// phi = (1 - s^2)^4, by Wallis' integrals of (1 - s^2)^n, 2 (2 4 .. 2 n) / (3 5
+// .. 2 n + 1).
 double SquareOverMean() {
   const auto wallis = [](int n) {
     double value = 2;
@@ -21,8 +22,9 @@ double SquareOverMean() {
 }  // namespace
 
 // A row is int phi tau dt with int phi dt = 1 over a window of length T. White
-// noise of density S makes a variance S int phi^2 dt = S SquareOverMean() 2 / T
-// of it; solved for S.
+// noise of density S gives it the variance
+//   S int phi^2 dt = S SquareOverMean() 2 / T,
+// which is solved for S.
 VectorXd ErrorDensity(const LinearCalibration& linear) {
   if (linear.rows.identification != Identification::kWeak) {
     return VectorXd::Constant(linear.noise.size(), std::nan(""));

@@ -119,14 +119,15 @@ void OverlapCovariance::AddSquares(int joint) {
   }
 }
 
-// How much smaller products_ are for the fit. With the hat matrix H = scale^2 U
-// G U', whose rows the loss's slopes scale, and the errors' covariance W,
-// residuals have the covariance (1 - H) W (1 - H)' = W - (H W + W H' - H W H').
+// How much smaller products_ are for the fit. The hat matrix is H = scale^2 U G
+// U', whose rows the loss's slopes scale, and W the errors' covariance.
+// Residuals have
+//   (1 - H) W (1 - H)' = W - (H W + W H' - H W H').
 // Summed over pairs of rows that are l apart,
 //   H W + W H' -> 2 sum_k c_|k| h_|l+k|,
-//   H W H'     -> scale^2 <cov, S_l>,
-// where h_d is the sum of H's entries of rows d apart, S_l = sum_t u(t)' u(t -
-// l), and cov the covariance of x.
+//   H W H'     -> scale^2 <cov, sum_t u(t)' u(t - l)>,
+// where h_d is the sum of H's entries of rows d apart and cov the covariance of
+// x.
 MatrixXd OverlapCovariance::Taken(const MatrixXd& gain, const VectorXd& scale,
                                   const MatrixXd& c,
                                   const MatrixXd& covariance) const {
@@ -148,11 +149,12 @@ MatrixXd OverlapCovariance::Taken(const MatrixXd& gain, const VectorXd& scale,
   return taken;
 }
 
-// The covariance G [sum_i scale_i^2 sum_|l| c_il S_il] G', S_il = sum_t u(t)'
-// u(t - l), with autocovariances c that are zero beyond the overlap (Hansen &
-// Hodrick 1980, J. Political Economy 88). c is a fixed point, of ten rounds:
-// what the fit has taken from the residuals depends on c and on the covariance,
-// and is given back.
+// The covariance of x is
+//   G [sum_i scale_i^2 sum_|l| c_il S_il] G',   S_il = sum_t u(t)' u(t - l),
+// with autocovariances c that are zero beyond the overlap (Hansen & Hodrick
+// 1980, J. Political Economy 88). c is a fixed point, of ten rounds: what the
+// fit has taken from the residuals depends on c and on the covariance, and is
+// given back.
 MatrixXd OverlapCovariance::Value(const MatrixXd& gain, const VectorXd& scale) {
   SumProducts();
   const auto count = rows_.cwiseMax(1).cwiseInverse().asDiagonal();

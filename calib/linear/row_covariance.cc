@@ -101,10 +101,11 @@ Score MakeScore(const FittedRow& row, const LinearSolution& solution,
 
 }  // namespace
 
-// The scatter of L logs about their common solution, L / (L - 1) sum_l (G
-// s_l)^2: errors may be as dependent as they like within a log (Liang & Zeger
-// 1986, Biometrika 73, for clusters). With few logs it is itself uncertain, so
-// that it only raises what the rows tell.
+// The scatter of L logs about their common solution,
+//   L / (L - 1) sum_l (G s_l)^2,   s_l being the sum of log l's scores:
+// errors may be as dependent as they like within a log (Liang & Zeger 1986,
+// Biometrika 73, for clusters). With few logs it is itself uncertain, so that
+// it only raises what the rows tell.
 MatrixXd RaiseToLogScatter(const MatrixXd& covariance, const MatrixXd& gain,
                            const MatrixXd& log_sums) {
   const double logs = static_cast<double>(log_sums.cols());

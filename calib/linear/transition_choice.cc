@@ -261,6 +261,7 @@ std::vector<int> ChooseTransitions(const BlockTriangularFactor& factor,
   return Chooser(factor, parameters, noise).Choose();
 }
 
+// Grids are geometric: a peak between two widths is their ratio to its power.
 std::vector<CoulombTransition> RefineTransitions(
     const BlockTriangularFactor& factor, const ModelParameters& parameters,
     const VectorXd& noise) {

@@ -166,6 +166,9 @@ std::vector<int> ReportErrors(const PoseFit& fit,
 
 }  // namespace
 
+// One fit, and then the questions to it: how large errors are in and out of it,
+// which poses it gives up, whether a relation between joints explains more, how
+// sure it is.
 PoseCalibration CalibratePoses(const Robot& robot,
                                const PoseMeasurements& measured,
                                const PoseCalibrationOptions& options) {

@@ -87,6 +87,9 @@ class CouplingSearch {
     std::iota(rows_.begin(), rows_.end(), 0);
   }
 
+  // Fits the geometry without relations, ranks all relations by what they would
+  // explain to first order, fits the likeliest, and takes the best if it is
+  // clear.
   std::optional<PoseCoupling> Find() {
     Fitted without = {{-1, -1, 0}, {}, plain_.Start(), 0};
     for (const auto what : {RefineGeometry::kNothing, RefineGeometry::kAll}) {

@@ -130,6 +130,8 @@ double PoseFit::PriorOf(int k) const {
                        options_.prior_angle);
 }
 
+// The derivatives by all unknowns, free or not, from Ceres' sparse rows: its
+// blocks of other unknowns come in the order of their numbers.
 MatrixXd PoseFit::Jacobian(const std::vector<int>& rows, const PoseUnknowns& at,
                            VectorXd* residuals) const {
   PoseUnknowns unknowns = at;
@@ -175,6 +177,8 @@ VectorXd PoseFit::Residuals(const std::vector<int>& rows,
                  RotationErrors(*geometry_, measured_, at));
 }
 
+// Minimises the residuals' loss and the priors of geometry and instrument over
+// what is free.
 bool PoseFit::Solve(const std::vector<bool>& free, const std::vector<int>& rows,
                     RobustLoss loss, PoseUnknowns* unknowns) const {
   ceres::Problem problem;

@@ -16,8 +16,12 @@ using Eigen::VectorXd;
 
 constexpr double kLeastColumn = 1e-5;  // of a column that would count
 
-// Columns of a Jacobian by the `geometry` first ones that are free, beside all
-// others.
+// The columns of a Jacobian, asked one by one whether they are independent of
+// those taken before (and of all that are none of the `geometry` first): a
+// column counts if more than kLeastColumn of a frame's column is left of it, so
+// that the decision does not hang on its own length. Taking them in order,
+// unlike a pivoted QR, keeps what users know (frames, joint zeros) and holds
+// the rest.
 class SeenColumns {
  public:
   SeenColumns(MatrixXd J, int geometry)
@@ -93,6 +97,8 @@ int ScaleLength(const PoseFit& fit, const std::vector<bool>& wanted) {
   return longest;
 }
 
+// A parameter is free only if all Jacobians tell it: that at the start and, of
+// touches, that at tips which touch exactly.
 std::vector<bool> HoldUnseen(const PoseFit& fit,
                              const std::vector<bool>& wanted,
                              const std::vector<int>& rows,

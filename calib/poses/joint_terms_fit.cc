@@ -196,6 +196,10 @@ bool JointTermsFit::SolveWithNoise(const std::vector<int>& rows,
   return true;
 }
 
+// With c the column of one more term and all others refitted, chi^2 falls by
+// pull^2 / own: own = c'c - c'J A^-1 J'c is the information on its amount, and
+// pull what is left of -c'r (the score test; Rao 1948). One factor of A serves
+// all candidates.
 MatrixXd JointTermsFit::Gains(const std::vector<int>& rows,
                               const MatrixXd& signals,
                               const JointTermsState& at) {
@@ -219,6 +223,8 @@ MatrixXd JointTermsFit::Gains(const std::vector<int>& rows,
   return gains;
 }
 
+// The sandwich over poses: the amount moves by the sum over poses of (J A^-1
+// e_k)'r.
 double JointTermsFit::Stddev(int term, const std::vector<int>& rows,
                              const JointTermsState& at) {
   VectorXd r;
@@ -240,6 +246,9 @@ double JointTermsFit::Stddev(int term, const std::vector<int>& rows,
   return std::sqrt(variance * N / std::max(1.0, N - e.A.rows()));
 }
 
+// Residuals of whole poses are whitened by one number for positions and one for
+// rotations, which is undone; where each pose has a covariance of its own, they
+// are taken anew.
 std::vector<double> JointTermsFit::MeanSquares(const std::vector<int>& rows,
                                                const JointTermsState& at) {
   const VectorXd r = Residuals(rows, at);

@@ -56,6 +56,9 @@ bool IsAlikeInOrder(const PoseMisfit& misfit) {
   return misfit.order_correlation > kClear * misfit.order_stddev;
 }
 
+// The correlation of what is left of successive poses, over pairs that do
+// follow each other. Of independent errors it is 0 with the deviation 1 /
+// sqrt(pairs).
 PoseMisfit MeasureMisfit(const PoseFit& fit, const PoseMeasurements& measured,
                          const PoseUnknowns& at,
                          const std::vector<int>& inliers, int num_unknowns) {

@@ -6,6 +6,8 @@
 
 namespace armcal {
 
+// The frame is fitted first, with the geometry of the file: from a rough start
+// the geometry would take up what a wrong frame leaves.
 PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
                         PoseFit* fit) {
   PoseSolution solution;

@@ -4,6 +4,7 @@
 
 namespace armcal {
 
+// All that a pose has goes with it: rows, targets, covariances, instrument.
 PoseMeasurements SomePoses(const PoseMeasurements& measured, int most) {
   const int step = 1 + (measured.size() - 1) / most;
   if (step == 1) return measured;

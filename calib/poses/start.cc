@@ -98,6 +98,9 @@ void SetLevelAndTool(const ArmGeometry& geometry,
 
 }  // namespace
 
+// Each kind of measurement has its closed form: trilateration of a wire,
+// directions of an inclinometer, means of touches, and of positions the
+// rotation and shift that align them (Umeyama 1991, IEEE T-PAMI 13).
 PoseUnknowns StartPoses(const ArmGeometry& geometry,
                         const PoseMeasurements& measured) {
   PoseUnknowns start;

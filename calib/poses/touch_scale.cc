@@ -27,6 +27,8 @@ PoseUnknowns Scaled(const PoseFit& fit, const PoseMeasurements& measured,
 
 }  // namespace
 
+// The factor f that minimises sum (f l - l_file)^2 over the lengths l is sum l
+// l_file / sum l^2.
 void SetScaleByFile(const PoseFit& fit, const PoseMeasurements& measured,
                     const std::vector<bool>& free, PoseUnknowns* unknowns) {
   const VectorXd file = fit.geometry().Values();

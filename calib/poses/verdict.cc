@@ -100,6 +100,7 @@ void AddBesideInstrument(const PoseCalibration& result, Sentences* sentences) {
 
 }  // namespace
 
+// What makes the geometry useless, or a poor account of what was measured.
 Sentences Shortcomings(const Robot& robot, const PoseCalibration& result) {
   if (!result.solved) return {result.reason};
   Sentences sentences;

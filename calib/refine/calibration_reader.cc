@@ -186,6 +186,8 @@ bool CalibratedRobot::Saw(const std::string& log,
   return false;
 }
 
+// Checks come in the order in which a user can mend what they find: another
+// robot, a linear estimate, single entries.
 CalibratedRobot ReadCalibration(const std::string& path, const Robot& nominal) {
   const nlohmann::json parsed = ReadJson(path);
   const JsonValue root(path, "", parsed);

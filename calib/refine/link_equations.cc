@@ -20,9 +20,10 @@ using Eigen::VectorXd;
 constexpr double kWider = 1.1;
 
 // Takes the last `count` unknowns out, which are estimated too and would
-// otherwise count as known. In QR of the columns with these first, R = [N C; 0
-// R_2], R_2'R_2 is the Schur complement, the information about the others that
-// is left. Scores follow, s_p - (N^-1 C)' s_n, by T.
+// otherwise count as known. QR of the columns with these first gives
+//   R = [N C; 0 R_2],
+// where R_2'R_2 is the Schur complement, the information about the others that
+// is left. Scores follow by T, s_p - (N^-1 C)' s_n.
 void Eliminate(Eigen::Index count, LinkInformation* information) {
   if (count == 0) return;
   const Eigen::Index p = information->R.cols() - count;

@@ -116,12 +116,12 @@ double Interior::LongestStep(const VectorXd& step) const {
   return 0.9 / fastest;
 }
 
-// With D = C^-1 P(dV) C^-T, C C' = P(V), the divergence is to second order |D +
-// C' P_0^-1 C - 1|^2 up to a constant: each Newton step is a linear
-// least-squares problem, solved by QR so that R'R is never formed. Columns are
-// scaled to length 1, as those of thin links are many orders longer than
-// others. The step is halved until the cost falls by a tenth of what it
-// promised (Armijo).
+// With C C' = P(V) and D = C^-1 P(dV) C^-T the divergence is to second order
+//   |D + C' P_0^-1 C - 1|^2
+// up to a constant: each Newton step is a linear least-squares problem, solved
+// by QR so that R'R is never formed. Columns are scaled to length 1, as those
+// of thin links are many orders longer than others. The step is halved until
+// the cost falls by a tenth of what it promised (Armijo).
 double Interior::Step(double weight) {
   const Eigen::Index m = R_.rows(), p = R_.cols();
   MatrixXd J = MatrixXd::Zero(m + p, p);

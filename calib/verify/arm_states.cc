@@ -20,6 +20,8 @@ double FiniteOr(double value, double otherwise) {
 
 }  // namespace
 
+// States are uniform within the file's limits; where it has none, a turn, 2
+// rad/s and 10 rad/s^2 (1 m, 0.5 m/s and 3 m/s^2).
 std::vector<ArmState> RandomStates(const Robot& robot, int count,
                                    std::uint64_t seed) {
   std::mt19937_64 random(seed);

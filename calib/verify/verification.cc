@@ -241,6 +241,8 @@ bool Verification::passed() const {
                      [](const VerificationCheck& c) { return c.passed(); });
 }
 
+// Random states reach what a log does not; a log's states have the ratios of
+// gravity, speed and acceleration that the robot really sees.
 Verification VerifyDynamics(const Robot& robot,
                             const VerificationOptions& options,
                             const PreparedLogs* log) {

@@ -83,6 +83,8 @@ std::string JudgementText(const RolloutComparison& c) {
                            : joints + "not shown to be better than the file\n";
 }
 
+// A row per length and unit, what the judged ones do not show, and what was
+// left out.
 std::string RolloutTable(const RolloutComparisons& rollouts) {
   if (rollouts.windows.empty()) return "";
   const bool calibrated = rollouts.windows[0].after.has_value();

@@ -65,8 +65,11 @@ void SetJoint(const RolloutArm& arm, int j, double* to) {
   to[simd::kRest] = arm.springs[j].rest;
 }
 
-// In the order of ArmConstants::values, of the bodies of a path as a chain;
-// `joint_terms`: with what the joints add.
+// The numbers of a path's bodies as a chain, in the order of
+// ArmConstants::values. Each rotation between joints is Rz Rx Rz; its two turns
+// about z are added to the joints on either side, which turn about z anyway, so
+// that kernels are left with one rotation about x. `joint_terms`: with what the
+// joints add.
 VectorXd ValuesOf(const RolloutArm& arm, const LinkPath& path,
                   bool joint_terms) {
   const Robot& robot = arm.robot;
@@ -109,7 +112,8 @@ VectorXd ValuesOf(const RolloutArm& arm, const LinkPath& path,
   return values;
 }
 
-// Of a robot that branches, whose bodies are those of its paths.
+// The joints' own numbers of a robot that branches, whose bodies are its
+// paths'.
 VectorXd JointValuesOf(const RolloutArm& arm) {
   const int n = arm.robot.num_joints();
   VectorXd values = VectorXd::Zero(3 + n * simd::kNumBodyConstants);
@@ -191,6 +195,8 @@ void ArmPlan::AddPath(const std::vector<const RolloutArm*>& arms,
   paths_.push_back(part);
 }
 
+// Lanes go through the same instructions: their arms must have the same kinds
+// of joints and laws, while their numbers may differ.
 void ArmPlan::SetJoints(const std::vector<const RolloutArm*>& arms) {
   const size_t n = arms[0]->robot.links.size();
   CHECK_GT(n, 0u);

@@ -19,7 +19,8 @@ BatchInverseDynamics::BatchInverseDynamics(const Robot& robot,
   }
 }
 
-// Of a path's links, stacked: its own have their bodies.
+// The inertias of a path's links, stacked. Links that an earlier path has have
+// no body.
 Eigen::VectorXd BatchInverseDynamics::InertiaOf(const LinkPath& path) const {
   Eigen::VectorXd inertia = Eigen::VectorXd::Zero(10 * path.links.size());
   for (size_t k = path.first_own; k < path.links.size(); ++k) {
@@ -28,6 +29,8 @@ Eigen::VectorXd BatchInverseDynamics::InertiaOf(const LinkPath& path) const {
   return inertia;
 }
 
+// The torque is linear in the bodies, so that a robot that branches is the sum
+// of its chains from the base to each tip, each body in one of them.
 void BatchInverseDynamics::Torque(const MotionColumns& motion, long count,
                                   double* const* tau) const {
   CHECK_EQ(motion.qdd.size(), plan_->num_joints());

@@ -77,6 +77,8 @@ BatchRollout::BatchRollout(const std::vector<RolloutArm>& arms,
   }
 }
 
+// Takes each batch of windows through all steps before the next one, so that
+// its state stays in the cache.
 void BatchRollout::Run(double begin, double step, long steps,
                        const TorqueLaw& torque, const Visit& visit,
                        RolloutStates* states) const {

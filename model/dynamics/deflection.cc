@@ -17,7 +17,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Of the fastest oscillation, 1/2 rad per step: beyond that the method damps.
+// A step turns the phase of the fastest oscillation by half a radian at most:
+// beyond that the method damps.
 constexpr double kPhasePerStep = .5;
 constexpr int kMostSubsteps = 10;  // faster ones no filter lets through
 // The link rests on its transmission at first: implicit steps of this length.
@@ -142,6 +143,9 @@ Deflection Follow(const DeflectedJoint& joint, double dt) {
   return DeflectionRun<2>(joint, dt).Run();
 }
 
+// What the kernel has to know of a joint with flanks: its law's numbers, the
+// signals, where it starts and in how many steps, and where the deflection goes
+// to.
 simd::DeflectedLink LinkOf(const DeflectedJoint& joint,
                            const FlankedSpring& spring, double dt,
                            Deflection* to) {

@@ -17,7 +17,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Of the largest, an inertia that is rounding.
+// The share of the largest pivot below which an inertia is rounding.
 constexpr double kNoInertia = 1e-15;
 
 // X_PM(q) of joint i, where P is the moved frame M of the joint that moves the
@@ -65,6 +65,10 @@ struct MovedBody {
 
 }  // namespace
 
+// Column i is what a unit acceleration of joint i alone takes of all joints: it
+// moves the composite of all links beyond it, whose wrench each joint on the
+// way to the base takes its part of, S_j' w (Walker & Orin 1982; Featherstone
+// 2008, 6.2).
 Eigen::MatrixXd MassMatrix(const Robot& robot, const VectorXd& q) {
   const int n = robot.num_joints();
   CHECK_EQ(q.size(), n);
@@ -123,6 +127,11 @@ VectorXd ForwardDynamics(const Robot& robot, const VectorXd& q,
                       tau - InverseDynamics(robot, q, qd, VectorXd::Zero(n)));
 }
 
+// With v and omega of a body's frame, h its first moment and I its inertia
+// about the frame's origin,
+//   kinetic = m v'v / 2 + v'(omega x h) + omega' I omega / 2,
+//   potential = -g'(m p + R h).
+// No centre of mass is formed, which a link of mass 0 has none of.
 ArmEnergy Energy(const Robot& robot, const VectorXd& q, const VectorXd& qd) {
   const int n = robot.num_joints();
   CHECK(q.size() == n && qd.size() == n);

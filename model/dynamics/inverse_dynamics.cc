@@ -55,6 +55,9 @@ JointWrench LinkWrench(const InertialParameters& V, const LinkMotion& m) {
 
 }  // namespace
 
+// Motion outwards, wrenches inwards. The base accelerates by -g instead of
+// gravity acting on each link. Wrenches are about each frame's own origin, in
+// its own axes.
 Eigen::VectorXd InverseDynamics(const Robot& robot, const Eigen::VectorXd& q,
                                 const Eigen::VectorXd& qd,
                                 const Eigen::VectorXd& qdd) {

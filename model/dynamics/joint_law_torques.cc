@@ -79,6 +79,9 @@ class LawRun {
 
 }  // namespace
 
+// All laws go along the motion in one sweep, since the instants between
+// samples, which states are integrated over, cost more than most laws. Laws of
+// one state, which are the most, have a step of fixed size.
 std::vector<VectorXd> JointLawTorques(const std::vector<const JointLaw*>& laws,
                                       const MotionTrack& track) {
   std::vector<VectorXd> torques;

@@ -139,6 +139,9 @@ int CoulombStates::NumKnown(const Trajectory& trajectory) const {
                  std::min(trajectory.core_begin + 1L, 0L + trajectory.size())));
 }
 
+// c of every Coulomb column along a trajectory: tanh(qd / width), or the state
+// of a displacement law, which has a memory. It goes on from the trajectory
+// before where both overlap; else it begins at 0.
 const Eigen::MatrixXd& CoulombStates::Follow(const Trajectory& trajectory) {
   const bool apart = trajectory.friction_q.size() > 0;
   const Eigen::MatrixXd& q = apart ? trajectory.friction_q : trajectory.q;

@@ -26,6 +26,9 @@ Eigen::MatrixXd JointWarmth(const Eigen::MatrixXd& power, double dt,
   return warmth;
 }
 
+// Least squares of warmth = resistance (power through a first-order lag) +
+// constant. For a given time constant it is one ratio, so that only the
+// constant is searched, over 40 of them.
 JointThermal FitThermal(const Eigen::VectorXd& power,
                         const Eigen::VectorXd& warmth, double dt) {
   constexpr int kTried = 40;

@@ -65,6 +65,9 @@ void LinkRegressor::Propagate(const VectorXd& q, const VectorXd& qd) {
   }
 }
 
+// The link's momentum about Wo by its ten parameters. In the link's axes, with
+// v and w of its frame, linear = m v + w x h, angular = h x v + I w; both are
+// linear in (m, h, I).
 LinkRegressor::Matrix6x10 LinkRegressor::LinkMomentum(int i) const {
   const JointState& s = state_[i];
   const Matrix3d R = s.X_WL.linear();

@@ -108,6 +108,9 @@ void ModelParameters::ChooseUnknownLengths(const Robot& robot,
   }
 }
 
+// Lists all columns that there may be: of each joint its moments, those that
+// are affine in lengths once more for each unknown length before the joint (7 +
+// 2 p_i of a turning joint, docs/theory.md, 1), and its terms.
 void ModelParameters::ListColumns(const Robot& robot, const Options& options) {
   for (int i = 0; i < num_joints(); ++i) {
     const JointType type = chain_.joints[i].type;
@@ -237,6 +240,11 @@ void ModelParameters::KeepTerms(const MatrixXd& U) {
   }
 }
 
+// Keeps columns of U at random states that are independent and expresses the
+// others by them: U_all x = U_kept (regrouping x). Base parameters are found so
+// numerically (Gautier 1991, J. Robotic Systems 8), since symbols would have to
+// be told which symmetries an arm has. A moment may only join its own block, so
+// that U stays block triangular.
 void ModelParameters::ChooseBasis() {
   const MatrixXd U = SampleRegressor();
   KeepMoments(U);

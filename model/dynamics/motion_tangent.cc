@@ -146,6 +146,8 @@ void MotionTangent::SetByState(const Means& means) {
   }
 }
 
+// The torque is linear in the inertial parameters: its derivatives by them are
+// the regressor's columns at the period's mean motion.
 void MotionTangent::SetInertials(const Means& means) {
   const int n = num_joints();
   const long stride = WholeLines(means.count);
@@ -173,6 +175,9 @@ void MotionTangent::SetInertials(const Means& means) {
   }
 }
 
+// Adds what joint terms change: friction's slope by velocity, and the torque by
+// each term that is asked for. The slope also joins the inertia, times half the
+// period, as the velocity at the end is part of the mean that friction acts by.
 void MotionTangent::SetTerms(const Means& means) {
   const int n = num_joints();
   const int inertials = static_cast<int>(parameters_.inertials.size());

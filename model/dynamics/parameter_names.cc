@@ -57,6 +57,8 @@ void ModelParameters::NameMerged(int j) {
       (count == 1 ? ": they are one parameter" : ": it is part of them"));
 }
 
+// A name is the sum that the parameter stands for, "Izz[1] + armature[1]", read
+// from a row of the regrouping.
 void ModelParameters::NameParameters() {
   const int m = static_cast<int>(moments_.size());
   for (size_t k = 0; k < kept_.size(); ++k) {

@@ -88,6 +88,10 @@ void AddLengths(const Robot& robot, ProximalChain* chain) {
 
 }  // namespace
 
+// Goes outwards. A joint's fixed frame may be turned about and shifted along
+// its axis without changing its motion; this gauge (X_FG) is used to give each
+// constant the form of a DH row. What is left of it goes into the next
+// constant.
 ProximalChain MakeProximalChain(const Robot& robot) {
   const int n = robot.num_joints();
   CHECK_GT(n, 0);
@@ -131,6 +135,9 @@ ProximalChain MakeProximalChain(const Robot& robot) {
   return chain;
 }
 
+// Goes inwards: what does not depend on a joint's q joins the link it sits on.
+// Of a turn about z that is the mass, hz, Izz and the mean of Ixx and Iyy; of a
+// slide, all of the body at q = 0.
 std::vector<InertialParameters> CompositeInertials(const Robot& robot,
                                                    const ProximalChain& chain) {
   const int n = robot.num_joints();

@@ -210,6 +210,9 @@ MatrixXd RecordedTorque::Recorded(const SimulatedRobot& changed,
   return tau;
 }
 
+// From the motion to the log, slot by slot in the order in which torque flows:
+// links, transmissions, laws, actuators, sensors, delay. Where an effect
+// changes none of the motion, the nominal torque is used again.
 MatrixXd RecordedTorque::ChangeOf(const SimulatedRobot& changed,
                                   const std::vector<Deflection>& deflections) {
   CHECK_EQ(changed.robot.num_joints(), robot_.num_joints());
@@ -292,6 +295,8 @@ void RecordedTorque::TakeLaws(const std::vector<SimulatedRobot>& changed,
   }
 }
 
+// Effects of joint laws alone, which most are, are followed together as far as
+// their joints warm up alike.
 std::vector<RecordedTorque::OfJoints> RecordedTorque::Changes(
     const std::vector<SimulatedRobot>& changed) {
   std::vector<OfJoints> changes(changed.size(), OfJoints(robot_.num_joints()));

@@ -37,6 +37,8 @@ Regressor::Regressor(const ProximalChain& chain,
       rows_(num_joints_),
       more_rows_(num_joints_) {}
 
+// P and D of one state: moments by the kernel of the chain, then the joints'
+// terms.
 void Regressor::Momentum(const VectorXd& q, const VectorXd& qd,
                          const VectorXd& coulomb, MatrixXd* P, MatrixXd* D) {
   Point(q, &q_);
@@ -58,6 +60,7 @@ void Regressor::Momentum(const VectorXd& q, const VectorXd& qd,
   }
 }
 
+// U of one state, in the same order.
 void Regressor::Differential(const VectorXd& q, const VectorXd& qd,
                              const VectorXd& qdd, const VectorXd& coulomb,
                              MatrixXd* U) {

@@ -56,6 +56,9 @@ void RegressorGradient::AddDirections(const VectorXd& state,
   of_p->segment(begin, width) += p.head(width);
 }
 
+// The gradient of sum_ik G_ik U_ik in the motion, by derivatives carried
+// forwards, kWidth directions at a time, through P and D; terms have it in
+// closed form.
 void RegressorGradient::Add(const VectorXd& q, const VectorXd& qd,
                             const VectorXd& qdd, const MatrixXd& G,
                             VectorXd* of_q, VectorXd* of_qd, VectorXd* of_qdd) {

@@ -188,6 +188,9 @@ std::vector<int> RegressorPlan::AddLink(const RegressorColumns& columns,
   return numbers;
 }
 
+// Where each column goes in each row: its rank among those that may be nonzero
+// there. -1 is of a moment that is not wanted, which kernels compute along with
+// the others and leave out.
 void RegressorPlan::AddColumns(const RegressorColumns& columns, Places places) {
   int n = 0;
   for (const Path& path : paths_) n = std::max(n, path.links.links.back() + 1);

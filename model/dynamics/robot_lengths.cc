@@ -16,6 +16,8 @@ bool MovesLinkFrame(const Robot& robot, const Length& length) {
 
 }  // namespace
 
+// Moves frames along the direction in which each length lies, by the
+// difference. In a file with a DH table the row says which of two frames moves.
 Robot WithLengths(const Robot& robot, const std::vector<Length>& lengths) {
   const ProximalChain chain = MakeProximalChain(robot);
   Robot result = robot;

@@ -58,6 +58,8 @@ void TorqueReplay::Rate(const VectorXd& tau, const VectorXd& x,
   rate->segment(n, n) = SolveInertia(terms_.mass_matrix, net);
 }
 
+// Integrates (q, qd, states of Coulomb friction) from row `first` under the
+// recorded torque, linear between rows.
 Integration TorqueReplay::Run(const Trajectory& trajectory, int first, int last,
                               const VectorXd& coulomb,
                               const IntegrationOptions& given) {

@@ -19,6 +19,8 @@ AttachedPoints FollowPoints(const Robot& robot, const MotionTrack& track,
   return points;
 }
 
+// Takes the torque -J'w of a wrench on the point from the drives (virtual
+// work). States of the law are advanced from sample to sample.
 void TakeWrench(const WrenchLaw& law, const MotionTrack& track,
                 const std::vector<ArmTerms::Point>& points,
                 Eigen::MatrixXd* tau) {

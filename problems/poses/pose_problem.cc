@@ -46,12 +46,12 @@ Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
   return covariance.llt().matrixL().solve(Matrix6d::Identity());
 }
 
-// The sandwich for M-estimates with errors that are alike, A^-1 B A^-1 with A =
-// mean psi' J'J and B = mean psi^2 J'J, is the factor of the header times
-// (J'J)^-1. Blocks share a loss by their length: psi(r) = rho'(s) r, s = |r|^2,
-// of which the sum of squares is rho'^2 s, and the trace of its derivative d
-// rho' + 2 rho'' s for d coordinates. With no loss it is the usual variance,
-// |r|^2 / (N - p).
+// The sandwich A^-1 B A^-1 of an M-estimate with errors that are alike has A =
+// mean psi' J'J and B = mean psi^2 J'J: it is the factor of the header times
+// (J'J)^-1. Blocks of d coordinates share a loss by their length, psi(r) =
+// rho'(s) r with s = |r|^2, of which
+//   |psi|^2 = rho'^2 s,   trace dpsi/dr = d rho' + 2 rho'' s.
+// Without a loss it is the usual variance, |r|^2 / (N - p).
 double VarianceFactor(const Eigen::VectorXd& residuals, int block,
                       RobustLoss loss, int num_unknowns) {
   const std::unique_ptr<ceres::LossFunction> rho(MakeLoss(loss, block));
@@ -80,6 +80,7 @@ int PoseUnknowns::NumOther(const PoseMeasurements& measured) {
          (static_cast<int>(measured.targets.size()) + measured.num_points());
 }
 
+// Names follow the order in which the unknowns are stacked, three per thing.
 std::vector<std::string> PoseUnknowns::OtherNames(
     const PoseMeasurements& measured) {
   if (measured.lengths.size() > 0) {
@@ -201,6 +202,8 @@ void AddPoseResiduals(const std::shared_ptr<const ArmGeometry>& geometry,
   }
 }
 
+// The errors of AddPoseResiduals before they are whitened, by the same formulas
+// of each kind: what people read is in m (rad) and not in standard deviations.
 MatrixXd PositionErrors(const ArmGeometry& geometry,
                         const PoseMeasurements& measured,
                         const PoseUnknowns& unknowns) {

@@ -12,6 +12,8 @@ TouchResidual::TouchResidual(std::shared_ptr<const ArmGeometry> geometry,
   *mutable_parameter_block_sizes() = {geometry_->size(), 3};
 }
 
+// The tip is TargetResidual's target at the tool's origin: dr/dg =
+// twist.At(tip) / sigma. The point is unknown instead, dr/dp = -1 / sigma.
 bool TouchResidual::Evaluate(double const* const* parameters, double* residuals,
                              double** jacobians) const {
   const Eigen::Map<const Eigen::Vector3d> p_WQ(parameters[1]);

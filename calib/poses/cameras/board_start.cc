@@ -35,6 +35,10 @@ BoardAxes::BoardAxes(const Matrix3Xd& points) : mean(points.rowwise().mean()) {
   is_flat = svd.singularValues()[2] < kFlat * svd.singularValues()[0];
 }
 
+// x3 of (x1, x2, x3) = P (s, 1) is not known, but x1 - u x3 = 0 and x2 - v x3 =
+// 0 are linear in P. The solution of length 1 is the singular vector of the
+// least singular value; two small ones mean that another projection fits as
+// well.
 std::optional<MatrixXd> Projection(const MatrixXd& points,
                                    const Matrix2Xd& seen) {
   const Eigen::Index d = points.rows() + 1, count = points.cols();
@@ -58,6 +62,10 @@ std::optional<MatrixXd> Projection(const MatrixXd& points,
   return P;
 }
 
+// P is a multiple of (R, p), whose factor follows from det R = 1 and whose sign
+// from the board being before the camera. A flat board has no third column of
+// R: it is the cross product of the others. The nearest rotation is taken of
+// what noise leaves.
 std::optional<Isometry3d> StartOfBoard(const Matrix3Xd& points,
                                        const Matrix2Xd& directions) {
   const BoardAxes board(points);

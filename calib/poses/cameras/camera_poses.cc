@@ -81,6 +81,8 @@ void AddLens(const ImageSource& source, const LensEquations& equations,
 
 }  // namespace
 
+// Twice: first with all points alike, which tells the pixels' noise by a
+// median, then with Huber's weights for that noise.
 CameraPoses PosesOfImages(const ImageSource& source,
                           const std::vector<ImageView>& views,
                           const PinholeCamera& camera) {
@@ -103,6 +105,9 @@ CameraPoses PosesOfImages(const ImageSource& source,
   return result;
 }
 
+// The same with the lens unknown. The lens's errors are common to all poses:
+// they are handed on (by_lens) as unknowns of the instrument and not as noise
+// of each pose.
 CameraPoses PosesAndLensOfImages(const ImageSource& source,
                                  const std::vector<ImageView>& views,
                                  const PinholeCamera* start) {

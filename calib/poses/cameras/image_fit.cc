@@ -22,6 +22,8 @@ double CostOf(const std::vector<ImageErrors>& errors, double stddev) {
 
 }  // namespace
 
+// Levenberg and Marquardt with weights anew in each step: damping grows until
+// the cost falls, and shrinks when it does.
 bool FitImage(const ImageView& view, const PinholeCamera& camera, double stddev,
               Isometry3d* X_WT) {
   ImageErrors at, tried;
@@ -79,6 +81,9 @@ LensEquations EquationsOfLens(const std::vector<ImageErrors>& errors,
   return e;
 }
 
+// Steps in the eight numbers of the lens alone, since each image finds its own
+// pose: all together would be six more unknowns for each image, in a narrow
+// valley.
 bool FitLens(const std::vector<ImageView>& views, double stddev,
              PinholeCamera* camera, std::vector<Isometry3d>* X_WT) {
   std::vector<ImageErrors> errors, tried;

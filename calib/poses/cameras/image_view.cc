@@ -23,6 +23,10 @@ double PointError(const VectorXd& r, Eigen::Index k) {
 
 }  // namespace
 
+// Projection minus pixel of every point, and by the chain rule d pixel / d
+// point times how the point moves with a shift and a turn of the tool about its
+// origin. A standing camera is W and sees the board on T; a carried one is T
+// and sees it in W.
 bool ImageView::Errors(const PinholeCamera& camera, const Isometry3d& X_WT,
                        ImageErrors* errors) const {
   const Isometry3d X_TW = X_WT.inverse();

@@ -46,6 +46,9 @@ Eigen::RowVectorXd Product(const Vector3d& h, const Vector3d& k) {
 
 }  // namespace
 
+// Solves Zhang's equations for B by the least singular vector and reads the
+// lens from it: up to a factor B = diag(1/fx^2, 1/fy^2, .) with B13 = -cx /
+// fx^2 and B23 = -cy / fy^2.
 std::optional<PinholeCamera> StartOfLens(const std::vector<ImageView>& views) {
   const PixelScale scale(views);
   MatrixXd A(2 * static_cast<Eigen::Index>(views.size()), 5);

@@ -68,6 +68,8 @@ int PoseMovers::Index(PoseTerm::Acts acts, int index) const {
   return joints_ + 17 + index;
 }
 
+// From the inside out: joints, the arm, the tool's body and its targets, then
+// the scale about the base, the base's rotation and the instrument's frame.
 DisplacedPose::DisplacedPose(const ArmGeometry& geometry,
                              const PoseMovers& movers,
                              const PoseUnknowns& unknowns, const VectorXd& q0,
@@ -110,6 +112,9 @@ Vector3d DisplacedPose::ByTwist(const ParameterTwist& twist,
   return moved.linear() * twist.axis;
 }
 
+// Velocities of the points by each mover, in the order of PoseMovers::Index: a
+// turn about a point moves them by axis x (p - point), a shift by itself, the
+// scale by p - base.
 Vector3d DisplacedPose::ByMover(const PoseMovers& movers,
                                 const PoseUnknowns& unknowns, int k,
                                 const Vector3d& middle,

@@ -58,6 +58,8 @@ DisplacedPose PoseEquations::Displace(int pose,
                        with_twists);
 }
 
+// Predicted minus measured of one pose, by kind. Rotations are multiplied by a
+// length, so that one scale of errors serves them and positions.
 void PoseEquations::Residual(int k, const DisplacedPose& d, const PoseState& at,
                              Eigen::Ref<VectorXd> r) const {
   if (measured_.lengths.size() > 0) {
@@ -102,6 +104,8 @@ void PoseEquations::Project(const DisplacedPose& d, const PoseState& at,
   }
 }
 
+// Derivatives by twists of the geometry and in closed form by what else is
+// unknown: a wire's anchor and offset, the instrument's, targets on the tool.
 void PoseEquations::GeometryColumns(int pose, const DisplacedPose& d,
                                     const PoseState& at,
                                     Eigen::Ref<MatrixXd> J) const {

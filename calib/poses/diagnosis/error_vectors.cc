@@ -7,6 +7,8 @@ namespace armcal {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+// Residuals are turned to the base frame, in which a sag points down and people
+// think.
 PoseErrorVectors ErrorVectorsOf(const PoseMeasurements& measured,
                                 const PoseDiagnosis& diagnosis) {
   PoseErrorVectors errors;

@@ -36,6 +36,9 @@ std::vector<int> ContiguousFolds(int poses) {
   return folds;
 }
 
+// Without a fold, the normal equations lose J_f' J_f and J_f' r_f, and one
+// Gauss-Newton step leads from the whole fit to that without it: six solutions
+// of small systems instead of six fits.
 VectorXd HeldOutResiduals(const PoseStudy& study, const PoseModel& model,
                           const std::vector<int>& folds) {
   const PoseEquations& equations = study.equations;

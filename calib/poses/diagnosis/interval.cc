@@ -33,6 +33,10 @@ PoseAmount LengthOf(const std::string& name,
           {}};
 }
 
+// The covariance of the amounts is S^-1 (AmountsInformation) times the design
+// effect and the variance factor of Student's t; its half-widths are t's
+// quantile times roots. S is inverted by eigenvalues of its correlations: a
+// direction that is not told becomes a wide interval, not an infinite one.
 std::vector<PoseAmounts> AmountsOf(const PoseStudy& study,
                                    const PoseModel& model,
                                    double design_effect) {
@@ -74,6 +78,8 @@ std::vector<PoseAmounts> AmountsOf(const PoseStudy& study,
   return all;
 }
 
+// A profile likelihood: the effect begins (ends) at each pose in turn, all else
+// fitted anew, until -2 log p has risen by chi^2's quantile.
 PoseRange SideOf(const PoseStudy& study, const PoseModel& model, size_t effect,
                  int PosePlace::*side, double design_effect) {
   const int at = model.effects[effect].place.*side;

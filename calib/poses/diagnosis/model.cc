@@ -49,6 +49,9 @@ PoseModel FitGeometryAlone(const PoseStudy& study, const PoseState& start) {
   return model;
 }
 
+// Effects' signals depend on where joints stand, which effects change (a
+// coupling, a gear ratio). So the fit is repeated with new signals where joints
+// turn out to stand elsewhere by more than kStandsElsewhere.
 PoseModel FitPoseModel(const PoseStudy& study,
                        const std::vector<PlacedPoseEffect>& effects,
                        const PoseModel& from, const VectorXd& amounts) {
@@ -110,6 +113,9 @@ double OrderCorrelation(const MatrixXd& by_pose) {
   return square > 0 ? product / square : 0;
 }
 
+// Both factors are taken only where they exceed chance: 1 + (t - 1) rho of t
+// targets whose errors correlate by rho, and (1 + rho) / (1 - rho) of an AR(1)
+// process.
 double DesignEffect(const PoseStudy& study, const PoseModel& model) {
   const int width = study.equations.width(), poses = study.equations.poses();
   const MatrixXd r = WeightedRows(model.estimate, model.estimate.linear.r)
@@ -149,6 +155,11 @@ MatrixXd AmountsInformation(const PoseStudy& study, const PoseModel& model) {
          shared.transpose() * A.topLeftCorner(g, g).ldlt().solve(shared);
 }
 
+// deviance / design effect + priors + log det A of the geometry (Laplace; Kass
+// & Raftery 1995, J. Am. Stat. Assoc. 90) + log N for each amount that is seen
+// (Schwarz 1978, Annals of Statistics 6) + 2 log(places / probability) for each
+// effect. The geometry is in all models that are compared; amounts have no
+// prior, for which Schwarz's is.
 double EvidenceOf(const PoseStudy& study, const PoseModel& model,
                   double design_effect) {
   const PoseEstimate& at = model.estimate;

@@ -24,6 +24,9 @@ bool IsSameCause(const PlacedPoseEffect& a, const PlacedPoseEffect& b) {
 
 }  // namespace
 
+// Fits the model with each rival in the effect's place. Evidences are -2 log p,
+// so that weights are exp(-difference / 2), and the effect's probability is 1
+// over the sum of all, itself and none included (Kass & Raftery 1995).
 PoseRivals FindRivals(const PoseStudy& study, const PoseModel& model,
                       size_t effect, double design_effect) {
   const PlacedPoseEffect own = model.effects[effect];

@@ -39,7 +39,8 @@ double PriorCost(const PoseEquations& equations,
          FromTold(terms, state).cwiseAbs2().dot(ToldPrecision(terms));
 }
 
-// Moves to a better state, and says by how much.
+// One step: moves to a state of lower -2 log p and says by how much. Damping
+// grows tenfold until there is one.
 double Improve(const PoseEquations& equations,
                const std::vector<PoseTerm>& terms, double* damping,
                PoseEstimate* at) {
@@ -102,6 +103,10 @@ MatrixXd PoseInformation(const PoseEquations& equations, const PoseEstimate& at,
   return A;
 }
 
+// Levenberg and Marquardt on -2 log p, errors' scale and weights found anew at
+// each state. The effective number of parameters is trace (J'WJ) A^-1 = size -
+// trace P A^-1, P being the prior's information: one that only its prior tells
+// counts nothing.
 PoseEstimate EstimatePoses(const PoseEquations& equations,
                            const std::vector<PoseTerm>& terms, double nu,
                            const PoseState& start) {

@@ -20,6 +20,8 @@ constexpr size_t kPlacesEach = 3;
 
 class EffectScan {
  public:
+  // What all candidates share: the weighted equations of the model as it is,
+  // their factor, and the step that they still ask for.
   EffectScan(const PoseStudy& study, const PoseModel& model, bool equal)
       : study_(study), model_(model), at_(model.estimate) {
     if (equal)
@@ -41,6 +43,11 @@ class EffectScan {
     count_ = static_cast<double>(r_.size()) - at_.parameters;
   }
 
+  // To first order, an effect with columns C lowers chi^2 by b'S^-1 b: S = C'C
+  // - C'J A^-1 J'C is what geometry and other effects leave of its information
+  // and b what they leave of -C'r (Frisch & Waugh 1933; the score test).
+  // Directions that are explained by the others are left out. Errors of unknown
+  // scale make it N log(1 - gain / chi^2), plus what the evidence asks for.
   ScannedEffect Try(const PlacedPoseEffect& placed) const {
     const auto terms = placed.effect->terms(model_.campaign, placed.place);
     ScannedEffect scanned = {placed, VectorXd::Zero(terms.size()), 0};
@@ -122,6 +129,8 @@ bool IsIn(const PoseModel& model, const PlacedPoseEffect& placed) {
 
 }  // namespace
 
+// Tries every effect at every place, refines where the best ones begin and end,
+// and keeps few of each effect, lest one with many places hides the others.
 std::vector<ScannedEffect> ScanEffects(const PoseStudy& study,
                                        const PoseModel& model,
                                        bool equal_weights) {
