@@ -114,8 +114,11 @@ void ArmUnknowns::AddGeometry(RefineGeometry refine,
   }
   if (poses == nullptr) return;
   nominal_.poses.other = VectorXd::Zero(PoseUnknowns::NumOther(*poses));
+  // A plane is z + a x + b y = c (plane_residual.h): a and b are plain numbers.
   for (const std::string& name : PoseUnknowns::OtherNames(*poses)) {
-    Add(name, poses->poses.size() > 0 ? "1" : "m", true);
+    const bool plain =
+        poses->planes ? name.back() != 'c' : poses->poses.size() > 0;
+    Add(name, plain ? "1" : "m", true);
   }
   other_priors_ = PoseUnknowns::OtherPriors(*poses);
 }

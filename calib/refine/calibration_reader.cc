@@ -84,8 +84,11 @@ Robot WithLengthsOf(const JsonValue& root, const Robot& nominal) {
 // Parameters that are no robot's: of where the instrument and its targets are,
 // and of the controller. (Coulomb's width stands in coulomb_transition.)
 bool IsNotTheRobots(const std::string& name) {
-  for (const char* owner : {"instrument.", "target", "wire.", "drive."}) {
-    if (name.rfind(owner, 0) == 0) return true;
+  // "target3.x", "instrument2": owners are numbered where there are several.
+  const std::string owner = name.substr(0, name.find_first_of(".0123456789"));
+  for (const char* other :
+       {"instrument", "target", "point", "plane", "wire", "drive"}) {
+    if (owner == other) return true;
   }
   const std::string term = name.substr(name.rfind('.') + 1);
   return term == "kp" || term == "kd" || term == "ki" ||

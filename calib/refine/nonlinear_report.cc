@@ -87,14 +87,16 @@ std::string GeometryTable(const NonlinearCalibration& result) {
   std::string text;
   for (const PhysicalParameter& p : result.parameters) {
     if (!p.geometry) continue;
-    const bool angle = p.unit == "rad";
-    const double scale = angle ? 180 / M_PI : 1e3;
+    const bool angle = p.unit == "rad", length = p.unit == "m";
+    const double scale = angle ? 180 / M_PI : length ? 1e3 : 1;
     text += PaddedCell("  " + p.name, 24) +
             Format("%12.4f -> ", scale * p.prior) +
             Format("%12.4f ", scale * p.value) +
             (p.identifiable ? Format("+- %-9.2g", scale * p.stddev)
                             : PaddedCell("(prior)", 12)) +
-            (angle ? " deg\n" : " mm\n");
+            (angle    ? " deg\n"
+             : length ? " mm\n"
+                      : "\n");
   }
   if (text.empty()) return text;
   return "\ngeometry                        file       estimate\n" + text;

@@ -167,6 +167,25 @@ TEST_F(ChangedCalibration, OfAnotherRobotOrKind) {
               HasSubstr("run armcal calibrate `estimate`=refined"));
 }
 
+// Of cameras, targets, touched points and planes, which are beside the robot.
+TEST_F(ChangedCalibration, WhatIsNoRobotsIsLeft) {
+  const auto refusal_with = [&](const std::string& name) {
+    return RefusalAfter([&](json* c) {
+      json entry = (*c)["parameters"].back();
+      entry["name"] = name;
+      (*c)["parameters"].push_back(entry);
+    });
+  };
+  for (const char* name : {"target3.x", "point1.y", "plane2.a", "instrument1",
+                           "instrument.pitch", "wire.offset"}) {
+    EXPECT_EQ(refusal_with(name), "") << name;
+  }
+  for (const char* name : {"pointer.mass", "plane_1.viscous"}) {
+    EXPECT_THAT(refusal_with(name), HasSubstr("expected a parameter of"))
+        << name;
+  }
+}
+
 TEST_F(ChangedCalibration, ParametersAndFriction) {
   EXPECT_THAT(RefusalOf("/parameters/0/prior", 77),
               AllOf(HasSubstr("key parameters[0].prior: found '77'"),
