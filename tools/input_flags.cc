@@ -45,8 +45,8 @@ DEFINE_string(topics, "",
               "`A,SIGNAL:B..` topics of ROS 2 bags, as in "
               "/joint_states,effort:/torques");
 DEFINE_string(bandwidth, "",
-              "`HZ` cutoff of the zero-phase low pass; 0: data as they are; "
-              "default: 10 times the motion's frequency, 8 to 20 Hz");
+              "`HZ` cutoff of the low pass; 0: data as they are; default: 10 "
+              "times the motion's frequency, 8 to 20 Hz (watch: 20)");
 DEFINE_string(crop, "",
               "`T0:T1` of --log to use, s since its first row; default: all "
               "(standstill is left out by itself)");
