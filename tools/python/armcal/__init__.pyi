@@ -66,9 +66,9 @@ def calibrate(
               nobody knows
 
     Options:
-    bandwidth            float, Hz: cutoff of the zero-phase low pass; 0: data
-                         as they are; default: 10 times the motion's frequency,
-                         8 to 20 Hz
+    bandwidth            float, Hz: cutoff of the low pass; 0: data as they
+                         are; default: 10 times the motion's frequency, 8 to 20
+                         Hz (watch: 20)
     geometry             str: known; lengths (between the joint axes: those the
                          robot file declares unknown, or all that are not zero,
                          are estimated), all_lengths; offsets (joint zeros are
@@ -192,9 +192,9 @@ def verify(
     Options:
     crop                 Range: of --log to use, s since its first row;
                          default: all (standstill is left out by itself)
-    bandwidth            float, Hz: cutoff of the zero-phase low pass; 0: data
-                         as they are; default: 10 times the motion's frequency,
-                         8 to 20 Hz
+    bandwidth            float, Hz: cutoff of the low pass; 0: data as they
+                         are; default: 10 times the motion's frequency, 8 to 20
+                         Hz (watch: 20)
     controller           Path: YAML with the controller's law (pd, p, cascade),
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
                          per joint, slower where that rings
@@ -266,9 +266,9 @@ def diagnose(
                  the one that it was made of
 
     Options:
-    bandwidth            float, Hz: cutoff of the zero-phase low pass; 0: data
-                         as they are; default: 10 times the motion's frequency,
-                         8 to 20 Hz
+    bandwidth            float, Hz: cutoff of the low pass; 0: data as they
+                         are; default: 10 times the motion's frequency, 8 to 20
+                         Hz (watch: 20)
     poses                Path: CSV of measured poses, wire lengths, touches,
                          images
     trust                float: relative standard deviation of the file's
@@ -517,9 +517,9 @@ def excite(
                          target)
     pose_noise           Union[float, Sequence[float]]: of what is measured at
                          postures, m and rad (default 0.0001,0.0001)
-    bandwidth            float, Hz: cutoff of the zero-phase low pass; 0: data
-                         as they are; default: 10 times the motion's frequency,
-                         8 to 20 Hz
+    bandwidth            float, Hz: cutoff of the low pass; 0: data as they
+                         are; default: 10 times the motion's frequency, 8 to 20
+                         Hz (watch: 20)
     crop                 Range: of --log to use, s since its first row;
                          default: all (standstill is left out by itself)
     torque_kind          str: what the log's torque is: auto, link, motor
@@ -626,9 +626,9 @@ def reduce(
                          by, so that they can be merged with it
     unit                 str: of the robot that the logs are of
     date                 str: of the logs, UTC: 2026-11-21 or 2026-11-21T10:30
-    bandwidth            float, Hz: cutoff of the zero-phase low pass; 0: data
-                         as they are; default: 10 times the motion's frequency,
-                         8 to 20 Hz
+    bandwidth            float, Hz: cutoff of the low pass; 0: data as they
+                         are; default: 10 times the motion's frequency, 8 to 20
+                         Hz (watch: 20)
     crop                 Range: of --log to use, s since its first row;
                          default: all (standstill is left out by itself)
     torque_kind          str: what the log's torque is: auto, link, motor
@@ -728,9 +728,9 @@ def compare(
     Options:
     crop                 Range: of --log to use, s since its first row;
                          default: all (standstill is left out by itself)
-    bandwidth            float, Hz: cutoff of the zero-phase low pass; 0: data
-                         as they are; default: 10 times the motion's frequency,
-                         8 to 20 Hz
+    bandwidth            float, Hz: cutoff of the low pass; 0: data as they
+                         are; default: 10 times the motion's frequency, 8 to 20
+                         Hz (watch: 20)
     torque_kind          str: what the log's torque is: auto, link, motor
                          (motor side, times gear ratio), current, command
                          (default auto)
