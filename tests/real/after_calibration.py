@@ -8,7 +8,6 @@ robot. Prints the gap of both in the noise's mean square and what is named (abov
 Some minutes; decides nothing.
 """
 
-import argparse
 import json
 import subprocess
 import sys
@@ -20,7 +19,7 @@ sys.path.insert(0, str(HERE.parent))
 
 import result_files  # noqa: E402
 from reading import claims  # noqa: E402
-from residuals import DATA, UR10E  # noqa: E402
+from residuals import UR10E, read_flags  # noqa: E402
 
 TRAINING, OTHERS = "id_20s", ("id_30s", "id_40s", "id_50s")
 
@@ -31,14 +30,7 @@ def run(armcal, command, out, *flags):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--armcal", required=True)
-    parser.add_argument("--data", type=Path, default=DATA)
-    result_files.add_flag(parser)
-    flags = parser.parse_args()
-    if not flags.data.exists():
-        print("no ../shared/data: skipped")
-        return 77
+    flags = read_flags(__doc__)
     armcal, folder = Path(flags.armcal).resolve(), flags.data / "ur10e_free"
     robot = f"--robot={folder}/robot.urdf"
     values = {"before": [], "after": [], "named": 0, "probabilities": []}

@@ -80,15 +80,21 @@ def poses(calibrate, loss):
     return left, 1e3 * found["before_rms"]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+def read_flags(description):
+    """--armcal, --data and --results; without the data the exit code of a skip."""
+    parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--armcal", required=True)
     parser.add_argument("--data", type=Path, default=DATA)
     result_files.add_flag(parser)
     flags = parser.parse_args()
     if not flags.data.exists():
         print("no ../shared/data: skipped")
-        return 77
+        sys.exit(77)
+    return flags
+
+
+def main():
+    flags = read_flags(__doc__)
     with tempfile.TemporaryDirectory() as folder:
         calibrate = Calibrations(flags.armcal, flags.data, Path(folder))
         values = torques(calibrate)
