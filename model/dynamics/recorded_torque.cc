@@ -3,6 +3,8 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "model/dynamics/actuator_inversion.h"
@@ -32,6 +34,52 @@ RecordedTorque::OfJoints WithoutNothing(const MatrixXd& tau) {
   RecordedTorque::OfJoints joints(tau.cols());
   for (Eigen::Index j = 0; j < tau.cols(); ++j) {
     if (!tau.col(j).isZero(0)) joints[j] = tau.col(j);
+  }
+  return joints;
+}
+
+// Whether encoders and stamps say where and when the motors were.
+bool MotorsMoveAsRecorded(const SimulatedRobot& changed) {
+  return changed.sensors.empty() && !changed.clock &&
+         changed.clock_unevenness == 0;
+}
+
+// Whether its laws see the recorded motion: its links move with its motors too.
+bool SeesRecordedMotion(const SimulatedRobot& changed) {
+  return MotorsMoveAsRecorded(changed) && changed.transmissions.empty();
+}
+
+// Whether there is a slot to which links that move otherwise make a difference.
+bool LooksAtMotion(const SimulatedRobot& changed) {
+  return !changed.joint_laws.empty() || !changed.wrenches.empty() ||
+         !changed.actuators.empty() || !changed.sensors.empty();
+}
+
+std::vector<const JointLaw*> PointersTo(const SimulatedRobot& changed) {
+  std::vector<const JointLaw*> laws;
+  for (const JointLaw& law : changed.joint_laws) laws.push_back(&law);
+  return laws;
+}
+
+void TakeTorques(const std::vector<JointLaw>& laws,
+                 const std::vector<VectorXd>& torques, MatrixXd* tau) {
+  for (size_t i = 0; i < laws.size(); ++i) {
+    tau->col(laws[i].joint) -= torques[i];
+  }
+}
+
+// The same of n joints on which nothing else acts.
+RecordedTorque::OfJoints TakenByJoints(const std::vector<JointLaw>& laws,
+                                       const std::vector<VectorXd>& torques,
+                                       int n) {
+  RecordedTorque::OfJoints joints(n);
+  for (size_t i = 0; i < laws.size(); ++i) {
+    VectorXd& joint = joints[laws[i].joint];
+    if (joint.size() == 0) joint = VectorXd::Zero(torques[i].size());
+    joint -= torques[i];
+  }
+  for (VectorXd& joint : joints) {
+    if (joint.isZero(0)) joint.resize(0);
   }
   return joints;
 }
@@ -81,12 +129,12 @@ void RecordedTorque::FollowWarmth(const std::vector<JointThermal>& thermal) {
                       : thermal);
 }
 
-// Links and joint terms of a changed robot, or along another motion.
+// Links, whose torque is `load`, and joint terms of a changed robot, or along
+// another motion.
 MatrixXd RecordedTorque::RigidTorque(const Robot& robot, const Motion& motion,
+                                     const MatrixXd& load,
                                      bool as_recorded) const {
-  MatrixXd tau = as_recorded && SameLinks(robot, robot_)
-                     ? load_
-                     : LinkTorque(robot, motion);
+  MatrixXd tau = load;
   tau += FrictionTorque(
       robot, motion,
       as_recorded ? coulomb_ : CoulombAlong(transitions_, motion));
@@ -100,15 +148,6 @@ const LinkTorqueSlopes& RecordedTorque::Slopes() const {
   LinkTorqueSlopes& slopes = kept_->slopes;
   if (slopes.inertia.size() == 0) slopes = SlopesOfLinkTorque(robot_, motion_);
   return slopes;
-}
-
-// `load`: of all joints. A motion behind readings is close to the recorded one.
-DeflectedJoint RecordedTorque::Deflected(const Transmission& transmission,
-                                         const MatrixXd& load) const {
-  const int j = transmission.joint;
-  const LinkTorqueSlopes& slopes = Slopes();
-  return {&transmission, load.col(j), slopes.stiffness.col(j),
-          slopes.damping.col(j), slopes.inertia.col(j)};
 }
 
 // Of the robot itself along the recorded motion.
@@ -126,64 +165,26 @@ const AttachedPoints& RecordedTorque::PointsOf(
   return *kept_->points.back();
 }
 
-// Of those whose motors and links move as recorded; none of the others.
-std::vector<std::vector<Deflection>> RecordedTorque::DeflectTogether(
-    const std::vector<SimulatedRobot>& changed) const {
-  std::vector<DeflectedJoint> joints;
+std::vector<RecordedTorque::Links> RecordedTorque::FollowTransmissions(
+    const std::vector<SimulatedRobot>& changed, LinkTorques* loads) const {
+  std::vector<LinksBehindDrives> arms;
   std::vector<size_t> of;
   for (size_t i = 0; i < changed.size(); ++i) {
     const SimulatedRobot& one = changed[i];
-    if (one.transmissions.empty() || !one.sensors.empty() || one.clock ||
-        one.clock_unevenness != 0 || !SameLinks(one.robot, robot_)) {
-      continue;
-    }
-    for (const Transmission& law : one.transmissions) {
-      joints.push_back(Deflected(law, load_));
-      of.push_back(i);
-    }
+    if (one.transmissions.empty() || !MotorsMoveAsRecorded(one)) continue;
+    arms.push_back({&one.robot, &one.transmissions, &loads->Of(one.robot)});
+    of.push_back(i);
   }
-  std::vector<std::vector<Deflection>> deflections(changed.size());
-  std::vector<Deflection> all = FollowDeflections(joints, motion_.dt);
-  for (size_t k = 0; k < all.size(); ++k) {
-    deflections[of[k]].push_back(std::move(all[k]));
-  }
-  return deflections;
+  std::vector<Links> links(changed.size());
+  if (arms.empty()) return links;
+  const auto followed = FollowLinks(arms, motion_, Slopes());
+  for (size_t k = 0; k < arms.size(); ++k) links[of[k]] = followed[k];
+  return links;
 }
 
-// `deflections`: of the transmissions, or none yet.
-void RecordedTorque::AddTransmissions(const SimulatedRobot& changed,
-                                      const Motion& motion,
-                                      std::vector<Deflection> deflections,
-                                      MotionTrack* track, MatrixXd* tau) const {
-  const bool recorded = &motion == &motion_ && SameLinks(changed.robot, robot_);
-  const MatrixXd load = recorded ? load_ : LinkTorque(changed.robot, motion);
-  if (deflections.empty()) {
-    std::vector<DeflectedJoint> joints;
-    for (const Transmission& law : changed.transmissions) {
-      joints.push_back(Deflected(law, load));
-    }
-    deflections = FollowDeflections(joints, motion.dt);
-  }
-  Motion links = motion;
-  for (size_t i = 0; i < deflections.size(); ++i) {
-    const int j = changed.transmissions[i].joint;
-    links.q.col(j) -= deflections[i].angle;
-    links.qd.col(j) -= deflections[i].rate;
-    links.qdd.col(j) -= deflections[i].acceleration;
-  }
-  *tau += LinkTorque(changed.robot, links) - load;
-  track->deflection = (motion.q - links.q).transpose();
-  track->deflection_rate = (motion.qd - links.qd).transpose();
-}
-
-void RecordedTorque::AddLaws(const SimulatedRobot& changed,
-                             const MotionTrack& track, MatrixXd* tau) const {
-  std::vector<const JointLaw*> laws;
-  for (const JointLaw& law : changed.joint_laws) laws.push_back(&law);
-  const std::vector<VectorXd> torques = JointLawTorques(laws, track);
-  for (size_t i = 0; i < laws.size(); ++i) {
-    tau->col(laws[i]->joint) -= torques[i];
-  }
+void RecordedTorque::AddWrenches(const SimulatedRobot& changed,
+                                 const MotionTrack& track,
+                                 MatrixXd* tau) const {
   for (const WrenchLaw& law : changed.wrenches) {
     const Attachment& at = law.attachment;
     if (&track != &track_ || !SameLinks(changed.robot, robot_)) {
@@ -214,38 +215,58 @@ MatrixXd RecordedTorque::Recorded(const SimulatedRobot& changed,
 // links, transmissions, laws, actuators, sensors, delay. Where an effect
 // changes none of the motion, the nominal torque is used again.
 MatrixXd RecordedTorque::ChangeOf(const SimulatedRobot& changed,
-                                  const std::vector<Deflection>& deflections) {
+                                  const Shared& shared) {
   CHECK_EQ(changed.robot.num_joints(), robot_.num_joints());
   CHECK_EQ(changed.num_passive, 0);
-  FollowWarmth(changed.thermal);
   Motion moved;
   VectorXd times;
   const bool as_recorded =
       !MotionBehindReadings(changed, motion_, track_, &moved, &times);
   const Motion& motion = as_recorded ? motion_ : moved;
-  const bool same_robot = as_recorded && SameLinks(changed.robot, robot_) &&
-                          SameJointTerms(changed.robot, robot_);
-  MatrixXd tau =
-      same_robot ? nominal_ : RigidTorque(changed.robot, motion, as_recorded);
-  if (as_recorded && changed.transmissions.empty()) {
-    AddLaws(changed, track_, &tau);
-    tau = Recorded(changed, track_, std::move(tau));
-    tau -= nominal_;
-    return tau;
+  const MatrixXd of_moved =
+      as_recorded ? MatrixXd() : LinkTorque(changed.robot, moved);
+  const MatrixXd& load =
+      as_recorded ? shared.loads->Of(changed.robot) : of_moved;
+  MatrixXd tau = &load == &load_ && SameJointTerms(changed.robot, robot_)
+                     ? nominal_
+                     : RigidTorque(changed.robot, motion, load, as_recorded);
+  auto links = shared.links;
+  // A motion behind readings is close to the recorded one, of which the slopes
+  // are.
+  if (!changed.transmissions.empty() && !links) {
+    links = FollowLinks({{&changed.robot, &changed.transmissions, &load}},
+                        motion, Slopes())[0];
   }
-  MotionTrack track = track_;
-  if (!as_recorded) {
-    track.SetMotion(moved);
-    track.t = times;
-  }
-  if (!changed.transmissions.empty()) {
-    AddTransmissions(changed, motion, deflections, &track, &tau);
-  }
-  AddLaws(changed, track, &tau);
+  if (links) tau += links->change;
+  MotionTrack other;
+  const bool as_tracked = as_recorded && (!links || !LooksAtMotion(changed));
+  if (!as_tracked) other = TrackOf(motion, times, links.get());
+  const MotionTrack& track = as_tracked ? track_ : other;
+  TakeTorques(changed.joint_laws,
+              shared.laws.empty() ? JointLawTorques(PointersTo(changed), track)
+                                  : shared.laws,
+              &tau);
+  AddWrenches(changed, track, &tau);
   tau = Recorded(changed, track, std::move(tau));
   tau -= nominal_;
   if (changed.clock) AddMadeByClock(changed.clock, &tau);
   return tau;
+}
+
+// What laws see where the motors move like this, at these times (empty: as
+// recorded), and these links behind them (nullptr: with them).
+MotionTrack RecordedTorque::TrackOf(const Motion& motion, const VectorXd& times,
+                                    const DeflectedLinks* links) const {
+  MotionTrack track = track_;
+  if (&motion != &motion_) {
+    track.SetMotion(motion);
+    track.t = times;
+  }
+  if (links != nullptr) {
+    track.deflection = links->deflection;
+    track.deflection_rate = links->deflection_rate;
+  }
+  return track;
 }
 
 // What drives gave was told from stamps, too.
@@ -270,54 +291,48 @@ bool RecordedTorque::IsOfLawsAlone(const SimulatedRobot& changed) const {
          SameJointTerms(changed.robot, robot_);
 }
 
-// Of those (`which`), whose joints warm up alike.
-void RecordedTorque::TakeLaws(const std::vector<SimulatedRobot>& changed,
-                              const std::vector<size_t>& which,
-                              std::vector<OfJoints>* to) {
+// Of those (`which`), whose joints warm up alike. Joint laws that see the
+// recorded motion go along it together, be there other slots or not.
+void RecordedTorque::AddChanges(const std::vector<SimulatedRobot>& changed,
+                                const std::vector<size_t>& which,
+                                const std::vector<Links>& links,
+                                LinkTorques* loads, std::vector<OfJoints>* to) {
   std::vector<const JointLaw*> laws;
-  std::vector<size_t> of;
   for (const size_t i : which) {
-    for (const JointLaw& law : changed[i].joint_laws) {
-      laws.push_back(&law);
-      of.push_back(i);
-    }
+    if (!SeesRecordedMotion(changed[i])) continue;
+    for (const JointLaw& law : changed[i].joint_laws) laws.push_back(&law);
   }
-  const std::vector<VectorXd> torques = JointLawTorques(laws, track_);
-  for (size_t l = 0; l < laws.size(); ++l) {
-    VectorXd& joint = (*to)[of[l]][laws[l]->joint];
-    if (joint.size() == 0) joint = VectorXd::Zero(motion_.size());
-    joint -= torques[l];
-  }
+  std::vector<VectorXd> torques = JointLawTorques(laws, track_);
+  auto next = std::make_move_iterator(torques.begin());
   for (const size_t i : which) {
-    for (VectorXd& joint : (*to)[i]) {
-      if (joint.isZero(0)) joint.resize(0);
+    const SimulatedRobot& one = changed[i];
+    Shared shared = {loads, links[i], {}};
+    if (SeesRecordedMotion(one)) {
+      const auto end = next + static_cast<long>(one.joint_laws.size());
+      shared.laws.assign(next, end);
+      next = end;
     }
+    (*to)[i] = IsOfLawsAlone(one) ? TakenByJoints(one.joint_laws, shared.laws,
+                                                  robot_.num_joints())
+                                  : WithoutNothing(ChangeOf(one, shared));
   }
 }
 
-// Effects of joint laws alone, which most are, are followed together as far as
-// their joints warm up alike.
 std::vector<RecordedTorque::OfJoints> RecordedTorque::Changes(
     const std::vector<SimulatedRobot>& changed) {
-  std::vector<OfJoints> changes(changed.size(), OfJoints(robot_.num_joints()));
-  const std::vector<std::vector<Deflection>> deflections =
-      DeflectTogether(changed);
-  std::vector<size_t> of_laws;
-  for (size_t i = 0; i < changed.size(); ++i) {
-    if (IsOfLawsAlone(changed[i])) {
-      of_laws.push_back(i);
-    } else {
-      changes[i] = WithoutNothing(ChangeOf(changed[i], deflections[i]));
-    }
-  }
-  while (!of_laws.empty()) {
-    const auto& thermal = changed[of_laws[0]].thermal;
+  std::vector<OfJoints> changes(changed.size());
+  LinkTorques loads(robot_, load_, motion_);
+  const std::vector<Links> links = FollowTransmissions(changed, &loads);
+  std::vector<size_t> left(changed.size());
+  std::iota(left.begin(), left.end(), size_t{0});
+  while (!left.empty()) {
+    const auto& thermal = changed[left[0]].thermal;
     const auto others = std::stable_partition(
-        of_laws.begin(), of_laws.end(),
+        left.begin(), left.end(),
         [&](size_t i) { return SameThermal(changed[i].thermal, thermal); });
     FollowWarmth(thermal);
-    TakeLaws(changed, {of_laws.begin(), others}, &changes);
-    of_laws.erase(of_laws.begin(), others);
+    AddChanges(changed, {left.begin(), others}, links, &loads, &changes);
+    left.erase(left.begin(), others);
   }
   return changes;
 }

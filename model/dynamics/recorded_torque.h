@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "model/dynamics/deflection.h"
+#include "model/dynamics/deflected_links.h"
 #include "model/dynamics/joint_term.h"
 #include "model/dynamics/motion_track.h"
 #include "model/dynamics/rigid_torque.h"
@@ -68,23 +68,34 @@ class RecordedTorque {
   };
   void FollowWarmth(const std::vector<JointThermal>& thermal);
   bool IsOfLawsAlone(const SimulatedRobot& changed) const;
-  void TakeLaws(const std::vector<SimulatedRobot>& changed,
-                const std::vector<size_t>& which, std::vector<OfJoints>* to);
-  std::vector<std::vector<Deflection>> DeflectTogether(
-      const std::vector<SimulatedRobot>& changed) const;
-  Eigen::MatrixXd ChangeOf(const SimulatedRobot& changed,
-                           const std::vector<Deflection>& deflections);
+  // The links behind transmissions of those whose motors move as recorded; of
+  // the others, and of those without, none.
+  using Links = std::shared_ptr<const DeflectedLinks>;
+  std::vector<Links> FollowTransmissions(
+      const std::vector<SimulatedRobot>& changed, LinkTorques* loads) const;
+  // What is the same for several of the changed robots: their links' loads
+  // along the recorded motion, the links behind this one's transmissions, and
+  // the torques of its joint laws along the recorded motion (empty: to be
+  // followed yet).
+  struct Shared {
+    LinkTorques* loads;
+    Links links;
+    std::vector<Eigen::VectorXd> laws;
+  };
+  Eigen::MatrixXd ChangeOf(const SimulatedRobot& changed, const Shared& shared);
+  MotionTrack TrackOf(const Motion& motion, const Eigen::VectorXd& times,
+                      const DeflectedLinks* links) const;
+  void AddChanges(const std::vector<SimulatedRobot>& changed,
+                  const std::vector<size_t>& which,
+                  const std::vector<Links>& links, LinkTorques* loads,
+                  std::vector<OfJoints>* to);
   const LinkTorqueSlopes& Slopes() const;
-  DeflectedJoint Deflected(const Transmission& transmission,
-                           const Eigen::MatrixXd& load) const;
   const AttachedPoints& PointsOf(const Attachment& attachment) const;
   Eigen::MatrixXd RigidTorque(const Robot& robot, const Motion& motion,
+                              const Eigen::MatrixXd& load,
                               bool as_recorded) const;
-  void AddTransmissions(const SimulatedRobot& changed, const Motion& motion,
-                        std::vector<Deflection> deflections, MotionTrack* track,
-                        Eigen::MatrixXd* tau) const;
-  void AddLaws(const SimulatedRobot& changed, const MotionTrack& track,
-               Eigen::MatrixXd* tau) const;
+  void AddWrenches(const SimulatedRobot& changed, const MotionTrack& track,
+                   Eigen::MatrixXd* tau) const;
   void AddMadeByClock(const std::function<double(double)>& clock,
                       Eigen::MatrixXd* tau) const;
   Eigen::MatrixXd Recorded(const SimulatedRobot& changed,

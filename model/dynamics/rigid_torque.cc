@@ -100,4 +100,13 @@ void AddArmature(const Robot& robot, const Motion& motion, MatrixXd* tau) {
   }
 }
 
+const MatrixXd& LinkTorques::Of(const Robot& robot) {
+  if (SameLinks(robot, robot_)) return load_;
+  for (const auto& [other, torque] : others_) {
+    if (SameLinks(robot, *other)) return torque;
+  }
+  others_.emplace_back(&robot, LinkTorque(robot, motion_));
+  return others_.back().second;
+}
+
 }  // namespace armcal

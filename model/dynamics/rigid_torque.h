@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <list>
+#include <utility>
 #include <vector>
 
 #include "model/dynamics/joint_term.h"
@@ -32,5 +34,23 @@ void AddArmature(const Robot& robot, const Motion& motion,
 // Whether two robots have the same torques of links; of joint terms.
 bool SameLinks(const Robot& a, const Robot& b);
 bool SameJointTerms(const Robot& a, const Robot& b);
+
+// Torques of the links of several robots along the same motion, each worked out
+// once: what is asked of many robots is mostly asked of few links.
+class LinkTorques {
+ public:
+  // `load`: LinkTorque(robot, motion). All robots must outlive this.
+  LinkTorques(const Robot& robot, const Eigen::MatrixXd& load,
+              const Motion& motion)
+      : robot_(robot), load_(load), motion_(motion) {}
+  // Where it stays for as long as this does.
+  const Eigen::MatrixXd& Of(const Robot& robot);
+
+ private:
+  const Robot& robot_;
+  const Eigen::MatrixXd& load_;
+  const Motion& motion_;
+  std::list<std::pair<const Robot*, Eigen::MatrixXd>> others_;
+};
 
 }  // namespace armcal

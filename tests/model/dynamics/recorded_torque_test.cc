@@ -223,4 +223,49 @@ TEST(RecordedTorque, RemembersNothingOfOtherQuestions) {
   }
 }
 
+// Two springs on two joints, each alone, with other links, with friction and
+// twice, asked for together and one by one.
+TEST(RecordedTorque, SetsOfEffectsAreEachAsIfAlone) {
+  const EffectArm arm("SCARA RRPR", 2);
+  struct Part {
+    std::string effect;
+    int joint;
+    double factor;  // of its sizes
+  };
+  const std::vector<std::vector<Part>> sets = {
+      {{"elasticity", 0, 1}},
+      {{"elasticity", 0, 1}, {"stribeck", 1, 1}},
+      {{"elasticity", 0, 1}, {"stribeck", 1, 2}},
+      {{"elasticity", 0, 1}, {"payload", -1, 1}},
+      {{"elasticity", 0, 1}, {"payload", -1, 1}, {"presliding", 0, 1}},
+      {{"elasticity", 0, 1.1}},
+      {{"elasticity", 0, 1}, {"elasticity", 1, 1}},
+      {{"backlash", 0, 1}, {"payload", -1, 1}},
+      {{"payload", -1, 1}, {"stribeck", 0, 1}},
+      {{"thermal_friction", 0, 1}, {"elasticity", 1, 1}},
+      {{"torque_gain", 0, 1}, {"elasticity", 0, 1}}};
+  std::vector<SimulatedRobot> changed;
+  for (const std::vector<Part>& set : sets) {
+    changed.emplace_back();
+    changed.back().robot = arm.robot;
+    for (const Part& part : set) {
+      const Effect* effect = FindEffect(part.effect);
+      ASSERT_NE(effect, nullptr) << part.effect;
+      VectorXd p = arm.Sizes(*effect, part.joint);
+      p[0] *= part.factor;
+      effect->apply(arm.Site(part.joint), p, &changed.back());
+    }
+  }
+  RecordedTorque shared = arm.Recorded();
+  const auto together = shared.Changes(changed);
+  for (size_t i = 0; i < sets.size(); ++i) {
+    RecordedTorque fresh = arm.Recorded();
+    const auto alone = fresh.Changes({changed[i]})[0];
+    for (size_t j = 0; j < alone.size(); ++j) {
+      EXPECT_EQ(together[i][j], alone[j]) << "set " << i << ", joint " << j;
+    }
+  }
+  EXPECT_NE(together[0][0], together[1][1]);
+}
+
 }  // namespace armcal::recorded_torque_test
