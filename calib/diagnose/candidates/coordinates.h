@@ -32,6 +32,11 @@ struct Coordinate {
     return by_factors ? 1 + std::log(p / centre) / scale
                       : 1 + (p - centre) / scale;
   }
+  // Whether u is at a bound beyond which a cost of this slope would fall.
+  bool IsHeld(double u, double slope) const {
+    return (std::isfinite(low) && u <= Inverse(low) && slope > 0) ||
+           (std::isfinite(high) && u >= Inverse(high) && slope < 0);
+  }
   // Of u, which solvers put exactly there; p is rounded.
   bool AtBound(double u) const {
     return (std::isfinite(low) && u <= Inverse(low)) ||

@@ -1,7 +1,9 @@
 #include "calib/diagnose/candidates/refinement.h"
 
 #include <ceres/ceres.h>
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +22,8 @@ using RowMajorMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int kMostIterations = 12;
+// Springs that are followed together: doubles in the widest register.
+constexpr size_t kLanes = 8;
 
 // What effects leave of the torque, and forward differences of it as Ceres
 // takes them, of several parameters at a time. Whatever was evaluated once is
@@ -36,6 +40,7 @@ class ProjectedResidual : public ceres::CostFunction {
         coordinates_(std::move(coordinates)),
         data_(data),
         costs_as_much_together_(
+            coordinates_.size() < kLanes &&
             std::any_of(effects_.begin(), effects_.end(),
                         [](const GapCandidate& effect) {
                           return !effect.effect->larger_sizes.empty();
@@ -135,19 +140,31 @@ class ProjectedResidual : public ceres::CostFunction {
     }
   }
 
+  // At several points, whitened. As many at a time as springs have lanes, on
+  // all threads.
   std::vector<JointRows> Torques(const std::vector<VectorXd>& points) const {
-    std::vector<std::vector<GapCandidate>> sets;
-    for (const VectorXd& u : points) sets.push_back(At(u));
-    std::vector<JointRows> torques =
-        EffectTorques(baseline_, scale_, sets, data_.rows(), &torques_.local());
-    for (JointRows& torque : torques) torque = WhitenEach(data_.rows(), torque);
+    std::vector<JointRows> torques(points.size());
+    tbb::parallel_for(
+        tbb::blocked_range<size_t>(0, points.size(), kLanes),
+        [&](const tbb::blocked_range<size_t>& range) {
+          std::vector<std::vector<GapCandidate>> sets;
+          for (size_t k = range.begin(); k < range.end(); ++k) {
+            sets.push_back(At(points[k]));
+          }
+          const std::vector<JointRows> some = EffectTorques(
+              baseline_, scale_, sets, data_.rows(), &torques_.local());
+          for (size_t k = range.begin(); k < range.end(); ++k) {
+            torques[k] = WhitenEach(data_.rows(), some[k - range.begin()]);
+          }
+        },
+        tbb::simple_partitioner());
     return torques;
   }
 
   // Residuals and jacobians of what was evaluated before are kept, by value:
   // solvers ask again for what they have accepted, and a torque is a
-  // simulation. Where a point costs as much alone as with its neighbours, those
-  // are evaluated with it.
+  // simulation. Where a point costs about as much alone as with its neighbours,
+  // those are evaluated with it.
   Point& Find(const VectorXd& u) const {
     for (Point& point : points_) {
       if (point.u == u) return point;
@@ -196,6 +213,21 @@ class ProjectedResidual : public ceres::CostFunction {
       point->jacobian.col(k) =
           (screen_.ResidualGiven(point->around[k]) - point->residual) *
           (1 / neighbours[k].step);
+    }
+    HoldAtBounds(point);
+  }
+
+  // A parameter at its bound that would lower the cost only beyond it stays
+  // there, so that the others' step is as if it were constant: the projected
+  // Newton method (Bertsekas 1982). Ceres by itself takes the step of all and
+  // moves it into the bounds, which may lead upwards however short it is.
+  void HoldAtBounds(Point* point) const {
+    for (size_t k = 0; k < coordinates_.size(); ++k) {
+      const auto column = point->jacobian.col(static_cast<int>(k));
+      const double slope = column.dot(point->residual);
+      if (coordinates_[k].IsHeld(point->u[static_cast<int>(k)], slope)) {
+        point->jacobian.col(static_cast<int>(k)).setZero();
+      }
     }
   }
 

@@ -1,5 +1,7 @@
 #include "calib/diagnose/select/redundant.h"
 
+#include <tbb/parallel_for.h>
+
 namespace armcal {
 
 // The selection judged columns, linear in an effect's size; here the laws are
@@ -14,14 +16,18 @@ int FindRedundant(const GapRegression& regression, const CandidatePool& pool,
                   const SelectionOptions& options, const Selection& selection,
                   const RefinedEffects& refined) {
   if (refined.effects.size() < 2) return -1;
+  std::vector<double> without(refined.effects.size());  // their delta_chi2
+  tbb::parallel_for(size_t{0}, without.size(), [&](size_t k) {
+    without[k] = RefineEffects(regression.screen(), regression.baseline(),
+                               regression.scale(), AllBut(refined.effects, k),
+                               -1, regression.data())
+                     .delta_chi2;
+  });
   int redundant = -1;
   double least = options.threshold;
-  for (size_t k = 0; k < refined.effects.size(); ++k) {
-    const RefinedEffects without = RefineEffects(
-        regression.screen(), regression.baseline(), regression.scale(),
-        AllBut(refined.effects, k), -1, regression.data());
+  for (size_t k = 0; k < without.size(); ++k) {
     const double score =
-        (refined.delta_chi2 - without.delta_chi2) / options.inflation -
+        (refined.delta_chi2 - without[k]) / options.inflation -
         Penalty(regression.screen(), pool.candidates()[selection.chosen[k]]);
     if (score >= least) continue;
     least = score;

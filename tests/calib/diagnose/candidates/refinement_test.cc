@@ -127,4 +127,19 @@ TEST_F(GapRefinementTest, CovarianceIsThatOfManyRuns) {
   }
 }
 
+// A gap whose flanks are stiffer than the catalogue allows: the fit ends at
+// that bound, and in the minimum along it, from where another fit gains
+// nothing.
+TEST_F(GapRefinementTest, EndsInTheMinimumAlongABound) {
+  const Effect& backlash = *FindEffect("backlash");
+  const double gap = 8 * backlash.parameters[0].size(arm_.Site(0));
+  const double stiffest = backlash.parameters[1].grid(arm_.Site(0)).front();
+  Record(backlash, 0, Eigen::Vector2d(gap, stiffest / 3));
+  const RefinedEffects once =
+      Refine(backlash, 0, Eigen::Vector2d(.8 * gap, 3 * stiffest));
+  EXPECT_DOUBLE_EQ(once.effects[0].p[1], stiffest);
+  const RefinedEffects twice = Refine(backlash, 0, once.effects[0].p);
+  EXPECT_LT(twice.delta_chi2 - once.delta_chi2, .1);
+}
+
 }  // namespace armcal::refinement_test
