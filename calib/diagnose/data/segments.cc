@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/segment_rate.h"
 #include "calib/diagnose/data/smooth_torque.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/data/torque_bursts.h"
@@ -150,6 +151,7 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
   PreparationOptions prepared;
   prepared.bandwidth_hz = MotionBandwidth(bandwidth_hz);
   prepared.longest_gap_s = .25 / bandwidth_hz;
+  prepared.friction_motion = false;
   std::vector<GapSegment> segments;
   int log = -1, part = -1;
   Prepare(logs, prepared)
@@ -189,10 +191,12 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
     motion.torque = SmoothTorqueOf(segment);
     const auto& errors = logs.time_bases()[segment.log].stamp_errors;
     if (errors.size() > 1) motion.stamp_error = StampErrors(errors, motion);
-    if (motion.temperature.size() == 0) continue;
-    motion.temperature =
-        ZeroPhaseLowPass(motion.temperature, 1 / motion.dt,
-                         kSmoothTemperatureHz, Ends::kExtrapolate);
+    if (motion.temperature.size() > 0) {
+      motion.temperature =
+          ZeroPhaseLowPass(motion.temperature, 1 / motion.dt,
+                           kSmoothTemperatureHz, Ends::kExtrapolate);
+    }
+    DecimateSegment(MotionBandwidth(bandwidth_hz), &segment);
   }
   return segments;
 }
