@@ -176,8 +176,8 @@ void ArmSimulator::Derivative(const VectorXd& x, double t, double share) {
   AddJointLaws(x);
   AddTransmissions(x);
   AddWrenches(x, t);
-  cholesky_.compute(now_.mass_matrix);
-  qdd_ = cholesky_.solve(link_torque_ - now_.bias);
+  cholesky_.Compute(now_.mass_matrix);
+  qdd_ = cholesky_.Solve(link_torque_ - now_.bias);
   next_load_ -= rigid_armature_.cwiseProduct(qdd_);
   rate_.head(n_) = instant_.link_velocity;
   rate_.segment(n_, n_) = qdd_;
@@ -212,14 +212,14 @@ void ArmSimulator::MakeImplicit(int stage, double h) {
     damping_ = JointDamping();
     MatrixXd inertia = now_.mass_matrix;
     inertia.diagonal() += WMethod::kGamma * h * damping_;
-    implicit_cholesky_.compute(inertia);
+    implicit_cholesky_.Compute(inertia);
   }
   VectorXd sum = WMethod::kGamma * k_[stage].segment(n_, n_);
   for (int j = 0; j < stage; ++j) {
     sum += WMethod::kImplicit[stage][j] * k_[j].segment(n_, n_);
   }
   k_[stage].segment(n_, n_) -=
-      implicit_cholesky_.solve(h * damping_.cwiseProduct(sum));
+      implicit_cholesky_.Solve(h * damping_.cwiseProduct(sum));
 }
 
 void ArmSimulator::Substep(double t, double share, double h) {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "model/dynamics/arm_dynamics.h"
 #include "model/dynamics/simulated_robot.h"
 #include "model/plant/simulator_layout.h"
+#include "model/plant/small_cholesky.h"
 #include "model/simd/motion/w_method.h"
 
 namespace armcal {
@@ -92,7 +92,7 @@ class ArmSimulator {
   Eigen::VectorXd motor_torque_, link_torque_, heat_, rate_;
   Eigen::VectorXd next_load_;
   Eigen::VectorXd k_[WMethod::kStages], x_stage_;
-  Eigen::LLT<Eigen::MatrixXd> cholesky_, implicit_cholesky_;
+  SmallCholesky cholesky_, implicit_cholesky_;
   Eigen::VectorXd damping_;  // n, of the substep's begin
 };
 

@@ -1,9 +1,10 @@
 #include "calib/diagnose/judge/forward.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <utility>
 
@@ -28,15 +29,15 @@ constexpr double kLeastFloor = 1e-9;  // rad or m
 // Mean squares of all three robots, rows in time, rad^2 or m^2.
 using Squares = std::array<MatrixXd, 3>;
 
-// All three at once: an engine each.
-template <typename Simulate>
-Squares OfAll(const ForwardRobots& robots, const Simulate& simulate) {
-  auto nominal =
-      std::async(std::launch::async, [&] { return simulate(robots.nominal); });
-  auto refit =
-      std::async(std::launch::async, [&] { return simulate(robots.refit); });
-  const MatrixXd after = simulate(robots.after);
-  return {nominal.get(), refit.get(), after};
+// All three at once: an engine each. `simulate_after`: of the last.
+template <typename Simulate, typename SimulateAfter>
+Squares OfAll(const ForwardRobots& robots, const Simulate& simulate,
+              const SimulateAfter& simulate_after) {
+  Squares squares;
+  tbb::parallel_invoke([&] { squares[0] = simulate(robots.nominal); },
+                       [&] { squares[1] = simulate(robots.refit); },
+                       [&] { squares[2] = simulate_after(robots.after); });
+  return squares;
 }
 
 void Append(const MatrixXd& rows, MatrixXd* to) {
@@ -172,9 +173,10 @@ ForwardGap ForwardGapInLoop(const ForwardRobots& robots, const Robot& known,
     const std::vector<int> bins =
         Bins(log.log, RowsPerBin(log.log),
              [&](double t) { return !counted || counted(gap.runs, t); });
-    const Squares found = OfAll(robots, [&](const CorrectedRobot& robot) {
+    const auto squares_of = [&](const CorrectedRobot& robot) {
       return LoopSquares(robot, known, controller, log, bins);
-    });
+    };
+    const Squares found = OfAll(robots, squares_of, squares_of);
     for (int m = 0; m < 3; ++m) {
       gap.diverged[m] += !found[m].allFinite();
       Append(found[m], &squares[m]);
@@ -208,17 +210,21 @@ ForwardGap ForwardGapInWindows(const ForwardRobots& robots,
     const auto count = static_cast<Eigen::Index>(windows.begin.size());
     const MatrixXd nothing =
         MatrixXd::Constant(count, segment.tau.cols(), kNaN);
-    auto alone = std::async(std::launch::async, [&] {
-      return OrDiverged(nothing, [&] {
-        return NoiseSquares(robots.after, segment, windows, noise,
-                            seed + gap.runs);
-      });
-    });
-    const Squares found = OfAll(robots, [&](const CorrectedRobot& robot) {
-      return OrDiverged(nothing,
-                        [&] { return ReplaySquares(robot, segment, windows); });
-    });
-    Append(alone.get(), &floor);
+    WindowSquares after = {nothing, nothing};
+    const Squares found = OfAll(
+        robots,
+        [&](const CorrectedRobot& robot) {
+          return OrDiverged(
+              nothing, [&] { return ReplaySquares(robot, segment, windows); });
+        },
+        [&](const CorrectedRobot& robot) {
+          return OrDiverged(nothing, [&] {
+            after = ReplaySquaresWithNoise(robot, segment, windows, noise,
+                                           seed + gap.runs);
+            return after.error;
+          });
+        });
+    Append(after.noise, &floor);
     for (int m = 0; m < 3; ++m) {
       gap.diverged[m] +=
           static_cast<int>(found[m].col(0).array().isNaN().count());

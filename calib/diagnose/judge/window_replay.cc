@@ -1,10 +1,11 @@
 #include "calib/diagnose/judge/window_replay.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <random>
 
 #include "model/dynamics/motion_behind_readings.h"
@@ -19,7 +20,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLead = 1;     // s
+constexpr double kLead = 1;  // s
+// Bristles forget within a millimetre of motion, springs and dampers in a part
+// of a second: what was that long ago makes no difference. Heat does.
+constexpr double kMemory = 10;  // s
 constexpr double kStep = 1e-3;  // s, of the simulator, at most
 constexpr double kLost = 100;   // rad or m
 constexpr int kIterations = 4;  // of sensor maps, which are near the identity
@@ -37,11 +41,30 @@ bool HasMemory(const CorrectedRobot& robot) {
          });
 }
 
+bool WarmsUp(const CorrectedRobot& robot) {
+  return !robot.plant.thermal.empty();
+}
+
+// Windows one right after the other: [first, last) of all.
+struct WindowRange {
+  size_t first, last;
+};
+std::vector<WindowRange> ListRanges(const ReplayWindows& windows) {
+  std::vector<WindowRange> ranges;
+  for (size_t w = 0; w < windows.begin.size(); ++w) {
+    if (w == 0 || windows.begin[w] > windows.begin[w - 1] + windows.length) {
+      ranges.push_back({w, w});
+    }
+    ranges.back().last = w + 1;
+  }
+  return ranges;
+}
+
 // A robot along a segment.
 class SegmentReplay {
  public:
   SegmentReplay(const CorrectedRobot& robot, const GapSegment& segment)
-      : robot_(robot), engine_(std::make_unique<RigidArm>(robot.plant.robot)) {
+      : robot_(robot) {
     MotionTrack track;
     track.SetMotion(segment.motion);
     track.load = track.warmth = MatrixXd::Zero(track.num_joints(), size(track));
@@ -62,18 +85,22 @@ class SegmentReplay {
   const Signals& signals() const { return signals_; }
 
   using Visit = std::function<void(int window, const ArmSimulator& start)>;
-  // Simulators at the begin of each window.
-  void ForEachStart(const ReplayWindows& windows, const Visit& visit) {
-    const int count = static_cast<int>(windows.begin.size());
-    if (!HasMemory(robot_)) {
-      for (int w = 0; w < count; ++w) visit(w, Start(windows.begin[w]));
-      return;
-    }
-    ArmSimulator simulator = Start(0);
-    for (int w = 0, k = 0; w < count; ++k) {
-      if (k == windows.begin[w]) visit(w++, simulator);
-      Lead(k, &simulator);
-    }
+  // Simulators at the begin of each window, of several windows at a time.
+  // Ranges of windows are led to from kMemory before them, so that they can be
+  // replayed side by side.
+  void ForEachStart(const ReplayWindows& windows, const Visit& visit) const {
+    std::vector<WindowRange> ranges = ListRanges(windows);
+    if (WarmsUp(robot_)) ranges = {{0, windows.begin.size()}};
+    tbb::parallel_for(size_t{0}, ranges.size(), [&](size_t r) {
+      RigidArm engine(robot_.plant.robot);  // one per thread
+      if (HasMemory(robot_)) {
+        LeadTo(windows, ranges[r], visit, &engine);
+        return;
+      }
+      for (size_t w = ranges[r].first; w < ranges[r].last; ++w) {
+        visit(static_cast<int>(w), Start(windows.begin[w], &engine));
+      }
+    });
   }
 
   // Positions of the motors at `length` samples after row `begin`, n x length.
@@ -92,10 +119,23 @@ class SegmentReplay {
  private:
   static int size(const MotionTrack& track) { return track.size(); }
 
-  ArmSimulator Start(int row) const {
+  void LeadTo(const ReplayWindows& windows, const WindowRange& range,
+              const Visit& visit, RigidArm* engine) const {
+    int k = 0;
+    if (!WarmsUp(robot_)) {
+      k = std::max(0, windows.begin[range.first] -
+                          static_cast<int>(std::ceil(kMemory / dt_)));
+    }
+    ArmSimulator simulator = Start(k, engine);
+    for (size_t w = range.first; w < range.last; ++k) {
+      if (k == windows.begin[w]) visit(static_cast<int>(w++), simulator);
+      Lead(k, &simulator);
+    }
+  }
+
+  ArmSimulator Start(int row, RigidArm* engine) const {
     ArmSimulator simulator(robot_.plant, signals_.q.col(row),
-                           {dt_ / steps_, 0, begin_ + row * dt_},
-                           engine_.get());
+                           {dt_ / steps_, 0, begin_ + row * dt_}, engine);
     simulator.SetMotors(signals_.q.col(row), signals_.qd.col(row));
     return simulator;
   }
@@ -120,7 +160,6 @@ class SegmentReplay {
   }
 
   const CorrectedRobot& robot_;
-  std::unique_ptr<RigidArm> engine_;
   Signals signals_;
   double begin_, dt_;  // s
   int steps_;          // of the simulator per sample
@@ -214,26 +253,33 @@ MatrixXd ReplaySquares(const CorrectedRobot& robot, const GapSegment& segment,
 // What noise alone makes of the windows: the same robot is simulated twice,
 // from the recorded start and torque, and from these with one draw of noise,
 // and their difference less the drawn position is what a right model would
-// leave.
-MatrixXd NoiseSquares(const CorrectedRobot& robot, const GapSegment& segment,
-                      const ReplayWindows& windows,
-                      const MeasurementNoise& noise, std::uint64_t seed) {
+// leave. The first of the two is the replay itself.
+WindowSquares ReplaySquaresWithNoise(const CorrectedRobot& robot,
+                                     const GapSegment& segment,
+                                     const ReplayWindows& windows,
+                                     const MeasurementNoise& noise,
+                                     std::uint64_t seed) {
   SegmentReplay replay(robot, segment);
   std::mt19937_64 random(seed);
   const Signals added =
       DrawNoise(noise, segment.size(), segment.motion.dt, &random);
   const Signals& signals = replay.signals();
   const MatrixXd tau = signals.tau + added.tau;
-  MatrixXd squares(windows.begin.size(), replay.num_joints());
+  const auto count = static_cast<Eigen::Index>(windows.begin.size());
+  WindowSquares squares = {MatrixXd(count, replay.num_joints()),
+                           MatrixXd(count, replay.num_joints())};
   const int length = windows.length;
   replay.ForEachStart(windows, [&](int w, const ArmSimulator& start) {
     const int begin = windows.begin[w];
     ArmSimulator noisy = start;
     noisy.SetMotors(signals.q.col(begin) + added.q.col(begin),
                     signals.qd.col(begin) + added.qd.col(begin));
-    squares.row(w) = MeanSquares(replay.Run(noisy, begin, length, tau) -
-                                 replay.Run(start, begin, length, signals.tau) -
-                                 added.q.middleCols(begin + 1, length));
+    const MatrixXd simulated = replay.Run(start, begin, length, signals.tau);
+    squares.error.row(w) =
+        MeanSquares(simulated - signals.q.middleCols(begin + 1, length));
+    squares.noise.row(w) =
+        MeanSquares(replay.Run(noisy, begin, length, tau) - simulated -
+                    added.q.middleCols(begin + 1, length));
   });
   return squares;
 }

@@ -31,20 +31,25 @@ struct MeasurementNoise {
 };
 
 // Mean square per window and joint of simulated minus recorded positions of the
-// motors, rad^2 or m^2; a window that gets 100 rad or m away is NaN. Between
-// windows the recorded motion leads the motors from the segment's begin on, so
-// that laws with states and links behind transmissions start a window where
-// that motion has brought them; heat starts at 0. Positions are those behind
-// the robot's sensor maps and clock.
+// motors, rad^2 or m^2; a window that gets 100 rad or m away is NaN. Before
+// successive windows the recorded motion leads the motors for 10 s, so that
+// laws with states and links behind transmissions start a window where that
+// motion has brought them; joints that warm up are led from the segment's begin
+// on, where their heat starts at 0. Positions are those behind the robot's
+// sensor maps and clock.
 Eigen::MatrixXd ReplaySquares(const CorrectedRobot& robot,
                               const GapSegment& segment,
                               const ReplayWindows& windows);
 
-// The same that noise alone would leave of this robot were it the true one: in
-// its starts, its torque and the positions it is compared with.
-Eigen::MatrixXd NoiseSquares(const CorrectedRobot& robot,
-                             const GapSegment& segment,
-                             const ReplayWindows& windows,
-                             const MeasurementNoise& noise, std::uint64_t seed);
+// The same, and what noise alone would leave of this robot were it the true
+// one: in its starts, its torque and the positions it is compared with.
+struct WindowSquares {
+  Eigen::MatrixXd error, noise;  // rad^2 or m^2, window by joint
+};
+WindowSquares ReplaySquaresWithNoise(const CorrectedRobot& robot,
+                                     const GapSegment& segment,
+                                     const ReplayWindows& windows,
+                                     const MeasurementNoise& noise,
+                                     std::uint64_t seed);
 
 }  // namespace armcal
