@@ -109,37 +109,35 @@ void GapScreen::Factor() {
 }
 
 // One joint's share of the Schur complements: its columns' products with the
-// arm of the baseline are solved with the arm's factor, what is left of them
-// for the shared columns is added to common_half_, and the joint's own part of
-// the projected Gram matrix is returned. Arms are independent of each other, so
-// that joints can do it at the same time.
-MatrixXd GapScreen::ProjectOnArm(int joint, int before) {
+// arm of the baseline are solved with the arm's factor; what is left of them
+// for the shared columns, and the joint's own part of the projected Gram matrix
+// and gradient, are returned. Arms are independent of each other, so that
+// joints do it at the same time.
+GapScreen::ArmShare GapScreen::ProjectOnArm(int joint, int before) {
   const Products& own = products_[joint];
   const BaselineFit::Places& places = baseline_.places(joint);
-  const std::vector<int>& which = baseline_.rows(joint).columns.which;
   const ArrowFactor& factor = baseline_.factor();
   const double weight = baseline_.weight(joint), squared = weight * weight;
   MatrixXd& half = arm_half_[joint];
   const Eigen::Index known = before == 0 ? 0 : half.cols();
   const Eigen::Index count = own.of_columns.cols(), more = count - known;
   const VectorXd scale = weight * baseline_.ScaleOf(joint);
-  const MatrixXd cross = scale.asDiagonal() * own.by_baseline.rightCols(more);
+  ArmShare share;
+  share.cross = scale.asDiagonal() * own.by_baseline.rightCols(more);
   MatrixXd of_arm = MatrixXd::Zero(factor.arm(joint).size(), more);
-  of_arm(places.in_arm, Eigen::all) = cross(places.own, Eigen::all);
+  of_arm(places.in_arm, Eigen::all) = share.cross(places.own, Eigen::all);
   half.conservativeResize(of_arm.rows(), count);
   half.rightCols(more) = factor.HalfOfArm(joint, of_arm);
   const MatrixXd added = half.rightCols(more);
-  MatrixXd common = -factor.coupling(joint).transpose() * added;
-  common(places.in_common, Eigen::all) += cross(places.shared, Eigen::all);
-  for (Eigen::Index k = 0; k < more; ++k) {
-    const int c = own.columns[known + k];
-    cross_.col(c)(which) += cross.col(k);
-    common_half_.col(c) += common.col(k);
-    raw_[c] += squared * own.of_columns(known + k, known + k);
-    g_[c] += squared * own.by_target[known + k] -
-             added.col(k).dot(baseline_.arm_gradient(joint));
-  }
-  return squared * own.of_columns.rightCols(more) - InnerProducts(half, added);
+  share.common = -factor.coupling(joint).transpose() * added;
+  share.common(places.in_common, Eigen::all) +=
+      share.cross(places.shared, Eigen::all);
+  share.raw = squared * own.of_columns.diagonal().tail(more);
+  share.g = squared * own.by_target.tail(more) -
+            added.transpose() * baseline_.arm_gradient(joint);
+  share.gram =
+      squared * own.of_columns.rightCols(more) - InnerProducts(half, added);
+  return share;
 }
 
 // Candidates projected on what the baseline cannot absorb (Frisch and Waugh
@@ -168,12 +166,21 @@ void GapScreen::Project(int before) {
   }
   // All columns by the new ones.
   MatrixXd G = MatrixXd::Zero(count, more);
+  std::vector<ArmShare> shares(num_joints());
+  tbb::parallel_for(0, num_joints(),
+                    [&](int j) { shares[j] = ProjectOnArm(j, before); });
   for (int j = 0; j < num_joints(); ++j) {
-    const MatrixXd own = ProjectOnArm(j, before);
+    const ArmShare& share = shares[j];
     const std::vector<int>& columns = products_[j].columns;
-    const Eigen::Index known = own.rows() - own.cols();
-    for (Eigen::Index k = 0; k < own.cols(); ++k) {
-      G.col(columns[known + k] - before)(columns) += own.col(k);
+    const std::vector<int>& which = baseline_.rows(j).columns.which;
+    const Eigen::Index known = share.gram.rows() - share.gram.cols();
+    for (Eigen::Index k = 0; k < share.gram.cols(); ++k) {
+      const int c = columns[known + k];
+      G.col(c - before)(columns) += share.gram.col(k);
+      cross_.col(c)(which) += share.cross.col(k);
+      common_half_.col(c) += share.common.col(k);
+      raw_[c] += share.raw[k];
+      g_[c] += share.g[k];
     }
   }
   const MatrixXd common = factor.HalfOfCommon(common_half_.rightCols(more));

@@ -128,9 +128,15 @@ class GapScreen {
 
   // Solves for the columns from `before` on, of cached products.
   void Project(int before);
-  // Adds joint j's share to all that Project makes; what its arm of the
-  // baseline leaves of its columns' products with those from `before` on.
-  Eigen::MatrixXd ProjectOnArm(int joint, int before);
+  // Joint j's share of all that Project makes, of its columns (rows) and those
+  // of them from `before` on (columns).
+  struct ArmShare {
+    Eigen::MatrixXd gram;    // products of what its arm of the baseline leaves
+    Eigen::MatrixXd cross;   // with its columns of the baseline
+    Eigen::MatrixXd common;  // what is left of them for the shared columns
+    Eigen::VectorXd raw, g;  // as raw_ and g_
+  };
+  ArmShare ProjectOnArm(int joint, int before);
 
   BaselineFit baseline_;
   std::vector<Column> columns_;     // as if no rows were weighed
