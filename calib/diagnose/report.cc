@@ -75,9 +75,11 @@ std::string Unnamed(const GapDiagnosis& diagnosis) {
   for (const FoundEffect& found : diagnosis.unnamed) {
     text += Format("  %3.0f %%  ", 100 * found.probability) +
             Named(*found.effect, found.joint, diagnosis);
-    if (std::isfinite(found.removed_percent)) {
+    if (found.removed_percent > 0) {
       text += Format(": would remove %.0f %% of what refitting leaves",
                      found.removed_percent);
+    } else if (std::isfinite(found.removed_percent)) {
+      text += ": held out, it removes nothing";
     }
     text += "\n";
   }

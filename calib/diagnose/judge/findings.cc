@@ -19,14 +19,16 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Sets what a fitted effect removes of the refit's held-out gap: all that is
-// removed, with its interval, where it is the only one; else by its gain.
+// removed, with its interval, where it is the only one; else by its gain, where
+// the refit leaves more than noise. Of several that only fit together, one may
+// gain more than there is: it removes all of it.
 void SetShare(const GapFit& fit, const GapFigures& torque, double gain,
               FoundEffect* found) {
   if (fit.refined().effects.size() == 1) {
     found->removed_percent = torque.removed_percent;
     std::copy(torque.ci95, torque.ci95 + 2, found->ci95);
-  } else if (torque.known()) {
-    found->removed_percent = 100 * gain / std::max(.1, torque.refit - 1);
+  } else if (torque.known() && torque.refit > 1) {
+    found->removed_percent = std::min(100., 100 * gain / (torque.refit - 1));
   }
 }
 
