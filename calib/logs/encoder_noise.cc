@@ -91,12 +91,14 @@ struct Sums {
       low = ArrayXd::Constant(n, std::numeric_limits<double>::infinity());
       high = -low;
     }
-    const ArrayXd variance = PositionNoise(read.q).array().square();
+    const Eigen::ArrayXXd variances =
+        PositionNoise(read.q, {1, kSlow}).array().square();
+    const ArrayXd variance = variances.col(0);
     const int lag =
         std::max(1, static_cast<int>(std::lround(1 / (4 * bandwidth_hz * dt))));
     const double length = static_cast<double>(read.t.size()) * dt;
     density += length * dt * variance;
-    slow_density += length * dt * PositionNoise(read.q, kSlow).array().square();
+    slow_density += length * dt * variances.col(1);
     acceleration += length * MeanSquareAcceleration(read, dt, lag, variance);
     low = low.min(read.q.colwise().minCoeff().transpose().array());
     high = high.max(read.q.colwise().maxCoeff().transpose().array());

@@ -20,10 +20,8 @@ struct Difference {
   double moved;  // between its first and last sample
 };
 
-// Keeps the share of those that moved least.
-void KeepSlowest(double share, std::vector<Difference>* all) {
-  const auto kept = static_cast<std::size_t>(
-      std::ceil(share * static_cast<double>(all->size())));
+// Keeps so many of those that moved least.
+void KeepSlowest(std::size_t kept, std::vector<Difference>* all) {
   if (kept >= all->size()) return;
   std::nth_element(all->begin(), all->begin() + static_cast<long>(kept),
                    all->end(), [](const Difference& a, const Difference& b) {
@@ -35,12 +33,18 @@ void KeepSlowest(double share, std::vector<Difference>* all) {
 }  // namespace
 
 Eigen::VectorXd PositionNoise(const Eigen::MatrixXd& q, double slowest) {
-  if (q.rows() <= kOrder) return Eigen::VectorXd::Zero(q.cols());
+  return PositionNoise(q, std::vector<double>{slowest});
+}
+
+Eigen::MatrixXd PositionNoise(const Eigen::MatrixXd& q,
+                              const std::vector<double>& slowest) {
+  const auto shares = static_cast<Eigen::Index>(slowest.size());
+  Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(q.cols(), shares);
+  if (q.rows() <= kOrder) return noise;
   Eigen::MatrixXd d = q;
   for (int k = 0; k < kOrder; ++k) {
     d = (d.bottomRows(d.rows() - 1) - d.topRows(d.rows() - 1)).eval();
   }
-  Eigen::VectorXd noise(q.cols());
   for (int j = 0; j < q.cols(); ++j) {
     std::vector<Difference> moving;
     for (Eigen::Index k = 0; k < d.rows(); ++k) {
@@ -48,10 +52,15 @@ Eigen::VectorXd PositionNoise(const Eigen::MatrixXd& q, double slowest) {
       moving.push_back(
           {std::abs(d(k, j)), std::abs(q(k + kOrder, j) - q(k, j))});
     }
-    KeepSlowest(slowest, &moving);
-    std::vector<double> sizes;
-    for (const Difference& one : moving) sizes.push_back(one.size);
-    noise[j] = kOverMedian * Median(std::move(sizes)) / std::sqrt(kVariance);
+    const auto all = static_cast<double>(moving.size());
+    for (Eigen::Index s = 0; s < shares; ++s) {
+      KeepSlowest(static_cast<std::size_t>(std::ceil(slowest[s] * all)),
+                  &moving);
+      std::vector<double> sizes;
+      for (const Difference& one : moving) sizes.push_back(one.size);
+      noise(j, s) =
+          kOverMedian * Median(std::move(sizes)) / std::sqrt(kVariance);
+    }
   }
   return noise;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace armcal {
 
@@ -12,5 +13,8 @@ namespace armcal {
 // others the `slowest` share counts, by how far the joint moves meanwhile: what
 // stamps that jitter make of a motion is not there where it turns round.
 Eigen::VectorXd PositionNoise(const Eigen::MatrixXd& q, double slowest = 1);
+// The same of several shares, which fall, a column each.
+Eigen::MatrixXd PositionNoise(const Eigen::MatrixXd& q,
+                              const std::vector<double>& slowest);
 
 }  // namespace armcal

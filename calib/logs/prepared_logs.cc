@@ -26,7 +26,8 @@ bool AreNone(const std::optional<OutlierLists>& lists) {
 
 bool AreSameBut(const PreparationOptions& a, const PreparationOptions& b) {
   return a.bandwidth_hz == b.bandwidth_hz && a.reach_s == b.reach_s &&
-         a.longest_gap_s == b.longest_gap_s;
+         a.longest_gap_s == b.longest_gap_s &&
+         a.friction_motion == b.friction_motion;
 }
 
 }  // namespace
@@ -57,7 +58,8 @@ struct KeptTrajectories {
 PreparedLogs::PreparedLogs(const LogSet& logs,
                            const PreparationOptions& options)
     : logs_(logs), options_(options) {
-  if (const double hz = options.bandwidth_hz; hz > 0) {
+  const double hz = options.bandwidth_hz;
+  if (hz > 0 && options.friction_motion) {
     friction_ = FrictionBandwidth(MeasureEncoderNoise(logs, hz), hz);
   }
   RecordedLogs& recorded = *logs_.recorded_;

@@ -25,6 +25,8 @@ struct PreparationOptions {
   // are listed.
   bool remove_spikes = true;
   double longest_gap_s = 0;  // as in TrajectoryOptions
+  // Whether friction's own motion (friction_bandwidth.h) is followed as well.
+  bool friction_motion = true;
   // These torque samples are replaced, and none but these.
   std::optional<OutlierLists> outliers;
 };
