@@ -20,9 +20,9 @@ LossAt FromCeres(const ceres::LossFunction& loss, double r) {
 
 // Scales at which the estimate of a mean has 1 / .95 of the least variance if
 // errors are normal after all: (E psi')^2 / E psi^2 = .95. For one coordinate
-// they are the well-known 1.345 of Huber's loss (Huber 1964) and 4.685 of
-// Tukey's. The length of several normal coordinates is larger (chi), and so are
-// the scales.
+// they are the well-known 1.345 of Huber's loss and 4.685 of Tukey's (Holland
+// and Welsch 1977). The length of several normal coordinates is larger (chi),
+// and so are the scales.
 double LossScale(RobustLoss loss, int coordinates) {
   const int column = coordinates <= 3 ? coordinates - 1 : 3;
   CHECK(column < 3 || coordinates == 6) << coordinates;

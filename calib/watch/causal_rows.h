@@ -13,9 +13,10 @@ namespace armcal {
 // arm's tau = (d/dt P - D) x,
 //   F tau = (d/dt F P - F D) x,
 // where F P has a derivative that needs none of P. For known x the difference
-// of both sides is the residual of the momentum observer (Haddadin, De Luca,
-// Albu-Schaeffer 2017, IV-E): the low-passed torque of contacts. As equations
-// for x they are the weak form's, whose test function is F's impulse response.
+// of both sides is the residual of the momentum observer (De Luca and Mattone
+// 2005; Haddadin, De Luca, Albu-Schaeffer 2017): the low-passed torque of
+// contacts. As equations for x they are the weak form's, whose test function is
+// F's impulse response.
 //
 // P and D are of positions and velocities that come of the recorded positions
 // by two faster such filters, through which the torque goes, too; friction is a
@@ -36,8 +37,8 @@ class CausalRows {
   Eigen::VectorXd y() const { return torque_.value(); }
   // Each joint's torques by which friction at low speed may differ, per unit of
   // their size: n x kSlowLaws, c exp(-|v| / v_s), Stribeck's law in the form of
-  // Bo and Pavelescu (1982), v_s being 4 and 20 times the width over which
-  // Coulomb friction changes its sign.
+  // Tustin (1947; with other exponents Bo and Pavelescu 1982), v_s being 4 and
+  // 20 times the width over which Coulomb friction changes its sign.
   const Eigen::MatrixXd& slow() const { return slow_.value(); }
   // How much of each equation lies where friction changes its sign, 0 to 1, and
   // whether the joint has been standing for a while, 0 to 1.

@@ -63,7 +63,7 @@ NullModel LearnNull(const std::vector<WatchRow>& rows, const WatchModel& model,
 
 // The level which a stationary Gaussian signal of unit variance and two equal
 // poles of `bandwidth_hz` crosses, to either side, `rate` times a second
-// (Rice 1944: v0 exp(-h^2 / 2) upward, with v0^2 = the mean square of its
+// (Rice 1945: v0 exp(-h^2 / 2) upward, with v0^2 = the mean square of its
 // derivative over 4 pi^2, here bandwidth_hz^2).
 double RiceLevel(double bandwidth_hz, double rate);
 

@@ -39,7 +39,7 @@ const char* InertialUnit(int index);
 //   [ tr(I)/2 1 - I   h ]
 //   [ h'              m ],
 // kg m^2, kg m, kg: linear in the parameters V of ToVector(), and positive
-// semidefinite for every body that can exist (Wensing, Kim, Slotine 2017).
+// semidefinite for every body that can exist (Wensing, Kim, Slotine 2018).
 Eigen::Matrix4d PseudoInertia(const Vector10d& V);
 
 // An empty text where a rigid body with these parameters can exist (mass > 0,

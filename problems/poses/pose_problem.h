@@ -13,7 +13,8 @@
 
 namespace armcal {
 
-// The variance of an M-estimate over that of (J'J)^-1 (Huber 1981, 6.5):
+// The variance of an M-estimate over that of (J'J)^-1 (Huber 1981, 7.6, without
+// the factor K, which tends to 1 for p / N to 0):
 //   (sum psi^2 / (N - p)) / (mean psi')^2
 // for N residuals in noise units, in blocks of `block` that share a loss, and p
 // unknowns. Right also where the noise was only guessed.

@@ -15,6 +15,7 @@ the page does not list the thresholds as they are.
 """
 
 import argparse
+import datetime
 import json
 import os
 import stat
@@ -110,13 +111,16 @@ def page(thresholds, result):
     count, of = result.get("cases", 0), result.get("of", "")
     lines = [
         "# Thresholds of a diagnosis", "",
-        f"Every number that decides what `armcal diagnose` says: {kinds['tuned']} that were "
+        f"Numbers that decide what `armcal diagnose` says of logs: {kinds['tuned']} that were "
         f"chosen on data, {kinds['law']} that follow from a law, and {kinds['definition']} "
         "that define a word of the answer or what is looked for. Written by `tests/blind/sensitivity.py` from "
         "`calib/diagnose/data/thresholds.h`. Not here are the weights of a claim's "
         "probability (`calib/diagnose/judge/evidence.cc`), the ranges of "
-        "[effects' parameters](effects/README.md), and the sizes of grids and caps on "
-        "rounds.", "",
+        "[effects' parameters](effects/README.md), what a standstill is "
+        "(`model/signals/standstill.h`), the constants of changes over many logs "
+        "(`calib/diagnose/changes`) and of measured poses (`calib/poses`), and the sizes of "
+        "grids and caps on rounds. *Nothing that was noted*: it is not known any more on "
+        "what data that number was chosen.", "",
         *(["The last two figures are not measured yet.", ""] if not count else []),
         f"*Half* and *twice*: how many of {count or 'the'} calibration cases of the "
         f"[blind bench](../tests/blind/README.md){of} get "
@@ -124,7 +128,7 @@ def page(thresholds, result):
         "quantile: of its remainder to 1), and, where that differs, how many more (+) or "
         "fewer (-) are then right. These cases are of the set that many of the numbers were "
         "chosen on: the figures say what a number decides, not how good it is. Without figures: "
-        "not varied.", "",
+        f"not varied. Measured on {result.get('date', 'an unknown day')}, with the diagnosis of that day.", "",
         "| name | value | unit | meaning | half | twice | source |",
         "|---|---|---|---|---|---|---|"]
     for t in thresholds:
@@ -166,6 +170,7 @@ def main():
     truth = {f.name: labels(f) for f in folders}
     saved = Path(arguments.cases) / "sensitivity.json"
     result = json.loads(saved.read_text()) if saved.exists() else {"rows": {}}
+    result["date"] = str(datetime.date.today())
     result["cases"] = sum(len(t) for t in truth.values())
     result["of"] = " (" + ", ".join(f"{len(t)} {name}" for name, t in truth.items()) + ")"
     before = {f.name: run(arguments, f, "") for f in folders}

@@ -77,8 +77,8 @@ class SeriesFit {
   const Eigen::VectorXd& value() const { return value_; }
   Eigen::MatrixXd Covariance() const;
 
-  // The scatter that is likelier: a step of the MM algorithm of Zhou, Hu, Qiao,
-  // Cho and Zhou (2019) for variance components.
+  // The scatter that is likelier: a step of the MM algorithm of Zhou, Hu, Zhou
+  // and Lange (2019, J. Comput. Graph. Stat. 28) for variance components.
   // The inflation stays unless it is to be fitted.
   Scatter Better(const std::vector<ScatterComponent>& components,
                  bool fit_inflation) const;

@@ -26,7 +26,7 @@ std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k);
 // That something is there without which what was seen has this chance: the odds
 // against it are at least -e chance ln(chance) times those before the data
 // (Sellke, Bayarri and Berger 2001, Calibration of p values for testing precise
-// null hypotheses, eq. 3).
+// null hypotheses).
 double ProbabilityBeyondChance(double chance, double odds_before);
 
 // The first ones, up to 95 % together.

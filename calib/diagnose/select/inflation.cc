@@ -28,8 +28,9 @@ std::pair<int, long> BlockOf(const GapRows::Place& place) {
 // c_k the candidate's projected columns and r_k the residual at row k. With
 // white noise of unit variance V = G in the mean, and delta_chi2 = g' G^-1 g
 // has the mean k; with V it is tr(G^-1 V). Their ratio is by how much
-// delta_chi2 is too large on average: the first-order correction of Rao and
-// Scott (1981) for a likelihood ratio under a wrong model.
+// delta_chi2 is too large on average. Of a likelihood ratio under a wrong model
+// (Kent 1982) that is the first-order correction which Rao and Scott (1981)
+// make to chi squared tests of survey data.
 double Inflation(const GapScreen& screen, const GapRows& rows,
                  const GapCandidate& candidate, const GapScreen::Fit& fit) {
   const int size = static_cast<int>(candidate.columns.size());

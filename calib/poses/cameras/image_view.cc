@@ -14,7 +14,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kHuber = 1.345;  // standard deviations (Huber 1981)
+// Standard deviations (Holland and Welsch 1977).
+constexpr double kHuber = 1.345;
 
 // Of point k: its error over sqrt(2), as large as a coordinate's.
 double PointError(const VectorXd& r, Eigen::Index k) {

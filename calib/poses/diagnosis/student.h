@@ -19,7 +19,7 @@ struct StudentFit {
 StudentFit FitStudent(const Eigen::VectorXd& r, int width, double nu);
 
 // Of the estimates' covariance over s^2 (J'WJ)^-1, for independent errors of
-// this kind (Huber 1981, 6.5) and so many unknowns.
+// this kind (Huber 1981, 7.6) and so many unknowns.
 double StudentVarianceFactor(const Eigen::VectorXd& r, int width, double nu,
                              const StudentFit& fit, double unknowns);
 

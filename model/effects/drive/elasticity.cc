@@ -25,9 +25,9 @@ double Stiffening(const EffectSite& site, const Eigen::VectorXd& p) {
 
 // Motor and link on a spring and a damper (Spong 1987): the link lags its motor
 // by compliance times the load, and rings. `damping_ratio` is of the mode with
-// the motor held. Gears stiffen as they wind up (harmonic drives to about twice
-// their stiffness: Tuttle and Seering 1996), so that large oscillations are
-// faster than small ones. A simulation needs an armature of the joint.
+// the motor held. Gears stiffen as they wind up (harmonic drives: Tuttle and
+// Seering 1996), so that large oscillations are faster than small ones. A
+// simulation needs an armature of the joint.
 Effect Elasticity() {
   Effect effect;
   effect.name = "elasticity";
