@@ -203,6 +203,7 @@ std::string Findings(const GapDiagnosis& diagnosis) {
   std::string touched;
   std::vector<std::string> names;
   double least = 1;
+  bool terms_alone = true;  // which the refit has as well
   for (const FoundEffect& found : diagnosis.effects) {
     // FrictionChanged() and the data's findings say so.
     if (found.of_another_day || found.of_the_stamps) continue;
@@ -213,6 +214,7 @@ std::string Findings(const GapDiagnosis& diagnosis) {
     } else {
       names.push_back(Named(*found.effect, found.joint, diagnosis));
       least = std::min(least, found.probability);
+      terms_alone &= found.fitted.empty();
     }
   }
   if (names.empty()) return touched;
@@ -220,6 +222,14 @@ std::string Findings(const GapDiagnosis& diagnosis) {
                      std::string(" model ") + Lacks(least) + " " + names[0];
   for (size_t k = 1; k < names.size(); ++k) {
     text += (k + 1 < names.size() ? ", " : " and ") + names[k];
+  }
+  if (terms_alone) {
+    const double less = diagnosis.torque.removed_from_nominal_percent;
+    if (!(less >= .5)) return text;
+    return text + Format(
+                      "; refitted with it, %.0f %% of the file's gap is gone "
+                      "on data not used for choosing",
+                      less);
   }
   const double removed = diagnosis.torque.removed_percent;
   if (!std::isfinite(removed)) return text;

@@ -29,6 +29,7 @@ ScoreCovariance::ScoreCovariance(int size, int window, const MatrixXd& gain)
       sum_(VectorXd::Zero(size)),
       squares_(MatrixXd::Zero(size, size)) {
   if (gain.size() == 0) return;
+  stride_ = std::max(1, window_ / kNumOffsets);
   gain_ = MatrixXd::Zero(Whole(size), size);
   gain_.topRows(size) = gain.transpose();
 }
@@ -62,6 +63,14 @@ void ScoreCovariance::AccumulateWindow() {
   squares_.noalias() += sum * sum.transpose();
 }
 
+// A product of scores a lag l apart lies in window - l windows, of which every
+// stride-th counts stride times.
+void ScoreCovariance::VisitWindow() {
+  if (--until_ > 0) return;
+  until_ = stride_;
+  AccumulateWindow();
+}
+
 // Puts the score's equations behind those of the others.
 void ScoreCovariance::Put(const Score& score) {
   const Index n = score.C.rows(), size = sum_.size();
@@ -89,7 +98,7 @@ void ScoreCovariance::Add(const Score& score) {
   if (gain_.size() > 0) Put(score);
   recent_.push_back(score.value);
   sum_ += score.value;
-  AccumulateWindow();
+  VisitWindow();
 }
 
 // Ends a series. Sums over its beginning and end, shorter than the window,
@@ -98,17 +107,17 @@ void ScoreCovariance::Add(const Score& score) {
 void ScoreCovariance::Break() {
   // A series shorter than the window lies in so many windows as a whole.
   const int room = window_ - static_cast<int>(recent_.size());
-  for (int k = 0; k < room && !recent_.empty(); ++k) AccumulateWindow();
+  for (int k = 0; k < room && !recent_.empty(); ++k) VisitWindow();
   while (!recent_.empty()) {
     DropOldest();
-    if (!recent_.empty()) AccumulateWindow();
+    if (!recent_.empty()) VisitWindow();
   }
   sum_.setZero();
 }
 
 MatrixXd ScoreCovariance::Value() {
   Break();
-  return squares_ / window_;
+  return squares_ * stride_ / window_;
 }
 
 // Andrews (1991, Econometrica 59), section 6, for a first-order autoregression
