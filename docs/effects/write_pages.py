@@ -147,8 +147,12 @@ def page(name, text, figures_of, others, names):
         kin(name, others, names), "",
         "## How well it is recognised", "", recognised(name, figures_of), "",
         "## In simulators", "", simulators(name, text), "",
-        f"Try it: `armcal simulate --robot=data/six_axis/real.yaml --effects=\""
-        f"{text['inject']}\" --out=run`. [All effects](README.md)", ""]
+        f"Try it: `armcal simulate --robot=data/six_axis/real.yaml --run=1 --effects=\""
+        f"{text['inject']}\" --out=after`. Without a log from before, a diagnosis may take it for "
+        "wrong numbers of the file. So write one, `armcal simulate "
+        "--robot=data/six_axis/real.yaml --out=before`, and ask `armcal diagnose "
+        "--robot=data/six_axis/real.yaml --reference=before/log.csv --log=after/log.csv`.",
+        "", "[All effects](README.md)", ""]
     out = []
     for line in lines:
         if line or (out and out[-1]):
