@@ -68,8 +68,9 @@ def source(keys):
 
 def recognised(name, figures_of):
     if figures_of is None:
-        return ("It is younger than the last evaluation that was told by effect (2026-11-21); "
-                "[EVALUATIONS](../../tests/blind/EVALUATIONS.md) has benches since.")
+        return (f"`{name}` was added after the last evaluation whose figures were kept by effect "
+                "(2026-11-21). [EVALUATIONS](../../tests/blind/EVALUATIONS.md) has those since, over "
+                "all effects.")
     seen, faint = figures_of["seen"], figures_of["faint"]
     text = (f"On the blind bench of 2026-11-21 (commit eaa5e611, simulated arms; the diagnosis has "
             f"changed since) `{name}` was named, on the right joint, in "
@@ -94,21 +95,21 @@ def needed(text):
     if "needs" not in text:
         return []
     size = text["needs"].removesuffix(" *")
-    line = (f"Size that just shows (ENR 0.32): {size}, in 40 s of rich motion "
-            "of a simulated six-axis arm with 1 % of torque noise and a file "
-            "that is 2 to 4 % off.")
+    line = (f"Size that just shows (ENR 0.32, see [all effects](README.md)): {size}, in 40 s of "
+            "rich motion of a simulated six-axis arm with 1 % of torque noise and a file that is 2 "
+            "to 4 % off (2026-11-21, commit 76f2321; no result file holds it).")
     if size != text["needs"]:
-        line += (" Here it is the file that limits, not the noise: the model's "
-                 "own numbers take smaller ones. A reference log lowers this in "
-                 "proportion.")
+        line += (" What limits it is the file's error and not the noise: smaller ones are taken up "
+                 "when the model's own numbers are fitted again. With a reference log, which tells "
+                 "these numbers better than the file, smaller ones show.")
     return ["", line]
 
 
 def kin(name, others, names):
     """What an ordinary motion does not tell it from."""
     if name not in others:
-        return ("No other effect of the catalogue was alike on an ordinary motion "
-                "(cosine below 0.95 on each of five arms).")
+        return ("No other effect leaves nearly the same torque on an ordinary motion (cosine below "
+                "0.95 on each of five simulated arms).")
     parts = []
     for other, arms in sorted(others[name].items()):
         text = f"[`{other}`]({other}.md)" if other in names else f"`{other}`"
@@ -117,23 +118,25 @@ def kin(name, others, names):
         elif other not in names:
             text += " (not in the catalogue)"
         parts.append(f"{text} ({', '.join(sorted(arms))})")
-    return ("Alike on an ordinary motion (cosine of at least 0.95 beside what "
-            "the model takes, on the arms named): " + "; ".join(parts) + ".")
+    return ("Nearly the same torque on an ordinary motion, after the model's own numbers were "
+            "fitted (cosine of at least 0.95, on the simulated arms named): " + "; ".join(parts) +
+            ".")
 
 
 def page(name, text, figures_of, others, names):
     joint = "the whole robot" if text.get("scope") == "robot" else "one joint"
     lines = [
         "<!-- Written by write_pages.py from effects.toml: change that. -->",
-        f"# {title(name)}", "", f"`{name}`, of {joint}.", "", "```",
+        f"# {title(name)}", "",
+        f"`{name}`, of {joint}. [All effects](README.md) explains the symbols.", "", "```",
         text["law"], "```", "", text["cause"], "",
         f"![What {name} leaves in the torque of a joint: against what orders "
         f"it, and over time]({name}.svg)", "",
         "## Parameters", "", *table(text.get("estimates",
                                              text["parameters"]))]
     if "estimates" in text:
-        lines += ["", "These are the estimates of diagnosis.json; effects.json "
-                  "has what `Apply` takes:", "", *table(text["parameters"])]
+        lines += ["", "These are the estimates of diagnosis.json; effects.json has the "
+                  "law's own parameters:", "", *table(text["parameters"])]
     lines += [
         "", "Units with a semicolon: of a revolute joint; of a prismatic one."
         if any(row.split("|")[1].strip() != row.split("|")[2].strip()
@@ -144,8 +147,12 @@ def page(name, text, figures_of, others, names):
         kin(name, others, names), "",
         "## How well it is recognised", "", recognised(name, figures_of), "",
         "## In simulators", "", simulators(name, text), "",
-        f"Try it: `armcal simulate --robot=data/six_axis/real.yaml --effects=\""
-        f"{text['inject']}\" --out=run`. [All effects](README.md)", ""]
+        f"Try it: `armcal simulate --robot=data/six_axis/real.yaml --run=1 --effects=\""
+        f"{text['inject']}\" --out=after`. Without a log from before, a diagnosis may take it for "
+        "wrong numbers of the file. So write one, `armcal simulate "
+        "--robot=data/six_axis/real.yaml --out=before`, and ask `armcal diagnose "
+        "--robot=data/six_axis/real.yaml --reference=before/log.csv --log=after/log.csv`.",
+        "", "[All effects](README.md)", ""]
     out = []
     for line in lines:
         if line or (out and out[-1]):
@@ -177,9 +184,10 @@ source for their loop ([how](../robot_files.md#laws-that-your-simulator-lacks)).
 "Clear" is an effect whose torque is at least 0.32 of the noise's after all that the model
 may vary has been fitted to it (ENR, [blind bench](../../tests/blind/README.md)); {hits} of
 {total}<!-- source: blind_eaa5e611 one --> were named with class and joint right in the evaluation of 2026-11-21 (commit
-eaa5e611, seed 1789257233), on five simulated arms, one fifth of them with poor motion. It is the last one whose
+eaa5e611, seed 1789257233), on five simulated arms, with poor motion in one fifth of the cases. It is the last one whose
 figures were kept by effect; the diagnosis has changed since ([accuracy](../accuracy.md#diagnosis)). Seven cases of an
-effect say little about that effect: 7 of 7 is 59 to 100 % (95 %).
+effect say little about that effect: the interval of 7 of 7 is 59 to 100 % (95 %). "Alike" are effects that leave nearly
+the same torque after the model's own numbers were fitted, on one of these arms or more.
 
 ## Which of them is mine
 

@@ -6,7 +6,7 @@ namespace armcal {
 inline namespace effects {
 
 // tau = -(sine sin(n q) + cosine cos(n q)) tanh(v / w): beside Coulomb
-// friction, spots n per radian that are tighter than others.
+// friction, n spots per 2 pi of the joint that are tighter than others.
 Effect PositionFriction() {
   Effect effect;
   effect.name = "position_friction";
