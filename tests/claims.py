@@ -261,7 +261,7 @@ def check_itself():
 
 def pages(root):
     for pattern in ("README.md", "CONTRIBUTING.md", "docs/*.md", "docs/effects/*.md",
-                    "tests/*/*.md"):
+                    "docs/tutorials/*.md", "tests/*/*.md"):
         yield from sorted(root.glob(pattern))
 
 
