@@ -2,10 +2,10 @@
 #include <cstdio>
 
 #include "calib/linear/calibration_report.h"
+#include "calib/linear/calibration_warnings.h"
 #include "calib/linear/error_density.h"
 #include "calib/linear/joint_figures.h"
 #include "calib/linear/outlier_report.h"
-#include "calib/linear/transition_bound.h"
 #include "calib/linear/verdict.h"
 #include "calib/numerics/json_figures.h"
 
@@ -224,7 +224,7 @@ json ToJson(const Robot& robot, const LinearCalibration& result) {
           {"parameters", ParametersJson(robot, result)},
           {"merged", result.parameters.merged()},
           {"verdict", VerdictJson(Shortcomings(robot, result))},
-          {"warnings", TransitionWarnings(robot, result)},
+          {"warnings", CalibrationWarnings(robot, result)},
           {"rank", RankJson(robot, result)},
           {"geometry", GeometryJson(result)},
           {"covariance", CovarianceJson(result)},

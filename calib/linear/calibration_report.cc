@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/linear/calibration_warnings.h"
 #include "calib/linear/outlier_report.h"
-#include "calib/linear/transition_bound.h"
 #include "calib/linear/verdict.h"
 #include "model/log_files/torque_columns.h"
 #include "model/text/format.h"
@@ -229,7 +229,7 @@ std::string EstimateText(const Robot& robot, const LinearCalibration& result) {
             ParameterTable(result);
   }
   text += "\n";
-  for (const std::string& sentence : TransitionWarnings(robot, result)) {
+  for (const std::string& sentence : CalibrationWarnings(robot, result)) {
     text += "warning    " + sentence + "\n";
   }
   if (result.solved) text += VerdictText(Shortcomings(robot, result));

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <vector>
 
 #include "calib/linear/transition_choice.h"
 #include "calib/numerics/json_value.h"
 #include "calib/refine/robot_parameters.h"
+#include "model/dynamics/drive_law.h"
 #include "model/dynamics/proximal_chain.h"
 #include "model/dynamics/robot_lengths.h"
 #include "model/text/input_error.h"
@@ -91,8 +93,10 @@ bool IsNotTheRobots(const std::string& name) {
     if (owner == other) return true;
   }
   const std::string term = name.substr(name.rfind('.') + 1);
-  return term == "kp" || term == "kd" || term == "ki" ||
-         term == "coulomb_width";
+  const std::vector<DriveParameter>& drive = DriveParameters();
+  return term == "coulomb_width" ||
+         std::any_of(drive.begin(), drive.end(),
+                     [&](const DriveParameter& p) { return term == p.name; });
 }
 
 // Sets one parameter. The prior must be the value of the robot file at hand: a

@@ -16,13 +16,14 @@ std::string PaddedCell(std::string text, size_t width) {
 
 constexpr size_t kValueWidth = 22;
 
-// "12.3 +- 0.4", or "12.3 (prior)" where the logs do not tell.
+// "12.3 +- 0.4", or "12.3 (not alone)" where the logs tell it only together
+// with others, or not at all: then the prior decides among what fits alike.
 std::string Value(const PhysicalParameter& p) {
   const std::string value = Format("%9.4g ", p.value);
   return PaddedCell(value + (p.held           ? "(held)"
                              : p.identifiable ? Format("+- %.2g", p.stddev)
                              : p.at_bound     ? "(bound)"
-                                              : "(prior)"),
+                                              : "(not alone)"),
                     kValueWidth);
 }
 
@@ -146,8 +147,8 @@ std::string CertaintyText(const NonlinearCalibration& result) {
   }
   std::string text = "\n" + std::to_string(identifiable) + " of " +
                      std::to_string(estimated) +
-                     " parameters determined by the data, the others by the "
-                     "file as far as it is trusted";
+                     " parameters determined by the data, the others only in "
+                     "sums with these, or by the file as far as it is trusted";
   const auto strong = StrongCorrelations(result);
   constexpr size_t kShown = 3;
   for (size_t k = 0; k < std::min(kShown, strong.size()); ++k) {

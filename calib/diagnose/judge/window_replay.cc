@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 constexpr double kLead = 1;  // s
 // Bristles forget within a millimetre of motion, springs and dampers in a part
 // of a second: what was that long ago makes no difference. Heat does.
-constexpr double kMemory = 10;  // s
+constexpr double kLedFor = 10;  // s
 constexpr double kStep = 1e-3;  // s, of the simulator, at most
 constexpr double kLost = 100;   // rad or m
 constexpr int kIterations = 4;  // of sensor maps, which are near the identity
@@ -86,7 +86,7 @@ class SegmentReplay {
 
   using Visit = std::function<void(int window, const ArmSimulator& start)>;
   // Simulators at the begin of each window, of several windows at a time.
-  // Ranges of windows are led to from kMemory before them, so that they can be
+  // Ranges of windows are led to from kLedFor before them, so that they can be
   // replayed side by side.
   void ForEachStart(const ReplayWindows& windows, const Visit& visit) const {
     std::vector<WindowRange> ranges = ListRanges(windows);
@@ -124,7 +124,7 @@ class SegmentReplay {
     int k = 0;
     if (!WarmsUp(robot_)) {
       k = std::max(0, windows.begin[range.first] -
-                          static_cast<int>(std::ceil(kMemory / dt_)));
+                          static_cast<int>(std::ceil(kLedFor / dt_)));
     }
     ArmSimulator simulator = Start(k, engine);
     for (size_t w = range.first; w < range.last; ++k) {

@@ -76,7 +76,7 @@ TEST(NonlinearReport, ColumnsLineUpWhateverTheNames) {
     const auto joints = Table(text, "  joint");
     ASSERT_EQ(joints.size(), 4u);
     for (size_t i = 1; i < joints.size(); ++i) {
-      // After the value of every column stands "+-" or "(prior)".
+      // After the value of every column stands "+-" or "(not alone)".
       size_t at = joints[0].find("viscous") + 8;
       EXPECT_EQ(joints[i].substr(at, 2), "+-");
       at = joints[0].find("coulomb") + 8;

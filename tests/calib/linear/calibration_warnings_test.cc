@@ -1,4 +1,4 @@
-#include "calib/linear/transition_bound.h"
+#include "calib/linear/calibration_warnings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include "tests/fixtures/calibrate_logs.h"
 #include "tests/fixtures/sample_robots.h"
 
-namespace armcal::transition_bound_test {
+namespace armcal::calibration_warnings_test {
 
 using testing::HasSubstr;
 
@@ -34,7 +34,7 @@ struct Arm {
 TEST(TransitionBound, IsWarnedAbout) {
   const Arm arm(1.);
   const LinearCalibration result = arm.Calibrate();
-  const auto warnings = TransitionWarnings(arm.robot, result);
+  const auto warnings = CalibrationWarnings(arm.robot, result);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_THAT(warnings[0], HasSubstr(arm.robot.links[1].joint.name +
                                      ": Coulomb friction changes sign over 0.3 "
@@ -47,7 +47,7 @@ TEST(TransitionBound, IsWarnedAbout) {
 TEST(TransitionBound, WidthsWithinTheGridAreNot) {
   const Arm arm(.1);
   const LinearCalibration result = arm.Calibrate();
-  EXPECT_TRUE(TransitionWarnings(arm.robot, result).empty());
+  EXPECT_TRUE(CalibrationWarnings(arm.robot, result).empty());
   EXPECT_TRUE(ToJson(arm.robot, result)["warnings"].empty());
 }
 
@@ -55,7 +55,39 @@ TEST(TransitionBound, NorAreThoseGiven) {
   Arm arm(1.);
   arm.options.transition =
       CoulombTransition{CoulombTransition::Law::kVelocity, .3};
-  EXPECT_TRUE(TransitionWarnings(arm.robot, arm.Calibrate()).empty());
+  EXPECT_TRUE(CalibrationWarnings(arm.robot, arm.Calibrate()).empty());
 }
 
-}  // namespace armcal::transition_bound_test
+// The same arm with white noise of the torque, and a log to hold out.
+struct NoisyArm : Arm {
+  NoisyArm() : Arm(.1) {
+    AddNoise(&random, Eigen::Vector2d(.1, .1), &logs[0].tau);
+  }
+  LinearCalibration Validate(double coulomb_of_the_first) {
+    Log other = RecordMotion(RandomMultisine(&random, 2, .5), 20, .002);
+    AddTorque(robot, &other);
+    AddCoulomb(0, coulomb_of_the_first,
+               {CoulombTransition::Law::kVelocity, .02}, &other);
+    AddCoulomb(1, 2, {CoulombTransition::Law::kVelocity, .1}, &other);
+    AddNoise(&random, Eigen::Vector2d(.1, .1), &other.tau);
+    return CalibrateLogs(robot, logs, options, false, {other});
+  }
+  std::mt19937_64 random{22};
+};
+
+TEST(HeldOut, IsWarnedAboutWhereFrictionIsAnother) {
+  NoisyArm arm;
+  const auto warnings = CalibrationWarnings(arm.robot, arm.Validate(3));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("held out, more than twice"));
+  EXPECT_THAT(warnings[0], HasSubstr(arm.robot.links[0].joint.name));
+  EXPECT_THAT(warnings[0],
+              testing::Not(HasSubstr(arm.robot.links[1].joint.name + " (")));
+}
+
+TEST(HeldOut, IsNotOfTheSameRobot) {
+  NoisyArm arm;
+  EXPECT_TRUE(CalibrationWarnings(arm.robot, arm.Validate(2)).empty());
+}
+
+}  // namespace armcal::calibration_warnings_test
