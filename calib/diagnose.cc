@@ -8,6 +8,7 @@
 #include "calib/diagnose/diagnosis.h"
 #include "calib/diagnose/modules/modules.h"
 #include "calib/diagnose/report.h"
+#include "calib/diagnose/sentence.h"
 #include "calib/log_clocks.h"
 #include "calib/logs/drawn_torques.h"
 #include "calib/reconstructed_torques.h"

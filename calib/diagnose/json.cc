@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "calib/diagnose/report.h"
+#include "calib/diagnose/sentence.h"
 #include "calib/numerics/json_figures.h"
 
 namespace armcal {

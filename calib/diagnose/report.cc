@@ -2,24 +2,16 @@
 
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
+#include "calib/diagnose/sentence.h"
 #include "model/log_files/torque_columns.h"
 #include "model/text/format.h"
 #include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
-
-// "payload", "stribeck on elbow".
-std::string Named(const Effect& effect, int joint,
-                  const GapDiagnosis& diagnosis) {
-  std::string text = effect.name;
-  for (char& c : text) {
-    if (c == '_') c = ' ';
-  }
-  if (joint >= 0) text += " on " + diagnosis.joints[joint].name;
-  return text;
-}
 
 // What nothing tells of is as it was: at 0, without a deviation. Numbers that
 // are chosen, not fitted, have none either.
@@ -28,26 +20,54 @@ std::string ValueText(double value, double stddev) {
   return value == 0 ? "not seen" : Format("%.3g", value);
 }
 
-// Of a FoundEffect or a ShownEffect.
+// Of a FoundEffect or a ShownEffect, with the separators that go between them.
 template <typename Found>
-std::string Estimates(const Found& found) {
-  std::string text;
+std::vector<std::string> EstimateTexts(const Found& found) {
+  std::vector<std::string> texts;
   for (size_t k = 0; k < found.estimates.size(); ++k) {
     const EffectEstimate& estimate = found.estimates[k];
     const bool unit =
         estimate.unit != "1" && (estimate.value != 0 || found.stddev[k] > 0);
-    text += (k ? ", " : "") + estimate.name + " " +
-            ValueText(estimate.value, found.stddev[k]) +
-            (unit ? " " + estimate.unit : "");
+    texts.push_back(estimate.name + " " +
+                    ValueText(estimate.value, found.stddev[k]) +
+                    (unit ? " " + estimate.unit : "") +
+                    (k + 1 < found.estimates.size() ? "," : ""));
+  }
+  return texts;
+}
+
+template <typename Found>
+std::string Estimates(const Found& found) {
+  std::string text;
+  for (const std::string& one : EstimateTexts(found)) {
+    text += (text.empty() ? "" : " ") + one;
   }
   return text;
 }
 
+// Items one after the other behind `line`, on further lines where a screen
+// ends.
+std::string Wrapped(std::string line, const std::vector<std::string>& items) {
+  constexpr size_t kScreen = 100;
+  const std::string indent(9, ' ');
+  std::string text;
+  for (const std::string& item : items) {
+    if (line.size() + 1 + item.size() > kScreen) {
+      text += line + "\n";
+      line = indent + item;
+    } else {
+      line += " " + item;
+    }
+  }
+  return text + line + "\n";
+}
+
 std::string EffectLines(const FoundEffect& found,
                         const GapDiagnosis& diagnosis) {
-  std::string text = Format("  %3.0f %%  ", 100 * found.probability) +
-                     Named(*found.effect, found.joint, diagnosis) + ": " +
-                     Estimates(found) + "\n";
+  std::string text =
+      Wrapped(Format("  %3.0f %%  ", 100 * found.probability) +
+                  NameOf(*found.effect, found.joint, diagnosis) + ":",
+              EstimateTexts(found));
   for (const Contact& contact : found.contacts) {
     const JointGap& joint = diagnosis.joints[contact.joint];
     text +=
@@ -60,7 +80,7 @@ std::string EffectLines(const FoundEffect& found,
   for (const PlacedEffect& other : found.equivalent) {
     if (other.probability < kWorthSaying) continue;
     text += Format("         or %.0f %% ", 100 * other.probability) +
-            Named(*other.effect, other.joint, diagnosis) + "\n";
+            NameOf(*other.effect, other.joint, diagnosis) + "\n";
   }
   if (!found.separate_by.empty()) {
     text += "         told apart by: " + found.separate_by + "\n";
@@ -74,7 +94,7 @@ std::string Unnamed(const GapDiagnosis& diagnosis) {
   std::string text = diagnosis.unnamed.empty() ? "" : "\nfitted, not named\n";
   for (const FoundEffect& found : diagnosis.unnamed) {
     text += Format("  %3.0f %%  ", 100 * found.probability) +
-            Named(*found.effect, found.joint, diagnosis);
+            NameOf(*found.effect, found.joint, diagnosis);
     if (found.removed_percent > 0) {
       text += Format(": would remove %.0f %% of what refitting leaves",
                      found.removed_percent);
@@ -192,58 +212,6 @@ std::string Simulated(const ForwardGap& forward) {
       gap.nominal, gap.refit, gap.after);
 }
 
-// What probabilities of effects are worth in words; "confident" is .8.
-const char* Lacks(double least_probability) {
-  if (least_probability >= .8) return "lacks";
-  return least_probability >= .5 ? "probably lacks" : "may lack";
-}
-
-// What happened, and what the model lacks.
-std::string Findings(const GapDiagnosis& diagnosis) {
-  std::string touched;
-  std::vector<std::string> names;
-  double least = 1;
-  bool terms_alone = true;  // which the refit has as well
-  for (const FoundEffect& found : diagnosis.effects) {
-    // FrictionChanged() and the data's findings say so.
-    if (found.of_another_day || found.of_the_stamps) continue;
-    const size_t times = found.contacts.size();
-    if (times > 0) {
-      touched = "Something touched the arm " +
-                (times == 1 ? "once" : std::to_string(times) + " times");
-    } else {
-      names.push_back(Named(*found.effect, found.joint, diagnosis));
-      least = std::min(least, found.probability);
-      terms_alone &= found.fitted.empty();
-    }
-  }
-  if (names.empty()) return touched;
-  std::string text = (touched.empty() ? "The" : touched + "; the") +
-                     std::string(" model ") + Lacks(least) + " " + names[0];
-  for (size_t k = 1; k < names.size(); ++k) {
-    text += (k + 1 < names.size() ? ", " : " and ") + names[k];
-  }
-  if (terms_alone) {
-    const double less = diagnosis.torque.removed_from_nominal_percent;
-    if (!(less >= .5)) return text;
-    return text + Format(
-                      "; refitted with it, %.0f %% of the file's gap is gone "
-                      "on data not used for choosing",
-                      less);
-  }
-  const double removed = diagnosis.torque.removed_percent;
-  if (!std::isfinite(removed)) return text;
-  if (removed < .5) {
-    return text +
-           ", which does not shrink the gap on data not used for "
-           "choosing";
-  }
-  return text + Format(
-                    ", which removes %.0f %% of the gap that refitting "
-                    "leaves on data not used for choosing",
-                    removed);
-}
-
 std::string Drifts(const std::vector<RunDrift>& drifts) {
   std::string text = drifts.empty() ? "" : "\nfrom log to log\n";
   for (const RunDrift& drift : drifts) {
@@ -255,86 +223,13 @@ std::string Drifts(const std::vector<RunDrift>& drifts) {
   return text;
 }
 
-// What changes are told since; empty: the robot file, since which nothing is.
-std::string Before(const GapDiagnosis& diagnosis) {
-  if (diagnosis.has_reference) return "the reference";
-  return diagnosis.has_calibration ? "the calibration" : "";
-}
-
 std::string MovedTitle(const GapDiagnosis& diagnosis) {
-  const std::string before = Before(diagnosis);
+  const std::string before = SinceWhat(diagnosis);
   return before.empty() ? "\nparameters far from the file's\n"
                         : "\nfriction that has changed since " + before + "\n";
 }
 
-// Friction that differs on several joints is one change, as temperature makes
-// it: "Friction has changed since the reference: elbow.viscous -20 %." Empty
-// where none has.
-std::string FrictionChanged(const GapDiagnosis& diagnosis) {
-  const std::string before = Before(diagnosis);
-  if (before.empty() || diagnosis.moved.empty()) return "";
-  std::string text = "Friction has changed since " + before + ": ";
-  for (size_t k = 0; k < diagnosis.moved.size(); ++k) {
-    const MovedParameter& moved = diagnosis.moved[k];
-    text += (k > 0 ? ", " : "") + moved.name;
-    text += moved.nominal != 0
-                ? Format(" %+.0f %%", 100 * (moved.value / moved.nominal - 1))
-                : Format(" %+.3g %s", moved.value, moved.unit.c_str());
-  }
-  return text + ".";
-}
-
-// What is left given friction that has changed.
-std::string BriefVerdict(const GapDiagnosis& diagnosis) {
-  constexpr double kNoisy = 2;  // times the noise's mean square
-  const bool nothing_named = diagnosis.verdict == GapVerdict::kNoiseFloor ||
-                             diagnosis.verdict == GapVerdict::kAbsorbed;
-  if (nothing_named && diagnosis.torque.refit > kNoisy) {
-    return Format(
-        "No known effect is seen, yet held-out torque is off by %.3g times the "
-        "noise's mean square: the noise may be louder than was told, or "
-        "something is missing that the fitted logs do not show.",
-        diagnosis.torque.refit);
-  }
-  switch (diagnosis.verdict) {
-    case GapVerdict::kNoiseFloor:
-      return "The model agrees with the log to within the noise.";
-    case GapVerdict::kAbsorbed:
-      return diagnosis.has_reference
-                 ? "Nothing but friction and timing has changed since the "
-                   "reference."
-                 : "Nothing is missing in the model but better values: "
-                   "refitting its parameters brings it down to the noise.";
-    case GapVerdict::kExplained:
-      return Findings(diagnosis) + ".";
-    case GapVerdict::kPartlyExplained:
-      return Findings(diagnosis) + "; something else is left.";
-    case GapVerdict::kUnknown:
-      return "Something real is missing that no known effect explains" +
-             (diagnosis.unexplained.joint.empty()
-                  ? std::string(".")
-                  : ": most of it on " + diagnosis.unexplained.joint +
-                        (diagnosis.unexplained.organised_by.empty()
-                             ? "."
-                             : ", ordered by its " +
-                                   diagnosis.unexplained.organised_by + "."));
-    case GapVerdict::kNotTestable:
-      return "These data cannot carry a diagnosis.";
-  }
-  return "";
-}
-
 }  // namespace
-
-std::string BriefReport(const GapDiagnosis& diagnosis) {
-  std::string text;
-  for (const DataFinding& finding : diagnosis.data) {
-    if (finding.leads) text += "First: " + finding.finding + ". ";
-  }
-  const std::string changed = FrictionChanged(diagnosis);
-  if (!changed.empty()) text += changed + " ";
-  return text + BriefVerdict(diagnosis);
-}
 
 std::string FullReport(const GapDiagnosis& diagnosis, bool verbose) {
   std::string text = BriefReport(diagnosis) + "\n";
@@ -355,7 +250,7 @@ std::string FullReport(const GapDiagnosis& diagnosis, bool verbose) {
   text += "  torque: " + ScaleText(diagnosis.torque_constants_stddev) + "\n";
   if (!diagnosis.shown.empty()) text += "\nthe reference itself shows\n";
   for (const ShownEffect& shown : diagnosis.shown) {
-    text += "  " + Named(*shown.effect, shown.joint, diagnosis) + ": " +
+    text += "  " + NameOf(*shown.effect, shown.joint, diagnosis) + ": " +
             Estimates(shown) + "\n";
   }
   if (!diagnosis.moved.empty()) text += MovedTitle(diagnosis);

@@ -7,8 +7,6 @@
 
 namespace armcal {
 
-// The sentence a colleague would want to read.
-std::string BriefReport(const GapDiagnosis& diagnosis);
 // Verdict, where, which, how far; for a terminal. `verbose`: with the list of
 // what is not testable, however long.
 std::string FullReport(const GapDiagnosis& diagnosis, bool verbose);

@@ -181,11 +181,7 @@ bool ArmFit::Start(const LinkEquations& torques, ArmValues* values) const {
                  trust_.inertia, ranges, x);
   if (!start) return false;
   values->links = start->head(values->links.size());
-  for (int t = 0; t < values->terms.size(); ++t) {
-    // What is held comes back rounded: an armature of -8e-24 for 0.
-    if (ranges[t] == TermRange::kHeld) continue;
-    values->terms[t] = start->tail(values->terms.size())[t];
-  }
+  values->terms = start->tail(values->terms.size());
   return true;
 }
 

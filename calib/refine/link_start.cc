@@ -187,7 +187,14 @@ std::optional<VectorXd> StartLinks(const MatrixXd& R, const VectorXd& z,
     if (weight == last && promised < 1e-8) break;
     if (promised < weight) weight = std::max(last, 0.1 * weight);
   }
-  return interior.x();
+  VectorXd end = interior.x();
+  const Eigen::Index first = x.size() - static_cast<Eigen::Index>(terms.size());
+  for (size_t t = 0; t < terms.size(); ++t) {
+    // What is held was stiff, not fixed: an armature of 0 is -8e-24.
+    const Eigen::Index k = first + static_cast<Eigen::Index>(t);
+    if (terms[t] == TermRange::kHeld) end[k] = x[k];
+  }
+  return end;
 }
 
 }  // namespace armcal

@@ -18,9 +18,9 @@ enum class TermRange { kFree, kPositive, kHeld };
 // CalibrateNonlinear, but in V, where it is convex. An interior-point method
 // (Newton; the links of the file are trusted less and less) that solves it from
 // any start, also where logs pull links to the boundary; positive terms stay a
-// ten thousandth of a standard deviation clear of 0. `x` holds the terms' start
-// values; its links and V_0 are those of the file, inside the boundary. Nothing
-// where numbers overflow.
+// ten thousandth of a standard deviation clear of 0, held ones are as they
+// were, exactly. `x` holds the terms' start values; its links and V_0 are those
+// of the file, inside the boundary. Nothing where numbers overflow.
 std::optional<Eigen::VectorXd> StartLinks(const Eigen::MatrixXd& R,
                                           const Eigen::VectorXd& z,
                                           double trust,

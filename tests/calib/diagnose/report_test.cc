@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calib/diagnose/sentence.h"
 #include "model/effects/effects.h"
 
 namespace armcal::report_test {
@@ -20,6 +21,7 @@ FoundEffect Found(const std::string& name, int joint) {
   found.estimates = {{"size", "N m", 1.25}, {"share", "1", .5}};
   found.stddev = {.04, .01};
   found.removed_percent = 40;
+  found.fitted = {0};
   return found;
 }
 
@@ -80,6 +82,30 @@ TEST(BriefReport, SaysHowSureItIs) {
   EXPECT_EQ(BriefReport(diagnosis),
             "The model may lack stribeck on elbow, which does not shrink the "
             "gap on data not used for choosing.");
+}
+
+// What the file gives no joint is in the refit, too: the file's gap is what it
+// shrinks.
+TEST(BriefReport, ComparesTermsThatAFileLacksWithTheFile) {
+  GapDiagnosis diagnosis = Diagnosis();
+  diagnosis.effects = {Found("coulomb_friction", -1)};
+  diagnosis.effects[0].fitted.clear();
+  diagnosis.torque.removed_percent = 0;
+  EXPECT_EQ(BriefReport(diagnosis),
+            "The model lacks coulomb friction; refitted with it, 95 % of the "
+            "file's gap is gone on data not used for choosing.");
+}
+
+// A list that is longer than a screen is wide goes on below.
+TEST(FullReport, WrapsLongListsOfEstimates) {
+  GapDiagnosis diagnosis = Diagnosis();
+  diagnosis.effects.resize(1);
+  FoundEffect& found = diagnosis.effects[0];
+  found.estimates.assign(7, {"shoulder.coulomb", "N m", 1.25});
+  found.stddev.assign(7, .1);
+  const std::string report = FullReport(diagnosis, false);
+  EXPECT_THAT(report, HasSubstr("shoulder.coulomb 1.25 +- 0.1 N m,\n"
+                                "         shoulder.coulomb 1.25 +- 0.1 N m,"));
 }
 
 FoundEffect Touched() {

@@ -176,8 +176,10 @@ TEST_F(ChangedCalibration, WhatIsNoRobotsIsLeft) {
       (*c)["parameters"].push_back(entry);
     });
   };
-  for (const char* name : {"target3.x", "point1.y", "plane2.a", "instrument1",
-                           "instrument.pitch", "wire.offset"}) {
+  for (const char* name :
+       {"target3.x", "point1.y", "plane2.a", "instrument1", "instrument.pitch",
+        "wire.offset", "joint1.kp", "joint1.position_gain",
+        "joint1.velocity_ki", "joint1.lag", "drive.delay"}) {
     EXPECT_EQ(refusal_with(name), "") << name;
   }
   for (const char* name : {"pointer.mass", "plane_1.viscous"}) {

@@ -1,0 +1,148 @@
+#include "calib/diagnose/sentence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "model/text/format.h"
+
+namespace armcal {
+namespace {
+
+// What probabilities of effects are worth in words; "confident" is .8.
+const char* Lacks(double least_probability) {
+  if (least_probability >= .8) return "lacks";
+  return least_probability >= .5 ? "probably lacks" : "may lack";
+}
+
+// What happened, and what the model lacks.
+std::string Findings(const GapDiagnosis& diagnosis) {
+  std::string touched;
+  std::vector<std::string> names;
+  double least = 1;
+  bool terms_alone = true;  // which the refit has as well
+  for (const FoundEffect& found : diagnosis.effects) {
+    // FrictionChanged() and the data's findings say so.
+    if (found.of_another_day || found.of_the_stamps) continue;
+    const size_t times = found.contacts.size();
+    if (times > 0) {
+      touched = "Something touched the arm " +
+                (times == 1 ? "once" : std::to_string(times) + " times");
+    } else {
+      names.push_back(NameOf(*found.effect, found.joint, diagnosis));
+      least = std::min(least, found.probability);
+      terms_alone &= found.fitted.empty();
+    }
+  }
+  if (names.empty()) return touched;
+  std::string text = (touched.empty() ? "The" : touched + "; the") +
+                     std::string(" model ") + Lacks(least) + " " + names[0];
+  for (size_t k = 1; k < names.size(); ++k) {
+    text += (k + 1 < names.size() ? ", " : " and ") + names[k];
+  }
+  if (terms_alone) {
+    const double less = diagnosis.torque.removed_from_nominal_percent;
+    if (!(less >= .5)) return text;
+    return text + Format(
+                      "; refitted with it, %.0f %% of the file's gap is gone "
+                      "on data not used for choosing",
+                      less);
+  }
+  const double removed = diagnosis.torque.removed_percent;
+  if (!std::isfinite(removed)) return text;
+  if (removed < .5) {
+    return text +
+           ", which does not shrink the gap on data not used for "
+           "choosing";
+  }
+  return text + Format(
+                    ", which removes %.0f %% of the gap that refitting "
+                    "leaves on data not used for choosing",
+                    removed);
+}
+
+// Friction that differs on several joints is one change, as temperature makes
+// it: "Friction has changed since the reference: elbow.viscous -20 %." Empty
+// where none has.
+std::string FrictionChanged(const GapDiagnosis& diagnosis) {
+  const std::string before = SinceWhat(diagnosis);
+  if (before.empty() || diagnosis.moved.empty()) return "";
+  std::string text = "Friction has changed since " + before + ": ";
+  for (size_t k = 0; k < diagnosis.moved.size(); ++k) {
+    const MovedParameter& moved = diagnosis.moved[k];
+    text += (k > 0 ? ", " : "") + moved.name;
+    text += moved.nominal != 0
+                ? Format(" %+.0f %%", 100 * (moved.value / moved.nominal - 1))
+                : Format(" %+.3g %s", moved.value, moved.unit.c_str());
+  }
+  return text + ".";
+}
+
+// What is left given friction that has changed.
+std::string BriefVerdict(const GapDiagnosis& diagnosis) {
+  constexpr double kNoisy = 2;  // times the noise's mean square
+  const bool nothing_named = diagnosis.verdict == GapVerdict::kNoiseFloor ||
+                             diagnosis.verdict == GapVerdict::kAbsorbed;
+  if (nothing_named && diagnosis.torque.refit > kNoisy) {
+    return Format(
+        "No known effect is seen, yet held-out torque is off by %.3g times the "
+        "noise's mean square: the noise may be louder than was told, or "
+        "something is missing that the fitted logs do not show.",
+        diagnosis.torque.refit);
+  }
+  switch (diagnosis.verdict) {
+    case GapVerdict::kNoiseFloor:
+      return "The model agrees with the log to within the noise.";
+    case GapVerdict::kAbsorbed:
+      return diagnosis.has_reference
+                 ? "Nothing but friction and timing has changed since the "
+                   "reference."
+                 : "Nothing is missing in the model but better values: "
+                   "refitting its parameters brings it down to the noise.";
+    case GapVerdict::kExplained:
+      return Findings(diagnosis) + ".";
+    case GapVerdict::kPartlyExplained:
+      return Findings(diagnosis) + "; something else is left.";
+    case GapVerdict::kUnknown:
+      return "Something real is missing that no known effect explains" +
+             (diagnosis.unexplained.joint.empty()
+                  ? std::string(".")
+                  : ": most of it on " + diagnosis.unexplained.joint +
+                        (diagnosis.unexplained.organised_by.empty()
+                             ? "."
+                             : ", ordered by its " +
+                                   diagnosis.unexplained.organised_by + "."));
+    case GapVerdict::kNotTestable:
+      return "These data cannot carry a diagnosis.";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string NameOf(const Effect& effect, int joint,
+                   const GapDiagnosis& diagnosis) {
+  std::string text = effect.name;
+  for (char& c : text) {
+    if (c == '_') c = ' ';
+  }
+  if (joint >= 0) text += " on " + diagnosis.joints[joint].name;
+  return text;
+}
+
+std::string SinceWhat(const GapDiagnosis& diagnosis) {
+  if (diagnosis.has_reference) return "the reference";
+  return diagnosis.has_calibration ? "the calibration" : "";
+}
+
+std::string BriefReport(const GapDiagnosis& diagnosis) {
+  std::string text;
+  for (const DataFinding& finding : diagnosis.data) {
+    if (finding.leads) text += "First: " + finding.finding + ". ";
+  }
+  const std::string changed = FrictionChanged(diagnosis);
+  if (!changed.empty()) text += changed + " ";
+  return text + BriefVerdict(diagnosis);
+}
+
+}  // namespace armcal
