@@ -44,9 +44,9 @@ std::string Findings(const GapDiagnosis& diagnosis) {
     const double less = diagnosis.torque.removed_from_nominal_percent;
     if (!(less >= .5)) return text;
     return text + Format(
-                      "; refitted with it, %.0f %% of the file's gap is gone "
+                      "; refitted with %s, %.0f %% of the file's gap is gone "
                       "on data not used for choosing",
-                      less);
+                      names.size() > 1 ? "them" : "it", less);
   }
   const double removed = diagnosis.torque.removed_percent;
   if (!std::isfinite(removed)) return text;
