@@ -102,7 +102,7 @@ void JacobianOfOne(benchmark::State& state) {
   size_t k = 0;
   for (auto _ : state) {
     const MotionColumns& at = motions[k];
-    kernels.differential_of_one(plan.chain(),
+    kernels.differential_of_one(plan.paths()[0].chain,
                                 {at.q.data(), at.qd.data(), at.qdd.data()}, 0,
                                 rows.data(), kJoints);
     G = jacobian.Torque(q[k], qd[k], qdd[k]);

@@ -137,8 +137,9 @@ void LinksOfOne(benchmark::State& state, const simd::Kernels* kernels) {
   for (auto _ : state) {
     const MotionColumns& motion = motions[s++ % motions.size()];
     kernels->differential_of_one(
-        plan.chain(), {motion.q.data(), motion.qd.data(), motion.qdd.data()}, 0,
-        rows.data(), n);
+        plan.paths()[0].chain,
+        {motion.q.data(), motion.qd.data(), motion.qdd.data()}, 0, rows.data(),
+        n);
     benchmark::ClobberMemory();
   }
   SetCounters(state, 1, kRegressorFlops);
