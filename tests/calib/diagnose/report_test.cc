@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "calib/diagnose/sentence.h"
-#include "model/effects/effects.h"
+#include "tests/calib/diagnose/sample_diagnosis.h"
 
 namespace armcal::report_test {
 
@@ -13,92 +13,9 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-FoundEffect Found(const std::string& name, int joint) {
-  FoundEffect found;
-  found.effect = FindEffect(name);
-  found.joint = joint;
-  found.probability = .9;
-  found.estimates = {{"size", "N m", 1.25}, {"share", "1", .5}};
-  found.stddev = {.04, .01};
-  found.removed_percent = 40;
-  found.fitted = {0};
-  return found;
-}
-
-// One of everything that a diagnosis can say.
-GapDiagnosis Diagnosis() {
-  GapDiagnosis diagnosis;
-  for (const char* name : {"shoulder", "elbow"}) {
-    JointGap joint;
-    joint.name = name;
-    joint.unit = "N m";
-    joint.nominal_rms = 4;
-    joint.refit_rms = 3;
-    joint.after_rms = 1;
-    joint.organised.by = "speed";
-    diagnosis.joints.push_back(joint);
-  }
-  diagnosis.verdict = GapVerdict::kExplained;
-  diagnosis.effects = {Found("stribeck", 1), Found("payload", -1)};
-  FoundEffect& first = diagnosis.effects[0];
-  first.equivalent = {{FindEffect("presliding"), 1, .08, 10}};
-  first.separate_by = "constant velocities";
-  diagnosis.candidates = {{first.effect, 1, .9, 30}};
-  diagnosis.moved = {{"forearm.mass", "kg", 2, 2.5, .1, 3}};
-  diagnosis.untestable = {{"backlash", "elbow", "the load never reverses"}};
-  diagnosis.data = {{"currents", "no torque column", "`torque_constants`"}};
-  diagnosis.torque.nominal = 12;
-  diagnosis.torque.refit = 9;
-  diagnosis.torque.after = 1.5;
-  diagnosis.torque.removed_percent = 93.4;
-  diagnosis.torque.removed_from_nominal_percent = 95;
-  diagnosis.bandwidth_hz = 8;
-  diagnosis.unexplained = {"elbow", "time", .1};
-  return diagnosis;
-}
-
-TEST(BriefReport, NamesWhatIsMissingAndHowMuchItMatters) {
-  GapDiagnosis diagnosis = Diagnosis();
-  EXPECT_EQ(BriefReport(diagnosis),
-            "The model lacks stribeck on elbow and payload, which removes 93 % "
-            "of the gap that refitting leaves on data not used for choosing.");
-  diagnosis.effects.push_back(Found("torque_ripple", 0));
-  diagnosis.verdict = GapVerdict::kPartlyExplained;
-  diagnosis.torque.removed_percent = std::nan("");
-  EXPECT_EQ(BriefReport(diagnosis),
-            "The model lacks stribeck on elbow, payload and torque ripple on "
-            "shoulder; something else is left.");
-}
-
-// Words are no surer than the probability, and no shrinking is claimed where
-// there is none.
-TEST(BriefReport, SaysHowSureItIs) {
-  GapDiagnosis diagnosis = Diagnosis();
-  diagnosis.effects.resize(1);
-  diagnosis.effects[0].probability = .6;
-  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("probably lacks stribeck"));
-  diagnosis.effects[0].probability = .3;
-  diagnosis.torque.removed_percent = -47;
-  EXPECT_EQ(BriefReport(diagnosis),
-            "The model may lack stribeck on elbow, which does not shrink the "
-            "gap on data not used for choosing.");
-}
-
-// What the file gives no joint is in the refit, too: the file's gap is what it
-// shrinks.
-TEST(BriefReport, ComparesTermsThatAFileLacksWithTheFile) {
-  GapDiagnosis diagnosis = Diagnosis();
-  diagnosis.effects = {Found("coulomb_friction", -1)};
-  diagnosis.effects[0].fitted.clear();
-  diagnosis.torque.removed_percent = 0;
-  EXPECT_EQ(BriefReport(diagnosis),
-            "The model lacks coulomb friction; refitted with it, 95 % of the "
-            "file's gap is gone on data not used for choosing.");
-}
-
 // A list that is longer than a screen is wide goes on below.
 TEST(FullReport, WrapsLongListsOfEstimates) {
-  GapDiagnosis diagnosis = Diagnosis();
+  GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.effects.resize(1);
   FoundEffect& found = diagnosis.effects[0];
   found.estimates.assign(7, {"shoulder.coulomb", "N m", 1.25});
@@ -108,28 +25,16 @@ TEST(FullReport, WrapsLongListsOfEstimates) {
                                 "         shoulder.coulomb 1.25 +- 0.1 N m,"));
 }
 
-FoundEffect Touched() {
-  FoundEffect found = Found("external_contact", -1);
-  Contact contact;
-  contact.window = {1, 2.5};
-  contact.time = 1.5;
-  contact.joint = 1;
-  contact.torque = Eigen::Vector2d(3, -40);
-  contact.stddev = Eigen::Vector2d(.5, 2);
-  found.contacts = {contact, contact};
-  return found;
-}
-
 TEST(Reports, ListContacts) {
-  GapDiagnosis diagnosis = Diagnosis();
+  GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.effects.resize(1);
-  diagnosis.effects.push_back(Touched());
+  diagnosis.effects.push_back(MakeTouched());
   EXPECT_THAT(BriefReport(diagnosis),
               HasSubstr("Something touched the arm 2 times; the model lacks "
                         "stribeck on elbow, which removes 93 %"));
   EXPECT_THAT(FullReport(diagnosis, true),
               HasSubstr("         1.0 to 2.5 s: -40 +- 2 N m on elbow\n"));
-  diagnosis.effects = {Touched()};
+  diagnosis.effects = {MakeTouched()};
   EXPECT_EQ(BriefReport(diagnosis), "Something touched the arm 2 times.");
   const json effect = ToJson(diagnosis)["effects"][0];
   EXPECT_EQ(effect["time_windows"][1][1], 2.5);
@@ -138,61 +43,8 @@ TEST(Reports, ListContacts) {
   EXPECT_TRUE(effect["contacts"][1]["force"].is_null());
 }
 
-TEST(BriefReport, SaysWhatItCannotName) {
-  GapDiagnosis diagnosis = Diagnosis();
-  diagnosis.effects.clear();
-  diagnosis.verdict = GapVerdict::kUnknown;
-  EXPECT_THAT(BriefReport(diagnosis),
-              HasSubstr("no known effect explains: most of it on elbow, "
-                        "ordered by its time."));
-  diagnosis.unexplained = {};
-  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("no known effect explains."));
-  const std::vector<std::pair<GapVerdict, std::string>> others = {
-      {GapVerdict::kNoiseFloor, "agrees with the log to within the noise"},
-      {GapVerdict::kAbsorbed, "better values"},
-      {GapVerdict::kNotTestable, "cannot carry a diagnosis"}};
-  diagnosis.torque.refit = 1;
-  for (const auto& [verdict, text] : others) {
-    diagnosis.verdict = verdict;
-    EXPECT_THAT(BriefReport(diagnosis), HasSubstr(text));
-  }
-}
-
-// Whatever the verdict.
-TEST(BriefReport, SaysFirstWhatFrictionHasChanged) {
-  GapDiagnosis diagnosis = Diagnosis();
-  diagnosis.has_reference = true;
-  diagnosis.moved = {{"elbow.viscous", "N m s/rad", 10, 8, .1, -2},
-                     {"wrist.coulomb", "N m", 0, .25, .01, 1}};
-  const std::string said =
-      "Friction has changed since the reference: elbow.viscous -20 %, "
-      "wrist.coulomb +0.25 N m. ";
-  EXPECT_EQ(BriefReport(diagnosis).rfind(said, 0), 0u)
-      << BriefReport(diagnosis);
-  diagnosis.effects.clear();
-  diagnosis.torque.refit = 1;
-  diagnosis.verdict = GapVerdict::kAbsorbed;
-  EXPECT_EQ(BriefReport(diagnosis).rfind(said, 0), 0u);
-  // Against a file it is the file that is wrong.
-  diagnosis.has_reference = false;
-  EXPECT_THAT(BriefReport(diagnosis), Not(HasSubstr("Friction has changed")));
-}
-
-TEST(BriefReport, DoesNotCallItNoiseWhereMoreIsLeft) {
-  GapDiagnosis diagnosis = Diagnosis();
-  diagnosis.effects.clear();
-  for (const GapVerdict verdict :
-       {GapVerdict::kNoiseFloor, GapVerdict::kAbsorbed}) {
-    diagnosis.verdict = verdict;
-    diagnosis.torque.refit = 49;
-    EXPECT_THAT(BriefReport(diagnosis), HasSubstr("off by 49 times"));
-    diagnosis.torque.refit = 1.9;
-    EXPECT_THAT(BriefReport(diagnosis), Not(HasSubstr("off by")));
-  }
-}
-
 TEST(FullReport, WhatNothingTellsOfIsNotSeen) {
-  GapDiagnosis diagnosis = Diagnosis();
+  GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.effects[0].estimates = {
       {"mass", "kg", .5}, {"com_z", "m", 0}, {"harmonic", "1", 2}};
   diagnosis.effects[0].stddev = {.01, 0, 0};
@@ -206,7 +58,7 @@ TEST(FullReport, WhatNothingTellsOfIsNotSeen) {
 }
 
 TEST(FullReport, HoldsEveryPart) {
-  const std::string text = FullReport(Diagnosis(), true);
+  const std::string text = FullReport(SampleDiagnosis(), true);
   for (const char* part :
        {"stribeck on elbow: size 1.25 +- 0.04 N m, share 0.5 +- 0.01\n",
         "or 8 % presliding on elbow", "told apart by: constant velocities",
@@ -218,7 +70,7 @@ TEST(FullReport, HoldsEveryPart) {
 }
 
 TEST(FullReport, SaysWhereNothingWasHeldOut) {
-  GapDiagnosis diagnosis = Diagnosis();
+  GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.torque = {};
   diagnosis.joints[0].refit_rms = std::nan("");
   const std::string text = FullReport(diagnosis, true);
@@ -239,7 +91,7 @@ TEST(FullReport, LeavesOutWhatThereIsNot) {
 
 // Effects that the same joints hide for the same reason stand in one line.
 TEST(FullReport, GathersWhatIsNotTestable) {
-  GapDiagnosis diagnosis = Diagnosis();
+  GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.untestable = {{"delay", "", "noise"},
                           {"spring", "elbow", "noise"},
                           {"spring", "wrist", "noise"},
@@ -252,7 +104,7 @@ TEST(FullReport, GathersWhatIsNotTestable) {
 // What many joints and effects have is a line, so that the answer stays on the
 // screen, unless asked for.
 TEST(FullReport, CountsWhatIsNotTestable) {
-  GapDiagnosis diagnosis = Diagnosis();
+  GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.untestable.clear();
   for (const char* effect : {"delay", "spring", "cable", "stribeck"}) {
     diagnosis.untestable.push_back({effect, "elbow", "noise"});
@@ -283,7 +135,7 @@ void ExpectKeys(const json& object, const std::string& numbers,
 }
 
 TEST(DiagnosisJson, HasTheDesignsKeys) {
-  const json all = ToJson(Diagnosis());
+  const json all = ToJson(SampleDiagnosis());
   ExpectKeys(all, "bandwidth_hz", "verdict sentence floor_source",
              "data effects candidates untestable absorbed");
   ExpectKeys(all["data"][0], "", "finding evidence flag", "");
@@ -307,7 +159,7 @@ TEST(DiagnosisJson, HasTheDesignsKeys) {
 }
 
 TEST(DiagnosisJson, HasTheValues) {
-  const json all = ToJson(Diagnosis());
+  const json all = ToJson(SampleDiagnosis());
   EXPECT_EQ(all["verdict"], "explained");
   EXPECT_EQ(all["effects"][0]["effect"], "stribeck");
   EXPECT_EQ(all["effects"][0]["joint"], "elbow");
@@ -321,7 +173,7 @@ TEST(DiagnosisJson, HasTheValues) {
 
 // Nothing can be removed: no number, and still JSON.
 TEST(DiagnosisJson, WhatIsNotANumberIsNull) {
-  GapDiagnosis diagnosis = Diagnosis();
+  GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.torque.removed_percent = std::nan("");
   const json all = json::parse(ToJson(diagnosis).dump());
   EXPECT_TRUE(all["gap"]["torque"]["removed_percent"].is_null());

@@ -1,0 +1,106 @@
+#include "calib/diagnose/sentence.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/calib/diagnose/sample_diagnosis.h"
+
+namespace armcal::sentence_test {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(BriefReport, NamesWhatIsMissingAndHowMuchItMatters) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  EXPECT_EQ(BriefReport(diagnosis),
+            "The model lacks stribeck on elbow and payload, which removes 93 % "
+            "of the gap that refitting leaves on data not used for choosing.");
+  diagnosis.effects.push_back(MakeFound("torque_ripple", 0));
+  diagnosis.verdict = GapVerdict::kPartlyExplained;
+  diagnosis.torque.removed_percent = std::nan("");
+  EXPECT_EQ(BriefReport(diagnosis),
+            "The model lacks stribeck on elbow, payload and torque ripple on "
+            "shoulder; something else is left.");
+}
+
+// Words are no surer than the probability, and no shrinking is claimed where
+// there is none.
+TEST(BriefReport, SaysHowSureItIs) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.resize(1);
+  diagnosis.effects[0].probability = .6;
+  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("probably lacks stribeck"));
+  diagnosis.effects[0].probability = .3;
+  diagnosis.torque.removed_percent = -47;
+  EXPECT_EQ(BriefReport(diagnosis),
+            "The model may lack stribeck on elbow, which does not shrink the "
+            "gap on data not used for choosing.");
+}
+
+// What the file gives no joint is in the refit, too: the file's gap is what it
+// shrinks.
+TEST(BriefReport, ComparesTermsThatAFileLacksWithTheFile) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects = {MakeFound("coulomb_friction", -1)};
+  diagnosis.effects[0].fitted.clear();
+  diagnosis.torque.removed_percent = 0;
+  EXPECT_EQ(BriefReport(diagnosis),
+            "The model lacks coulomb friction; refitted with it, 95 % of the "
+            "file's gap is gone on data not used for choosing.");
+}
+
+TEST(BriefReport, SaysWhatItCannotName) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.verdict = GapVerdict::kUnknown;
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr("no known effect explains: most of it on elbow, "
+                        "ordered by its time."));
+  diagnosis.unexplained = {};
+  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("no known effect explains."));
+  const std::vector<std::pair<GapVerdict, std::string>> others = {
+      {GapVerdict::kNoiseFloor, "agrees with the log to within the noise"},
+      {GapVerdict::kAbsorbed, "better values"},
+      {GapVerdict::kNotTestable, "cannot carry a diagnosis"}};
+  diagnosis.torque.refit = 1;
+  for (const auto& [verdict, text] : others) {
+    diagnosis.verdict = verdict;
+    EXPECT_THAT(BriefReport(diagnosis), HasSubstr(text));
+  }
+}
+
+// Whatever the verdict.
+TEST(BriefReport, SaysFirstWhatFrictionHasChanged) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.has_reference = true;
+  diagnosis.moved = {{"elbow.viscous", "N m s/rad", 10, 8, .1, -2},
+                     {"wrist.coulomb", "N m", 0, .25, .01, 1}};
+  const std::string said =
+      "Friction has changed since the reference: elbow.viscous -20 %, "
+      "wrist.coulomb +0.25 N m. ";
+  EXPECT_EQ(BriefReport(diagnosis).rfind(said, 0), 0u)
+      << BriefReport(diagnosis);
+  diagnosis.effects.clear();
+  diagnosis.torque.refit = 1;
+  diagnosis.verdict = GapVerdict::kAbsorbed;
+  EXPECT_EQ(BriefReport(diagnosis).rfind(said, 0), 0u);
+  // Against a file it is the file that is wrong.
+  diagnosis.has_reference = false;
+  EXPECT_THAT(BriefReport(diagnosis), Not(HasSubstr("Friction has changed")));
+}
+
+TEST(BriefReport, DoesNotCallItNoiseWhereMoreIsLeft) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  for (const GapVerdict verdict :
+       {GapVerdict::kNoiseFloor, GapVerdict::kAbsorbed}) {
+    diagnosis.verdict = verdict;
+    diagnosis.torque.refit = 49;
+    EXPECT_THAT(BriefReport(diagnosis), HasSubstr("off by 49 times"));
+    diagnosis.torque.refit = 1.9;
+    EXPECT_THAT(BriefReport(diagnosis), Not(HasSubstr("off by")));
+  }
+}
+
+}  // namespace armcal::sentence_test
