@@ -94,7 +94,7 @@ GOALS = [
     ("diagnosis screen of 60 s, 6 joints, whole catalogue, s",
      1, 1, lambda m: m["DiagnosisScreen"]),
     ("whole diagnosis with simulation-calibrated threshold, 2 cores, s",
-     20, 20, lambda m: m["Diagnosis/whole_s"]),
+     20, 5, lambda m: m["Diagnosis/whole_s"]),
 ]
 
 # (work, ours, theirs): the same on the same robot and states.

@@ -10,6 +10,7 @@
 #include <deque>
 #include <limits>
 
+#include "calib/diagnose/candidates/bounded_covariance.h"
 #include "calib/diagnose/candidates/coordinates.h"
 
 namespace armcal {
@@ -17,9 +18,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-using RowMajorMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int kMostIterations = 12;
 // Springs that are followed together: doubles in the widest register.
@@ -105,9 +103,19 @@ class ProjectedResidual : public ceres::CostFunction {
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     if (point.jacobian.size() == 0) Differentiate(&point);
     if (!point.jacobian.allFinite()) return false;
-    std::copy(point.jacobian.data(),
-              point.jacobian.data() + point.jacobian.size(), jacobians[0]);
+    const RowMajorMatrix held = HeldAtBounds(point);
+    std::copy(held.data(), held.data() + held.size(), jacobians[0]);
     return true;
+  }
+
+  // The residual and its slopes at a point, as if there were no bounds.
+  const VectorXd& ResidualAt(const VectorXd& u) const {
+    return Find(u).residual;
+  }
+  const RowMajorMatrix& SlopesAt(const VectorXd& u) const {
+    Point& point = Find(u);
+    if (point.jacobian.size() == 0) Differentiate(&point);
+    return point.jacobian;
   }
 
  private:
@@ -214,21 +222,19 @@ class ProjectedResidual : public ceres::CostFunction {
           (screen_.ResidualGiven(point->around[k]) - point->residual) *
           (1 / neighbours[k].step);
     }
-    HoldAtBounds(point);
   }
 
   // A parameter at its bound that would lower the cost only beyond it stays
   // there, so that the others' step is as if it were constant: the projected
   // Newton method (Bertsekas 1982). Ceres by itself takes the step of all and
   // moves it into the bounds, which may lead upwards however short it is.
-  void HoldAtBounds(Point* point) const {
-    for (size_t k = 0; k < coordinates_.size(); ++k) {
-      const auto column = point->jacobian.col(static_cast<int>(k));
-      const double slope = column.dot(point->residual);
-      if (coordinates_[k].IsHeld(point->u[static_cast<int>(k)], slope)) {
-        point->jacobian.col(static_cast<int>(k)).setZero();
-      }
+  RowMajorMatrix HeldAtBounds(const Point& point) const {
+    RowMajorMatrix jacobian = point.jacobian;
+    for (Eigen::Index k = 0; k < jacobian.cols(); ++k) {
+      const double slope = jacobian.col(k).dot(point.residual);
+      if (coordinates_[k].IsHeld(point.u[k], slope)) jacobian.col(k).setZero();
     }
+    return jacobian;
   }
 
   const GapScreen& screen_;
@@ -257,46 +263,6 @@ void SetBounds(const std::vector<Coordinate>& coordinates, double* u,
       problem->SetParameterUpperBound(u, index, c.Inverse(c.high));
     }
   }
-}
-
-// The covariance of the parameters in their own units: (J' J)^-1 of the
-// coordinates times their slopes on both sides (the delta method). Parameters
-// at their bound are told by the bound and not by the data, and those on which
-// nothing depends by nothing; both have no variance. A pseudoinverse covers
-// what is left without rank.
-MatrixXd CovarianceAt(const ceres::CostFunction& cost,
-                      const std::vector<Coordinate>& coordinates,
-                      const VectorXd& u) {
-  const int size = static_cast<int>(u.size());
-  VectorXd residual(cost.num_residuals());
-  RowMajorMatrix J(cost.num_residuals(), size);
-  const double* block = u.data();
-  double* jacobian = J.data();
-  MatrixXd covariance = MatrixXd::Zero(size, size);
-  if (!cost.Evaluate(&block, residual.data(), &jacobian)) return covariance;
-  std::vector<int> free;
-  for (int k = 0; k < size; ++k) {
-    if (!coordinates[k].AtBound(u[k]) && J.col(k).squaredNorm() > 0) {
-      free.push_back(k);
-    }
-  }
-  if (free.empty()) return covariance;
-  MatrixXd information(free.size(), free.size());
-  for (size_t a = 0; a < free.size(); ++a) {
-    for (size_t b = 0; b < free.size(); ++b) {
-      information(a, b) = J.col(free[a]).dot(J.col(free[b]));
-    }
-  }
-  const MatrixXd inverse =
-      information.completeOrthogonalDecomposition().pseudoInverse();
-  for (size_t a = 0; a < free.size(); ++a) {
-    for (size_t b = 0; b < free.size(); ++b) {
-      covariance(free[a], free[b]) = inverse(a, b) *
-                                     coordinates[free[a]].Slope(u[free[a]]) *
-                                     coordinates[free[b]].Slope(u[free[b]]);
-    }
-  }
-  return covariance;
 }
 
 // From coordinates to all parameters one after the other.
@@ -397,7 +363,9 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   ceres::Solve(options, &problem, &summary);
   refined.effects = cost->At(u);
   refined.covariance =
-      Spread(effects, coordinates, CovarianceAt(*cost, coordinates, u));
+      Spread(effects, coordinates,
+             BoundedCovariance(cost->SlopesAt(u), cost->ResidualAt(u),
+                               coordinates, u));
   refined.baseline = cost->BaselineAt(u);
   refined.delta_chi2 =
       screen.ResidualGiven(JointRows(screen.num_joints())).squaredNorm() -
