@@ -159,6 +159,7 @@ def calibrate(
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
+                         (simulate, --fix and --export need it)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -214,6 +215,7 @@ def verify(
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
+                         (simulate, --fix and --export need it)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -322,6 +324,7 @@ def diagnose(
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
+                         (simulate, --fix and --export need it)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -417,6 +420,7 @@ def simulate(
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
+                         (simulate, --fix and --export need it)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -537,6 +541,7 @@ def excite(
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
+                         (simulate, --fix and --export need it)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -584,6 +589,7 @@ def inspect(
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
+                         (simulate, --fix and --export need it)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -671,6 +677,7 @@ def reduce(
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
+                         (simulate, --fix and --export need it)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -695,6 +702,7 @@ def merge(
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
+                         (simulate, --fix and --export need it)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -746,6 +754,7 @@ def compare(
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: write none
+                         (simulate, --fix and --export need it)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
