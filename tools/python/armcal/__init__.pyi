@@ -158,8 +158,8 @@ def calibrate(
                          in
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
-                         (simulate, --fix and --export need it)
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -214,8 +214,8 @@ def verify(
                          /joint_states,effort:/torques
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
-                         (simulate, --fix and --export need it)
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -323,8 +323,8 @@ def diagnose(
                          effects.py, effects.c
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
-                         (simulate, --fix and --export need it)
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -419,8 +419,8 @@ def simulate(
     lost                 float: share of samples that are lost (default 0)
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
-                         (simulate, --fix and --export need it)
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -540,8 +540,8 @@ def excite(
                          /joint_states,effort:/torques
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
-                         (simulate, --fix and --export need it)
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -588,8 +588,8 @@ def inspect(
                          /joint_states,effort:/torques
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
-                         (simulate, --fix and --export need it)
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -676,8 +676,8 @@ def reduce(
                          trapezoid)
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
-                         (simulate, --fix and --export need it)
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -701,8 +701,8 @@ def merge(
     Options:
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
-                         (simulate, --fix and --export need it)
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -753,8 +753,8 @@ def compare(
                          /joint_states,effort:/torques
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
-                         (simulate, --fix and --export need it)
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
