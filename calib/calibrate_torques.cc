@@ -171,7 +171,7 @@ bool TorqueCalibrator::EstimateGains() {
   const LogSet payload(options_.payload->logs, currents, TimeRange());
   gains_ = EstimateDriveGains(robot_, options_.equations,
                               options_.payload->mass, bare, &payload);
-  summary_.report = DriveGainsReport(*gains_);
+  summary_.report = DriveGainsReport(*gains_, reading.torque_constants_stddev);
   if (gains_->solved) {
     reading.torque_constants = gains_->TorqueConstants();
     if (!reading.torque_constants_stddev) {

@@ -181,12 +181,17 @@ Summary WatchRun::Finish(const std::string& log) {
   Show(true);
   const WatchState state = watcher_->State();
   Summary summary;
-  summary.positive = changes_ == 0;
-  summary.brief = watcher_->learning()
-                      ? "the log ended before enough motion was seen to learn "
-                        "what is normal"
-                  : changes_ == 0 ? "nothing has changed"
-                                  : Format("%ld changes were told", changes_);
+  // What was not tested is no "nothing has changed".
+  summary.positive = changes_ == 0 && !watcher_->learning();
+  summary.brief =
+      watcher_->learning()
+          ? "the log ended before enough motion was seen to learn what is "
+            "normal, so nothing was tested; give a smaller " +
+                OptionName("learn") +
+                Format(" (it is %g s of motion) or a longer log",
+                       options_.learn_s)
+      : changes_ == 0 ? "nothing has changed"
+                      : Format("%ld changes were told", changes_);
   summary.report =
       Format("%.3f s in %ld rows, %ld skipped; delay of the filters %.0f ms\n",
              time_, rows_, skipped_, 1e3 * watcher_->delay());

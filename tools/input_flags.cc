@@ -59,7 +59,8 @@ DEFINE_string(loss, "auto",
 DEFINE_int32(threads, 0,
              "`N` that share the work; default: one per core. Results are the "
              "same for any number");
-DEFINE_string(out, "", "`DIR` for the result files; default: write none");
+DEFINE_string(out, "",
+              "`DIR` for the result files; default: none (simulate: needed)");
 
 namespace armcal {
 namespace {

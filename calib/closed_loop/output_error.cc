@@ -31,6 +31,14 @@ constexpr double kNearer = .1;
 constexpr double kFewWindow = 1;  // s
 constexpr int kFew = 4;           // one in so many
 constexpr double kNear = 1;
+// Linearised, a stable loop makes several times its encoders' noise of it;
+// where it makes a hundred times what is left, motions grow without bound, and
+// deviations by it mean nothing.
+constexpr double kStable = .01;
+constexpr char kUnstable[] =
+    "the simulated loop is unstable with this robot file's numbers and this "
+    "controller's gains: give its joints their friction and armature, or look "
+    "whether the gains are too high";
 
 LoopValues FilesValues(const Robot& robot, const ControllerOptions& controller,
                        const OutputErrorOptions& options) {
@@ -65,8 +73,7 @@ class Calibrator {
     run_ = windows_.Simulate(files_);
     result_.positions.nominal = windows_.ResidualRms(run_);
     if (!run_.finite) {
-      result_.arm.reason =
-          "the loop of the robot file's arm and this controller is not stable";
+      result_.arm.reason = kUnstable;
       return result_;
     }
     if (torques_ != nullptr && !torques_->reason.empty()) {
@@ -203,6 +210,17 @@ void Calibrator::Report() {
       windows_.Scores(result_.values, *columns_, run_, equations_);
   const double excess = scores.residual_squares / scores.expected_squares;
   result_.model_error = std::sqrt(excess);
+  const PositionFigures& positions = result_.positions;
+  const bool off =
+      (positions.calibrated.array() > positions.noise.array()).any();
+  if (off && !(std::isfinite(scores.expected_squares) &&
+               result_.model_error >= kStable)) {
+    result_.values = files_;
+    result_.arm.robot = files_.arm.robot;
+    result_.arm.solved = false;
+    result_.arm.reason = kUnstable;
+    return;
+  }
   const MatrixXd by_torque = fit_->TorqueRows();
   MatrixXd data(equations_.R.rows() + by_torque.rows(), by_torque.cols());
   data << equations_.R, by_torque;

@@ -61,6 +61,25 @@ json JointsJson(const Robot& robot, const OutputErrorCalibration& result) {
   return joints;
 }
 
+// Why less is left than the encoders' noise makes. What is left holds that
+// noise itself: where it is less than the noise, the noise was told too large,
+// as by stamps that jitter, and nothing can be said of the loops.
+std::string NoiseText(const OutputErrorCalibration& result) {
+  constexpr double kShaken = .5, kOfNoise = .8;
+  if (!(result.model_error < kShaken)) return "";
+  const PositionFigures& positions = result.positions;
+  const double left = std::sqrt(
+      positions.calibrated.cwiseQuotient(positions.noise).squaredNorm() /
+      static_cast<double>(positions.noise.size()));
+  return left < kOfNoise
+             ? "what is left is less than the encoder noise that the log seems "
+               "to have: stamps that jitter, or rows far apart, look like such "
+               "noise\n"
+             : "the loops are near instability: linearised, they amplify "
+               "encoder noise more than the arm was shaken; friction may be "
+               "further off than its deviation says\n";
+}
+
 }  // namespace
 
 std::vector<std::string> Shortcomings(const OutputErrorCalibration& result) {
@@ -93,20 +112,15 @@ std::string OutputErrorReport(const Robot& robot,
     const std::string held_out = positions.validation.size() > 0 && solved
                                      ? Format("%.3g", positions.validation[j])
                                      : "-";
-    text +=
-        Format("  %-38s %11.3g %11.3g %11s %11.3g %s\n", joint.name.c_str(),
-               positions.nominal[j], solved ? positions.calibrated[j] : NAN,
-               held_out.c_str(), positions.noise[j], PositionUnit(joint.type));
+    const std::string estimate =
+        solved ? Format("%.3g", positions.calibrated[j]) : "-";
+    text += Format("  %-38s %11.3g %11s %11s %11.3g %s\n", joint.name.c_str(),
+                   positions.nominal[j], estimate.c_str(), held_out.c_str(),
+                   positions.noise[j], PositionUnit(joint.type));
   }
   if (solved) {
-    constexpr double kShaken = .5;
-    if (result.model_error < kShaken) {
-      text +=
-          "the loops are near instability: linearised, they amplify encoder "
-          "noise more than the arm was shaken; friction may be further off "
-          "than its deviation says\n";
-    }
     text +=
+        NoiseText(result) +
         Format("residuals are %.2f times what encoder noise makes of them\n",
                result.model_error) +
         "\nestimated                       robot file       estimate\n";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/numerics/json_figures.h"
+#include "calib/numerics/readable_sum.h"
 #include "model/text/format.h"
 #include "model/text/input_text.h"
 
@@ -43,7 +44,7 @@ std::string Table(const ComparedPair& pair) {
       (Letter(pair.b) + " - " + Letter(pair.a) + ", deviations").c_str());
   for (size_t k = 0; k < shown; ++k) {
     const ValueDifference& d = sorted[k];
-    text += Format("  %-30s %-22s %-22s ", d.name.c_str(),
+    text += Format("  %-30s %-22s %-22s ", ReadableSum(d.name).c_str(),
                    WithStddev(d.a, d.a_stddev).c_str(),
                    WithStddev(d.b, d.b_stddev).c_str());
     text += std::isnan(d.deviations)

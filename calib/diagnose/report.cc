@@ -106,9 +106,10 @@ std::string Unnamed(const GapDiagnosis& diagnosis) {
   return text;
 }
 
-// What was not held out has no figure.
+// What was not held out has no figure, and no loop that runs away.
 std::string FigureText(double x) {
-  return std::isnan(x) ? "-" : Format("%.3g", x);
+  if (std::isnan(x)) return "-";
+  return std::isinf(x) ? "diverges" : Format("%.3g", x);
 }
 
 std::string WhereTable(const GapDiagnosis& diagnosis) {
@@ -148,14 +149,19 @@ std::string Interval(const double* ci95) {
              : "the noise is not known well enough for an interval";
 }
 
+// "nominal 10.3, refitted diverges, with the effects 1.02".
+std::string ThreeGaps(const GapFigures& gap) {
+  return "nominal " + FigureText(gap.nominal) + ", refitted " +
+         FigureText(gap.refit) + ", with the effects " + FigureText(gap.after);
+}
+
 std::string HowFar(const GapFigures& gap) {
   if (!gap.known()) {
     return "\nnothing was held out: how far the gap shrinks is not known\n";
   }
-  std::string text = Format(
-      "\nheld-out gap, mean square over the noise's: nominal %.3g, "
-      "refitted %.3g, with the effects %.3g, noise 1\n",
-      gap.nominal, gap.refit, gap.after);
+  std::string text =
+      "\nheld-out gap, mean square over the noise's: " + ThreeGaps(gap) +
+      ", noise 1\n";
   if (gap.refit > gap.nominal) {
     text +=
         "  refitting the file's parameters does worse here than the file: "
@@ -204,12 +210,10 @@ std::string Untestable(const std::vector<UntestableEffect>& effects,
 }
 
 std::string Simulated(const ForwardGap& forward) {
-  const GapFigures& gap = forward.figures;
-  return Format(
-      "\nsimulated %s, mean square of positions over the noise's: nominal "
-      "%.3g, refitted %.3g, with the effects %.3g\n",
-      forward.closed_loop ? "along the command" : "over windows of 0.5 s",
-      gap.nominal, gap.refit, gap.after);
+  return Format("\nsimulated %s, mean square of positions over the noise's: ",
+                forward.closed_loop ? "along the command"
+                                    : "over windows of 0.5 s") +
+         ThreeGaps(forward.figures) + "\n";
 }
 
 std::string Drifts(const std::vector<RunDrift>& drifts) {

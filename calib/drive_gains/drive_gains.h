@@ -42,7 +42,9 @@ struct DriveGains {
 
   // One per joint; CHECKs `solved`.
   std::vector<double> TorqueConstants() const;
-  // Of the gain that is known least well; CHECKs `solved`.
+  // The gain that is known least well, and its relative standard deviation;
+  // CHECK `solved`.
+  int LeastCertain() const;
   double LargestRelativeStddev() const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -156,13 +157,21 @@ std::vector<double> DriveGains::TorqueConstants() const {
   return constants;
 }
 
-double DriveGains::LargestRelativeStddev() const {
+int DriveGains::LeastCertain() const {
   CHECK(solved);
-  double largest = 0;
-  for (const DriveGain& gain : gains) {
-    largest = std::max(largest, gain.stddev / std::abs(gain.value));
-  }
-  return largest;
+  const auto relative = [](const DriveGain& gain) {
+    return gain.stddev / std::abs(gain.value);
+  };
+  const auto least = std::max_element(
+      gains.begin(), gains.end(), [&](const DriveGain& a, const DriveGain& b) {
+        return relative(a) < relative(b);
+      });
+  return static_cast<int>(least - gains.begin());
+}
+
+double DriveGains::LargestRelativeStddev() const {
+  const DriveGain& gain = gains[LeastCertain()];
+  return gain.stddev / std::abs(gain.value);
 }
 
 DriveGains EstimateDriveGains(const Robot& robot,

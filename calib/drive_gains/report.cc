@@ -4,6 +4,7 @@
 
 #include "calib/numerics/json_figures.h"
 #include "model/text/format.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -29,9 +30,33 @@ std::string PayloadText(const DriveGains& result) {
   return text + " in the last link's frame\n";
 }
 
+// What the calibration that follows makes of the constants' deviations.
+std::string AllowanceText(const DriveGains& result,
+                          std::optional<double> given) {
+  const std::string option = OptionName("torque_constants_stddev");
+  if (given == 0.) {
+    return "  what follows takes these constants for exact (" + option +
+           " is 0)\n\n";
+  }
+  if (given) {
+    return Format(
+               "  what follows allows each joint's torque an error of %.3g "
+               "%% (",
+               100 * *given) +
+           option + ")\n\n";
+  }
+  return Format(
+             "  what follows allows each joint's torque an error of %.3g "
+             "%%, that of the least certain constant (%s); ",
+             100 * result.LargestRelativeStddev(),
+             result.gains[result.LeastCertain()].name.c_str()) +
+         option + " says otherwise\n\n";
+}
+
 }  // namespace
 
-std::string DriveGainsReport(const DriveGains& result) {
+std::string DriveGainsReport(const DriveGains& result,
+                             std::optional<double> given_stddev) {
   size_t width = 20;
   for (const DriveGain& gain : result.gains) {
     width = std::max(width, gain.name.size());
@@ -45,9 +70,8 @@ std::string DriveGainsReport(const DriveGains& result) {
   if (!result.covariance_method.empty()) {
     text += "  standard deviations: " + result.covariance_method + "\n";
   }
-  text += result.solved ? "  what follows takes these constants for exact\n\n"
-                        : "\nnot calibrated: " + result.reason + "\n";
-  return text;
+  return text + (result.solved ? AllowanceText(result, given_stddev)
+                               : "\nnot calibrated: " + result.reason + "\n");
 }
 
 void AddDriveGains(const DriveGains& result, json* calibration) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "calib/numerics/json_figures.h"
+#include "calib/numerics/readable_sum.h"
 #include "model/text/calendar_time.h"
 #include "model/text/format.h"
 
@@ -47,7 +48,7 @@ std::string OutlierText(const LinearCalibration& pooled,
     text += Format(
         "  %-16s %-28s %+.4g %s from the fleet's %.4g, +- %.2g; "
         "%.1f sigma\n",
-        fleet.units[o.unit].c_str(), p.name.c_str(), o.deviation,
+        fleet.units[o.unit].c_str(), ReadableSum(p.name).c_str(), o.deviation,
         p.unit.c_str(), fit.mean[o.parameter], o.stddev, o.sigmas);
   }
   return text;
@@ -59,10 +60,10 @@ std::string DriftText(const LinearCalibration& pooled, const FleetFit& fit) {
   for (size_t k = 0; k < fit.drifts.size(); ++k) {
     if (!fit.drifts[k]) continue;
     const ModelParameter& p = pooled.parameters.parameters()[k];
-    text +=
-        Format("drift      %s by %+.3g +- %.2g %s a day; %.1f sigma\n",
-               p.name.c_str(), kDay * fit.drift[k], kDay * fit.drift_stddev[k],
-               p.unit.c_str(), std::abs(fit.drift[k]) / fit.drift_stddev[k]);
+    text += Format("drift      %s by %+.3g +- %.2g %s a day; %.1f sigma\n",
+                   ReadableSum(p.name).c_str(), kDay * fit.drift[k],
+                   kDay * fit.drift_stddev[k], p.unit.c_str(),
+                   std::abs(fit.drift[k]) / fit.drift_stddev[k]);
   }
   return text.empty() ? "nothing drifts\n" : text;
 }
@@ -130,7 +131,7 @@ std::string FleetText(const Robot& robot, const LinearCalibration& pooled,
       "\n%-36s fleet (standard error)      spread of units\n", "parameter");
   for (int k = 0; k < pooled.parameters.size(); ++k) {
     const ModelParameter& p = pooled.parameters.parameters()[k];
-    text += Format("  %-30s ", p.name.c_str());
+    text += Format("  %-30s ", ReadableSum(p.name).c_str());
     text += fit.seen[k] ? Format("%11.5g +- %-9.3g %12.3g ", fit.mean[k],
                                  fit.mean_stddev[k], fit.spread[k]) +
                               p.unit + "\n"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/inspect/held_out_fit.h"
+#include "calib/inspect/position_unit.h"
 #include "calib/inspect/reading_text.h"
 #include "calib/inspect/torque_unit.h"
 #include "calib/inspect/unsigned_torque.h"
@@ -66,10 +67,23 @@ class Inspector {
                       return f.finding == "stuck" || f.finding == "no_torque";
                     });
     if (result_.stamps.mean_step > 0 && !stuck) ReadTorques();
+    if (result_.reading.degrees) TakeDegrees();
     return result_;
   }
 
  private:
+  // The cause before what follows from it, and the motion's figures in rad.
+  void TakeDegrees() {
+    result_.velocity_as_it_is =
+        PutPositionUnitFirst(robot_, log_, result_.stamps, &result_.findings);
+    for (VectorXd* figure :
+         {&result_.travel, &result_.top_speed, &result_.tracking_rms}) {
+      for (int j = 0; j < figure->size(); ++j) {
+        if (IsRotational(robot_.links[j].joint.type)) (*figure)[j] *= kDegree;
+      }
+    }
+  }
+
   void DescribeMotion() {
     result_.travel = log_.q.colwise().maxCoeff() - log_.q.colwise().minCoeff();
     if (log_.qref.size() == 0) return;
@@ -243,13 +257,20 @@ Log Mended(const Robot& robot, const Log& log,
   const LogReading& reading = inspection.reading;
   for (int j = 0; j < robot.num_joints(); ++j) {
     const int from = reading.wiring.column[j];
-    double sign = reading.wiring.position_sign[j];
-    if (reading.degrees && IsRotational(robot.links[j].joint.type)) {
-      sign *= kDegree;
+    const double sign = reading.wiring.position_sign[j];
+    const double unit =
+        reading.degrees && IsRotational(robot.links[j].joint.type) ? kDegree
+                                                                   : 1;
+    const bool as_it_is = !inspection.velocity_as_it_is.empty() &&
+                          inspection.velocity_as_it_is[from];
+    const double of_velocity = as_it_is ? 1 : unit;
+    mended.q.col(j) = sign * unit * log.q.col(from);
+    if (log.qd.size() > 0) {
+      mended.qd.col(j) = sign * of_velocity * log.qd.col(from);
     }
-    mended.q.col(j) = sign * log.q.col(from);
-    if (log.qd.size() > 0) mended.qd.col(j) = sign * log.qd.col(from);
-    if (log.qref.size() > 0) mended.qref.col(j) = sign * log.qref.col(from);
+    if (log.qref.size() > 0) {
+      mended.qref.col(j) = sign * unit * log.qref.col(from);
+    }
     if (log.tau.size() == 0) continue;
     mended.tau.col(j) = reading.wiring.torque_sign[j] * log.tau.col(from);
   }

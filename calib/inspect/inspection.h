@@ -37,6 +37,8 @@ struct LogInspection {
   std::vector<InspectionFinding> findings;
   bool as_it_is = false;  // its torques fit the robot best as logged
   LogReading reading;
+  // Per joint, where positions are in degrees: its velocity is in rad/s.
+  std::vector<bool> velocity_as_it_is;
   LogCoverage coverage;  // CoverageOf, where asked for
   LogDrawing drawing;    // where bins are asked for
 

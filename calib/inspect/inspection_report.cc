@@ -1,5 +1,6 @@
 #include "calib/inspect/inspection_report.h"
 
+#include "calib/inspect/robot_audit.h"
 #include "calib/inspect/robot_description.h"
 #include "calib/numerics/json_figures.h"
 #include "model/text/format.h"
@@ -27,7 +28,7 @@ std::string CoverageText(const LogCoverage& coverage) {
   }
   std::string text = "  time: " + coverage.time_base;
   if (coverage.stamp_wander > 1e-3) {
-    text += Format("; stamps wander by %.1f ms beside even samples",
+    text += Format("; stamps depart from even sampling by up to %.1f ms",
                    1e3 * coverage.stamp_wander);
   }
   text += Format(
@@ -182,6 +183,9 @@ std::string FullReport(const Robot& robot,
     text += FindingText(finding);
   }
   if (of_robot.empty()) text += "  nothing wrong was found\n";
+  for (const std::string& note : RobotNotes(robot)) {
+    text += "  note: " + note + "\n";
+  }
   for (const LogInspection& log : logs) text += "\n" + LogText(robot, log);
   return text;
 }
@@ -208,6 +212,9 @@ json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
   }
   json of_file = DescriptionJson(robot);
   of_file["findings"] = FindingsJson(robot, of_robot);
+  for (const std::string& note : RobotNotes(robot)) {
+    of_file["notes"].push_back(note);
+  }
   return {{"robot", of_file}, {"logs", list}};
 }
 

@@ -1,8 +1,10 @@
 #include "calib/inspect/robot_audit.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "model/robot/kinematics.h"
 #include "model/text/format.h"
@@ -157,6 +159,31 @@ class RobotAudit {
 
 std::vector<InspectionFinding> AuditRobot(const Robot& robot) {
   return RobotAudit(robot).Run();
+}
+
+std::vector<std::string> RobotNotes(const Robot& robot) {
+  constexpr double kUnlike = 3;
+  if (robot.num_joints() < 3) return {};
+  const Joint& first = robot.links[0].joint;
+  double lightest = std::numeric_limits<double>::infinity(), heaviest = 0;
+  for (const Link& link : robot.links) {
+    const Joint& joint = link.joint;
+    if (IsRotational(joint.type) != IsRotational(first.type) ||
+        !std::isfinite(joint.velocity) || !std::isfinite(joint.effort) ||
+        joint.velocity != first.velocity || joint.effort != first.effort) {
+      return {};
+    }
+    if (!HasMass(link)) continue;
+    lightest = std::min(lightest, link.inertial.mass);
+    heaviest = std::max(heaviest, link.inertial.mass);
+  }
+  if (!(heaviest > kUnlike * lightest)) return {};
+  return {
+      Format("every joint has the same velocity and effort limit (%.4g "
+             "%s/s, %.4g %s): they may be placeholders, which armcal "
+             "excite would use",
+             first.velocity, PositionUnit(first.type), first.effort,
+             EffortUnit(first.type))};
 }
 
 }  // namespace armcal

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "calib/logs/inspection_finding.h"
@@ -12,5 +13,10 @@ namespace armcal {
 // of mass at their frames' origins, inertias that do not suit the arm's size
 // (meshes in mm), joints without limits.
 std::vector<InspectionFinding> AuditRobot(const Robot& robot);
+
+// What need not be wrong but is worth a look: velocity and effort limits that
+// are the same on all joints of an arm, three or more, whose links' masses
+// differ by a factor of more than three: no maker drives such links alike.
+std::vector<std::string> RobotNotes(const Robot& robot);
 
 }  // namespace armcal

@@ -6,6 +6,7 @@
 #include "calib/linear/calibration_warnings.h"
 #include "calib/linear/outlier_report.h"
 #include "calib/linear/verdict.h"
+#include "calib/numerics/readable_sum.h"
 #include "model/log_files/torque_columns.h"
 #include "model/text/format.h"
 #include "model/text/option_name.h"
@@ -190,7 +191,7 @@ std::string ParameterTable(const LinearCalibration& result) {
   std::string text = "\nmodel parameter                       value\n";
   for (int k = 0; k < result.parameters.size(); ++k) {
     const ModelParameter& p = result.parameters.parameters()[k];
-    text += Format("  %-30s ", p.name.c_str()) +
+    text += Format("  %-30s ", ReadableSum(p.name).c_str()) +
             PlusMinus(result.x[k], result.stddev[k]) + " " + p.unit + "\n";
   }
   return text + "standard deviations: " + result.covariance_method + "\n";

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "calib/numerics/combination.h"
+#include "calib/numerics/readable_sum.h"
 #include "calib/numerics/singular_values.h"
 #include "model/signals/dense_solvers.h"
 #include "model/simd/kernels.h"
@@ -36,7 +37,7 @@ std::vector<UnidentifiableDirection> MakeDirections(
     const ModelParameters& parameters) {
   std::vector<std::string> names;
   for (Eigen::Index k = 0; k < unseen.rows(); ++k) {
-    names.push_back(parameters.parameters()[begin + k].name);
+    names.push_back(ReadableSum(parameters.parameters()[begin + k].name));
   }
   std::vector<UnidentifiableDirection> directions;
   for (const Combination& c : NameCombinations(unseen, scale, names)) {

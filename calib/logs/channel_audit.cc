@@ -103,8 +103,10 @@ class ChannelAudit {
     if (stamps_.holes > 0) {
       findings_.push_back(
           {"holes", "the stamps have holes",
-           Format("%ld of together %.3g s, the longest of %.3g s",
-                  stamps_.holes, stamps_.hole_time, stamps_.longest_gap),
+           stamps_.holes == 1
+               ? Format("1 hole, of %.3g s", stamps_.hole_time)
+               : Format("%ld holes, %.3g s together, the longest %.3g s",
+                        stamps_.holes, stamps_.hole_time, stamps_.longest_gap),
            "log without losses; the log is split there"});
     }
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calib/numerics/readable_sum.h"
+
 namespace armcal {
 namespace {
 
@@ -25,7 +27,7 @@ std::string Text(const VectorXd& x, const VectorXd& y,
       text += x[c] < 0 ? " - " : " + ";
     }
     only = names[c];
-    text += factor + only;
+    text += factor + InBrackets(only);
     ++terms;
   }
   return terms == 1 ? only : text;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/text/format.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 #include "model/text/option_name.h"
@@ -105,7 +106,7 @@ void CheckTorqueFactors(const LogReaderOptions& options) {
 
 std::string ScaleText(double scale_stddev) {
   if (scale_stddev == 0) return "its scale taken as exact";
-  return "its scale known to " + NumberText(100 * scale_stddev) + " % (" +
+  return Format("its scale known to %.3g %% (", 100 * scale_stddev) +
          OptionName("torque_constants_stddev") + ")";
 }
 

@@ -35,7 +35,9 @@ expect_code(0)
 expect_empty(err)
 expect_text(out "torque per current, from the known payload" "joint1" "+-"
             "N m/A" "payload of 2 kg, centre of mass x" "z not seen"
-            "takes these constants for exact" "torque     currents times"
+            "allows each joint's torque an error of"
+            "that of the least certain constant (joint"
+            "torque     currents times" "its scale known to"
             "held out")
 file(READ ${WORK_DIR}/result/calibration.json json)
 expect_within(12000000 120000 value stddev drive_gains 0)

@@ -7,6 +7,7 @@
 #include "model/log_files/log_writer.h"
 #include "model/plant/hidden/truth_json.h"
 #include "model/plant/robot_variation.h"
+#include "model/text/format.h"
 #include "model/text/input_text.h"
 #include "tools/command.h"
 #include "tools/command_report.h"
@@ -32,7 +33,7 @@ std::string TrackingText(const ScenarioRun& run) {
     const double error = run.run.tracking_rms[j];
     if (!(error > kFar)) continue;
     const Joint& joint = run.robot.links[j].joint;
-    text += joint.name + " does not follow: " + NumberText(error) + " " +
+    text += joint.name + Format(" does not follow: %.3g ", error) +
             PositionUnit(joint.type) + " rms off its reference\n";
   }
   return text;
@@ -70,7 +71,7 @@ std::string Report(const ChosenRun& chosen) {
   text += PossibleText(scenario.model) + chosen.text;
   if (run.run.saturated_share > 0) {
     text += "a torque is at its limit in " +
-            NumberText(100 * run.run.saturated_share) + " % of the time; " +
+            Format("%.3g %% of the time; ", 100 * run.run.saturated_share) +
             (run.run.saturated_share > .5
                  ? "the limits or the controller do not suit this robot\n"
                  : "--speed or --size below 1 moves more gently\n");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/dynamics/joint_controller.h"
+#include "model/text/format.h"
 #include "model/text/input_text.h"
 
 namespace armcal {
@@ -76,7 +77,7 @@ std::string LimitText(const UsualLoop& loop, double usual_share) {
   if (text.empty()) return "";
   return text + ": with loops of " + NumberText(kUsualBandwidthHz) +
          " Hz at usual speed a torque was at its limit in " +
-         NumberText(100 * usual_share) + " % of the time\n";
+         Format("%.3g %% of the time\n", 100 * usual_share);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "calib/closed_loop/output_error_report.h"
 #include "tests/fixtures/commanded_arm.h"
 
 namespace armcal::output_error_test {
@@ -151,6 +152,50 @@ TEST(OutputErrorTest, RefusesWithTheTorquesReason) {
       {RecordCommands(truth, controller, 6, {kNoise, kNoise})}, {}, &torques);
   EXPECT_FALSE(result.arm.solved);
   EXPECT_EQ(result.arm.reason, "the logs with torques: nothing moves");
+}
+
+// A file whose arm is far too light for the gains: its simulated loop swings
+// from limit to limit, and no deviation by it means anything.
+TEST(OutputErrorTest, AnUnstableLoopIsNamed) {
+  const Robot truth = CommandedTruth(1);
+  ControllerOptions controller = CommandedController(truth);
+  const CommandedLog log =
+      RecordCommands(truth, controller, 6, {kNoise, kNoise});
+  Robot light = truth;
+  light.links[0].inertial.mass *= .01;
+  light.links[0].inertial.first_moment *= .01;
+  light.links[0].inertial.inertia *= .01;
+  light.links[0].joint.viscous = light.links[0].joint.coulomb = 0;
+  light.links[0].joint.armature = 0;
+  for (DriveLaw& drive : controller.drives) drive.torque_limit = 20;
+  const OutputErrorCalibration result =
+      CalibrateOutputError(light, controller, {}, {log}, {});
+  EXPECT_FALSE(result.arm.solved);
+  EXPECT_EQ(result.arm.reason.find("the simulated loop is unstable"), 0u)
+      << result.arm.reason;
+  EXPECT_TRUE(result.arm.parameters.empty());
+  const std::string report = OutputErrorReport(light, result);
+  EXPECT_EQ(report.find("+-"), std::string::npos) << report;
+  EXPECT_NE(report.find("give its joints their friction"), std::string::npos);
+}
+
+// Less than the noise itself is left where jitter was taken for noise; more,
+// where the loops amplify it.
+TEST(OutputErrorTest, TellsJitterFromInstability) {
+  const Robot robot = CommandedTruth(1);
+  OutputErrorCalibration result;
+  result.arm.solved = true;
+  result.model_error = .4;
+  result.positions.nominal = Eigen::VectorXd::Constant(1, 1e-2);
+  result.positions.noise = Eigen::VectorXd::Constant(1, 2e-3);
+  result.positions.calibrated = Eigen::VectorXd::Constant(1, 7e-4);
+  const std::string jitter = OutputErrorReport(robot, result);
+  EXPECT_NE(jitter.find("stamps that jitter"), std::string::npos);
+  EXPECT_EQ(jitter.find("near instability"), std::string::npos);
+  result.positions.calibrated *= 3;
+  const std::string shaken = OutputErrorReport(robot, result);
+  EXPECT_EQ(shaken.find("stamps that jitter"), std::string::npos);
+  EXPECT_NE(shaken.find("near instability"), std::string::npos);
 }
 
 }  // namespace armcal::output_error_test

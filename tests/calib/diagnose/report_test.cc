@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 
 #include "calib/diagnose/sentence.h"
 #include "tests/calib/diagnose/sample_diagnosis.h"
@@ -187,6 +188,20 @@ TEST(GapVerdict, HasTheDesignsNames) {
   EXPECT_THAT(names, testing::ElementsAre("noise_floor", "absorbed",
                                           "explained", "partly_explained",
                                           "unknown", "not_testable"));
+}
+
+TEST(FullReport, SaysWhatDiverges) {
+  GapDiagnosis diagnosis = Diagnosis();
+  const double infinite = std::numeric_limits<double>::infinity();
+  diagnosis.torque.refit = infinite;
+  diagnosis.forward.emplace();
+  diagnosis.forward->has_figures = true;
+  diagnosis.forward->figures = diagnosis.torque;
+  diagnosis.forward->figures.nominal = NAN;
+  const std::string text = FullReport(diagnosis, false);
+  EXPECT_THAT(text, HasSubstr("noise's: nominal 12, refitted diverges, with "
+                              "the effects 1.5, noise 1"));
+  EXPECT_THAT(text, HasSubstr("nominal -, refitted diverges"));
 }
 
 }  // namespace armcal::report_test

@@ -63,6 +63,24 @@ TEST(DriveGains, UnitsAreThoseOfTheJoints) {
   EXPECT_EQ(result.gains[2].unit, "N/A");
 }
 
+// Of the least certain constant, with its joint, unless another was asked for.
+TEST(DriveGains, ReportSaysWhatErrorIsAllowed) {
+  DriveGains gains;
+  gains.solved = true;
+  gains.gains = {{"shoulder", "N m/A", 10, .1, true, ""},
+                 {"wrist", "N m/A", -2, .478686, true, ""}};
+  EXPECT_EQ(gains.LeastCertain(), 1);
+  EXPECT_DOUBLE_EQ(gains.LargestRelativeStddev(), .239343);
+  EXPECT_THAT(
+      DriveGainsReport(gains),
+      HasSubstr("allows each joint's torque an error of 23.9 %, that of the "
+                "least certain constant (wrist); `torque_constants_stddev` "
+                "says otherwise"));
+  EXPECT_THAT(DriveGainsReport(gains, .05),
+              HasSubstr("an error of 5 % (`torque_constants_stddev`)"));
+  EXPECT_THAT(DriveGainsReport(gains, 0), HasSubstr("constants for exact"));
+}
+
 // A bare arm, and one whose mass is said to be another: the scale is the
 // payload's and nothing else's.
 TEST(DriveGains, ScaleIsThePayloads) {

@@ -67,6 +67,31 @@ TEST_F(InspectionTest, TimeInMillisecondsIsNamed) {
   EXPECT_NEAR(inspection.duration, 20, .1);
 }
 
+// Velocities in rad/s beside positions in degrees: one finding, the cause.
+TEST_F(InspectionTest, DegreesAreTheOnlyFinding) {
+  Log wrong = arm_.log;
+  ASSERT_GT(wrong.qd.size(), 0);
+  wrong.q *= 180 / M_PI;
+  path_ = WriteFile(LogText(wrong), "degrees.csv");
+  const LogInspection inspection = InspectLog(arm_.robot, path_, options_);
+  ASSERT_EQ(inspection.findings.size(), 1u);
+  EXPECT_EQ(inspection.findings[0].finding, "position_unit");
+  const double travel =
+      arm_.log.q.col(1).maxCoeff() - arm_.log.q.col(1).minCoeff();
+  EXPECT_NEAR(inspection.travel[1], travel, 1e-3 * travel);
+  const Log mended = Mended(arm_.robot, wrong, inspection);
+  EXPECT_LT((mended.q - arm_.log.q).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_EQ(mended.qd, wrong.qd);
+  // One velocity that is wrong beside is told after the cause.
+  wrong.qd.col(2) *= 3;
+  path_ = WriteFile(LogText(wrong), "degrees.csv");
+  const LogInspection two = InspectLog(arm_.robot, path_, options_);
+  ASSERT_EQ(two.findings.size(), 2u);
+  EXPECT_EQ(two.findings[0].finding, "position_unit");
+  EXPECT_EQ(two.findings[1].finding, "velocity");
+  EXPECT_EQ(two.findings[1].joint, 2);
+}
+
 // A tenth of a second of one joint's torque, every other second, is off.
 TEST_F(InspectionTest, GrossErrorsAreNamedWithTheirJoint) {
   Log wrong = arm_.log;

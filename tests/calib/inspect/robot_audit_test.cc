@@ -63,4 +63,22 @@ TEST_F(RobotAuditTest, Placeholders) {
   EXPECT_THAT(Names(robot_), ElementsAre("default_inertia", "default_inertia"));
 }
 
+TEST_F(RobotAuditTest, EqualLimitsOfUnlikeLinksAreNoted) {
+  for (Link& link : robot_.links) {
+    link.joint.velocity = 20;
+    link.joint.effort = 1000;
+  }
+  EXPECT_THAT(RobotNotes(robot_), testing::IsEmpty());  // links are alike
+  robot_.links[0].inertial.mass *= 4;
+  EXPECT_THAT(RobotNotes(robot_),
+              ElementsAre("every joint has the same velocity and effort limit "
+                          "(20 rad/s, 1000 N m): they may be placeholders, "
+                          "which armcal excite would use"));
+  EXPECT_THAT(Names(robot_), testing::IsEmpty());
+  robot_.links[1].joint.effort = 500;
+  EXPECT_THAT(RobotNotes(robot_), testing::IsEmpty());
+  robot_.links.resize(2);
+  EXPECT_THAT(RobotNotes(robot_), testing::IsEmpty());
+}
+
 }  // namespace armcal::robot_audit_test

@@ -158,7 +158,8 @@ def calibrate(
                          in
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -213,7 +214,8 @@ def verify(
                          /joint_states,effort:/torques
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -321,7 +323,8 @@ def diagnose(
                          effects.py, effects.c
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -416,7 +419,8 @@ def simulate(
     lost                 float: share of samples that are lost (default 0)
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -536,7 +540,8 @@ def excite(
                          /joint_states,effort:/torques
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -583,7 +588,8 @@ def inspect(
                          /joint_states,effort:/torques
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -670,7 +676,8 @@ def reduce(
                          trapezoid)
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -694,7 +701,8 @@ def merge(
     Options:
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
@@ -745,7 +753,8 @@ def compare(
                          /joint_states,effort:/torques
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
-    out                  Path: for the result files; default: write none
+    out                  Path: for the result files; default: none (simulate:
+                         needed)
     flagfile             Path: more flags, one --flag=value a line
     threads              int: that share the work; default: one per core.
                          Results are the same for any number (default 0)
