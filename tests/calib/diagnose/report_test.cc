@@ -191,7 +191,7 @@ TEST(GapVerdict, HasTheDesignsNames) {
 }
 
 TEST(FullReport, SaysWhatDiverges) {
-  GapDiagnosis diagnosis = Diagnosis();
+  GapDiagnosis diagnosis = SampleDiagnosis();
   const double infinite = std::numeric_limits<double>::infinity();
   diagnosis.torque.refit = infinite;
   diagnosis.forward.emplace();
