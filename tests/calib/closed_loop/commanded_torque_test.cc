@@ -92,7 +92,9 @@ TEST(CommandedTorque, KnowsTheNoiseOfPositions) {
     EXPECT_EQ(reconstructed.torque_noise.rows(), log.log.size());
     for (int j = 0; j < 3; ++j) {
       const auto x = reconstructed.position_noise.col(j);
-      EXPECT_NEAR(x.norm() / std::sqrt(x.size()) / stddev, 1, .2) << j;
+      // Differences of rows of which one is missing hold some of the motion.
+      EXPECT_NEAR(x.norm() / std::sqrt(x.size()) / stddev, 1, uneven ? .25 : .2)
+          << j;
     }
   }
 }

@@ -82,7 +82,7 @@ TEST(NonlinearReport, ColumnsLineUpWhateverTheNames) {
       at = joints[0].find("coulomb") + 8;
       EXPECT_EQ(joints[i].substr(at, 2), "+-");
       at = joints[0].find("armature") + 8;
-      EXPECT_THAT(joints[i].substr(at, 2), testing::AnyOf("+-", "(p"));
+      EXPECT_THAT(joints[i].substr(at, 2), testing::AnyOf("+-", "(n"));
     }
     EXPECT_THAT(text, HasSubstr("\nresidual of this robot 1.0"));
     EXPECT_THAT(text, HasSubstr(", held out 1.0"));
