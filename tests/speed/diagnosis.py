@@ -25,7 +25,7 @@ ROBOT = pathlib.Path(__file__).parents[2] / "data/six_axis/real.yaml"
 # With nothing to be found there is no threshold to tell; elasticity and
 # backlash are the dearest to refine.
 CASES = {"none": None, "stribeck": "stribeck@2", "elasticity": "elasticity@2",
-         "backlash": "backlash@3", "two": "stribeck@2,torque_ripple@3"}
+         "backlash": "backlash@3", "two": "stribeck@2;torque_ripple@3"}
 SHARED = pathlib.Path(__file__).parents[3] / "shared/data"
 REAL = {"ur10e": ("ur10e_free/robot.urdf", "ur10e_free/id_50s.csv",
                   "--torque_constants=14.87,13.26,11.13,10.62,11.03,11.47"),
