@@ -85,6 +85,7 @@ class LawRun {
 std::vector<VectorXd> JointLawTorques(const std::vector<const JointLaw*>& laws,
                                       const MotionTrack& track) {
   std::vector<VectorXd> torques;
+  if (laws.empty()) return torques;
   std::vector<LawRun<1>> with_state;
   std::vector<LawRun<Eigen::Dynamic>> with_states;
   for (const JointLaw* law : laws) {

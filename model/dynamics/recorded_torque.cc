@@ -242,9 +242,9 @@ MatrixXd RecordedTorque::ChangeOf(const SimulatedRobot& changed,
   const bool as_tracked = as_recorded && (!links || !LooksAtMotion(changed));
   if (!as_tracked) other = TrackOf(motion, times, links.get());
   const MotionTrack& track = as_tracked ? track_ : other;
-  TakeTorques(changed.joint_laws,
-              shared.laws.empty() ? JointLawTorques(PointersTo(changed), track)
-                                  : shared.laws,
+  std::vector<VectorXd> own;
+  if (shared.laws.empty()) own = JointLawTorques(PointersTo(changed), track);
+  TakeTorques(changed.joint_laws, shared.laws.empty() ? own : shared.laws,
               &tau);
   AddWrenches(changed, track, &tau);
   tau = Recorded(changed, track, std::move(tau));
@@ -283,11 +283,9 @@ void RecordedTorque::AddMadeByClock(const std::function<double(double)>& clock,
 
 // Whether it has joint laws, perhaps in joints that warm up, and nothing else.
 bool RecordedTorque::IsOfLawsAlone(const SimulatedRobot& changed) const {
-  return changed.num_passive == 0 && changed.transmissions.empty() &&
+  return SeesRecordedMotion(changed) && changed.num_passive == 0 &&
          changed.wrenches.empty() && changed.actuators.empty() &&
-         changed.sensors.empty() && changed.torque_delay == 0 &&
-         !changed.clock && changed.clock_unevenness == 0 &&
-         SameLinks(changed.robot, robot_) &&
+         changed.torque_delay == 0 && SameLinks(changed.robot, robot_) &&
          SameJointTerms(changed.robot, robot_);
 }
 

@@ -103,8 +103,7 @@ class ProjectedResidual : public ceres::CostFunction {
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     if (point.jacobian.size() == 0) Differentiate(&point);
     if (!point.jacobian.allFinite()) return false;
-    const RowMajorMatrix held = HeldAtBounds(point);
-    std::copy(held.data(), held.data() + held.size(), jacobians[0]);
+    HoldAtBounds(point, jacobians[0]);
     return true;
   }
 
@@ -228,13 +227,14 @@ class ProjectedResidual : public ceres::CostFunction {
   // there, so that the others' step is as if it were constant: the projected
   // Newton method (Bertsekas 1982). Ceres by itself takes the step of all and
   // moves it into the bounds, which may lead upwards however short it is.
-  RowMajorMatrix HeldAtBounds(const Point& point) const {
-    RowMajorMatrix jacobian = point.jacobian;
-    for (Eigen::Index k = 0; k < jacobian.cols(); ++k) {
-      const double slope = jacobian.col(k).dot(point.residual);
-      if (coordinates_[k].IsHeld(point.u[k], slope)) jacobian.col(k).setZero();
+  void HoldAtBounds(const Point& point, double* jacobian) const {
+    const RowMajorMatrix& J = point.jacobian;
+    Eigen::Map<RowMajorMatrix> held(jacobian, J.rows(), J.cols());
+    held = J;
+    for (Eigen::Index k = 0; k < J.cols(); ++k) {
+      const double slope = J.col(k).dot(point.residual);
+      if (coordinates_[k].IsHeld(point.u[k], slope)) held.col(k).setZero();
     }
-    return jacobian;
   }
 
   const GapScreen& screen_;
