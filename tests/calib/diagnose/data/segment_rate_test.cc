@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/fixtures/gap_segment.h"
-#include "tests/fixtures/sample_motion.h"
+#include "tests/fixtures/swing.h"
 
 namespace armcal::segment_rate_test {
 
@@ -14,12 +14,7 @@ constexpr double kMotionBandwidth = 50;  // Hz
 
 // Two joints at 1 Hz for 8 s; the torque is the velocity.
 GapSegment Swing(double step) {
-  Multisine motion;
-  motion.offset = Eigen::Vector2d(0, .5);
-  motion.amplitude = Eigen::Vector2d(.6, .4);
-  motion.omega = Eigen::Vector2d::Constant(2 * M_PI);
-  motion.phase = Eigen::Vector2d(.3, M_PI / 2);
-  Log log = RecordMotion(motion, 8, step);
+  Log log = RecordMotion(SwingOfTwoJoints(), 8, step);
   log.tau = log.qd;
   return MakeSegment(log);
 }

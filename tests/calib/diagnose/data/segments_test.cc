@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "calib/diagnose/data/rows.h"
-#include "tests/fixtures/sample_motion.h"
+#include "tests/fixtures/swing.h"
 #include "tests/fixtures/temp_file.h"
 
 namespace armcal::segments_test {
@@ -16,12 +16,7 @@ constexpr double kBandwidth = 10;  // Hz
 
 // Two joints at 1 Hz; the second stands still from 4 to 7 s.
 Log Swing(double duration) {
-  Multisine motion;
-  motion.offset = Eigen::Vector2d(0, .5);
-  motion.amplitude = Eigen::Vector2d(.6, .4);
-  motion.omega = Eigen::Vector2d::Constant(2 * M_PI);
-  motion.phase = Eigen::Vector2d(.3, M_PI / 2);
-  Log log = RecordMotion(motion, duration, kStep);
+  Log log = RecordMotion(SwingOfTwoJoints(), duration, kStep);
   for (int k = 0; k < log.size(); ++k) {
     if (log.t[k] < 4 || log.t[k] > 7) continue;
     log.q(k, 1) = .9;
