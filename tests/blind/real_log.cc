@@ -16,9 +16,62 @@ using Eigen::VectorXd;
 const std::vector<double> kUr10eConstants = {14.87, 13.26, 11.13,
                                              10.62, 11.03, 11.47};
 
+RealLog LogOf(const std::string& arm, const std::string& log,
+              const std::string& reference) {
+  RealLog real;
+  real.arm = arm;
+  real.robot = "robot.urdf";
+  real.log = log;
+  real.reference = reference;
+  return real;
+}
+
 RealLog Ur10e(const std::string& log) {
-  return {"ur10e_free", "robot.urdf", log + ".csv",   {},
-          "id_50s.csv", {},           kUr10eConstants};
+  RealLog real = LogOf("ur10e_free", log + ".csv", "id_50s.csv");
+  real.torque_constants = kUr10eConstants;
+  return real;
+}
+
+// The rest of a log, whose reference is what came before.
+RealLog LaterPart(RealLog real, double begin) {
+  real.reference = real.log;
+  real.reference_span.end = begin;
+  real.span.begin = begin;
+  return real;
+}
+
+// Robots that the diagnosis may be improved on.
+std::vector<RealLog> CalibrationLogs() {
+  std::vector<RealLog> logs;
+  for (const char* log : {"id_20s", "id_30s", "id_40s", "val_ptp"}) {
+    logs.push_back(Ur10e(log));
+  }
+  logs.push_back(LaterPart(Ur10e("id_50s"), 28));
+  logs.push_back(LaterPart(LogOf("panda", "log.csv", ""), 10));
+  logs.push_back(LogOf("kr300", "log_B.csv.gz", "log_A.csv.gz"));
+  logs.push_back(LogOf("kr300", "log_C.csv.gz", "log_B.csv.gz"));
+  logs.push_back(LogOf("schunk_lwa4p", "run_092.csv.gz", "run_091.csv.gz"));
+  logs.push_back(LogOf("schunk_lwa4p", "run_017.csv.gz", "run_016.csv.gz"));
+  return logs;
+}
+
+// Robots that it is judged by.
+std::vector<RealLog> EvaluationLogs() {
+  std::vector<RealLog> logs;
+  logs.push_back(LaterPart(LogOf("tx40", "log.csv.gz", ""), 4.5));
+  logs.push_back(LogOf("dvrk_psm", "reference_val.csv.gz", "reference.csv.gz"));
+  logs.back().flags = {"--gravity=0,0,-9.81"};
+  for (const char* pair : {"1", "4"}) {
+    const std::string later(1, static_cast<char>(pair[0] + 1));
+    RealLog real = LogOf("dfki_double_pendulum", "A0_sysid_0" + later + ".csv",
+                         std::string("A0_sysid_0") + pair + ".csv");
+    real.robot = "robot_A.urdf";
+    logs.push_back(real);
+  }
+  logs.push_back(
+      LogOf("dfki_acrobot", "reference_06.csv.gz", "reference_01.csv.gz"));
+  logs.push_back(LogOf("dfki_simple_pendulum", "swing_B.csv", "swing_A.csv"));
+  return logs;
 }
 
 MatrixXd Rows(const MatrixXd& x, const std::vector<int>& rows) {
@@ -29,28 +82,13 @@ MatrixXd Rows(const MatrixXd& x, const std::vector<int>& rows) {
 }  // namespace
 
 std::string RealLog::name() const {
-  return arm + "/" + std::filesystem::path(log).stem().string();
+  return arm + "/" + log.substr(0, log.find('.'));
 }
 
-const std::vector<RealLog>& RealLogs() {
-  // The later half of id_50s, and the later half of the only Panda log, have
-  // what came before as their reference.
-  static const std::vector<RealLog> kLogs = [] {
-    std::vector<RealLog> logs;
-    for (const char* log : {"id_20s", "id_30s", "id_40s", "val_ptp"}) {
-      logs.push_back(Ur10e(log));
-    }
-    RealLog half = Ur10e("id_50s");
-    half.reference_span.end = 28;
-    half.span.begin = 28;
-    logs.push_back(half);
-    RealLog panda = {"panda", "robot.urdf", "log.csv", {}, "log.csv", {}, {}};
-    panda.reference_span.end = 10;
-    panda.span.begin = 10;
-    logs.push_back(panda);
-    return logs;
-  }();
-  return kLogs;
+const std::vector<RealLog>& RealLogs(BlindSet set) {
+  static const std::vector<RealLog> kCalibration = CalibrationLogs();
+  static const std::vector<RealLog> kEvaluation = EvaluationLogs();
+  return set == BlindSet::kEvaluation ? kEvaluation : kCalibration;
 }
 
 Log ReadRealLog(const std::string& path, const TimeRange& span,

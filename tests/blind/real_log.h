@@ -5,6 +5,7 @@
 
 #include "model/log_files/log.h"
 #include "model/log_files/time_base.h"
+#include "tests/blind/blind_case.h"
 #include "tests/blind/model_residual.h"
 
 namespace armcal {
@@ -18,10 +19,12 @@ struct RealLog {
   std::string reference;
   TimeRange reference_span;
   std::vector<double> torque_constants;  // N m/A; empty: torques are recorded
+  std::vector<std::string> flags;        // what a diagnosis is told besides
   std::string name() const;              // "ur10e_free/id_30s", for labels
 };
-// Logs in which nothing was changed on purpose since their reference.
-const std::vector<RealLog>& RealLogs();
+// Logs in which nothing was changed on purpose since their reference. Those of
+// the two sets are of different robots.
+const std::vector<RealLog>& RealLogs(BlindSet set);
 
 // All rows of a log within a span, with velocities. Throws InputError.
 Log ReadRealLog(const std::string& path, const TimeRange& span,

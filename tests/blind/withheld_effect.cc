@@ -126,13 +126,11 @@ WithheldEffect DrawWithheldEffect(const std::string& name, const Robot& robot,
   effect.name = name;
   const bool whole = name == "delay" || name == "time_base" ||
                      name == "external_contact" || name == "payload";
-  const int last = robot.num_joints() - 1;
-  // Gravity does not act about the first joint, nor does a last one's zero
-  // show (tests/blind/README.md); they are not drawn for what needs it.
-  const bool held = name == "encoder_offset";
+  // Where an effect does not show (zeros of many first and last joints), its
+  // ENR says so and it is drawn again.
   if (!whole) {
     effect.joint =
-        std::uniform_int_distribution<int>(held ? 1 : 0, last - held)(*random);
+        std::uniform_int_distribution<int>(0, robot.num_joints() - 1)(*random);
   }
   const double sign = Uniform(random, -1, 1) < 0 ? -1 : 1;
   const bool positive = name == "payload" || name == "external_contact" ||

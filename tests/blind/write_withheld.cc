@@ -26,7 +26,7 @@ DEFINE_uint32(seed, 1, "of the set");
 DEFINE_string(data, "../shared/data", "folder of the real logs");
 DEFINE_string(logs, "withheld/logs", "folder for robot files and logs");
 DEFINE_string(labels, "withheld/labels", "folder for what they hide");
-DEFINE_uint32(cases, 78, "how many: 72 with an effect, then logs as they are");
+DEFINE_uint32(cases, 144, "with an effect each; then every log as it is");
 
 namespace armcal {
 namespace {
@@ -34,8 +34,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Each effect at two sizes in each of four bins of ENR.
-constexpr uint32_t kSizes = 8;
 constexpr double kLargestEnr = 6;
 
 // A real log and the one before it, read.
@@ -146,7 +144,7 @@ json LabelOf(const Source& source, const std::vector<SizedEffect>& effects) {
 
 // What run_blind needs to know.
 json CaseOf(const Source& source) {
-  json flags = json::array();
+  json flags = source.real.flags;
   std::string constants;
   for (const double k : source.real.torque_constants) {
     char number[32];
@@ -161,22 +159,24 @@ json CaseOf(const Source& source) {
           {"flags", flags}};
 }
 
-void WriteCase(uint64_t seed, uint32_t index) {
+void WriteCase(BlindSet set, uint32_t index) {
   const std::string name = CaseName(index);
   const fs::path label = fs::path(FLAGS_labels) / (name + ".json");
   if (fs::exists(label)) return;  // written last, so the case is complete
-  std::mt19937_64 random = RandomStream(seed, 0, RandomPurpose::kCase);
+  std::mt19937_64 random = RandomStream(BlindCaseSeed(set, FLAGS_seed, index),
+                                        0, RandomPurpose::kCase);
   const auto& names = WithheldEffectNames();
   const uint32_t kinds = static_cast<uint32_t>(names.size());
-  const auto& reals = RealLogs();
+  const auto& reals = RealLogs(set);
   const uint32_t kind = index % kinds, round = index / kinds;
-  const bool none = round >= kSizes;
-  const Source& source = SourceOf(reals[(kind + round) % reals.size()]);
+  const bool none = index >= FLAGS_cases;
+  // Every effect as often in each of four bins of ENR, in logs by turns.
+  const uint32_t which = none ? index - FLAGS_cases : kind + round + round / 4;
+  const Source& source = SourceOf(reals[which % reals.size()]);
   std::vector<SizedEffect> effects;
   Log log = source.log;
   if (!none) {
-    effects.push_back(
-        DrawSized(names[kind], 1 + (round + kind) % 4, source, &random));
+    effects.push_back(DrawSized(names[kind], 1 + round % 4, source, &random));
     log = WithEffect(source.robot, effects[0].effect, log);
   }
   const fs::path folder = fs::path(FLAGS_logs) / name;
@@ -201,9 +201,8 @@ int Main() {
   const BlindSet set = BlindSetNamed(FLAGS_set);
   fs::create_directories(FLAGS_logs);
   fs::create_directories(FLAGS_labels);
-  for (uint32_t k = 0; k < FLAGS_cases; ++k) {
-    WriteCase(BlindCaseSeed(set, FLAGS_seed, k), k);
-  }
+  const uint32_t untouched = static_cast<uint32_t>(RealLogs(set).size());
+  for (uint32_t k = 0; k < FLAGS_cases + untouched; ++k) WriteCase(set, k);
   return 0;
 }
 
