@@ -22,14 +22,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool Overlaps(const std::vector<GapEvent>& events, const GapEvent& event) {
-  return std::any_of(events.begin(), events.end(), [&](const GapEvent& other) {
-    const Contact &a = event.contact, &b = other.contact;
-    return a.log == b.log && a.window.begin <= b.window.end &&
-           b.window.begin <= a.window.end;
-  });
-}
-
 class Diagnoser {
  public:
   Diagnoser(const Robot& robot, const DiagnosisOptions& options,
@@ -40,12 +32,11 @@ class Diagnoser {
                    const LogSet* reference);
 
  private:
-  std::vector<GapSegment> Read(const LogSet& logs, LogPart part,
-                               bool must_move = true) {
+  std::vector<GapSegment> Read(const LogSet& logs, bool must_move = true) {
     std::vector<GapSegment> segments =
         ReadSegments(bandwidth_hz_, options_.progress, logs);
     if (must_move || segments.empty())
-      CheckMotion(segments, bandwidth_hz_, part, logs);
+      CheckMotion(segments, bandwidth_hz_, logs);
     KnowUsualTemperature(&segments);
     AdvanceTorque(delay_, &segments);
     return segments;
@@ -60,7 +51,7 @@ class Diagnoser {
                    std::vector<GapSegment>* segments,
                    std::vector<GapSegment>* before);
   void Fit(const std::vector<GapSegment>& segments,
-           const std::vector<GapSegment>& before, bool split);
+           const std::vector<GapSegment>& before);
   void KnowWhatModelsLack(const std::vector<GapSegment>& segments,
                           const std::vector<GapSegment>& before);
   GapFigures FiguresOf(const HeldOut::Residuals& residuals) const;
@@ -129,11 +120,9 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
                             const LogSet* reference) {
   const bool split = validation == nullptr;
   // What touches an arm that rests, a reference tells.
-  std::vector<GapSegment> segments =
-      Read(training, split ? LogPart::kHeldOut : LogPart::kAll,
-           reference == nullptr);
+  std::vector<GapSegment> segments = Read(training, reference == nullptr);
   std::vector<GapSegment> before;
-  if (reference != nullptr) before = Read(*reference, LogPart::kAll);
+  if (reference != nullptr) before = Read(*reference);
   Tell("fitting the baseline");
   const MissingTerms missing =
       FitMissingTerms(robot_, options_.baseline, bandwidth_hz_,
@@ -144,11 +133,11 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   result_.has_calibration = options_.baseline.posterior != nullptr;
   result_.torque_constants_stddev = training.torque_constants_stddev();
   Tell("choosing effects");
-  Fit(segments, before, split);
+  Fit(segments, before);
   if (split) {
     held_out_.emplace(*fit_);
   } else {
-    held_out_.emplace(*fit_, Read(*validation, LogPart::kAll));
+    held_out_.emplace(*fit_, Read(*validation));
   }
   Tell("checking what was held out");
   result_.bandwidth_hz = bandwidth_hz_;
@@ -191,29 +180,13 @@ void Diagnoser::KnowWhatModelsLack(const std::vector<GapSegment>& segments,
       result_.torque_constants_stddev));
 }
 
-// What happens once may happen in the part that is held out, where nothing else
-// is looked for.
 void Diagnoser::Fit(const std::vector<GapSegment>& segments,
-                    const std::vector<GapSegment>& before, bool split) {
+                    const std::vector<GapSegment>& before) {
   KnowWhatModelsLack(segments, before);
   const GapFitOptions options{bandwidth_hz_, options_.selection,
                               options_.without};
-  fit_.emplace(*baseline_, options, segments,
-               split ? LogPart::kFitted : LogPart::kAll, before);
+  fit_.emplace(*baseline_, options, segments, before);
   fit_->Choose();
-  if (!split) return;
-  GapFit all(*fit_, LogPart::kAll);
-  all.FindEvents(fit_->events());
-  std::vector<GapEvent> events = fit_->events();
-  for (const GapEvent& event : all.EventsGiven(fit_->refined().effects)) {
-    const bool fitted =
-        2 * RowsOf(fit_->rows(), event) >= RowsOf(all.rows(), event);
-    if ((!fitted || event.beyond_friction) && !Overlaps(events, event)) {
-      events.push_back(event);
-    }
-  }
-  SortByTime(&events);
-  if (events.size() > fit_->events().size()) fit_->ChooseGiven(events);
 }
 
 GapFigures Diagnoser::FiguresOf(const HeldOut::Residuals& residuals) const {
@@ -232,6 +205,7 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
   do {
     FitClaimed(findings, &*fit_);
     if (fit_->refined().effects.size() < fitted) {
+      held_out_->Follow();
       result_.torque = FiguresOf(held_out_->AllResiduals());
       SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
     }
@@ -287,22 +261,22 @@ JointCourse Diagnoser::CourseOf(int j) const {
 }
 
 // The held-out motion by the file's robot, the refitted one and the one with
-// the effects; events are not repeated.
+// the effects, of one fold where a log is its own; events are not repeated.
 void Diagnoser::Simulate(const LogSet& held_out, bool split) {
-  const RefinedEffects& refined = fit_->refined();
   const auto robot = [&](const VectorXd& x,
                          const std::vector<GapCandidate>& effects) {
     return MakeCorrectedRobot(*baseline_, x, effects, fit_->scale());
   };
-  ForwardRobots robots = {robot(fit_->before(), {}),
-                          robot(fit_->model_refit(), {}),
-                          robot(fit_->model_after(), refined.effects)};
-  result_.corrected = robots.after;
+  result_.corrected = robot(fit_->model_after(), fit_->refined().effects);
   // Segments have their torque as if it came without delay; logs have not.
   result_.corrected.delay += delay_;
   if (!options_.forward) return;
+  const Predictor& model = held_out_->predictor_of_part();
+  ForwardRobots robots = {robot(fit_->before(), {}),
+                          robot(model.model_refit(), {}),
+                          robot(model.model_after(), model.refined().effects)};
   CountedTimes counted;
-  if (split) counted = TimesWithRows(held_out_->rows());
+  if (split) counted = TimesWithRows(held_out_->rows_of_part());
   if (options_.controller) {
     for (CorrectedRobot* each :
          {&robots.nominal, &robots.refit, &robots.after}) {

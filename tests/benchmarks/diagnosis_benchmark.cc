@@ -86,7 +86,7 @@ void Screen(benchmark::State& state, int effects) {
   }
   int columns = 0;
   for (auto _ : state) {
-    GapFit fit(*arm.baseline, options, arm.segments, LogPart::kAll, {});
+    GapFit fit(*arm.baseline, options, arm.segments, {});
     fit.Choose();
     columns = fit.screen().size();
   }

@@ -23,8 +23,8 @@ struct DataFinding {
 // masses, hardly any acceleration.
 std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows);
 
-// Of rows of LogPart::kHeldOut that there are none of: how long a stretch of
-// log would have some.
+// Of logs that have no rows in any fold (LogPart): how long a stretch of log
+// would have some.
 DataFinding TooShortToHoldOut(const GapRows& rows);
 
 }  // namespace armcal

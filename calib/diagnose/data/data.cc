@@ -44,7 +44,7 @@ GapData::GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
   rows_ = std::make_unique<GapRows>(signals_->segments, bandwidth_hz, part);
   torques_ = RecordedTorques(baseline, *rows_);
   signals_->residual = rows_->ThinAll(FineResidual());
-  signals_->columns = columns_ =
+  columns_ =
       std::make_shared<const Columns>(baseline.ThinColumns(*rows_, torques_));
   MatrixXd& usual = signals_->usual_extra_stddev;
   usual = MatrixXd::Zero(residual().rows(), residual().cols());
@@ -77,11 +77,10 @@ GapData::GapData(const GapData& other, LogPart part)
       rows_(std::make_unique<GapRows>(signals_->segments,
                                       other.rows_->bandwidth_hz(), part)),
       torques_(other.torques_),
-      columns_(signals_->columns),
+      columns_(other.columns_),
       num_columns_(other.num_columns_),
-      prior_(other.prior_) {
-  Unmask();
-}
+      prior_(other.prior_),
+      extra_stddev_(other.extra_stddev_) {}
 
 std::vector<MatrixXd> GapData::FineResidual() const {
   std::vector<MatrixXd> residual;

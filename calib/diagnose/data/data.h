@@ -18,8 +18,9 @@ class GapData {
  public:
   // `segments` are kept. `usual_torque`: n entries, N m or N.
   GapData(std::vector<GapSegment> segments, const GapBaseline& baseline,
-          double bandwidth_hz, LogPart part = LogPart::kAll);
-  // The same logs, other rows of them; shares what does not differ.
+          double bandwidth_hz, LogPart part = {});
+  // The same logs, other rows of them, with what is held, scaled and masked
+  // there; shares what does not differ.
   GapData(const GapData& other, LogPart part);
   GapData(const GapData&) = delete;
   GapData& operator=(const GapData&) = delete;
@@ -68,7 +69,6 @@ class GapData {
   struct Signals {
     std::vector<GapSegment> segments;
     Eigen::MatrixXd residual;
-    std::shared_ptr<const Columns> columns;  // none of them held
     Eigen::MatrixXd usual_extra_stddev;
   };
 

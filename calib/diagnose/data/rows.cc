@@ -20,8 +20,8 @@ constexpr double kRateOverBandwidth = 2.5;
 constexpr double kPeriodsAtEnds = 4;  // of the bandwidth, bent by filters
 constexpr int kShortestRun = 3 * Autoregression::kOrder;
 
-// Into how many blocks of `size` samples, of which each third is held out: as
-// many as hold `guards` samples and a run.
+// Into how many blocks `size` samples are cut for folds: as many as hold
+// `guards` samples and a run.
 int NumBlocks(double size, double guards) {
   for (const int blocks : {10, 7, 4, 3}) {
     if (size / blocks >= kShortestRun + guards) return blocks;
@@ -75,20 +75,23 @@ double GapRows::ShortestSplit(double bandwidth_hz) {
   return (3 * block + 2 * kPeriodsAtEnds) / bandwidth_hz;
 }
 
-// Blocks of a segment: of the held-out ones the edges are guarded.
+// Blocks of a segment: of those that are predicted the edges are guarded.
 bool GapRows::IsInPart(int segment, int k) const {
-  if (part_ == LogPart::kAll) return true;
+  if (part_.rows == LogPart::Rows::kAll) return true;
   const int within = k - thin_begin_[segment];
   const int size = thin_begin_[segment + 1] - thin_begin_[segment];
   const double guard = kPeriodsAtEnds / bandwidth_hz_ / 2 / step(segment);
   const int blocks = blocks_[segment];
   const double length = static_cast<double>(size) / blocks;
   const int block = std::min(blocks - 1, static_cast<int>(within / length));
-  const bool held_out = block % 3 == 2;
+  const bool is_split = blocks >= LogPart::kFolds;
+  const bool in_fold = is_split && block % LogPart::kFolds == part_.fold;
+  if (part_.rows == LogPart::Rows::kOtherFolds) return !in_fold;
   const double from_edge =
       std::min(within - block * length, (block + 1) * length - within);
-  if (held_out != (part_ == LogPart::kHeldOut)) return false;
-  return !held_out || from_edge >= guard;
+  const bool is_predicted =
+      part_.rows == LogPart::Rows::kAnyFold ? is_split : in_fold;
+  return is_predicted && from_edge >= guard;
 }
 
 bool GapRows::IsHeld(int segment, int joint, int k) const {
@@ -336,8 +339,8 @@ std::vector<int> GapRows::SampleOfRow(int joint) const {
 }
 
 void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
-                 LogPart part, const LogSet& logs) {
-  if (GapRows(segments, bandwidth_hz, part).num_rows() > 0) return;
+                 const LogSet& logs) {
+  if (GapRows(segments, bandwidth_hz).num_rows() > 0) return;
   // One run between the bent ends.
   const double needed = std::max(
       kShortestSegment,

@@ -11,13 +11,25 @@
 
 namespace armcal {
 
-// Which samples of a log have rows: all; or, where no log is held out, seven
-// tenths of them for fitting and choosing, three tenths (the third, sixth and
-// ninth tenth of each segment) for judging, with guards between them. Segments
-// whose tenths are shorter than guards and the shortest run are cut into seven,
-// four or three blocks, of which each third is held out; those too short for
-// three are fitted whole.
-enum class LogPart { kAll, kFitted, kHeldOut };
+// Which samples of a log have rows. Where no log is held out, each third block
+// of every segment is of one of three folds, each of which is predicted by a
+// fit to the other two (cross-validation: Stone 1974). Blocks are tenths of a
+// segment, with guards at the edges of those that are predicted; of segments
+// whose tenths are shorter than guards and the shortest run they are sevenths,
+// fourths or thirds, and those too short for three are in no fold.
+struct LogPart {
+  enum class Rows { kAll, kFold, kOtherFolds, kAnyFold };
+
+  static constexpr int kFolds = 3;
+  static LogPart Fold(int fold) { return {Rows::kFold, fold}; }
+  // All but a fold and, since its edges are guarded, nothing between.
+  static LogPart OtherFolds(int fold) { return {Rows::kOtherFolds, fold}; }
+  // What any fold holds.
+  static LogPart AnyFold() { return {Rows::kAnyFold, 0}; }
+
+  Rows rows = Rows::kAll;
+  int fold = 0;
+};
 
 // Rows of a regression on the torque of some logs: signals are low-passed at
 // the bandwidth, thinned to 2.5 times it, and whitened by each joint's noise.
@@ -27,7 +39,7 @@ class GapRows {
  public:
   // References to segments are kept.
   GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
-          LogPart part = LogPart::kAll);
+          LogPart part = {});
 
   // The shortest segment of which a part can be held out, s.
   static double ShortestSplit(double bandwidth_hz);
@@ -142,9 +154,8 @@ class GapRows {
   Eigen::MatrixXd evidence_weight_;    // like weight_
 };
 
-// Throws InputError where a part of the logs has no rows: nothing to fit or to
-// judge by.
+// Throws InputError where the logs have no rows: nothing to fit or to judge by.
 void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
-                 LogPart part, const LogSet& logs);
+                 const LogSet& logs);
 
 }  // namespace armcal

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <numeric>
 
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
@@ -42,6 +41,31 @@ GapScreen WithoutTiming(const GapFit& fit) {
   return screen;
 }
 
+// What the refined effects leave of each joint, as the evidence weighs it,
+// fitted with that screen. Their torque is as it is: a column, the derivative
+// at a small size, has a large delay's form wrong otherwise on each joint.
+JointRows LeftOf(const GapFit& fit, const GapScreen& screen) {
+  const JointRows torque = fit.regression().TorqueOf(fit.refined().effects);
+  const MatrixXd left = fit.data()->ResidualWith(
+      screen.BaselineGiven(WhitenEach(fit.rows(), torque)), torque);
+  JointRows rows(left.cols());
+  for (int j = 0; j < left.cols(); ++j) {
+    rows[j] = fit.rows().Whiten(j, left.col(j));
+  }
+  return rows;
+}
+
+// The linear parameters of the k-th effect in units of its columns, as refined.
+VectorXd RefinedSize(const GapFit& fit, size_t k) {
+  const GapCandidate& refined = fit.refined().effects[k];
+  const GapCandidate& chosen = fit.candidates()[fit.selection().chosen[k]];
+  VectorXd x(chosen.linear.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    x[i] = refined.p[chosen.linear[i]] / chosen.size[i];
+  }
+  return x;
+}
+
 }  // namespace
 
 bool Agreement::Differ(double form) const {
@@ -49,51 +73,61 @@ bool Agreement::Differ(double form) const {
          IsMoreThanChance(chi_squared, freedom);
 }
 
-// The fit of all chosen effects has one size x of the k-th for all joints. With
-// P_j its projected columns on joint j and r_j what all effects leave there,
-// joint j by itself would have the size x + d_j,
-//   d_j = (P_j' P_j)^-1 P_j' r_j,
-// and the fit would be better by d_j' P_j' P_j d_j = (P_j' r_j)' d_j. Their sum
+// The refined effect has one size x for all joints. With P_j its projected
+// columns on joint j and r_j what all effects leave there, joint j by itself
+// would have the size x + d_j,
+//   d_j = A_j^-1 P_j' r_j,  A_j = P_j' P_j,
+// and all of them together x + d, d = (sum A_j)^-1 sum P_j' r_j. What joints
+// differ by,
+//   Q = sum_j d_j' A_j d_j - d' (sum_j A_j) d,
 // is chi squared of (joints - 1) times as many degrees as there are columns
 // where all joints have the same size: Cochran's Q of a meta-analysis (1954). A
 // joint with less than Limits().tells of the effect's squared torque has no
 // say. A ridge of 1e-9 keeps joints solvable that have one of two columns only.
 Agreement AgreementOn(const GapFit& fit, size_t k) {
   const GapScreen screen = WithoutTiming(fit);
+  const JointRows left = LeftOf(fit, screen);
   const std::vector<int>& chosen = fit.selection().chosen;
-  std::vector<int> every(screen.size());
-  std::iota(every.begin(), every.end(), 0);
-  const GapScreen::Fit all = screen.Solve(every);
   int first = 0;
   for (size_t i = 0; i < k; ++i) {
     first += static_cast<int>(fit.candidates()[chosen[i]].columns.size());
   }
-  const int size = static_cast<int>(fit.candidates()[chosen[k]].columns.size());
-  const VectorXd x = all.coefficients.segment(first, size);
-  std::vector<MatrixXd> rows;
+  const VectorXd x = RefinedSize(fit, k);
+  const int n = screen.num_joints(), size = static_cast<int>(x.size());
+  std::vector<MatrixXd> information(n);
+  std::vector<VectorXd> wanted(n);
   double told = 0;
-  for (int j = 0; j < screen.num_joints(); ++j) {
-    rows.emplace_back(screen.num_rows(j), size);
+  for (int j = 0; j < n; ++j) {
+    MatrixXd rows(screen.num_rows(j), size);
     for (int c = 0; c < size; ++c) {
-      rows[j].col(c) = screen.Projected(first + c, j);
+      rows.col(c) = screen.Projected(first + c, j);
     }
-    told += rows[j].squaredNorm();
+    information[j] = rows.transpose() * rows;
+    wanted[j] = rows.transpose() * left[j];
+    told += information[j].trace();
   }
   Agreement agreement;
   int tell = 0;
-  for (int j = 0; j < screen.num_joints(); ++j) {
+  MatrixXd all = MatrixXd::Zero(size, size);
+  VectorXd all_want = VectorXd::Zero(size);
+  for (int j = 0; j < n; ++j) {
     agreement.moving += screen.num_rows(j) > 0;
-    MatrixXd information = rows[j].transpose() * rows[j];
-    information.diagonal().array() += 1e-9 * information.trace() + 1e-12;
-    agreement.delta_chi2 += x.dot(information * x);
-    const VectorXd wanted = rows[j].transpose() * screen.Residual(j, all);
-    const VectorXd further = information.ldlt().solve(wanted);
+    const double trace = information[j].trace();
+    information[j].diagonal().array() += 1e-9 * trace + 1e-12;
+    const VectorXd further = information[j].ldlt().solve(wanted[j]);
     const VectorXd alone = x + further;
-    agreement.seen_by += IsMoreThanChance(alone.dot(information * alone), size);
-    if (rows[j].squaredNorm() <= Limits().tells * told) continue;
+    agreement.seen_by +=
+        IsMoreThanChance(alone.dot(information[j] * alone), size);
+    if (trace <= Limits().tells * told) continue;
     ++tell;
-    agreement.chi_squared += wanted.dot(further);
+    agreement.chi_squared += wanted[j].dot(further);
+    all += information[j];
+    all_want += wanted[j];
   }
+  if (tell == 0) return agreement;
+  const VectorXd common = all.ldlt().solve(all_want);
+  agreement.chi_squared -= all_want.dot(common);
+  agreement.delta_chi2 = (x + common).dot(all * (x + common));
   agreement.freedom = (tell - 1) * size;
   return agreement;
 }

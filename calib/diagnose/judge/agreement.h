@@ -10,16 +10,17 @@ namespace armcal {
 //
 // How far they are from it is, of chi^2, by what each would rather have it,
 // rows whitened as the evidence is,
-//   chi_squared = sum_j r_j' P_j (P_j' P_j)^-1 P_j' r_j,
-// r_j joint j's residual given all effects, P_j its rows of this one's
-// columns, the baseline free but for the delay of all joints that it has
-// itself: with that one free, a delay would show in no joint. `delta_chi2`:
-// what it explains of chi^2 so, sum_j x' P_j' P_j x of its sizes x. `freedom`:
-// of the chi squared that this is where joints agree; 0 where one joint alone
-// tells.
+//   chi_squared = sum_j d_j' A_j d_j - d' (sum_j A_j) d,
+//   d_j = A_j^-1 P_j' r_j,  A_j = P_j' P_j,
+// r_j joint j's residual given all effects as refined, P_j its rows of this
+// one's columns, d the mean of all joints, the baseline free but for the delay
+// of all joints that it has itself: with that one free, a delay would show in
+// no joint. `delta_chi2`: what it explains of chi^2 so, x' (sum_j A_j) x of its
+// sizes x. `freedom`: of the chi squared that this is where joints agree; 0
+// where one joint alone tells.
 //
-// A joint that has the columns' sizes x_j = x + (P_j' P_j)^-1 P_j' r_j by
-// itself sees the effect where x_j' P_j' P_j x_j is more than chance.
+// A joint that has the sizes x_j by itself sees the effect where x_j' A_j x_j
+// is more than chance.
 struct Agreement {
   double chi_squared = 0;
   double delta_chi2 = 0;

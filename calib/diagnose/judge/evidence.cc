@@ -109,9 +109,10 @@ EffectEvidence GapEvidence::ForEffect(
   }
   if (!figures_.known()) return evidence;
   evidence.held_out = true;
-  const HeldOut::Merit merit = held_out_.MeritOf(k, figures_.after);
-  evidence.gain = merit.gain;
-  evidence.confirmation = merit.confirmation;
+  evidence.gain = held_out_.GainOf(k, figures_.after);
+  std::vector<PlacedEffect> alike = CredibleSet(all);
+  alike.push_back({effect.effect, effect.joint});
+  evidence.confirmation = held_out_.ConfirmationOf(k, alike);
   evidence.left = LeftOf(figures_, effect.joint);
   evidence.removes_gap =
       fit_.refined().effects.size() == 1 && figures_.ci95[0] > 0;

@@ -384,7 +384,7 @@ void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       std::vector<FoundEffect>* effects) {
   for (FoundEffect& found : *effects) {
     if (found.fitted.empty() || !torque.known()) continue;
-    SetShare(fit, torque, held_out.MeritOf(found.fitted[0], torque.after).gain,
+    SetShare(fit, torque, held_out.GainOf(found.fitted[0], torque.after),
              &found);
   }
 }

@@ -16,7 +16,7 @@ namespace armcal {
 // Which times of a log, s since its first row, count. Empty: all. Simulations
 // run through the others as well.
 using CountedTimes = std::function<bool(int log, double t)>;
-// Those of which a joint has rows: of LogPart::kHeldOut the parts held out.
+// Those of which a joint has rows: of a fold (LogPart) what it holds.
 CountedTimes TimesWithRows(const GapRows& rows);
 
 // The robots of a forward-simulated gap, MakeCorrectedRobot of: the baseline at

@@ -1,5 +1,7 @@
 #include "calib/diagnose/judge/held_out.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -62,23 +64,26 @@ std::optional<LogWindow> StrongestWindow(const GapRows& rows,
 HeldOut::HeldOut(const GapFit& fit)
     : fit_(fit),
       other_logs_(false),
-      data_(std::make_unique<GapData>(*fit.data(), LogPart::kHeldOut)) {
-  armcal::MaskEvents(fit.events(), data_.get());
-  SetNoise();
+      every_fold_(fit.regression().DataOf(LogPart::AnyFold())),
+      rows_(every_fold_.get()) {
+  parts_.resize(LogPart::kFolds);
+  tbb::parallel_for(0, LogPart::kFolds, [&](int fold) {
+    parts_[fold].predictor = std::make_unique<Predictor>(fit, fold);
+    parts_[fold].data = fit.regression().DataOf(LogPart::Fold(fold));
+  });
 }
 
 HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs)
-    : fit_(fit),
-      other_logs_(true),
-      data_(std::make_unique<GapData>(std::move(other_logs), fit.baseline(),
-                                      fit.rows().bandwidth_hz())) {
-  SetNoise();
+    : fit_(fit), other_logs_(true) {
+  parts_.push_back({std::make_unique<Predictor>(fit),
+                    fit.regression().DataOf(std::move(other_logs)), nullptr});
+  rows_ = parts_[0].data.get();
   if (!fit.events().empty()) MaskEvents();
 }
 
-void HeldOut::SetNoise() {
-  data_->SetNoise(fit_.noise().joints);
-  if (fit_.rows().has_evidence()) data_->SetEvidence(fit_.rows().evidence());
+void HeldOut::Follow() {
+  tbb::parallel_for(size_t{0}, parts_.size(),
+                    [&](size_t k) { parts_[k].predictor->Follow(); });
 }
 
 // An arm that was touched in one log may have been in another: windows that
@@ -86,8 +91,9 @@ void HeldOut::SetNoise() {
 // out in more than a third of the time was no touch.
 void HeldOut::MaskEvents() {
   constexpr int kMostWindows = 12;
+  GapData* data = parts_[0].data.get();
   const MatrixXd residual =
-      Residual(fit_.refined().effects, fit_.model_after());
+      Residual(parts_[0], fit_.refined().effects, fit_.model_after());
   double masked = 0;
   for (int round = 0; round < kMostWindows; ++round) {
     const auto worst = StrongestWindow(rows(), Deviations(residual));
@@ -95,29 +101,47 @@ void HeldOut::MaskEvents() {
     const TimeWindow& window = worst->window;
     masked += 2 * window.duration;
     if (masked > Limits().most_of_time * TimeOf(rows())) return;
-    data_->Mask(worst->log, {window.centre - window.duration,
-                             window.centre + window.duration});
-    SetNoise();
+    data->Mask(worst->log, {window.centre - window.duration,
+                            window.centre + window.duration});
+    data->SetNoise(fit_.noise().joints);
+    if (rows().has_evidence()) data->SetEvidence(rows().evidence());
   }
 }
 
 MatrixXd HeldOut::ResidualOf(const std::vector<GapCandidate>& effects,
-                             const VectorXd& baseline) const {
-  return data_->ResidualWith(
-      baseline,
-      EffectTorque(fit_.baseline(), fit_.scale(), effects, data_.get()));
+                             const VectorXd& baseline, GapData* data) const {
+  return data->ResidualWith(
+      baseline, EffectTorque(fit_.baseline(), fit_.scale(), effects, data));
 }
 
-MatrixXd HeldOut::Residual(const std::vector<GapCandidate>& effects,
+MatrixXd HeldOut::Residual(const Part& part,
+                           const std::vector<GapCandidate>& effects,
                            const VectorXd& baseline) const {
-  return ResidualOf(other_logs_ ? InTheirPhase(effects, baseline) : effects,
-                    baseline);
+  GapData* data = part.data.get();
+  return ResidualOf(
+      other_logs_ ? InTheirPhase(effects, baseline, data) : effects, baseline,
+      data);
+}
+
+// Thinned samples, each by the part that it is in.
+template <typename OfPart>
+MatrixXd HeldOut::FromParts(const OfPart& of_part) const {
+  MatrixXd all = of_part(parts_[0]);
+  for (size_t p = 1; p < parts_.size(); ++p) {
+    const MatrixXd own = of_part(parts_[p]);
+    const GapRows& part = parts_[p].data->rows();
+    for (int k = 0; k < part.num_thin(); ++k) {
+      if (part.IsInPart(part.SegmentOf(k), k)) all.row(k) = own.row(k);
+    }
+  }
+  return all;
 }
 
 // As effects are in logs that they were not fitted to: what happened once did
 // not, and what swings in time swings as much, at a phase of each log's own.
 std::vector<GapCandidate> HeldOut::InTheirPhase(
-    const std::vector<GapCandidate>& effects, const VectorXd& baseline) const {
+    const std::vector<GapCandidate>& effects, const VectorXd& baseline,
+    GapData* data) const {
   std::vector<GapCandidate> here, swinging;
   for (const GapCandidate& effect : effects) {
     if (effect.log >= 0) continue;
@@ -126,9 +150,9 @@ std::vector<GapCandidate> HeldOut::InTheirPhase(
   if (swinging.empty()) return here;
   const int logs = segments().empty() ? 0 : segments().back().log + 1;
   for (const GapCandidate& effect : swinging) {
-    const MatrixXd residual = ResidualOf(here, baseline);
+    const MatrixXd residual = ResidualOf(here, baseline, data);
     for (int log = 0; log < logs; ++log) {
-      here.push_back(InPhase(effect, log, residual));
+      here.push_back(InPhase(effect, log, residual, data));
     }
   }
   return here;
@@ -141,7 +165,7 @@ std::vector<GapCandidate> HeldOut::InTheirPhase(
 // a phase is told from held-out data: an amplitude told there would remove
 // anything periodic.
 GapCandidate HeldOut::InPhase(const GapCandidate& effect, int log,
-                              const MatrixXd& residual) const {
+                              const MatrixXd& residual, GapData* data) const {
   GapCandidate one = effect;
   one.log = log;
   Eigen::Vector2d both(effect.p[effect.linear[0]], effect.p[effect.linear[1]]);
@@ -150,7 +174,7 @@ GapCandidate HeldOut::InPhase(const GapCandidate& effect, int log,
   for (int k = 0; k < 2; ++k) {
     one.p[effect.linear[k]] = 1;
     one.p[effect.linear[1 - k]] = 0;
-    unit[k] = EffectTorque(fit_.baseline(), fit_.scale(), {one}, data_.get());
+    unit[k] = EffectTorque(fit_.baseline(), fit_.scale(), {one}, data);
   }
   Eigen::Matrix2d G = Eigen::Matrix2d::Zero();
   Eigen::Vector2d g = Eigen::Vector2d::Zero();
@@ -185,8 +209,17 @@ MatrixXd HeldOut::Deviations(const MatrixXd& residual) const {
 }
 
 HeldOut::Residuals HeldOut::AllResiduals() const {
-  return {Residual({}, fit_.before()), Residual({}, fit_.model_refit()),
-          Residual(fit_.refined().effects, fit_.model_after())};
+  Residuals all;
+  all.nominal = FromParts(
+      [&](const Part& part) { return Residual(part, {}, fit_.before()); });
+  all.refit = FromParts([&](const Part& part) {
+    return Residual(part, {}, part.predictor->model_refit());
+  });
+  all.after = FromParts([&](const Part& part) {
+    return Residual(part, part.predictor->refined().effects,
+                    part.predictor->model_after());
+  });
+  return all;
 }
 
 HeldOutSquares HeldOut::SquaresOf(const Residuals& residuals) const {
@@ -195,35 +228,61 @@ HeldOutSquares HeldOut::SquaresOf(const Residuals& residuals) const {
           Deviations(residuals.after).cwiseAbs2()};
 }
 
-JointRows HeldOut::Whitened(const MatrixXd& residual) const {
+JointRows HeldOut::Whitened(const Part& part, const MatrixXd& residual) {
   JointRows white(residual.cols());
   for (int j = 0; j < residual.cols(); ++j) {
-    white[j] = rows().Whiten(j, residual.col(j));
+    white[j] = part.data->rows().Whiten(j, residual.col(j));
   }
   return white;
 }
 
-const PredictedChi2& HeldOut::chi2() const {
-  if (!chi2_) {
-    chi2_ = std::make_unique<PredictedChi2>(data_->WhitenedColumns(),
-                                            fit_.screen().BaselineCovariance());
+const PredictedChi2& HeldOut::Chi2Of(const Part& part) {
+  if (!part.chi2) {
+    part.chi2 = std::make_unique<PredictedChi2>(
+        part.data->WhitenedColumns(),
+        part.predictor->regression().screen().BaselineCovariance());
   }
-  return *chi2_;
+  return *part.chi2;
 }
 
-// What the k-th effect does given the others. `gain`: by how much the mean
-// square is larger without it, the model fitted with the others alone, so that
-// it may do what it can. Confirmation: chi squared that the effect should
-// change and does, with what models lack as a rule fitted too, under the
-// posterior's uncertainty.
-HeldOut::Merit HeldOut::MeritOf(size_t k, double after) const {
-  const RefinedEffects& refined = fit_.refined();
-  const std::vector<GapCandidate> others = AllBut(refined.effects, k);
-  const MatrixXd left = Residual(others, fit_.ModelGiven(others));
-  return {
-      MeanSquare(Deviations(left).cwiseAbs2()) - after,
-      Confirm(chi2(), Whitened(Residual(others, fit_.BaselineGiven(others))),
-              Whitened(Residual(refined.effects, refined.baseline)))};
+// The model is fitted with the others alone, so that it may do what it can.
+double HeldOut::GainOf(size_t k, double after) const {
+  const MatrixXd left = FromParts([&](const Part& part) {
+    const std::vector<GapCandidate> others =
+        AllBut(part.predictor->refined().effects, k);
+    return Residual(part, others, part.predictor->ModelGiven(others));
+  });
+  return MeanSquare(Deviations(left).cwiseAbs2()) - after;
+}
+
+// Chi squared that the effect should change and does, with what models lack as
+// a rule fitted too, under the posterior's uncertainty; parts are of different
+// samples, and add up. What data that lack a part would not have chosen is not
+// confirmed by that part.
+Confirmation HeldOut::ConfirmationOf(
+    size_t k, const std::vector<PlacedEffect>& alike) const {
+  std::vector<Confirmation> confirmed(parts_.size());
+  tbb::parallel_for(size_t{0}, parts_.size(), [&](size_t p) {
+    const Part& part = parts_[p];
+    const Predictor& model = *part.predictor;
+    const std::vector<GapCandidate> others = AllBut(model.refined().effects, k);
+    const auto whitened = [&](const std::vector<GapCandidate>& effects,
+                              const VectorXd& baseline) {
+      return Whitened(part, Residual(part, effects, baseline));
+    };
+    confirmed[p] =
+        Confirm(Chi2Of(part), whitened(others, model.BaselineGiven(others)),
+                whitened(model.refined().effects, model.refined().baseline));
+    if (!model.ChoseOneOf(alike)) {
+      confirmed[p].explained = std::min(0., confirmed[p].explained);
+    }
+  });
+  Confirmation all;
+  for (const Confirmation& one : confirmed) {
+    all.expected += one.expected;
+    all.explained += one.explained;
+  }
+  return all;
 }
 
 }  // namespace armcal

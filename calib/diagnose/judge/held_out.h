@@ -6,23 +6,32 @@
 
 #include "calib/diagnose/data/data.h"
 #include "calib/diagnose/judge/confirmation.h"
+#include "calib/diagnose/judge/predictor.h"
 #include "calib/diagnose/judge/removed_share.h"
 #include "calib/diagnose/select/fit.h"
 
 namespace armcal {
 
-// Logs, or parts of logs, that nothing is chosen on.
+// Torques that are predicted by a model that was not fitted to them.
 class HeldOut {
  public:
-  // LogPart::kHeldOut of the logs that were fitted.
+  // The fit's own logs, each fold (LogPart) predicted by a fit of its effects
+  // to the others.
   explicit HeldOut(const GapFit& fit);
   // Other logs: what happened once in those that were fitted did not happen
   // here.
   HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs);
 
-  const GapRows& rows() const { return data_->rows(); }
-  const std::vector<GapSegment>& segments() const {
-    return data_->rows().segments();
+  // Takes over the fit's effects again, which are others than before.
+  void Follow();
+
+  const GapRows& rows() const { return rows_->rows(); }
+  const std::vector<GapSegment>& segments() const { return rows().segments(); }
+  // One part of it with the model that predicts that: of other logs all of
+  // them, else a fold.
+  const GapRows& rows_of_part() const { return parts_.back().data->rows(); }
+  const Predictor& predictor_of_part() const {
+    return *parts_.back().predictor;
   }
   // Recorded minus predicted torque, thinned samples x n, N m or N: of the
   // file's robot (or the reference's), the refitted one and the one with the
@@ -32,36 +41,46 @@ class HeldOut {
   };
   Residuals AllResiduals() const;
   HeldOutSquares SquaresOf(const Residuals& residuals) const;
-  // What the k-th effect does given the others: by how much it lowers the mean
-  // square, that of all being `after`, and whether these data are what it says.
-  struct Merit {
-    double gain = 0;
-    Confirmation confirmation;
-  };
-  Merit MeritOf(size_t k, double after) const;
+  // By how much the k-th effect given the others lowers the mean square, that
+  // of all being `after`.
+  double GainOf(size_t k, double after) const;
+  // Whether these data are what the k-th effect says, given the others.
+  // `alike`: it, and what may stand in its place.
+  Confirmation ConfirmationOf(size_t k,
+                              const std::vector<PlacedEffect>& alike) const;
 
  private:
-  void SetNoise();
+  // What one model predicts.
+  struct Part {
+    std::unique_ptr<Predictor> predictor;
+    std::unique_ptr<GapData> data;
+    mutable std::unique_ptr<PredictedChi2> chi2;  // once it is asked for
+  };
   void MaskEvents();
   std::vector<GapCandidate> InTheirPhase(
-      const std::vector<GapCandidate>& effects,
-      const Eigen::VectorXd& baseline) const;
+      const std::vector<GapCandidate>& effects, const Eigen::VectorXd& baseline,
+      GapData* data) const;
   GapCandidate InPhase(const GapCandidate& effect, int log,
-                       const Eigen::MatrixXd& residual) const;
+                       const Eigen::MatrixXd& residual, GapData* data) const;
   Eigen::MatrixXd ResidualOf(const std::vector<GapCandidate>& effects,
-                             const Eigen::VectorXd& baseline) const;
+                             const Eigen::VectorXd& baseline,
+                             GapData* data) const;
   // Thinned samples x n, N m or N.
-  Eigen::MatrixXd Residual(const std::vector<GapCandidate>& effects,
+  Eigen::MatrixXd Residual(const Part& part,
+                           const std::vector<GapCandidate>& effects,
                            const Eigen::VectorXd& baseline) const;
-  JointRows Whitened(const Eigen::MatrixXd& residual) const;
-  const PredictedChi2& chi2() const;
+  template <typename OfPart>
+  Eigen::MatrixXd FromParts(const OfPart& of_part) const;
+  static JointRows Whitened(const Part& part, const Eigen::MatrixXd& residual);
+  static const PredictedChi2& Chi2Of(const Part& part);
   // Over their standard deviations; NaN where a joint stands.
   Eigen::MatrixXd Deviations(const Eigen::MatrixXd& residual) const;
 
   const GapFit& fit_;
   bool other_logs_;
-  std::unique_ptr<GapData> data_;
-  mutable std::unique_ptr<PredictedChi2> chi2_;  // once it is asked for
+  std::vector<Part> parts_;
+  std::unique_ptr<GapData> every_fold_;
+  const GapData* rows_;  // whose rows are what any part has
 };
 
 }  // namespace armcal

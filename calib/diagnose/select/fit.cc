@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/motion_scale.h"
@@ -28,17 +30,12 @@ constexpr std::uint64_t kSeed = 1;  // of what chance would give
 }  // namespace
 
 GapFit::GapFit(const GapBaseline& baseline, const GapFitOptions& options,
-               std::vector<GapSegment> training, LogPart part,
+               std::vector<GapSegment> training,
                std::vector<GapSegment> reference)
     : options_(options),
-      regression_(baseline, options.bandwidth_hz, std::move(training), part,
+      regression_(baseline, options.bandwidth_hz, std::move(training),
                   std::move(reference)),
       pool_(&regression_, options.without) {}
-
-GapFit::GapFit(const GapFit& other, LogPart part)
-    : options_(other.options_),
-      regression_(other.regression_, part),
-      pool_(&regression_, other.pool_) {}
 
 std::vector<GapEvent> GapFit::NewContacts(
     const std::vector<GapCandidate>& effects, ContactSearch search) const {
@@ -271,6 +268,8 @@ void GapFit::ForgetPulsesOfALaw() {
   SelectGiven(kept);
 }
 
+// The events without pulses that stood out given what was chosen when they were
+// found, and do not given these effects.
 std::vector<GapEvent> GapFit::EventsGiven(
     const std::vector<GapCandidate>& effects) const {
   if (effects.empty() ||
@@ -281,8 +280,7 @@ std::vector<GapEvent> GapFit::EventsGiven(
   return WithoutExplainedPulses(regression_, effects, events_);
 }
 
-void GapFit::FindEvents(const std::vector<GapEvent>& known) {
-  TakeAsKnown(known);
+void GapFit::FindEvents() {
   SelectWithEvents();
   if (regression_.IsTheSameDayGiven(pool_.Fitted(selection_.chosen))) {
     SelectWithEvents();
@@ -293,14 +291,11 @@ void GapFit::FindEvents(const std::vector<GapEvent>& known) {
 }
 
 void GapFit::Choose() {
-  FindEvents({});
+  FindEvents();
   Finish();
   const std::vector<GapEvent> kept = EventsGiven(refined_.effects);
-  if (kept.size() < events_.size()) ChooseGiven(kept);
-}
-
-void GapFit::ChooseGiven(const std::vector<GapEvent>& events) {
-  SelectGiven(events);
+  if (kept.size() == events_.size()) return;
+  SelectGiven(kept);
   Finish();
 }
 
@@ -373,6 +368,27 @@ void GapFit::Refine() {
     refined_ = RefineEffects(screen(), baseline(), scale(), refined_.effects,
                              -1, data());
   }
+}
+
+std::vector<int> GapFit::Contenders() const {
+  constexpr int kMost = 24;
+  std::set<int> all(selection_.chosen.begin(), selection_.chosen.end());
+  const auto add = [&](const std::vector<int>& given, int k) {
+    const std::vector<int> best = BestPlaces(
+        candidates(),
+        ScoresGiven(screen(), candidates(), options_.selection, given, k),
+        kMost);
+    all.insert(best.begin(), best.end());
+  };
+  add({}, -1);
+  add(selection_.chosen, -1);
+  for (size_t k = 0; k < selection_.chosen.size(); ++k) {
+    add(selection_.chosen, static_cast<int>(k));
+  }
+  std::vector<int> contenders;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(contenders),
+               [this](int c) { return candidates()[c].log < 0; });
+  return contenders;
 }
 
 VectorXd GapFit::BaselineGiven(const std::vector<GapCandidate>& effects) const {

@@ -24,24 +24,16 @@ struct GapFitOptions {
 class GapFit {
  public:
   GapFit(const GapBaseline& baseline, const GapFitOptions& options,
-         std::vector<GapSegment> training, LogPart part,
-         std::vector<GapSegment> reference);
-
-  // With nothing chosen, on another part of the same logs.
-  GapFit(const GapFit& other, LogPart part);
+         std::vector<GapSegment> training, std::vector<GapSegment> reference);
 
   // Chooses effects and refines them; events are taken out of the data one by
   // one first, since nothing else can be told while they last.
   void Choose();
-  // The events alone, given those that are known.
-  void FindEvents(const std::vector<GapEvent>& known);
-  // Effects given these events, in the order of time, which are all that there
-  // were.
-  void ChooseGiven(const std::vector<GapEvent>& events);
   // Of the effects that were chosen, those with these numbers alone, fitted
   // again: what is not claimed is no part of what is shown.
   void KeepOnly(const std::vector<int>& kept);
 
+  const GapRegression& regression() const { return regression_; }
   const GapBaseline& baseline() const { return regression_.baseline(); }
   const GapNoise& noise() const { return regression_.noise(); }
   const MotionScale& scale() const { return regression_.scale(); }
@@ -59,13 +51,13 @@ class GapFit {
     return pool_.candidates();
   }
   const Selection& selection() const { return selection_; }
+  // Candidates (indices) that could be chosen from the same data with somewhat
+  // less of them: the best shape of each effect at each place that scores at
+  // all, alone, in the place of one that was chosen, or beside all.
+  std::vector<int> Contenders() const;
   const RefinedEffects& refined() const { return refined_; }
   // In the order of time.
   const std::vector<GapEvent>& events() const { return events_; }
-  // The same without pulses that stood out given what was chosen when they
-  // were found, and do not given these effects.
-  std::vector<GapEvent> EventsGiven(
-      const std::vector<GapCandidate>& effects) const;
   // Of the k-th effect.
   const std::vector<RefinedScore>& rivals(size_t k) const {
     return rivals_[k].scores;
@@ -97,6 +89,9 @@ class GapFit {
 
  private:
   void MakeScreen();
+  void FindEvents();
+  std::vector<GapEvent> EventsGiven(
+      const std::vector<GapCandidate>& effects) const;
   void Select();
   void SelectWithTheirNoise();
   std::vector<GapEvent> NewContacts(const std::vector<GapCandidate>& effects,

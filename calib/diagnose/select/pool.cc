@@ -15,15 +15,6 @@ CandidatePool::CandidatePool(GapRegression* regression,
                              std::vector<std::string> without)
     : regression_(*regression), without_(std::move(without)) {}
 
-CandidatePool::CandidatePool(GapRegression* regression,
-                             const CandidatePool& other)
-    : regression_(*regression),
-      without_(other.without_),
-      candidates_(other.candidates_),
-      evaluated_(other.evaluated_) {
-  Forget();
-}
-
 // Columns are derivatives of the torque at a small size of the effect, which is
 // all there is to know of a law that is in proportion to its size. A backlash
 // or a wind-up is not: its torque at ten times the size has another course. For

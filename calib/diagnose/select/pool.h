@@ -13,9 +13,6 @@ class CandidatePool {
  public:
   // Keeps `regression`. `without`: effects that are not considered.
   CandidatePool(GapRegression* regression, std::vector<std::string> without);
-  // Of a regression on other rows of the same logs: torques that are evaluated
-  // there are not evaluated again.
-  CandidatePool(GapRegression* regression, const CandidatePool& other);
 
   // Lists candidates for the regression as it is now, and factors its screen
   // with them: those that are not linear in their size at larger ones as well,

@@ -287,6 +287,7 @@ class PulseSearch {
 GapRegression MaskedBy(const std::vector<GapEvent>& events,
                        const GapRegression& regression) {
   GapRegression masked(regression, regression.rows().part());
+  masked.data()->Unmask();
   MaskEvents(events, masked.data());
   masked.Refit();
   return masked;

@@ -92,7 +92,7 @@ class LawSearch {
     if (chosen->empty()) return;
     std::vector<Unseen> parts;
     for (const ReferenceFold& fold : FoldsOf(segments_)) {
-      auto others = std::make_unique<GapData>(data_, LogPart::kAll);
+      auto others = std::make_unique<GapData>(data_, LogPart());
       std::vector<int> left_out = LeaveOut(segments_, fold, others.get());
       others->SetNoise(noise_);
       parts.push_back({ScreenOf(*others), std::move(left_out)});

@@ -50,7 +50,7 @@ VectorXd GrowthOfUnseen(const std::vector<GapSegment>& segments,
   const std::vector<ReferenceFold> folds = FoldsOf(segments);
   MatrixXd before = MatrixXd::Zero(seen.cols(), folds.size()), after = before;
   for (size_t f = 0; f < folds.size(); ++f) {
-    GapData others(all, LogPart::kAll);
+    GapData others(all, LogPart());
     others.SetNoise(noise);
     const std::vector<int> left_out = LeaveOut(segments, folds[f], &others);
     others.SetNoise(noise);

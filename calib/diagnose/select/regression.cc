@@ -43,11 +43,11 @@ VectorXd Start(const GapData& data) {
 // columns of the day are held in it, so that they are the difference between
 // the days.
 GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
-                             std::vector<GapSegment> training, LogPart part,
+                             std::vector<GapSegment> training,
                              std::vector<GapSegment> reference)
     : baseline_(baseline),
       data_(std::make_unique<GapData>(std::move(training), baseline,
-                                      bandwidth_hz, part)) {
+                                      bandwidth_hz)) {
   const bool of_positions = HaveNoiseOfPositions(data_->rows().segments()) &&
                             HaveNoiseOfPositions(reference);
   if (of_positions) noise_ = NoiseOfPositions(baseline, data_->rows());
@@ -64,16 +64,55 @@ GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
   scale_ = ScaleOf(baseline, data_->rows(), data_->torques());
 }
 
+// Everything but values is taken over: a part that weighed rows or held columns
+// otherwise would be another model, and what that predicts says nothing of this
+// one.
 GapRegression::GapRegression(const GapRegression& other, LogPart part)
     : baseline_(other.baseline_),
-      data_(std::make_unique<GapData>(*other.data_, part)),
+      data_(other.DataOf(part)),
       reference_(other.reference_),
       noise_(other.noise_),
+      evidence_(other.evidence_),
       scale_(other.scale_),
       discrepancy_(other.discrepancy_),
-      discrepancy_chosen_(true) {
-  data_->ScaleColumns(baseline_.num_model_columns(), discrepancy_);
-  EstimateNoise();
+      discrepancy_chosen_(true),
+      another_day_(other.another_day_),
+      held_(other.held_),
+      changed_together_(other.changed_together_),
+      before_(other.before_) {
+  MakeScreen();
+  refit_ = screen_->BaselineGiven(JointRows(data_->rows().num_joints()));
+}
+
+std::unique_ptr<GapData> GapRegression::DataOf(LogPart part) const {
+  auto data = std::make_unique<GapData>(*data_, part);
+  GiveNoise(data.get());
+  return data;
+}
+
+std::unique_ptr<GapData> GapRegression::DataOf(
+    std::vector<GapSegment> logs) const {
+  auto data = std::make_unique<GapData>(std::move(logs), baseline_,
+                                        rows().bandwidth_hz());
+  data->ScaleColumns(baseline_.num_model_columns(), discrepancy_);
+  GiveNoise(data.get());
+  return data;
+}
+
+void GapRegression::GiveNoise(GapData* data) const {
+  data->SetNoise(noise_.joints);
+  if (rows().has_evidence()) data->SetEvidence(rows().evidence());
+}
+
+// The diagnosed rows, with the reference's as known data of the baseline: both
+// have the same x but for columns of the day and of time.
+void GapRegression::MakeScreen() {
+  screen_.emplace(data_->Screen());
+  if (reference_) {
+    screen_->AddKnown(reference_->WhitenedColumns(),
+                      reference_->WhitenedResidual());
+  }
+  screen_->Factor();
 }
 
 // The noise and the baseline's values before these logs. Without a reference a
@@ -109,21 +148,14 @@ void GapRegression::SettleReference() {
   before_ = RefitModel(baseline_, *reference_);
 }
 
-// The screen of the diagnosed rows, with the reference's rows as known data of
-// the baseline: both have the same x but for columns of the day and of time. It
-// is weighed by what an empty selection leaves; SettleEvidence does so again as
-// effects are taken in. Where columns of the day turn out to have no place
-// (HoldDays) they are held and all is done once more.
+// The screen is weighed by what an empty selection leaves; SettleEvidence does
+// so again as effects are taken in. Where columns of the day turn out to have
+// no place (HoldDays) they are held and all is done once more.
 void GapRegression::Refit() {
   data_->SetNoise(noise_.joints);
   const bool of_positions = noise_.source == NoiseFloor::kPositions;
   if (!of_positions) data_->SetEvidence(Start(*data_));
-  screen_.emplace(data_->Screen());
-  if (reference_) {
-    screen_->AddKnown(reference_->WhitenedColumns(),
-                      reference_->WhitenedResidual());
-  }
-  screen_->Factor();
+  MakeScreen();
   SettleEvidence({});
   refit_ = screen_->BaselineGiven(JointRows(data_->rows().num_joints()));
   if (HoldDays()) Refit();

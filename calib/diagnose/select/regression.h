@@ -24,11 +24,16 @@ class GapRegression {
   // them as well, and what it leaves of them is the noise that anything new has
   // to rise above.
   GapRegression(const GapBaseline& baseline, double bandwidth_hz,
-                std::vector<GapSegment> training, LogPart part,
+                std::vector<GapSegment> training,
                 std::vector<GapSegment> reference);
 
-  // On another part of the same logs.
+  // The same model fitted to a part of the same logs, with an empty screen:
+  // rows are weighed, masked, and columns held and scaled as there.
   GapRegression(const GapRegression& other, LogPart part);
+  // A part of the logs, to be predicted: with these weights.
+  std::unique_ptr<GapData> DataOf(LogPart part) const;
+  // The same of other logs, of which nothing is masked.
+  std::unique_ptr<GapData> DataOf(std::vector<GapSegment> logs) const;
 
   // Anew, with an empty screen: at first, and where masks have changed.
   void Refit();
@@ -72,6 +77,8 @@ class GapRegression {
  private:
   void EstimateNoise();
   void SettleReference();
+  void MakeScreen();
+  void GiveNoise(GapData* data) const;
   bool HoldDays();
 
   const GapBaseline& baseline_;

@@ -95,10 +95,10 @@ TEST(GapRows, AJointThatStandsHasNone) {
 }
 
 // Tenths of 29.2 thinned samples; guards of half of 4 / 6 s = 5.2 samples.
-TEST(GapRows, HoldOutTheThirdSixthAndNinthTenth) {
+TEST(GapRows, TheLastFoldHasTheThirdSixthAndNinthTenth) {
   const std::vector<GapSegment> segments = {Segment(5000)};
-  const GapRows fitted(segments, kBandwidth, LogPart::kFitted);
-  const GapRows held_out(segments, kBandwidth, LogPart::kHeldOut);
+  const GapRows fitted(segments, kBandwidth, LogPart::OtherFolds(2));
+  const GapRows held_out(segments, kBandwidth, LogPart::Fold(2));
   EXPECT_THAT(fitted.runs(0),
               ElementsAre(Stretch{0, 0, 59}, Stretch{0, 88, 58},
                           Stretch{0, 176, 58}, Stretch{0, 263, 29}));
@@ -107,13 +107,33 @@ TEST(GapRows, HoldOutTheThirdSixthAndNinthTenth) {
                           Stretch{0, 239, 19}));
 }
 
+// Of four blocks of 34 thinned samples the first fold has two; what is
+// predicted at all is every block within its guards.
+TEST(GapRows, FoldsTakeBlocksByTurns) {
+  const std::vector<GapSegment> segments = {Segment(2500)};
+  const auto runs = [&](LogPart part) {
+    return GapRows(segments, kBandwidth, part).runs(0);
+  };
+  const std::vector<GapRows::Run> every = runs(LogPart::AnyFold());
+  ASSERT_EQ(every.size(), 4u);
+  std::vector<GapRows::Run> of_folds;
+  for (int fold = 0; fold < LogPart::kFolds; ++fold) {
+    for (const GapRows::Run& run : runs(LogPart::Fold(fold))) {
+      of_folds.push_back(run);
+    }
+  }
+  EXPECT_THAT(of_folds, ElementsAre(every[0], every[3], every[1], every[2]));
+  EXPECT_THAT(runs(LogPart::OtherFolds(1)),
+              ElementsAre(Stretch{0, 0, 34}, Stretch{0, 68, 68}));
+}
+
 // Blocks of a shorter segment are as long as guards (10.4 thinned samples) and
-// the shortest run (12) are at least; a third of them is held out.
-TEST(GapRows, HoldOutEachThirdBlockOfAShortSegment) {
+// the shortest run (12) are at least; a third of them is in a fold.
+TEST(GapRows, AFoldHasEachThirdBlockOfAShortSegment) {
   const auto held_out = [](double seconds) {
     const std::vector<GapSegment> segments = {
         Segment(static_cast<int>(seconds / kStep))};
-    return GapRows(segments, kBandwidth, LogPart::kHeldOut).runs(0).size();
+    return GapRows(segments, kBandwidth, LogPart::Fold(2)).runs(0).size();
   };
   EXPECT_EQ(held_out(16.2), 3u);  // tenths
   EXPECT_EQ(held_out(15.2), 2u);  // sevenths
@@ -122,16 +142,18 @@ TEST(GapRows, HoldOutEachThirdBlockOfAShortSegment) {
   EXPECT_NEAR(shortest, 34.4 / 6, 1e-9);
   EXPECT_EQ(held_out(shortest + .2), 1u);
   EXPECT_EQ(held_out(shortest - .2), 0u);
-  // Too short: fitted whole.
+  // Too short: always fitted, never predicted.
   const std::vector<GapSegment> segments = {Segment(1250)};
-  EXPECT_THAT(GapRows(segments, kBandwidth, LogPart::kFitted).runs(0),
+  EXPECT_THAT(GapRows(segments, kBandwidth, LogPart::OtherFolds(0)).runs(0),
               ElementsAre(Stretch{0, 0, 58}));
+  EXPECT_THAT(GapRows(segments, kBandwidth, LogPart::AnyFold()).runs(0),
+              IsEmpty());
 }
 
 TEST(GapRows, PartsOfStillJointsAreSplitAsWell) {
   std::vector<GapSegment> segments = {Segment(5000)};
   segments[0].still.setConstant(true);
-  const GapRows held_out(segments, kBandwidth, LogPart::kHeldOut);
+  const GapRows held_out(segments, kBandwidth, LogPart::Fold(2));
   EXPECT_THAT(held_out.runs(0), IsEmpty());
   EXPECT_THAT(held_out.still_runs(0),
               ElementsAre(Stretch{0, 64, 19}, Stretch{0, 152, 18},

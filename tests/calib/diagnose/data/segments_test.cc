@@ -117,7 +117,7 @@ TEST(GapSegments, KnowWhichJointLeavesARest) {
   }
   // Neither rows of motion nor of rest.
   const std::vector<GapSegment> segments = {segment};
-  const GapRows rows(segments, kBandwidth, LogPart::kAll);
+  const GapRows rows(segments, kBandwidth);
   for (const auto& runs : {rows.runs(1), rows.still_runs(1)}) {
     for (const GapRows::Run& run : runs) {
       for (int k = run.begin; k < run.begin + run.size; ++k) {

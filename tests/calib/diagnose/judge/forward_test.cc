@@ -153,7 +153,7 @@ TEST_F(ForwardGapTest, PartsThatDoNotCountAreNotSeen) {
 // Of a log that is cut into parts, those whose rows are held out.
 TEST_F(ForwardGapTest, TimesOfHeldOutRowsCount) {
   const std::vector<GapSegment> segments = {Segment()};
-  const GapRows rows(segments, kBandwidth, LogPart::kHeldOut);
+  const GapRows rows(segments, kBandwidth, LogPart::Fold(2));
   const CountedTimes counted = TimesWithRows(rows);
   EXPECT_TRUE(counted(0, 2));     // in the third tenth of 8 s
   EXPECT_FALSE(counted(0, 1.2));  // in the second

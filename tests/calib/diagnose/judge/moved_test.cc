@@ -34,7 +34,7 @@ class GapFitTest : public testing::Test {
     GapFitOptions options;
     options.bandwidth_hz = kBandwidth;
     fit_.emplace(baseline_, options, std::vector<GapSegment>{segment},
-                 LogPart::kAll, std::vector<GapSegment>());
+                 std::vector<GapSegment>());
     fit_->Choose();
   }
   std::string WhyNot(const std::string& effect,

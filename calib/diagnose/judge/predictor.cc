@@ -1,0 +1,76 @@
+#include "calib/diagnose/judge/predictor.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "calib/diagnose/select/selection.h"
+
+namespace armcal {
+
+using Eigen::VectorXd;
+
+Predictor::Predictor(const GapFit& fit) : fit_(fit) { Follow(); }
+
+Predictor::Predictor(const GapFit& fit, int left_out)
+    : fit_(fit),
+      own_(std::make_unique<GapRegression>(fit.regression(),
+                                           LogPart::OtherFolds(left_out))) {
+  Choose();
+  Follow();
+}
+
+// Of those that could be chosen at all, under the noise of the whole fit.
+void Predictor::Choose() {
+  std::vector<GapCandidate> candidates;
+  for (const int c : fit_.Contenders()) {
+    candidates.push_back(fit_.candidates()[c]);
+  }
+  if (candidates.empty()) return;
+  GapScreen screen = own_->screen();
+  AddCandidates(own_->rows(), &candidates, &screen);
+  screen.Factor();
+  SelectionOptions options = fit_.selection_options();
+  options.events = false;
+  for (const int c : SelectEffects(screen, candidates, options).chosen) {
+    chosen_.push_back(std::move(candidates[c]));
+  }
+}
+
+bool Predictor::ChoseOneOf(const std::vector<PlacedEffect>& effects) const {
+  if (!own_) return true;
+  return std::any_of(
+      chosen_.begin(), chosen_.end(), [&](const GapCandidate& own) {
+        return std::any_of(
+            effects.begin(), effects.end(), [&](const PlacedEffect& other) {
+              return other.effect == own.effect && other.joint == own.joint;
+            });
+      });
+}
+
+// Values of effects and model are fitted together, from the fit's on. Which
+// effects there are was chosen on all of the logs.
+void Predictor::Follow() {
+  refined_ = fit_.refined();
+  model_refit_ = fit_.model_refit();
+  if (own_) {
+    model_refit_ = ModelGiven({});
+    if (refined_.effects.empty()) {
+      refined_.baseline = own_->refit();
+    } else {
+      refined_ = RefineEffects(own_->screen(), own_->baseline(), own_->scale(),
+                               refined_.effects, -1, own_->data());
+    }
+  }
+  model_after_ = own_ ? ModelGiven(refined_.effects) : fit_.model_after();
+}
+
+VectorXd Predictor::ModelGiven(const std::vector<GapCandidate>& effects) const {
+  return regression().ModelGiven(regression().TorqueOf(effects));
+}
+
+VectorXd Predictor::BaselineGiven(
+    const std::vector<GapCandidate>& effects) const {
+  return regression().BaselineGiven(regression().TorqueOf(effects));
+}
+
+}  // namespace armcal
