@@ -133,6 +133,12 @@ void GapData::Hold(int column) {
   columns_ = std::make_shared<const Columns>(std::move(held));
 }
 
+void GapData::Distrust(const MatrixXd& extra_stddev) {
+  for (MatrixXd* all : {&signals_->usual_extra_stddev, &extra_stddev_}) {
+    *all = (all->cwiseAbs2() + extra_stddev.cwiseAbs2()).cwiseSqrt();
+  }
+}
+
 void GapData::Mask(int log, const TimeRange& window) {
   for (size_t i = 0; i < signals_->segments.size(); ++i) {
     if (signals_->segments[i].log != log) continue;

@@ -52,6 +52,9 @@ class GapData {
   void ScaleColumns(int first, double factor);
   // As if this column of the baseline did not act in these logs.
   void Hold(int column);
+  // From now on samples may be off by this as well (standard deviations,
+  // thinned samples x n, N m or N), whatever is masked; with the next noise.
+  void Distrust(const Eigen::MatrixXd& extra_stddev);
   // From now on nothing is believed of a log in this time, s.
   void Mask(int log, const TimeRange& window);
   // All is believed again.

@@ -65,7 +65,11 @@ bool GapFit::TakeOutContacts(ContactSearch search) {
   return TakeOut(found);
 }
 
-// The same of pulses on joints.
+// The same of pulses on joints. Where none stands out from chosen effects, some
+// may from the model without them: a push is larger than most of what lasts,
+// and one that was not known when effects were chosen brings in some that are
+// none. An effect that
+// is one explains them, and they are forgotten in the end (EventsGiven).
 bool GapFit::TakeOutPulses() {
   if (IsLeftOut(ContactEffect())) return false;
   if (HaveNoiseOfPositions(rows().segments())) return false;
@@ -76,6 +80,7 @@ bool GapFit::TakeOutPulses() {
                                                   effects, -1, data())
                                         .effects);
   }
+  if (found.empty() && !effects.empty()) found = FindPulses(regression_, {});
   return TakeOut(found);
 }
 

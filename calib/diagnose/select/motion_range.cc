@@ -69,4 +69,17 @@ Eigen::ArrayXd MotionRange::Growth(const GapRows& rows) const {
       .max(1.);
 }
 
+Eigen::ArrayXXd MotionRange::OwnGrowth(const GapRows& rows) const {
+  const MatrixXd speeds = Speeds(rows), accelerations = Accelerations(rows);
+  Eigen::ArrayXXd growth = Eigen::ArrayXXd::Ones(speeds.rows(), speeds.cols());
+  for (int j = 0; j < speeds.cols(); ++j) {
+    if (!(speeds_[j] > 0) || !(accelerations_[j] > 0)) continue;
+    growth.col(j) = (speeds.col(j).array() / speeds_[j])
+                        .square()
+                        .max(accelerations.col(j).array() / accelerations_[j])
+                        .max(1.);
+  }
+  return growth;
+}
+
 }  // namespace armcal

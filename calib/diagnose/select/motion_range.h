@@ -18,6 +18,9 @@ class MotionRange {
   // the speeds, so that it is the largest of (speed / range)^2 and
   // acceleration / range of all joints.
   Eigen::ArrayXd Growth(const GapRows& rows) const;
+  // The same of each joint by its own motion alone, thinned samples x n; 1
+  // where the log has no motion of it.
+  Eigen::ArrayXXd OwnGrowth(const GapRows& rows) const;
 
  private:
   Eigen::VectorXd speeds_, accelerations_;  // per joint

@@ -6,6 +6,7 @@
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/position_noise.h"
 #include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/select/motion_range.h"
 #include "calib/diagnose/select/reference_noise.h"
 
 namespace armcal {
@@ -61,6 +62,8 @@ GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
     for (const int c : DayColumns(baseline)) reference_->Hold(c);
   }
   EstimateNoise();
+  DistrustOtherMotion(data_.get());
+  data_->SetNoise(noise_.joints);
   scale_ = ScaleOf(baseline, data_->rows(), data_->torques());
 }
 
@@ -95,8 +98,24 @@ std::unique_ptr<GapData> GapRegression::DataOf(
   auto data = std::make_unique<GapData>(std::move(logs), baseline_,
                                         rows().bandwidth_hz());
   data->ScaleColumns(baseline_.num_model_columns(), discrepancy_);
+  DistrustOtherMotion(data.get());
   GiveNoise(data.get());
   return data;
+}
+
+// Errors of a model that a reference left are those of motion as the reference
+// has it. Of faster motion they are as much larger as MotionRange says of
+// friction's curve and of inertias, which is no change since the reference.
+void GapRegression::DistrustOtherMotion(GapData* data) const {
+  if (!reference_ || noise_.source == NoiseFloor::kPositions) return;
+  const Eigen::ArrayXXd growth =
+      MotionRange(reference_->rows()).OwnGrowth(data->rows());
+  MatrixXd extra_stddev(growth.rows(), growth.cols());
+  for (int j = 0; j < growth.cols(); ++j) {
+    extra_stddev.col(j) = noise_.joints[j].stddev() *
+                          (growth.col(j).square() - 1).sqrt().matrix();
+  }
+  data->Distrust(extra_stddev);
 }
 
 void GapRegression::GiveNoise(GapData* data) const {
@@ -139,13 +158,29 @@ void GapRegression::EstimateNoise() {
 // noise alone would hold them far too tightly in the diagnosed log.
 void GapRegression::SettleReference() {
   if (noise_.source != NoiseFloor::kPositions) {
-    const VectorXd start = Start(*reference_);
-    reference_->SetEvidence(start);
-    GapScreen screen = reference_->Screen();
-    screen.Factor();
-    reference_->SetEvidence(SettleNoise(std::move(screen), start).stddev());
+    WeighReference();
+    if (discrepancy_ < 1) {
+      const int first = baseline_.num_model_columns();
+      reference_->ScaleColumns(first, discrepancy_);
+      data_->ScaleColumns(first, discrepancy_);
+      WeighReference();
+    }
   }
   before_ = RefitModel(baseline_, *reference_);
+}
+
+// Once the size of what models lack is told as well.
+void GapRegression::WeighReference() {
+  const VectorXd start = Start(*reference_);
+  reference_->SetEvidence(start);
+  GapScreen screen = reference_->Screen();
+  screen.Factor();
+  const EvidenceNoise noise = SettleNoise(screen, start);
+  reference_->SetEvidence(noise.stddev());
+  const bool is_told = baseline_.num_model_columns() == baseline_.size();
+  if (is_told || discrepancy_chosen_) return;
+  discrepancy_chosen_ = true;
+  discrepancy_ = LikeliestDiscrepancy(screen, noise);
 }
 
 // The screen is weighed by what an empty selection leaves; SettleEvidence does
@@ -165,34 +200,38 @@ void GapRegression::Refit() {
 // robot, and some robots are better. One factor a for all of them is chosen by
 // the evidence, the marginal likelihood with the coefficients integrated out
 // (type II maximum likelihood, Good 1965; MacKay 1992),
-//   a = argmax log p(r | a),  a in {1, 3 least, least},
-// given the effects that are chosen so far, lest a small a be refused because
-// an effect is missing. It is never above 1: a discrepancy that may grow
-// swallows effects. The factor multiplies the columns, so that their prior
-// stays N(0, 1); the reference is scaled alike and settled again.
-bool GapRegression::ChooseDiscrepancy(const std::vector<int>& columns) {
+//   a = argmax log p(r | a),  a in {1, 3 least, least}.
+// It is never above 1: a discrepancy that may grow swallows effects. The factor
+// multiplies the columns, so that their prior stays N(0, 1).
+double GapRegression::LikeliestDiscrepancy(const GapScreen& screen,
+                                           const EvidenceNoise& noise) const {
   const double least = Limits().least_discrepancy;
   const int first = baseline_.num_model_columns();
-  if (discrepancy_chosen_ || first == baseline_.size()) return false;
-  discrepancy_chosen_ = true;
-  const GapScreen screen = screen_->Only(columns);
   std::vector<int> discrepancy(baseline_.size() - first);
   std::iota(discrepancy.begin(), discrepancy.end(), first);
-  double most = LogEvidence(screen, evidence_);
+  double likeliest = 1, most = LogEvidence(screen, noise);
   for (const double size : {3 * least, least}) {
     GapScreen scaled = screen;
     scaled.ScaleBaseline(discrepancy, size);
-    const double evidence = LogEvidence(std::move(scaled), evidence_);
+    const double evidence = LogEvidence(std::move(scaled), noise);
     if (evidence <= most) continue;
     most = evidence;
-    discrepancy_ = size;
+    likeliest = size;
   }
+  return likeliest;
+}
+
+// A reference tells it where there is one: nothing in it is wrong, and what is
+// wrong in the diagnosed logs, a push most of all, would pass for what models
+// lack. Else the effects that are chosen so far are given, lest a small size be
+// refused because one is missing.
+bool GapRegression::ChooseDiscrepancy(const std::vector<int>& columns) {
+  const int first = baseline_.num_model_columns();
+  if (discrepancy_chosen_ || first == baseline_.size()) return false;
+  discrepancy_chosen_ = true;
+  discrepancy_ = LikeliestDiscrepancy(screen_->Only(columns), evidence_);
   if (discrepancy_ == 1) return false;
   data_->ScaleColumns(first, discrepancy_);
-  if (reference_) {
-    reference_->ScaleColumns(first, discrepancy_);
-    SettleReference();
-  }
   return true;
 }
 

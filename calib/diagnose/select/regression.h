@@ -49,7 +49,7 @@ class GapRegression {
   void WeighBy(const Eigen::VectorXd& stddev);
   // Gives what models lack as a rule the size, of the routine one and smaller
   // ones, that is the most likely given these columns; once, before the next
-  // Refit. Whether that changed it.
+  // Refit, and where no reference has told it. Whether that changed it.
   bool ChooseDiscrepancy(const std::vector<int>& columns);
   const EvidenceNoise& evidence() const { return evidence_; }
   const GapBaseline& baseline() const { return baseline_; }
@@ -76,7 +76,11 @@ class GapRegression {
 
  private:
   void EstimateNoise();
+  void DistrustOtherMotion(GapData* data) const;
   void SettleReference();
+  void WeighReference();
+  double LikeliestDiscrepancy(const GapScreen& screen,
+                              const EvidenceNoise& noise) const;
   void MakeScreen();
   void GiveNoise(GapData* data) const;
   bool HoldDays();
