@@ -14,7 +14,8 @@ bool IsLikely(const FoundEffect& found) {
 bool IsNeeded(const FoundEffect& found, double extra_variance) {
   const bool has_gap = !(found.gap < 1 - extra_variance);
   const bool is_seen = IsSeenAgain(found) && !SwingsInTime(*found.effect);
-  return (has_gap || is_seen) &&
+  const bool is_form_of_change = found.over_change < Limits().same_joint_share;
+  return (has_gap || is_seen) && !is_form_of_change &&
          found.size >= Limits().least_discrepancy * Limits().discrepancy;
 }
 

@@ -13,8 +13,10 @@ bool IsLikely(const FoundEffect& found);
 // Whether there is anything for it to explain: a refit without it leaves no
 // less than the noise, as well as that is known, unless held-out data have it
 // as well (what is far below white noise is seen all the same; but what swings
-// in time has its phase from each log, and is no confirmation); and its torque
-// is not smaller than what the best of models lack.
+// in time has its phase from each log, and is no confirmation); its torque is
+// not smaller than what the best of models lack; and where friction of its
+// joint is that of another day, it is more than what the form of this has
+// wrong.
 bool IsNeeded(const FoundEffect& found, double extra_variance);
 
 // Whether it is more than the reference's logs differ by among each other.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "calib/diagnose/data/days.h"
@@ -56,6 +57,42 @@ bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
   return a.joint >= 0 && a.joint == b.joint && HasMean(*a.effect, *b.effect);
 }
 
+// Friction that differs from the reference's on several joints together, as one
+// effect per term. Its columns are in units of the usual scatter from day to
+// day, so that the sum of their squares is chi squared of that many changes.
+std::vector<FoundEffect> ListChangedFriction(const GapFit& fit) {
+  std::vector<FoundEffect> all;
+  const GapBaseline& baseline = fit.baseline();
+  const VectorXd& x = fit.refined().baseline;
+  const MatrixXd covariance = fit.screen().BaselineCovariance();
+  for (const Effect& effect : Effects()) {
+    if (!effect.joint_term) continue;
+    const std::vector<int> changed =
+        ChangedTogether(baseline, *effect.joint_term, x, covariance);
+    if (changed.empty()) continue;
+    FoundEffect found;
+    found.effect = &effect;
+    found.of_another_day = true;
+    found.probability = 1 - kChanceOfDays;
+    for (const int c : changed) {
+      const BaselineColumn& column = baseline.columns()[c];
+      const Joint& joint = baseline.robot().links[column.joint].joint;
+      found.estimates.push_back(
+          {joint.name + "." + JointTermName(*effect.joint_term),
+           JointTermUnit(*effect.joint_term, joint.type),
+           x[c] * column.spread});
+      const EffectEstimate& term = found.estimates.back();
+      found.stddev.push_back(WithTorqueScale(
+          std::sqrt(covariance(c, c)) * column.spread, term.value, term.unit,
+          baseline.discrepancy().torque_constants_stddev()));
+      found.delta_chi2 += x[c] * x[c];
+    }
+    found.score = found.delta_chi2;
+    all.push_back(found);
+  }
+  return all;
+}
+
 class Findings {
  public:
   Findings(const Robot& robot, const GapFit& fit, const HeldOut& held_out,
@@ -72,11 +109,8 @@ class Findings {
                        const MatrixXd& covariance) const;
   FoundEffect Found(size_t k) const;
   FoundEffect Contacts() const;
-  double scale_stddev() const {
-    return fit_.baseline().discrepancy().torque_constants_stddev();
-  }
   void AddMissingTerms(const std::vector<MissingTerm>& terms);
-  void AddChangedFriction();
+  double OverChange(int joint, double gain) const;
   void ShareTheRest(FoundEffect* found, bool is_first);
 
   const Robot& robot_;
@@ -131,6 +165,7 @@ FoundEffect Findings::Found(size_t k) const {
   if (effect.log < 0 && !SwingsInTime(*effect.effect)) {
     found.scatter = fit_.ScatterOf(effect);
   }
+  found.over_change = OverChange(effect.joint, found.evidence.gain);
   found.probability = ProbabilityOf(found.evidence);
   SetShare(fit_, torque_, found.evidence.gain, &found);
   found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
@@ -186,38 +221,25 @@ void Findings::AddMissingTerms(const std::vector<MissingTerm>& terms) {
   }
 }
 
-// Friction that differs from the reference's on several joints together, as one
-// effect per term. Its columns are in units of the usual scatter from day to
-// day, so that the sum of their squares is chi squared of that many changes.
-void Findings::AddChangedFriction() {
+// FoundEffect::over_change: friction as it has changed given no effects. What
+// an effect on one joint lowers of the mean of all joints, it lowers as many
+// times of its own.
+double Findings::OverChange(int joint, double gain) const {
+  constexpr double kUnchanged = std::numeric_limits<double>::quiet_NaN();
+  if (joint < 0 || torque_.joints.rows() == 0) return kUnchanged;
   const GapBaseline& baseline = fit_.baseline();
-  const VectorXd& x = fit_.refined().baseline;
   const MatrixXd covariance = fit_.screen().BaselineCovariance();
-  for (const Effect& effect : Effects()) {
-    if (!effect.joint_term) continue;
-    const std::vector<int> changed =
-        ChangedTogether(baseline, *effect.joint_term, x, covariance);
-    if (changed.empty()) continue;
-    FoundEffect found;
-    found.effect = &effect;
-    found.of_another_day = true;
-    found.probability = 1 - kChanceOfDays;
-    for (const int c : changed) {
-      const BaselineColumn& column = baseline.columns()[c];
-      const Joint& joint = robot_.links[column.joint].joint;
-      found.estimates.push_back(
-          {joint.name + "." + JointTermName(*effect.joint_term),
-           JointTermUnit(*effect.joint_term, joint.type),
-           x[c] * column.spread});
-      const EffectEstimate& term = found.estimates.back();
-      found.stddev.push_back(
-          WithTorqueScale(std::sqrt(covariance(c, c)) * column.spread,
-                          term.value, term.unit, scale_stddev()));
-      found.delta_chi2 += x[c] * x[c];
+  bool has_changed = false;
+  for (const JointTerm term : {JointTerm::kViscous, JointTerm::kCoulomb}) {
+    for (const int c :
+         ChangedTogether(baseline, term, fit_.refit(), covariance)) {
+      has_changed |= baseline.columns()[c].joint == joint;
     }
-    found.score = found.delta_chi2;
-    result_.effects.push_back(found);
   }
+  const double before = std::pow(torque_.joints(joint, 0), 2);
+  const double after = std::pow(torque_.joints(joint, 1), 2);
+  if (!has_changed || !(before > after)) return kUnchanged;
+  return gain * fit_.rows().num_joints() / (before - after);
 }
 
 // Everything that was fitted is described, sorted by delta_chi2, and joined
@@ -227,8 +249,8 @@ void Findings::AddChangedFriction() {
 // nothing that is claimed, and held-out data have it again, something is there
 // without a name.
 GapFindings Findings::List(const std::vector<MissingTerm>& terms) {
+  result_.effects = ListChangedFriction(fit_);
   AddMissingTerms(terms);
-  AddChangedFriction();
   if (!fit_.events().empty()) result_.effects.push_back(Contacts());
   for (size_t k = 0; k < fit_.refined().effects.size(); ++k) {
     result_.effects.push_back(Found(k));
@@ -336,7 +358,8 @@ GapFindings ListFindings(const Robot& robot, const GapFit& fit,
 
 // Effects that are not claimed leave the fit, and everything that is shown is
 // of the fit without them: estimates, covariances and, later, the figures. What
-// they explained may go to the others, which is why these are described anew.
+// they explained may go to the others, which is why these are described anew,
+// and friction that has changed with them.
 void FitClaimed(GapFindings* findings, GapFit* fit) {
   std::vector<int> kept;
   for (const FoundEffect& found : findings->effects) {
@@ -345,6 +368,17 @@ void FitClaimed(GapFindings* findings, GapFit* fit) {
   if (kept.size() == fit->refined().effects.size()) return;
   std::sort(kept.begin(), kept.end());
   fit->KeepOnly(kept);
+  std::vector<FoundEffect>& effects = findings->effects;
+  effects.erase(std::remove_if(effects.begin(), effects.end(),
+                               [](const FoundEffect& found) {
+                                 return found.of_another_day;
+                               }),
+                effects.end());
+  for (FoundEffect& found : ListChangedFriction(*fit)) {
+    effects.push_back(std::move(found));
+  }
+  SortFindings(&effects);
+  std::stable_partition(effects.begin(), effects.end(), IsLikely);
   std::optional<MatrixXd> covariance;  // of the baseline
   for (FoundEffect& found : findings->effects) {
     if (found.fitted.empty() && !found.missing_term) continue;

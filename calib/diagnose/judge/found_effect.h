@@ -33,6 +33,9 @@ struct FoundEffect {
   // over the noise's; NaN where nothing was held out or no reference tells the
   // noise.
   double gap = std::numeric_limits<double>::quiet_NaN();
+  // By how much it lowers the held-out mean square, over what friction of
+  // another day lowers on its joint; NaN where that has not changed.
+  double over_change = std::numeric_limits<double>::quiet_NaN();
   // Others that these data cannot tell from it.
   std::vector<PlacedEffect> equivalent;
   // Of the held-out gap, by this one given the others; NaN: not known.
