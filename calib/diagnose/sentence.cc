@@ -45,19 +45,17 @@ std::string Findings(const GapDiagnosis& diagnosis) {
     if (!(less >= .5)) return text;
     return text + Format(
                       "; refitted with %s, %.0f %% of the file's gap is gone "
-                      "on data not used for choosing",
+                      "on held-out data",
                       names.size() > 1 ? "them" : "it", less);
   }
   const double removed = diagnosis.torque.removed_percent;
   if (!std::isfinite(removed)) return text;
   if (removed < .5) {
-    return text +
-           ", which does not shrink the gap on data not used for "
-           "choosing";
+    return text + ", which does not shrink the gap on held-out data";
   }
   return text + Format(
                     ", which removes %.0f %% of the gap that refitting "
-                    "leaves on data not used for choosing",
+                    "leaves on held-out data",
                     removed);
 }
 

@@ -76,7 +76,6 @@ struct Thresholds {
   // Probability and claims
   double temperature = 4;
   double credible = .95;
-  double least_claimed = .3;
   double likely = .5;
   double likely_unseen = .7;
   double form_error = .2;

@@ -49,8 +49,6 @@ bool IsContradicted(const FoundEffect& found) {
          confirmation.explained < 0 && found.evidence.gain < Limits().helps;
 }
 
-// Less than likely is nothing of what comes and goes, which may be anything,
-// nor of what does not help where nothing was chosen on.
 bool IsClaimed(const FoundEffect& found) {
   if (found.of_another_day) return true;
   if (!found.contacts.empty()) return found.probability >= Limits().likely;
@@ -59,12 +57,8 @@ bool IsClaimed(const FoundEffect& found) {
   if (!IsBeyondScatter(found)) return false;
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
-  if (!IsSeenAgain(found)) {
-    return found.probability >= Limits().likely_unseen;
-  }
-  return found.probability >= Limits().likely ||
-         (found.probability >= Limits().least_claimed &&
-          found.evidence.gain > 0);
+  return found.probability >=
+         (IsSeenAgain(found) ? Limits().likely : Limits().likely_unseen);
 }
 
 }  // namespace armcal

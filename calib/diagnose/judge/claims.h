@@ -41,9 +41,8 @@ bool IsPossible(const FoundEffect& found);
 bool IsContradicted(const FoundEffect& found);
 
 // Whether it is told as an effect; what is not is a candidate. It has to be
-// possible and likelier than not, or likely enough and of help on held-out
-// data, as what swings in time has to be anyway; what held-out data do not show
-// has to be likelier.
+// possible and likelier than not, and likelier still where held-out data do not
+// show it; what swings in time has to help there.
 bool IsClaimed(const FoundEffect& found);
 
 }  // namespace armcal

@@ -15,7 +15,7 @@ TEST(BriefReport, NamesWhatIsMissingAndHowMuchItMatters) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   EXPECT_EQ(BriefReport(diagnosis),
             "The model lacks stribeck on elbow and payload, which removes 93 % "
-            "of the gap that refitting leaves on data not used for choosing.");
+            "of the gap that refitting leaves on held-out data.");
   diagnosis.effects.push_back(MakeFound("torque_ripple", 0));
   diagnosis.verdict = GapVerdict::kPartlyExplained;
   diagnosis.torque.removed_percent = std::nan("");
@@ -35,7 +35,7 @@ TEST(BriefReport, SaysHowSureItIs) {
   diagnosis.torque.removed_percent = -47;
   EXPECT_EQ(BriefReport(diagnosis),
             "The model may lack stribeck on elbow, which does not shrink the "
-            "gap on data not used for choosing.");
+            "gap on held-out data.");
 }
 
 // What the file gives no joint is in the refit, too: the file's gap is what it
@@ -47,7 +47,7 @@ TEST(BriefReport, ComparesTermsThatAFileLacksWithTheFile) {
   diagnosis.torque.removed_percent = 0;
   EXPECT_EQ(BriefReport(diagnosis),
             "The model lacks coulomb friction; refitted with it, 95 % of the "
-            "file's gap is gone on data not used for choosing.");
+            "file's gap is gone on held-out data.");
 }
 
 TEST(BriefReport, SaysWhatItCannotName) {
