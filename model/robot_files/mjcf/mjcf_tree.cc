@@ -10,6 +10,7 @@
 #include "model/robot_files/mjcf/mjcf_actuators.h"
 #include "model/robot_files/mjcf/mjcf_couplings.h"
 #include "model/robot_files/mjcf/mjcf_defaults.h"
+#include "model/robot_files/mjcf/mjcf_gears.h"
 #include "model/robot_files/mjcf/mjcf_includes.h"
 #include "model/robot_files/mjcf/mjcf_inertial.h"
 #include "model/robot_files/mjcf/mjcf_joint.h"
@@ -57,6 +58,7 @@ class MjcfTreeReader {
                  std::vector<std::string> notes)
       : defaults_(root),
         settings_(ReadMjcfSettings(root)),
+        gears_(root),
         meshes_(root, defaults_, folder) {
     AddNames(root, &given_);
     tree_.notes = std::move(notes);
@@ -69,6 +71,8 @@ class MjcfTreeReader {
   void ReadBody(const MjcfPart& part, int parent);
   int AddLink(TreeLink link, const XmlElement& element);
   void AddJoint(TreeJoint joint, int parent, int child);
+  std::vector<const MjcfPart*> JointsOf(const std::vector<MjcfPart>& parts,
+                                        TreeLink* link);
   int AddMovedLinks(const XmlElement& body, const std::vector<MjcfPart>& parts,
                     TreeLink link, int parent, const Isometry3d& X_PB);
   int AddFixedLink(const XmlElement& body, TreeLink link, int parent,
@@ -81,6 +85,7 @@ class MjcfTreeReader {
 
   MjcfDefaults defaults_;
   MjcfSettings settings_;
+  MjcfGears gears_;
   MjcfMeshes meshes_;
   RobotTree tree_;
   std::set<std::string> given_;  // all names in the file
@@ -136,16 +141,31 @@ int MjcfTreeReader::AddFixedLink(const XmlElement& body, TreeLink link,
   return child;
 }
 
+// The joints of a body but for those that are gears of the one before.
+std::vector<const MjcfPart*> MjcfTreeReader::JointsOf(
+    const std::vector<MjcfPart>& parts, TreeLink* link) {
+  std::vector<const MjcfPart*> joints;
+  for (const MjcfPart& part : parts) {
+    const std::string& tag = part.element.tag();
+    if (tag != "joint" && tag != "freejoint") continue;
+    if (joints.empty() ||
+        !gears_.IsGear(*joints.back(), part, defaults_, settings_)) {
+      joints.push_back(&part);
+      continue;
+    }
+    link->notes.push_back("joint " + Quoted(JointName(part.element)) +
+                          ", by which link " + Quoted(link->name) +
+                          " yields, is not used: armcal's joints are rigid");
+  }
+  return joints;
+}
+
 // A joint moves what the one before it has moved.
 int MjcfTreeReader::AddMovedLinks(const XmlElement& body,
                                   const std::vector<MjcfPart>& parts,
                                   TreeLink link, int parent,
                                   const Isometry3d& X_PB) {
-  std::vector<const MjcfPart*> joints;
-  for (const MjcfPart& part : parts) {
-    const std::string& tag = part.element.tag();
-    if (tag == "joint" || tag == "freejoint") joints.push_back(&part);
-  }
+  const std::vector<const MjcfPart*> joints = JointsOf(parts, &link);
   Isometry3d X = X_PB;
   for (size_t i = 0; i < joints.size(); ++i) {
     XmlElement element = joints[i]->element;

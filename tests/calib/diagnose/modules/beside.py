@@ -1,4 +1,4 @@
-"""Prints the torques of a few steps beside robot.xml, and what these and the file's friction
+"""Prints the torques of a few steps beside robot_plain.xml, and what these and the file's friction
 (viscous, dry, constant, spring) leave of the torques with nothing beside."""
 import math
 import sys
@@ -7,7 +7,7 @@ sys.path.insert(0, sys.argv[1])
 import effects  # noqa: E402
 
 FILE = sys.argv[1] + "/effects.json"
-beside, alone = effects.Effects(FILE, beside="mjcf"), effects.Effects(FILE)
+beside, alone = effects.Effects(FILE, beside="mjcf_plain"), effects.Effects(FILE)
 left = 0.
 for k in range(20):
     q = [.1 * math.sin(.3 * k + j) for j in range(beside.n)]

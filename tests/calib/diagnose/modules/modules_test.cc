@@ -108,7 +108,7 @@ TEST(Modules, HoldManyLawsTogether) {
   Agree(moved.With(effects, -.004), "together");
 }
 
-// A spring is in MJCF, of bristles their share, all else in the module; both
+// A spring is in plain MJCF, of bristles their share, all else in the module; both
 // languages say the same.
 TEST(Modules, LeaveRobotFilesTheirPart) {
   MovedArm moved;
