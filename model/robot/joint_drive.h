@@ -58,10 +58,10 @@ struct JointDrive {
   // act on the motor, as do friction and spring.
   double quadratic = 0;  // of v |v|, N m s^2/rad^2 or N s^2/m^2
   // The joint's Coulomb friction with how it changes sign; empty: not known.
-  std::vector<SaturatingFriction> dry;
-  std::vector<BristleFriction> bristles;
-  std::vector<TorqueWave> waves;
-  std::optional<GearSpring> gear;
+  std::vector<SaturatingFriction> dry = {};
+  std::vector<BristleFriction> bristles = {};
+  std::vector<TorqueWave> waves = {};
+  std::optional<GearSpring> gear = std::nullopt;
 
   bool HasLaws() const {
     return quadratic != 0 || !dry.empty() || !bristles.empty() ||

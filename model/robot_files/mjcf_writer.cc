@@ -186,13 +186,13 @@ void AddOption(const RobotDescription& description, const MjcfLaws& laws,
                XMLElement* root) {
   XMLElement* option = root->InsertNewChildElement("option");
   option->SetAttribute("gravity", Text(description.robot.gravity).c_str());
-  if (description.controller) {
-    Set("timestep", 1 / description.controller->rate_hz, option);
-    option->SetAttribute("integrator", "implicit");
-  } else if (laws.any() || description.torque_delay > 0) {
-    Set("timestep", laws.timestep(), option);
-    option->SetAttribute("integrator", "implicitfast");
-  }
+  const bool steps = laws.any() || description.torque_delay > 0;
+  if (!description.controller && !steps) return;
+  Set("timestep",
+      description.controller ? 1 / description.controller->rate_hz
+                             : laws.timestep(),
+      option);
+  option->SetAttribute("integrator", "implicit");
 }
 
 void AddActuators(const RobotDescription& description, const MjcfLaws& laws,

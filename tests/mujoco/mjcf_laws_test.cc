@@ -16,6 +16,7 @@ namespace armcal::mujoco_mjcf_laws_test {
 
 RobotDescription Arm() {
   RobotDescription description{TwoLinkArm().ToRobot(), {}};
+  description.robot.name = "arm";
   description.robot.gravity.setZero();
   for (int j = 0; j < 2; ++j) {
     Link& link = description.robot.links[j];

@@ -69,6 +69,7 @@ std::vector<double> Numbers(const XMLElement* element, const char* attribute) {
 RobotDescription Arm() {
   RobotDescription description{TwoLinkArm().ToRobot(), {}};
   Robot& robot = description.robot;
+  robot.name = "arm";
   for (int j = 0; j < 2; ++j) {
     robot.links[j].name = "link" + std::to_string(j + 1);
     robot.links[j].joint.name = "joint" + std::to_string(j + 1);

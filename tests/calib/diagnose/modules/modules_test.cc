@@ -108,8 +108,8 @@ TEST(Modules, HoldManyLawsTogether) {
   Agree(moved.With(effects, -.004), "together");
 }
 
-// A spring is in plain MJCF, of bristles their share, all else in the module; both
-// languages say the same.
+// A spring is in plain MJCF, of bristles their share, all else in the module;
+// both languages say the same.
 TEST(Modules, LeaveRobotFilesTheirPart) {
   MovedArm moved;
   const std::string folder =
