@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Does MuJoCo with robot.xml alone follow held-out commands as the robot did?
 
-  mjcf_replay.py --armcal=build/armcal [--work=DIR] [--case=TEXT] [--dt=S]
+  mjcf_replay.py --armcal=build/armcal [--other] [--work=DIR] [--case=TEXT] [--dt=S]
 
-The arms of module_replay.py with one hidden effect each are diagnosed with --export=mjcf and
+The arms of module_replay.py with one hidden effect each (--other: on other joints and of other
+sizes, which nothing was developed on) are diagnosed with --export=mjcf and
 calibrated. Then MuJoCo follows the commands of a log that nothing was fitted to, in closed loop
 by the same drives, whose torques are all that is given: no callback, no module. Prints, per
 case, how far positions are from those recorded, rms of all joints: of the calibrated rigid
@@ -28,6 +29,17 @@ import module_replay  # noqa: E402
 import result_files  # noqa: E402
 
 NOT_IN_MJCF = {"thermal"}
+OTHER = [
+    ("stribeck", "stribeck@1:friction=.15"),
+    ("presliding", "presliding@3:friction=.1,displacement=.01"),
+    ("ripple", "torque_ripple@3:amplitude=.1,harmonic=20"),
+    ("delay", "delay:delay=.004s"),
+    ("elasticity", "elasticity@3:windup=.02"),
+    ("backlash", "backlash@2:gap=.01"),
+    ("counterbalance", "spring@3:stiffness=.2,neutral=-.3"),
+    ("several", "elasticity@2:windup=.01;presliding@2:friction=.15,displacement=.02;"
+                "torque_ripple@3:amplitude=.1,harmonic=20"),
+]
 
 
 class Native(module_replay.Simulation):
@@ -77,6 +89,7 @@ def main():
     parser.add_argument("--armcal", required=True)
     parser.add_argument("--work")
     parser.add_argument("--case", default="")
+    parser.add_argument("--other", action="store_true")
     parser.add_argument("--dt", type=float)
     result_files.add_flag(parser)
     flags = parser.parse_args()
@@ -85,10 +98,10 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         print(f"{'case':15}{'rigid':>10}{'robot.xml':>11}{'armcal':>10}"
               f"{'of armcal':>11}{'of rigid':>10}  named")
-        for name, effect in module_replay.CASES:
+        for name, effect in OTHER if flags.other else module_replay.CASES:
             if flags.case not in name or name in NOT_IN_MJCF:
                 continue
-            out = Path(flags.work or folder).resolve() / name
+            out = Path(flags.work or folder).resolve() / (f"other_{name}" if flags.other else name)
             (rigid, native, own), named, back = replay(
                 Path(flags.armcal).resolve(), out, effect, flags.dt)
             good = native < rigid and back
