@@ -109,8 +109,7 @@ struct Effect {
   // The joint's own term (N m s/rad, N m or kg m^2 as JointTermUnit says) that
   // its only parameter adds to: a number of robot files. None: no such term.
   std::optional<JointTerm> joint_term;
-  // Adds what a robot file with drives has for it, from its `numbers`; whether
-  // there is a field for these. Empty: there is none.
+  // Adds what robot files with drives have for its `numbers`, if they do.
   std::function<bool(const EffectNumbers& numbers, JointDrive* drive)>
       set_drive;
   // Whether the estimates can be of a real arm; empty: always. Those that

@@ -19,8 +19,8 @@ using tinyxml2::XMLElement;
 constexpr double kImpedance = .01;
 // Whole numbers of steps are a millisecond, as controllers have whole ones.
 constexpr double kMillisecond = 1e-3;
-constexpr double kUsualStep = kMillisecond / 2;      // s
-constexpr double kShortestStep = kMillisecond / 10;  // s
+constexpr double kUsualStep = kMillisecond / 2;         // s
+constexpr double kShortestLawStep = kMillisecond / 10;  // s
 // Of what an explicit step takes: a friction's slope of 1 / (step * inverse
 // inertia) would bring the joint to rest in one step, and twice that is
 // unstable. Inertias away from the position 0 may be less.
@@ -106,7 +106,7 @@ double Slope(const std::vector<SaturatingFriction>& parts) {
 }
 
 bool IsStiff(const GearSpring& gear, double inverse) {
-  return std::sqrt(gear.stiffness * inverse) * kShortestStep > kMargin;
+  return std::sqrt(gear.stiffness * inverse) * kShortestLawStep > kMargin;
 }
 
 }  // namespace
@@ -145,7 +145,7 @@ double MjcfLaws::StepOf(int j) const {
     const double rate = std::sqrt(drive.gear->stiffness * gear_[j]);
     step = std::min(step, kMargin / rate);
   }
-  return std::max(step, kShortestStep);
+  return std::max(step, kShortestLawStep);
 }
 
 double MjcfLaws::timestep() const {
@@ -238,12 +238,13 @@ std::vector<std::string> MjcfLaws::Losses() const {
         Format("the spring of joint %s is softer than %.4g, as "
                "steps of %.4g s are to be stable",
                description_.robot.links[j].joint.name.c_str(),
-               drive.gear->stiffness, kShortestStep));
+               drive.gear->stiffness, kShortestLawStep));
   }
-  if (is_new) {
+  if (is_new || description_.torque_delay > 0) {
     losses.push_back(
-        "the file needs MuJoCo 3.12 or later; the format mjcf_plain, with "
-        "less in it, does not");
+        Format("the file needs MuJoCo %s or later; the format "
+               "mjcf_plain, with less in it, does not",
+               is_new ? "3.12" : "3.8"));
   }
   return losses;
 }

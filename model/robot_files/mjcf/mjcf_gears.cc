@@ -55,4 +55,18 @@ bool MjcfGears::IsGear(const MjcfPart& motor, const MjcfPart& gear,
           IsMjcfLimited(of_gear, "limited", "range", settings));
 }
 
+MjcfGears::Joints MjcfGears::Split(const std::vector<MjcfPart>& parts,
+                                   const MjcfDefaults& defaults,
+                                   const MjcfSettings& settings) const {
+  Joints joints;
+  for (const MjcfPart& part : parts) {
+    const std::string& tag = part.element.tag();
+    if (tag != "joint" && tag != "freejoint") continue;
+    const bool yields = !joints.driven.empty() &&
+                        IsGear(*joints.driven.back(), part, defaults, settings);
+    (yields ? joints.gears : joints.driven).push_back(&part);
+  }
+  return joints;
+}
+
 }  // namespace armcal

@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "model/robot_files/mjcf/mjcf_defaults.h"
 #include "model/robot_files/mjcf/mjcf_parts.h"
@@ -17,10 +18,17 @@ class MjcfGears {
   // Actuators, tendons and equalities refer to none of them.
   explicit MjcfGears(const XmlElement& root);
 
+  // Joints of a body, and those of them that are gears of the one before.
+  struct Joints {
+    std::vector<const MjcfPart*> driven, gears;
+  };
+  Joints Split(const std::vector<MjcfPart>& parts, const MjcfDefaults& defaults,
+               const MjcfSettings& settings) const;
+
+ private:
   bool IsGear(const MjcfPart& motor, const MjcfPart& gear,
               const MjcfDefaults& defaults, const MjcfSettings& settings) const;
 
- private:
   std::set<std::string> in_use_;  // names of joints
 };
 

@@ -71,8 +71,6 @@ class MjcfTreeReader {
   void ReadBody(const MjcfPart& part, int parent);
   int AddLink(TreeLink link, const XmlElement& element);
   void AddJoint(TreeJoint joint, int parent, int child);
-  std::vector<const MjcfPart*> JointsOf(const std::vector<MjcfPart>& parts,
-                                        TreeLink* link);
   int AddMovedLinks(const XmlElement& body, const std::vector<MjcfPart>& parts,
                     TreeLink link, int parent, const Isometry3d& X_PB);
   int AddFixedLink(const XmlElement& body, TreeLink link, int parent,
@@ -141,31 +139,17 @@ int MjcfTreeReader::AddFixedLink(const XmlElement& body, TreeLink link,
   return child;
 }
 
-// The joints of a body but for those that are gears of the one before.
-std::vector<const MjcfPart*> MjcfTreeReader::JointsOf(
-    const std::vector<MjcfPart>& parts, TreeLink* link) {
-  std::vector<const MjcfPart*> joints;
-  for (const MjcfPart& part : parts) {
-    const std::string& tag = part.element.tag();
-    if (tag != "joint" && tag != "freejoint") continue;
-    if (joints.empty() ||
-        !gears_.IsGear(*joints.back(), part, defaults_, settings_)) {
-      joints.push_back(&part);
-      continue;
-    }
-    link->notes.push_back("joint " + Quoted(JointName(part.element)) +
-                          ", by which link " + Quoted(link->name) +
-                          " yields, is not used: armcal's joints are rigid");
-  }
-  return joints;
-}
-
 // A joint moves what the one before it has moved.
 int MjcfTreeReader::AddMovedLinks(const XmlElement& body,
                                   const std::vector<MjcfPart>& parts,
                                   TreeLink link, int parent,
                                   const Isometry3d& X_PB) {
-  const std::vector<const MjcfPart*> joints = JointsOf(parts, &link);
+  const auto [joints, gears] = gears_.Split(parts, defaults_, settings_);
+  for (const MjcfPart* gear : gears) {
+    link.notes.push_back("joint " + Quoted(JointName(gear->element)) +
+                         ", by which link " + Quoted(link.name) +
+                         " yields, is not used: armcal's joints are rigid");
+  }
   Isometry3d X = X_PB;
   for (size_t i = 0; i < joints.size(); ++i) {
     XmlElement element = joints[i]->element;

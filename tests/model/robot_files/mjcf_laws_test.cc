@@ -182,6 +182,8 @@ TEST(MjcfLaws, MotorsAreLateByTheDelay) {
   arm.torque_delay = .0042;
   const Written written(arm);
   EXPECT_THAT(Numbers(written.All("option")[0], "timestep"), ElementsAre(5e-4));
+  EXPECT_THAT(MjcfFormat().more_losses(arm),
+              ElementsAre(HasSubstr("3.8 or later")));
   for (const XMLElement* motor : written.All("motor")) {
     EXPECT_THAT(Numbers(motor, "delay"), ElementsAre(.0042));
     EXPECT_THAT(Numbers(motor, "nsample"), ElementsAre(10));
