@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calib/diagnose/candidates/dry_friction.h"
 #include "calib/diagnose/candidates/file_fields.h"
 #include "calib/diagnose/candidates/friction_share.h"
 #include "calib/diagnose/modules/effects_json.h"
@@ -14,8 +15,6 @@ namespace armcal {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kNoDelay = 1e-4;  // s, that nobody would miss
 
 std::string Short(double x) {
   char text[40];
@@ -86,6 +85,21 @@ void MakeLinksPossible(const CorrectedRobot& corrected, const Robot& file,
                     differs);
 }
 
+// How friction changes sign, with what of it is another law's share, and the
+// delay by which torque acts late.
+void SetLaws(const CorrectedRobot& corrected, RobotDescription* description) {
+  for (int j = 0; j < description->robot.num_joints(); ++j) {
+    double* const dry = &description->robot.links[j].joint.coulomb;
+    std::vector<CoulombPart> coulomb = corrected.coulomb[j];
+    double share = *dry;
+    for (const CoulombPart& part : coulomb) share -= part.force;
+    const double width = corrected.width[j];
+    coulomb.push_back({share, {CoulombTransition::Law::kVelocity, width}});
+    *dry = SetDryFriction(coulomb, width, &description->drives[j]);
+  }
+  if (corrected.acts_late()) description->torque_delay = -corrected.delay;
+}
+
 // What the format can hold of it.
 RobotDescription Describe(const CorrectedRobot& corrected, const Robot& file,
                           const RobotFormat& format,
@@ -97,7 +111,7 @@ RobotDescription Describe(const CorrectedRobot& corrected, const Robot& file,
     const int j = effect.found.joint;
     if (j < 0 || effect.in_robot) continue;
     if (IsIn(format, effect)) {
-      AddToFile(effect.found, &robot.links[j].joint, &description.drives[j]);
+      AddToFile(effect, &robot.links[j].joint, &description.drives[j]);
     } else {
       const FrictionShare share =
           ShareOfFriction(effect, corrected.plant.robot, corrected.scale);
@@ -111,6 +125,7 @@ RobotDescription Describe(const CorrectedRobot& corrected, const Robot& file,
     ForbidPushing("Coulomb", &link.joint.coulomb, link.joint, losses);
     ForbidPushing("armature", &link.joint.armature, link.joint, losses);
   }
+  if (format.Holds(RobotField::kLaws)) SetLaws(corrected, &description);
   return description;
 }
 
@@ -151,14 +166,17 @@ void AddLosses(const CorrectedRobot& corrected, const RobotFormat& format,
     losses->push_back(Sentence(format, effect, description.robot) +
                       ShareSentence(corrected, effect));
   }
+  const bool laws = format.Holds(RobotField::kLaws);
   for (const std::vector<CoulombPart>& parts : corrected.coulomb) {
+    if (laws) break;
     if (parts.front().force == 0 && parts.size() == 1) continue;
     losses->push_back(title +
                       " has no field for how friction changes sign through "
                       "zero velocity: see effects.json");
     break;
   }
-  if (std::abs(corrected.delay) >= kNoDelay) {
+  if (std::abs(corrected.delay) >= kLeastDelay &&
+      !(laws && corrected.acts_late())) {
     losses->push_back(title + " has no field for time: torque was recorded " +
                       Short(1e3 * std::abs(corrected.delay)) + " ms " +
                       (corrected.delay > 0 ? "after" : "before") +

@@ -1,5 +1,7 @@
 #include "model/effects/effect.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 
 namespace armcal {
@@ -21,6 +23,14 @@ std::string ParameterUnit(const std::string& unit, JointType type) {
     }
   }
   return text;
+}
+
+double NumberOf(const EffectNumbers& numbers, const std::string& name) {
+  const auto found =
+      std::find_if(numbers.begin(), numbers.end(),
+                   [&](const auto& number) { return number.first == name; });
+  CHECK(found != numbers.end()) << name;
+  return found->second;
 }
 
 std::vector<EffectEstimate> EstimatesOf(const Effect& effect,

@@ -109,9 +109,9 @@ struct Effect {
   // The joint's own term (N m s/rad, N m or kg m^2 as JointTermUnit says) that
   // its only parameter adds to: a number of robot files. None: no such term.
   std::optional<JointTerm> joint_term;
-  // Sets what a robot file with drives has for it; whether there is a field for
-  // these p. Empty: there is none.
-  std::function<bool(const Eigen::VectorXd& p, JointDrive* drive)> set_drive;
+  // Adds what robot files with drives have for its `numbers`, if they do.
+  std::function<bool(const EffectNumbers& numbers, JointDrive* drive)>
+      set_drive;
   // Whether the estimates can be of a real arm; empty: always. Those that
   // cannot are not reported.
   std::function<bool(const std::vector<EffectEstimate>& estimates)> plausible;
@@ -129,6 +129,8 @@ struct Effect {
 bool HasMean(const Effect& law, const Effect& mean);
 // "N m s/rad" from "E s/P" for a revolute joint.
 std::string ParameterUnit(const std::string& unit, JointType type);
+// The number of that name, which has to be there.
+double NumberOf(const EffectNumbers& numbers, const std::string& name);
 // What the effect says of itself at p.
 std::vector<EffectEstimate> EstimatesOf(const Effect& effect,
                                         const EffectSite& site,

@@ -1,6 +1,50 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 namespace armcal {
+
+// Dry friction that grows evenly with velocity until it is `force` at `width`,
+// and stays so. Any curve that rises ever less steeply is a sum of such parts.
+struct SaturatingFriction {
+  double force = 0;  // N m or N
+  double width = 0;  // rad/s or m/s
+};
+
+// Bristles that bend before they slip (LuGre: Canudas de Wit et al. 1995,
+// without damping of their own): force = stiffness z, z' = v - stiffness |v| z
+// / g(v), g(v) = coulomb + (at_rest - coulomb) exp(-(v / stribeck_velocity)^2).
+struct BristleFriction {
+  double stiffness = 0;          // N m/rad or N/m
+  double coulomb = 0;            // N m or N, of fast motion
+  double at_rest = 0;            // N m or N
+  double stribeck_velocity = 1;  // rad/s or m/s
+
+  // What there is more of near standstill than in motion. The bristles give way
+  // over what the joint moves in 10 ms at `width`, the velocity within which
+  // friction changes sign: too little to be seen.
+  static BristleFriction Stribeck(double at_rest, double velocity,
+                                  double width) {
+    return {at_rest / (.01 * width), 0, at_rest, velocity};
+  }
+};
+
+// A torque of amplitude sin(harmonic q + phase) on the joint.
+struct TorqueWave {
+  double amplitude = 0;  // N m or N
+  double harmonic = 0;   // 1/rad or 1/m
+  double phase = 0;      // rad
+};
+
+// A motor drives its link over a spring and a damper: between flanks that leave
+// a gap, or, without a gap, a spring of stiffness d (1 + stiffening d^2).
+struct GearSpring {
+  double gap = 0;         // rad or m
+  double stiffness = 0;   // N m/rad or N/m
+  double damping = 0;     // N m s/rad or N s/m
+  double stiffening = 0;  // 1/rad^2 or 1/m^2
+};
 
 // What acts on a joint beside what a Joint has.
 struct JointDrive {
@@ -9,6 +53,20 @@ struct JointDrive {
   double rest = 0;
   // Torque that the motor gives per torque that is asked of it.
   double gain = 1;
+
+  // Laws that few robot files have. With a gear between motor and link they
+  // act on the motor, as do friction and spring.
+  double quadratic = 0;  // of v |v|, N m s^2/rad^2 or N s^2/m^2
+  // The joint's Coulomb friction with how it changes sign; empty: not known.
+  std::vector<SaturatingFriction> dry = {};
+  std::vector<BristleFriction> bristles = {};
+  std::vector<TorqueWave> waves = {};
+  std::optional<GearSpring> gear = std::nullopt;
+
+  bool HasLaws() const {
+    return quadratic != 0 || !dry.empty() || !bristles.empty() ||
+           !waves.empty() || gear;
+  }
 };
 
 }  // namespace armcal

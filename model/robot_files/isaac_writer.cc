@@ -135,7 +135,7 @@ RobotFormat IsaacFormat() {
           "Isaac Lab",
           "isaac_actuators.py",
           {RobotField::kOffset, RobotField::kSpring, RobotField::kGain,
-           RobotField::kGravity},
+           RobotField::kLaws, RobotField::kGravity},
           &MakeIsaac,
           &IsaacLosses,
           false};

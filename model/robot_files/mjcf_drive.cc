@@ -31,15 +31,6 @@ std::string Inputs(const ControllerOptions& controller, const DriveLaw& law) {
   return inputs;
 }
 
-// Commands that arrive late lie in a buffer of time steps.
-void SetDelay(const ControllerOptions& controller, XMLElement* element) {
-  if (controller.delay <= 0) return;
-  const double steps = std::ceil(controller.delay * controller.rate_hz - 1e-9);
-  element->SetAttribute("delay", ExactText(controller.delay).c_str());
-  element->SetAttribute("nsample", static_cast<int>(steps) + 1);
-  element->SetAttribute("interp", "linear");
-}
-
 void SetServo(const PidGains& gains, XMLElement* element) {
   element->SetAttribute("biastype", "affine");
   element->SetAttribute("gainprm", ExactText(gains.kp).c_str());
@@ -120,7 +111,7 @@ void AddDrive(const Joint& joint, const JointDrive& drive,
     element->SetAttribute("forcelimited", "true");
     element->SetAttribute("forcerange", Pair(-limit, limit).c_str());
   }
-  SetDelay(controller, element);
+  SetMjcfDelay(controller.delay, 1 / controller.rate_hz, element);
 }
 
 }  // namespace
@@ -135,6 +126,14 @@ void AddMjcfDrives(const RobotDescription& description, XMLElement* actuators) {
   for (const Link& link : links) {
     if (link.joint.offset != 0) AddOffset(link.joint, actuators);
   }
+}
+
+void SetMjcfDelay(double delay, double timestep, XMLElement* actuator) {
+  if (delay <= 0) return;
+  const double steps = std::ceil(delay / timestep - 1e-9);
+  actuator->SetAttribute("delay", ExactText(delay).c_str());
+  actuator->SetAttribute("nsample", static_cast<int>(steps) + 1);
+  actuator->SetAttribute("interp", "linear");
 }
 
 std::vector<std::string> MjcfDriveLosses(const RobotDescription& description) {

@@ -25,6 +25,10 @@ namespace armcal {
 void AddMjcfDrives(const RobotDescription& description,
                    tinyxml2::XMLElement* actuators);
 
+// Controls act `delay` (s) after they are given, out of a buffer of time steps.
+void SetMjcfDelay(double delay, double timestep,
+                  tinyxml2::XMLElement* actuator);
+
 // What MuJoCo's actuators lack of the drives, sentences.
 std::vector<std::string> MjcfDriveLosses(const RobotDescription& description);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "model/robot_files/mjcf_drive.h"
+#include "model/robot_files/mjcf_laws.h"
 #include "model/robot_files/urdf_values.h"
 #include "model/text/exact_text.h"
 
@@ -74,9 +75,9 @@ void SetIfAny(const char* name, double value, XMLElement* element) {
   if (value != 0) Set(name, value, element);
 }
 
-// X_LM: the joint's frame in the body's, at q = 0.
-void AddJoint(const Joint& joint, const JointDrive& drive,
-              const Isometry3d& X_LM, XMLElement* body) {
+// X_LM: the joint's frame in the body's, at q = 0. Returns it.
+XMLElement* AddJoint(const Joint& joint, const JointDrive& drive,
+                     const Isometry3d& X_LM, XMLElement* body) {
   XMLElement* element = body->InsertNewChildElement("joint");
   element->SetAttribute("name", joint.name.c_str());
   element->SetAttribute("type", IsRotational(joint.type) ? "hinge" : "slide");
@@ -93,11 +94,12 @@ void AddJoint(const Joint& joint, const JointDrive& drive,
   SetIfAny("frictionloss", joint.coulomb, element);
   SetIfAny("stiffness", drive.stiffness, element);
   if (drive.stiffness != 0) SetIfAny("springref", drive.rest, element);
+  return element;
 }
 
 // The force on the joint is gain ctrl - offset.
-void AddMotor(const Joint& joint, const JointDrive& drive,
-              XMLElement* actuators) {
+XMLElement* AddMotor(const Joint& joint, const JointDrive& drive,
+                     XMLElement* actuators) {
   const bool plain = joint.offset == 0 && drive.gain == 1;
   XMLElement* motor =
       actuators->InsertNewChildElement(plain ? "motor" : "general");
@@ -107,9 +109,10 @@ void AddMotor(const Joint& joint, const JointDrive& drive,
     SetRange("ctrllimited", "ctrlrange", -joint.effort, joint.effort, motor);
   }
   if (drive.gain != 1) Set("gainprm", drive.gain, motor);
-  if (joint.offset == 0) return;
+  if (joint.offset == 0) return motor;
   motor->SetAttribute("biastype", "affine");
   motor->SetAttribute("biasprm", (ExactText(-joint.offset) + " 0 0").c_str());
+  return motor;
 }
 
 // For the eye, from the link's origin to what it carries.
@@ -138,8 +141,8 @@ bool JoinsNext(const Robot& robot, int i) {
 }
 
 // Adds the body of the links first..last, of which only `last` may have mass.
-XMLElement* AddBody(const RobotDescription& description, int first, int last,
-                    XMLElement* parent) {
+XMLElement* AddBody(const RobotDescription& description, const MjcfLaws& laws,
+                    int first, int last, XMLElement* parent) {
   const std::vector<Link>& links = description.robot.links;
   Isometry3d X_PL = Isometry3d::Identity();
   for (int i = first; i <= last; ++i) X_PL = X_PL * links[i].X_PL(0);
@@ -153,7 +156,8 @@ XMLElement* AddBody(const RobotDescription& description, int first, int last,
     // Of a body with one joint exactly what the link says.
     const Isometry3d X_LM =
         first == last ? links[i].X_ML.inverse() : X_PL.inverse() * X_PM;
-    AddJoint(links[i].joint, description.DriveOf(i), X_LM, body);
+    laws.AddToJoint(
+        i, AddJoint(links[i].joint, description.DriveOf(i), X_LM, body));
     X_PM = X_PM * links[i].X_ML;
   }
   const bool is_last = last + 1 == description.robot.num_joints();
@@ -165,6 +169,8 @@ XMLElement* AddBody(const RobotDescription& description, int first, int last,
 
 std::vector<std::string> MjcfLosses(const RobotDescription& description) {
   std::vector<std::string> losses = MjcfDriveLosses(description);
+  const std::vector<std::string> of_laws = MjcfLaws(description).Losses();
+  losses.insert(losses.end(), of_laws.begin(), of_laws.end());
   const Robot& robot = description.robot;
   for (int i = 0; i < robot.num_joints(); ++i) {
     if (robot.links[i].inertial.mass > 0 || JoinsNext(robot, i)) continue;
@@ -174,29 +180,52 @@ std::vector<std::string> MjcfLosses(const RobotDescription& description) {
   return losses;
 }
 
+// The controller's period, or what the laws need; MuJoCo's own where neither
+// asks for anything.
+void AddOption(const RobotDescription& description, const MjcfLaws& laws,
+               XMLElement* root) {
+  XMLElement* option = root->InsertNewChildElement("option");
+  option->SetAttribute("gravity", Text(description.robot.gravity).c_str());
+  const bool steps = laws.any() || description.torque_delay > 0;
+  if (!description.controller && !steps) return;
+  Set("timestep",
+      description.controller ? 1 / description.controller->rate_hz
+                             : laws.timestep(),
+      option);
+  option->SetAttribute("integrator", "implicit");
+}
+
+void AddActuators(const RobotDescription& description, const MjcfLaws& laws,
+                  XMLElement* root) {
+  const Robot& robot = description.robot;
+  XMLElement* actuators = root->InsertNewChildElement("actuator");
+  if (description.controller) AddMjcfDrives(description, actuators);
+  for (int j = 0; !description.controller && j < robot.num_joints(); ++j) {
+    SetMjcfDelay(
+        description.torque_delay, laws.timestep(),
+        AddMotor(robot.links[j].joint, description.DriveOf(j), actuators));
+  }
+  laws.AddActuators(actuators);
+}
+
 }  // namespace
 
 std::string MakeMjcf(const RobotDescription& description) {
   const Robot& robot = description.robot;
+  const MjcfLaws laws(description);
   tinyxml2::XMLDocument document;
   XMLElement* root = document.NewElement("mujoco");
   document.InsertEndChild(root);
   root->SetAttribute("model", robot.name.c_str());
   root->InsertNewChildElement("compiler")->SetAttribute("angle", "radian");
-  XMLElement* option = root->InsertNewChildElement("option");
-  option->SetAttribute("gravity", Text(robot.gravity).c_str());
-  const auto& controller = description.controller;
-  if (controller) {
-    Set("timestep", 1 / controller->rate_hz, option);
-    option->SetAttribute("integrator", "implicit");
-  }
+  AddOption(description, laws, root);
   XMLElement* const world = root->InsertNewChildElement("worldbody");
   std::vector<XMLElement*> bodies(robot.links.size());
   for (int first = 0, last = 0; last < robot.num_joints(); ++last) {
     if (JoinsNext(robot, last)) continue;
     const int before = robot.parent(first);
-    bodies[last] =
-        AddBody(description, first, last, before < 0 ? world : bodies[before]);
+    bodies[last] = AddBody(description, laws, first, last,
+                           before < 0 ? world : bodies[before]);
     first = last + 1;
   }
   if (!robot.tool_name.empty()) {
@@ -204,17 +233,20 @@ std::string MakeMjcf(const RobotDescription& description) {
     tool->SetAttribute("name", robot.tool_name.c_str());
     SetPose(robot.X_LT, tool);
   }
-  XMLElement* actuators = root->InsertNewChildElement("actuator");
-  if (controller) AddMjcfDrives(description, actuators);
-  for (int j = 0; !controller && j < robot.num_joints(); ++j) {
-    AddMotor(robot.links[j].joint, description.DriveOf(j), actuators);
-  }
+  laws.AddTendons(root);
+  AddActuators(description, laws, root);
   return XmlText(document);
 }
 
 RobotFormat MjcfFormat() {
   return {"mjcf",    "MJCF",     "robot.xml", {RobotField::kVelocityLimit},
           &MakeMjcf, &MjcfLosses};
+}
+
+RobotFormat PlainMjcfFormat() {
+  return {"mjcf_plain",      "plain MJCF",
+          "robot_plain.xml", {RobotField::kVelocityLimit, RobotField::kLaws},
+          &MakeMjcf,         &MjcfLosses};
 }
 
 }  // namespace armcal

@@ -37,6 +37,8 @@ double ValueOf(RobotField field, const Joint& joint, const JointDrive& drive) {
       return drive.stiffness;
     case RobotField::kGain:
       return drive.gain == 1 ? 0 : drive.gain;
+    case RobotField::kLaws:
+      return drive.HasLaws() ? 1 : 0;
     case RobotField::kVelocityLimit:
       return std::isfinite(joint.velocity) ? joint.velocity : 0;
     case RobotField::kGravity:
@@ -63,6 +65,8 @@ std::string NameOf(RobotField field) {
       return "springs";
     case RobotField::kGain:
       return "torque given per torque asked";
+    case RobotField::kLaws:
+      return "laws of drives";
     case RobotField::kVelocityLimit:
       return "velocity limits";
     case RobotField::kController:

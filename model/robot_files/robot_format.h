@@ -16,6 +16,7 @@ struct RobotDescription {
   std::vector<JointDrive> drives;  // per joint; empty: nothing beside
   // What moves it where commands are positions; none: torques are given.
   std::optional<ControllerOptions> controller = std::nullopt;
+  double torque_delay = 0;  // s; torque acts this much after it is asked for
 
   JointDrive DriveOf(int joint) const {
     return drives.empty() ? JointDrive() : drives[joint];
@@ -28,6 +29,7 @@ enum class RobotField {
   kOffset,
   kSpring,
   kGain,
+  kLaws,  // JointDrive's beyond a spring and a gain, and a delay of torque
   kVelocityLimit,
   kGravity,
   kController

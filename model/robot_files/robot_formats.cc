@@ -10,7 +10,8 @@ namespace armcal {
 
 const std::vector<RobotFormat>& RobotFormats() {
   static const std::vector<RobotFormat> formats = {
-      UrdfFormat(), MjcfFormat(), SdfFormat(), YamlFormat(), IsaacFormat()};
+      UrdfFormat(), MjcfFormat(), PlainMjcfFormat(),
+      SdfFormat(),  YamlFormat(), IsaacFormat()};
   return formats;
 }
 

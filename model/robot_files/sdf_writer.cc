@@ -172,7 +172,8 @@ RobotFormat SdfFormat() {
   return {"sdf",
           "SDF",
           "robot.sdf",
-          {RobotField::kOffset, RobotField::kGain, RobotField::kController},
+          {RobotField::kOffset, RobotField::kGain, RobotField::kLaws,
+           RobotField::kController},
           &MakeSdf,
           &SdfLosses};
 }

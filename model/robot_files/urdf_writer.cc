@@ -116,7 +116,8 @@ RobotFormat UrdfFormat() {
           "URDF",
           "robot.urdf",
           {RobotField::kArmature, RobotField::kOffset, RobotField::kSpring,
-           RobotField::kGain, RobotField::kGravity, RobotField::kController},
+           RobotField::kGain, RobotField::kLaws, RobotField::kGravity,
+           RobotField::kController},
           &WriteUrdf,
           nullptr};
 }

@@ -163,7 +163,8 @@ RobotFormat YamlFormat() {
   return {"yaml",
           "YAML",
           "robot.yaml",
-          {RobotField::kSpring, RobotField::kGain, RobotField::kController},
+          {RobotField::kSpring, RobotField::kGain, RobotField::kLaws,
+           RobotField::kController},
           &MakeYaml,
           nullptr};
 }

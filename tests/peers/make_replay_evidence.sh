@@ -21,13 +21,13 @@ for seed in 1 2 3; do
         --truth="$case/truth$run" >"$case.txt"
     done
     "$armcal" diagnose --robot="$robot" --log="$case/log1/log.csv" \
-      --validate="$case/log2/log.csv" --forward=false --export=mjcf \
+      --validate="$case/log2/log.csv" --forward=false --export=mjcf_plain \
       --out="$case/diagnosed" >>"$case.txt" 2>/dev/null
     "$armcal" calibrate --robot="$robot" --log="$case/log1/log.csv" \
       --export=mjcf --out="$case/calibrated" >>"$case.txt" 2>/dev/null
     echo "$name $seed $("$python" "$here/replay_in_mujoco.py" \
       --original="$out/original/robot.xml" \
-      --corrected="$case/diagnosed/robot.xml" \
+      --corrected="$case/diagnosed/robot_plain.xml" \
       --refitted="$case/calibrated/robot.xml" \
       --train="$case/log1/log.csv" --held_out="$case/log3/log.csv")"
   done

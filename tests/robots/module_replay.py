@@ -4,9 +4,9 @@
   module_replay.py --armcal=build/armcal [--work=DIR] [--case=TEXT] [--dt=0.0005]
 
 Arms with one hidden effect each, 2 % off their file, are simulated by armcal (Simbody)
-under position drives, diagnosed with --modules=python --export=mjcf, and calibrated. Then
+under position drives, diagnosed with --modules=python --export=mjcf_plain, and calibrated. Then
 MuJoCo follows the commands of a log that nothing was fitted to, in closed loop by the same
-drives: with the calibrated rigid robot, and with robot.xml and effects.py. Prints, per case,
+drives: with the calibrated rigid robot, and with robot_plain.xml and effects.py. Prints, per case,
 how far positions are from those recorded, rms of all joints, for both and for armcal's own
 replay (`forward` of diagnosis.json). Exit code 1 where effects.py is more than 1.2 times as
 far as armcal's own. How far both are beside the rigid robot is the diagnosis's doing.
@@ -114,6 +114,9 @@ class Simulation:
                                         mujoco.mjtDisableBit.mjDSBL_LIMIT)
         self.data = mujoco.MjData(self.model)
 
+    def start(self, position):
+        self.data.qpos[:] = position
+
     def read(self):
         return self.data.qpos
 
@@ -122,7 +125,7 @@ class Simulation:
 
     def path(self, log, kp, kd):
         dt, drives = self.model.opt.timestep, Drives(log, kp, kd)
-        self.data.qpos[:] = log.qref[0]
+        self.start(log.qref[0])
         every = round(1 / drives.rate / dt)
         settle, end = round(ca.SETTLE / dt), int(log.t[-1] / dt)
         path = np.empty((end, log.n))
@@ -139,7 +142,7 @@ class Simulation:
 
 class WithEffects(Simulation):
     def __init__(self, folder, dt):
-        super().__init__(folder / "robot.xml", dt)
+        super().__init__(folder / "robot_plain.xml", dt)
         self.effects = load_module(folder).Effects(folder / "effects.json")
         self.effects.take_over(self.model)
 
@@ -175,7 +178,7 @@ def make(armcal, out, effect):
             f"--effects={effect}", f"--out={out / f'log{k}'}", f"--truth={out / 'truth'}")
     logs = [f"--robot={robot}", f"--log={out / 'log1' / 'log.csv'}"]
     run(armcal, "diagnose", *logs, f"--validate={out / 'log2' / 'log.csv'}",
-        f"--controller={controller}", "--export=mjcf", "--modules=python,c",
+        f"--controller={controller}", "--export=mjcf,mjcf_plain", "--modules=python,c",
         f"--out={out / 'diagnosed'}")
     run(armcal, "calibrate", *logs, "--export=mjcf", f"--out={out / 'calibrated'}")
     return kp, kd

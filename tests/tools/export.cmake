@@ -47,7 +47,7 @@ endif()
 
 run("an unknown format" calibrate --robot=arm.yaml --log=made/log.csv
     --export=mjcf,xml --out=bad)
-expect_refusal(2 "--export: found 'xml', expected one of urdf, mjcf, sdf, yaml, isaac")
+expect_refusal(2 "--export: found 'xml', expected one of urdf, mjcf, mjcf_plain, sdf, yaml, isaac")
 run("nowhere to write" inspect --robot=arm.yaml --export=sdf)
 expect_refusal(2 "--export needs --out=FOLDER")
 

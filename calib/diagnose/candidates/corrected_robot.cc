@@ -97,6 +97,9 @@ CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
   // Who replays a log applies all of it.
   corrected.delay += corrected.plant.torque_delay;
   corrected.plant.torque_delay = 0;
+  for (CarriedEffect& effect : corrected.effects) {
+    effect.acts_late = effect.in_delay && corrected.acts_late();
+  }
   for (int j = 0; j < fitted.num_joints(); ++j) {
     std::vector<CoulombPart> coulomb = baseline.CoulombAt(j, x);
     // Effects may have changed the joint's own friction.

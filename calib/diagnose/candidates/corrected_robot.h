@@ -12,6 +12,8 @@
 
 namespace armcal {
 
+constexpr double kLeastDelay = 1e-4;  // s; a shorter one nobody would miss
+
 // An effect that a robot was given.
 struct CarriedEffect {
   GapCandidate found;
@@ -19,6 +21,9 @@ struct CarriedEffect {
   EffectNumbers numbers;                  // of its law, for modules
   bool in_robot = false;  // all of it: a payload, a link's length, an armature
   bool in_delay = false;  // it is part of CorrectedRobot::delay
+  // In a delay by which torque acts after it was asked for, which simulators
+  // know, and not one by which logs hold it too late.
+  bool acts_late = false;
 };
 
 // What a diagnosis found, as a robot that can be simulated.
@@ -36,6 +41,7 @@ struct CorrectedRobot {
   // was fitted. It is not in the plant, since only who replays a log knows
   // whether torque is given or recorded.
   double delay = 0;
+  bool acts_late() const { return delay <= -kLeastDelay; }
   // What had to be made up to simulate it, a sentence each.
   std::vector<std::string> notes;
 };

@@ -98,7 +98,7 @@ std::string EffectLaw(const CorrectedRobot& robot,
   }
   const std::vector<std::string> formats = FormatsWith(effect);
   FrictionShare share;
-  if (formats.empty()) {
+  if (IsMissingInSome(effect)) {
     share = ShareOfFriction(effect, robot.plant.robot, robot.scale);
   }
   return Law(Upper(effect.found.effect->name), j, Mask(formats),
@@ -185,6 +185,9 @@ std::string CData(const CorrectedRobot& robot, const ModuleTest& test) {
          "/* By how much torque is recorded later than it acts, s. */\n"
          "static const double effects_delay = " +
          Literal(robot.delay) +
+         ";\n/* The robot files that have it. */\n"
+         "static const unsigned effects_delay_in = " +
+         Mask(FormatsWithDelay(robot)) +
          ";\nstatic const struct effects_joint {\n  const char* name;\n"
          "  double armature; /* of the motor */\n} effects_joints[] = {\n" +
          joints +

@@ -58,8 +58,7 @@ json EffectJson(const CorrectedRobot& corrected, const CarriedEffect& effect) {
                  {"parameters", ParametersJson(effect, type)},
                  {"numbers", numbers}};
   const FrictionShare share = ShareOfFriction(effect, robot, corrected.scale);
-  if (FormatsWith(effect).empty() &&
-      (share.viscous != 0 || share.coulomb != 0)) {
+  if (IsMissingInSome(effect) && (share.viscous != 0 || share.coulomb != 0)) {
     result["share"] = {{"viscous", JsonNumber(share.viscous)},
                        {"coulomb", JsonNumber(share.coulomb)},
                        {"width", JsonNumber(corrected.width[j])}};
@@ -78,6 +77,7 @@ json EffectsJson(const CorrectedRobot& corrected) {
     effects.push_back(EffectJson(corrected, effect));
   }
   return {{"delay_s", JsonNumber(corrected.delay)},
+          {"delay_in", FormatsWithDelay(corrected)},
           {"joints", joints},
           {"effects", effects}};
 }

@@ -35,10 +35,11 @@ Effect Spring() {
         {"neutral", UnitAt(site, "P"), p[1] / p[0]}};
   };
   effect.means = {"torque_offset"};
-  effect.set_drive = [](const Eigen::VectorXd& p, JointDrive* drive) {
-    if (p[0] <= 0) return false;
-    drive->rest = p[1] / p[0];
-    drive->stiffness = p[0];
+  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
+    const double stiffness = NumberOf(numbers, "stiffness");
+    if (stiffness <= 0) return false;
+    drive->rest = NumberOf(numbers, "preload") / stiffness;
+    drive->stiffness = stiffness;
     return true;
   };
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {

@@ -68,6 +68,12 @@ Effect Backlash() {
         {"backlash", UnitAt(site, "P"), p[0]},
         {"contact_stiffness", UnitAt(site, "E/P"), ContactStiffness(site, p)}};
   };
+  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
+    if (drive->gear) return false;
+    drive->gear = {NumberOf(numbers, "gap"), NumberOf(numbers, "stiffness"),
+                   NumberOf(numbers, "damping")};
+    return true;
+  };
   effect.proportional = false;
   effect.means = {"armature"};
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {

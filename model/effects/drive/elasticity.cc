@@ -64,6 +64,13 @@ Effect Elasticity() {
         {"damping", UnitAt(site, "E s/P"), Damping(site, p)},
         {"stiffening", UnitAt(site, "1/P^2"), Stiffening(site, p)}};
   };
+  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
+    if (drive->gear) return false;
+    drive->gear = {0, NumberOf(numbers, "stiffness"),
+                   NumberOf(numbers, "damping"),
+                   NumberOf(numbers, "stiffening")};
+    return true;
+  };
   effect.proportional = false;
   effect.means = {"armature"};
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {

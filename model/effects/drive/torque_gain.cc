@@ -18,8 +18,8 @@ Effect TorqueGain() {
     AddActuator(
         site, [=](double commanded) { return commanded / (1 + gain); }, robot);
   };
-  effect.set_drive = [](const Eigen::VectorXd& p, JointDrive* drive) {
-    drive->gain /= 1 + p[0];
+  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
+    drive->gain /= 1 + NumberOf(numbers, "gain");
     return true;
   };
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {

@@ -37,6 +37,13 @@ Effect TorqueRipple() {
         {"phase", "rad", Phase(p[0], p[1])}};
   };
   effect.means = {"torque_offset"};
+  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
+    const double a = -NumberOf(numbers, "sine");
+    const double b = -NumberOf(numbers, "cosine");
+    drive->waves.push_back(
+        {Amplitude(a, b), NumberOf(numbers, "harmonic"), Phase(a, b)});
+    return true;
+  };
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"sine", p[0]}, {"cosine", p[1]}, {"harmonic", p[2]}};
   };

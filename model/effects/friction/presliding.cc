@@ -34,6 +34,13 @@ Effect Presliding() {
   effect.near_zero = true;
   effect.velocity_friction = true;
   effect.means = {"coulomb_friction"};
+  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
+    const double coulomb = NumberOf(numbers, "coulomb");
+    if (coulomb <= 0) return false;
+    drive->bristles.push_back(
+        {coulomb / NumberOf(numbers, "displacement"), coulomb, coulomb});
+    return true;
+  };
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"coulomb", p[0]}, {"displacement", p[1]}};
   };

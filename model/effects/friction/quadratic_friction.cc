@@ -33,6 +33,10 @@ Effect QuadraticFriction() {
   };
   effect.velocity_friction = true;
   effect.means = {"viscous_friction"};
+  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
+    drive->quadratic += NumberOf(numbers, "quadratic");
+    return true;
+  };
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"quadratic", p[0]}};
   };

@@ -39,6 +39,14 @@ Effect Stribeck() {
   effect.near_zero = true;
   effect.velocity_friction = true;
   effect.means = {"coulomb_friction", "viscous_friction"};
+  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
+    const double stribeck = NumberOf(numbers, "stribeck");
+    if (stribeck <= 0) return false;
+    drive->bristles.push_back(BristleFriction::Stribeck(
+        stribeck, NumberOf(numbers, "stribeck_velocity"),
+        NumberOf(numbers, "width")));
+    return true;
+  };
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return EffectNumbers{{"stribeck", p[0]},
                          {"stribeck_velocity", p[1]},

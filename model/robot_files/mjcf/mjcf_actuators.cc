@@ -67,6 +67,28 @@ bool IsConstant(const MjcfElement& element) {
          element.Has("gainprm") && FirstNumber(element, "gainprm", 1) == 0;
 }
 
+// Friction and ripple of a motor, without a control. Of bristles what a joint
+// that moves on has of them, which is dry friction.
+bool ReadPassive(const MjcfElement& element, TreeJoint* tree_joint) {
+  if (element.own().tag() != "dcmotor" || element.Text("input") != "none") {
+    return false;
+  }
+  const std::string text = element.Text("lugre");
+  const auto words = SplitWords(text);
+  if (words.size() > 2) {
+    const auto coulomb = ParseNumber(words[2]);
+    if (!coulomb || !std::isfinite(*coulomb) || *coulomb < 0) {
+      element.HolderOf("lugre").Refuse("lugre", text,
+                                       "expected numbers, none below 0");
+    }
+    tree_joint->joint.coulomb += *coulomb;
+  }
+  tree_joint->notes.push_back(
+      "of actuator " + NameOf(element.own()) +
+      ", which has no control, armcal has no more than dry friction");
+  return true;
+}
+
 // N m or N at the joint, in both directions.
 std::optional<Vector2d> EffortRange(const MjcfElement& element, double gear,
                                     const MjcfSettings& settings) {
@@ -122,6 +144,7 @@ void ReadMjcfActuators(const XmlElement& root, const MjcfDefaults& defaults,
       }
       TreeJoint* joint = FindJoint(element, attribute, tree);
       const MjcfElement actuator = defaults.OfActuator(element);
+      if (ReadPassive(actuator, joint)) continue;
       if (IsConstant(actuator)) {
         constants[joint] -= FirstNumber(actuator, "gear", 1) *
                             FirstNumber(actuator, "biasprm", 0);

@@ -67,6 +67,7 @@ class CouplingReader {
   void AddBetween(const XmlElement& element, int link, int other);
   void Act(const XmlElement& element, const char* attribute,
            const std::string& how);
+  bool TakeFriction(const Tendon& tendon);
   void AddTendon(const Tendon& tendon);
   std::set<int> JointsOf(const XmlElement& tendon) const;
   int LinkOf(const XmlElement& part) const;
@@ -118,7 +119,7 @@ void CouplingReader::ReadTendon(const XmlElement& element) {
   Tendon tendon{element, JointsOf(element), ""};
   const MjcfElement given = defaults_.OfTendon(element);
   for (const char* attribute :
-       {"stiffness", "damping", "frictionloss", "armature"}) {
+       {"frictionloss", "stiffness", "damping", "armature"}) {
     const std::string text = given.Text(attribute);
     for (const auto& word : SplitWords(text)) {
       if (ParseNumber(word).value_or(1) != 0) tendon.acts = attribute;
@@ -142,7 +143,25 @@ void CouplingReader::Act(const XmlElement& element, const char* attribute,
   element.Refuse(attribute, name, "expected a tendon of the file");
 }
 
+// Friction of a tendon on a single joint is the joint's; others are couplings.
+bool CouplingReader::TakeFriction(const Tendon& tendon) {
+  const XmlElement& element = tendon.element;
+  if (element.tag() != "fixed" || tendon.joints.size() != 1 ||
+      tendon.acts != "frictionloss") {
+    return false;
+  }
+  const auto parts = element.Children("joint");
+  if (parts.size() != 1) return false;
+  const double coefficient = parts.front().Number("coef", "");
+  Joint& joint = tree_->joints[*tendon.joints.begin()].joint;
+  joint.coulomb +=
+      std::abs(coefficient) * defaults_.OfTendon(element).NonNegativeOr0(
+                                  "frictionloss", EffortUnit(joint.type));
+  return true;
+}
+
 void CouplingReader::AddTendon(const Tendon& tendon) {
+  if (TakeFriction(tendon)) return;
   if (tendon.acts.empty()) {
     tree_->notes.push_back("not used: " + NameOf("tendon", tendon.element) +
                            ", which has no stiffness, damping, friction "

@@ -66,11 +66,28 @@ void ReadEffort(const MjcfElement& element, const MjcfSettings& settings,
   if (effort > 0) joint->effort = effort;
 }
 
+// The linear one of up to three coefficients.
+double ReadDamping(const MjcfElement& element, const std::string& unit,
+                   TreeJoint* joint) {
+  const std::string text = element.Text("damping");
+  const auto words = SplitWords(text);
+  if (words.size() < 2) return element.NonNegativeOr0("damping", unit);
+  const XmlElement& holder = element.HolderOf("damping");
+  for (const std::string_view word : words) {
+    if (std::isfinite(ParseNumber(word).value_or(INFINITY))) continue;
+    holder.Refuse("damping", text, "expected numbers");
+  }
+  joint->notes.push_back("of the damping of joint " +
+                         Quoted(joint->joint.name) +
+                         " the linear part is used alone");
+  return std::max(0., *ParseNumber(words.front()));
+}
+
 void ReadDynamics(const MjcfElement& element, TreeJoint* tree_joint) {
   Joint& joint = tree_joint->joint;
   const std::string unit = EffortUnit(joint.type);
   const std::string position = PositionUnit(joint.type);
-  joint.viscous = element.NonNegativeOr0("damping", unit + " s/" + position);
+  joint.viscous = ReadDamping(element, unit + " s/" + position, tree_joint);
   joint.coulomb = element.NonNegativeOr0("frictionloss", unit);
   joint.armature = element.NonNegativeOr0(
       "armature", IsRotational(joint.type) ? "kg m^2" : "kg");

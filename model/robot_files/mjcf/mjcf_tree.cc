@@ -10,6 +10,7 @@
 #include "model/robot_files/mjcf/mjcf_actuators.h"
 #include "model/robot_files/mjcf/mjcf_couplings.h"
 #include "model/robot_files/mjcf/mjcf_defaults.h"
+#include "model/robot_files/mjcf/mjcf_gears.h"
 #include "model/robot_files/mjcf/mjcf_includes.h"
 #include "model/robot_files/mjcf/mjcf_inertial.h"
 #include "model/robot_files/mjcf/mjcf_joint.h"
@@ -57,6 +58,7 @@ class MjcfTreeReader {
                  std::vector<std::string> notes)
       : defaults_(root),
         settings_(ReadMjcfSettings(root)),
+        gears_(root),
         meshes_(root, defaults_, folder) {
     AddNames(root, &given_);
     tree_.notes = std::move(notes);
@@ -81,6 +83,7 @@ class MjcfTreeReader {
 
   MjcfDefaults defaults_;
   MjcfSettings settings_;
+  MjcfGears gears_;
   MjcfMeshes meshes_;
   RobotTree tree_;
   std::set<std::string> given_;  // all names in the file
@@ -141,10 +144,11 @@ int MjcfTreeReader::AddMovedLinks(const XmlElement& body,
                                   const std::vector<MjcfPart>& parts,
                                   TreeLink link, int parent,
                                   const Isometry3d& X_PB) {
-  std::vector<const MjcfPart*> joints;
-  for (const MjcfPart& part : parts) {
-    const std::string& tag = part.element.tag();
-    if (tag == "joint" || tag == "freejoint") joints.push_back(&part);
+  const auto [joints, gears] = gears_.Split(parts, defaults_, settings_);
+  for (const MjcfPart* gear : gears) {
+    link.notes.push_back("joint " + Quoted(JointName(gear->element)) +
+                         ", by which link " + Quoted(link.name) +
+                         " yields, is not used: armcal's joints are rigid");
   }
   Isometry3d X = X_PB;
   for (size_t i = 0; i < joints.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/effects/effects.h"
 #include "model/robot_files/robot_formats.h"
+#include "model/robot_files/robot_reader.h"
 #include "model/robot_files/urdf_reader.h"
 #include "model/robot_files/urdf_writer.h"
 #include "tests/fixtures/corrected_arm.h"
@@ -101,8 +102,10 @@ TEST_F(Export, FormatsHoldWhatTheyHaveFieldsFor) {
   const RobotExport out =
       Of(Nothing(), {Found("spring", 1, Eigen::Vector2d(20, 6)),
                      Found("torque_gain", 0, VectorXd::Constant(1, .25))});
-  EXPECT_THAT(out.effects["effects"][0]["in"], ElementsAre("mjcf", "sdf"));
-  EXPECT_THAT(out.effects["effects"][1]["in"], ElementsAre("mjcf"));
+  EXPECT_THAT(out.effects["effects"][0]["in"],
+              ElementsAre("mjcf", "mjcf_plain", "sdf"));
+  EXPECT_THAT(out.effects["effects"][1]["in"],
+              ElementsAre("mjcf", "mjcf_plain"));
   std::map<std::string, RobotFile> files;
   for (const RobotFile& file : out.files) files[file.format->name] = file;
   EXPECT_THAT(files["mjcf"].text, AllOf(HasSubstr("stiffness=\"20\""),
@@ -125,6 +128,58 @@ TEST_F(Export, LawsOfFrictionLeaveTheirShare) {
   EXPECT_NEAR(Read(out.urdf).links[2].joint.coulomb, before + 1.5, 1e-6);
   EXPECT_NEAR(Read(out.urdf).links[2].joint.viscous, 3, 1e-6);
   EXPECT_THAT(out.losses, Contains(HasSubstr("of Coulomb friction 1.5 is in")));
+}
+
+// MJCF has fields for laws that others have not, and for torque that acts late.
+TEST_F(Export, MjcfHoldsLawsOfDrives) {
+  VectorXd x = Nothing();
+  x[x.size() - 1] = -4;  // the timing's standard deviations of 0.5 ms
+  const RobotExport out =
+      Of(x, {Found("stribeck", 0, Eigen::Vector2d(.8, .2)),
+             Found("presliding", 1, Eigen::Vector2d(1.5, .003)),
+             Found("torque_ripple", 1, Eigen::Vector3d(0, -.6, 12)),
+             Found("elasticity", 2, Eigen::Vector3d(1e-3, .02, 0))});
+  std::map<std::string, RobotFile> files;
+  for (const RobotFile& file : out.files) files[file.format->name] = file;
+  const RobotFile& mjcf = files["mjcf"];
+  EXPECT_THAT(mjcf.losses, Not(Contains(HasSubstr("see effects.json"))));
+  EXPECT_THAT(mjcf.losses, Not(Contains(HasSubstr("the motion"))));
+  EXPECT_THAT(mjcf.text,
+              AllOf(HasSubstr("lugre=\"500 0 1.5 1.5 1\""),
+                    HasSubstr("cogging=\"0.6 12 "), HasSubstr("_gear\""),
+                    HasSubstr("delay=\"0.002\""), HasSubstr("solreffriction")));
+  const RobotFile& plain = files["mjcf_plain"];
+  EXPECT_THAT(plain.text, Not(HasSubstr("dcmotor")));
+  EXPECT_THAT(plain.text, Not(HasSubstr("_gear")));
+  for (const char* lost : {"stribeck", "presliding", "torque_ripple",
+                           "elasticity", "2 ms before", "changes sign"}) {
+    EXPECT_THAT(plain.losses, Contains(HasSubstr(lost)));
+  }
+  for (const nlohmann::json& effect : out.effects["effects"]) {
+    EXPECT_THAT(effect["in"], ElementsAre("mjcf"));
+  }
+  EXPECT_THAT(out.effects["delay_in"], ElementsAre("mjcf"));
+  // Friction's share stands in the files that have no such law.
+  EXPECT_TRUE(out.effects["effects"][1].contains("share"));
+}
+
+// Read back, the motors of yielding joints are the joints, and friction is what
+// a joint that moves on has of it.
+TEST_F(Export, MjcfOfLawsIsReadAsTheArm) {
+  const RobotExport out =
+      Of(Nothing(), {Found("presliding", 1, Eigen::Vector2d(1.5, .003)),
+                     Found("backlash", 2, Eigen::Vector2d(.002, .25))});
+  for (const RobotFile& file : out.files) {
+    if (std::string(file.format->name) != "mjcf") continue;
+    const Robot robot = ReadRobot(WriteFile(file.text, "back.xml"), {});
+    ASSERT_EQ(robot.num_joints(), 3);
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_EQ(robot.links[j].joint.name, arm_.file.links[j].joint.name);
+      EXPECT_NEAR(robot.links[j].joint.coulomb, j == 1 ? 5.5 : 4, .03);
+      EXPECT_NEAR(robot.links[j].joint.armature,
+                  arm_.file.links[j].joint.armature, 1e-12);
+    }
+  }
 }
 
 // The friction's mixture of widths is what a simulator with laws needs: the

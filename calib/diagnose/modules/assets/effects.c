@@ -159,6 +159,11 @@ static double torque_on(const effects_state* s, int k, int j) {
   return 0;
 }
 
+/* Of commands, that the simulator does not hold. */
+static int lags(const effects_state* s) {
+  return effects_delay < 0 && (effects_delay_in & s->beside) == 0;
+}
+
 static int is_held(const effects_state* s, int k) {
   return (effects_laws[k].in & s->beside) != 0;
 }
@@ -309,7 +314,7 @@ static void advance_motor(effects_state* s, const law_t* spring, double dt,
 static void advance_slow_states(effects_state* s, double dt, const double* qd) {
   if (!s->acted) return;
   for (int j = 0; j < N; ++j) {
-    if (effects_delay < 0) {
+    if (lags(s)) {
       s->lag[j] -= expm1(dt / effects_delay) * (s->commanded[j] - s->lag[j]);
     }
     s->load[j] =
@@ -403,7 +408,7 @@ void effects_act(effects_state* s, const double* commanded, const double* load,
   s->acted = 1;
   if (load != NULL) memcpy(s->load, load, sizeof(s->load));
   memcpy(s->commanded, commanded, sizeof(s->commanded));
-  memcpy(s->given, effects_delay < 0 ? s->lag : commanded, sizeof(s->given));
+  memcpy(s->given, lags(s) ? s->lag : commanded, sizeof(s->given));
   memcpy(torque, s->given, sizeof(s->given));
   for (int k = 0; k < EFFECTS_LAWS; ++k) {
     command(&effects_laws[k], s->given);

@@ -9,9 +9,10 @@
 
    The module holds all of the joints' friction, their constant torques and the
    effects: the simulator's joints have none of their own, and as rotor inertia
-   effects_armature(). With effects_reset(&s, EFFECTS_IN_MJCF, NULL) (.._URDF,
-   _SDF, _YAML) it holds what that robot file lacks, and the simulator the rest;
-   not where a joint yields. Compared with what armcal's own laws gave:
+   effects_armature(). With effects_reset(&s, EFFECTS_IN_MJCF, NULL)
+   (.._MJCF_PLAIN, _URDF, _SDF, _YAML) it holds what that robot file lacks, and
+   the simulator the rest; not where a joint yields. Compared with what armcal's
+   own laws gave:
 
      cc -std=c99 -DEFFECTS_TEST effects.c -lm && ./a.out
 

@@ -7,7 +7,7 @@
 
 The module holds all of the joints' friction, their constant torques and the effects: the
 simulator's joints have none of their own, and as rotor inertia (armature) `effects.armature`.
-With beside="mjcf" (urdf, sdf, yaml) it holds what that robot file lacks, and the simulator the rest.
+With beside="mjcf" (mjcf_plain, urdf, sdf, yaml) it holds what that robot file lacks, and the simulator the rest.
 
     python3 effects.py --test      compares with effects_test.json, which armcal's own laws made
 
@@ -196,7 +196,7 @@ class Effects:
         self.names = [joint["name"] for joint in data["joints"]]
         # Torque is recorded this much later than it acts, s; below 0 it acts later.
         self.record_delay = max(0., data["delay_s"])
-        self._lag_time = max(0., -data["delay_s"])
+        self._lag_time = 0. if beside in data["delay_in"] else max(0., -data["delay_s"])
         # Each joint's laws; those of them that the simulator holds; what it has instead.
         joints = data["joints"]
         self._laws, self._held, self._shares = ([[] for _ in joints] for _ in range(3))
@@ -239,7 +239,7 @@ class Effects:
             laws[j].append(Law(j, p, TORQUES[name]))
         if "resistance" in p:
             self._thermal.append((j, p))
-        if beside and "share" in effect:  # what stands in the file in its stead
+        if beside and not held and "share" in effect:  # what stands in the file in its stead
             self._shares[j].append(Law(
                 j, effect["share"], lambda see, j, p, z:
                 p["viscous"] * see.velocity[j] + p["coulomb"] * _dry(see, j, p)))
@@ -306,7 +306,10 @@ class Effects:
         return own
 
     def take_over(self, model):
-        """Sets to 0 what a MuJoCo model of the robot (robot.xml) has of all this."""
+        """Sets to 0 what a MuJoCo model of the robot (robot_plain.xml) has of all this."""
+        if (model.nv, model.nu, model.ntendon) != (self.n, self.n, 0):
+            raise ValueError("this model has laws of its own, as robot.xml has: take "
+                             "robot_plain.xml, the export mjcf_plain")
         for values in (model.dof_damping, model.dof_frictionloss, model.jnt_stiffness,
                        model.actuator_gainprm, model.actuator_biasprm):
             values[:] = 0

@@ -1,4 +1,4 @@
-/* Prints the torques of a few steps beside robot.xml. */
+/* Prints the torques of a few steps beside a robot file. */
 #include <math.h>
 #include <stdio.h>
 
@@ -8,7 +8,7 @@ int main(void) {
   effects_state s;
   double q[EFFECTS_JOINTS], qd[EFFECTS_JOINTS], u[EFFECTS_JOINTS],
       out[EFFECTS_JOINTS];
-  effects_reset(&s, EFFECTS_IN_MJCF, NULL);
+  effects_reset(&s, BESIDE, NULL);
   for (int k = 0; k < 20; ++k) {
     for (int j = 0; j < EFFECTS_JOINTS; ++j) {
       q[j] = .1 * sin(.3 * k + j);

@@ -108,26 +108,46 @@ TEST(Modules, HoldManyLawsTogether) {
   Agree(moved.With(effects, -.004), "together");
 }
 
-// A spring is in MJCF, of bristles their share, all else in the module; both
-// languages say the same.
+// Whether both languages say the same beside a robot file, and what the file
+// has to have in their stead.
+void LeaveTheirPart(const std::string& folder, const std::string& format,
+                    const std::string& bit) {
+  const std::string here = TESTS_DIR "/calib/diagnose/modules/beside";
+  EXPECT_EQ(Returned("python3 -B " + here + ".py " + folder + " " + format +
+                     " > " + folder + "/python.txt"),
+            0);
+  EXPECT_EQ(
+      Returned("cc -std=c99 -DBESIDE=" + bit + " -I" + folder + " -o " +
+               folder + "/beside " + here + ".c " + folder +
+               "/effects.c -lm && " + folder + "/beside > " + folder +
+               "/c.txt && cmp " + folder + "/c.txt " + folder + "/python.txt"),
+      0);
+}
+
+// A spring is in plain MJCF, of bristles their share, all else in the module.
 TEST(Modules, LeaveRobotFilesTheirPart) {
   MovedArm moved;
-  const std::string folder =
+  LeaveTheirPart(
       Written(moved.With({moved.Drawn(*FindEffect("spring"), 0),
                           moved.Drawn(*FindEffect("presliding"), 1),
                           moved.Drawn(*FindEffect("stribeck"), 0),
                           moved.Drawn(*FindEffect("torque_gain"), 1),
                           moved.Drawn(*FindEffect("torque_ripple"), 2)}),
-              "beside");
-  const std::string here = TESTS_DIR "/calib/diagnose/modules/beside";
-  EXPECT_EQ(Returned("python3 -B " + here + ".py " + folder + " > " + folder +
-                     "/python.txt"),
-            0);
-  EXPECT_EQ(Returned("cc -std=c99 -I" + folder + " -o " + folder + "/beside " +
-                     here + ".c " + folder + "/effects.c -lm && " + folder +
-                     "/beside > " + folder + "/c.txt && cmp " + folder +
-                     "/c.txt " + folder + "/python.txt"),
-            0);
+              "beside"),
+      "mjcf_plain", "EFFECTS_IN_MJCF_PLAIN");
+}
+
+// MJCF has bristles and ripple, and torque that acts late.
+TEST(Modules, LeaveMjcfItsLaws) {
+  MovedArm moved;
+  const std::vector<GapCandidate> effects = {
+      moved.Drawn(*FindEffect("presliding"), 1),
+      moved.Drawn(*FindEffect("position_friction"), 0),
+      moved.Drawn(*FindEffect("torque_ripple"), 2)};
+  LeaveTheirPart(Written(moved.With(effects), "beside_laws"), "mjcf",
+                 "EFFECTS_IN_MJCF");
+  LeaveTheirPart(Written(moved.With(effects, -.004), "beside_late"), "mjcf",
+                 "EFFECTS_IN_MJCF");
 }
 
 TEST(Modules, SayWhatTheyLack) {
