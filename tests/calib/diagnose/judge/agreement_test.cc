@@ -40,4 +40,15 @@ TEST_F(AgreementOnTest, ADelayIsSeenGivenTheBaselinesOwn) {
   ExpectEstimate(diagnosis.effects[0], "delay", .006, .1);
 }
 
+// A column is a small delay's; what a large one differs from it by is no
+// disagreement of joints.
+TEST_F(AgreementOnTest, ALargeDelayIsSeenAlike) {
+  Add("delay", -1, {.03});
+  const GapDiagnosis diagnosis = Diagnose(File(), true);
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].effect->name, "delay");
+  EXPECT_TRUE(diagnosis.effects[0].joints_agree);
+  ExpectEstimate(diagnosis.effects[0], "delay", .03, .1);
+}
+
 }  // namespace armcal::agreement_test

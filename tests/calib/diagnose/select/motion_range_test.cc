@@ -53,6 +53,9 @@ class Swing {
   Eigen::ArrayXd GrowthOf(Swing other) {
     return MotionRange(rows()).Growth(other.rows());
   }
+  Eigen::ArrayXXd OwnGrowthOf(Swing other) {
+    return MotionRange(rows()).OwnGrowth(other.rows());
+  }
 
  private:
   std::vector<GapSegment> segments_;
@@ -87,6 +90,17 @@ TEST(MotionRange, DoesNotFollowAJumpOfAnEncoder) {
 TEST(MotionRange, OfAJointThatRestedIsNone) {
   const Eigen::ArrayXd growth = Swing({1, 0}).GrowthOf(Swing({1, 1}));
   EXPECT_TRUE(std::isinf(growth.minCoeff()));
+}
+
+// The second joint swings twice as fast as it did: its speeds are up to twice
+// those of 95 % of the time before, squared, its accelerations four times. The
+// first is as it was, and the third has moved in neither.
+TEST(MotionRange, AJointsOwnMotionCountsAlone) {
+  const Eigen::ArrayXXd growth = Swing({2, 2, 0}).OwnGrowthOf(Swing({2, 4, 0}));
+  const double usual = std::sin(.95 * M_PI / 2);  // quantile of a sine's size
+  EXPECT_LT(growth.col(0).maxCoeff(), 1.01 / (usual * usual));
+  EXPECT_NEAR(growth.col(1).maxCoeff(), 4 / (usual * usual), .05);
+  EXPECT_EQ(growth.col(2).maxCoeff(), 1);
 }
 
 }  // namespace armcal::motion_range_test

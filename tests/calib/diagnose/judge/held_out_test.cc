@@ -1,0 +1,99 @@
+#include "calib/diagnose/judge/held_out.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "model/effects/effects.h"
+#include "tests/fixtures/effect_arm.h"
+#include "tests/fixtures/gap_segment.h"
+
+namespace armcal::held_out_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kBandwidth = 6;  // Hz
+
+// A 2R arm's exact motion of 30 s, whose torque a test changes.
+class HeldOutTest : public testing::Test {
+ protected:
+  HeldOutTest()
+      : arm_("2R planar (vertical plane)", 30, .005),
+        baseline_(arm_.robot, {}, VectorXd::Constant(2, 10)) {
+    segment_.motion = arm_.motion;
+    segment_.tau =
+        RecordedTorque(arm_.robot, baseline_.transitions(), arm_.motion)
+            .nominal();
+    std::mt19937_64 random(2);
+    AddNoise(&random, VectorXd::Constant(2, .05), &segment_.tau);
+    segment_.still.setConstant(segment_.size(), 2, false);
+  }
+
+  GapFit Fit() {
+    segment_.motion.torque = {segment_.tau, .5 / segment_.motion.dt};
+    GapFitOptions options;
+    options.bandwidth_hz = kBandwidth;
+    for (const Effect& effect : Effects()) {
+      options.without.push_back(effect.name);
+    }
+    GapFit fit(baseline_, options, {segment_}, {});
+    fit.Choose();
+    return fit;
+  }
+  // Torque as the refitted model predicts it, thinned samples x joints.
+  MatrixXd Predicted() {
+    const GapFit fit = Fit();
+    const HeldOut held_out(fit);
+    return held_out.rows().ThinAll({segment_.tau}) -
+           held_out.AllResiduals().refit;
+  }
+  // rms over the samples that a fold predicts.
+  double ChangeIn(int fold, const MatrixXd& change) {
+    const std::vector<GapSegment> segments = {segment_};
+    const GapRows rows(segments, kBandwidth, LogPart::Fold(fold));
+    double sum = 0;
+    int count = 0;
+    for (int k = 0; k < rows.num_thin(); ++k) {
+      if (!rows.IsInPart(0, k)) continue;
+      sum += change.row(k).squaredNorm();
+      ++count;
+    }
+    return std::sqrt(sum / count);
+  }
+
+  EffectArm arm_;
+  GapBaseline baseline_;
+  GapSegment segment_;
+};
+
+// Torque that is wrong in the second tenth, which is of the second fold: what
+// is predicted there comes from the other folds and does not follow it.
+TEST_F(HeldOutTest, AFoldIsPredictedByTheOthers) {
+  const MatrixXd before = Predicted();
+  const int tenth = segment_.size() / 10;
+  for (int k = tenth + tenth / 4; k < 2 * tenth - tenth / 4; ++k) {
+    segment_.tau.row(k).array() += 4;
+  }
+  const MatrixXd change = Predicted() - before;
+  const double own = ChangeIn(1, change);
+  EXPECT_GT(ChangeIn(0, change), .05);
+  EXPECT_GT(ChangeIn(2, change), .05);
+  EXPECT_LT(own, .2 * ChangeIn(0, change));
+  EXPECT_LT(own, .2 * ChangeIn(2, change));
+}
+
+// What is judged is all of a log but the guards between its tenths, 4 / 6 s
+// each, and the bent ends: 3 s less 4 / 6 s of each.
+TEST_F(HeldOutTest, AllOfALogIsPredicted) {
+  const GapFit fit = Fit();
+  const HeldOut held_out(fit);
+  const double step = held_out.rows().step(0);
+  int rows = 0;
+  for (const GapRows::Run& run : held_out.rows().runs(0)) rows += run.size;
+  EXPECT_NEAR(rows * step, held_out.rows().time() - 10 * 4 / kBandwidth, .5);
+}
+
+}  // namespace armcal::held_out_test
