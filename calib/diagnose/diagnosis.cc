@@ -340,7 +340,6 @@ void Diagnoser::Judge() {
   for (const FoundEffect& found : result_.effects) {
     if (found.of_another_day) continue;
     facts.effects = true;
-    facts.likely_effects |= IsLikely(found);
   }
   facts.found_without_name = found_without_name_;
   facts.left = left;

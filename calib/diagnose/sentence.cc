@@ -11,8 +11,7 @@ namespace {
 
 // What probabilities of effects are worth in words; "confident" is .8.
 const char* Lacks(double least_probability) {
-  if (least_probability >= .8) return "lacks";
-  return least_probability >= .5 ? "probably lacks" : "may lack";
+  return least_probability >= .8 ? "lacks" : "probably lacks";
 }
 
 // What happened, and what the model lacks.

@@ -7,10 +7,6 @@
 
 namespace armcal {
 
-bool IsLikely(const FoundEffect& found) {
-  return found.probability >= Limits().likely;
-}
-
 bool IsNeeded(const FoundEffect& found, double extra_variance) {
   const bool has_gap = !(found.gap < 1 - extra_variance);
   const bool is_seen = IsSeenAgain(found) && !SwingsInTime(*found.effect);

@@ -7,9 +7,6 @@
 
 namespace armcal {
 
-// Likelier than not.
-bool IsLikely(const FoundEffect& found);
-
 // Whether there is anything for it to explain: a refit without it leaves no
 // less than the noise, as well as that is known, unless held-out data have it
 // as well (what is far below white noise is seen all the same; but what swings

@@ -275,9 +275,6 @@ GapFindings Findings::List(const std::vector<MissingTerm>& terms) {
   result_.unnamed.insert(result_.unnamed.begin(), unclaimed,
                          result_.effects.end());
   result_.effects.erase(unclaimed, result_.effects.end());
-  // What is likelier than not is told first, however little it explains.
-  std::stable_partition(result_.effects.begin(), result_.effects.end(),
-                        IsLikely);
   return result_;
 }
 
@@ -378,7 +375,6 @@ void FitClaimed(GapFindings* findings, GapFit* fit) {
     effects.push_back(std::move(found));
   }
   SortFindings(&effects);
-  std::stable_partition(effects.begin(), effects.end(), IsLikely);
   std::optional<MatrixXd> covariance;  // of the baseline
   for (FoundEffect& found : findings->effects) {
     if (found.fitted.empty() && !found.missing_term) continue;

@@ -21,8 +21,7 @@ void JoinMeans(std::vector<FoundEffect>* effects);
 
 // What a fit found.
 struct GapFindings {
-  // Probable enough to be claimed, what is likelier than not first, each
-  // strongest first.
+  // Probable enough to be claimed, the strongest first.
   std::vector<FoundEffect> effects;
   // Fitted as well, but not probable enough to be claimed.
   std::vector<FoundEffect> unnamed;

@@ -37,9 +37,8 @@ GapVerdict JudgeGap(const GapFacts& facts) {
   if (facts.effects) {
     const bool held_out_left =
         after > Limits().left && after > Limits().left * refit;
-    return much_left || held_out_left || !facts.likely_effects
-               ? GapVerdict::kPartlyExplained
-               : GapVerdict::kExplained;
+    return much_left || held_out_left ? GapVerdict::kPartlyExplained
+                                      : GapVerdict::kExplained;
   }
   if (much_left || facts.found_without_name) return GapVerdict::kUnknown;
   return nominal > Limits().left && refit < Limits().absorbed * nominal

