@@ -78,7 +78,7 @@ class GapData {
   void MaskIn(int segment, const TimeRange& window,
               Eigen::MatrixXd* extra_stddev) const;
 
-  std::shared_ptr<Signals> signals_;  // not changed once it is complete
+  std::shared_ptr<Signals> signals_;  // of all parts
   std::unique_ptr<GapRows> rows_;
   std::vector<RecordedTorque> torques_;
   std::shared_ptr<const Columns> columns_;

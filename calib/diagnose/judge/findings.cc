@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
-#include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/estimate_deviations.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/judge/agreement.h"
+#include "calib/diagnose/judge/changed_friction.h"
 #include "calib/diagnose/judge/claims.h"
 #include "calib/diagnose/judge/description.h"
 #include "model/effects/effects.h"
@@ -57,42 +56,6 @@ bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
   return a.joint >= 0 && a.joint == b.joint && HasMean(*a.effect, *b.effect);
 }
 
-// Friction that differs from the reference's on several joints together, as one
-// effect per term. Its columns are in units of the usual scatter from day to
-// day, so that the sum of their squares is chi squared of that many changes.
-std::vector<FoundEffect> ListChangedFriction(const GapFit& fit) {
-  std::vector<FoundEffect> all;
-  const GapBaseline& baseline = fit.baseline();
-  const VectorXd& x = fit.refined().baseline;
-  const MatrixXd covariance = fit.screen().BaselineCovariance();
-  for (const Effect& effect : Effects()) {
-    if (!effect.joint_term) continue;
-    const std::vector<int> changed =
-        ChangedTogether(baseline, *effect.joint_term, x, covariance);
-    if (changed.empty()) continue;
-    FoundEffect found;
-    found.effect = &effect;
-    found.of_another_day = true;
-    found.probability = 1 - kChanceOfDays;
-    for (const int c : changed) {
-      const BaselineColumn& column = baseline.columns()[c];
-      const Joint& joint = baseline.robot().links[column.joint].joint;
-      found.estimates.push_back(
-          {joint.name + "." + JointTermName(*effect.joint_term),
-           JointTermUnit(*effect.joint_term, joint.type),
-           x[c] * column.spread});
-      const EffectEstimate& term = found.estimates.back();
-      found.stddev.push_back(WithTorqueScale(
-          std::sqrt(covariance(c, c)) * column.spread, term.value, term.unit,
-          baseline.discrepancy().torque_constants_stddev()));
-      found.delta_chi2 += x[c] * x[c];
-    }
-    found.score = found.delta_chi2;
-    all.push_back(found);
-  }
-  return all;
-}
-
 class Findings {
  public:
   Findings(const Robot& robot, const GapFit& fit, const HeldOut& held_out,
@@ -110,7 +73,6 @@ class Findings {
   FoundEffect Found(size_t k) const;
   FoundEffect Contacts() const;
   void AddMissingTerms(const std::vector<MissingTerm>& terms);
-  double OverChange(int joint, double gain) const;
   void ShareTheRest(FoundEffect* found, bool is_first);
 
   const Robot& robot_;
@@ -165,7 +127,8 @@ FoundEffect Findings::Found(size_t k) const {
   if (effect.log < 0 && !SwingsInTime(*effect.effect)) {
     found.scatter = fit_.ScatterOf(effect);
   }
-  found.over_change = OverChange(effect.joint, found.evidence.gain);
+  found.over_change =
+      OverChangedFriction(fit_, torque_, effect.joint, found.evidence.gain);
   found.probability = ProbabilityOf(found.evidence);
   SetShare(fit_, torque_, found.evidence.gain, &found);
   found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
@@ -219,27 +182,6 @@ void Findings::AddMissingTerms(const std::vector<MissingTerm>& terms) {
     DescribeMissingTerm(fit_, covariance, &found);
     result_.effects.push_back(found);
   }
-}
-
-// FoundEffect::over_change: friction as it has changed given no effects. What
-// an effect on one joint lowers of the mean of all joints, it lowers as many
-// times of its own.
-double Findings::OverChange(int joint, double gain) const {
-  constexpr double kUnchanged = std::numeric_limits<double>::quiet_NaN();
-  if (joint < 0 || torque_.joints.rows() == 0) return kUnchanged;
-  const GapBaseline& baseline = fit_.baseline();
-  const MatrixXd covariance = fit_.screen().BaselineCovariance();
-  bool has_changed = false;
-  for (const JointTerm term : {JointTerm::kViscous, JointTerm::kCoulomb}) {
-    for (const int c :
-         ChangedTogether(baseline, term, fit_.refit(), covariance)) {
-      has_changed |= baseline.columns()[c].joint == joint;
-    }
-  }
-  const double before = std::pow(torque_.joints(joint, 0), 2);
-  const double after = std::pow(torque_.joints(joint, 1), 2);
-  if (!has_changed || !(before > after)) return kUnchanged;
-  return gain * fit_.rows().num_joints() / (before - after);
 }
 
 // Everything that was fitted is described, sorted by delta_chi2, and joined
