@@ -69,7 +69,29 @@ std::vector<double> GapProposals::Frequencies(int joint) const {
       PeakFrequencies(whitened_.col(joint), t_, 2 * M_PI * .5,
                       2 * M_PI * 1.25 * rows_.bandwidth_hz(), kPeaks);
   for (double& x : f) x = Unaliased(joint, x / (2 * M_PI));
+  f.erase(std::remove_if(f.begin(), f.end(),
+                         [this](double x) { return IsOfMotion(x); }),
+          f.end());
   return f;
+}
+
+// Whether a sine at f has kShareOfMotion of the variance of a joint's velocity,
+// in one stretch of log: A^2 / 2 of its amplitude A. Of pendulums it has .3 and
+// more, of sums of five harmonics at most .23.
+bool GapProposals::IsOfMotion(double f) const {
+  constexpr double kShareOfMotion = .25;
+  for (const GapSegment& segment : rows_.segments()) {
+    const Motion& motion = segment.motion;
+    const VectorXd t =
+        VectorXd::LinSpaced(motion.size(), 0, (motion.size() - 1) * motion.dt);
+    for (int j = 0; j < motion.num_joints(); ++j) {
+      const VectorXd v = motion.qd.col(j).array() - motion.qd.col(j).mean();
+      const double variance = v.squaredNorm() / static_cast<double>(v.size());
+      const double amplitude = AmplitudeAt(v, t, f);
+      if (amplitude * amplitude / 2 > kShareOfMotion * variance) return true;
+    }
+  }
+  return false;
 }
 
 // Samples that are thinned to `rate` cannot tell f from rate - f and rate + f.

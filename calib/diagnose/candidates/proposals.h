@@ -17,7 +17,8 @@ class GapProposals {
 
   // Of torques that repeat with a joint's position, 1/rad or 1/m.
   std::vector<double> Harmonics(int joint) const;
-  // Of torques that repeat in time, Hz.
+  // Of torques that repeat in time, Hz. None at which a joint swings: whatever
+  // depends on the state repeats there as well.
   std::vector<double> Frequencies(int joint) const;
   int num_logs() const;
   // In which something happened; `searched`: of how many.
@@ -25,6 +26,7 @@ class GapProposals {
 
  private:
   double Unaliased(int joint, double f) const;
+  bool IsOfMotion(double f) const;
 
   const GapRows& rows_;
   Eigen::MatrixXd q_, whitened_;

@@ -3,6 +3,16 @@
 namespace armcal {
 inline namespace effects {
 
+namespace {
+
+// A motor that gives nothing of what is recorded, or the opposite, or a third
+// of it, has another fault than its constant.
+bool IsOfAConstant(const std::vector<EffectEstimate>& estimates) {
+  return estimates[0].value > -1 && estimates[0].value < 2;
+}
+
+}  // namespace
+
 // logged = (1 + gain) given: a motor constant other than assumed.
 Effect TorqueGain() {
   Effect effect;
@@ -25,6 +35,7 @@ Effect TorqueGain() {
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"gain", p[0]}};
   };
+  effect.plausible = IsOfAConstant;
   effect.experiment = "a known payload, held and moved";
   return effect;
 }
