@@ -4,8 +4,8 @@
 
 namespace armcal {
 
-// Whether residuals that nothing was chosen on are what an effect says, as
-// PredictedChi2 has them.
+// Whether residuals that the model was not fitted to are what an effect says,
+// as PredictedChi2 has them.
 struct Confirmation {
   double expected = 0;   // chi^2 by which it changes what is predicted
   double explained = 0;  // by which chi^2 is lower with it

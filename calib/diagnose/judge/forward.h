@@ -25,10 +25,10 @@ struct ForwardRobots {
   CorrectedRobot nominal, refit, after;
 };
 
-// How far simulated positions are from recorded ones that nothing was chosen
-// on. E is the mean over samples and joints of squared deviations,
-// each joint's in units of what measurement noise alone would leave, so that
-// the floor is 1 and radians and metres can be added.
+// How far simulated positions are from recorded ones that the
+// robots were not fitted to. E is the mean over samples and joints of squared
+// deviations, each joint's in units of what measurement noise alone would
+// leave, so that the floor is 1 and radians and metres can be added.
 struct ForwardGap {
   bool closed_loop = true;
   GapFigures figures;     // joints: rms in rad or m

@@ -7,9 +7,9 @@
 
 namespace armcal {
 
-// The removed share: how far a gap shrinks on data that nothing was chosen on.
-// Squares of what is left of the torque, in units of each joint's noise
-// variance: samples (in time) x joints; NaN where a joint stands still.
+// The removed share: how far a gap shrinks on data that the model was not
+// fitted to. Squares of what is left of the torque, in units of each joint's
+// noise variance: samples (in time) x joints; NaN where a joint stands still.
 struct HeldOutSquares {
   Eigen::MatrixXd nominal;  // the robot as its file has it
   Eigen::MatrixXd refit;    // with the baseline fitted

@@ -29,7 +29,7 @@ const diagnosisSections = (data) => {
               ? percent(e.removed_percent) + (whole(e.ci95) ? ` [${e.ci95.map(number).join(', ')}]` : '') : '–',
           (e.equivalent || []).map((q) => typeof q === 'string' ? q : name(q)).join(', ') || '–'])) : null,
       found.some((e) => isNumber(e.removed_percent)) ? note('Of the gap that fitting again leaves, on motion that ' +
-          'nothing was fitted to' + (found.some((e) => whole(e.ci95)) ? '; in brackets its 95 % interval.' : '.')) : null,
+          'the model was not fitted to' + (found.some((e) => whole(e.ci95)) ? '; in brackets its 95 % interval.' : '.')) : null,
       ...found.filter((e) => e.separate_by).map((e) => note(`To tell ${name(e)} from the others: ${e.separate_by}.`))];
   };
   const jointName = (index) => index > 0 && result.where && result.where.joints[index - 1]
@@ -58,7 +58,7 @@ const diagnosisSections = (data) => {
                                                  : 'The effects remove ') +
                  `${percent(g.removed_percent)} of what fitting again leaves` +
                  (whole(g.ci95) ? ` (95 %: ${g.ci95.map(number).join(' to ')}).` : '.')) : null] : [];
-    return [...part('Torque on motion that nothing was fitted to, mean square', result.gap.torque),
+    return [...part('Torque on motion that the model was not fitted to, mean square', result.gap.torque),
             ...part('Positions when it is simulated, mean square', result.gap.forward)];
   };
 

@@ -31,7 +31,7 @@ const torqueSections = (data) => {
   };
 
   const heldOut = data.command === 'diagnose'
-      ? ' Only stretches that nothing was fitted to are drawn.' : '';
+      ? ' Only what the model shown was not fitted to is drawn.' : '';
   // What was recorded and what models say, and below it the difference.
   const traced = (traces, words) => {
     const drawn = perLog(traces, (trace) => {
