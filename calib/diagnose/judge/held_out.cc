@@ -67,8 +67,9 @@ HeldOut::HeldOut(const GapFit& fit)
       every_fold_(fit.regression().DataOf(LogPart::AnyFold())),
       rows_(every_fold_.get()) {
   parts_.resize(LogPart::kFolds);
+  const std::vector<int> contenders = fit.Contenders();
   tbb::parallel_for(0, LogPart::kFolds, [&](int fold) {
-    parts_[fold].predictor = std::make_unique<Predictor>(fit, fold);
+    parts_[fold].predictor = std::make_unique<Predictor>(fit, fold, contenders);
     parts_[fold].data = fit.regression().DataOf(LogPart::Fold(fold));
   });
 }
@@ -103,8 +104,7 @@ void HeldOut::MaskEvents() {
     if (masked > Limits().most_of_time * TimeOf(rows())) return;
     data->Mask(worst->log, {window.centre - window.duration,
                             window.centre + window.duration});
-    data->SetNoise(fit_.noise().joints);
-    if (rows().has_evidence()) data->SetEvidence(rows().evidence());
+    fit_.regression().GiveNoise(data);
   }
 }
 

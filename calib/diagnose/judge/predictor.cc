@@ -11,18 +11,19 @@ using Eigen::VectorXd;
 
 Predictor::Predictor(const GapFit& fit) : fit_(fit) { Follow(); }
 
-Predictor::Predictor(const GapFit& fit, int left_out)
+Predictor::Predictor(const GapFit& fit, int left_out,
+                     const std::vector<int>& contenders)
     : fit_(fit),
       own_(std::make_unique<GapRegression>(fit.regression(),
                                            LogPart::OtherFolds(left_out))) {
-  Choose();
+  Choose(contenders);
   Follow();
 }
 
 // Of those that could be chosen at all, under the noise of the whole fit.
-void Predictor::Choose() {
+void Predictor::Choose(const std::vector<int>& contenders) {
   std::vector<GapCandidate> candidates;
-  for (const int c : fit_.Contenders()) {
+  for (const int c : contenders) {
     candidates.push_back(fit_.candidates()[c]);
   }
   if (candidates.empty()) return;
@@ -52,16 +53,16 @@ bool Predictor::ChoseOneOf(const std::vector<PlacedEffect>& effects) const {
 void Predictor::Follow() {
   refined_ = fit_.refined();
   model_refit_ = fit_.model_refit();
-  if (own_) {
-    model_refit_ = ModelGiven({});
-    if (refined_.effects.empty()) {
-      refined_.baseline = own_->refit();
-    } else {
-      refined_ = RefineEffects(own_->screen(), own_->baseline(), own_->scale(),
-                               refined_.effects, -1, own_->data());
-    }
+  model_after_ = fit_.model_after();
+  if (!own_) return;
+  if (refined_.effects.empty()) {
+    refined_.baseline = own_->refit();
+  } else {
+    refined_ = RefineEffects(own_->screen(), own_->baseline(), own_->scale(),
+                             refined_.effects, -1, own_->data());
   }
-  model_after_ = own_ ? ModelGiven(refined_.effects) : fit_.model_after();
+  model_refit_ = ModelGiven({});
+  model_after_ = ModelGiven(refined_.effects);
 }
 
 VectorXd Predictor::ModelGiven(const std::vector<GapCandidate>& effects) const {

@@ -22,7 +22,9 @@ class Predictor {
   explicit Predictor(const GapFit& fit);
   // With the same model and effects, but values that are fitted to all of its
   // logs but this fold.
-  Predictor(const GapFit& fit, int left_out);
+  // `contenders`: the fit's.
+  Predictor(const GapFit& fit, int left_out,
+            const std::vector<int>& contenders);
 
   // Takes over the fit's effects again, which are others than before.
   void Follow();
@@ -42,7 +44,7 @@ class Predictor {
   Eigen::VectorXd BaselineGiven(const std::vector<GapCandidate>& effects) const;
 
  private:
-  void Choose();
+  void Choose(const std::vector<int>& contenders);
 
   const GapFit& fit_;
   std::unique_ptr<GapRegression> own_;

@@ -62,8 +62,6 @@ GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
     for (const int c : DayColumns(baseline)) reference_->Hold(c);
   }
   EstimateNoise();
-  DistrustOtherMotion(data_.get());
-  data_->SetNoise(noise_.joints);
   scale_ = ScaleOf(baseline, data_->rows(), data_->torques());
 }
 
@@ -149,6 +147,7 @@ void GapRegression::EstimateNoise() {
         EstimateGapNoise(data_->rows(), data_->FineResidual(),
                          data_->ResidualWith(RefitModel(baseline_, *data_)));
   }
+  DistrustOtherMotion(data_.get());
   data_->SetNoise(noise_.joints);
 }
 

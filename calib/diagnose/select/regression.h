@@ -34,6 +34,8 @@ class GapRegression {
   std::unique_ptr<GapData> DataOf(LogPart part) const;
   // The same of other logs, of which nothing is masked.
   std::unique_ptr<GapData> DataOf(std::vector<GapSegment> logs) const;
+  // Gives such data these weights again, where masks have changed.
+  void GiveNoise(GapData* data) const;
 
   // Anew, with an empty screen: at first, and where masks have changed.
   void Refit();
@@ -82,7 +84,6 @@ class GapRegression {
   double LikeliestDiscrepancy(const GapScreen& screen,
                               const EvidenceNoise& noise) const;
   void MakeScreen();
-  void GiveNoise(GapData* data) const;
   bool HoldDays();
 
   const GapBaseline& baseline_;
