@@ -100,6 +100,9 @@ TEST(MotionRange, AJointsOwnMotionCountsAlone) {
   const double usual = std::sin(.95 * M_PI / 2);  // quantile of a sine's size
   EXPECT_LT(growth.col(0).maxCoeff(), 1.01 / (usual * usual));
   EXPECT_NEAR(growth.col(1).maxCoeff(), 4 / (usual * usual), .05);
+  // Of the square of the speed and the acceleration, as above.
+  const double least = 4 * (std::sqrt(5.) - 1) / 2;
+  EXPECT_NEAR(growth.col(1).minCoeff(), least, .05 * least);
   EXPECT_EQ(growth.col(2).maxCoeff(), 1);
 }
 
