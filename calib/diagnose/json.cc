@@ -25,16 +25,16 @@ json EvidenceJson(const EffectEvidence& evidence) {
   return {{"odds", JsonNumber(evidence.odds)},
           {"strength", JsonNumber(evidence.strength)},
           {"chosen", evidence.chosen},
-          {"beside", evidence.beside},
           {"stronger", evidence.stronger},
+          {"least_share", evidence.least_share},
           {"stronger_beside", evidence.stronger_beside},
+          {"since_reference", evidence.since_reference},
           {"next", JsonNumber(evidence.next)},
           {"events", evidence.events},
           {"one_joint", JsonNumber(evidence.one_joint)},
           {"gain", JsonNumber(evidence.gain)},
           {"expected", JsonNumber(evidence.confirmation.expected)},
-          {"explained", JsonNumber(evidence.confirmation.explained)},
-          {"left", JsonNumber(evidence.left)}};
+          {"explained", JsonNumber(evidence.confirmation.explained)}};
 }
 
 json NumbersJson(const Eigen::VectorXd& values) {

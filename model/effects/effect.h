@@ -118,6 +118,10 @@ struct Effect {
   // Whether it is a push of the surroundings on the arm: what the search for
   // contacts finds is reported as this effect. Exactly one is.
   bool is_contact = false;
+  // Whether it is a number of the arm's construction (a length, a link's or a
+  // rotor's inertia): a file may have it wrong, but it is the same in all logs
+  // of one arm unless somebody rebuilt it.
+  bool of_construction = false;
   // What a clock that runs at another rate than time is reported as. Exactly
   // one is.
   bool is_clock = false;

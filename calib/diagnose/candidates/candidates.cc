@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "calib/diagnose/candidates/proposals.h"
+#include "calib/diagnose/data/thresholds.h"
 
 namespace armcal {
 namespace {
@@ -122,6 +123,7 @@ void ListShapes(const Effect& effect, const EffectSite& site,
     candidate.p = shape.p;
     candidate.log = shape.log;
     candidate.tried = tried;
+    candidate.prior_penalty = PriorPenalty(effect, false);
     for (size_t k = 0; k < effect.parameters.size(); ++k) {
       if (effect.parameters[k].search != Search::kLinear) continue;
       candidate.linear.push_back(static_cast<int>(k));
@@ -136,6 +138,18 @@ void ListShapes(const Effect& effect, const EffectSite& site,
 }
 
 }  // namespace
+
+// Odds of a hypothesis before the data add their logarithm to its log
+// likelihood, of which a score is 2 T times as large, T being the temperature
+// that scores are divided by.
+double PriorPenalty(const Effect& effect, bool since_reference) {
+  double penalty = effect.near_zero ? Limits().near_zero_penalty : 0;
+  if (since_reference && effect.of_construction) {
+    penalty +=
+        2 * Limits().temperature * std::log(Limits().odds_of_same_construction);
+  }
+  return penalty;
+}
 
 std::string GapCandidate::place() const {
   return effect->name + (joint < 0 ? "" : "@" + std::to_string(joint + 1));

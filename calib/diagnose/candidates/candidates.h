@@ -22,12 +22,19 @@ struct GapCandidate {
   // it is zero.
   std::vector<JointRows> torque;
   std::vector<int> columns;  // of the screen, in the order of `linear`
-  int log = -1;   // the one it happened in, of what happens once; -1: all
-  int tried = 1;  // shapes of the same effect at the same place
+  int log = -1;  // the one it happened in, of what happens once; -1: all
+  // How improbable it was before the data, beyond the number of shapes that
+  // were tried, on the scale of chi squared.
+  double prior_penalty = 0;
+  int tried = 1;           // shapes of the same effect at the same place
   bool is_larger = false;  // than the first size of its effect
   bool IsIn(int other_log) const { return log < 0 || log == other_log; }
   std::string place() const;
 };
+
+// GapCandidate::prior_penalty of an effect. Since a reference: what is asked is
+// what changed in an arm since then, which is rarely rebuilt between two logs.
+double PriorPenalty(const Effect& effect, bool since_reference);
 
 // Whether they are one effect at one place, of which there are not two.
 bool SamePlace(const GapCandidate& a, const GapCandidate& b);

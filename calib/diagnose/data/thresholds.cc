@@ -157,6 +157,10 @@ const std::vector<ThresholdInfo> kAll = {
      Kind::kTuned,
      "simulated robots without effects: 40 to 60 where others stayed "
      "below 25"},
+    {"odds_of_same_construction", &T::odds_of_same_construction, "1",
+     "Before the data, that a change since the reference is none of the arm's "
+     "lengths, masses and rotors",
+     Kind::kTuned, "one arm in ten was rebuilt since"},
     {"chance_quantile", &T::chance_quantile, "quantile",
      "Beyond what random signs of blocks give in this share of draws",
      Kind::kLaw, "significance of 1 %"},

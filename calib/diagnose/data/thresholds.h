@@ -56,6 +56,7 @@ struct Thresholds {
   double other_joint_share = .004;
   double most_effects = 3;
   double near_zero_penalty = 20;
+  double odds_of_same_construction = 9;
   double chance_quantile = .99;
   double block = 2;
 

@@ -14,6 +14,24 @@ double Confirmation::Share() const {
   return std::clamp(explained / (expected + Limits().confirmation), -1., 1.);
 }
 
+Confirmation SumOf(const std::vector<Confirmation>& parts) {
+  Confirmation sum;
+  for (const Confirmation& part : parts) {
+    sum.expected += part.expected;
+    sum.explained += part.explained;
+  }
+  return sum;
+}
+
+double LeastShare(const std::vector<Confirmation>& parts) {
+  if (parts.empty()) return 0;
+  return std::min_element(parts.begin(), parts.end(),
+                          [](const Confirmation& a, const Confirmation& b) {
+                            return a.Share() < b.Share();
+                          })
+      ->Share();
+}
+
 Confirmation Confirm(const PredictedChi2& chi2, const JointRows& without,
                      const JointRows& with) {
   JointRows change;

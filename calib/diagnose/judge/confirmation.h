@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "calib/diagnose/judge/predicted_chi2.h"
 
 namespace armcal {
@@ -17,6 +19,12 @@ struct Confirmation {
   // by more than its variance per sample.
   bool IsTold() const { return expected > 1; }
 };
+
+// Of parts of different samples together: chi squared adds up.
+Confirmation SumOf(const std::vector<Confirmation>& parts);
+// The share of the part that has least of the effect; 0 of none. A law acts in
+// all of them.
+double LeastShare(const std::vector<Confirmation>& parts);
 
 // From whitened residuals per joint with and without the effect, each given
 // the baseline that was fitted so.

@@ -14,21 +14,19 @@ struct EffectEvidence {
   double odds = 0;      // ln of its softmax probability against the next
   double strength = 0;  // ln of its delta chi^2
   int chosen = 1;       // how many effects were, all events being one
-  // How many others are on its joint (if it has one), a law and its mean being
-  // one: what has no name may be pieced together from several that have.
-  int beside = 0;
-  // How many of the others are stronger, and of these on its joint, where the
-  // robot has several: what the form of a strong effect has wrong looks like
-  // weaker ones, not the other way round.
+  // How many of the others are stronger, and of these on its joint (if it has
+  // one), a law and its mean being one, where the robot has several: what the
+  // form of a strong effect has wrong looks like weaker ones, not the other way
+  // round.
   int stronger = 0, stronger_beside = 0;
-  double next = 0;            // score of the best further candidate, at least 0
-  int events = 0;             // windows of it, of what comes and goes
-  double one_joint = 0;       // GapEvent's, of the strongest
-  double gain = 0;            // by how much it lowers the held-out mean square
-  bool held_out = false;      // whether there are held-out data
-  Confirmation confirmation;  // by them
-  // What all effects leave there of the gap of its joint, or of all.
-  double left = 0;
+  double next = 0;       // score of the best further candidate, at least 0
+  int events = 0;        // windows of it, of what comes and goes
+  double one_joint = 0;  // GapEvent's, of the strongest
+  double gain = 0;       // by how much it lowers the held-out mean square
+  bool since_reference = false;  // whether it is a change since one
+  bool held_out = false;         // whether there are held-out data
+  Confirmation confirmation;     // by them
+  double least_share = 0;        // LeastShare of their parts
   // Whether the interval of the share of the held-out gap that it removes is
   // above 0, where it is alone: what is large may do so though chi^2 (that
   // leaves the baseline free) hardly changes.
@@ -65,6 +63,12 @@ class GapEvidence {
 // regression on evidence, fitted to which effects were right in the calibration
 // cases of the blind bench (tests/blind/EVALUATIONS.md says which).
 double ProbabilityOf(const EffectEvidence& evidence);
+
+// The same of contacts that stand out from friction and from a single
+// reference, which does not tell how much logs differ: by how much each of them
+// lowers chi^2 and how much of that one joint alone explains, since a touch is
+// felt by several and what a joint has wrong by itself.
+double ProbabilityBeyondOneReference(const EffectEvidence& evidence);
 
 // chi^2 of joint j beyond the noise's that the fit's effects leave, or with
 // none of them. How well the noise is known, its source tells.

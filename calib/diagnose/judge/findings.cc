@@ -135,10 +135,18 @@ FoundEffect Findings::Found(size_t k) const {
   return found;
 }
 
+// That an event is a contact, `evidence` being that of all events: of what is
+// beyond friction by the chance that a log without a contact gets as far
+// (ProbabilityBeyondChance), which several logs tell, else by regressions.
+double ProbabilityOfEvent(const GapEvent& event,
+                          const EffectEvidence& evidence) {
+  if (!event.beyond_friction) return ProbabilityOf(evidence);
+  if (!event.chance_of_logs) return ProbabilityBeyondOneReference(evidence);
+  return ProbabilityBeyondChance(event.chance, Limits().odds_of_no_contact);
+}
+
 // All windows in which the arm was touched, as one effect with the estimates of
-// the strongest. Its probability is the largest of its events': of those beyond
-// friction by the chance that noise gets as far (ProbabilityBeyondChance), of
-// the others by the regression on evidence.
+// the strongest and the largest of their probabilities.
 FoundEffect Findings::Contacts() const {
   const std::vector<GapEvent>& events = fit_.events();
   const GapEvent& strongest = *std::max_element(
@@ -158,11 +166,8 @@ FoundEffect Findings::Contacts() const {
   for (const GapEvent& event : events) {
     found.delta_chi2 += event.delta_chi2;
     found.contacts.push_back(event.contact);
-    found.probability = std::max(
-        found.probability,
-        event.beyond_friction
-            ? ProbabilityBeyondChance(event.chance, Limits().odds_of_no_contact)
-            : ProbabilityOf(found.evidence));
+    found.probability =
+        std::max(found.probability, ProbabilityOfEvent(event, found.evidence));
   }
   return found;
 }

@@ -256,10 +256,9 @@ double HeldOut::GainOf(size_t k, double after) const {
 }
 
 // Chi squared that the effect should change and does, with what models lack as
-// a rule fitted too, under the posterior's uncertainty; parts are of different
-// samples, and add up. What data that lack a part would not have chosen is not
-// confirmed by that part.
-Confirmation HeldOut::ConfirmationOf(
+// a rule fitted too, under the posterior's uncertainty. What data that lack a
+// part would not have chosen is not confirmed by that part.
+std::vector<Confirmation> HeldOut::ConfirmationsOf(
     size_t k, const std::vector<PlacedEffect>& alike) const {
   std::vector<Confirmation> confirmed(parts_.size());
   tbb::parallel_for(size_t{0}, parts_.size(), [&](size_t p) {
@@ -277,12 +276,7 @@ Confirmation HeldOut::ConfirmationOf(
       confirmed[p].explained = std::min(0., confirmed[p].explained);
     }
   });
-  Confirmation all;
-  for (const Confirmation& one : confirmed) {
-    all.expected += one.expected;
-    all.explained += one.explained;
-  }
-  return all;
+  return confirmed;
 }
 
 }  // namespace armcal

@@ -44,10 +44,10 @@ class HeldOut {
   // By how much the k-th effect given the others lowers the mean square, that
   // of all being `after`.
   double GainOf(size_t k, double after) const;
-  // Whether these data are what the k-th effect says, given the others.
-  // `alike`: it, and what may stand in its place.
-  Confirmation ConfirmationOf(size_t k,
-                              const std::vector<PlacedEffect>& alike) const;
+  // Whether these data are what the k-th effect says, given the others, part by
+  // part. `alike`: it, and what may stand in its place.
+  std::vector<Confirmation> ConfirmationsOf(
+      size_t k, const std::vector<PlacedEffect>& alike) const;
 
  private:
   // What one model predicts.

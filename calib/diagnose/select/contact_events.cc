@@ -5,6 +5,7 @@
 #include "calib/diagnose/data/position_noise.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/maxima_tail.h"
+#include "calib/diagnose/select/reference_folds.h"
 
 namespace armcal {
 namespace {
@@ -69,6 +70,8 @@ std::vector<GapEvent> ContactsGiven(const GapRegression& regression,
     if (IsKnown(known, contact)) continue;
     events.push_back(EventBeyondFriction(rows, excess, contact));
     events.back().chance = usual.Chance(contact.deviations);
+    events.back().chance_of_logs =
+        of_itself || AreSeveralLogs(regression.reference()->rows().segments());
     events.back().at_rest = search == ContactSearch::kAtRest;
   }
   return events;

@@ -24,8 +24,10 @@ struct GapEvent {
   std::optional<Fitted> fitted;
   bool beyond_friction = false;
   // Of what was found beyond friction: how probable such an excess is in a log
-  // without a contact.
+  // without a contact, and whether that was told by more than one such log: the
+  // parts of a single one differ less from each other than logs do.
   double chance = 1;
+  bool chance_of_logs = true;
   // Found at rest: it is told without what effects that were fitted to motion
   // say of rest.
   bool at_rest = false;

@@ -32,6 +32,10 @@ void CandidatePool::List() {
 
 void CandidatePool::Add(std::vector<GapCandidate> more) {
   if (more.empty()) return;
+  const bool since_reference = regression_.reference() != nullptr;
+  for (GapCandidate& candidate : more) {
+    candidate.prior_penalty = PriorPenalty(*candidate.effect, since_reference);
+  }
   Evaluate(&more);
   AddCandidates(regression_.rows(), &more, regression_.mutable_screen());
   candidates_.insert(candidates_.end(), std::make_move_iterator(more.begin()),

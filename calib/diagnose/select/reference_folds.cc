@@ -7,6 +7,12 @@ namespace {
 
 constexpr int kThirds = 3;
 
+std::set<int> LogsOf(const std::vector<GapSegment>& segments) {
+  std::set<int> logs;
+  for (const GapSegment& segment : segments) logs.insert(segment.log);
+  return logs;
+}
+
 }  // namespace
 
 TimeRange ReferenceFold::WindowOf(const GapSegment& segment) const {
@@ -17,9 +23,12 @@ TimeRange ReferenceFold::WindowOf(const GapSegment& segment) const {
   return {motion.t0 + third * length, motion.t0 + (third + 1) * length};
 }
 
+bool AreSeveralLogs(const std::vector<GapSegment>& segments) {
+  return LogsOf(segments).size() > 1;
+}
+
 std::vector<ReferenceFold> FoldsOf(const std::vector<GapSegment>& segments) {
-  std::set<int> logs;
-  for (const GapSegment& segment : segments) logs.insert(segment.log);
+  const std::set<int> logs = LogsOf(segments);
   std::vector<ReferenceFold> folds;
   if (logs.size() > 1) {
     for (const int log : logs) folds.push_back({log, -1});

@@ -22,6 +22,9 @@ struct ReferenceFold {
 // One or more; all of whole logs, or all of thirds.
 std::vector<ReferenceFold> FoldsOf(const std::vector<GapSegment>& segments);
 
+// Whether they are of several logs, which tell how one differs from another.
+bool AreSeveralLogs(const std::vector<GapSegment>& segments);
+
 // Masks a fold in the data, which are of these segments; the thinned samples
 // that are in it.
 std::vector<int> LeaveOut(const std::vector<GapSegment>& segments,

@@ -144,8 +144,7 @@ std::vector<std::vector<int>> Extended(
 // Bonferroni correction on the scale of chi squared.
 double Penalty(const GapScreen& screen, const GapCandidate& candidate) {
   return candidate.linear.size() * LogOfRows(screen, candidate) +
-         2 * std::log(candidate.tried) +
-         (candidate.effect->near_zero ? Limits().near_zero_penalty : 0);
+         2 * std::log(candidate.tried) + candidate.prior_penalty;
 }
 
 // A shape that is fitted is a parameter as others are and has ln N as its

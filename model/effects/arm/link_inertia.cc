@@ -21,6 +21,7 @@ Effect LinkInertia() {
   Effect effect;
   effect.name = "link_inertia";
   effect.nature = Effect::Nature::kParameter;
+  effect.of_construction = true;
   effect.law = "tau = share ID(this link alone)";
   effect.shows = "gravity on the joints before, and their accelerations";
   effect.parameters = {

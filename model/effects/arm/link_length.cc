@@ -22,6 +22,7 @@ Effect LinkLength() {
   Effect effect;
   effect.name = "link_length";
   effect.nature = Effect::Nature::kParameter;
+  effect.of_construction = true;
   effect.law = "tau = ID(l + length) - ID(l)";
   effect.shows = "motion of this joint and those beyond, gravity included";
   effect.parameters = {

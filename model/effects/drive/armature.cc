@@ -8,6 +8,7 @@ Effect Armature() {
   Effect effect;
   effect.name = "armature";
   effect.nature = Effect::Nature::kParameter;
+  effect.of_construction = true;
   effect.law = "tau = armature qdd";
   effect.shows = "large accelerations of the joint";
   effect.parameters = {

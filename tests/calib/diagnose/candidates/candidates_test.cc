@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace armcal::candidates_test {
 
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 using testing::ElementsAre;
+using testing::UnorderedElementsAre;
 
 // An effect of a size and a grid.
 Effect MakeEffect(const std::vector<double>& larger) {
@@ -42,6 +45,27 @@ TEST(GapCandidates, LargerOnesAreMultiplesAndAllWereTried) {
     EXPECT_EQ(one.p[1], 5);
   }
   EXPECT_EQ(LargerOnes(MakeCandidate(MakeEffect({}), 0)).size(), 0u);
+}
+
+// Bayes' rule in closed form: odds of 9 against a hypothesis are ln 9 of its
+// log likelihood, of which chi squared is twice as large and is divided by the
+// temperature of 4.
+TEST(PriorPenalty, IsTheLogarithmOfOddsSinceAReference) {
+  Effect effect = MakeEffect({});
+  EXPECT_EQ(PriorPenalty(effect, true), 0);
+  effect.of_construction = true;
+  EXPECT_EQ(PriorPenalty(effect, false), 0);
+  EXPECT_NEAR(PriorPenalty(effect, true), 2 * 4 * std::log(9.), 1e-12);
+}
+
+// What is bolted, cast or wound; not what is mounted, set, worn or warmed.
+TEST(PriorPenalty, KnowsWhatAnArmIsBuiltOf) {
+  std::vector<std::string> built;
+  for (const Effect& effect : Effects()) {
+    if (effect.of_construction) built.push_back(effect.name);
+  }
+  EXPECT_THAT(built,
+              UnorderedElementsAre("link_length", "link_inertia", "armature"));
 }
 
 // From all over the range.

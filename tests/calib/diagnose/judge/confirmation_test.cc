@@ -61,4 +61,17 @@ TEST_F(GapConfirmationTest, WhatTheFitMayHaveWrongTellsNothing) {
   EXPECT_LT(std::abs(found.Share()), .1);
 }
 
+// A law acts in every part: one that two of three have is seen by their sum and
+// not by the part that lacks it.
+TEST_F(GapConfirmationTest, OfPartsTheLeastIsTold) {
+  const Confirmation there =
+      Confirm(chi2_, {noise_ + effect_, {}}, {noise_, {}});
+  const Confirmation lacking = Confirm(chi2_, {noise_}, {noise_ - effect_});
+  const std::vector<Confirmation> parts = {there, lacking, there};
+  EXPECT_NEAR(SumOf(parts).expected, 1500, 30);
+  EXPECT_NEAR(SumOf(parts).Share(), 1. / 3, .1);
+  EXPECT_EQ(LeastShare(parts), lacking.Share());
+  EXPECT_EQ(LeastShare({}), 0);
+}
+
 }  // namespace armcal::confirmation_test

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace armcal::evidence_test {
 
 EffectEvidence Clear() {
@@ -9,6 +11,7 @@ EffectEvidence Clear() {
   evidence.odds = 8;
   evidence.strength = 7;
   evidence.confirmation = {500, 500};
+  evidence.least_share = 1;
   return evidence;
 }
 
@@ -26,19 +29,32 @@ TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainst) {
   expect_less("a near rival", [](EffectEvidence* e) { e->odds = 0; });
   expect_less("little explained", [](EffectEvidence* e) { e->strength = 3; });
   expect_less("more to come", [](EffectEvidence* e) { e->next = 60; });
-  expect_less("stronger ones were needed", [](EffectEvidence* e) {
-    e->chosen = 3;
-    e->stronger = 2;
-  });
-  expect_less("a stronger one is on its joint", [](EffectEvidence* e) {
-    e->beside = 1;
-    e->stronger_beside = 1;
-  });
+  expect_less("stronger ones were needed",
+              [](EffectEvidence* e) { e->stronger = 2; });
+  expect_less("a stronger one is on its joint",
+              [](EffectEvidence* e) { e->stronger_beside = 1; });
   expect_less("held-out data do not care",
               [](EffectEvidence* e) { e->confirmation.explained = 0; });
   expect_less("held-out data hardly see it", [](EffectEvidence* e) {
     e->confirmation = {5, 5};
   });
+}
+
+TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainstAChangeSinceAReference) {
+  EffectEvidence clear = Clear();
+  clear.since_reference = true;
+  const auto expect_less = [&](const char* what, auto change) {
+    EffectEvidence evidence = clear;
+    change(&evidence);
+    EXPECT_LT(ProbabilityOf(evidence), ProbabilityOf(clear)) << what;
+  };
+  EXPECT_GT(ProbabilityOf(clear), .9);
+  expect_less("a near rival", [](EffectEvidence* e) { e->odds = 0; });
+  expect_less("little explained", [](EffectEvidence* e) { e->strength = 3; });
+  expect_less("more to come", [](EffectEvidence* e) { e->next = 60; });
+  expect_less("a stronger one", [](EffectEvidence* e) { e->stronger = 1; });
+  expect_less("a third of the log does not have it",
+              [](EffectEvidence* e) { e->least_share = 0; });
 }
 
 // What was held out has to say something: an effect that one stretch alone
@@ -53,13 +69,9 @@ TEST(ProbabilityOf, IsAtMostEvenWhereHeldOutDataCannotTell) {
 
 // Weaker ones may be what its form has wrong, and are nothing against it.
 TEST(ProbabilityOf, WeakerEffectsSayNothingAgainstARecordedOne) {
-  EffectEvidence alone;
-  alone.odds = 8;
-  alone.strength = 7;
-  EffectEvidence beside_weaker = alone;
+  EffectEvidence beside_weaker = Clear();
   beside_weaker.chosen = 3;
-  beside_weaker.beside = 2;
-  EXPECT_EQ(ProbabilityOf(alone), ProbabilityOf(beside_weaker));
+  EXPECT_EQ(ProbabilityOf(Clear()), ProbabilityOf(beside_weaker));
 }
 
 TEST(ProbabilityOf, AContactFeltByOneJointManyTimesIsNone) {
@@ -72,6 +84,25 @@ TEST(ProbabilityOf, AContactFeltByOneJointManyTimesIsNone) {
   one_joint.one_joint = 1;
   EXPECT_LT(ProbabilityOf(often), ProbabilityOf(once));
   EXPECT_LT(ProbabilityOf(one_joint), ProbabilityOf(once));
+}
+
+// Each window has to stand out for itself: as much of chi squared in eight of
+// them is less, and eight times as much is the same.
+TEST(ProbabilityBeyondOneReference, IsOfItsWindows) {
+  EffectEvidence once = Clear();
+  once.events = 1;
+  once.one_joint = .3;
+  EffectEvidence often = once;
+  often.events = 8;
+  EXPECT_LT(ProbabilityBeyondOneReference(often),
+            ProbabilityBeyondOneReference(once));
+  often.strength += std::log(8);
+  EXPECT_NEAR(ProbabilityBeyondOneReference(often),
+              ProbabilityBeyondOneReference(once), 1e-12);
+  EffectEvidence one_joint = once;
+  one_joint.one_joint = 1;
+  EXPECT_LT(ProbabilityBeyondOneReference(one_joint),
+            ProbabilityBeyondOneReference(once));
 }
 
 }  // namespace armcal::evidence_test

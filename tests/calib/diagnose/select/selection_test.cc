@@ -106,6 +106,18 @@ TEST_F(GapSelectionTest, ALikelyNameIsNotTheRightOne) {
   EXPECT_THAT(Select().chosen, ElementsAre(18));
 }
 
+// Two that explain alike: the one that was likelier before the data is chosen,
+// and the other one where these speak clearly for it.
+TEST_F(GapSelectionTest, WhatWasImprobableBeforehandNeedsMore) {
+  AddRandom(10);
+  const int improbable = Add(10, 0, Column(3) + Noise(&random_, .05));
+  target_[0] = .3 * Column(improbable) + Noise(&random_);
+  candidates_[improbable].prior_penalty = 50;
+  EXPECT_THAT(Select().chosen, ElementsAre(3));
+  target_[0] = 20 * Column(improbable) + Noise(&random_);
+  EXPECT_THAT(Select().chosen, ElementsAre(improbable));
+}
+
 // A third that is nearly the sum of both is better than either alone.
 TEST_F(GapSelectionTest, TwoTakeThePlaceOfTheirCompromise) {
   AddRandom(10);
