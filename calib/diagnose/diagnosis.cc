@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "calib/diagnose/candidates/law_share.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/segments.h"
 #include "calib/diagnose/data/thresholds.h"
@@ -268,8 +269,9 @@ void Diagnoser::Simulate(const LogSet& held_out, bool split) {
     return MakeCorrectedRobot(*baseline_, x, effects, fit_->scale());
   };
   result_.corrected = robot(fit_->model_after(), fit_->refined().effects);
+  SetLawShares(*baseline_, fit_->data(), &result_.corrected);
   // Segments have their torque as if it came without delay; logs have not.
-  result_.corrected.delay += delay_;
+  result_.corrected.AddDelay(delay_);
   if (!options_.forward) return;
   const Predictor& model = held_out_->predictor_of_part();
   ForwardRobots robots = {robot(fit_->before(), {}),

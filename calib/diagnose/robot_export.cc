@@ -5,7 +5,7 @@
 
 #include "calib/diagnose/candidates/dry_friction.h"
 #include "calib/diagnose/candidates/file_fields.h"
-#include "calib/diagnose/candidates/friction_share.h"
+#include "calib/diagnose/candidates/law_share.h"
 #include "calib/diagnose/modules/effects_json.h"
 #include "calib/refine/possible_links.h"
 #include "model/robot_files/urdf_update.h"
@@ -113,10 +113,9 @@ RobotDescription Describe(const CorrectedRobot& corrected, const Robot& file,
     if (IsIn(format, effect)) {
       AddToFile(effect, &robot.links[j].joint, &description.drives[j]);
     } else {
-      const FrictionShare share =
-          ShareOfFriction(effect, corrected.plant.robot, corrected.scale);
-      robot.links[j].joint.viscous += share.viscous;
-      robot.links[j].joint.coulomb += share.coulomb;
+      for (const JointTerm term : effect.found.effect->stand_ins) {
+        *TermOf(term, &robot.links[j].joint) += ShareOf(effect, term);
+      }
     }
   }
   MakeLinksPossible(corrected, file, &robot, losses);
@@ -144,14 +143,36 @@ std::string Sentence(const RobotFormat& format, const CarriedEffect& effect,
          values + "): see effects.json";
 }
 
-// What stands in the file in its stead.
-std::string ShareSentence(const CorrectedRobot& corrected,
-                          const CarriedEffect& effect) {
-  const FrictionShare share =
-      ShareOfFriction(effect, corrected.plant.robot, corrected.scale);
-  if (share.viscous == 0 && share.coulomb == 0) return "";
-  return "; its share of viscous friction " + Short(share.viscous) +
-         " and of Coulomb friction " + Short(share.coulomb) + " is in the file";
+// What stands in the file in the effect's stead; empty where nothing does.
+std::string ShareSentence(const RobotFormat& format,
+                          const CarriedEffect& effect, const Robot& robot) {
+  if (IsIn(format, effect) || !HasShare(effect)) return "";
+  const Joint& joint = robot.links[effect.found.joint].joint;
+  std::string terms;
+  for (const JointTerm term : effect.found.effect->stand_ins) {
+    if (term == JointTerm::kOffset && !format.Holds(RobotField::kOffset)) {
+      continue;
+    }
+    terms += (terms.empty() ? "" : ", ") + std::string(JointTermName(term)) +
+             " " + Short(ShareOf(effect, term)) + " " +
+             JointTermUnit(term, joint.type);
+  }
+  if (terms.empty()) return "";
+  return "the mean of " + effect.found.effect->name +
+         " over the log is in joint " + joint.name + " of the file (" + terms +
+         ")";
+}
+
+// For those who have the file alone.
+std::string Commented(const RobotFormat& format, const std::string& text,
+                      const CorrectedRobot& corrected) {
+  std::vector<std::string> sentences;
+  for (const CarriedEffect& effect : corrected.effects) {
+    const std::string sentence =
+        ShareSentence(format, effect, corrected.plant.robot);
+    if (!sentence.empty()) sentences.push_back(sentence);
+  }
+  return WithComment(format, text, sentences);
 }
 
 void AddLosses(const CorrectedRobot& corrected, const RobotFormat& format,
@@ -163,8 +184,9 @@ void AddLosses(const CorrectedRobot& corrected, const RobotFormat& format,
   }
   for (const CarriedEffect& effect : corrected.effects) {
     if (IsIn(format, effect)) continue;
+    const std::string share = ShareSentence(format, effect, description.robot);
     losses->push_back(Sentence(format, effect, description.robot) +
-                      ShareSentence(corrected, effect));
+                      (share.empty() ? "" : "; " + share));
   }
   const bool laws = format.Holds(RobotField::kLaws);
   for (const std::vector<CoulombPart>& parts : corrected.coulomb) {
@@ -175,8 +197,7 @@ void AddLosses(const CorrectedRobot& corrected, const RobotFormat& format,
                       "zero velocity: see effects.json");
     break;
   }
-  if (std::abs(corrected.delay) >= kLeastDelay &&
-      !(laws && corrected.acts_late())) {
+  if (corrected.has_delay() && !(laws && corrected.acts_late())) {
     losses->push_back(title + " has no field for time: torque was recorded " +
                       Short(1e3 * std::abs(corrected.delay)) + " ms " +
                       (corrected.delay > 0 ? "after" : "before") +
@@ -191,7 +212,7 @@ RobotFile MakeFile(const CorrectedRobot& corrected, const Robot& file,
   const RobotDescription description =
       Describe(corrected, file, format, &result.losses);
   AddLosses(corrected, format, description, &result.losses);
-  result.text = format.write(description);
+  result.text = Commented(format, format.write(description), corrected);
   return result;
 }
 
@@ -226,9 +247,11 @@ RobotExport ExportCorrectedRobot(
       Describe(corrected, file, of_urdf, &result.losses);
   const Robot& robot = description.robot;
   AddLosses(corrected, of_urdf, description, &result.losses);
-  result.urdf = urdf.name().empty()
-                    ? MakeUrdf(robot)
-                    : UpdateUrdf(urdf, robot, !SameGeometry(robot, file), base);
+  const std::string text =
+      urdf.name().empty()
+          ? MakeUrdf(robot)
+          : UpdateUrdf(urdf, robot, !SameGeometry(robot, file), base);
+  result.urdf = Commented(of_urdf, text, corrected);
   for (const RobotFormat* format : formats) {
     result.files.push_back(MakeFile(corrected, file, *format));
   }

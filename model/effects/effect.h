@@ -102,10 +102,9 @@ struct Effect {
   // Effects that a model without this law would show in its stead, as its mean:
   // beside it on the same joint they are a part of it.
   std::vector<std::string> means;
-  // Whether it is friction that in steady motion depends on the joint's own
-  // velocity alone: then the nearest viscous and Coulomb friction stand for it
-  // in files that have no other.
-  bool velocity_friction = false;
+  // The terms of its joint that stand for it in robot files without such a law:
+  // those of them that fit its torque along the log best, by least squares.
+  std::vector<JointTerm> stand_ins;
   // The joint's own term (N m s/rad, N m or kg m^2 as JointTermUnit says) that
   // its only parameter adds to: a number of robot files. None: no such term.
   std::optional<JointTerm> joint_term;

@@ -138,7 +138,8 @@ RobotFormat IsaacFormat() {
            RobotField::kLaws, RobotField::kGravity},
           &MakeIsaac,
           &IsaacLosses,
-          false};
+          false,
+          true};
 }
 
 }  // namespace armcal

@@ -97,6 +97,28 @@ bool RobotFormat::Holds(const Joint& joint, const JointDrive& drive) const {
   });
 }
 
+// XML has its declaration before any comment, and no two dashes within one.
+std::string WithComment(const RobotFormat& format, std::string text,
+                        const std::vector<std::string>& sentences) {
+  const std::string begin =
+      format.hash_comments ? "# armcal: " : "<!-- armcal: ";
+  const std::string end = format.hash_comments ? "\n" : " -->\n";
+  const size_t old = text.find(begin);
+  if (old != std::string::npos) {
+    text.erase(old, text.find(end, old) + end.size() - old);
+  }
+  if (sentences.empty()) return text;
+  std::string comment;
+  for (const std::string& sentence : sentences) {
+    comment += (comment.empty() ? "" : "; ") + sentence;
+  }
+  for (size_t at; (at = comment.find("--")) != std::string::npos;) {
+    comment.insert(at + 1, " ");
+  }
+  const bool declared = text.rfind("<?xml", 0) == 0;
+  return text.insert(declared ? text.find('\n') + 1 : 0, begin + comment + end);
+}
+
 std::vector<std::string> Losses(const RobotFormat& format,
                                 const RobotDescription& description) {
   std::vector<std::string> losses;

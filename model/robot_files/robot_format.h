@@ -45,11 +45,18 @@ struct RobotFormat {
   std::vector<std::string> (*more_losses)(const RobotDescription&);
   // A robot by itself; else what stands beside the bodies of robot.urdf.
   bool is_whole = true;
+  // Whether comments are lines behind a #; else those of XML.
+  bool hash_comments = false;
 
   bool Holds(RobotField field) const;
   // All that the joint and its drive have.
   bool Holds(const Joint& joint, const JointDrive& drive) const;
 };
+
+// The file's text with these sentences before all else, in a comment of
+// armcal's own in the place of one that it has.
+std::string WithComment(const RobotFormat& format, std::string text,
+                        const std::vector<std::string>& sentences);
 
 // What a file of this format cannot say of the robot, a sentence for each kind
 // with the joints' values.

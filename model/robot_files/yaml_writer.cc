@@ -166,7 +166,9 @@ RobotFormat YamlFormat() {
           {RobotField::kSpring, RobotField::kGain, RobotField::kLaws,
            RobotField::kController},
           &MakeYaml,
-          nullptr};
+          nullptr,
+          true,
+          true};
 }
 
 }  // namespace armcal

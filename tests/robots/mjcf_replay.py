@@ -1,26 +1,31 @@
 #!/usr/bin/env python3
 """Does MuJoCo with robot.xml alone follow held-out commands as the robot did?
 
-  mjcf_replay.py --armcal=build/armcal [--other] [--work=DIR] [--case=TEXT] [--dt=S]
+  mjcf_replay.py --armcal=build/armcal [--other|--means] [--work=DIR] [--case=TEXT] [--dt=S]
 
 The arms of module_replay.py with one hidden effect each (--other: on other joints and of other
-sizes, which nothing was developed on) are diagnosed with --export=mjcf and
+sizes, which nothing was developed on; --means: laws that MJCF has no field for) are diagnosed with --export=mjcf and
 calibrated. Then MuJoCo follows the commands of a log that nothing was fitted to, in closed loop
 by the same drives, whose torques are all that is given: no callback, no module. Prints, per
 case, how far positions are from those recorded, rms of all joints: of the calibrated rigid
 robot, of robot.xml in its own time steps (or --dt), and of armcal's own replay (`forward` of
-diagnosis.json). Exit code 1 where robot.xml is not nearer than the rigid robot, or where it
-does not come back as an arm of as many joints.
+diagnosis.json). What no field of MJCF holds is in robot.xml as its mean over the log, which the
+rigid robot has as well; a second row then has effects.py beside robot.xml, which adds the rest.
+Exit code 1 where robot.xml is not nearer than the rigid robot (1.1 times as far where it lacks a
+law), where it does not come back as an arm of as many joints, or where effects.py beside it is
+more than 1.2 times as far as armcal's own.
 
 Needs mujoco 4.0.0, numpy and scipy.
 """
 
 import argparse
+import json
 import sys
 import tempfile
 from pathlib import Path
 
 import mujoco
+import numpy as np
 
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1]),
                 str(Path(__file__).resolve().parents[1] / "peers")]
@@ -28,7 +33,6 @@ import commanded_arm as ca  # noqa: E402
 import module_replay  # noqa: E402
 import result_files  # noqa: E402
 
-NOT_IN_MJCF = {"thermal"}
 OTHER = [
     ("stribeck", "stribeck@1:friction=.15"),
     ("presliding", "presliding@3:friction=.1,displacement=.01"),
@@ -40,6 +44,18 @@ OTHER = [
     ("several", "elasticity@2:windup=.01;presliding@2:friction=.15,displacement=.02;"
                 "torque_ripple@3:amplitude=.1,harmonic=20"),
 ]
+
+
+MEANS = [
+    ("thermal_1", "thermal_friction@1:beta=.05,time_constant=.2"),
+    ("thermal_3", "thermal_friction@3:beta=.03,time_constant=.5"),
+    ("load", "load_friction@2:coefficient=.15"),
+    ("position", "position_friction@2:friction=.2"),
+    ("asymmetric", "asymmetric_friction@2:asymmetry=.2"),
+    ("drift", "time_drift@2:torque=.2"),
+    ("cable", "cable@2:torque=.2"),
+]
+MOST_OF_RIGID = 1.1  # where robot.xml lacks a law
 
 
 class Native(module_replay.Simulation):
@@ -64,6 +80,34 @@ class Native(module_replay.Simulation):
         self.data.ctrl[self.controls] = torque
 
 
+class WithRest(Native):
+    """What robot.xml lacks is effects.py's, which leaves it what it has."""
+
+    def __init__(self, folder, dt, joints):
+        super().__init__(folder / "robot.xml", dt, joints)
+        self.effects = module_replay.load_module(folder).Effects(
+            folder / "effects.json", beside="mjcf")
+        self.dofs = [self.model.joint(name).dofadr[0] for name in joints]
+
+    def path(self, log, kp, kd):
+        self.effects.t = -ca.SETTLE
+        return super().path(log, kp, kd)
+
+    def read(self):
+        return self.effects.sense(self.model.opt.timestep, super().read(),
+                                  self.data.qvel[self.dofs])
+
+    def give(self, torque):
+        super().give(torque)
+        self.data.qfrc_applied[self.dofs] = np.subtract(self.effects.act(torque), torque)
+
+
+def rest_of(folder):
+    """Whether robot.xml lacks a law that was found."""
+    effects = json.loads((folder / "effects.json").read_text(encoding="utf-8"))["effects"]
+    return any("mjcf" not in effect["in"] for effect in effects)
+
+
 def reads_back(armcal, xml, out, joints):
     """Whether armcal reads the file as the arm that it was."""
     module_replay.run(armcal, "inspect", f"--robot={xml}", "--export=mjcf_plain", f"--out={out}")
@@ -72,16 +116,27 @@ def reads_back(armcal, xml, out, joints):
 
 
 def replay(armcal, out, effect, dt):
-    """rms (rigid robot, robot.xml, armcal's own), what was named, whether it is read back."""
+    """rms (rigid robot, robot.xml, with effects.py beside it if it lacks a law, armcal's own),
+    what was named, whether it is read back."""
     kp, kd = module_replay.make(armcal, out, effect)
     log = ca.CommandedLog(out / "log2" / "log.csv")
     rigid = module_replay.Simulation(out / "calibrated" / "robot.xml", 5e-4)
     joints = [rigid.model.joint(j).name for j in range(rigid.model.njnt)]
     xml = out / "diagnosed" / "robot.xml"
-    apart = [ca.rms(ca.difference(*simulation.path(log, kp, kd), log))
-             for simulation in (rigid, Native(xml, dt, joints))]
+    simulations = [rigid, Native(xml, dt, joints)]
+    if rest_of(out / "diagnosed"):
+        simulations.append(WithRest(out / "diagnosed", dt, joints))
+    rigid, native, *rest = [ca.rms(ca.difference(*simulation.path(log, kp, kd), log))
+                            for simulation in simulations]
     named, (_, own) = module_replay.own_replay(out)
-    return (*apart, own), named, reads_back(armcal, xml, out / "back", joints)
+    return (rigid, native, rest, own), named, reads_back(armcal, xml, out / "back", joints)
+
+
+def show(name, rigid, found, own, text):
+    """A row, and the values that are stored of it."""
+    print(f"{name:22}{rigid:10.2e}{found:11.2e}{own:10.2e}{found / own:11.2f}"
+          f"{found / rigid:10.2f}  {text}", flush=True)
+    return [rigid, found, own, found / own, found / rigid]
 
 
 def main():
@@ -89,27 +144,33 @@ def main():
     parser.add_argument("--armcal", required=True)
     parser.add_argument("--work")
     parser.add_argument("--case", default="")
-    parser.add_argument("--other", action="store_true")
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument("--other", action="store_true")
+    group.add_argument("--means", action="store_true")
     parser.add_argument("--dt", type=float)
     result_files.add_flag(parser)
     flags = parser.parse_args()
     values = {}
     failed = False
     with tempfile.TemporaryDirectory() as folder:
-        print(f"{'case':15}{'rigid':>10}{'robot.xml':>11}{'armcal':>10}"
+        print(f"{'case':22}{'rigid':>10}{'robot.xml':>11}{'armcal':>10}"
               f"{'of armcal':>11}{'of rigid':>10}  named")
-        for name, effect in OTHER if flags.other else module_replay.CASES:
-            if flags.case not in name or name in NOT_IN_MJCF:
+        cases = OTHER if flags.other else MEANS if flags.means else module_replay.CASES
+        for name, effect in cases:
+            if flags.case not in name:
                 continue
             out = Path(flags.work or folder).resolve() / (f"other_{name}" if flags.other else name)
-            (rigid, native, own), named, back = replay(
+            (rigid, native, rest, own), named, back = replay(
                 Path(flags.armcal).resolve(), out, effect, flags.dt)
-            good = native < rigid and back
+            good = native < (MOST_OF_RIGID if rest else 1) * rigid and back
+            values[name] = show(name, rigid, native, own,
+                                ", ".join(named) + ("" if good else "  FAILED"))
+            for module in rest:
+                near = module <= module_replay.MOST_OF_OWN * own
+                values[f"{name}_effects_py"] = show(f"{name}, effects.py", rigid, module, own,
+                                                    "" if near else "FAILED")
+                good = good and near
             failed = failed or not good
-            values[name] = [rigid, native, own, native / own, native / rigid]
-            print(f"{name:15}{rigid:10.2e}{native:11.2e}{own:10.2e}{native / own:11.2f}"
-                  f"{native / rigid:10.2f}  {', '.join(named)}{'' if good else '  FAILED'}",
-                  flush=True)
     if flags.results:
         result_files.write(flags.results, "simulated arms with one effect each, robot.xml alone",
                            values)

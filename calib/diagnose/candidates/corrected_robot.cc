@@ -1,8 +1,10 @@
 #include "calib/diagnose/candidates/corrected_robot.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "model/dynamics/forward_dynamics.h"
 
 namespace armcal {
@@ -63,6 +65,26 @@ CarriedEffect Carry(const EffectSite& site, const GapCandidate& found,
 
 }  // namespace
 
+void CorrectedRobot::AddDelay(double more) {
+  delay += more;
+  for (CarriedEffect& effect : effects) {
+    effect.acts_late = effect.in_delay && acts_late();
+  }
+}
+
+// The timing of torque against positions is free in every fit and ends at some
+// tenths of a millisecond even where nothing is late. By itself it is believed
+// as other numbers of the model are, from two standard deviations of what they
+// may be off by on (Limits().far).
+bool CorrectedRobot::has_delay() const {
+  const bool named =
+      std::any_of(effects.begin(), effects.end(),
+                  [](const CarriedEffect& effect) { return effect.in_delay; });
+  const double least =
+      named ? kLeastDelay : Limits().far * BaselineOptions().timing_s;
+  return std::abs(delay) >= least;
+}
+
 // The robot with the fitted numbers, the laws that the reference showed and the
 // effects that were found, as something that can be simulated and written to a
 // file. Friction is added last, with the mixture of widths that the fit found,
@@ -95,11 +117,8 @@ CorrectedRobot MakeCorrectedRobot(const GapBaseline& baseline,
   corrected.num_effect_laws =
       static_cast<int>(corrected.plant.joint_laws.size());
   // Who replays a log applies all of it.
-  corrected.delay += corrected.plant.torque_delay;
+  corrected.AddDelay(corrected.plant.torque_delay);
   corrected.plant.torque_delay = 0;
-  for (CarriedEffect& effect : corrected.effects) {
-    effect.acts_late = effect.in_delay && corrected.acts_late();
-  }
   for (int j = 0; j < fitted.num_joints(); ++j) {
     std::vector<CoulombPart> coulomb = baseline.CoulombAt(j, x);
     // Effects may have changed the joint's own friction.

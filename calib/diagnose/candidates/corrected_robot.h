@@ -24,6 +24,8 @@ struct CarriedEffect {
   // In a delay by which torque acts after it was asked for, which simulators
   // know, and not one by which logs hold it too late.
   bool acts_late = false;
+  // Of each of its stand_ins, SI units: SetLawShares. Empty: not known, or 0.
+  Eigen::VectorXd share;
 };
 
 // What a diagnosis found, as a robot that can be simulated.
@@ -41,7 +43,11 @@ struct CorrectedRobot {
   // was fitted. It is not in the plant, since only who replays a log knows
   // whether torque is given or recorded.
   double delay = 0;
-  bool acts_late() const { return delay <= -kLeastDelay; }
+  void AddDelay(double more);
+  // Whether files and reports are to have it: an effect says so, or it is
+  // farther from 0 than timing may be that no effect was found in.
+  bool has_delay() const;
+  bool acts_late() const { return delay < 0 && has_delay(); }
   // What had to be made up to simulate it, a sentence each.
   std::vector<std::string> notes;
 };

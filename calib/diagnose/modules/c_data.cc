@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calib/diagnose/candidates/file_fields.h"
-#include "calib/diagnose/candidates/friction_share.h"
+#include "calib/diagnose/candidates/law_share.h"
 #include "model/effects/effects.h"
 #include "model/robot_files/robot_formats.h"
 #include "model/text/exact_text.h"
@@ -59,11 +59,10 @@ std::string Mask(const std::vector<std::string>& formats) {
 // A line of the table of laws.
 std::string Law(const std::string& kind, int joint, const std::string& mask,
                 const VectorXd& numbers, int neighbour = 0,
-                const FrictionShare& share = {}, double width = 1) {
+                const std::string& share = "{0., 0., 1., 0.}") {
   return "  {EFFECTS_" + kind + ", " + std::to_string(joint) + ", " +
-         std::to_string(neighbour) + ", " + mask + ", " +
-         Literal(share.viscous) + ", " + Literal(share.coulomb) + ", " +
-         Literal(width) + ", " + Literals(numbers) + "},\n";
+         std::to_string(neighbour) + ", " + mask + ", " + share + ", " +
+         Literals(numbers) + "},\n";
 }
 
 std::string OwnLaws(const CorrectedRobot& robot, int j) {
@@ -97,12 +96,12 @@ std::string EffectLaw(const CorrectedRobot& robot,
     }
   }
   const std::vector<std::string> formats = FormatsWith(effect);
-  FrictionShare share;
-  if (IsMissingInSome(effect)) {
-    share = ShareOfFriction(effect, robot.plant.robot, robot.scale);
-  }
+  const std::string share = Literals(
+      Eigen::Vector4d(ShareOf(effect, JointTerm::kViscous),
+                      ShareOf(effect, JointTerm::kCoulomb), robot.width[j],
+                      ShareOf(effect, JointTerm::kOffset)));
   return Law(Upper(effect.found.effect->name), j, Mask(formats),
-             numbers.head(count), neighbour, share, robot.width[j]);
+             numbers.head(count), neighbour, share);
 }
 
 // Names of laws as C knows them, and of the formats as bits.
@@ -188,13 +187,17 @@ std::string CData(const CorrectedRobot& robot, const ModuleTest& test) {
          ";\n/* The robot files that have it. */\n"
          "static const unsigned effects_delay_in = " +
          Mask(FormatsWithDelay(robot)) +
+         ";\n/* Those that have constant torques. */\n"
+         "static const unsigned effects_offset_in = " +
+         Mask(FormatsWithOffset()) +
          ";\nstatic const struct effects_joint {\n  const char* name;\n"
          "  double armature; /* of the motor */\n} effects_joints[] = {\n" +
          joints +
-         "};\n/* `in`: the robot files that have it; share: the "
-         "friction that they have in its stead. */\n"
+         "};\n/* `in`: the robot files that have it; share: what "
+         "the others have in its stead. */\n"
          "static const struct effects_law {\n  int kind, joint, neighbour;\n"
-         "  unsigned in;\n  double share_viscous, share_coulomb, share_width;\n"
+         "  unsigned in;\n"
+         "  struct { double viscous, coulomb, width, offset; } share;\n"
          "  double p[5]; /* in the order of effects.json's law */\n"
          "} effects_laws[] = {\n" +
          laws + "};\n" + TestTable(test) + "#endif\n\n#endif\n";

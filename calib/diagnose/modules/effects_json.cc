@@ -1,7 +1,7 @@
 #include "calib/diagnose/modules/effects_json.h"
 
 #include "calib/diagnose/candidates/file_fields.h"
-#include "calib/diagnose/candidates/friction_share.h"
+#include "calib/diagnose/candidates/law_share.h"
 #include "calib/numerics/json_figures.h"
 #include "model/robot_files/urdf_writer.h"
 
@@ -57,11 +57,12 @@ json EffectJson(const CorrectedRobot& corrected, const CarriedEffect& effect) {
                  {"in", FormatsWith(effect)},
                  {"parameters", ParametersJson(effect, type)},
                  {"numbers", numbers}};
-  const FrictionShare share = ShareOfFriction(effect, robot, corrected.scale);
-  if (IsMissingInSome(effect) && (share.viscous != 0 || share.coulomb != 0)) {
-    result["share"] = {{"viscous", JsonNumber(share.viscous)},
-                       {"coulomb", JsonNumber(share.coulomb)},
-                       {"width", JsonNumber(corrected.width[j])}};
+  if (HasShare(effect)) {
+    result["share"] = {{"width", JsonNumber(corrected.width[j])}};
+    for (const JointTerm term :
+         {JointTerm::kViscous, JointTerm::kCoulomb, JointTerm::kOffset}) {
+      result["share"][JointTermName(term)] = JsonNumber(ShareOf(effect, term));
+    }
   }
   return result;
 }

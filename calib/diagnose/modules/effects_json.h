@@ -10,7 +10,8 @@ namespace armcal {
 // units: delay_s, delay_in[]; joints[] {name, viscous, offset, offset_in[],
 // armature, coulomb[] {force, width, law}, effect_width}; effects[] {effect,
 // joint, joint_index, law, in_urdf, in[] (names of formats), parameters[]
-// {name, unit, value}, numbers {name: value}, share {viscous, coulomb, width}}.
+// {name, unit, value}, numbers {name: value}, share {viscous, coulomb, width,
+// offset}}.
 // Coulomb friction is the sum of force * tanh(qd / width); `effect_width` is
 // that of effects' sign(v). `numbers` are all that the law has, of the site as
 // well, where modules hold it; `share` is the friction that robot files have in

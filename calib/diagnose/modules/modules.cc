@@ -20,8 +20,6 @@ using Eigen::VectorXd;
 using nlohmann::json;
 using Step = ModuleTest::Step;
 
-constexpr double kNoticedDelay = 1e-4;  // s
-
 json List(const VectorXd& x) {
   json list = json::array();
   for (const double value : x) list.push_back(JsonNumber(value));
@@ -72,7 +70,7 @@ std::vector<std::string> ModuleLosses(const CorrectedRobot& robot) {
                "friction",
                joint.name.c_str(), joint.armature));
   }
-  if (robot.delay >= kNoticedDelay) {
+  if (robot.delay > 0 && robot.has_delay()) {
     losses.push_back(
         Format("torques were recorded %.4g ms after they acted: the module "
                "gives them at once, and a log of them is to be that much later",

@@ -41,6 +41,7 @@ Effect Cable() {
         robot);
   };
   effect.means = {"torque_offset"};
+  effect.stand_ins = {JointTerm::kOffset};
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"cable", p[0]}, {"centre", p[1]}, {"softness", p[2]}};
   };

@@ -42,6 +42,7 @@ Effect Spring() {
     drive->stiffness = stiffness;
     return true;
   };
+  effect.stand_ins = {JointTerm::kOffset};
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"stiffness", p[0]}, {"preload", p[1]}};
   };

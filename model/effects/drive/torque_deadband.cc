@@ -51,6 +51,7 @@ Effect TorqueDeadband() {
   };
   effect.near_zero = true;
   effect.means = {"coulomb_friction"};
+  effect.stand_ins = {JointTerm::kViscous, JointTerm::kCoulomb};
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"deadband", p[0]}, {"softness", p[1]}};
   };

@@ -44,6 +44,7 @@ Effect TorqueRipple() {
         {Amplitude(a, b), NumberOf(numbers, "harmonic"), Phase(a, b)});
     return true;
   };
+  effect.stand_ins = {JointTerm::kOffset};
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"sine", p[0]}, {"cosine", p[1]}, {"harmonic", p[2]}};
   };

@@ -25,7 +25,7 @@ Effect AsymmetricFriction() {
         },
         robot);
   };
-  effect.velocity_friction = true;
+  effect.stand_ins = {JointTerm::kViscous, JointTerm::kOffset};
   effect.means = {"viscous_friction"};
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"asymmetric", p[0]}};

@@ -26,7 +26,6 @@ Effect CoulombFriction() {
         robot);
   };
   effect.joint_term = JointTerm::kCoulomb;
-  effect.velocity_friction = true;
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return EffectNumbers{{"coulomb", p[0]},
                          {"width", site.scale->width[site.joint]}};

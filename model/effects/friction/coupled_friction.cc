@@ -97,6 +97,7 @@ Effect CoupledFriction() {
                                        {"neighbour", "1", p[2]}};
   };
   effect.unfit = WhyNotCoupled;
+  effect.stand_ins = {JointTerm::kViscous, JointTerm::kCoulomb};
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"friction", p[0]},
                          {"viscous", p[1]},

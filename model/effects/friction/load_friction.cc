@@ -28,6 +28,7 @@ Effect LoadFriction() {
         robot);
   };
   effect.means = {"coulomb_friction"};
+  effect.stand_ins = {JointTerm::kViscous, JointTerm::kCoulomb};
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return EffectNumbers{{"load_friction", p[0]},
                          {"width", site.scale->width[site.joint]}};

@@ -41,6 +41,7 @@ Effect PositionFriction() {
         {"phase", "rad", Phase(p[1], p[0])}};
   };
   effect.means = {"coulomb_friction"};
+  effect.stand_ins = {JointTerm::kViscous, JointTerm::kCoulomb};
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return EffectNumbers{{"sine", p[0]},
                          {"cosine", p[1]},

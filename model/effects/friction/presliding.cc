@@ -32,7 +32,7 @@ Effect Presliding() {
          }});
   };
   effect.near_zero = true;
-  effect.velocity_friction = true;
+  effect.stand_ins = {JointTerm::kViscous, JointTerm::kCoulomb};
   effect.means = {"coulomb_friction"};
   effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
     const double coulomb = NumberOf(numbers, "coulomb");

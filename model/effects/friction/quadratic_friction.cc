@@ -31,7 +31,7 @@ Effect QuadraticFriction() {
         },
         robot);
   };
-  effect.velocity_friction = true;
+  effect.stand_ins = {JointTerm::kViscous, JointTerm::kCoulomb};
   effect.means = {"viscous_friction"};
   effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
     drive->quadratic += NumberOf(numbers, "quadratic");

@@ -37,7 +37,7 @@ Effect Stribeck() {
         robot);
   };
   effect.near_zero = true;
-  effect.velocity_friction = true;
+  effect.stand_ins = {JointTerm::kViscous, JointTerm::kCoulomb};
   effect.means = {"coulomb_friction", "viscous_friction"};
   effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
     const double stribeck = NumberOf(numbers, "stribeck");

@@ -73,6 +73,7 @@ Effect ThermalFriction() {
   };
   effect.unfit = WhyNoFriction;
   effect.means = {"viscous_friction", "coulomb_friction"};
+  effect.stand_ins = {JointTerm::kViscous, JointTerm::kCoulomb};
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
     const JointThermal thermal = Thermal(site, p[2]);
     return EffectNumbers{{"viscous", p[0] * site.at().viscous},

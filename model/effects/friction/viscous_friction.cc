@@ -21,7 +21,6 @@ Effect ViscousFriction() {
         robot);
   };
   effect.joint_term = JointTerm::kViscous;
-  effect.velocity_friction = true;
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"viscous", p[0]}};
   };

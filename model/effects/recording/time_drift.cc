@@ -35,6 +35,7 @@ Effect TimeDrift() {
         {"drift_rate", UnitAt(site, "E") + "/s", p[0] / Duration(site)},
         {"time_constant", "s", p[1]}};
   };
+  effect.stand_ins = {JointTerm::kOffset};
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return EffectNumbers{{"drift", p[0] / -std::expm1(-Duration(site) / p[1])},
                          {"time_constant", p[1]},

@@ -2,16 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include <map>
-
 #include "model/dynamics/inverse_dynamics.h"
-#include "model/effects/effects.h"
-#include "model/robot_files/robot_formats.h"
-#include "model/robot_files/robot_reader.h"
-#include "model/robot_files/urdf_reader.h"
 #include "model/robot_files/urdf_writer.h"
-#include "tests/fixtures/corrected_arm.h"
-#include "tests/fixtures/temp_file.h"
+#include "tests/calib/diagnose/corrected_export.h"
 
 namespace armcal::robot_export_test {
 
@@ -22,41 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-class Export : public testing::Test {
- protected:
-  Export() {
-    for (Link& link : arm_.file.links) link.joint.coulomb = 4;
-    arm_.scale.torque = arm_.scale.speed = VectorXd::Ones(3);
-    arm_.scale.load = arm_.scale.acceleration = VectorXd::Ones(3);
-    arm_.scale.end = 10;
-  }
-  GapCandidate Found(const std::string& name, int joint, VectorXd p) {
-    GapCandidate found;
-    found.effect = FindEffect(name);
-    EXPECT_NE(found.effect, nullptr) << name;
-    found.joint = joint;
-    found.p = std::move(p);
-    return found;
-  }
-  RobotExport Of(const VectorXd& x, const std::vector<GapCandidate>& effects,
-                 const std::string& path = "") {
-    const GapBaseline baseline = arm_.Baseline();
-    return ExportCorrectedRobot(
-        MakeCorrectedRobot(baseline, x, effects, arm_.scale), arm_.file, path,
-        "", AllFormats());
-  }
-  static std::vector<const RobotFormat*> AllFormats() {
-    std::vector<const RobotFormat*> formats;
-    for (const RobotFormat& format : RobotFormats()) formats.push_back(&format);
-    return formats;
-  }
-  VectorXd Nothing() { return VectorXd::Zero(arm_.Baseline().size()); }
-  static Robot Read(const std::string& urdf) {
-    return ReadUrdf(WriteFile(urdf, "robot.urdf"), RobotReaderOptions());
-  }
-
-  CorrectedArm arm_;
-};
+using Export = CorrectedExport;
 
 TEST_F(Export, UrdfHoldsFrictionAndBodies) {
   const RobotExport out =
@@ -106,8 +65,7 @@ TEST_F(Export, FormatsHoldWhatTheyHaveFieldsFor) {
               ElementsAre("mjcf", "mjcf_plain", "sdf"));
   EXPECT_THAT(out.effects["effects"][1]["in"],
               ElementsAre("mjcf", "mjcf_plain"));
-  std::map<std::string, RobotFile> files;
-  for (const RobotFile& file : out.files) files[file.format->name] = file;
+  std::map<std::string, RobotFile> files = ByFormat(out);
   EXPECT_THAT(files["mjcf"].text, AllOf(HasSubstr("stiffness=\"20\""),
                                         HasSubstr("springref=\"0.3\""),
                                         HasSubstr("gainprm=\"0.8\"")));
@@ -118,49 +76,6 @@ TEST_F(Export, FormatsHoldWhatTheyHaveFieldsFor) {
                        " (stiffness 20 N m/rad, neutral 0.3 rad): see "
                        "effects.json"));
   EXPECT_EQ(RobotFilesJson(out.files)[0]["file"], "robot.urdf");
-}
-
-// Presliding is Coulomb friction to a joint that moves on.
-TEST_F(Export, LawsOfFrictionLeaveTheirShare) {
-  const RobotExport out =
-      Of(Nothing(), {Found("presliding", 2, Eigen::Vector2d(1.5, .003))});
-  const double before = arm_.file.links[2].joint.coulomb;
-  EXPECT_NEAR(Read(out.urdf).links[2].joint.coulomb, before + 1.5, 1e-6);
-  EXPECT_NEAR(Read(out.urdf).links[2].joint.viscous, 3, 1e-6);
-  EXPECT_THAT(out.losses, Contains(HasSubstr("of Coulomb friction 1.5 is in")));
-}
-
-// MJCF has fields for laws that others have not, and for torque that acts late.
-TEST_F(Export, MjcfHoldsLawsOfDrives) {
-  VectorXd x = Nothing();
-  x[x.size() - 1] = -4;  // the timing's standard deviations of 0.5 ms
-  const RobotExport out =
-      Of(x, {Found("stribeck", 0, Eigen::Vector2d(.8, .2)),
-             Found("presliding", 1, Eigen::Vector2d(1.5, .003)),
-             Found("torque_ripple", 1, Eigen::Vector3d(0, -.6, 12)),
-             Found("elasticity", 2, Eigen::Vector3d(1e-3, .02, 0))});
-  std::map<std::string, RobotFile> files;
-  for (const RobotFile& file : out.files) files[file.format->name] = file;
-  const RobotFile& mjcf = files["mjcf"];
-  EXPECT_THAT(mjcf.losses, Not(Contains(HasSubstr("see effects.json"))));
-  EXPECT_THAT(mjcf.losses, Not(Contains(HasSubstr("the motion"))));
-  EXPECT_THAT(mjcf.text,
-              AllOf(HasSubstr("lugre=\"500 0 1.5 1.5 1\""),
-                    HasSubstr("cogging=\"0.6 12 "), HasSubstr("_gear\""),
-                    HasSubstr("delay=\"0.002\""), HasSubstr("solreffriction")));
-  const RobotFile& plain = files["mjcf_plain"];
-  EXPECT_THAT(plain.text, Not(HasSubstr("dcmotor")));
-  EXPECT_THAT(plain.text, Not(HasSubstr("_gear")));
-  for (const char* lost : {"stribeck", "presliding", "torque_ripple",
-                           "elasticity", "2 ms before", "changes sign"}) {
-    EXPECT_THAT(plain.losses, Contains(HasSubstr(lost)));
-  }
-  for (const nlohmann::json& effect : out.effects["effects"]) {
-    EXPECT_THAT(effect["in"], ElementsAre("mjcf"));
-  }
-  EXPECT_THAT(out.effects["delay_in"], ElementsAre("mjcf"));
-  // Friction's share stands in the files that have no such law.
-  EXPECT_TRUE(out.effects["effects"][1].contains("share"));
 }
 
 // Read back, the motors of yielding joints are the joints, and friction is what

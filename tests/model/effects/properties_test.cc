@@ -61,30 +61,16 @@ TEST_P(PropertiesOf, AddsToItsJointTerm) {
   });
 }
 
-// What else there is (posture, load, warmth, the other joints) changes nothing.
-TEST_P(PropertiesOf, DependsOnItsVelocityAlone) {
-  if (!GetParam().velocity_friction) return;
-  Everywhere([&](const EffectArm& arm, int joint, const VectorXd& sizes,
-                 RecordedTorque*) {
-    SimulatedRobot robot;
-    robot.robot = arm.robot;
-    GetParam().apply(arm.Site(joint), sizes, &robot);
-    ASSERT_EQ(robot.joint_laws.size(), 1u);
-    const JointLaw& law = robot.joint_laws[0];
-    const auto torque = [&](double others) {
-      ArmInstant at;
-      at.position = at.velocity = at.load = at.temperature =
-          VectorXd::Constant(arm.robot.num_joints(), others);
-      at.velocity[joint] = .3;
-      at.link_position = at.position;
-      at.link_velocity = at.velocity;
-      VectorXd state = law.initial_state.array() + .5, rate = state;
-      return law.torque(at, state.data(), rate.data());
-    };
-    EXPECT_EQ(law.joint, joint);
-    EXPECT_LT(torque(1), 0);
-    EXPECT_EQ(torque(1), torque(7));
-  });
+// What a model without the law would show in its stead, files without it have.
+TEST_P(PropertiesOf, StandInsAreItsMeans) {
+  const std::vector<JointTerm>& stand_ins = GetParam().stand_ins;
+  for (const std::string& mean : GetParam().means) {
+    const std::optional<JointTerm> term = FindEffect(mean)->joint_term;
+    ASSERT_TRUE(term) << mean;
+    // That of a joint that yields is in the links that it carries, too.
+    if (*term == JointTerm::kArmature) continue;
+    EXPECT_EQ(std::count(stand_ins.begin(), stand_ins.end(), *term), 1) << mean;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, PropertiesOf, testing::ValuesIn(Effects()),

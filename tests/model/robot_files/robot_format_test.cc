@@ -197,4 +197,23 @@ TEST(RobotFormat, LossesAreWhatTheFormatHasNoFieldFor) {
               Contains("YAML has no field for springs (rail 50)"));
 }
 
+// The comment is behind an XML's declaration and takes the place of one that
+// was there; a file with it is read as before.
+TEST(RobotFormat, WritesAComment) {
+  const Robot arm = UrdfArm();
+  for (const RobotFormat& format : RobotFormats()) {
+    SCOPED_TRACE(format.name);
+    const std::string text = format.write({arm, {}});
+    const std::string once = WithComment(format, text, {"old--joint", "b"});
+    const std::string twice = WithComment(format, once, {"new"});
+    EXPECT_THAT(once, HasSubstr("armcal: old- -joint; b"));
+    EXPECT_EQ(twice, WithComment(format, text, {"new"}));
+    EXPECT_EQ(WithComment(format, twice, {}), text);
+    if (!format.is_whole) continue;
+    EXPECT_EQ(
+        ReadRobot(WriteFile(once, format.file), {}).links[1].joint.viscous,
+        arm.links[1].joint.viscous);
+  }
+}
+
 }  // namespace armcal::robot_format_test

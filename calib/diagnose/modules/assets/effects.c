@@ -177,10 +177,11 @@ static double on_motor(const effects_state* s, int j) {
     torque += torque_on(s, k, j);
     if (s->beside == 0 || law->joint != j) continue;
     /* What stands in the robot file in its stead. */
-    torque += law->share_viscous * s->velocity[j];
-    if (law->share_coulomb != 0) {
-      torque += law->share_coulomb * tanh(s->velocity[j] / law->share_width);
+    torque += law->share.viscous * s->velocity[j];
+    if (law->share.coulomb != 0) {
+      torque += law->share.coulomb * tanh(s->velocity[j] / law->share.width);
     }
+    if (s->beside & effects_offset_in) torque += law->share.offset;
   }
   return torque;
 }

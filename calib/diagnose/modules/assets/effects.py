@@ -202,6 +202,7 @@ class Effects:
         self._laws, self._held, self._shares = ([[] for _ in joints] for _ in range(3))
         self._commands, self._encoders, self._thermal = [], [], []
         self._springs = {}
+        self._offset_in = [joint["offset_in"] for joint in joints]
         for j, joint in enumerate(joints):
             self._add_joint(j, joint, beside)
         for effect in data["effects"]:
@@ -240,9 +241,11 @@ class Effects:
         if "resistance" in p:
             self._thermal.append((j, p))
         if beside and not held and "share" in effect:  # what stands in the file in its stead
+            share = dict(effect["share"])
+            share["offset"] *= beside in self._offset_in[j]
             self._shares[j].append(Law(
-                j, effect["share"], lambda see, j, p, z:
-                p["viscous"] * see.velocity[j] + p["coulomb"] * _dry(see, j, p)))
+                j, share, lambda see, j, p, z: p["viscous"] * see.velocity[j]
+                + p["coulomb"] * _dry(see, j, p) + p["offset"]))
 
     def reset(self, load=None):
         """To the begin, cold. `load`: what joints hold at rest, which winds up springs."""

@@ -124,13 +124,16 @@ void LeaveTheirPart(const std::string& folder, const std::string& format,
       0);
 }
 
-// A spring is in plain MJCF, of bristles their share, all else in the module.
+// A spring is in plain MJCF, of bristles, warm friction and a drift their
+// share, all else in the module.
 TEST(Modules, LeaveRobotFilesTheirPart) {
   MovedArm moved;
   LeaveTheirPart(
       Written(moved.With({moved.Drawn(*FindEffect("spring"), 0),
                           moved.Drawn(*FindEffect("presliding"), 1),
                           moved.Drawn(*FindEffect("stribeck"), 0),
+                          moved.Drawn(*FindEffect("thermal_friction"), 0),
+                          moved.Drawn(*FindEffect("time_drift"), 2),
                           moved.Drawn(*FindEffect("torque_gain"), 1),
                           moved.Drawn(*FindEffect("torque_ripple"), 2)}),
               "beside"),
@@ -143,6 +146,8 @@ TEST(Modules, LeaveMjcfItsLaws) {
   const std::vector<GapCandidate> effects = {
       moved.Drawn(*FindEffect("presliding"), 1),
       moved.Drawn(*FindEffect("position_friction"), 0),
+      moved.Drawn(*FindEffect("thermal_friction"), 2),
+      moved.Drawn(*FindEffect("time_drift"), 1),
       moved.Drawn(*FindEffect("torque_ripple"), 2)};
   LeaveTheirPart(Written(moved.With(effects), "beside_laws"), "mjcf",
                  "EFFECTS_IN_MJCF");

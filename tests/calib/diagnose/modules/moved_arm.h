@@ -57,6 +57,11 @@ struct MovedArm {
       robot.coulomb[j].push_back(
           {1.5, {CoulombTransition::Law::kDisplacement, .004 * (j + 1)}});
     }
+    // As if the log had said so.
+    for (CarriedEffect& effect : robot.effects) {
+      const auto size = effect.found.effect->stand_ins.size();
+      effect.share = Eigen::VectorXd::LinSpaced(size, .3, -.2);
+    }
     return robot;
   }
 
