@@ -69,7 +69,8 @@ TEST_F(GapConfirmationTest, OfPartsTheLeastIsTold) {
   const Confirmation lacking = Confirm(chi2_, {noise_}, {noise_ - effect_});
   const std::vector<Confirmation> parts = {there, lacking, there};
   EXPECT_NEAR(SumOf(parts).expected, 1500, 30);
-  EXPECT_NEAR(SumOf(parts).Share(), 1. / 3, .1);
+  // Of all three the noise is one, 2 / sqrt(500) standard deviations of each.
+  EXPECT_NEAR(SumOf(parts).Share(), 1. / 3, 2 * 2 / std::sqrt(500.));
   EXPECT_EQ(LeastShare(parts), lacking.Share());
   EXPECT_EQ(LeastShare({}), 0);
 }
