@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Does what docs/extending.md says, to a copy of the sources, and tries the result.
 
-    extending_test.py --work=DIR [--root=.] [--option=CMAKE_OPTION ...]
+    extending_test.py --work=DIR [--root=.] [--option=CMAKE_OPTION ...] [--apply_only]
 
 A block of code whose fence names a file is that file, a new one; a block ```diff
 FILE changes it: lines with + are added, with - removed, others are there, and
 "..." stands between places. Each section has a table that promises which files
-it touches. All examples are built into one armcal (as long as a fresh build).
+it touches. All examples are built into one armcal (as long as a fresh build), unless
+only whether they fit is asked.
 """
 
 import argparse
@@ -148,9 +149,12 @@ def main():
                         default=pathlib.Path(__file__).resolve().parent.parent)
     parser.add_argument("--work", type=pathlib.Path, required=True)
     parser.add_argument("--option", action="append", default=[])
+    parser.add_argument("--apply_only", action="store_true")
     given = parser.parse_args()
     tree = copied(given.root, given.work.resolve() / "tree")
     apply_page(given.root / "docs/extending.md", tree)
+    if given.apply_only:
+        return
     trial = Trial(built(tree, given.work.resolve() / "build", given.option),
                   given.work.resolve() / "runs")
     for step in (trial.command, trial.log_format, trial.effect, trial.joint_type,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/robot_files/new_name.h"
 #include "model/robot_files/urdf_values.h"
 #include "model/text/exact_text.h"
 
@@ -115,16 +116,6 @@ void AddLink(const Link& link, const JointDrive& drive,
   if (link.joint.armature == 0) return;
   Add("drake:rotor_inertia", ExactText(link.joint.armature), joint);
   Add("drake:gear_ratio", "1", joint);
-}
-
-std::string NewName(const Robot& robot, std::string name) {
-  for (size_t i = 0; i < robot.links.size(); ++i) {
-    const Link& link = robot.links[i];
-    if (link.name != name && link.joint.name != name) continue;
-    name += "_";
-    i = 0;
-  }
-  return name;
 }
 
 std::vector<std::string> SdfLosses(const RobotDescription& description) {

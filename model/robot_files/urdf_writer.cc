@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/robot_files/new_name.h"
 #include "model/robot_files/urdf_values.h"
 
 namespace armcal {
@@ -41,20 +42,6 @@ XMLElement* AddJoint(const char* name, const char* type, const char* parent,
   Child(joint, "child")->SetAttribute("link", child);
   SetOrigin(origin, joint);
   return joint;
-}
-
-// A name like `wish` that no link or joint of the robot has.
-std::string NewName(const Robot& robot, const std::string& wish) {
-  const auto is_taken = [&](const std::string& name) {
-    if (name == robot.tool_name) return true;
-    for (const Link& link : robot.links) {
-      if (link.name == name || link.joint.name == name) return true;
-    }
-    return false;
-  };
-  std::string name = wish;
-  while (is_taken(name)) name += "_";
-  return name;
 }
 
 // The frame of a link whose joint turns about its own origin: URDF's. Standard
