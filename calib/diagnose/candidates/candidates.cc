@@ -112,7 +112,7 @@ std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
 // coefficients of all candidates are of the order of 1. Those of which that
 // size is undefined, as of a joint that never moves, are left out.
 void ListShapes(const Effect& effect, const EffectSite& site,
-                const GapProposals& proposals,
+                const GapProposals& proposals, bool since_reference,
                 std::vector<GapCandidate>* candidates) {
   if (effect.unfit && !effect.unfit(site).empty()) return;
   int tried = 1;
@@ -123,7 +123,7 @@ void ListShapes(const Effect& effect, const EffectSite& site,
     candidate.p = shape.p;
     candidate.log = shape.log;
     candidate.tried = tried;
-    candidate.prior_penalty = PriorPenalty(effect, false);
+    candidate.prior_penalty = PriorPenalty(effect, since_reference);
     for (size_t k = 0; k < effect.parameters.size(); ++k) {
       if (effect.parameters[k].search != Search::kLinear) continue;
       candidate.linear.push_back(static_cast<int>(k));
@@ -166,7 +166,8 @@ std::vector<GapCandidate> AllBut(std::vector<GapCandidate> effects, size_t k) {
 
 std::vector<GapCandidate> ListCandidates(
     const GapBaseline& baseline, const GapRows& rows, const MotionScale& scale,
-    const MatrixXd& residual, const std::vector<std::string>& without) {
+    const MatrixXd& residual, const std::vector<std::string>& without,
+    bool since_reference) {
   const GapProposals proposals(rows, residual);
   std::vector<GapCandidate> candidates;
   for (const Effect& effect : Effects()) {
@@ -174,7 +175,7 @@ std::vector<GapCandidate> ListCandidates(
     const bool whole = effect.scope == Effect::Scope::kRobot;
     for (int j = whole ? -1 : 0; j < (whole ? 0 : rows.num_joints()); ++j) {
       ListShapes(effect, {&baseline.robot(), j, &scale}, proposals,
-                 &candidates);
+                 since_reference, &candidates);
     }
   }
   return candidates;

@@ -43,11 +43,12 @@ bool SamePlace(const GapCandidate& a, const GapCandidate& b);
 std::vector<GapCandidate> AllBut(std::vector<GapCandidate> effects, size_t k);
 
 // Every effect but those `without` names, at every place, at every value of its
-// grids. Shapes that are found in the residual (frequencies, times) come from
-// `residual`, thinned samples x n.
+// grids, as a change since a reference or not. Shapes that are found in the
+// residual (frequencies, times) come from `residual`, thinned samples x n.
 std::vector<GapCandidate> ListCandidates(
     const GapBaseline& baseline, const GapRows& rows, const MotionScale& scale,
-    const Eigen::MatrixXd& residual, const std::vector<std::string>& without);
+    const Eigen::MatrixXd& residual, const std::vector<std::string>& without,
+    bool since_reference);
 
 // Whether it is a sine and a cosine of time, whose phase is each log's own.
 bool SwingsInTime(const Effect& effect);

@@ -5,7 +5,6 @@
 #include "calib/diagnose/data/position_noise.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/maxima_tail.h"
-#include "calib/diagnose/select/reference_folds.h"
 
 namespace armcal {
 namespace {
@@ -71,7 +70,7 @@ std::vector<GapEvent> ContactsGiven(const GapRegression& regression,
     events.push_back(EventBeyondFriction(rows, excess, contact));
     events.back().chance = usual.Chance(contact.deviations);
     events.back().chance_of_logs =
-        of_itself || AreSeveralLogs(regression.reference()->rows().segments());
+        of_itself || regression.has_several_references();
     events.back().at_rest = search == ContactSearch::kAtRest;
   }
   return events;

@@ -23,19 +23,16 @@ CandidatePool::CandidatePool(GapRegression* regression,
 // small ones already score best.
 void CandidatePool::List() {
   Forget();
-  Add(ListCandidates(
-      regression_.baseline(), regression_.rows(), regression_.scale(),
-      regression_.data()->ResidualWith(regression_.refit()), without_));
+  Add(ListCandidates(regression_.baseline(), regression_.rows(),
+                     regression_.scale(),
+                     regression_.data()->ResidualWith(regression_.refit()),
+                     without_, regression_.reference() != nullptr));
   Add(AFewLargerOnes());
   Add(LargerOnesWhereTheyShow());
 }
 
 void CandidatePool::Add(std::vector<GapCandidate> more) {
   if (more.empty()) return;
-  const bool since_reference = regression_.reference() != nullptr;
-  for (GapCandidate& candidate : more) {
-    candidate.prior_penalty = PriorPenalty(*candidate.effect, since_reference);
-  }
   Evaluate(&more);
   AddCandidates(regression_.rows(), &more, regression_.mutable_screen());
   candidates_.insert(candidates_.end(), std::make_move_iterator(more.begin()),

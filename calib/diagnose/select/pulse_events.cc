@@ -9,7 +9,6 @@
 #include "calib/diagnose/select/maxima_tail.h"
 #include "calib/diagnose/select/motion_range.h"
 #include "calib/diagnose/select/pulses.h"
-#include "calib/diagnose/select/reference_folds.h"
 
 namespace armcal {
 namespace {
@@ -233,7 +232,6 @@ class PulseSearch {
                           GrowthOf(regression.noise(), rows_.num_joints()))) {
     const int n = rows_.num_joints();
     const GapData& reference = *regression.reference();
-    of_logs_ = AreSeveralLogs(reference.rows().segments());
     usual_ = {
         static_cast<double>(Looks(rows_, scan_).size()),
         {TailOf(Looks(reference.rows(), model_.Scan(reference, JointRows(n),
@@ -257,7 +255,6 @@ class PulseSearch {
       if (!(chance < Limits().false_contacts)) return events;
       events.push_back(EventOf(rows_, model_.robot(), scan_, sample, joint));
       events.back().chance = chance;
-      events.back().chance_of_logs = of_logs_;
       for (const int k : SamplesOf(rows_, events.back().contact)) {
         deviations.row(k).setZero();
       }
@@ -267,7 +264,6 @@ class PulseSearch {
   double ChanceOf(const Contact& contact) const {
     return Chance(LargestIn(contact));
   }
-  bool of_logs() const { return of_logs_; }
 
  private:
   // In deviations.
@@ -285,7 +281,6 @@ class PulseSearch {
   ModelOfPulses model_;
   PulseScan scan_;
   UsualMaximum usual_;
-  bool of_logs_ = false;  // told by several
 };
 
 // A fit that does not see these events, and all the rest.
@@ -310,7 +305,8 @@ std::vector<GapEvent> FindPulses(const GapRegression& regression,
   const GapRows& rows = regression.rows();
   std::vector<GapEvent> events = PulseSearch(regression, effects).Find();
   double time = 0;
-  for (const GapEvent& event : events) {
+  for (GapEvent& event : events) {
+    event.chance_of_logs = regression.has_several_references();
     time += (event.contact.window.end - event.contact.window.begin) /
             Limits().event_reach;
   }
@@ -354,7 +350,7 @@ void ConfirmTouches(const GapRegression& regression,
     if (!(chance < Limits().false_contacts)) continue;
     event.beyond_friction = true;
     event.chance = chance;
-    event.chance_of_logs = search.of_logs();
+    event.chance_of_logs = regression.has_several_references();
   }
 }
 

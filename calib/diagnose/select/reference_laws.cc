@@ -38,7 +38,7 @@ class LawSearch {
     const MatrixXd left = data_.ResidualWith(FitWithNoise(&data_));
     scale_ = ScaleOf(baseline, data_.rows(), data_.torques());
     for (GapCandidate& candidate :
-         ListCandidates(baseline, data_.rows(), scale_, left, {})) {
+         ListCandidates(baseline, data_.rows(), scale_, left, {}, false)) {
       if (CanBeInReference(*candidate.effect)) {
         candidates_.push_back(std::move(candidate));
       }

@@ -7,6 +7,7 @@
 #include "calib/diagnose/data/position_noise.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/motion_range.h"
+#include "calib/diagnose/select/reference_folds.h"
 #include "calib/diagnose/select/reference_noise.h"
 
 namespace armcal {
@@ -136,6 +137,10 @@ void GapRegression::MakeScreen() {
 // refit with white noise comes first, whose residual is then looked at where
 // the motion repeats or rests (noise.h); differences between repeats do not
 // depend on how good that fit is.
+bool GapRegression::has_several_references() const {
+  return reference_ && AreSeveralLogs(reference_->rows().segments());
+}
+
 void GapRegression::EstimateNoise() {
   before_ = VectorXd::Zero(baseline_.size());
   if (reference_) {

@@ -62,6 +62,8 @@ class GapRegression {
   const GapRows& rows() const { return data_->rows(); }
   GapData* data() const { return data_.get(); }
   const GapData* reference() const { return reference_.get(); }  // or null
+  // Whether it is more than one log, so that it tells how logs differ.
+  bool has_several_references() const;
   // What the reference's logs differ by; of no logs where there is none.
   ReferenceScatter ScatterOf(const GapCandidate& effect) const;
   // The baseline's values before these logs: the file's, or those of the

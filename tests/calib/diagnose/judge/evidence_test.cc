@@ -15,27 +15,50 @@ EffectEvidence Clear() {
   return evidence;
 }
 
+// Felt once, by several joints.
+EffectEvidence Touch() {
+  EffectEvidence once = Clear();
+  once.events = 1;
+  once.one_joint = .3;
+  return once;
+}
+EffectEvidence OfOneJoint(EffectEvidence touch) {
+  touch.one_joint = 1;
+  return touch;
+}
+EffectEvidence Often(EffectEvidence touch) {
+  touch.events = 8;
+  return touch;
+}
+
+template <typename Change>
+void ExpectLess(const char* what, const EffectEvidence& clear, Change change) {
+  EffectEvidence evidence = clear;
+  change(&evidence);
+  EXPECT_LT(ProbabilityOf(evidence), ProbabilityOf(clear)) << what;
+}
+// With a reference or without.
+void ExpectRivalsToCount(const EffectEvidence& clear) {
+  ExpectLess("a near rival", clear, [](EffectEvidence* e) { e->odds = 0; });
+  ExpectLess("little explained", clear,
+             [](EffectEvidence* e) { e->strength = 3; });
+  ExpectLess("more to come", clear, [](EffectEvidence* e) { e->next = 60; });
+}
+
 TEST(ProbabilityOf, IsHighForWhatIsClear) {
   EXPECT_GT(ProbabilityOf(Clear()), .95);
 }
 
 TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainst) {
-  const double clear = ProbabilityOf(Clear());
-  const auto expect_less = [&](const char* what, auto change) {
-    EffectEvidence evidence = Clear();
-    change(&evidence);
-    EXPECT_LT(ProbabilityOf(evidence), clear) << what;
-  };
-  expect_less("a near rival", [](EffectEvidence* e) { e->odds = 0; });
-  expect_less("little explained", [](EffectEvidence* e) { e->strength = 3; });
-  expect_less("more to come", [](EffectEvidence* e) { e->next = 60; });
-  expect_less("stronger ones were needed",
-              [](EffectEvidence* e) { e->stronger = 2; });
-  expect_less("a stronger one is on its joint",
-              [](EffectEvidence* e) { e->stronger_beside = 1; });
-  expect_less("held-out data do not care",
-              [](EffectEvidence* e) { e->confirmation.explained = 0; });
-  expect_less("held-out data hardly see it", [](EffectEvidence* e) {
+  const EffectEvidence clear = Clear();
+  ExpectRivalsToCount(clear);
+  ExpectLess("stronger ones were needed", clear,
+             [](EffectEvidence* e) { e->stronger = 2; });
+  ExpectLess("a stronger one is on its joint", clear,
+             [](EffectEvidence* e) { e->stronger_beside = 1; });
+  ExpectLess("held-out data do not care", clear,
+             [](EffectEvidence* e) { e->confirmation.explained = 0; });
+  ExpectLess("held-out data hardly see it", clear, [](EffectEvidence* e) {
     e->confirmation = {5, 5};
   });
 }
@@ -43,18 +66,12 @@ TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainst) {
 TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainstAChangeSinceAReference) {
   EffectEvidence clear = Clear();
   clear.since_reference = true;
-  const auto expect_less = [&](const char* what, auto change) {
-    EffectEvidence evidence = clear;
-    change(&evidence);
-    EXPECT_LT(ProbabilityOf(evidence), ProbabilityOf(clear)) << what;
-  };
   EXPECT_GT(ProbabilityOf(clear), .9);
-  expect_less("a near rival", [](EffectEvidence* e) { e->odds = 0; });
-  expect_less("little explained", [](EffectEvidence* e) { e->strength = 3; });
-  expect_less("more to come", [](EffectEvidence* e) { e->next = 60; });
-  expect_less("a stronger one", [](EffectEvidence* e) { e->stronger = 1; });
-  expect_less("a third of the log does not have it",
-              [](EffectEvidence* e) { e->least_share = 0; });
+  ExpectRivalsToCount(clear);
+  ExpectLess("a stronger one", clear,
+             [](EffectEvidence* e) { e->stronger = 1; });
+  ExpectLess("a third of the log does not have it", clear,
+             [](EffectEvidence* e) { e->least_share = 0; });
 }
 
 // What was held out has to say something: an effect that one stretch alone
@@ -75,34 +92,20 @@ TEST(ProbabilityOf, WeakerEffectsSayNothingAgainstARecordedOne) {
 }
 
 TEST(ProbabilityOf, AContactFeltByOneJointManyTimesIsNone) {
-  EffectEvidence once = Clear();
-  once.events = 1;
-  once.one_joint = .3;
-  EffectEvidence often = once;
-  often.events = 8;
-  EffectEvidence one_joint = once;
-  one_joint.one_joint = 1;
-  EXPECT_LT(ProbabilityOf(often), ProbabilityOf(once));
-  EXPECT_LT(ProbabilityOf(one_joint), ProbabilityOf(once));
+  const double once = ProbabilityOf(Touch());
+  EXPECT_LT(ProbabilityOf(Often(Touch())), once);
+  EXPECT_LT(ProbabilityOf(OfOneJoint(Touch())), once);
 }
 
 // Each window has to stand out for itself: as much of chi squared in eight of
 // them is less, and eight times as much is the same.
 TEST(ProbabilityBeyondOneReference, IsOfItsWindows) {
-  EffectEvidence once = Clear();
-  once.events = 1;
-  once.one_joint = .3;
-  EffectEvidence often = once;
-  often.events = 8;
-  EXPECT_LT(ProbabilityBeyondOneReference(often),
-            ProbabilityBeyondOneReference(once));
+  const double once = ProbabilityBeyondOneReference(Touch());
+  EffectEvidence often = Often(Touch());
+  EXPECT_LT(ProbabilityBeyondOneReference(often), once);
   often.strength += std::log(8);
-  EXPECT_NEAR(ProbabilityBeyondOneReference(often),
-              ProbabilityBeyondOneReference(once), 1e-12);
-  EffectEvidence one_joint = once;
-  one_joint.one_joint = 1;
-  EXPECT_LT(ProbabilityBeyondOneReference(one_joint),
-            ProbabilityBeyondOneReference(once));
+  EXPECT_NEAR(ProbabilityBeyondOneReference(often), once, 1e-12);
+  EXPECT_LT(ProbabilityBeyondOneReference(OfOneJoint(Touch())), once);
 }
 
 }  // namespace armcal::evidence_test
