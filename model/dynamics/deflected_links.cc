@@ -1,14 +1,15 @@
 #include "model/dynamics/deflected_links.h"
 
+#include <iterator>
 #include <utility>
 
-#include "model/dynamics/deflection.h"
 #include "model/dynamics/flanked_spring.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 // Whether two transmissions deflect alike under the same load. Of laws other
 // than springs between flanks nobody knows; these start where their spring
@@ -44,24 +45,27 @@ bool SameAnswer(const LinksBehindDrives& a, const LinksBehindDrives& b) {
 // The links' torque where deflections have put them, less the load. All but the
 // deflected joints' columns are the motors'.
 DeflectedLinks LinksAt(const LinksBehindDrives& arm, const Motion& motion,
-                       const Deflection* deflections) {
-  const int n = motion.num_joints(), samples = motion.size();
-  DeflectedLinks links = {MatrixXd(), MatrixXd::Zero(n, samples),
-                          MatrixXd::Zero(n, samples)};
-  Motion behind;
-  behind.dt = motion.dt;
-  behind.q = motion.q;
-  behind.qd = motion.qd;
-  behind.qdd = motion.qdd;
-  for (size_t i = 0; i < arm.transmissions->size(); ++i) {
+                       std::vector<Deflection> deflections) {
+  const int samples = motion.size();
+  DeflectedLinks links;
+  MotionColumns behind(motion.q, motion.qd, motion.qdd, MatrixXd());
+  std::vector<MatrixXd> moved(deflections.size(), MatrixXd(samples, 3));
+  for (size_t i = 0; i < deflections.size(); ++i) {
     const int j = (*arm.transmissions)[i].joint;
-    behind.q.col(j) -= deflections[i].angle;
-    behind.qd.col(j) -= deflections[i].rate;
-    behind.qdd.col(j) -= deflections[i].acceleration;
-    links.deflection.row(j) += deflections[i].angle;
-    links.deflection_rate.row(j) += deflections[i].rate;
+    links.joints.push_back(j);
+    const auto behind_motor = [&](int k, const VectorXd& by,
+                                  std::vector<const double*>* of_joints) {
+      moved[i].col(k) =
+          Eigen::Map<const VectorXd>((*of_joints)[j], samples) - by;
+      (*of_joints)[j] = moved[i].col(k).data();
+    };
+    behind_motor(0, deflections[i].angle, &behind.q);
+    behind_motor(1, deflections[i].rate, &behind.qd);
+    behind_motor(2, deflections[i].acceleration, &behind.qdd);
   }
-  links.change = LinkTorque(*arm.robot, behind) - *arm.load;
+  links.change = LinkTorque(*arm.robot, behind, samples);
+  links.change -= *arm.load;
+  links.deflections = std::move(deflections);
   return links;
 }
 
@@ -83,14 +87,18 @@ std::vector<std::shared_ptr<const DeflectedLinks>> FollowLinks(
                         slopes.damping.col(j), slopes.inertia.col(j)});
     }
   }
-  const std::vector<Deflection> deflections =
-      FollowDeflections(joints, motion.dt);
+  std::vector<Deflection> deflections = FollowDeflections(joints, motion.dt);
   std::vector<std::shared_ptr<const DeflectedLinks>> links(arms.size());
   for (size_t i = 0; i < arms.size(); ++i) {
-    links[i] = like[i] < i
-                   ? links[like[i]]
-                   : std::make_shared<const DeflectedLinks>(LinksAt(
-                         arms[i], motion, &deflections[first_joint[i]]));
+    if (like[i] < i) {
+      links[i] = links[like[i]];
+      continue;
+    }
+    const auto own = std::make_move_iterator(deflections.begin() +
+                                             static_cast<long>(first_joint[i]));
+    const auto count = static_cast<long>(arms[i].transmissions->size());
+    links[i] = std::make_shared<const DeflectedLinks>(
+        LinksAt(arms[i], motion, {own, own + count}));
   }
   return links;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/dynamics/deflection.h"
 #include "model/dynamics/rigid_torque.h"
 #include "model/dynamics/simulated_robot.h"
 #include "model/robot/robot.h"
@@ -23,9 +24,9 @@ struct LinksBehindDrives {
 
 // How such links move, and what they need for it.
 struct DeflectedLinks {
-  Eigen::MatrixXd change;           // beyond the load, samples x n, N m or N
-  Eigen::MatrixXd deflection;       // motor - link, n x samples, rad or m
-  Eigen::MatrixXd deflection_rate;  // rad/s or m/s
+  Eigen::MatrixXd change;   // beyond the load, samples x n, N m or N
+  std::vector<int> joints;  // of the transmissions
+  std::vector<Deflection> deflections;  // of each of them
 };
 
 // Of each: the deflections' equations of motion (deflection.h) under its load,

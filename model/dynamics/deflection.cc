@@ -31,14 +31,11 @@ class DeflectionRun {
  public:
   DeflectionRun(const DeflectedJoint& joint, double dt)
       : law_(*joint.transmission),
-        signals_(4, joint.load.size()),
+        joint_(joint),
         dt_(dt),
         step_(2 + static_cast<int>(law_.initial_state.size())),
         x_(2 + law_.initial_state.size()),
-        unused_(law_.initial_state.size()) {
-    signals_ << joint.load.transpose(), joint.stiffness.transpose(),
-        joint.damping.transpose(), joint.inertia.transpose();
-  }
+        unused_(law_.initial_state.size()) {}
 
   // Where it begins, and in how many steps per half a sample it moves.
   struct Start {
@@ -51,7 +48,10 @@ class DeflectionRun {
   }
 
   Deflection Run() {
-    const int samples = static_cast<int>(signals_.cols());
+    const int samples = static_cast<int>(joint_.load.size());
+    signals_.resize(4, samples);
+    signals_ << joint_.load.transpose(), joint_.stiffness.transpose(),
+        joint_.damping.transpose(), joint_.inertia.transpose();
     Deflection result = {VectorXd(samples), VectorXd(samples),
                          VectorXd(samples)};
     SettleInMotion();
@@ -82,7 +82,8 @@ class DeflectionRun {
 
   // At rest under the load of sample k, with the law's own states as given.
   void Settle(int k) {
-    const Eigen::Vector4d signal = signals_.col(k);
+    const Eigen::Vector4d signal(joint_.load[k], joint_.stiffness[k],
+                                 joint_.damping[k], joint_.inertia[k]);
     const auto& start = law_.initial_deflection;
     x_ << (start ? start(signal[0]) : 0), 0, law_.initial_state;
     const auto rate = [&](double, const double* x, double* dx) {
@@ -96,7 +97,7 @@ class DeflectionRun {
 
   // As if it had followed the load for long: otherwise it would ring.
   void SettleInMotion() {
-    Settle(std::min<int>(1, signals_.cols() - 1));
+    Settle(std::min<int>(1, joint_.load.size() - 1));
     const double next = x_[0];
     Settle(0);
     x_[1] = (next - x_[0]) / dt_;
@@ -110,7 +111,7 @@ class DeflectionRun {
          law_.torque(x_[0], 0, &x_[0] + 2, unused_.data())) /
         dx;
     const double stiffness = std::max({slope, law_.stiffest, 0.});
-    const double omega = std::sqrt(stiffness / signals_.row(3).minCoeff());
+    const double omega = std::sqrt(stiffness / joint_.inertia.minCoeff());
     return static_cast<int>(std::clamp(std::ceil(omega * dt_ / kPhasePerStep),
                                        1., 0. + kMostSubsteps));
   }
@@ -130,6 +131,7 @@ class DeflectionRun {
   }
 
   const Transmission& law_;
+  const DeflectedJoint& joint_;
   Eigen::MatrixXd signals_;  // load and its slopes, samples in columns
   double dt_;
   StiffStepOf<Size> step_;

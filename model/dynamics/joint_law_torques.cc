@@ -77,13 +77,29 @@ class LawRun {
   StiffStepOf<Size> step_;
 };
 
-}  // namespace
+// Of laws, copies of one another among them (JointLaw::copy_of), the first of
+// each kind, and which of those each is.
+struct Originals {
+  explicit Originals(const std::vector<const JointLaw*>& laws) {
+    for (const JointLaw* law : laws) {
+      const auto known =
+          std::find_if(all.begin(), all.end(), [&](const JointLaw* other) {
+            return law->copy_of >= 0 && law->copy_of == other->copy_of;
+          });
+      which.push_back(known - all.begin());
+      if (known == all.end()) all.push_back(law);
+    }
+  }
+
+  std::vector<const JointLaw*> all;
+  std::vector<long> which;
+};
 
 // All laws go along the motion in one sweep, since the instants between
 // samples, which states are integrated over, cost more than most laws. Laws of
 // one state, which are the most, have a step of fixed size.
-std::vector<VectorXd> JointLawTorques(const std::vector<const JointLaw*>& laws,
-                                      const MotionTrack& track) {
+std::vector<VectorXd> Follow(const std::vector<const JointLaw*>& laws,
+                             const MotionTrack& track) {
   std::vector<VectorXd> torques;
   if (laws.empty()) return torques;
   std::vector<LawRun<1>> with_state;
@@ -110,6 +126,17 @@ std::vector<VectorXd> JointLawTorques(const std::vector<const JointLaw*>& laws,
     for (auto& run : with_states) run.Advance(&between);
   }
   return torques;
+}
+
+}  // namespace
+
+std::vector<VectorXd> JointLawTorques(const std::vector<const JointLaw*>& laws,
+                                      const MotionTrack& track) {
+  const Originals originals(laws);
+  const std::vector<VectorXd> torques = Follow(originals.all, track);
+  std::vector<VectorXd> of_each;
+  for (const long k : originals.which) of_each.push_back(torques[k]);
+  return of_each;
 }
 
 }  // namespace armcal

@@ -44,15 +44,23 @@ bool MotorsMoveAsRecorded(const SimulatedRobot& changed) {
          changed.clock_unevenness == 0;
 }
 
-// Whether its laws see the recorded motion: its links move with its motors too.
+bool HaveLawsThatSeeLinks(const SimulatedRobot& changed) {
+  return std::any_of(changed.joint_laws.begin(), changed.joint_laws.end(),
+                     [](const JointLaw& law) { return law.sees_link; });
+}
+
+// Whether its laws see the recorded motion: its links move with its motors, or
+// no law looks at links.
 bool SeesRecordedMotion(const SimulatedRobot& changed) {
-  return MotorsMoveAsRecorded(changed) && changed.transmissions.empty();
+  return MotorsMoveAsRecorded(changed) &&
+         (changed.transmissions.empty() || !HaveLawsThatSeeLinks(changed));
 }
 
 // Whether there is a slot to which links that move otherwise make a difference.
-bool LooksAtMotion(const SimulatedRobot& changed) {
-  return !changed.joint_laws.empty() || !changed.wrenches.empty() ||
-         !changed.actuators.empty() || !changed.sensors.empty();
+// Wrenches act where the motors have the arm (wrench_torque.h).
+bool LooksAtLinks(const SimulatedRobot& changed) {
+  return HaveLawsThatSeeLinks(changed) || !changed.actuators.empty() ||
+         !changed.sensors.empty();
 }
 
 std::vector<const JointLaw*> PointersTo(const SimulatedRobot& changed) {
@@ -80,6 +88,34 @@ RecordedTorque::OfJoints TakenByJoints(const std::vector<JointLaw>& laws,
   }
   for (VectorXd& joint : joints) {
     if (joint.isZero(0)) joint.resize(0);
+  }
+  return joints;
+}
+
+// Whether it differs from a robot by transmissions and by laws that do not see
+// them, perhaps in joints that warm up, and by nothing else.
+bool IsOfDrivesAlone(const SimulatedRobot& changed, const Robot& robot) {
+  return SeesRecordedMotion(changed) && changed.num_passive == 0 &&
+         changed.wrenches.empty() && changed.actuators.empty() &&
+         changed.torque_delay == 0 && SameLinks(changed.robot, robot) &&
+         SameJointTerms(changed.robot, robot);
+}
+
+// What only links behind transmissions and laws add to a nominal torque, joint
+// by joint.
+RecordedTorque::OfJoints ChangedByDrives(const MatrixXd& nominal,
+                                         const DeflectedLinks& links,
+                                         const std::vector<JointLaw>& laws,
+                                         const std::vector<VectorXd>& torques) {
+  RecordedTorque::OfJoints joints(nominal.cols());
+  VectorXd tau;
+  for (Eigen::Index j = 0; j < nominal.cols(); ++j) {
+    tau = nominal.col(j) + links.change.col(j);
+    for (size_t i = 0; i < laws.size(); ++i) {
+      if (laws[i].joint == j) tau -= torques[i];
+    }
+    tau -= nominal.col(j);
+    if (!tau.isZero(0)) joints[j] = tau;
   }
   return joints;
 }
@@ -239,7 +275,7 @@ MatrixXd RecordedTorque::ChangeOf(const SimulatedRobot& changed,
   }
   if (links) tau += links->change;
   MotionTrack other;
-  const bool as_tracked = as_recorded && (!links || !LooksAtMotion(changed));
+  const bool as_tracked = as_recorded && (!links || !LooksAtLinks(changed));
   if (!as_tracked) other = TrackOf(motion, times, links.get());
   const MotionTrack& track = as_tracked ? track_ : other;
   std::vector<VectorXd> own;
@@ -263,8 +299,13 @@ MotionTrack RecordedTorque::TrackOf(const Motion& motion, const VectorXd& times,
     track.t = times;
   }
   if (links != nullptr) {
-    track.deflection = links->deflection;
-    track.deflection_rate = links->deflection_rate;
+    track.deflection = track.deflection_rate =
+        MatrixXd::Zero(track.num_joints(), track.size());
+    for (size_t i = 0; i < links->joints.size(); ++i) {
+      const int j = links->joints[i];
+      track.deflection.row(j) += links->deflections[i].angle;
+      track.deflection_rate.row(j) += links->deflections[i].rate;
+    }
   }
   return track;
 }
@@ -283,10 +324,7 @@ void RecordedTorque::AddMadeByClock(const std::function<double(double)>& clock,
 
 // Whether it has joint laws, perhaps in joints that warm up, and nothing else.
 bool RecordedTorque::IsOfLawsAlone(const SimulatedRobot& changed) const {
-  return SeesRecordedMotion(changed) && changed.num_passive == 0 &&
-         changed.wrenches.empty() && changed.actuators.empty() &&
-         changed.torque_delay == 0 && SameLinks(changed.robot, robot_) &&
-         SameJointTerms(changed.robot, robot_);
+  return changed.transmissions.empty() && IsOfDrivesAlone(changed, robot_);
 }
 
 // Of those (`which`), whose joints warm up alike. Joint laws that see the
@@ -310,9 +348,15 @@ void RecordedTorque::AddChanges(const std::vector<SimulatedRobot>& changed,
       shared.laws.assign(next, end);
       next = end;
     }
-    (*to)[i] = IsOfLawsAlone(one) ? TakenByJoints(one.joint_laws, shared.laws,
-                                                  robot_.num_joints())
-                                  : WithoutNothing(ChangeOf(one, shared));
+    if (IsOfLawsAlone(one)) {
+      (*to)[i] =
+          TakenByJoints(one.joint_laws, shared.laws, robot_.num_joints());
+    } else if (IsOfDrivesAlone(one, robot_)) {
+      (*to)[i] =
+          ChangedByDrives(nominal_, *shared.links, one.joint_laws, shared.laws);
+    } else {
+      (*to)[i] = WithoutNothing(ChangeOf(one, shared));
+    }
   }
 }
 

@@ -33,13 +33,18 @@ bool SameJointTerms(const Robot& a, const Robot& b) {
   return true;
 }
 
-MatrixXd LinkTorque(const Robot& robot, const Motion& motion) {
-  MatrixXd tau(motion.size(), motion.num_joints());
+MatrixXd LinkTorque(const Robot& robot, const MotionColumns& motion,
+                    int samples) {
+  MatrixXd tau(samples, robot.num_joints());
   std::vector<double*> to;
   for (int j = 0; j < tau.cols(); ++j) to.push_back(tau.col(j).data());
-  BatchInverseDynamics(robot).Torque(
-      {motion.q, motion.qd, motion.qdd, MatrixXd()}, motion.size(), to.data());
+  BatchInverseDynamics(robot).Torque(motion, samples, to.data());
   return tau;
+}
+
+MatrixXd LinkTorque(const Robot& robot, const Motion& motion) {
+  return LinkTorque(robot, {motion.q, motion.qd, motion.qdd, MatrixXd()},
+                    motion.size());
 }
 
 LinkTorqueSlopes SlopesOfLinkTorque(const Robot& robot, const Motion& motion) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/dynamics/joint_term.h"
+#include "model/dynamics/motion_columns.h"
 #include "model/robot/robot.h"
 #include "model/signals/motion.h"
 
@@ -15,6 +16,8 @@ namespace armcal {
 
 // Of the links: recursive Newton-Euler, in lanes.
 Eigen::MatrixXd LinkTorque(const Robot& robot, const Motion& motion);
+Eigen::MatrixXd LinkTorque(const Robot& robot, const MotionColumns& motion,
+                           int samples);
 // Its slopes: of each joint's torque over that joint's own position, velocity
 // and acceleration, samples x n, N m/rad, N m s/rad, kg m^2, or of a prismatic
 // joint. Inertias are LinkInertias (model/dynamics/forward_dynamics.h).

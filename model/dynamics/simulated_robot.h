@@ -45,6 +45,12 @@ struct JointLaw {
   std::function<double(const ArmInstant& instant, const double* state,
                        double* rate)>
       torque;  // N m or N
+  // Whether it looks at link_position or link_velocity. Of those that do not,
+  // what lies behind the motors changes nothing.
+  bool sees_link = false;
+  // Laws of one number are copies of one law, whose torque along a motion is
+  // worked out once for all of them; -1: it has none.
+  int copy_of = -1;
 };
 
 // What lies between a motor and its link: the torque on the link (the motor

@@ -51,4 +51,29 @@ TEST(JointLawTorques, StatesFollowTheMotionTogetherAsAlone) {
   }
 }
 
+// Laws of one number are asked for their torque as often as one of them alone,
+// and those without a number are each a law of its own.
+TEST(JointLawTorques, CopiesAreFollowedOnce) {
+  const MotionTrack track = Accelerating();
+  int calls = 0;
+  JointLaw law = Odometer(1);
+  law.torque = [&calls, torque = law.torque](const ArmInstant& at,
+                                             const double* x, double* rate) {
+    ++calls;
+    return torque(at, x, rate);
+  };
+  const VectorXd alone = JointLawTorques({&law}, track)[0];
+  const int once = calls;
+  JointLaw copy = law, other = law;
+  law.copy_of = copy.copy_of = 7;
+  calls = 0;
+  for (const VectorXd& torque : JointLawTorques({&law, &copy, &law}, track)) {
+    EXPECT_EQ(torque, alone);
+  }
+  EXPECT_EQ(calls, once);
+  calls = 0;
+  EXPECT_EQ(JointLawTorques({&other, &law, &other}, track).size(), 3u);
+  EXPECT_EQ(calls, 3 * once);
+}
+
 }  // namespace armcal::joint_law_torques_test

@@ -31,6 +31,32 @@ TEST(ClockEffect, IsTheOnlyClock) {
 
 class PropertiesOf : public EveryEffect {};
 
+// A law that does not say that it sees links gives the same torque, and the
+// same rates, wherever these are.
+TEST_P(PropertiesOf, LooksAtLinksOnlyIfItSaysSo) {
+  Everywhere([&](const EffectArm& arm, int joint, const VectorXd& sizes,
+                 RecordedTorque*) {
+    SimulatedRobot changed;
+    changed.robot = arm.robot;
+    GetParam().apply(arm.Site(joint), sizes, &changed);
+    ArmInstant with_motors;
+    with_motors.t = 1;
+    with_motors.position = with_motors.link_position = arm.motion.q.row(9);
+    with_motors.velocity = with_motors.link_velocity = arm.motion.qd.row(9);
+    with_motors.load = with_motors.temperature = arm.motion.q.row(7);
+    ArmInstant elsewhere = with_motors;
+    elsewhere.link_position = elsewhere.link_velocity = arm.motion.qdd.row(5);
+    for (const JointLaw& law : changed.joint_laws) {
+      if (law.sees_link) continue;
+      const VectorXd state = VectorXd::Constant(law.initial_state.size(), .1);
+      VectorXd rate = state, other_rate = state;
+      EXPECT_EQ(law.torque(with_motors, state.data(), rate.data()),
+                law.torque(elsewhere, state.data(), other_rate.data()));
+      EXPECT_EQ(rate, other_rate);
+    }
+  });
+}
+
 TEST_P(PropertiesOf, HappensOnceIfItIsAnEvent) {
   const auto& parameters = GetParam().parameters;
   EXPECT_EQ(GetParam().nature == Effect::Nature::kEvent,
