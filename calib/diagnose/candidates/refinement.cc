@@ -1,8 +1,7 @@
 #include "calib/diagnose/candidates/refinement.h"
 
 #include <ceres/ceres.h>
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
+#include <glog/logging.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,7 +10,7 @@
 #include <limits>
 
 #include "calib/diagnose/candidates/bounded_covariance.h"
-#include "calib/diagnose/candidates/coordinates.h"
+#include "calib/diagnose/candidates/varied_effects.h"
 
 namespace armcal {
 namespace {
@@ -20,74 +19,53 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostIterations = 12;
-// Springs that are followed together: doubles in the widest register.
-constexpr size_t kLanes = 8;
 
 // What effects leave of the torque, and forward differences of it as Ceres
 // takes them, of several parameters at a time. Whatever was evaluated once is
 // kept: solvers ask again for what they have accepted.
 class ProjectedResidual : public ceres::CostFunction {
  public:
-  ProjectedResidual(const GapScreen& screen, const GapBaseline& baseline,
-                    const MotionScale& scale, std::vector<GapCandidate> effects,
-                    std::vector<Coordinate> coordinates, const GapData& data)
+  ProjectedResidual(const GapScreen& screen, const VariedEffects& effects,
+                    const GapRows& rows)
       : screen_(screen),
-        baseline_(baseline),
-        scale_(scale),
-        effects_(std::move(effects)),
-        coordinates_(std::move(coordinates)),
-        data_(data),
-        costs_as_much_together_(
-            coordinates_.size() < kLanes &&
-            std::any_of(effects_.begin(), effects_.end(),
-                        [](const GapCandidate& effect) {
-                          return !effect.effect->larger_sizes.empty();
-                        })),
-        torques_(data.torques()) {
-    mutable_parameter_block_sizes()->push_back(
-        static_cast<int>(coordinates_.size()));
+        effects_(effects),
+        coordinates_(effects.coordinates()),
+        rows_(rows) {
+    const std::vector<GapCandidate> some = effects.At(VectorXd::Ones(size()));
+    costs_as_much_together_ =
+        coordinates_.size() < VariedEffects::kLanes &&
+        std::any_of(some.begin(), some.end(), [](const GapCandidate& effect) {
+          return !effect.effect->larger_sizes.empty();
+        });
+    mutable_parameter_block_sizes()->push_back(size());
     set_num_residuals(static_cast<int>(
         screen.ResidualGiven(JointRows(screen.num_joints())).size()));
   }
 
-  std::vector<GapCandidate> At(const VectorXd& u) const {
-    std::vector<GapCandidate> effects = effects_;
-    for (size_t k = 0; k < coordinates_.size(); ++k) {
-      const Coordinate& c = coordinates_[k];
-      effects[c.effect].p[c.parameter] = c.Value(u[k]);
-    }
-    return effects;
-  }
-
-  // The lowest of a grid around what a search found. What rings has a minimum
-  // wherever its oscillation is in phase with the residual for a while, and
-  // only one where it stays so; a solver ends in the one that it starts in. The
-  // grid is of each linear size, from half to twice of it, by the low end of
-  // each shape that is refined.
-  VectorXd LowestAround(const VectorXd& u) const {
-    std::vector<VectorXd> points = {u};
-    for (const Coordinate& shape : coordinates_) {
-      if (ParameterOf(shape).search != EffectParameter::Search::kRefined) {
-        continue;
-      }
-      for (const Coordinate& size : coordinates_) {
-        if (size.effect == shape.effect &&
-            ParameterOf(size).search == EffectParameter::Search::kLinear) {
-          AddAround(size, shape, &points);
-        }
-      }
-    }
+  // The lowest of where a solver may start, whose torques may be there already.
+  // Of those that are as low but for what ranking them rounds, it is the first
+  // that is lowest.
+  VectorXd Lowest(const std::vector<VectorXd>& starts,
+                  const std::vector<JointRows>* around) const {
+    constexpr double kRounding = 1e-6;
+    if (starts.size() == 1) return starts[0];
+    std::vector<JointRows> torques =
+        around != nullptr ? *around : effects_.Torques(starts);
+    CHECK_EQ(torques.size(), starts.size());
+    Whiten(&torques);
+    const VectorXd chi2 = screen_.Chi2Given(torques);
     double lowest = std::numeric_limits<double>::infinity();
-    VectorXd best = u;
-    if (points.size() == 1) return best;
-    const std::vector<JointRows> torques = Torques(points);
-    for (size_t k = 0; k < points.size(); ++k) {
+    for (const double one : chi2) lowest = std::min(lowest, one);
+    size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t k = 0; k < starts.size(); ++k) {
+      if (!(chi2[k] <= lowest + kRounding * std::abs(lowest))) continue;
       const double left = screen_.ResidualGiven(torques[k]).squaredNorm();
-      if (!(left < lowest)) continue;
-      lowest = left;
-      best = points[k];
+      if (!(left < least)) continue;
+      least = left;
+      best = k;
     }
-    return best;
+    return starts[best];
   }
 
   VectorXd BaselineAt(const VectorXd& u) const {
@@ -96,8 +74,7 @@ class ProjectedResidual : public ceres::CostFunction {
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
-    const auto size = static_cast<Eigen::Index>(coordinates_.size());
-    Point& point = Find(Eigen::Map<const VectorXd>(parameters[0], size));
+    Point& point = Find(Eigen::Map<const VectorXd>(parameters[0], size()));
     if (!point.residual.allFinite()) return false;
     Eigen::Map<VectorXd>(residuals, num_residuals()) = point.residual;
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
@@ -126,46 +103,18 @@ class ProjectedResidual : public ceres::CostFunction {
     std::vector<JointRows> around;  // torques of its neighbours, likewise
   };
 
-  const EffectParameter& ParameterOf(const Coordinate& c) const {
-    return effects_[c.effect].effect->parameters[c.parameter];
-  }
+  int size() const { return static_cast<int>(coordinates_.size()); }
 
-  // From half of a size to twice of it, for values of a shape.
-  void AddAround(const Coordinate& size, const Coordinate& shape,
-                 std::vector<VectorXd>* points) const {
-    constexpr int kSteps = 12;  // to either side
-    const VectorXd u = points->front();
-    for (const double share : {0., .01, .03, .1, .3}) {
-      for (int k = -kSteps; k <= kSteps; ++k) {
-        VectorXd at = u;
-        at[&size - coordinates_.data()] = size.Inverse(
-            size.centre * std::pow(2, k / static_cast<double>(kSteps)));
-        at[&shape - coordinates_.data()] =
-            shape.Inverse(shape.low + share * (shape.high - shape.low));
-        points->push_back(at);
-      }
-    }
-  }
-
-  // At several points, whitened. As many at a time as springs have lanes, on
-  // all threads.
+  // At several points, whitened.
   std::vector<JointRows> Torques(const std::vector<VectorXd>& points) const {
-    std::vector<JointRows> torques(points.size());
-    tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, points.size(), kLanes),
-        [&](const tbb::blocked_range<size_t>& range) {
-          std::vector<std::vector<GapCandidate>> sets;
-          for (size_t k = range.begin(); k < range.end(); ++k) {
-            sets.push_back(At(points[k]));
-          }
-          const std::vector<JointRows> some = EffectTorques(
-              baseline_, scale_, sets, data_.rows(), &torques_.local());
-          for (size_t k = range.begin(); k < range.end(); ++k) {
-            torques[k] = WhitenEach(data_.rows(), some[k - range.begin()]);
-          }
-        },
-        tbb::simple_partitioner());
+    std::vector<JointRows> torques = effects_.Torques(points);
+    Whiten(&torques);
     return torques;
+  }
+  void Whiten(std::vector<JointRows>* torques) const {
+    tbb::parallel_for(size_t{0}, torques->size(), [&](size_t k) {
+      (*torques)[k] = WhitenEach(rows_, (*torques)[k]);
+    });
   }
 
   // Residuals and jacobians of what was evaluated before are kept, by value:
@@ -238,14 +187,11 @@ class ProjectedResidual : public ceres::CostFunction {
   }
 
   const GapScreen& screen_;
-  const GapBaseline& baseline_;
-  const MotionScale& scale_;
-  std::vector<GapCandidate> effects_;
-  std::vector<Coordinate> coordinates_;
-  const GapData& data_;
+  const VariedEffects& effects_;
+  const std::vector<Coordinate>& coordinates_;
+  const GapRows& rows_;
   // Whether a point takes about as long as with its neighbours, in lanes.
   bool costs_as_much_together_;
-  mutable tbb::enumerable_thread_specific<std::vector<RecordedTorque>> torques_;
   mutable std::deque<Point> points_;
 };
 
@@ -286,49 +232,6 @@ MatrixXd Spread(const std::vector<GapCandidate>& effects,
 
 }  // namespace
 
-// What effects with these parameters add to the torque of these logs.
-JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
-                       const std::vector<GapCandidate>& effects,
-                       GapData* data) {
-  return EffectTorques(baseline, scale, {effects}, data->rows(),
-                       data->mutable_torques())[0];
-}
-
-// The torque of several sets of effects along the same recorded motion,
-// evaluated together (RecordedTorque::Changes). What happened once is in its
-// own log only.
-std::vector<JointRows> EffectTorques(
-    const GapBaseline& baseline, const MotionScale& scale,
-    const std::vector<std::vector<GapCandidate>>& sets, const GapRows& rows,
-    std::vector<RecordedTorque>* torques) {
-  std::vector<JointRows> thin(sets.size(), JointRows(rows.num_joints()));
-  std::vector<JointRows*> to;
-  for (JointRows& one : thin) to.push_back(&one);
-  for (size_t i = 0; i < rows.segments().size(); ++i) {
-    const int s = static_cast<int>(i), log = rows.segments()[i].log;
-    std::vector<SimulatedRobot> changed(sets.size());
-    for (size_t k = 0; k < sets.size(); ++k) {
-      changed[k].robot = baseline.robot();
-      for (const GapCandidate& effect : sets[k]) {
-        if (!effect.IsIn(log)) continue;
-        effect.effect->apply({&baseline.robot(), effect.joint, &scale},
-                             effect.p, &changed[k]);
-      }
-    }
-    AddThinned(rows, s, (*torques)[i].Changes(changed), to);
-  }
-  return thin;
-}
-
-JointRows WhitenEach(const GapRows& rows, const JointRows& thin) {
-  JointRows white(thin.size());
-  for (size_t j = 0; j < thin.size(); ++j) {
-    if (thin[j].size() == 0) continue;
-    white[j] = rows.Whiten(static_cast<int>(j), thin[j]);
-  }
-  return white;
-}
-
 // All parameters of the effects together, linear or not, by least squares of
 // what they leave once the baseline has taken what it can (ResidualGiven):
 // variable projection (Golub and Pereyra 1973), whose baseline is eliminated at
@@ -339,15 +242,13 @@ RefinedEffects RefineEffects(const GapScreen& screen,
                              const GapBaseline& baseline,
                              const MotionScale& scale,
                              const std::vector<GapCandidate>& effects, int only,
-                             GapData* data) {
+                             GapData* data,
+                             const std::vector<JointRows>* around) {
   RefinedEffects refined;
-  refined.effects = effects;
-  const std::vector<Coordinate> coordinates =
-      ListCoordinates(baseline, scale, effects, only);
-  const int size = static_cast<int>(coordinates.size());
-  auto* cost = new ProjectedResidual(screen, baseline, scale, effects,
-                                     coordinates, *data);
-  VectorXd u = cost->LowestAround(VectorXd::Ones(size));
+  const VariedEffects varied(baseline, scale, effects, only, *data);
+  const std::vector<Coordinate>& coordinates = varied.coordinates();
+  auto* cost = new ProjectedResidual(screen, varied, data->rows());
+  VectorXd u = cost->Lowest(varied.Starts(), around);
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, u.data());
   SetBounds(coordinates, u.data(), &problem);
@@ -361,7 +262,7 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  refined.effects = cost->At(u);
+  refined.effects = varied.At(u);
   refined.covariance =
       Spread(effects, coordinates,
              BoundedCovariance(cost->SlopesAt(u), cost->ResidualAt(u),
@@ -371,6 +272,14 @@ RefinedEffects RefineEffects(const GapScreen& screen,
       screen.ResidualGiven(JointRows(screen.num_joints())).squaredNorm() -
       2 * summary.final_cost;
   return refined;
+}
+
+std::vector<JointRows> TorquesAround(const GapBaseline& baseline,
+                                     const MotionScale& scale,
+                                     const std::vector<GapCandidate>& effects,
+                                     int only, const GapData& data) {
+  const VariedEffects varied(baseline, scale, effects, only, data);
+  return varied.Torques(varied.Starts());
 }
 
 }  // namespace armcal

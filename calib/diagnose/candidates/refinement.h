@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/candidates/effect_torques.h"
 #include "calib/diagnose/data/data.h"
 #include "calib/diagnose/data/screen.h"
 
@@ -27,19 +28,14 @@ RefinedEffects RefineEffects(const GapScreen& screen,
                              const GapBaseline& baseline,
                              const MotionScale& scale,
                              const std::vector<GapCandidate>& effects, int only,
-                             GapData* data);
-
-// What effects with these parameters add to the torque: per joint thinned
-// samples, empty where it is nothing. What happened once is not in other logs
-// than those it was found in.
-JointRows EffectTorque(const GapBaseline& baseline, const MotionScale& scale,
-                       const std::vector<GapCandidate>& effects, GapData* data);
-// The same of several such sets, by a thread's own `torques`, one per segment.
-std::vector<JointRows> EffectTorques(
-    const GapBaseline& baseline, const MotionScale& scale,
-    const std::vector<std::vector<GapCandidate>>& sets, const GapRows& rows,
-    std::vector<RecordedTorque>* torques);
-// Their rows.
-JointRows WhitenEach(const GapRows& rows, const JointRows& thin);
+                             GapData* data,
+                             const std::vector<JointRows>* around = nullptr);
+// What RefineEffects looks at before it starts, `around`, for fits of the same
+// effects to parts of the same logs: a torque does not depend on which rows
+// count, nor on how much.
+std::vector<JointRows> TorquesAround(const GapBaseline& baseline,
+                                     const MotionScale& scale,
+                                     const std::vector<GapCandidate>& effects,
+                                     int only, const GapData& data);
 
 }  // namespace armcal

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calib/diagnose/data/baseline_fit.h"
+#include "calib/diagnose/data/chi2_given.h"
 
 namespace armcal {
 
@@ -93,6 +94,10 @@ class GapScreen {
   // its squared norm is chi^2.
   Eigen::VectorXd ResidualGiven(const JointRows& torque) const {
     return baseline_.ResidualGiven(torque);
+  }
+  // That chi^2 of many torques (Chi2Given).
+  Eigen::VectorXd Chi2Given(const std::vector<JointRows>& torques) const {
+    return armcal::Chi2Given(baseline_, torques);
   }
   // Joint j's rows of a column, less what the baseline absorbs of it.
   Eigen::VectorXd Projected(int column, int joint) const;

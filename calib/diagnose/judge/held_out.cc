@@ -72,19 +72,28 @@ HeldOut::HeldOut(const GapFit& fit)
     parts_[fold].predictor = std::make_unique<Predictor>(fit, fold, contenders);
     parts_[fold].data = fit.regression().DataOf(LogPart::Fold(fold));
   });
+  Follow();
 }
 
 HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs)
     : fit_(fit), other_logs_(true) {
   parts_.push_back({std::make_unique<Predictor>(fit),
                     fit.regression().DataOf(std::move(other_logs)), nullptr});
+  Follow();
   rows_ = parts_[0].data.get();
   if (!fit.events().empty()) MaskEvents();
 }
 
+// What the fits of all folds look at before they start is worked out once.
 void HeldOut::Follow() {
+  const std::vector<GapCandidate>& effects = fit_.refined().effects;
+  std::vector<JointRows> around;
+  if (!other_logs_ && !effects.empty()) {
+    around =
+        TorquesAround(fit_.baseline(), fit_.scale(), effects, -1, *fit_.data());
+  }
   tbb::parallel_for(size_t{0}, parts_.size(),
-                    [&](size_t k) { parts_[k].predictor->Follow(); });
+                    [&](size_t k) { parts_[k].predictor->Follow(around); });
 }
 
 // An arm that was touched in one log may have been in another: windows that

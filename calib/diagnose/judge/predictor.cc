@@ -9,7 +9,7 @@ namespace armcal {
 
 using Eigen::VectorXd;
 
-Predictor::Predictor(const GapFit& fit) : fit_(fit) { Follow(); }
+Predictor::Predictor(const GapFit& fit) : fit_(fit) {}
 
 Predictor::Predictor(const GapFit& fit, int left_out,
                      const std::vector<int>& contenders)
@@ -17,7 +17,6 @@ Predictor::Predictor(const GapFit& fit, int left_out,
       own_(std::make_unique<GapRegression>(fit.regression(),
                                            LogPart::OtherFolds(left_out))) {
   Choose(contenders);
-  Follow();
 }
 
 // Of those that could be chosen at all, under the noise of the whole fit.
@@ -50,7 +49,7 @@ bool Predictor::ChoseOneOf(const std::vector<PlacedEffect>& effects) const {
 
 // Values of effects and model are fitted together, from the fit's on. Which
 // effects there are was chosen on all of the logs.
-void Predictor::Follow() {
+void Predictor::Follow(const std::vector<JointRows>& around) {
   refined_ = fit_.refined();
   model_refit_ = fit_.model_refit();
   model_after_ = fit_.model_after();
@@ -59,7 +58,8 @@ void Predictor::Follow() {
     refined_.baseline = own_->refit();
   } else {
     refined_ = RefineEffects(own_->screen(), own_->baseline(), own_->scale(),
-                             refined_.effects, -1, own_->data());
+                             refined_.effects, -1, own_->data(),
+                             around.empty() ? nullptr : &around);
   }
   model_refit_ = ModelGiven({});
   model_after_ = ModelGiven(refined_.effects);

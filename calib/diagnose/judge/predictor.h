@@ -26,8 +26,9 @@ class Predictor {
   Predictor(const GapFit& fit, int left_out,
             const std::vector<int>& contenders);
 
-  // Takes over the fit's effects again, which are others than before.
-  void Follow();
+  // Takes over the fit's effects, which may be others than before. `around`:
+  // TorquesAround them; empty: not yet worked out.
+  void Follow(const std::vector<JointRows>& around);
 
   const GapRegression& regression() const {
     return own_ ? *own_ : fit_.regression();
