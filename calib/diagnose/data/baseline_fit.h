@@ -84,6 +84,8 @@ class BaselineFit {
   // How many of joint j's rows are fitted: tr(A_j C A_j'), C the covariance.
   Eigen::VectorXd FittedRows() const;
   Eigen::MatrixXd Covariance() const;
+  // Its inverse.
+  Eigen::MatrixXd Information() const { return Information(size()); }
 
  private:
   void FindArms();

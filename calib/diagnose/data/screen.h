@@ -111,6 +111,10 @@ class GapScreen {
   Eigen::VectorXd FittedRows() const { return baseline_.FittedRows(); }
   // Covariance of the baseline's values alone.
   Eigen::MatrixXd BaselineCovariance() const { return baseline_.Covariance(); }
+  // Its inverse.
+  Eigen::MatrixXd BaselineInformation() const {
+    return baseline_.Information();
+  }
 
  private:
   using Column = std::shared_ptr<const JointRows>;

@@ -249,7 +249,7 @@ const PredictedChi2& HeldOut::Chi2Of(const Part& part) {
   if (!part.chi2) {
     part.chi2 = std::make_unique<PredictedChi2>(
         part.data->WhitenedColumns(),
-        part.predictor->regression().screen().BaselineCovariance());
+        part.predictor->regression().screen().BaselineInformation());
   }
   return *part.chi2;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <vector>
 
@@ -11,23 +12,24 @@ namespace armcal {
 // chi^2 of residuals of data that a fit has not seen. They differ from 0 by
 // their noise and by the errors of the fit's values alike, which elsewhere may
 // be far larger than where it was fitted:
-//   chi^2 = r' (I + X C X')^-1 r
-//         = r'r - s' L (I + L' X'X L)^-1 L' s,   s = X'r, C = L L',
-// with whitened rows r, the columns X of the fit and the covariance C of its
-// values (Gelman et al., Bayesian Data Analysis, 2013, 14.2: the posterior
-// predictive distribution of a regression).
+//   chi^2 = r' (I + X N^-1 X')^-1 r
+//         = r'r - s' (N + X'X)^-1 s,   s = X'r,
+// with whitened rows r, the columns X of the fit and the information N on its
+// values, the inverse of their covariance (Gelman et al., Bayesian Data
+// Analysis, 2013, 14.2: the posterior predictive distribution of a
+// regression).
 class PredictedChi2 {
  public:
   // Of whitened rows; of all columns' values.
   PredictedChi2(std::vector<BaselineColumns> columns,
-                const Eigen::MatrixXd& covariance);
+                Eigen::MatrixXd information);
 
   // Whitened residuals per joint.
   double Of(const JointRows& residual) const;
 
  private:
   std::vector<BaselineColumns> columns_;  // per joint
-  Eigen::MatrixXd half_;                  // M' M = L (I + L' X'X L)^-1 L'
+  Eigen::LLT<Eigen::MatrixXd> both_;      // N + X'X
 };
 
 }  // namespace armcal

@@ -55,7 +55,7 @@ TEST_F(GapConfirmationTest, WhatIsTooSmallTellsNothing) {
 // much it changes.
 TEST_F(GapConfirmationTest, WhatTheFitMayHaveWrongTellsNothing) {
   const VectorXd shape = effect_ / effect_.norm();
-  const PredictedChi2 unknown({{{0}, shape}}, 1e4 * MatrixXd::Ones(1, 1));
+  const PredictedChi2 unknown({{{0}, shape}}, 1e-4 * MatrixXd::Ones(1, 1));
   const Confirmation found = Confirm(unknown, {noise_ - effect_}, {noise_});
   EXPECT_NEAR(found.expected, 500. / (1 + 1e4), 1e-3);
   EXPECT_LT(std::abs(found.Share()), .1);

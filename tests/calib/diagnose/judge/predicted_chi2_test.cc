@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -19,6 +20,7 @@ class PredictedChi2Test : public testing::Test {
   PredictedChi2Test() : columns_{{{0, 1}, Draw(40, 2)}, {{1, 2}, Draw(30, 2)}} {
     const MatrixXd root = Draw(3, 3);
     covariance_ = root * root.transpose();
+    information_ = covariance_.inverse();
   }
   MatrixXd Draw(int rows, int columns) {
     return MatrixXd::NullaryExpr(rows, columns,
@@ -35,11 +37,11 @@ class PredictedChi2Test : public testing::Test {
   std::mt19937_64 random_{3};
   std::normal_distribution<double> normal_;
   std::vector<BaselineColumns> columns_;
-  MatrixXd covariance_;
+  MatrixXd covariance_, information_;
 };
 
 TEST_F(PredictedChi2Test, IsThatOfTheWholeCovariance) {
-  const PredictedChi2 chi2(columns_, covariance_);
+  const PredictedChi2 chi2(columns_, information_);
   const VectorXd r = Draw(70, 1);
   const MatrixXd X = All();
   const MatrixXd S =
@@ -48,10 +50,10 @@ TEST_F(PredictedChi2Test, IsThatOfTheWholeCovariance) {
 }
 
 // Values that are known exactly, some of them, leave the rest as it is.
-TEST_F(PredictedChi2Test, OfASingularCovariance) {
-  covariance_.setZero();
-  covariance_(1, 1) = 4;
-  const PredictedChi2 chi2(columns_, covariance_);
+TEST_F(PredictedChi2Test, OfValuesThatAreKnown) {
+  information_.setZero();
+  information_.diagonal() << 1e15, 1. / 4, 1e15;
+  const PredictedChi2 chi2(columns_, information_);
   const VectorXd r = Draw(70, 1);
   const VectorXd x = All().col(1);
   const double along = x.dot(r);
@@ -62,7 +64,7 @@ TEST_F(PredictedChi2Test, OfASingularCovariance) {
 
 // Of residuals that are noise and what the fit has wrong: one per row.
 TEST_F(PredictedChi2Test, IsOnePerRow) {
-  const PredictedChi2 chi2(columns_, covariance_);
+  const PredictedChi2 chi2(columns_, information_);
   const MatrixXd root = covariance_.llt().matrixL();
   const MatrixXd X = All();
   constexpr int kDraws = 2000;
