@@ -40,7 +40,7 @@ BaselineFit::Rows Root(const BaselineFit::Rows& rows) {
 
 void BaselineFit::Rows::Multiply() {
   CHECK_EQ(columns.values.rows(), target.size());
-  of_columns = InnerProducts(columns.values, columns.values);
+  of_columns = InnerProductsWithLast(columns.values, columns.values.cols());
   of_target = columns.values.transpose() * target;
   target_squared = target.squaredNorm();
 }

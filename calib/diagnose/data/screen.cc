@@ -30,15 +30,15 @@ void GapScreen::Products::Add(const std::vector<Column>& all, int first,
   for (Eigen::Index k = 0; k < count; ++k) {
     C.col(k) = (*all[columns[k]])[joint];
   }
-  const MatrixXd added = C.rightCols(more);
   of_columns.conservativeResize(count, count);
-  of_columns.rightCols(more) = InnerProducts(C, added);
+  of_columns.rightCols(more) = InnerProductsWithLast(C, more);
   of_columns.bottomLeftCorner(more, before) =
       of_columns.topRightCorner(before, more).transpose();
   by_baseline.conservativeResize(rows.of_columns.rows(), count);
-  by_baseline.rightCols(more) = InnerProducts(rows.columns.values, added);
+  by_baseline.rightCols(more) =
+      InnerProducts(rows.columns.values, C.rightCols(more));
   by_target.conservativeResize(count);
-  by_target.tail(more) = added.transpose() * rows.target;
+  by_target.tail(more) = C.rightCols(more).transpose() * rows.target;
 }
 
 GapScreen::Products GapScreen::Products::Only(
@@ -135,8 +135,8 @@ GapScreen::ArmShare GapScreen::ProjectOnArm(int joint, int before) {
   share.raw = squared * own.of_columns.diagonal().tail(more);
   share.g = squared * own.by_target.tail(more) -
             added.transpose() * baseline_.arm_gradient(joint);
-  share.gram =
-      squared * own.of_columns.rightCols(more) - InnerProducts(half, added);
+  share.gram = InnerProductsWithLast(half, more);
+  share.gram = squared * own.of_columns.rightCols(more) - share.gram;
   return share;
 }
 
@@ -185,7 +185,7 @@ void GapScreen::Project(int before) {
   }
   const MatrixXd common = factor.HalfOfCommon(common_half_.rightCols(more));
   common_half_.rightCols(more) = common;
-  G -= InnerProducts(common_half_, common);
+  G -= InnerProductsWithLast(common_half_, more);
   g_.tail(more) -= common.transpose() * baseline_.common_gradient();
   G_.conservativeResize(count, count);
   G_.rightCols(more) = G;
