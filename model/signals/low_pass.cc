@@ -109,37 +109,91 @@ class Continuation {
 
 }  // namespace
 
+namespace {
+
+// A low pass of signals of n samples, kSideBySide of them at a time.
+class LowPass {
+ public:
+  LowPass(int n, double sample_rate, double cutoff_hz, Ends ends)
+      : n_(n),
+        // The filter starts from rest so far outside that polynomials pass.
+        pad_(static_cast<int>(
+            std::ceil(sample_rate * LowPassMemory(cutoff_hz)))),
+        span_(std::min(n, std::max(6, static_cast<int>(std::lround(
+                                          sample_rate / cutoff_hz))))),
+        sections_(Butterworth4(sample_rate, cutoff_hz)),
+        beyond_(ends == Ends::kExtrapolate && span_ >= 6, pad_, span_),
+        rows_(n + 2L * pad_) {}
+
+  // Whether there is something to filter. The filter's memory of what is far
+  // shorter would not fit into ours.
+  static bool Filters(int n, double sample_rate, double cutoff_hz) {
+    return n >= 2 && cutoff_hz < 0.499 * sample_rate &&
+           100 * n >= sample_rate / cutoff_hz;
+  }
+
+  // The c-th of at most kSideBySide signals, before they are filtered.
+  template <typename Signal>
+  void Take(int c, const Signal& signal) {
+    const int reach = std::min(n_, beyond_.reach());
+    auto all = rows_.matrix();
+    all.col(c).segment(pad_, n_) = signal;
+    all.col(c).head(pad_) = beyond_(signal.head(reach).reverse()).reverse();
+    all.col(c).tail(pad_) = beyond_(signal.tail(reach));
+  }
+  // The first `columns`, filtered.
+  auto Filtered(int columns) {
+    rows_.matrix().rightCols(kSideBySide - columns).setZero();
+    rows_.Filter(sections_);
+    return rows_.matrix().block(pad_, 0, n_, columns);
+  }
+
+ private:
+  int n_, pad_, span_;
+  std::array<FilterSection, 2> sections_;
+  Continuation beyond_;
+  SignalRows rows_;
+};
+
+}  // namespace
+
 MatrixXd ZeroPhaseLowPass(const MatrixXd& x, double sample_rate,
                           double cutoff_hz, Ends ends) {
   CHECK_GT(cutoff_hz, 0);
   const int n = static_cast<int>(x.rows());
-  const double period = sample_rate / cutoff_hz;  // samples
-  // The filter's memory of what is far shorter would not fit into ours.
-  if (n < 2 || cutoff_hz >= 0.499 * sample_rate || 100 * n < period) return x;
-  const auto sections = Butterworth4(sample_rate, cutoff_hz);
-  // The filter starts from rest so far outside that polynomials pass.
-  const int pad =
-      static_cast<int>(std::ceil(sample_rate * LowPassMemory(cutoff_hz)));
-  const int span =
-      std::min(n, std::max(6, static_cast<int>(std::lround(period))));
-  const Continuation beyond(ends == Ends::kExtrapolate && span >= 6, pad, span);
-  const int reach = std::min(n, beyond.reach());
+  if (!LowPass::Filters(n, sample_rate, cutoff_hz)) return x;
+  LowPass filter(n, sample_rate, cutoff_hz, ends);
   MatrixXd result(n, x.cols());
-  SignalRows rows(n + 2L * pad);
   for (int first = 0; first < x.cols(); first += kSideBySide) {
     const int columns =
         std::min(kSideBySide, static_cast<int>(x.cols()) - first);
-    auto all = rows.matrix();
-    all.middleRows(pad, n).leftCols(columns) = x.middleCols(first, columns);
-    all.rightCols(kSideBySide - columns).setZero();
-    for (int c = 0; c < columns; ++c) {
-      const auto signal = x.col(first + c);
-      all.col(c).head(pad) = beyond(signal.head(reach).reverse()).reverse();
-      all.col(c).tail(pad) = beyond(signal.tail(reach));
-    }
-    rows.Filter(sections);
-    result.middleCols(first, columns) =
-        all.middleRows(pad, n).leftCols(columns);
+    for (int c = 0; c < columns; ++c) filter.Take(c, x.col(first + c));
+    result.middleCols(first, columns) = filter.Filtered(columns);
+  }
+  return result;
+}
+
+MatrixXd ThinnedLowPass(const std::vector<const VectorXd*>& x,
+                        double sample_rate, double cutoff_hz, int first,
+                        int stride, int count) {
+  CHECK_GT(cutoff_hz, 0);
+  MatrixXd result(count, x.size());
+  if (x.empty()) return result;
+  const Eigen::VectorXi rows = Eigen::VectorXi::NullaryExpr(
+      count,
+      [=](Eigen::Index k) { return first + stride * static_cast<int>(k); });
+  const int n = static_cast<int>(x[0]->size());
+  if (!LowPass::Filters(n, sample_rate, cutoff_hz)) {
+    for (size_t c = 0; c < x.size(); ++c) result.col(c) = (*x[c])(rows);
+    return result;
+  }
+  LowPass filter(n, sample_rate, cutoff_hz, Ends::kReflect);
+  for (size_t begin = 0; begin < x.size(); begin += kSideBySide) {
+    const int columns =
+        static_cast<int>(std::min<size_t>(kSideBySide, x.size() - begin));
+    for (int c = 0; c < columns; ++c) filter.Take(c, *x[begin + c]);
+    result.middleCols(begin, columns) =
+        filter.Filtered(columns)(rows, Eigen::all);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace armcal {
 
@@ -17,6 +18,12 @@ enum class Ends {
 // at cutoff_hz. A cutoff at or above half the sample rate returns x unchanged.
 Eigen::MatrixXd ZeroPhaseLowPass(const Eigen::MatrixXd& x, double sample_rate,
                                  double cutoff_hz, Ends ends = Ends::kReflect);
+
+// The same of columns of one length wherever they lie, `count` rows of it
+// alone: `first` and every `stride`-th from there on.
+Eigen::MatrixXd ThinnedLowPass(const std::vector<const Eigen::VectorXd*>& x,
+                               double sample_rate, double cutoff_hz, int first,
+                               int stride, int count);
 
 // Seconds after which the filter has forgotten its input to 1e-9.
 double LowPassMemory(double cutoff_hz);

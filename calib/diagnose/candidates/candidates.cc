@@ -252,30 +252,24 @@ std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects) {
 }
 
 // Torques of one segment, low-passed and thinned, into the thinned samples of
-// all of them, kColumns of them at a time whichever joint and torque they are
-// of.
+// all of them, whichever joint and torque they are of.
 void AddThinned(const GapRows& rows, int segment,
                 const std::vector<RecordedTorque::OfJoints>& torques,
                 const std::vector<JointRows*>& thin) {
-  constexpr size_t kColumns = 12;  // filtered at once
-  std::vector<std::pair<const VectorXd*, VectorXd*>> columns;
+  std::vector<const VectorXd*> fine;
+  std::vector<VectorXd*> to;
   for (size_t i = 0; i < torques.size(); ++i) {
     for (int j = 0; j < rows.num_joints(); ++j) {
       if (torques[i][j].size() == 0) continue;
       VectorXd& all = (*thin[i])[j];
       if (all.size() == 0) all = VectorXd::Zero(rows.num_thin());
-      columns.emplace_back(&torques[i][j], &all);
+      fine.push_back(&torques[i][j]);
+      to.push_back(&all);
     }
   }
-  const int begin = rows.thin_begin(segment);
-  for (size_t first = 0; first < columns.size(); first += kColumns) {
-    const size_t count = std::min(kColumns, columns.size() - first);
-    MatrixXd fine(columns[first].first->size(), count);
-    for (size_t c = 0; c < count; ++c) fine.col(c) = *columns[first + c].first;
-    const MatrixXd low = rows.Thin(segment, fine);
-    for (size_t c = 0; c < count; ++c) {
-      columns[first + c].second->segment(begin, low.rows()) = low.col(c);
-    }
+  const MatrixXd low = rows.Thin(segment, fine);
+  for (size_t c = 0; c < to.size(); ++c) {
+    to[c]->segment(rows.thin_begin(segment), low.rows()) = low.col(c);
   }
 }
 
@@ -356,7 +350,8 @@ void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
       missing.back().push_back({&candidate, k});
     }
   }
-  tbb::enumerable_thread_specific<std::vector<RecordedTorque>> own(torques);
+  tbb::enumerable_thread_specific<std::vector<RecordedTorque>> own(
+      [&torques] { return torques; });
   tbb::parallel_for(
       tbb::blocked_range<size_t>(0, missing.size()),
       [&](const tbb::blocked_range<size_t>& range) {

@@ -180,6 +180,13 @@ MatrixXd GapRows::Thin(int segment, const MatrixXd& signal) const {
                                bandwidth_hz_));
 }
 
+MatrixXd GapRows::Thin(int segment,
+                       const std::vector<const VectorXd*>& signals) const {
+  return ThinnedLowPass(signals, 1 / segments_[segment].motion.dt,
+                        bandwidth_hz_, skip_[segment], stride_[segment],
+                        thin_begin_[segment + 1] - thin_begin_[segment]);
+}
+
 // Rows are whitened by the joint's autoregression, and weighed by sqrt(v / (v +
 // extra^2)), v the noise's variance: what else may be wrong with a sample is
 // white and known for itself. Reconstructed torques are known to a share of

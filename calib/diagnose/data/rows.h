@@ -58,6 +58,9 @@ class GapRows {
 
   // A fine signal (samples x any) of a segment, low-passed and thinned.
   Eigen::MatrixXd Thin(int segment, const Eigen::MatrixXd& signal) const;
+  // The same of signals in columns wherever they lie.
+  Eigen::MatrixXd Thin(
+      int segment, const std::vector<const Eigen::VectorXd*>& signals) const;
   // The same without the low pass.
   Eigen::MatrixXd Pick(int segment, const Eigen::MatrixXd& signal) const;
 

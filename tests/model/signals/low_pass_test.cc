@@ -149,6 +149,27 @@ TEST(LowPassMemory, IsWhenAStepIsForgotten) {
   EXPECT_LT((y.tail(n - at - memory).array() - 1).abs().maxCoeff(), 1e-9);
 }
 
+// Whether signals are filtered or, at their rate, passed as they are.
+TEST(ThinnedLowPass, IsRowsOfTheWhole) {
+  constexpr int kSignals = 11, kFirst = 7, kStride = 9, kCount = 30;
+  const MatrixXd x = MatrixXd::NullaryExpr(300, kSignals, [](int k, int c) {
+    return std::sin(.1 * k * (c + 1)) + c;
+  });
+  std::vector<VectorXd> columns;
+  for (int c = 0; c < kSignals; ++c) columns.push_back(x.col(c));
+  std::vector<const VectorXd*> all;
+  for (const VectorXd& column : columns) all.push_back(&column);
+  for (const double cutoff : {4., 60.}) {
+    const MatrixXd whole = ZeroPhaseLowPass(x, 100, cutoff);
+    const MatrixXd thin =
+        ThinnedLowPass(all, 100, cutoff, kFirst, kStride, kCount);
+    for (int k = 0; k < kCount; ++k) {
+      EXPECT_EQ(thin.row(k), whole.row(kFirst + k * kStride)) << cutoff;
+    }
+  }
+  EXPECT_EQ(ThinnedLowPass({}, 100, 4, 0, 1, 3).cols(), 0);
+}
+
 TEST(Differentiate, IsExactOnPolynomials) {
   const double dt = .01;
   const int n = 40;
