@@ -49,8 +49,20 @@ void InterpolateColumns(const Eigen::MatrixXd& x, int k, double share,
   // Slopes at k and next, per step, are one-sided at the ends.
   const double a = s * r * r / (next > before ? next - before : 1);
   const double b = -s * s * r / (after > k ? after - k : 1);
-  *at = r * r * (1 + 2 * s) * x.col(k) + s * s * (1 + 2 * r) * x.col(next) +
-        a * (x.col(next) - x.col(before)) + b * (x.col(after) - x.col(k));
+  const double of_this = r * r * (1 + 2 * s), of_next = s * s * (1 + 2 * r);
+  const Eigen::Index rows = x.rows();
+  at->resize(rows);
+  // Columns are short: expressions of them would take longer than their sums.
+  const double* const first = x.data();
+  const double* const here = first + k * rows;
+  const double* const ahead = first + next * rows;
+  const double* const behind = first + before * rows;
+  const double* const beyond = first + after * rows;
+  double* const to = at->data();
+  for (Eigen::Index j = 0; j < rows; ++j) {
+    to[j] = of_this * here[j] + of_next * ahead[j] +
+            a * (ahead[j] - behind[j]) + b * (beyond[j] - here[j]);
+  }
 }
 
 }  // namespace armcal

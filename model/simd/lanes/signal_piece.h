@@ -29,14 +29,28 @@ ARMCAL_INLINE Lanes Gather(const double* const* from, long sample) {
   return x;
 }
 
-ARMCAL_INLINE SignalPiece PieceAt(const double* const* signal, long k,
-                                  long last) {
-  const bool first = k == 0, ends = k + 1 == last;
-  const Lanes at = Gather(signal, k), next = Gather(signal, k + 1);
-  const Lanes before = first ? at : Gather(signal, k - 1);
-  const Lanes after = ends ? next : Gather(signal, k + 2);
-  return {at, next, (next - before) * (first ? 1 : .5),
-          (after - at) * (ends ? 1 : .5)};
-}
+// A signal's pieces one after the other: of four samples that one takes three
+// are there from the last.
+struct SignalPieces {
+  const double* const* signal;
+  long last;  // sample
+  Lanes before, at, next, after;
+
+  ARMCAL_INLINE SignalPieces(const double* const* of, long samples)
+      : signal(of), last(samples - 1) {
+    next = Gather(signal, 0);
+    after = Gather(signal, last > 0 ? 1 : 0);
+  }
+  // Of sample k to the next, for k = 0, 1, .. last - 1.
+  ARMCAL_INLINE SignalPiece MoveTo(long k) {
+    const bool first = k == 0, ends = k + 1 == last;
+    before = first ? next : at;
+    at = next;
+    next = after;
+    if (!ends) after = Gather(signal, k + 2);
+    return {at, next, (next - before) * (first ? 1 : .5),
+            (after - at) * (ends ? 1 : .5)};
+  }
+};
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

@@ -45,6 +45,7 @@ ARMCAL_INLINE void SolveStage(const SpringLanes& spring, const Integers& active,
       const Lanes scale =
           Largest(Largest(Magnitude(x), Magnitude(v)), Broadcast(1e-12));
       open &= Magnitude(left) > kTolerance * scale;
+      if (All(open == 0)) break;
       const Lanes by_deflection = T.by_deflection + load.stiffness;
       const Lanes by_rate = T.by_rate + load.damping;
       const Lanes slope = 1 + step * (by_deflection * step_d + by_rate);
@@ -117,11 +118,6 @@ struct LinkLanes {
     }
   }
 
-  ARMCAL_INLINE LinkPieces PiecesAt(long k, long last) const {
-    return {PieceAt(load, k, last), PieceAt(stiffness, k, last),
-            PieceAt(damping, k, last), PieceAt(inertia, k, last)};
-  }
-
   // Half a sample.
   ARMCAL_INLINE void Advance(const LinkPieces& pieces, const StageWeights* at) {
     for (int i = 0; i < most; ++i, at += 2) {
@@ -153,6 +149,8 @@ __attribute__((noinline)) void FollowLinks(const DeflectedLink* const* links,
   auto* weights = ARMCAL_SCRATCH(StageWeights, 4 * lanes.most);
   lanes.SetWeights(weights);
   Lanes before = lanes.rate;
+  SignalPieces load(lanes.load, samples), stiffness(lanes.stiffness, samples);
+  SignalPieces damping(lanes.damping, samples), inertia(lanes.inertia, samples);
   for (long k = 0; k < samples; ++k) {
     const bool first = k == 0, last = k + 1 == samples;
     for (int i = 0; i < count; ++i) {
@@ -161,7 +159,8 @@ __attribute__((noinline)) void FollowLinks(const DeflectedLink* const* links,
     }
     LinkPieces pieces;
     if (!last) {
-      pieces = lanes.PiecesAt(k, samples - 1);
+      pieces = {load.MoveTo(k), stiffness.MoveTo(k), damping.MoveTo(k),
+                inertia.MoveTo(k)};
       lanes.Advance(pieces, weights);
     }
     const double time = ((first ? 0 : .5) + (last ? 0 : .5)) * dt;
