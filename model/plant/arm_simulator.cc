@@ -226,8 +226,11 @@ void ArmSimulator::Substep(double t, double share, double h) {
   VectorXd load;
   for (int i = 0; i < WMethod::kStages; ++i) {
     const double node = WMethod::kNode[i];
-    x_stage_ = i == 0 ? x_ : x_ + node * h * k_[i - 1];
-    Derivative(x_stage_, t + node * h, share + node * h / step_);
+    // A step begins with its rates there already.
+    if (i > 0 || share > 0) {
+      x_stage_ = i == 0 ? x_ : x_ + node * h * k_[i - 1];
+      Derivative(x_stage_, t + node * h, share + node * h / step_);
+    }
     if (i == 0) load = next_load_;
     k_[i] = rate_;
     if (implicit_) MakeImplicit(i, h);
