@@ -51,7 +51,8 @@ HeldOutFit FitHeldOut(const Robot& robot, const WiringSamples& samples) {
   const HeldOutHalves halves(robot, samples);
   const TorqueFit whole(robot, samples.motion);
   const auto size = static_cast<double>(samples.tau.rows());
-  const VectorXd all = samples.tau.colwise().squaredNorm() / size;
+  const VectorXd all =
+      whole.InMotion(samples.tau).colwise().squaredNorm() / size;
   HeldOutFit result;
   result.joints.resize(3, samples.tau.cols());
   const auto set = [&](int row, const VectorXd& squares, double count) {
@@ -66,6 +67,14 @@ HeldOutFit FitHeldOut(const Robot& robot, const WiringSamples& samples) {
         static_cast<double>(unseen.rows()));
   }
   set(2, whole.Squares(whole.Parameters(samples.tau), samples.tau), size);
+  const Eigen::MatrixXd tau = whole.InMotion(samples.tau);
+  const VectorXd counts =
+      whole.InMotion(Eigen::MatrixXd::Ones(tau.rows(), tau.cols()))
+          .colwise()
+          .sum();
+  const VectorXd sums = tau.colwise().sum();
+  result.variation =
+      1 - sums.array().square() / (counts.array() * all.array() * size + 1e-18);
   result.residual_percent =
       100 * std::sqrt(.5 * (result.all[0] + result.all[1]));
   return result;
@@ -81,11 +90,24 @@ bool IsClearlyBetter(const HeldOutFit& as_is, const HeldOutFit& changed,
       after += changed.joints(row, j) + kLeastRelative;
       if (!(changed.joints(row, j) < kHalf)) return false;
     }
-    const bool of_all =
-        changed.all[row] < kHalf * as_is.all[row] && changed.all[row] < kHalf;
+    const bool of_all = changed.all[row] + kLeastRelative <
+                            kHalf * (as_is.all[row] + kLeastRelative) &&
+                        changed.all[row] < kHalf;
     if (!of_all && !(after < kTenth * before)) return false;
   }
   return true;
+}
+
+bool IsFirstToExplain(const HeldOutFit& as_is, const HeldOutFit& changed,
+                      int j) {
+  for (int row = 0; row < 3; ++row) {
+    const double before = as_is.joints(row, j), after = changed.joints(row, j);
+    const double half = kHalf * as_is.variation[j];
+    if (!(before > half && after < half && after < kHalf * before)) {
+      return false;
+    }
+  }
+  return changed.residual_percent < as_is.residual_percent;
 }
 
 bool IsBetterForAll(const HeldOutFit& as_is, const HeldOutFit& changed) {

@@ -34,6 +34,9 @@ struct HeldOutFit {
   Eigen::Matrix<double, 3, Eigen::Dynamic> joints;  // per joint
   Eigen::Vector3d all;                              // of all joints together
   double residual_percent = 0;  // rms over rms torque, of both halves
+  // Per joint, what the torque varies by about its mean: squares over those of
+  // the torque. An offset alone leaves as much.
+  Eigen::VectorXd variation;
 };
 HeldOutFit FitHeldOut(const Robot& robot, const WiringSamples& samples);
 
@@ -41,7 +44,14 @@ HeldOutFit FitHeldOut(const Robot& robot, const WiringSamples& samples);
 // what is wrong with the columns of some joints (`of`), from what all have.
 bool IsClearlyBetter(const HeldOutFit& as_is, const HeldOutFit& changed,
                      const std::vector<int>& of);
-// The same of something that concerns all joints alike, such as a delay.
+// Whether the other reading is the first that explains how joint j's torque
+// varies: more than half of that is left as it is, and less than half by the
+// other, which leaves less than half of what was left, in both halves and all
+// samples. No wrong reading of a right log does that, whatever else its model
+// lacks: as it is, friction and load of the joint explain its torque.
+bool IsFirstToExplain(const HeldOutFit& as_is, const HeldOutFit& changed,
+                      int j);
+// IsClearlyBetter of something that concerns all joints alike, such as a delay.
 bool IsBetterForAll(const HeldOutFit& as_is, const HeldOutFit& changed);
 
 }  // namespace armcal

@@ -156,7 +156,8 @@ class Inspector {
                                           OptionName("torque_constants");
       return;
     }
-    const ReadingFinding found = FindReading(robot_, series, Tells());
+    const ReadingFinding found =
+        FindReading(robot_, series, Tells(), !result_.clock.wrong());
     result_.reading = found.reading;
     result_.as_it_is = found.changes.empty() && !result_.clock.wrong();
     result_.residual_percent = found.residual_percent;
@@ -233,8 +234,23 @@ class Inspector {
           "log the torque with its sign", lost.joint};
       finding.held_out_before = lost.before;
       finding.held_out_after = lost.after;
+      DropSigns(lost.joint);
       result_.findings.push_back(finding);
     }
+  }
+
+  // What has no sign had the wrong one in most samples, not in all.
+  void DropSigns(int j) {
+    auto& all = result_.findings;
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [&](const InspectionFinding& f) {
+                               return f.joint == j &&
+                                      (f.finding == "torque_sign" ||
+                                       f.finding == "position_sign");
+                             }),
+              all.end());
+    result_.reading.wiring.torque_sign[j] = 1;
+    result_.reading.wiring.position_sign[j] = 1;
   }
 
   const Robot& robot_;

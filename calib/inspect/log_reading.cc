@@ -5,9 +5,12 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "calib/inspect/held_out_fit.h"
 #include "calib/inspect/reading_candidates.h"
+#include "calib/inspect/torque_delay.h"
 #include "model/robot/axis_rotation.h"
 
 namespace armcal {
@@ -35,9 +38,10 @@ bool IsOneSign(Kind kind) {
 class Reader {
  public:
   Reader(const Robot& robot, const UniformSeries& series,
-         const std::vector<bool>& tells)
+         const std::vector<bool>& tells, bool asks_gravity)
       : robot_(robot),
         series_(series),
+        asks_gravity_(asks_gravity),
         samples_(kSamplesOfReading * 7 / std::max(7, robot.num_joints())),
         best_(robot) {
     const Eigen::VectorXd moving =
@@ -85,7 +89,7 @@ class Reader {
     return FitOf(reading).Misfit(SamplesOf(reading).tau, percent);
   }
 
-  std::vector<Candidate> Candidates() const {
+  std::vector<Candidate> Candidates() {
     std::vector<Candidate> all = WiringCandidates(best_, asked_);
     const double magnitude =
         robot_.gravity.norm() > 0 ? robot_.gravity.norm() : 9.81;
@@ -113,33 +117,54 @@ class Reader {
     std::sort(order.begin(), order.end(),
               [&](size_t a, size_t b) { return misfits[a] < misfits[b]; });
     std::map<Kind, int> asked;
+    std::optional<std::pair<size_t, HeldOutFit>> gravity;
     for (const size_t k : order) {
-      if (!(misfits[k] < least_ - kLeastGain)) return false;
-      if (asked[all[k].change.kind]++ >= kMostAsked) continue;
+      if (!(misfits[k] < least_ - kLeastGain)) break;
+      const Kind kind = all[k].change.kind;
+      if (asked[kind]++ >= kMostAsked) continue;
       const HeldOutFit held_out = HeldOut(all[k].reading);
       if (!Confirms(all[k].change, held_out)) continue;
-      NoteOtherSign(misfits, held_out, k, &all);
-      double sum = 0;
-      for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
-      Accept(all[k], misfits[k], std::min(1., 1 / sum), held_out);
+      // Gravity turned gives joints that carry nothing a load to be fitted to:
+      // where what concerns one joint explains as much, it is that.
+      if (kind == Kind::kGravity) {
+        if (!gravity) gravity = {k, held_out};
+        continue;
+      }
+      if (gravity && IsClearlyBetter(held_out, gravity->second, {})) break;
+      Take(k, held_out, misfits, &all);
       return true;
     }
-    return false;
+    if (gravity) Take(gravity->first, gravity->second, misfits, &all);
+    return gravity.has_value();
+  }
+
+  void Take(size_t k, const HeldOutFit& held_out,
+            const std::vector<double>& misfits, std::vector<Candidate>* all) {
+    NoteOtherSign(misfits, held_out, k, all);
+    double sum = 0;
+    for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
+    Accept((*all)[k], misfits[k], std::min(1., 1 / sum), held_out);
   }
 
   // The offsets and first moments of one joint that moves alone say the same as
   // gravity's direction.
   bool AsksGravity() const {
-    return num_moving_ > 1 || robot_.num_joints() == 1;
+    return asks_gravity_ && (num_moving_ > 1 || robot_.num_joints() == 1);
   }
 
   bool Confirms(const ReadingChange& change, const HeldOutFit& held_out) const {
-    if (change.kind == Kind::kDelay) return IsBetterForAll(held_out_, held_out);
+    if (change.kind == Kind::kDelay) {
+      return IsBetterForAll(held_out_, held_out) ||
+             (joints_agree_ &&
+              held_out.residual_percent < held_out_.residual_percent);
+    }
     std::vector<int> of;
     for (const int j : {change.joint, change.other}) {
       if (j >= 0) of.push_back(j);
     }
-    return IsClearlyBetter(held_out_, held_out, of);
+    return IsClearlyBetter(held_out_, held_out, of) ||
+           (IsOneSign(change.kind) &&
+            IsFirstToExplain(held_out_, held_out, change.joint));
   }
 
   // Whether the sign of the joint's other signal would do as well, or nearly
@@ -219,39 +244,39 @@ class Reader {
     }
   }
 
-  // By coarse steps, then by the parabola through the best three.
-  Candidate BestDelay() const {
-    constexpr double kMost = .08, kStep = .005;
+  // What the joints agree on, else what is best for all of them together.
+  Candidate BestDelay() {
     Candidate best{best_, {Kind::kDelay}};
-    const TorqueFit fit = FitOf(best_);  // the motion stays
-    const auto misfit_at = [&](double delay) {
-      LogReading at = best_;
-      at.delay = delay;
-      return fit.Misfit(SamplesOf(at).tau);
-    };
-    double least = least_, delay = best_.delay;
-    for (int k = -static_cast<int>(kMost / kStep); k * kStep <= kMost; ++k) {
-      const double here = misfit_at(k * kStep);
-      if (here >= least) continue;
-      least = here;
-      delay = k * kStep;
+    std::vector<bool> asked;
+    for (const int column : best_.wiring.column) {
+      asked.push_back(asked_[column]);
     }
-    const double before = misfit_at(delay - kStep);
-    const double after = misfit_at(delay + kStep);
-    const double curvature = before + after - 2 * least;
-    if (curvature > 0) delay += kStep * (before - after) / (2 * curvature);
-    best.reading.delay = std::abs(delay) < kLeastDelay ? best_.delay : delay;
+    const TorqueDelay found = FindTorqueDelay(
+        FitOf(best_),
+        [&](double delay) {
+          LogReading at = best_;
+          at.delay = delay;
+          return SamplesOf(at).tau;
+        },
+        asked);
+    joints_agree_ = found.IsBeyond(kLeastDelay);
+    const double delay = joints_agree_ ? found.mean : found.best;
+    if (joints_agree_ || (found.inside && std::abs(delay) > kLeastDelay)) {
+      best.reading.delay = delay;
+    }
     return best;
   }
 
   const Robot& robot_;
   const UniformSeries& series_;
+  const bool asks_gravity_;
   const int samples_;
   LogReading best_;
   double least_ = 0;
   HeldOutFit held_out_;      // of best_
   std::vector<bool> asked_;  // of columns as logged, whether signs are asked
   int num_moving_ = 0;
+  bool joints_agree_ = false;  // on the delay of the latest candidates
   std::vector<ReadingChange> changes_;
 };
 
@@ -271,8 +296,8 @@ WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
 }
 
 ReadingFinding FindReading(const Robot& robot, const UniformSeries& series,
-                           const std::vector<bool>& tells) {
-  return Reader(robot, series, tells).Run();
+                           const std::vector<bool>& tells, bool asks_gravity) {
+  return Reader(robot, series, tells, asks_gravity).Run();
 }
 
 }  // namespace armcal

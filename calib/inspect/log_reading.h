@@ -28,8 +28,10 @@ struct ReadingFinding {
 // that the fit has not seen, what IsClearlyBetter and IsBetterForAll say. Of
 // signs and order nothing is asked of joints that hardly move, nor of those
 // whose torque `tells` nothing (empty: all tell); of gravity nothing where one
-// of several joints moves.
+// of several joints moves, nor where it is not to be asked: accelerations by a
+// time that was rebuilt are rough, and a load that turns explains some of that.
 ReadingFinding FindReading(const Robot& robot, const UniformSeries& series,
-                           const std::vector<bool>& tells = {});
+                           const std::vector<bool>& tells = {},
+                           bool asks_gravity = true);
 
 }  // namespace armcal

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "calib/inspect/held_out_fit.h"
+#include "calib/numerics/median.h"
 
 namespace armcal {
 namespace {
@@ -15,7 +16,7 @@ using Eigen::VectorXd;
 
 constexpr int kSignRounds = 8;       // of signs and parameters
 constexpr double kLeastTurned = .1;  // of the samples
-// Of squares, before and after: more is explained than is left.
+// Of squares, before and after, in each half: more is explained than is left.
 constexpr double kMostLeftOfSize = .5;
 
 VectorXd SignsOf(const VectorXd& x) {
@@ -39,11 +40,21 @@ std::vector<VectorXd> FirstSigns(const Motion& motion, const VectorXd& size,
   return signs;
 }
 
+// Of errors where the torque counts. A drive that rings as its joint turns
+// round leaves a few large ones, which the torque's size folds to one side.
+double MedianSquare(const VectorXd& errors, const VectorXd& tau) {
+  std::vector<double> squares;
+  for (Eigen::Index k = 0; k < errors.size(); ++k) {
+    if (tau[k] != 0) squares.push_back(errors[k] * errors[k]);
+  }
+  return squares.empty() ? 0 : Quantile(squares, .5);
+}
+
 // Parameters fitted to one half with joint j's signs as the fit has them, by
 // the best of all starts.
 VectorXd FitWithSigns(const HeldOutHalves& halves, int half, int j) {
-  MatrixXd tau = halves.half(half).tau;
   const TorqueFit& fit = halves.fit(half);
+  MatrixXd tau = fit.InMotion(halves.half(half).tau);
   const VectorXd size = tau.col(j).cwiseAbs();
   VectorXd best;
   double least = std::numeric_limits<double>::infinity();
@@ -67,20 +78,26 @@ std::optional<UnsignedTorque> Ask(const HeldOutHalves& halves, int j) {
   UnsignedTorque found{j};
   double before = 0, after = 0, all = 0, samples = 0;
   for (int half = 0; half < 2; ++half) {
-    const VectorXd unseen = halves.half(1 - half).tau.col(j);
     const TorqueFit& judge = halves.fit(1 - half);
+    const VectorXd unseen = judge.InMotion(halves.half(1 - half).tau).col(j);
     const VectorXd as_logged =
         judge.Torque(halves.fit(half).Parameters(halves.half(half).tau)).col(j);
     const VectorXd free = judge.Torque(FitWithSigns(halves, half, j)).col(j);
-    before += (as_logged - unseen).squaredNorm();
-    after += (free.cwiseAbs() - unseen.cwiseAbs()).squaredNorm();
+    const VectorXd of_logged = as_logged - unseen;
+    const VectorXd of_size = free.cwiseAbs() - unseen.cwiseAbs();
+    if (!(MedianSquare(of_size, unseen) <
+          kMostLeftOfSize * MedianSquare(of_logged, unseen))) {
+      return std::nullopt;
+    }
+    before += of_logged.squaredNorm();
+    after += of_size.squaredNorm();
     found.turned +=
         static_cast<double>((free.array() * unseen.array() < 0).count());
     all += unseen.squaredNorm();
-    samples += static_cast<double>(unseen.size());
+    samples += static_cast<double>((unseen.array() != 0).count());
   }
   found.turned /= samples;
-  if (!(after < kMostLeftOfSize * before)) return std::nullopt;
+  if (!(after < before)) return std::nullopt;
   if (std::min(found.turned, 1 - found.turned) < kLeastTurned) {
     return std::nullopt;
   }

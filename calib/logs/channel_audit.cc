@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "calib/logs/stamp_hole.h"
 #include "calib/numerics/median.h"
 #include "model/text/format.h"
 #include "model/text/option_name.h"
@@ -19,9 +20,6 @@ constexpr double kStuckTime = 1;  // s of motion
 constexpr double kLostShare = .1;
 constexpr double kAtLimit = .02;  // share of samples
 constexpr int kFewValues = 40;
-// s: a quarter of the period of the 8 Hz to which torques are compared. Motion
-// is not known over a longer hole.
-constexpr double kHole = .03125;
 constexpr double kJump = 5;     // usual steps, of 1 s of motion that was missed
 constexpr double kQuanta = 10;  // of position, that a velocity goes through
 
@@ -232,6 +230,7 @@ class ChannelAudit {
     const double low = tau.minCoeff(), high = tau.maxCoeff();
     if (low == high) return;
     for (const double limit : {low, high}) {
+      if (limit == 0) continue;  // a drive that rests
       const double share =
           static_cast<double>((tau.array() == limit).count()) / log_.size();
       if (share < kAtLimit) continue;
@@ -274,18 +273,23 @@ StampFigures AuditStamps(const Log& log) {
   if (steps.empty()) return figures;
   figures.step = Quantile(steps, .2);
   figures.longest_gap = *std::max_element(steps.begin(), steps.end());
-  figures.mean_step =
-      (log.t[log.size() - 1] - log.t[0]) / static_cast<double>(steps.size());
   // Arms are logged every 0.1 ms to 0.25 s.
   constexpr double kSlowest = .25;
   while (figures.step * figures.unit > kSlowest && figures.unit > 1e-9) {
     figures.unit /= 1000;
   }
+  double between = 0;
   for (const double step : steps) {
-    if (step <= 3 * figures.step || step * figures.unit <= kHole) continue;
-    ++figures.holes;
-    figures.hole_time += step * figures.unit;
+    if (IsHole(step * figures.unit, figures.step * figures.unit)) {
+      ++figures.holes;
+      figures.hole_time += step * figures.unit;
+    } else {
+      between += step;
+    }
   }
+  figures.mean_step = between / static_cast<double>(std::max(
+                                    1L, static_cast<long>(steps.size()) -
+                                            static_cast<long>(figures.holes)));
   long periods = 0, lost = 0;
   for (const double step : steps) {
     const double ratio = step / figures.step;

@@ -14,9 +14,10 @@ using Eigen::VectorXd;
 
 constexpr double kLongestDelay = .1;  // s, of torques
 
-// Rows of `values` at `times`, on straight lines between stamps.
-MatrixXd Interpolate(const VectorXd& stamps, const MatrixXd& values,
-                     const VectorXd& times) {
+}  // namespace
+
+MatrixXd Interpolated(const VectorXd& stamps, const MatrixXd& values,
+                      const VectorXd& times) {
   MatrixXd at(times.size(), values.cols());
   Eigen::Index k = 0;
   for (Eigen::Index s = 0; s < times.size(); ++s) {
@@ -29,8 +30,6 @@ MatrixXd Interpolate(const VectorXd& stamps, const MatrixXd& values,
   return at;
 }
 
-}  // namespace
-
 UniformSeries::UniformSeries(const Log& log, double dt, double longest_gap,
                              double bandwidth_hz)
     : dt_(dt) {
@@ -41,11 +40,11 @@ UniformSeries::UniformSeries(const Log& log, double dt, double longest_gap,
   motion_.t0 = log.t[0];
   motion_.dt = dt;
   motion_.q =
-      ZeroPhaseLowPass(Interpolate(log.t, log.q, times), 1 / dt, bandwidth_hz);
+      ZeroPhaseLowPass(Interpolated(log.t, log.q, times), 1 / dt, bandwidth_hz);
   motion_.qd = Differentiate(motion_.q, dt);
   motion_.qdd = Differentiate(motion_.qd, dt);
   if (log.tau.size() > 0) {
-    tau_ = ZeroPhaseLowPass(Interpolate(log.t, log.tau, times), 1 / dt,
+    tau_ = ZeroPhaseLowPass(Interpolated(log.t, log.tau, times), 1 / dt,
                             bandwidth_hz);
   }
   const int reach =

@@ -8,6 +8,11 @@
 
 namespace armcal {
 
+// Rows of `values` at ascending `times`, on straight lines between stamps.
+Eigen::MatrixXd Interpolated(const Eigen::VectorXd& stamps,
+                             const Eigen::MatrixXd& values,
+                             const Eigen::VectorXd& times);
+
 // A log in memory on a uniform grid, low-passed: what questions about a whole
 // log are asked of.
 class UniformSeries {

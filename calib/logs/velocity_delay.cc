@@ -1,69 +1,123 @@
 #include "calib/logs/velocity_delay.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "calib/logs/uniform_series.h"
 
 namespace armcal {
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double kStretch = .05;          // s
 constexpr double kLeastLateness = .0125;  // s; filters and drives have less
-constexpr double kAlike = .3;        // of both halves' delays, of their mean
+constexpr double kMostLateness = .08;     // s, as torques are asked for
+constexpr double kLatenessStep = .0025;   // s
+constexpr double kAlikeDelays = .3;  // of both halves' delays, of their mean
 constexpr double kMostLeft = .5;     // of squares, with and without a delay
 constexpr int kParts = 8;            // every second one is a half
 constexpr int kLeastStretches = 10;  // of a half
 
-struct Stretches {
-  MatrixXd columns;  // integral of qd, change of qd
-  VectorXd change;   // of q
-};
-
-// Of half 0 or 1 of the log.
-Stretches StretchesOf(const Log& log, int j, int half) {
-  const double dt = (log.t[log.size() - 1] - log.t[0]) / (log.size() - 1);
-  const int rows = std::max(1, static_cast<int>(std::lround(kStretch / dt)));
-  const int count = (log.size() - 1) / rows;
-  Stretches all{MatrixXd(count, 2), VectorXd(count)};
-  int size = 0;
-  for (int s = 0; s < count; ++s) {
-    if (s * kParts / count % 2 != half) continue;
-    const int begin = s * rows, end = begin + rows;
-    double way = 0;
-    for (int k = begin; k < end; ++k) {
-      way += .5 * (log.qd(k, j) + log.qd(k + 1, j)) * (log.t[k + 1] - log.t[k]);
+// What a position changes by in stretches, and its velocity's integral over
+// the same stretches some time later.
+class Stretches {
+ public:
+  Stretches(const Log& log, int j) : t_(log.t), way_(log.size()) {
+    const double dt = (t_[log.size() - 1] - t_[0]) / (log.size() - 1);
+    const int rows = std::max(1, static_cast<int>(std::lround(kStretch / dt)));
+    way_[0] = 0;
+    for (int k = 0; k + 1 < log.size(); ++k) {
+      way_[k + 1] = way_[k] + .5 * (log.qd(k, j) + log.qd(k + 1, j)) *
+                                  (t_[k + 1] - t_[k]);
     }
-    all.columns.row(size) << way, log.qd(end, j) - log.qd(begin, j);
-    all.change[size++] = log.q(end, j) - log.q(begin, j);
+    std::vector<double> begins, ends, change;
+    for (int begin = 0; begin + rows < log.size(); begin += rows) {
+      const int end = begin + rows;
+      if (t_[begin] < t_[0] + kMostLateness) continue;
+      if (t_[end] > t_[log.size() - 1] - kMostLateness) break;
+      begins.push_back(t_[begin]);
+      ends.push_back(t_[end]);
+      change.push_back(log.q(end, j) - log.q(begin, j));
+    }
+    const auto size = static_cast<Eigen::Index>(change.size());
+    begins_ = Eigen::Map<VectorXd>(begins.data(), size);
+    ends_ = Eigen::Map<VectorXd>(ends.data(), size);
+    change_ = Eigen::Map<VectorXd>(change.data(), size);
   }
-  return {all.columns.topRows(size), all.change.head(size)};
-}
 
-double Left(const Stretches& s, const Vector2d& law) {
-  return (s.change - s.columns * law).squaredNorm();
-}
+  int size() const { return static_cast<int>(change_.size()); }
+
+  // Of each half: the gain that fits it, and what it leaves of both.
+  struct Left {
+    double of[2][2] = {};  // [fitted half][judged half]
+    bool known = true;
+  };
+  Left At(double delay) const {
+    const VectorXd way = Interpolated(t_, way_, ends_.array() + delay) -
+                         Interpolated(t_, way_, begins_.array() + delay);
+    double square[2] = {}, product[2] = {};
+    for (int s = 0; s < size(); ++s) {
+      square[HalfOf(s)] += way[s] * way[s];
+      product[HalfOf(s)] += way[s] * change_[s];
+    }
+    Left left;
+    left.known = square[0] > 0 && square[1] > 0;
+    for (int fitted = 0; left.known && fitted < 2; ++fitted) {
+      const double gain = product[fitted] / square[fitted];
+      for (int s = 0; s < size(); ++s) {
+        const double error = change_[s] - gain * way[s];
+        left.of[fitted][HalfOf(s)] += error * error;
+      }
+    }
+    return left;
+  }
+
+ private:
+  int HalfOf(int s) const { return s * kParts / size() % 2; }
+
+  const VectorXd t_;
+  VectorXd way_;
+  VectorXd begins_, ends_, change_;
+};
 
 }  // namespace
 
 std::optional<double> VelocityDelay(const Log& log, int j) {
-  const Stretches halves[] = {StretchesOf(log, j, 0), StretchesOf(log, j, 1)};
+  const Stretches stretches(log, j);
+  if (stretches.size() < 2 * kLeastStretches) return {};
+  const int reach =
+      static_cast<int>(std::lround(kMostLateness / kLatenessStep));
+  std::vector<Stretches::Left> left;
+  for (int k = -reach; k <= reach; ++k)
+    left.push_back(stretches.At(k * kLatenessStep));
+  const Stretches::Left& as_is = left[reach];
   double delays[2];
   for (int half = 0; half < 2; ++half) {
-    const Stretches &seen = halves[half], &unseen = halves[1 - half];
-    const double square = seen.columns.col(0).squaredNorm();
-    if (seen.change.size() < kLeastStretches || !(square > 0)) return {};
-    const Vector2d gain(seen.columns.col(0).dot(seen.change) / square, 0);
-    const Vector2d law = seen.columns.colPivHouseholderQr().solve(seen.change);
-    if (!(Left(unseen, law) < kMostLeft * Left(unseen, gain))) return {};
-    delays[half] = law[1] / law[0];
+    int best = reach;
+    for (int k = 0; k <= 2 * reach; ++k) {
+      if (!left[k].known) return {};
+      if (left[k].of[half][half] < left[best].of[half][half]) best = k;
+    }
+    // At an end of what was searched nothing is least.
+    if (best == 0 || best == 2 * reach) return {};
+    if (!(left[best].of[half][1 - half] <
+          kMostLeft * as_is.of[half][1 - half])) {
+      return {};
+    }
+    const double before = left[best - 1].of[half][half];
+    const double here = left[best].of[half][half];
+    const double after = left[best + 1].of[half][half];
+    const double curvature = before + after - 2 * here;
+    delays[half] = (best - reach) * kLatenessStep;
+    if (curvature > 0)
+      delays[half] += kLatenessStep * (before - after) / 2 / curvature;
   }
   const double mean = .5 * (delays[0] + delays[1]);
   if (!(std::abs(mean) > kLeastLateness)) return {};
-  if (std::abs(delays[0] - delays[1]) > kAlike * std::abs(mean)) return {};
+  if (std::abs(delays[0] - delays[1]) > kAlikeDelays * std::abs(mean))
+    return {};
   return mean;
 }
 

@@ -1,7 +1,11 @@
 #include "calib/logs/velocity_law.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+
+#include "calib/logs/stamp_hole.h"
+#include "calib/numerics/median.h"
 
 namespace armcal {
 namespace {
@@ -34,8 +38,26 @@ bool IsDerived(const VectorXd& dt, const VectorXd& qd, const VectorXd& dq) {
          (dq - dt.cwiseProduct(qd.head(size))).norm() < least;
 }
 
+// Steps across a hole of the stamps, and those beside: over that time a
+// velocity is not the mean of its ends.
+std::vector<Eigen::Index> StepsAtHoles(const VectorXd& dt) {
+  const std::vector<double> steps(dt.data(), dt.data() + dt.size());
+  const double usual = Quantile(steps, .5);
+  std::vector<Eigen::Index> found;
+  for (Eigen::Index k = 0; k < dt.size(); ++k) {
+    for (Eigen::Index i = std::max<Eigen::Index>(0, k - 1);
+         i <= std::min(dt.size() - 1, k + 1); ++i) {
+      if (!IsHole(dt[i], usual)) continue;
+      found.push_back(k);
+      break;
+    }
+  }
+  return found;
+}
+
+// Steps `without` tell nothing: they are 0 in all.
 VelocityLaw FitLaw(const VectorXd& dt, const VectorXd& v, const VectorXd& dq,
-                   VectorXd* change) {
+                   const std::vector<Eigen::Index>& without, VectorXd* change) {
   const Eigen::Index size = v.size();
   MatrixXd columns = MatrixXd::Zero(size, 3);
   columns.col(0) = v.cwiseProduct(dt);
@@ -46,6 +68,7 @@ VelocityLaw FitLaw(const VectorXd& dt, const VectorXd& v, const VectorXd& dq,
     columns(k, 1) = (v[k + 1] - v[k - 1]) * dt[k] / around;
     columns(k, 2) = (v[k + 1] - 2 * v[k] + v[k - 1]) / dt[k];
   }
+  for (const Eigen::Index k : without) columns.row(k).setZero();
   VelocityLaw law;
   *change = dq;
   Vector3d scale = columns.colwise().norm();
@@ -72,15 +95,18 @@ VelocitySteps FitVelocityLaws(const Log& log) {
   all.dt = log.t.tail(steps) - log.t.head(steps);
   all.v = .5 * (log.qd.topRows(steps) + log.qd.bottomRows(steps));
   all.change.resize(steps, joints);
+  const std::vector<Eigen::Index> without = StepsAtHoles(all.dt);
   for (Eigen::Index j = 0; j < joints; ++j) {
-    const VectorXd dq = log.q.col(j).tail(steps) - log.q.col(j).head(steps);
+    VectorXd dq = log.q.col(j).tail(steps) - log.q.col(j).head(steps);
+    for (const Eigen::Index k : without) dq[k] = 0;
     VectorXd change;
-    all.laws.push_back(FitLaw(all.dt, all.v.col(j), dq, &change));
+    all.laws.push_back(FitLaw(all.dt, all.v.col(j), dq, without, &change));
     VelocityLaw& law = all.laws.back();
     law.derived = IsDerived(all.dt, log.qd.col(j), dq);
     law.usable = law.usable && !law.derived;
     all.change.col(j) = change;
   }
+  for (const Eigen::Index k : without) all.v.row(k).setZero();
   for (Eigen::Index k = 0; k < steps; ++k) {
     all.still.push_back(log.q.row(k) == log.q.row(k + 1));
   }

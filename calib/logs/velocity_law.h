@@ -24,7 +24,8 @@ struct VelocityLaw {
 };
 
 // What all joints say of every step of a log: rows are steps (one fewer than
-// the log's rows), columns are joints.
+// the log's rows), columns are joints. v and change are 0 at holes of the
+// stamps.
 struct VelocitySteps {
   Eigen::VectorXd dt;             // s, of the stamps
   Eigen::MatrixXd v;              // rad/s or m/s

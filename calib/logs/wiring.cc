@@ -17,6 +17,9 @@ using Eigen::VectorXd;
 constexpr double kTransition = .03;  // rad/s or m/s, of Coulomb friction
 constexpr double kLeastMass = 1e-3;  // kg, of a link whose file has none
 constexpr int kTermsOfJoint = 4;     // viscous, Coulomb, offset, armature
+// Of a joint's rms speed. Of a sine 9 % of the time is slower; between .1 and
+// .3 the logs of ../shared/data are fitted alike well.
+constexpr double kLeastSpeed = .2;
 constexpr double kLeastShare = .01;  // of the torque: no model is better
 
 // Torque of a unit of every link's inertial parameters and every joint's terms.
@@ -39,8 +42,22 @@ std::vector<MatrixXd> Columns(const Robot& robot, const Motion& motion) {
   return columns;
 }
 
-double RootMeanSquare(const VectorXd& x) {
-  return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
+// Of `count` values that are not left out.
+double RootMeanSquare(const VectorXd& x, double count) {
+  return std::sqrt(x.squaredNorm() / std::max(1., count));
+}
+
+// 1 where a joint moves. Where it all but stands still its friction may be
+// anything up to what breaks it loose, either way: no function of the motion,
+// and of heavy arms the most of what a fit would leave.
+MatrixXd MovingSamples(const Motion& motion) {
+  MatrixXd moves(motion.qd.rows(), motion.qd.cols());
+  for (Eigen::Index j = 0; j < moves.cols(); ++j) {
+    const double rms = RootMeanSquare(motion.qd.col(j), motion.size());
+    moves.col(j) =
+        (motion.qd.col(j).array().abs() > kLeastSpeed * rms).cast<double>();
+  }
+  return moves;
 }
 
 }  // namespace
@@ -67,7 +84,10 @@ WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring) {
 }
 
 TorqueFit::TorqueFit(const Robot& robot, const Motion& motion)
-    : columns_(Columns(robot, motion)) {
+    : columns_(Columns(robot, motion)), moves_(MovingSamples(motion)) {
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    columns_[j].array().colwise() *= moves_.col(j).array();
+  }
   const int n = robot.num_joints(), size = 10 * n + kTermsOfJoint * n;
   for (const MatrixXd& columns : columns_) {
     MatrixXd square = MatrixXd::Zero(size, size);
@@ -96,10 +116,18 @@ VectorXd TorqueFit::Solve(const MatrixXd& tau, const VectorXd& variance,
     const double weight = 1 / (variance[j] + 1e-18);
     A += weight * squares_[j];
     b += weight * columns_[j].transpose() * tau.col(j);
-    // Next to nothing, so that what does not move has a value.
-    const double rms = RootMeanSquare(tau.col(j));
-    A.diagonal().segment(10 * n + kTermsOfJoint * j, kTermsOfJoint).array() +=
-        1e-4 / (rms * rms + 1e-12);
+    // One term of a joint makes no more torque than the joint has: two that the
+    // motion hardly tells apart, such as an offset and Coulomb friction of a
+    // joint that goes one way, would cancel each other at a hundred times that
+    // and leave it where the motion goes elsewhere. What does not move has a
+    // value by next to nothing.
+    const double samples = std::max(1., moves_.col(j).sum());
+    const double rms = RootMeanSquare(tau.col(j), samples);
+    const int own = 10 * n + kTermsOfJoint * j;
+    A.diagonal().segment<kTermsOfJoint>(own).array() +=
+        (squares_[j].diagonal().segment<kTermsOfJoint>(own).array() / samples +
+         1e-4) /
+        (rms * rms + 1e-12);
   }
   for (size_t c = 0; c < held.size(); ++c) {
     if (!held[c]) continue;
@@ -122,13 +150,14 @@ void TorqueFit::HoldNegative(const VectorXd& x, std::vector<bool>* held) const {
   }
 }
 
-TorqueFit::Fitted TorqueFit::FitTo(const MatrixXd& tau) const {
+TorqueFit::Fitted TorqueFit::FitTo(const MatrixXd& all) const {
   constexpr int kRounds = 3;  // of the joints' noise
   const auto n = static_cast<int>(columns_.size());
-  const auto samples = static_cast<double>(tau.rows());
+  const MatrixXd tau = InMotion(all);
+  const VectorXd samples = moves_.colwise().sum().cwiseMax(1);
   VectorXd variance(n);
   for (int j = 0; j < n; ++j)
-    variance[j] = std::pow(.1 * RootMeanSquare(tau.col(j)), 2);
+    variance[j] = std::pow(.1 * RootMeanSquare(tau.col(j), samples[j]), 2);
   std::vector<bool> held(nominal_.size(), false);
   Fitted fitted;
   for (int round = 0; round < kRounds; ++round) {
@@ -138,9 +167,10 @@ TorqueFit::Fitted TorqueFit::FitTo(const MatrixXd& tau) const {
     fitted.misfit = .5 * off.dot(prior_ * off);
     fitted.squares = Squares(fitted.x, tau);
     for (int j = 0; j < n; ++j) {
-      const double least = kLeastShare * RootMeanSquare(tau.col(j)) + 1e-9;
-      variance[j] = fitted.squares[j] / samples + least * least;
-      fitted.misfit += .5 * samples * std::log(variance[j]);
+      const double least =
+          kLeastShare * RootMeanSquare(tau.col(j), samples[j]) + 1e-9;
+      variance[j] = fitted.squares[j] / samples[j] + least * least;
+      fitted.misfit += .5 * samples[j] * std::log(variance[j]);
     }
   }
   return fitted;
@@ -149,7 +179,8 @@ TorqueFit::Fitted TorqueFit::FitTo(const MatrixXd& tau) const {
 double TorqueFit::Misfit(const MatrixXd& tau, double* residual_percent) const {
   const Fitted fitted = FitTo(tau);
   if (residual_percent != nullptr) {
-    *residual_percent = 100 * std::sqrt(fitted.squares.sum()) / tau.norm();
+    *residual_percent =
+        100 * std::sqrt(fitted.squares.sum()) / InMotion(tau).norm();
   }
   return fitted.misfit;
 }
@@ -169,7 +200,7 @@ MatrixXd TorqueFit::Torque(const VectorXd& parameters) const {
 
 VectorXd TorqueFit::Squares(const VectorXd& parameters,
                             const MatrixXd& tau) const {
-  return (tau - Torque(parameters)).colwise().squaredNorm();
+  return (InMotion(tau) - Torque(parameters)).colwise().squaredNorm();
 }
 
 }  // namespace armcal

@@ -29,7 +29,8 @@ WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring);
 
 // How well torques fit an arm that moves like this, with inertias, friction and
 // armature fitted as they can be: friction takes power, and inertias are those
-// of the file to their own size (InertialPrior, trust 1).
+// of the file to their own size (InertialPrior, trust 1). Nothing is asked of a
+// joint where it stands still.
 class TorqueFit {
  public:
   TorqueFit(const Robot& robot, const Motion& motion);
@@ -47,6 +48,10 @@ class TorqueFit {
                           const Eigen::MatrixXd& tau) const;
   // samples x n, N m or N.
   Eigen::MatrixXd Torque(const Eigen::VectorXd& parameters) const;
+  // Torques that the fit takes notice of; 0 where a joint stands still.
+  Eigen::MatrixXd InMotion(const Eigen::MatrixXd& tau) const {
+    return moves_.cwiseProduct(tau);
+  }
 
  private:
   // What the rounds of a fit come to.
@@ -61,6 +66,7 @@ class TorqueFit {
   void HoldNegative(const Eigen::VectorXd& x, std::vector<bool>* held) const;
 
   std::vector<Eigen::MatrixXd> columns_, squares_;  // per joint
+  Eigen::MatrixXd moves_;  // samples x n: 1 where the joint moves, else 0
   Eigen::VectorXd nominal_;
   Eigen::MatrixXd prior_;
 };

@@ -3,15 +3,17 @@
 
 Reads ../shared/data, writes to a temporary folder. Each kind is planted once in each
 log that can hold it (a clock is told by recorded velocities, so it is planted where there
-are some; a lost sign where a torque has two). Joints, places and sizes are drawn from a
-seed that is the names of log and kind. Logs are split: those of BUILD were looked at
+are some; a lost sign where a torque has two). Joints and places are drawn from a seed
+that is the names of log and kind, and of --seed, with which sizes are drawn, too: .7 to 1.6
+times those that the kinds' sentences have. Logs are split: those of BUILD were looked at
 while the inspection was written, those of FINAL once, at the end.
 
-    python3 tests/real/planted_faults.py --armcal=build/armcal --part=final
+What is said beside is counted: findings that neither name what was planted nor follow from
+it nor are said of the log as it was.
+
+    python3 tests/real/planted_faults.py --armcal=build/armcal --part=final --seed=1
 """
 import argparse
-import csv
-import gzip
 import json
 import random
 import subprocess
@@ -23,9 +25,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 import result_files  # noqa: E402
+from planted_log import DATA, UR10E, Log  # noqa: E402
 
-DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
-UR10E = ("--torque_constants=14.87,13.26,11.13,10.62,11.03,11.47",)
 # (folder, log, robot, flags)
 BUILD = [("panda", "log.csv", "robot.urdf", ()),
          ("ur10e_free", "id_20s.csv", "robot.urdf", UR10E),
@@ -40,81 +41,31 @@ FINAL = [("ur10e_free", "id_50s.csv", "robot.urdf", UR10E),
 LEAST_SHARE = .95
 
 
-class Log:
-    """Columns of a log, in rows: t and, per joint, q, qd (or None) and torque."""
+class Draw(random.Random):
+    """Draws of a case; sizes are the usual ones where no seed is given."""
 
-    def __init__(self, path):
-        opened = gzip.open if path.suffix == ".gz" else open
-        with opened(path, "rt", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-        header = rows[0]
-        table = [[float(x) for x in row] for row in rows[1:]]
-        column = {name: [row[k] for row in table] for k, name in enumerate(header)}
-        self.torque = "tau" if "tau1" in column else "i"
-        self.joints = sum(1 for name in column if name[0] == "q" and name[1:].isdigit())
-        self.t = column["t"]
-        self.columns = {s: [column[f"{s}{j + 1}"] for j in range(self.joints)]
-                        for s in ("q", "qd", self.torque) if f"{s}1" in column}
+    def __init__(self, case, seed):
+        super().__init__(f"{case}/{seed}" if seed else case)
+        self.seeded = bool(seed)
 
-    def size(self):
-        return len(self.t)
-
-    def signals(self, j):
-        return [self.columns[s][j] for s in self.columns]
-
-    def keep(self, rows):
-        self.t = [self.t[k] for k in rows]
-        for columns in self.columns.values():
-            columns[:] = [[x[k] for k in rows] for x in columns]
-
-    def speed(self, j):
-        """rms, of the positions over stretches of about 20 ms"""
-        q = self.columns["q"][j]
-        reach = max(1, round(.02 * self.size() / (self.t[-1] - self.t[0])))
-        slopes = [(q[k + reach] - q[k]) / (self.t[k + reach] - self.t[k])
-                  for k in range(0, self.size() - reach, reach)]
-        return (sum(s * s for s in slopes) / len(slopes)) ** .5
-
-    def moving(self):
-        """Joints that move at a fifth of the fastest one's speed at least."""
-        speeds = [self.speed(j) for j in range(self.joints)]
-        return [j for j in range(self.joints) if speeds[j] > .2 * max(speeds)]
-
-    def late(self, x, delay):
-        """The column as it was `delay` s ago."""
-        k, values = 0, []
-        for t in self.t:
-            at = max(self.t[0], t - delay)
-            while k + 2 < self.size() and self.t[k + 1] < at:
-                k += 1
-            step = self.t[k + 1] - self.t[k]
-            share = min(1, max(0, (at - self.t[k]) / step)) if step > 0 else 0
-            values.append((1 - share) * x[k] + share * x[k + 1])
-        return values
-
-    def write(self, path):
-        with open(path, "w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file)
-            names = [f"{s}{j + 1}" for s in self.columns for j in range(self.joints)]
-            writer.writerow(["t"] + names)
-            all_columns = [x for s in self.columns for x in self.columns[s]]
-            writer.writerows([format(t, ".9g")] + [format(x[k], ".9g") for x in all_columns]
-                             for k, t in enumerate(self.t))
+    def size(self, usual):
+        return usual * self.uniform(.7, 1.6) if self.seeded else usual
 
 
 def negate(x):
     x[:] = [-value for value in x]
 
 
-def fast_clock(log, _):
+def fast_clock(log, draw):
     """Stamps of a clock that is 3 % fast."""
-    log.t = [1.03 * t for t in log.t]
+    rate = 1 + draw.size(.03)
+    log.t = [rate * t for t in log.t]
 
 
 def hidden_holes(log, draw):
     """4 % of the rows lost in bursts of 2 to 8, and stamps that go on as if none were."""
-    stamps, lost = list(log.t), set()
-    while len(lost) < .04 * log.size():
+    stamps, lost, share = list(log.t), set(), draw.size(.04)
+    while len(lost) < share * log.size():
         begin = draw.randrange(1, log.size() - 9)
         lost.update(range(begin, begin + draw.randint(2, 8)))
     log.keep([k for k in range(log.size()) if k not in lost])
@@ -142,22 +93,22 @@ def exchanged(log, draw):
     return a
 
 
-def late_torques(log, _):
-    columns = log.columns[log.torque]
-    columns[:] = [log.late(x, .03) for x in columns]
+def late_torques(log, draw):
+    columns, delay = log.columns[log.torque], draw.size(.03)
+    columns[:] = [log.late(x, delay) for x in columns]
 
 
 def late_velocity(log, draw):
     j = draw.choice(log.moving())
-    log.columns["qd"][j] = log.late(log.columns["qd"][j], .03)
+    log.columns["qd"][j] = log.late(log.columns["qd"][j], draw.size(.03))
     return j
 
 
 def repeated_rows(log, draw):
     """3 rows of 10 are the row before."""
-    rows = [0]
+    rows, share = [0], draw.size(.3)
     for k in range(1, log.size()):
-        rows.append(rows[-1] if draw.random() < .3 else k)
+        rows.append(rows[-1] if draw.random() < share else k)
     stamps = log.t
     log.keep(rows)
     log.t = stamps
@@ -167,7 +118,8 @@ def held_torque(log, draw):
     """One joint's torque is new in every fourth row."""
     j = draw.choice(log.moving())
     x = log.columns[log.torque][j]
-    x[:] = [x[k - k % 4] for k in range(log.size())]
+    every = round(draw.size(4))
+    x[:] = [x[k - k % every] for k in range(log.size())]
     return j
 
 
@@ -175,7 +127,7 @@ def stuck_position(log, draw):
     """2.5 s, or four tenths of a shorter log, while the joint moves as it mostly does."""
     j = draw.choice(log.moving())
     q = log.columns["q"][j]
-    rows = round(min(2.5, .4 * (log.t[-1] - log.t[0])) * log.size() /
+    rows = round(min(draw.size(2.5), .4 * (log.t[-1] - log.t[0])) * log.size() /
                  (log.t[-1] - log.t[0]))
     begins = [draw.randrange(log.size() - rows) for _ in range(9)]
     travel = sorted((max(q[b:b + rows]) - min(q[b:b + rows]), b) for b in begins)
@@ -205,6 +157,12 @@ def holes(log, draw):
             (draw.uniform(log.t[0], log.t[-1] - .3) for _ in range(4))]
     log.keep([k for k in range(log.size())
               if not any(begin < log.t[k] < end for begin, end in lost)])
+
+
+# What is true, too, of a log with a fault: repeated rows are not of their stamps' time, a
+# position that stands still is not that of its velocity.
+FOLLOWS = {"rows repeated": {"clock"}, "a position stuck": {"velocity"},
+           "holes in the stamps": {"lost_samples"}}
 
 
 def has_velocity(log):
@@ -258,23 +216,38 @@ def inspect(armcal, case, path, work):
     return json.loads((out / "inspect.json").read_text())["logs"][0]["findings"]
 
 
+def said(finding):
+    return f"{finding['finding']}@{finding['joint_index']}"
+
+
 def words(findings):
-    return ", ".join(f"{f['finding']}@{f['joint_index']}" for f in findings) or "nothing"
+    return ", ".join(said(f) for f in findings) or "nothing"
+
+
+def untouched(armcal, case, work):
+    """What is said of the log as it is."""
+    path = work / f"{case[0]}_{case[1].split('.')[0]}.csv"
+    Log(DATA / case[0] / case[1]).write(path)
+    return {said(f) for f in inspect(armcal, case, path, work)}
 
 
 def plant(job):
-    armcal, case, kind, work = job
+    armcal, case, kind, seed, before, work = job
     make, can, names = KINDS[kind]
     log = Log(DATA / case[0] / case[1])
     if not can(log):
-        return case, kind, None, ""
-    joint = make(log, random.Random(f"{case[0]}/{case[1]}/{kind}"))
+        return case, kind, None, 0, ""
+    joint = make(log, Draw(f"{case[0]}/{case[1]}/{kind}", seed))
     path = work / f"{case[0]}_{case[1].split('.')[0]}_{kind.replace(' ', '_')}.csv"
     log.write(path)
     findings = inspect(armcal, case, path, work)
     found = any(named(f, names, joint) for f in findings)
+    beside = [f for f in findings if said(f) not in before and
+              not named(f, names, joint) and
+              f["finding"] not in FOLLOWS.get(kind, set())]
     place = "" if joint is None else f"@{joint + 1}"
-    return case, kind, found, f"{place}: {words(findings)}"
+    also = f"; beside it {words(beside)}" if beside else ""
+    return case, kind, found, len(beside), f"{place}: {words(findings)}{also}"
 
 
 def main():
@@ -283,6 +256,7 @@ def main():
     parser.add_argument("--part", choices=("build", "final", "all"), default="all")
     parser.add_argument("--kind", default="", help="only kinds whose name holds this")
     parser.add_argument("--log", default="", help="only logs whose name holds this")
+    parser.add_argument("--seed", default="", help="draws other joints, places and sizes")
     result_files.add_flag(parser)
     arguments = parser.parse_args()
     if not DATA.exists():
@@ -291,16 +265,27 @@ def main():
     cases = {"build": BUILD, "final": FINAL, "all": BUILD + FINAL}[arguments.part]
     armcal = Path(arguments.armcal).resolve()
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
-        jobs = [(armcal, case, kind, Path(folder)) for case in cases for kind in KINDS
-                if arguments.kind in kind and arguments.log in "/".join(case[:2])]
+        cases = [case for case in cases if arguments.log in "/".join(case[:2])]
+        work = Path(folder)
+        before = pool.map(lambda case: untouched(armcal, case, work), cases)
+        jobs = [(armcal, case, kind, arguments.seed, said_before, work)
+                for case, said_before in zip(cases, before) for kind in KINDS
+                if arguments.kind in kind]
         results = [r for r in pool.map(plant, jobs) if r[2] is not None]
-    for case, kind, found, text in results:
+    for case, kind, found, _, text in results:
         print(f"{'found ' if found else 'MISSED'} {case[0]}/{case[1]}, {kind}{text}")
     found = sum(r[2] for r in results)
-    print(f"{found} of {len(results)} found ({100 * found / max(1, len(results)):.1f} %)")
+    beside = sum(r[3] for r in results)
+    print(f"{found} of {len(results)} found ({100 * found / max(1, len(results)):.1f} %), "
+          f"{beside} findings beside them")
     if arguments.results:
-        result_files.write(arguments.results, f"real logs with planted faults, part "
-                           f"{arguments.part}: found, of", {"found": [found, len(results)]})
+        by_log = {part: [r[2] for r in results if r[0] in of]
+                  for part, of in (("build", BUILD), ("final", FINAL))}
+        result_files.write(
+            arguments.results, "real logs with planted faults, built on and looked at once: "
+            "found, of; findings beside", {
+                **{part: [sum(found), len(found)] for part, found in by_log.items()},
+                "missed": len(results) - found, "beside": beside})
     return 0 if found >= LEAST_SHARE * len(results) else 1
 
 

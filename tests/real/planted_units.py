@@ -16,7 +16,8 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from planted_faults import DATA, Log, UR10E, result_files
+from planted_faults import result_files
+from planted_log import DATA, UR10E, Log
 
 LOGS = [("panda", "log.csv", ()), ("ur10e_free", "id_20s.csv", UR10E),
         ("dvrk_psm", "reference.csv.gz", ()), ("schunk_lwa4p", "run_080.csv.gz", ()),

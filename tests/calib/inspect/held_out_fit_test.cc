@@ -58,4 +58,40 @@ TEST_F(HeldOutFitTest, ADelayConcernsAllJoints) {
   EXPECT_FALSE(IsBetterForAll(as_is, one_worse));
 }
 
+// A joint slows down and holds on, with all of its friction one way or the
+// other: nothing of that is asked.
+TEST_F(HeldOutFitTest, WhatFrictionHoldsAtRestIsNotAsked) {
+  Log log = arm_.log;
+  const double rms = ColumnRms(log.tau)[5];
+  for (int k = 0; k < log.size(); ++k) {
+    if (std::abs(log.qd(k, 5)) < .1 * ColumnRms(log.qd)[5]) {
+      log.tau(k, 5) = k / 8 % 2 == 0 ? rms : -rms;
+    }
+  }
+  EXPECT_LT(Fit(log).joints(2, 5), .003);
+}
+
+// As it is nothing of how the torque varies is explained, then all of it: this
+// tells a sign where the joint has a tenth of all torques.
+TEST_F(HeldOutFitTest, TheFirstThatExplains) {
+  Log wrong = arm_.log;
+  wrong.tau.col(5) *= -1;
+  const HeldOutFit as_is = Fit(wrong), right = Fit(arm_.log);
+  EXPECT_TRUE(IsFirstToExplain(as_is, right, 5));
+  EXPECT_FALSE(IsFirstToExplain(right, as_is, 5));
+  EXPECT_FALSE(IsFirstToExplain(as_is, right, 1));
+}
+
+// Half of next to nothing is nothing: no model is that good.
+TEST_F(HeldOutFitTest, HalfOfNothingIsNotClear) {
+  HeldOutFit as_is = Fit(arm_.log), changed = as_is;
+  as_is.all.setConstant(2e-5);
+  changed.all.setConstant(5e-6);
+  changed.residual_percent = .5 * as_is.residual_percent;
+  EXPECT_FALSE(IsClearlyBetter(as_is, changed, {}));
+  as_is.all.setConstant(2e-3);
+  changed.all.setConstant(5e-4);
+  EXPECT_TRUE(IsClearlyBetter(as_is, changed, {}));
+}
+
 }  // namespace armcal::held_out_fit_test

@@ -39,6 +39,17 @@ TEST_F(InspectionTest, ACleanLogIsClean) {
   EXPECT_TRUE(coverage.findings.empty());
 }
 
+// Most of it is turned round, too, but no sign that is turned back mends it.
+TEST_F(InspectionTest, WhatHasNoSignHasNoWrongOne) {
+  Log wrong = arm_.log;
+  const double rms = ColumnRms(wrong.tau)[0];
+  wrong.tau.col(0) = (wrong.tau.col(0).array() - rms).abs().eval();
+  const LogInspection inspection = Inspect(wrong);
+  ASSERT_EQ(inspection.findings.size(), 1u);
+  EXPECT_EQ(inspection.findings[0].finding, "unsigned_torque");
+  EXPECT_EQ(Mended(arm_.robot, wrong, inspection).tau, wrong.tau);
+}
+
 TEST_F(InspectionTest, AWrongSignIsNamedAndMended) {
   Log wrong = arm_.log;
   wrong.tau.col(1) *= -1;

@@ -83,6 +83,15 @@ TEST_F(LogReadingTest, GravityElsewhere) {
   EXPECT_LT((found.reading.gravity - truth).norm(), .05 * truth.norm());
 }
 
+TEST_F(LogReadingTest, GravityThatIsNotAskedFor) {
+  robot_.gravity = Eigen::AngleAxisd(.5, Vector3d::UnitX()) * robot_.gravity;
+  for (const ReadingChange& change :
+       FindReading(robot_, UniformSeries(log_, .01, .05, 8), {}, false)
+           .changes) {
+    EXPECT_NE(change.kind, Kind::kGravity);
+  }
+}
+
 TEST_F(LogReadingTest, TorquesWithoutGravity) {
   Robot weightless = robot_;
   weightless.gravity.setZero();

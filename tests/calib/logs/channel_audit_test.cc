@@ -99,6 +99,25 @@ TEST_F(ChannelAuditTest, TorqueAtItsLimit) {
   EXPECT_THAT(Names(), ElementsAre("saturated"));
 }
 
+// A drive that is off half of the time and pushes one way.
+TEST_F(ChannelAuditTest, NothingIsCutOffAtZero) {
+  const Eigen::VectorXd tau = arm_.log.tau.col(0);
+  arm_.log.tau.col(0) = (tau.array() - tau.mean()).max(0);
+  EXPECT_THAT(Names(), IsEmpty());
+}
+
+// The step is that between the rows that are there.
+TEST_F(ChannelAuditTest, HolesLeaveTheStep) {
+  std::vector<int> rows;
+  for (int k = 0; k < arm_.log.size(); ++k) {
+    if (k % 100 < 70) rows.push_back(k);
+  }
+  Keep(rows);
+  const StampFigures stamps = AuditStamps(arm_.log);
+  EXPECT_EQ(stamps.holes, 10);
+  EXPECT_NEAR(stamps.mean_step, .01, 1e-9);
+}
+
 TEST_F(ChannelAuditTest, CoarseTorque) {
   const double step = arm_.log.tau.col(0).cwiseAbs().maxCoeff() / 15;
   arm_.log.tau.col(0) = step * (arm_.log.tau.col(0) / step).array().round();

@@ -48,6 +48,18 @@ TEST_F(SampleClockTest, ARightClockIsRight) {
   EXPECT_EQ(clock.t.size(), 0);
 }
 
+// Velocities at a hole's ends say nothing of the time in between.
+TEST_F(SampleClockTest, HolesThatStampsTellAreRight) {
+  std::vector<int> rows;
+  for (int k = 0; k < log_.size(); ++k) {
+    if (k % 150 < 125) rows.push_back(k);
+  }
+  Keep(rows);
+  const SampleClock clock = EstimateSampleClock(log_);
+  EXPECT_GE(clock.windows, 20);
+  EXPECT_FALSE(clock.wrong());
+}
+
 TEST_F(SampleClockTest, ARateIsFound) {
   log_.t /= 1.03;
   const SampleClock clock = EstimateSampleClock(log_);

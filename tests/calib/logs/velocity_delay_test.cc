@@ -45,4 +45,24 @@ TEST_F(VelocityDelayTest, AScaleIsNone) {
   EXPECT_FALSE(VelocityDelay(log_, 1));
 }
 
+// 12 Hz turns round within the stretches of 50 ms that are compared.
+TEST_F(VelocityDelayTest, OfAWobble) {
+  for (int k = 0; k < log_.size(); ++k) {
+    const double phase = 2 * M_PI * 12 * log_.t[k];
+    log_.q(k, 2) += .01 * std::sin(phase);
+    log_.qd(k, 2) += .01 * 2 * M_PI * 12 * std::cos(phase);
+  }
+  EXPECT_FALSE(VelocityDelay(log_, 2));
+  MakeLate(2, 3);
+  const auto delay = VelocityDelay(log_, 2);
+  ASSERT_TRUE(delay);
+  EXPECT_NEAR(*delay, .03, .003);
+}
+
+// A delay that is longer than what is searched has no least value in it.
+TEST_F(VelocityDelayTest, BeyondWhatIsSearched) {
+  MakeLate(2, 20);
+  EXPECT_FALSE(VelocityDelay(log_, 2));
+}
+
 }  // namespace armcal::velocity_delay_test
