@@ -6,7 +6,8 @@ log that can hold it (a clock is told by recorded velocities, so it is planted w
 are some; a lost sign where a torque has two). Joints and places are drawn from a seed
 that is the names of log and kind, and of --seed, with which sizes are drawn, too: .7 to 1.6
 times those that the kinds' sentences have. Logs are split: those of BUILD were looked at
-while the inspection was written, those of FINAL once, at the end.
+while the inspection was written, those of FINAL later; a seed that nobody has used draws
+what nobody has looked at.
 
 What is said beside is counted: findings that neither name what was planted nor follow from
 it nor are said of the log as it was.
@@ -282,7 +283,7 @@ def main():
         by_log = {part: [r[2] for r in results if r[0] in of]
                   for part, of in (("build", BUILD), ("final", FINAL))}
         result_files.write(
-            arguments.results, "real logs with planted faults, built on and looked at once: "
+            arguments.results, "real logs with planted faults, built on and others: "
             "found, of; findings beside", {
                 **{part: [sum(found), len(found)] for part, found in by_log.items()},
                 "missed": len(results) - found, "beside": beside})
