@@ -51,8 +51,8 @@ HeldOutFit FitHeldOut(const Robot& robot, const WiringSamples& samples) {
   const HeldOutHalves halves(robot, samples);
   const TorqueFit whole(robot, samples.motion);
   const auto size = static_cast<double>(samples.tau.rows());
-  const VectorXd all =
-      whole.InMotion(samples.tau).colwise().squaredNorm() / size;
+  const Eigen::MatrixXd tau = whole.InMotion(samples.tau);
+  const VectorXd all = tau.colwise().squaredNorm() / size;
   HeldOutFit result;
   result.joints.resize(3, samples.tau.cols());
   const auto set = [&](int row, const VectorXd& squares, double count) {
@@ -67,7 +67,6 @@ HeldOutFit FitHeldOut(const Robot& robot, const WiringSamples& samples) {
         static_cast<double>(unseen.rows()));
   }
   set(2, whole.Squares(whole.Parameters(samples.tau), samples.tau), size);
-  const Eigen::MatrixXd tau = whole.InMotion(samples.tau);
   const VectorXd counts =
       whole.InMotion(Eigen::MatrixXd::Ones(tau.rows(), tau.cols()))
           .colwise()

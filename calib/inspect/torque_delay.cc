@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "calib/numerics/lowest_between.h"
+
 namespace armcal {
 namespace {
 
@@ -30,10 +32,8 @@ double DelayAt(double step) { return (step - kDelaySteps) * kDelayStep; }
 
 // Where the parabola through the least value and its neighbours is least.
 double LowestDelay(const VectorXd& profile, Eigen::Index k) {
-  const double before = profile[k - 1], after = profile[k + 1];
-  const double curvature = before + after - 2 * profile[k];
-  const double off = curvature > 0 ? (before - after) / (2 * curvature) : 0;
-  return DelayAt(static_cast<double>(k) + off);
+  return DelayAt(static_cast<double>(k) +
+                 LowestBetween(profile[k - 1], profile[k], profile[k + 1]));
 }
 
 bool IsInside(const VectorXd& profile, Eigen::Index k) {

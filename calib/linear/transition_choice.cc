@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/numerics/lowest_between.h"
 #include "model/simd/kernels.h"
 
 namespace armcal {
@@ -76,9 +77,7 @@ class Chooser {
     const std::vector<double>& g = gain_[joint];
     const int k = choice_[joint];
     if (k == 0 || k + 1 >= static_cast<int>(g.size())) return 0;
-    const double curvature = g[k - 1] - 2 * g[k] + g[k + 1];
-    if (!(curvature < 0)) return 0;
-    return std::clamp(0.5 * (g[k - 1] - g[k + 1]) / curvature, -0.5, 0.5);
+    return std::clamp(LowestBetween(-g[k - 1], -g[k], -g[k + 1]), -0.5, 0.5);
   }
 
  private:

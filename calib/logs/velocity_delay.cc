@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/logs/uniform_series.h"
+#include "calib/numerics/lowest_between.h"
 
 namespace armcal {
 namespace {
@@ -106,13 +107,10 @@ std::optional<double> VelocityDelay(const Log& log, int j) {
           kMostLeft * as_is.of[half][1 - half])) {
       return {};
     }
-    const double before = left[best - 1].of[half][half];
-    const double here = left[best].of[half][half];
-    const double after = left[best + 1].of[half][half];
-    const double curvature = before + after - 2 * here;
-    delays[half] = (best - reach) * kLatenessStep;
-    if (curvature > 0)
-      delays[half] += kLatenessStep * (before - after) / 2 / curvature;
+    const double off =
+        LowestBetween(left[best - 1].of[half][half], left[best].of[half][half],
+                      left[best + 1].of[half][half]);
+    delays[half] = (best - reach + off) * kLatenessStep;
   }
   const double mean = .5 * (delays[0] + delays[1]);
   if (!(std::abs(mean) > kLeastLateness)) return {};

@@ -107,10 +107,6 @@ class Continuation {
   MatrixXd beyond_;
 };
 
-}  // namespace
-
-namespace {
-
 // A low pass of signals of n samples, kSideBySide of them at a time.
 class LowPass {
  public:

@@ -25,11 +25,6 @@ from sets import dfki_acrobot as acrobot  # noqa: E402
 BARS = {"time": .9, "joint": .8, "sign": .75, "windows": .85}
 
 
-def in_time(push, contact, tolerance=.2):
-    return (float(push["t_start"]) - tolerance <= contact[0]
-            <= float(push["t_end"]) + tolerance)
-
-
 def counts(runs, before):
     """{what: [right, of]}: of pushes that begin, and of contacts that are, before
     that time."""
@@ -42,15 +37,15 @@ def counts(runs, before):
         for push in pushes:
             if float(push["t_start"]) >= before:
                 continue
-            near = [c for c in contacts if in_time(push, c)]
-            joint = [c for c in near if c[1] == int(push["joint"]) - 1]
-            sign = [c for c in joint if c[2] * float(push["peak_Nm"]) > 0]
+            near = [c for c in contacts if acrobot.in_time(push, c)]
+            joint = [c for c in near if acrobot.on_joint(push, c)]
+            sign = [c for c in joint if acrobot.with_sign(push, c)]
             for what, those in (("time", near), ("joint", joint), ("sign", sign)):
                 found[what][0] += bool(those)
                 found[what][1] += 1
         for contact in contacts:
             if contact[0] < before:
-                found["windows"][0] += any(in_time(p, contact) for p in pushes)
+                found["windows"][0] += any(acrobot.in_time(p, contact) for p in pushes)
                 found["windows"][1] += 1
     return found
 

@@ -133,14 +133,14 @@ void GapRegression::MakeScreen() {
   screen_->Factor();
 }
 
-// The noise and the baseline's values before these logs. Without a reference a
-// refit with white noise comes first, whose residual is then looked at where
-// the motion repeats or rests (noise.h); differences between repeats do not
-// depend on how good that fit is.
 bool GapRegression::has_several_references() const {
   return reference_ && AreSeveralLogs(reference_->rows().segments());
 }
 
+// The noise and the baseline's values before these logs. Without a reference a
+// refit with white noise comes first, whose residual is then looked at where
+// the motion repeats or rests (noise.h); differences between repeats do not
+// depend on how good that fit is.
 void GapRegression::EstimateNoise() {
   before_ = VectorXd::Zero(baseline_.size());
   if (reference_) {

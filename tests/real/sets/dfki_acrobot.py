@@ -29,12 +29,22 @@ def contacts(diagnosis):
         yield contact["time"], joint, torque[joint]
 
 
-def matches(push, contact, tolerance=.2):
-    time, joint, torque = contact
-    return (float(push["t_start"]) - tolerance <= time
-            <= float(push["t_end"]) + tolerance
-            and joint == int(push["joint"]) - 1
-            and torque * float(push["peak_Nm"]) > 0)
+def in_time(push, contact, tolerance=.2):
+    return (float(push["t_start"]) - tolerance <= contact[0]
+            <= float(push["t_end"]) + tolerance)
+
+
+def on_joint(push, contact):
+    return contact[1] == int(push["joint"]) - 1
+
+
+def with_sign(push, contact):
+    return contact[2] * float(push["peak_Nm"]) > 0
+
+
+def matches(push, contact):
+    return (in_time(push, contact) and on_joint(push, contact)
+            and with_sign(push, contact))
 
 
 def recall(runs):
