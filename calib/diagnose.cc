@@ -100,13 +100,14 @@ DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
 }
 
 // Of a log whose clock was wrong, and whose time is an estimate, no law is told
-// beyond the terms of joints that any file may lack and errors of a recording:
-// where time is off by a little, any law of motion seems to fit a little.
+// beyond the terms of joints that any file may lack and errors of a joint's
+// recording: where time is off by a little, any law of motion seems to fit a
+// little, and what is late on all joints is the estimate of time.
 void LeaveOutLaws(std::vector<std::string>* without) {
   for (const Effect& effect : Effects()) {
-    const bool told =
-        effect.joint_term || effect.nature == Effect::Nature::kRecording;
-    if (!told) without->push_back(effect.name);
+    const bool of_joint = effect.scope == Effect::Scope::kJoint &&
+                          effect.nature == Effect::Nature::kRecording;
+    if (!effect.joint_term && !of_joint) without->push_back(effect.name);
   }
 }
 

@@ -93,7 +93,8 @@ struct Effect {
   // no model has quite right: it has to explain the more.
   bool near_zero = false;
   // Multiples of its linear parameters' sizes that are tried as well, where
-  // torques are far from being in proportion to them.
+  // torques are far from being in proportion to them; negative ones where a
+  // parameter's sign is free.
   std::vector<double> larger_sizes;
   // Whether torque is in proportion to the linear parameters at all sizes. If
   // not (a spring that yields, a limit), a model of a reference log, which is

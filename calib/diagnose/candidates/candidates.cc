@@ -18,6 +18,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Search = EffectParameter::Search;
 
+constexpr size_t kEverywhere = 5;  // larger sizes that are tried at every place
+
 // What the nonlinear parameters of an effect may be.
 struct Shape {
   VectorXd p;
@@ -196,18 +198,24 @@ std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate) {
     larger.back().size *= multiple;
     larger.back().tried *= 1 + candidate.effect->larger_sizes.size();
     larger.back().is_larger = true;
+    // To where the next sizes are nearer.
+    larger.back().least = .5;
+    larger.back().most = 2;
     larger.back().torque.clear();
   }
   return larger;
 }
 
+bool HasMoreLargerOnes(const GapCandidate& candidate) {
+  return candidate.effect->larger_sizes.size() > kEverywhere;
+}
+
 std::vector<GapCandidate> FewLargerOnes(const GapCandidate& candidate) {
-  constexpr size_t kFew = 5;
   const std::vector<GapCandidate> all = LargerOnes(candidate);
-  if (all.size() <= kFew) return all;
+  if (!HasMoreLargerOnes(candidate)) return all;
   std::vector<GapCandidate> few;
-  for (size_t k = 0; k < kFew; ++k) {
-    few.push_back(all[(2 * k + 1) * all.size() / (2 * kFew)]);
+  for (size_t k = 0; k < kEverywhere; ++k) {
+    few.push_back(all[(2 * k + 1) * all.size() / (2 * kEverywhere)]);
   }
   return few;
 }
@@ -233,7 +241,7 @@ bool HasShape(const GapCandidate& candidate) {
 // A candidate at the shape that a fit found, its linear parameters 0 and in
 // units of their fitted values: the column then is the effect's torque at that
 // size, which for what grows otherwise than linearly is not the derivative at
-// 0.
+// 0. A quarter away from that size its course would be another one.
 std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects) {
   std::vector<GapCandidate> sharper;
   for (GapCandidate effect : effects) {
@@ -241,10 +249,14 @@ std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects) {
     for (size_t l = 0; l < effect.linear.size(); ++l) {
       double& p = effect.p[effect.linear[l]];
       // A size matters to what grows with it otherwise than linearly.
-      if (!effect.effect->larger_sizes.empty() && p > 0) effect.size[l] = p;
+      if (!effect.effect->larger_sizes.empty() && p != 0) {
+        effect.size[l] = p;
+        effect.least = .8;
+        effect.most = 1.25;
+      }
       p = 0;
     }
-    effect.is_larger = true;
+    effect.is_larger = effect.is_fitted = true;
     effect.torque.clear();
     sharper.push_back(effect);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,11 @@ struct GapCandidate {
   double prior_penalty = 0;
   int tried = 1;           // shapes of the same effect at the same place
   bool is_larger = false;  // than the first size of its effect
+  bool is_fitted = false;  // its shape and size are those of a fit
+  // Of its coefficient, where its column is the torque at its size and not at
+  // sizes far from it.
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
   bool IsIn(int other_log) const { return log < 0 || log == other_log; }
   std::string place() const;
 };
@@ -56,6 +62,8 @@ bool SwingsInTime(const Effect& effect);
 // The same candidate at the larger sizes of its effect; at a few of them.
 std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate);
 std::vector<GapCandidate> FewLargerOnes(const GapCandidate& candidate);
+// Whether these few are not all.
+bool HasMoreLargerOnes(const GapCandidate& candidate);
 // One candidate (index) of each effect that has larger sizes, at each place.
 std::vector<int> FirstShapes(const std::vector<GapCandidate>& candidates);
 

@@ -35,7 +35,8 @@ class ProjectedResidual : public ceres::CostFunction {
     costs_as_much_together_ =
         coordinates_.size() < VariedEffects::kLanes &&
         std::any_of(some.begin(), some.end(), [](const GapCandidate& effect) {
-          return !effect.effect->larger_sizes.empty();
+          return !effect.effect->proportional &&
+                 !effect.effect->larger_sizes.empty();
         });
     mutable_parameter_block_sizes()->push_back(size());
     set_num_residuals(static_cast<int>(

@@ -49,7 +49,7 @@ bool IsClaimed(const FoundEffect& found) {
   if (found.of_another_day) return true;
   if (!found.contacts.empty()) return found.probability >= Limits().likely;
   if (!IsPossible(found) || IsContradicted(found)) return false;
-  if (!found.joints_agree) return false;
+  if (!found.joints_agree || !found.dissipates) return false;
   if (!IsBeyondScatter(found)) return false;
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;

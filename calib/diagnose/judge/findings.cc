@@ -10,6 +10,7 @@
 #include "calib/diagnose/judge/changed_friction.h"
 #include "calib/diagnose/judge/claims.h"
 #include "calib/diagnose/judge/description.h"
+#include "calib/diagnose/judge/dissipation.h"
 #include "model/effects/effects.h"
 
 namespace armcal {
@@ -123,6 +124,7 @@ FoundEffect Findings::Found(size_t k) const {
     found.joints_agree =
         !agreement.Differ(Limits().form_error) && !agreement.IsOfOneJoint();
   }
+  found.dissipates = !MakesFrictionGivePower(fit_, k);
   // What swings has a phase of its own in each log.
   if (effect.log < 0 && !SwingsInTime(*effect.effect)) {
     found.scatter = fit_.ScatterOf(effect);

@@ -45,6 +45,8 @@ struct FoundEffect {
   std::vector<Contact> contacts;  // of external_contact, in time's order
   // Whether joints tell it alike, if it is of all of them.
   bool joints_agree = true;
+  // Whether friction takes power with it.
+  bool dissipates = true;
   // How much of it the reference's logs show by themselves.
   ReferenceScatter scatter;
   // Whether it is friction of several joints that is that of another day: one

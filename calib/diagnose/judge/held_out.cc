@@ -9,6 +9,7 @@
 
 #include "calib/diagnose/candidates/search.h"
 #include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/judge/contenders.h"
 
 namespace armcal {
 
@@ -67,7 +68,7 @@ HeldOut::HeldOut(const GapFit& fit)
       every_fold_(fit.regression().DataOf(LogPart::AnyFold())),
       rows_(every_fold_.get()) {
   parts_.resize(LogPart::kFolds);
-  const std::vector<int> contenders = fit.Contenders();
+  const std::vector<int> contenders = Contenders(fit);
   tbb::parallel_for(0, LogPart::kFolds, [&](int fold) {
     parts_[fold].predictor = std::make_unique<Predictor>(fit, fold, contenders);
     parts_[fold].data = fit.regression().DataOf(LogPart::Fold(fold));

@@ -1,8 +1,8 @@
 #include "calib/diagnose/judge/predictor.h"
 
 #include <algorithm>
-#include <utility>
 
+#include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/selection.h"
 
 namespace armcal {
@@ -19,20 +19,33 @@ Predictor::Predictor(const GapFit& fit, int left_out,
   Choose(contenders);
 }
 
-// Of those that could be chosen at all, under the noise of the whole fit.
+// Of those that could be chosen at all, under the noise of the whole fit. As in
+// that (CompareRivals), what no real arm can have gives way to what one can.
 void Predictor::Choose(const std::vector<int>& contenders) {
   std::vector<GapCandidate> candidates;
   for (const int c : contenders) {
     candidates.push_back(fit_.candidates()[c]);
   }
-  if (candidates.empty()) return;
   GapScreen screen = own_->screen();
   AddCandidates(own_->rows(), &candidates, &screen);
   screen.Factor();
   SelectionOptions options = fit_.selection_options();
   options.events = false;
-  for (const int c : SelectEffects(screen, candidates, options).chosen) {
-    chosen_.push_back(std::move(candidates[c]));
+  while (!candidates.empty()) {
+    chosen_ = FittedTo(screen, candidates,
+                       SelectEffects(screen, candidates, options).chosen);
+    const auto impossible =
+        std::find_if(chosen_.begin(), chosen_.end(), [&](const auto& one) {
+          return !IsPossible(one, fit_.baseline().robot(), fit_.scale());
+        });
+    if (impossible == chosen_.end()) return;
+    const GapCandidate out = *impossible;
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                    [&out](const GapCandidate& candidate) {
+                                      return SamePlace(candidate, out);
+                                    }),
+                     candidates.end());
+    chosen_.clear();
   }
 }
 

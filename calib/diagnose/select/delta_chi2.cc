@@ -1,6 +1,7 @@
 #include "calib/diagnose/select/delta_chi2.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <vector>
 
 namespace armcal {
@@ -108,7 +109,10 @@ double DeltaChi2Given::Of(size_t i, const VectorXd& conditioned) const {
   if (candidate.columns.size() == 1) {
     const double g = conditioned[candidate.columns[0]];
     const bool wrong = IsPositive(candidate, 0) && g < 0;
-    return !own.used[0] || wrong ? 0 : g * g / own.G(0, 0);
+    if (!own.used[0] || wrong) return 0;
+    const double x =
+        std::clamp(g / own.G(0, 0), candidate.least, candidate.most);
+    return std::max(0., x * (2 * g - own.G(0, 0) * x));
   }
   const VectorXd g = conditioned(candidate.columns);
   std::vector<bool> used = own.used;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <set>
 
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/motion_scale.h"
@@ -138,9 +136,9 @@ void GapFit::Select() {
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<GapCandidate> chosen = pool_.Fitted(selection_.chosen);
     if (std::none_of(chosen.begin(), chosen.end(), HasShape)) return;
-    pool_.Add(
-        Sharper(RefineEffects(screen(), baseline(), scale(), chosen, -1, data())
-                    .effects));
+    pool_.Sharpen(
+        RefineEffects(screen(), baseline(), scale(), chosen, -1, data())
+            .effects);
     const std::vector<int> before = selection_.chosen;
     select();
     if (selection_.chosen.size() == before.size() &&
@@ -373,27 +371,6 @@ void GapFit::Refine() {
     refined_ = RefineEffects(screen(), baseline(), scale(), refined_.effects,
                              -1, data());
   }
-}
-
-std::vector<int> GapFit::Contenders() const {
-  constexpr int kMost = 24;
-  std::set<int> all(selection_.chosen.begin(), selection_.chosen.end());
-  const auto add = [&](const std::vector<int>& given, int k) {
-    const std::vector<int> best = BestPlaces(
-        candidates(),
-        ScoresGiven(screen(), candidates(), options_.selection, given, k),
-        kMost);
-    all.insert(best.begin(), best.end());
-  };
-  add({}, -1);
-  add(selection_.chosen, -1);
-  for (size_t k = 0; k < selection_.chosen.size(); ++k) {
-    add(selection_.chosen, static_cast<int>(k));
-  }
-  std::vector<int> contenders;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(contenders),
-               [this](int c) { return candidates()[c].log < 0; });
-  return contenders;
 }
 
 VectorXd GapFit::BaselineGiven(const std::vector<GapCandidate>& effects) const {

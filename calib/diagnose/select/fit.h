@@ -51,10 +51,6 @@ class GapFit {
     return pool_.candidates();
   }
   const Selection& selection() const { return selection_; }
-  // Candidates (indices) that could be chosen from the same data with somewhat
-  // less of them: the best shape of each effect at each place that scores at
-  // all, alone, in the place of one that was chosen, or beside all.
-  std::vector<int> Contenders() const;
   const RefinedEffects& refined() const { return refined_; }
   // In the order of time.
   const std::vector<GapEvent>& events() const { return events_; }

@@ -31,6 +31,21 @@ void CandidatePool::List() {
   Add(LargerOnesWhereTheyShow());
 }
 
+// What is at all sizes one course that bends (a delay, a wrong zero) is at the
+// fitted size from then on: a column of another one, times a factor, is the
+// torque of no size, and may fit better than all of them. What rings fits at
+// several sizes, and stays in the pool at each.
+void CandidatePool::Sharpen(const std::vector<GapCandidate>& fitted) {
+  std::vector<GapCandidate> sharper = Sharper(fitted);
+  for (const GapCandidate& one : sharper) {
+    if (one.effect->larger_sizes.empty() || !one.effect->proportional) continue;
+    for (GapCandidate& other : candidates_) {
+      if (SamePlace(one, other)) other.least = other.most = 0;
+    }
+  }
+  Add(std::move(sharper));
+}
+
 void CandidatePool::Add(std::vector<GapCandidate> more) {
   if (more.empty()) return;
   Evaluate(&more);
@@ -40,29 +55,16 @@ void CandidatePool::Add(std::vector<GapCandidate> more) {
   regression_.mutable_screen()->Factor();
 }
 
-// The linear parameters of the candidates, solved together: the coefficients of
-// the screen's columns are in units of the candidate's `size`.
 std::vector<GapCandidate> CandidatePool::Fitted(
     const std::vector<int>& which) const {
-  std::vector<GapCandidate> fitted;
-  const GapScreen::Fit fit =
-      regression_.screen().Solve(ColumnsOf(candidates_, which));
-  int at = 0;
-  for (const int c : which) {
-    fitted.push_back(candidates_[c]);
-    GapCandidate& effect = fitted.back();
-    for (size_t l = 0; l < effect.linear.size(); ++l) {
-      effect.p[effect.linear[l]] = fit.coefficients[at++] * effect.size[l];
-    }
-  }
-  return fitted;
+  return FittedTo(regression_.screen(), candidates_, which);
 }
 
 std::vector<GapCandidate> CandidatePool::AFewLargerOnes() const {
   std::vector<GapCandidate> larger;
   for (const int c : FirstShapes(candidates_)) {
     const GapCandidate& candidate = candidates_[c];
-    if (candidate.joint < 0 || !HasMoreThanNoise(candidate.joint)) continue;
+    if (!ShowsMoreThanNoise(candidate)) continue;
     for (const GapCandidate& one : FewLargerOnes(candidate)) {
       larger.push_back(one);
     }
@@ -84,7 +86,7 @@ std::vector<GapCandidate> CandidatePool::LargerOnesWhereTheyShow() const {
   const GapScreen& screen = regression_.screen();
   VectorXd scores = VectorXd::Zero(candidates_.size());
   for (size_t i = 0; i < candidates_.size(); ++i) {
-    if (candidates_[i].effect->larger_sizes.empty()) continue;
+    if (!HasMoreLargerOnes(candidates_[i])) continue;
     scores[i] = screen.Solve(candidates_[i].columns).delta_chi2 -
                 Penalty(screen, candidates_[i]);
   }
@@ -96,6 +98,14 @@ std::vector<GapCandidate> CandidatePool::LargerOnesWhereTheyShow() const {
     }
   }
   return larger;
+}
+
+bool CandidatePool::ShowsMoreThanNoise(const GapCandidate& candidate) const {
+  if (candidate.joint >= 0) return HasMoreThanNoise(candidate.joint);
+  for (int j = 0; j < regression_.rows().num_joints(); ++j) {
+    if (HasMoreThanNoise(j)) return true;
+  }
+  return false;
 }
 
 bool CandidatePool::HasMoreThanNoise(int joint) const {

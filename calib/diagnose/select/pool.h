@@ -19,17 +19,21 @@ class CandidatePool {
   // at a few where there is more than noise, at all of them and in all shapes
   // where they show most.
   void List();
-  // Adds some, and factors again.
-  void Add(std::vector<GapCandidate> more);
+  // Adds those of these fitted effects that have a shape, at that shape.
+  void Sharpen(const std::vector<GapCandidate>& fitted);
 
   const std::vector<GapCandidate>& candidates() const { return candidates_; }
   // Those (indices) with their linear parameters, fitted together.
   std::vector<GapCandidate> Fitted(const std::vector<int>& which) const;
 
  private:
+  // Adds some, and factors again.
+  void Add(std::vector<GapCandidate> more);
   std::vector<GapCandidate> AFewLargerOnes() const;
   std::vector<GapCandidate> LargerOnesWhereTheyShow() const;
   bool HasMoreThanNoise(int joint) const;
+  // On its joint; of the whole robot on any.
+  bool ShowsMoreThanNoise(const GapCandidate& candidate) const;
   void Evaluate(std::vector<GapCandidate>* candidates);
   void Forget();
 

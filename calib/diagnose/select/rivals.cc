@@ -17,12 +17,6 @@ using Eigen::VectorXd;
 
 constexpr double kOut = -std::numeric_limits<double>::infinity();
 
-// What fits about as well as something that can be is not what cannot.
-bool IsPossible(const GapCandidate& effect, const EffectSite& site) {
-  return !effect.effect->plausible ||
-         effect.effect->plausible(EstimatesOf(*effect.effect, site, effect.p));
-}
-
 }  // namespace
 
 // A grid of shapes samples some effects densely and others hardly, and so
@@ -79,8 +73,7 @@ Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
         refined[r].delta_chi2 - by_others -
         RefinedPenalty(screen, rival, static_cast<int>(varied));
     const bool is_possible =
-        IsPossible(refined[r].effects[k],
-                   EffectSite{&baseline.robot(), rival.joint, &scale});
+        IsPossible(refined[r].effects[k], baseline.robot(), scale);
     rivals.scores.push_back({rival.effect, rival.joint, score, is_possible});
     if (is_possible < best_is_possible) continue;
     if (is_possible == best_is_possible && !(score > best_score)) continue;

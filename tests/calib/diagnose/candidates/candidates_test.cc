@@ -109,6 +109,14 @@ TEST(GapCandidates, TorquesAreThoseOfTheSameCandidate) {
   EXPECT_TRUE(evaluated[0].torque.empty());
 }
 
+// A zero is wrong to either side.
+TEST(GapCandidates, SharperOnesKeepTheSign) {
+  const Effect offset = MakeEffect({-30, 30});
+  std::vector<GapCandidate> fitted = {MakeCandidate(offset, 0)};
+  fitted[0].p = Vector2d(-.37, 6);
+  EXPECT_DOUBLE_EQ(Sharper(fitted)[0].size[0], -.37);
+}
+
 // With the shape that was fitted, and the size where that matters.
 TEST(GapCandidates, SharperOnesAreAtTheFit) {
   const Effect grows = MakeEffect({2}), shaped = MakeEffect({});

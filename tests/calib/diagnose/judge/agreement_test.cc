@@ -52,18 +52,14 @@ TEST(AgreementOn, JointsAgreeAboutALargeDelay) {
   constexpr double kDelay = .05;  // s
   const EffectArm arm("2R planar (vertical plane)", 30, .005);
   const GapBaseline baseline(arm.robot, {}, Eigen::VectorXd::Constant(2, 10));
-  GapSegment segment;
-  segment.motion = arm.motion;
-  segment.tau = Delayed(
+  Eigen::MatrixXd tau = Delayed(
       RecordedTorque(arm.robot, baseline.transitions(), arm.motion).nominal(),
       kDelay / arm.motion.dt);
   std::mt19937_64 random(2);
-  AddNoise(&random, Eigen::VectorXd::Constant(2, .05), &segment.tau);
-  segment.still.setConstant(segment.size(), 2, false);
-  segment.motion.torque = {segment.tau, .5 / segment.motion.dt};
+  AddNoise(&random, Eigen::VectorXd::Constant(2, .05), &tau);
   GapFitOptions options;
   options.bandwidth_hz = 6;
-  GapFit fit(baseline, options, {segment}, {});
+  GapFit fit(baseline, options, {MakeSegment(arm.motion, tau)}, {});
   fit.Choose();
   const std::vector<GapCandidate>& found = fit.refined().effects;
   ASSERT_FALSE(found.empty());

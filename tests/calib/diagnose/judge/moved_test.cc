@@ -23,14 +23,11 @@ class GapFitTest : public testing::Test {
         baseline_(arm_.robot, {}, VectorXd::Constant(2, 10)) {}
 
   void Fit(const Robot& truth, double noise) {
-    GapSegment segment;
-    segment.motion = arm_.motion;
-    segment.tau =
+    MatrixXd tau =
         RecordedTorque(truth, baseline_.transitions(), arm_.motion).nominal();
-    AddNoise(&random_, VectorXd::Constant(2, noise), &segment.tau);
-    segment.still.setConstant(segment.size(), 2, false);
+    AddNoise(&random_, VectorXd::Constant(2, noise), &tau);
+    GapSegment segment = MakeSegment(arm_.motion, tau);
     segment.still.col(1).setConstant(stands_);
-    segment.motion.torque = {segment.tau, .5 / segment.motion.dt};
     GapFitOptions options;
     options.bandwidth_hz = kBandwidth;
     fit_.emplace(baseline_, options, std::vector<GapSegment>{segment},

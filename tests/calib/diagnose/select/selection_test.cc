@@ -106,6 +106,30 @@ TEST_F(GapSelectionTest, ALikelyNameIsNotTheRightOne) {
   EXPECT_THAT(Select().chosen, ElementsAre(18));
 }
 
+// The torque at a large size is that of sizes near it: what fits a tenth of it
+// is a small one of another course. The least squares of a x, |x - 1| <= the
+// factor of two, are those of x held at its bound: 2 x g - x^2 G.
+TEST_F(GapSelectionTest, ALargeSizeIsNoSmallOne) {
+  const int large = Add(0, 0, Noise(&random_)),
+            small = Add(1, 0, Column(large));
+  effects_[0].larger_sizes = {10};
+  candidates_[large].is_larger = true;
+  candidates_[large].least = .5;
+  candidates_[large].most = 2;
+  const double G = Column(large).squaredNorm();
+  const auto score = [&](int candidate, double share) {
+    target_[0] = share * Column(large);
+    return ScoresGiven(Screen(), candidates_, {}, {}, -1)[candidate] +
+           Penalty(Screen(), candidates_[candidate]);
+  };
+  EXPECT_NEAR(score(small, .4), .16 * G, 1e-3 * G);
+  EXPECT_NEAR(score(large, .4), (2 * .5 * .4 - .25) * G, 1e-3 * G);
+  EXPECT_NEAR(score(large, 1.3), 1.69 * G, 1e-3 * G);
+  EXPECT_NEAR(score(large, 3), (2 * 2 * 3 - 4) * G, 1e-3 * G);
+  EXPECT_EQ(score(large, .1), 0);
+  EXPECT_EQ(score(large, -1), 0);
+}
+
 // Two that explain alike: the one that was likelier before the data is chosen,
 // and the other one where these speak clearly for it.
 TEST_F(GapSelectionTest, WhatWasImprobableBeforehandNeedsMore) {

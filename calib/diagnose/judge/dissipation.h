@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+
+#include "calib/diagnose/select/fit.h"
+
+namespace armcal {
+
+// Whether with the k-th of the fitted effects friction of some joint gives
+// power, viscous or Coulomb friction below 0 by more than three standard
+// deviations, and would not without it: no law of an arm does that, and the
+// effect stands for something else.
+bool MakesFrictionGivePower(const GapFit& fit, size_t k);
+
+}  // namespace armcal
