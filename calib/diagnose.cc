@@ -10,6 +10,7 @@
 #include "calib/diagnose/report.h"
 #include "calib/diagnose/sentence.h"
 #include "calib/log_clocks.h"
+#include "calib/log_readings.h"
 #include "calib/logs/drawn_torques.h"
 #include "calib/reconstructed_torques.h"
 #include "calib/refine/calibration_reader.h"
@@ -244,6 +245,12 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   }
   DiagnosisOptions fit = FitOptions(options);
   if (!clocks.empty()) LeaveOutLaws(&fit.without);
+  if (options.controller.empty()) {
+    const bool scales =
+        options.reference.logs.empty() && options.calibration.empty();
+    fit.wrong_readings =
+        WrongReadings(robot, AllLogs(logs, options), reading, scales);
+  }
   const std::optional<CalibratedRobot> calibrated =
       Calibrated(robot, options.calibration, &fit.baseline);
   const LogSet training(logs.logs, reading, logs.crop);

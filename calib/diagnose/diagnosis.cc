@@ -319,7 +319,10 @@ void Diagnoser::TellUnexplained() {
 }
 
 void Diagnoser::Judge() {
-  result_.data = AuditTorque(robot_, fit_->rows());
+  result_.data = options_.wrong_readings;
+  for (DataFinding& computed : AuditTorque(robot_, fit_->rows())) {
+    result_.data.push_back(std::move(computed));
+  }
   const bool testable = result_.data.empty();
   if (!result_.torque.known()) {
     result_.data.push_back(TooShortToHoldOut(held_out_->rows()));

@@ -36,6 +36,8 @@ struct DiagnosisOptions {
   std::optional<double> bandwidth_hz;
   SelectionOptions selection;
   std::vector<std::string> without;  // effects that are not considered
+  // What makes these logs those of another arm; nothing is told of it then.
+  std::vector<DataFinding> wrong_readings;
   std::uint64_t seed = 1;
   // Whether held-out logs are simulated as well; along their commands where
   // these and the controller are given, else over windows.

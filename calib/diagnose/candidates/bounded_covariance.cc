@@ -1,6 +1,5 @@
 #include "calib/diagnose/candidates/bounded_covariance.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -38,32 +37,19 @@ void ConditionOnBound(int k, double z, MatrixXd* covariance) {
 }  // namespace
 
 // Where the minimum is cut off by the bound of k alone, the one without bounds
-// is a Newton step away whose k-th part is -C_kk g_k, C = (J'J)^-1 and g_k =
-// J_k' r: z = |g_k| C_kk^(1/2). Several bounds are conditioned on one after the
-// other. A pseudoinverse covers what is left without rank.
-MatrixXd BoundedCovariance(const RowMajorMatrix& J, const VectorXd& residual,
+// is a Newton step away whose k-th part is -C_kk g_k, C the covariance and g
+// the gradient: z = |g_k| C_kk^(1/2). Several bounds are conditioned on one
+// after the other.
+MatrixXd BoundedCovariance(MatrixXd covariance, const VectorXd& gradient,
                            const std::vector<Coordinate>& coordinates,
                            const VectorXd& u) {
   const int size = static_cast<int>(u.size());
-  MatrixXd covariance = MatrixXd::Zero(size, size);
-  if (!residual.allFinite() || !J.allFinite()) return covariance;
-  std::vector<int> seen;
   for (int k = 0; k < size; ++k) {
-    if (J.col(k).squaredNorm() > 0) seen.push_back(k);
-  }
-  if (seen.empty()) return covariance;
-  const MatrixXd slopes = J(Eigen::all, seen);
-  const MatrixXd information = slopes.transpose() * slopes;
-  const MatrixXd inverse =
-      information.completeOrthogonalDecomposition().pseudoInverse();
-  covariance(seen, seen) = inverse;
-  for (const int k : seen) {
     if (!coordinates[k].AtBound(u[k])) continue;
-    const double slope = J.col(k).dot(residual);
-    const bool held = coordinates[k].IsHeld(u[k], slope);
-    ConditionOnBound(k,
-                     held ? std::abs(slope) * std::sqrt(covariance(k, k)) : 0,
-                     &covariance);
+    const bool held = coordinates[k].IsHeld(u[k], gradient[k]);
+    ConditionOnBound(
+        k, held ? std::abs(gradient[k]) * std::sqrt(covariance(k, k)) : 0,
+        &covariance);
   }
   VectorXd units(size);
   for (int k = 0; k < size; ++k) units[k] = coordinates[k].Slope(u[k]);

@@ -7,18 +7,14 @@
 
 namespace armcal {
 
-using RowMajorMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-// The covariance of parameters, in their own units, at the minimum u of half of
-// |residual|^2 within the coordinates' bounds: (J' J)^-1 of the coordinates
-// times their slopes on both sides (the delta method). J: residual by
-// coordinate, as if there were no bounds. Parameters on which nothing depends,
-// and those at a bound, have no variance; what the others owe to one at a bound
-// is what a normal distribution cut there leaves of it. Zero where a number is
-// not finite.
-Eigen::MatrixXd BoundedCovariance(const RowMajorMatrix& J,
-                                  const Eigen::VectorXd& residual,
+// The covariance of parameters, in their own units, at the minimum u of a cost
+// within the coordinates' bounds: that of the coordinates as if there were no
+// bounds, times their slopes on both sides (the delta method). `gradient`: of
+// the cost by coordinate. Parameters at a bound have no variance; what the
+// others owe to one at a bound is what a normal distribution cut there leaves
+// of it.
+Eigen::MatrixXd BoundedCovariance(Eigen::MatrixXd covariance,
+                                  const Eigen::VectorXd& gradient,
                                   const std::vector<Coordinate>& coordinates,
                                   const Eigen::VectorXd& u);
 

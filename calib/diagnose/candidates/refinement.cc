@@ -9,6 +9,7 @@
 #include <deque>
 #include <limits>
 
+#include "calib/diagnose/candidates/block_covariance.h"
 #include "calib/diagnose/candidates/bounded_covariance.h"
 #include "calib/diagnose/candidates/varied_effects.h"
 
@@ -264,10 +265,12 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   refined.effects = varied.At(u);
-  refined.covariance =
-      Spread(effects, coordinates,
-             BoundedCovariance(cost->SlopesAt(u), cost->ResidualAt(u),
-                               coordinates, u));
+  const RowMajorMatrix& J = cost->SlopesAt(u);
+  const VectorXd& left = cost->ResidualAt(u);
+  refined.covariance = Spread(
+      effects, coordinates,
+      BoundedCovariance(BlockCovariance(J, left, BlocksOfRows(data->rows())),
+                        J.transpose() * left, coordinates, u));
   refined.baseline = cost->BaselineAt(u);
   refined.delta_chi2 =
       screen.ResidualGiven(JointRows(screen.num_joints())).squaredNorm() -

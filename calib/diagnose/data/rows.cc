@@ -17,7 +17,6 @@ namespace {
 using Eigen::MatrixXd;
 
 constexpr double kRateOverBandwidth = 2.5;
-constexpr double kPeriodsAtEnds = 4;  // of the bandwidth, bent by filters
 constexpr int kShortestRun = 3 * Autoregression::kOrder;
 
 // Into how many blocks `size` samples are cut for folds: as many as hold
@@ -351,7 +350,8 @@ void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
   // One run between the bent ends.
   const double needed = std::max(
       kShortestSegment,
-      (2 * kPeriodsAtEnds + kShortestRun / kRateOverBandwidth) / bandwidth_hz);
+      (2 * GapRows::kPeriodsAtEnds + kShortestRun / kRateOverBandwidth) /
+          bandwidth_hz);
   throw InputError(logs.path(0), "", "",
                    "no motion is left of it, expected " +
                        NumberText(std::ceil(10 * needed) / 10) +

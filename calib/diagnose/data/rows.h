@@ -37,6 +37,8 @@ struct LogPart {
 // no row.
 class GapRows {
  public:
+  static constexpr double kPeriodsAtEnds = 4;  // of the bandwidth, bent
+
   // References to segments are kept.
   GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
           LogPart part = {});

@@ -1,0 +1,63 @@
+#include "calib/log_readings.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <set>
+
+#include "calib/inspect/inspection.h"
+#include "model/text/input_error.h"
+
+namespace armcal {
+namespace {
+
+const std::set<std::string>& OfAnotherArm() {
+  static const std::set<std::string> kFindings = {
+      "time_unit",   "position_unit", "joint_order",    "joint_sign",
+      "torque_sign", "position_sign", "unsigned_torque"};
+  return kFindings;
+}
+
+const std::set<std::string>& OfAnotherScale() {
+  static const std::set<std::string> kFindings = {"torque_unit",
+                                                  "torque_is_current"};
+  return kFindings;
+}
+
+// What cannot be read at all is refused where the log is opened for what it is
+// wanted for, which says more.
+std::vector<InspectionFinding> FindingsOf(const Robot& robot,
+                                          const LogSource& log,
+                                          const LogReaderOptions& options) {
+  try {
+    return InspectLog(robot, log, options).findings;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+std::vector<DataFinding> WrongReadings(const Robot& robot,
+                                       const std::vector<LogSource>& logs,
+                                       const LogReaderOptions& options,
+                                       bool scales) {
+  std::vector<std::vector<InspectionFinding>> findings(logs.size());
+  tbb::parallel_for(size_t{0}, logs.size(), [&](size_t k) {
+    findings[k] = FindingsOf(robot, logs[k], options);
+  });
+  std::vector<DataFinding> wrong;
+  for (size_t k = 0; k < logs.size(); ++k) {
+    for (const InspectionFinding& found : findings[k]) {
+      const bool counts = OfAnotherArm().count(found.finding) > 0 ||
+                          (scales && OfAnotherScale().count(found.finding) > 0);
+      if (!counts) continue;
+      wrong.push_back({"of " + logs[k].name + " " + found.sentence,
+                       found.evidence, "armcal inspect: " + found.remedy,
+                       true});
+    }
+  }
+  return wrong;
+}
+
+}  // namespace armcal

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/diagnose/data/audit.h"
+#include "model/log_files/log_reader_options.h"
+#include "model/log_files/log_source.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// What makes logs those of another arm than the robot's: units, signs or the
+// order of columns (InspectLog). Whatever fits them then is no effect, however
+// well it fits. Each leads a diagnosis. What only scales torques is not among
+// them where `scales` is false: a reference that was recorded alike has it,
+// too.
+std::vector<DataFinding> WrongReadings(const Robot& robot,
+                                       const std::vector<LogSource>& logs,
+                                       const LogReaderOptions& options,
+                                       bool scales);
+
+}  // namespace armcal

@@ -1,0 +1,74 @@
+#include "calib/log_readings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "calib/diagnose.h"
+#include "tests/fixtures/inspected_arm.h"
+
+namespace armcal::log_readings_test {
+
+using testing::HasSubstr;
+
+class LogReadingsTest : public testing::Test {
+ protected:
+  LogReadingsTest() : arm_("3R elbow") {
+    options_.joint_names = arm_.robot.JointNames();
+    degrees_ = milli_ = arm_.log;
+    degrees_.q *= 180 / M_PI;
+    milli_.tau *= 1000;
+  }
+
+  std::vector<DataFinding> Wrong(const Log& log, bool scales) const {
+    return WrongReadings(arm_.robot, {LogSource("log.csv", log)}, options_,
+                         scales);
+  }
+  DiagnoseSummary Diagnosis(const Log& log, const Log* reference) const {
+    DiagnoseOptions options;
+    options.forward = false;
+    if (reference != nullptr) {
+      options.reference.logs = {LogSource("reference.csv", *reference)};
+    }
+    return Diagnose(arm_.robot, {{LogSource("log.csv", log)}, {}}, options);
+  }
+
+  InspectedArm arm_;
+  Log degrees_, milli_;
+  LogReaderOptions options_;
+};
+
+TEST_F(LogReadingsTest, OfThisArmNothingIsWrong) {
+  EXPECT_TRUE(Wrong(arm_.log, true).empty());
+}
+
+TEST_F(LogReadingsTest, UnitsAreOfAnotherArm) {
+  const std::vector<DataFinding> wrong = Wrong(degrees_, true);
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_THAT(wrong[0].finding, HasSubstr("degrees"));
+  EXPECT_THAT(wrong[0].finding, HasSubstr("log.csv"));
+  EXPECT_TRUE(wrong[0].leads);
+}
+
+TEST_F(LogReadingsTest, AScaleMayBeTheReferencesToo) {
+  EXPECT_EQ(Wrong(milli_, true).size(), 1u);
+  EXPECT_TRUE(Wrong(milli_, false).empty());
+}
+
+// Degrees would be friction and a clock of another rate.
+TEST_F(LogReadingsTest, NothingIsToldOfAnotherArm) {
+  const DiagnoseSummary summary = Diagnosis(degrees_, nullptr);
+  EXPECT_THAT(summary.brief, HasSubstr("degrees"));
+  EXPECT_EQ(summary.verdict, "not_testable");
+  EXPECT_FALSE(summary.positive);
+  EXPECT_TRUE(summary.effects.empty());
+}
+
+TEST_F(LogReadingsTest, AReferenceOfAnotherArmTellsNothing) {
+  EXPECT_EQ(Diagnosis(arm_.log, &degrees_).verdict, "not_testable");
+  EXPECT_NE(Diagnosis(milli_, &milli_).verdict, "not_testable");
+}
+
+}  // namespace armcal::log_readings_test
