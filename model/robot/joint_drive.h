@@ -5,11 +5,13 @@
 
 namespace armcal {
 
-// Dry friction that grows evenly with velocity until it is `force` at `width`,
-// and stays so. Any curve that rises ever less steeply is a sum of such parts.
-struct SaturatingFriction {
+// A force that grows evenly with x until it is `force` at `width`, and stays
+// so: dry friction over velocity, a bounded spring over deflection. Every odd
+// curve is nearly a sum of such parts; those where it bends upwards are of
+// negative force (saturating_parts.h).
+struct SaturatingPart {
   double force = 0;  // N m or N
-  double width = 0;  // rad/s or m/s
+  double width = 0;  // of x: rad/s or m/s, rad or m
 };
 
 // Bristles that bend before they slip (LuGre: Canudas de Wit et al. 1995,
@@ -37,6 +39,13 @@ struct TorqueWave {
   double phase = 0;      // rad
 };
 
+// A spring that pushes towards `centre`, and the less stiffly the farther it is
+// off: a cable that lies over to one side or the other.
+struct BoundedSpring {
+  double centre = 0;  // rad or m
+  std::vector<SaturatingPart> parts;
+};
+
 // A motor drives its link over a spring and a damper: between flanks that leave
 // a gap, or, without a gap, a spring of stiffness d (1 + stiffening d^2).
 struct GearSpring {
@@ -58,14 +67,15 @@ struct JointDrive {
   // act on the motor, as do friction and spring.
   double quadratic = 0;  // of v |v|, N m s^2/rad^2 or N s^2/m^2
   // The joint's Coulomb friction with how it changes sign; empty: not known.
-  std::vector<SaturatingFriction> dry = {};
+  std::vector<SaturatingPart> dry = {};
   std::vector<BristleFriction> bristles = {};
   std::vector<TorqueWave> waves = {};
+  std::vector<BoundedSpring> bounded_springs = {};
   std::optional<GearSpring> gear = std::nullopt;
 
   bool HasLaws() const {
     return quadratic != 0 || !dry.empty() || !bristles.empty() ||
-           !waves.empty() || gear;
+           !waves.empty() || !bounded_springs.empty() || gear;
   }
 };
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "model/dynamics/forward_dynamics.h"
+#include "model/robot_files/mjcf_saturation.h"
 #include "model/text/exact_text.h"
 #include "model/text/format.h"
 
@@ -14,9 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using tinyxml2::XMLElement;
 
-// MuJoCo's impedance d of the soft constraints: their own acceleration counts
-// d / (1 - d) as much as the inertia that they act on.
-constexpr double kImpedance = .01;
 // Whole numbers of steps are a millisecond, as controllers have whole ones.
 constexpr double kMillisecond = 1e-3;
 constexpr double kUsualStep = kMillisecond / 2;         // s
@@ -29,49 +28,6 @@ constexpr double kMargin = .6;
 // its square, 1e-18 N m s/rad.
 constexpr const char* kNoMotor = "1e-9 1e-9";
 
-std::string Words(std::initializer_list<double> values) {
-  std::string text;
-  for (const double value : values) {
-    text += (text.empty() ? "" : " ") + ExactText(value);
-  }
-  return text;
-}
-
-// A soft constraint as a spring and a damper of a force. MuJoCo's reference
-// acceleration is -damping v / d - stiffness x / d, and the force is it over
-// (1 - d) / d times the inverse inertia.
-std::string SoftConstraint(double stiffness, double damping, double inverse) {
-  const double scale = (1 - kImpedance) * inverse;
-  // A format of two numbers below 0; friction has no stiffness and ignores it.
-  return Words({stiffness > 0 ? -stiffness * scale : -1, -damping * scale});
-}
-
-void SetSoftness(const char* solref, const char* solimp,
-                 const std::string& constraint, XMLElement* element) {
-  element->SetAttribute(solref, constraint.c_str());
-  element->SetAttribute(solimp, Words({kImpedance, kImpedance, 1}).c_str());
-}
-
-void SetFriction(const SaturatingFriction& part, double inverse,
-                 XMLElement* element) {
-  element->SetAttribute("frictionloss", ExactText(part.force).c_str());
-  SetSoftness("solreffriction", "solimpfriction",
-              SoftConstraint(0, part.force / part.width, inverse), element);
-}
-
-// The part that the joint itself has.
-size_t Largest(const std::vector<SaturatingFriction>& parts) {
-  const auto less = [](const auto& a, const auto& b) {
-    return a.force < b.force;
-  };
-  return std::max_element(parts.begin(), parts.end(), less) - parts.begin();
-}
-
-// The first of several is NAME_kind, the next NAME_kind2.
-std::string NumberedName(const Joint& joint, const char* kind, size_t k) {
-  return joint.name + "_" + kind + (k == 0 ? "" : std::to_string(k + 1));
-}
-
 XMLElement* AddPassive(const Joint& joint, const std::string& name,
                        XMLElement* actuators) {
   XMLElement* element = actuators->InsertNewChildElement("dcmotor");
@@ -81,28 +37,6 @@ XMLElement* AddPassive(const Joint& joint, const std::string& name,
   element->SetAttribute("motorconst", kNoMotor);
   element->SetAttribute("resistance", "1");
   return element;
-}
-
-void AddDryTendons(const Joint& joint, const JointDrive& drive, double inverse,
-                   XMLElement* tendons) {
-  size_t count = 0;
-  for (size_t k = 0; k < drive.dry.size(); ++k) {
-    if (k == Largest(drive.dry)) continue;
-    XMLElement* tendon = tendons->InsertNewChildElement("fixed");
-    tendon->SetAttribute("name",
-                         NumberedName(joint, "friction", count++).c_str());
-    SetFriction(drive.dry[k], inverse, tendon);
-    XMLElement* on = tendon->InsertNewChildElement("joint");
-    on->SetAttribute("joint", joint.name.c_str());
-    on->SetAttribute("coef", "1");
-  }
-}
-
-// Of the largest slope of all friction over velocity.
-double Slope(const std::vector<SaturatingFriction>& parts) {
-  double slope = 0;
-  for (const SaturatingFriction& part : parts) slope += part.force / part.width;
-  return slope;
 }
 
 bool IsStiff(const GearSpring& gear, double inverse) {
@@ -139,7 +73,7 @@ bool MjcfLaws::any() const {
 double MjcfLaws::StepOf(int j) const {
   const JointDrive drive = description_.DriveOf(j);
   double step = kUsualStep;
-  const double slope = Slope(drive.dry) * motor_[j];
+  const double slope = SteepestSlope(drive.dry) * motor_[j];
   if (slope > 0) step = std::min(step, kMargin / slope);
   if (drive.gear) {
     const double rate = std::sqrt(drive.gear->stiffness * gear_[j]);
@@ -172,25 +106,24 @@ void MjcfLaws::AddGear(int j, XMLElement* motor) const {
         "stiffness",
         gear.stiffening == 0
             ? ExactText(stiffness).c_str()
-            : Words({stiffness, 0, stiffness * gear.stiffening}).c_str());
+            : ExactTexts({stiffness, 0, stiffness * gear.stiffening}).c_str());
     element->SetAttribute("damping", ExactText(gear.damping).c_str());
     return;
   }
   element->SetAttribute("limited", "true");
-  element->SetAttribute("range", Words({-gear.gap / 2, gear.gap / 2}).c_str());
+  element->SetAttribute("range",
+                        ExactTexts({-gear.gap / 2, gear.gap / 2}).c_str());
   const double damping = std::min(gear.damping, rate / gear_[j]);
-  SetSoftness("solreflimit", "solimplimit",
-              SoftConstraint(stiffness, damping, gear_[j]), element);
+  SetMjcfSoftness("limit", stiffness, damping, gear_[j], element);
 }
 
 void MjcfLaws::AddToJoint(int j, XMLElement* joint) const {
   const JointDrive drive = description_.DriveOf(j);
-  if (!drive.dry.empty()) {
-    SetFriction(drive.dry[Largest(drive.dry)], motor_[j], joint);
-  }
+  SetMjcfFriction(drive.dry, motor_[j], joint);
   if (drive.quadratic != 0) {
     const double viscous = description_.robot.links[j].joint.viscous;
-    joint->SetAttribute("damping", Words({viscous, drive.quadratic}).c_str());
+    joint->SetAttribute("damping",
+                        ExactTexts({viscous, drive.quadratic}).c_str());
   }
   if (drive.gear) AddGear(j, joint);
 }
@@ -199,19 +132,21 @@ void MjcfLaws::AddActuators(XMLElement* actuators) const {
   for (int j = 0; j < motor_.size(); ++j) {
     const Joint& joint = description_.robot.links[j].joint;
     const JointDrive drive = description_.DriveOf(j);
+    AddMjcfPushes(joint, drive.dry, actuators);
     for (size_t k = 0; k < drive.bristles.size(); ++k) {
       const BristleFriction& law = drive.bristles[k];
-      AddPassive(joint, NumberedName(joint, "bristles", k), actuators)
-          ->SetAttribute("lugre", Words({law.stiffness, 0, law.coulomb,
-                                         law.at_rest, law.stribeck_velocity})
-                                      .c_str());
+      AddPassive(joint, MjcfPartName(joint, "bristles", k), actuators)
+          ->SetAttribute("lugre",
+                         ExactTexts({law.stiffness, 0, law.coulomb, law.at_rest,
+                                     law.stribeck_velocity})
+                             .c_str());
     }
     for (size_t k = 0; k < drive.waves.size(); ++k) {
       const TorqueWave& law = drive.waves[k];
-      AddPassive(joint, NumberedName(joint, "ripple", k), actuators)
+      AddPassive(joint, MjcfPartName(joint, "ripple", k), actuators)
           ->SetAttribute(
               "cogging",
-              Words({law.amplitude, law.harmonic, law.phase}).c_str());
+              ExactTexts({law.amplitude, law.harmonic, law.phase}).c_str());
     }
   }
 }
@@ -219,20 +154,18 @@ void MjcfLaws::AddActuators(XMLElement* actuators) const {
 void MjcfLaws::AddTendons(XMLElement* root) const {
   XMLElement* tendons = root->GetDocument()->NewElement("tendon");
   for (int j = 0; j < motor_.size(); ++j) {
-    AddDryTendons(description_.robot.links[j].joint, description_.DriveOf(j),
-                  motor_[j], tendons);
+    const Joint& joint = description_.robot.links[j].joint;
+    const JointDrive drive = description_.DriveOf(j);
+    AddMjcfFrictionTendons(joint, drive.dry, motor_[j], tendons);
+    AddMjcfSpringTendons(joint, drive.bounded_springs, tendons);
   }
   if (!tendons->NoChildren()) root->InsertEndChild(tendons);
 }
 
 std::vector<std::string> MjcfLaws::Losses() const {
   std::vector<std::string> losses;
-  bool is_new = false;
   for (int j = 0; j < motor_.size(); ++j) {
     const JointDrive drive = description_.DriveOf(j);
-    is_new = is_new || !drive.bristles.empty() || !drive.waves.empty() ||
-             drive.quadratic != 0 ||
-             (drive.gear && drive.gear->stiffening != 0);
     if (!drive.gear || !IsStiff(*drive.gear, gear_[j])) continue;
     losses.push_back(
         Format("the spring of joint %s is softer than %.4g, as "
@@ -240,13 +173,34 @@ std::vector<std::string> MjcfLaws::Losses() const {
                description_.robot.links[j].joint.name.c_str(),
                drive.gear->stiffness, kShortestLawStep));
   }
-  if (is_new || description_.torque_delay > 0) {
-    losses.push_back(
-        Format("the file needs MuJoCo %s or later; the format "
-               "mjcf_plain, with less in it, does not",
-               is_new ? "3.12" : "3.8"));
+  const std::string version = Version();
+  if (!version.empty()) {
+    losses.push_back("the file needs MuJoCo " + version +
+                     " or later; the format mjcf_plain, with less in it, does "
+                     "not");
   }
   return losses;
+}
+
+// The first version that reads the file; empty where it is 2.2.2.
+std::string MjcfLaws::Version() const {
+  const auto any = [this](const std::function<bool(const JointDrive&)>& has) {
+    const auto& drives = description_.drives;
+    return std::any_of(drives.begin(), drives.end(), has);
+  };
+  if (any([](const JointDrive& drive) {
+        return !drive.bristles.empty() || !drive.waves.empty() ||
+               drive.quadratic != 0 ||
+               (drive.gear && drive.gear->stiffening != 0);
+      })) {
+    return "3.12";
+  }
+  if (description_.torque_delay > 0) return "3.8";
+  return any([](const JointDrive& drive) {
+    return !drive.bounded_springs.empty();
+  })
+             ? "2.3.1"
+             : "";
 }
 
 }  // namespace armcal

@@ -12,9 +12,11 @@ namespace armcal {
 
 // The laws of JointDrive in MuJoCo's own fields:
 //
-//   dry       frictionloss, whose soft constraint is told the width within
-//             which it changes sign: the largest part is the joint's, the
-//             others are of tendons on this joint alone
+//   dry       frictionloss of the joint and of tendons on it alone, and
+//             actuators that push where it falls with velocity
+//             (mjcf_saturation.h)
+//   bounded   tendons with dead bands on this joint alone, likewise; 2.3.1 and
+//             later
 //   bristles  lugre of a dcmotor that has no control; 3.12 and later
 //   waves     cogging of such a dcmotor
 //   gear      a second joint NAME_gear of the body, about the same axis: the
@@ -44,6 +46,7 @@ class MjcfLaws {
  private:
   void AddGear(int j, tinyxml2::XMLElement* motor) const;
   double StepOf(int j) const;
+  std::string Version() const;
 
   const RobotDescription& description_;
   // Per joint, 1/(kg m^2) or 1/kg: of the motor, and of the link against it.

@@ -1,6 +1,6 @@
 // Forces of laws that are written as soft constraints are those that were
-// meant. (Bristles and ripple need a MuJoCo newer than ctest has:
-// tests/robots/mjcf_replay.py.)
+// meant. (Bristles, ripple and dead bands of tendons need a MuJoCo newer than
+// ctest has: tests/robots/mjcf_replay.py.)
 
 #include "model/robot_files/mjcf_laws.h"
 
@@ -62,6 +62,23 @@ TEST(MujocoMjcfLaws, DryFrictionChangesSignWithinItsWidth) {
   arm.drives[1].dry = {{5, .01}};
   EXPECT_NEAR(Pushed(arm, .1, 0, .4).At("joint1").qd, .1 / 180, 2e-6);
   EXPECT_NEAR(Pushed(arm, .6, 0, .4).At("joint1").qd, .4 / 80, 2e-5);
+}
+
+// Friction that falls with velocity: what stands beside friction itself pushes
+// along the velocity, up to its limit.
+TEST(MujocoMjcfLaws, FrictionFallsByAPush) {
+  RobotDescription arm = Arm();
+  arm.drives[0].dry = {{3, .01}, {-1, .5}};
+  const MujocoModel model = LoadTextInMujoco(MakeMjcf(arm), "push.xml");
+  const MujocoData data(mj_makeData(model.get()), mj_deleteData);
+  for (const auto& [v, push] : {std::pair(.1, .2), {.4, .8}, {2., 1.}}) {
+    for (const double sign : {1., -1.}) {
+      data->qvel[0] = sign * v;
+      mj_forward(model.get(), data.get());
+      EXPECT_NEAR(data->qfrc_actuator[0], sign * push, 1e-8) << v;
+      EXPECT_NEAR(data->qfrc_actuator[1], 0, 1e-12) << v;
+    }
+  }
 }
 
 // A spring holds the motor, and so says what torque the link's weight puts on

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "model/effects/effect_parts.h"
+#include "model/robot/saturating_parts.h"
 
 namespace armcal {
 inline namespace effects {
@@ -42,6 +43,12 @@ Effect Cable() {
   };
   effect.means = {"torque_offset"};
   effect.stand_ins = {JointTerm::kOffset};
+  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
+    drive->bounded_springs.push_back(TanhSpring(NumberOf(numbers, "cable"),
+                                                NumberOf(numbers, "centre"),
+                                                NumberOf(numbers, "softness")));
+    return true;
+  };
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"cable", p[0]}, {"centre", p[1]}, {"softness", p[2]}};
   };

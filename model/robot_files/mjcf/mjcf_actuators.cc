@@ -1,5 +1,6 @@
 #include "model/robot_files/mjcf/mjcf_actuators.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -65,6 +66,30 @@ bool IsMotor(const MjcfElement& element) {
 bool IsConstant(const MjcfElement& element) {
   return element.own().tag() == "general" && IsMotor(element) &&
          element.Has("gainprm") && FirstNumber(element, "gainprm", 1) == 0;
+}
+
+// The part of a joint's friction that falls with velocity, without a gain: its
+// torque is along the velocity, up to a limit.
+bool ReadPush(const MjcfElement& element, TreeJoint* tree_joint) {
+  if (element.own().tag() != "general" ||
+      element.Text("biastype") != "affine" || !element.Has("gainprm") ||
+      FirstNumber(element, "gainprm", 1) != 0 || !element.Has("forcerange")) {
+    return false;
+  }
+  const std::string bias = element.Text("biasprm");
+  const auto words = SplitWords(bias);
+  if (words.size() < 3 || FirstNumber(element, "biasprm", 0) != 0 ||
+      !(ParseNumber(words[2]).value_or(0) > 0)) {
+    return false;
+  }
+  const Vector2d range = element.Range("forcerange", "");
+  const double gear = std::abs(FirstNumber(element, "gear", 1));
+  double* const coulomb = &tree_joint->joint.coulomb;
+  *coulomb = std::max(0., *coulomb - gear * range.cwiseAbs().maxCoeff());
+  tree_joint->notes.push_back("actuator " + NameOf(element.own()) +
+                              ", which pushes along the velocity, is taken off "
+                              "the dry friction of its joint");
+  return true;
 }
 
 // Friction and ripple of a motor, without a control. Of bristles what a joint
@@ -144,7 +169,7 @@ void ReadMjcfActuators(const XmlElement& root, const MjcfDefaults& defaults,
       }
       TreeJoint* joint = FindJoint(element, attribute, tree);
       const MjcfElement actuator = defaults.OfActuator(element);
-      if (ReadPassive(actuator, joint)) continue;
+      if (ReadPassive(actuator, joint) || ReadPush(actuator, joint)) continue;
       if (IsConstant(actuator)) {
         constants[joint] -= FirstNumber(actuator, "gear", 1) *
                             FirstNumber(actuator, "biasprm", 0);

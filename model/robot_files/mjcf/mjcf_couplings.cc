@@ -67,7 +67,7 @@ class CouplingReader {
   void AddBetween(const XmlElement& element, int link, int other);
   void Act(const XmlElement& element, const char* attribute,
            const std::string& how);
-  bool TakeFriction(const Tendon& tendon);
+  bool TakeForJoint(const Tendon& tendon);
   void AddTendon(const Tendon& tendon);
   std::set<int> JointsOf(const XmlElement& tendon) const;
   int LinkOf(const XmlElement& part) const;
@@ -143,25 +143,31 @@ void CouplingReader::Act(const XmlElement& element, const char* attribute,
   element.Refuse(attribute, name, "expected a tendon of the file");
 }
 
-// Friction of a tendon on a single joint is the joint's; others are couplings.
-bool CouplingReader::TakeFriction(const Tendon& tendon) {
+// Of a tendon on a single joint friction is the joint's, and its spring is
+// dropped as one of the joint is; others are couplings.
+bool CouplingReader::TakeForJoint(const Tendon& tendon) {
   const XmlElement& element = tendon.element;
-  if (element.tag() != "fixed" || tendon.joints.size() != 1 ||
-      tendon.acts != "frictionloss") {
+  const auto parts = element.Children("joint");
+  if (element.tag() != "fixed" || parts.size() != 1 ||
+      tendon.joints.size() != 1) {
     return false;
   }
-  const auto parts = element.Children("joint");
-  if (parts.size() != 1) return false;
+  TreeJoint& on = tree_->joints[*tendon.joints.begin()];
+  if (tendon.acts == "stiffness") {
+    on.notes.push_back("the spring of " + NameOf("tendon", element) +
+                       " is not used: armcal's joints have none");
+    return true;
+  }
+  if (tendon.acts != "frictionloss") return false;
   const double coefficient = parts.front().Number("coef", "");
-  Joint& joint = tree_->joints[*tendon.joints.begin()].joint;
-  joint.coulomb +=
+  on.joint.coulomb +=
       std::abs(coefficient) * defaults_.OfTendon(element).NonNegativeOr0(
-                                  "frictionloss", EffortUnit(joint.type));
+                                  "frictionloss", EffortUnit(on.joint.type));
   return true;
 }
 
 void CouplingReader::AddTendon(const Tendon& tendon) {
-  if (TakeFriction(tendon)) return;
+  if (TakeForJoint(tendon)) return;
   if (tendon.acts.empty()) {
     tree_->notes.push_back("not used: " + NameOf("tendon", tendon.element) +
                            ", which has no stiffness, damping, friction "

@@ -257,8 +257,9 @@ RobotTree MjcfTreeReader::Read(const XmlElement& root) {
         "give: " +
         JoinNames(meshes_.read()));
   }
-  ReadMjcfActuators(root, defaults_, settings_, &tree_);
+  // Tendons add to the friction of joints that pushing actuators take from.
   ReadMjcfCouplings(root, defaults_, names_, &tree_);
+  ReadMjcfActuators(root, defaults_, settings_, &tree_);
   return std::move(tree_);
 }
 

@@ -97,6 +97,7 @@ TEST_F(LawsInFiles, MjcfHoldsLawsOfDrives) {
       Of(x, {Found("stribeck", 0, Eigen::Vector2d(.8, .2)),
              Found("presliding", 1, Eigen::Vector2d(1.5, .003)),
              Found("torque_ripple", 1, Eigen::Vector3d(0, -.6, 12)),
+             Found("cable", 1, Eigen::Vector3d(2, .3, .25)),
              Found("elasticity", 2, Eigen::Vector3d(1e-3, .02, 0))});
   std::map<std::string, RobotFile> files = ByFormat(out);
   const RobotFile& mjcf = files["mjcf"];
@@ -105,11 +106,16 @@ TEST_F(LawsInFiles, MjcfHoldsLawsOfDrives) {
   EXPECT_THAT(mjcf.text,
               AllOf(HasSubstr("lugre=\"500 0 1.5 1.5 1\""),
                     HasSubstr("cogging=\"0.6 12 "), HasSubstr("_gear\""),
-                    HasSubstr("delay=\"0.002\""), HasSubstr("solreffriction")));
+                    HasSubstr("delay=\"0.002\""), HasSubstr("solreffriction"),
+                    HasSubstr("_push\""), HasSubstr("springlength")));
+  // Of a Stribeck curve armcal reads what is left of it in fast motion.
+  const Robot back = ReadRobot(WriteFile(mjcf.text, "laws.xml"), {});
+  EXPECT_NEAR(back.links[0].joint.coulomb, arm_.file.links[0].joint.coulomb,
+              1e-9);
   const RobotFile& plain = files["mjcf_plain"];
   EXPECT_THAT(plain.text, Not(HasSubstr("dcmotor")));
   EXPECT_THAT(plain.text, Not(HasSubstr("_gear")));
-  for (const char* lost : {"stribeck", "presliding", "torque_ripple",
+  for (const char* lost : {"stribeck", "presliding", "torque_ripple", "cable",
                            "elasticity", "2 ms before", "changes sign"}) {
     EXPECT_THAT(plain.losses, Contains(HasSubstr(lost)));
   }

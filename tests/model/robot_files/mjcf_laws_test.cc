@@ -2,14 +2,12 @@
 
 #include <gmock/gmock.h>
 
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "model/robot_files/mjcf_writer.h"
 #include "model/robot_files/robot_reader.h"
 #include "tests/fixtures/temp_file.h"
-#include "tests/fixtures/two_link_arm.h"
+#include "tests/fixtures/written_mjcf.h"
 
 namespace armcal::mjcf_laws_test {
 
@@ -20,66 +18,9 @@ using testing::IsEmpty;
 using testing::Not;
 using tinyxml2::XMLElement;
 
-// What a file says of elements, wherever they are.
-class Written {
- public:
-  explicit Written(const RobotDescription& description)
-      : text_(MakeMjcf(description)) {
-    document_.Parse(text_.c_str());
-  }
-  const std::string& text() const { return text_; }
-  // "tag" elements, in the file's order.
-  std::vector<const XMLElement*> All(const std::string& tag) const {
-    std::vector<const XMLElement*> found;
-    Collect(document_.RootElement(), tag, &found);
-    return found;
-  }
-  const XMLElement* Named(const std::string& tag,
-                          const std::string& name) const {
-    for (const XMLElement* element : All(tag)) {
-      const char* its = element->Attribute("name");
-      if (its != nullptr && its == name) return element;
-    }
-    ADD_FAILURE() << tag << " " << name << "\n" << text_;
-    return document_.RootElement();
-  }
+using Written = WrittenMjcf;
 
- private:
-  static void Collect(const XMLElement* element, const std::string& tag,
-                      std::vector<const XMLElement*>* found) {
-    if (tag == element->Name()) found->push_back(element);
-    for (const XMLElement* child = element->FirstChildElement();
-         child != nullptr; child = child->NextSiblingElement()) {
-      Collect(child, tag, found);
-    }
-  }
-
-  std::string text_;
-  tinyxml2::XMLDocument document_;
-};
-
-std::vector<double> Numbers(const XMLElement* element, const char* attribute) {
-  const char* text = element->Attribute(attribute);
-  std::istringstream words(text == nullptr ? "" : text);
-  std::vector<double> numbers;
-  for (double x; words >> x;) numbers.push_back(x);
-  return numbers;
-}
-
-RobotDescription Arm() {
-  RobotDescription description{TwoLinkArm().ToRobot(), {}};
-  Robot& robot = description.robot;
-  robot.name = "arm";
-  for (int j = 0; j < 2; ++j) {
-    robot.links[j].name = "link" + std::to_string(j + 1);
-    robot.links[j].joint.name = "joint" + std::to_string(j + 1);
-    robot.links[j].joint.armature = .2;
-    robot.links[j].joint.coulomb = 3;
-    robot.links[j].joint.viscous = 2;
-  }
-  description.drives.resize(2);
-  return description;
-}
+RobotDescription Arm() { return ArmForMjcf(); }
 
 Robot ReadBack(const Written& written) {
   return ReadRobot(WriteFile(written.text(), "laws.xml"), {});
