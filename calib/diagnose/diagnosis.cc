@@ -229,6 +229,7 @@ JointGap Diagnoser::JointFigures(int j) const {
   gap.name = joint.name;
   gap.unit = EffortUnit(joint.type);
   gap.floor_rms = sigma;
+  gap.torque_rms = fit_->scale().torque[j];
   if (result_.torque.joints.rows() > j) {
     gap.nominal_rms = sigma * result_.torque.joints(j, 0);
     gap.refit_rms = sigma * result_.torque.joints(j, 1);

@@ -75,6 +75,29 @@ std::string FrictionChanged(const GapDiagnosis& diagnosis) {
   return text + ".";
 }
 
+// To agree within noise means as little as there is much of it: its largest
+// share of a joint's recorded torque, rms over rms.
+std::string Agreement(const GapDiagnosis& diagnosis) {
+  const std::string agrees =
+      "The model agrees with the log to within the noise";
+  double most = 0;
+  std::string joint;
+  for (const JointGap& gap : diagnosis.joints) {
+    const double share =
+        gap.torque_rms > 0 ? gap.floor_rms / gap.torque_rms : 0;
+    if (share <= most) continue;
+    most = share;
+    joint = gap.name;
+  }
+  if (joint.empty()) return agrees + ".";
+  if (most < 1) {
+    return agrees + Format(", up to %.2g %% of the torque (%s).", 100 * most,
+                           joint.c_str());
+  }
+  return agrees + ", which is as large as the torque of " + joint +
+         ": that tells nothing of it.";
+}
+
 // What is left given friction that has changed.
 std::string BriefVerdict(const GapDiagnosis& diagnosis) {
   constexpr double kNoisy = 2;  // times the noise's mean square
@@ -89,7 +112,7 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
   }
   switch (diagnosis.verdict) {
     case GapVerdict::kNoiseFloor:
-      return "The model agrees with the log to within the noise.";
+      return Agreement(diagnosis);
     case GapVerdict::kAbsorbed:
       return diagnosis.has_reference
                  ? "Nothing but friction and timing has changed since the "

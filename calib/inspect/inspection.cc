@@ -66,7 +66,11 @@ class Inspector {
                     [](const InspectionFinding& f) {
                       return f.finding == "stuck" || f.finding == "no_torque";
                     });
-    if (result_.stamps.mean_step > 0 && !stuck) ReadTorques();
+    if (result_.stamps.mean_step > 0) {
+      const UniformSeries series = Series();
+      DescribeSpeed(series);
+      if (!stuck) ReadTorques(series);
+    }
     if (result_.reading.degrees) TakeDegrees();
     return result_;
   }
@@ -135,16 +139,17 @@ class Inspector {
     result_.findings.push_back(finding);
   }
 
-  void ReadTorques() {
-    const UniformSeries series = Series();
-    const double dt = series.dt();
+  void DescribeSpeed(const UniformSeries& series) {
     result_.top_speed = series.motion().qd.cwiseAbs().colwise().maxCoeff();
     result_.moving_share = static_cast<double>(series.num_moving()) /
                            static_cast<double>(series.motion().size());
+  }
+
+  void ReadTorques(const UniformSeries& series) {
     if (series.num_moving() < kLeastMoving) {
       result_.findings.push_back(
           {"no_motion", "the arm hardly moves",
-           Format("%.2g s of motion", series.num_moving() * dt),
+           Format("%.2g s of motion", series.num_moving() * series.dt()),
            "record a motion (armcal excite)"});
       return;
     }

@@ -122,8 +122,8 @@ class ChannelAudit {
     if (low == 0 && high == 0) {
       findings_.push_back({"no_torque", Name("torque", j) + " is zero",
                            "0 in all samples",
-                           "leave the joint out if nothing drives it, or log "
-                           "its torque",
+                           "if nothing drives the joint this is its torque; "
+                           "else log it",
                            j});
       return;
     }

@@ -69,6 +69,28 @@ TEST(BriefReport, SaysWhatItCannotName) {
   }
 }
 
+// Noise of .77 N m agrees with a pendulum of 1 N m, loaded or not.
+TEST(BriefReport, SaysWithinWhatItAgrees) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.verdict = GapVerdict::kNoiseFloor;
+  diagnosis.torque.refit = 1;
+  diagnosis.joints.resize(2);
+  diagnosis.joints[0].name = "shoulder";
+  diagnosis.joints[1].name = "elbow";
+  diagnosis.joints[0].floor_rms = .1;
+  diagnosis.joints[0].torque_rms = 10;
+  diagnosis.joints[1].floor_rms = .77;
+  diagnosis.joints[1].torque_rms = 1;
+  EXPECT_EQ(BriefReport(diagnosis),
+            "The model agrees with the log to within the noise, up to 77 % of "
+            "the torque (elbow).");
+  diagnosis.joints[1].floor_rms = 1.1;
+  EXPECT_EQ(BriefReport(diagnosis),
+            "The model agrees with the log to within the noise, which is as "
+            "large as the torque of elbow: that tells nothing of it.");
+}
+
 // Whatever the verdict.
 TEST(BriefReport, SaysFirstWhatFrictionHasChanged) {
   GapDiagnosis diagnosis = SampleDiagnosis();
