@@ -59,7 +59,7 @@ struct JointGap {
   std::string unit;
   // rms of the held-out torque residual, N m or N; NaN where none was held out.
   double nominal_rms = NAN, refit_rms = NAN, after_rms = NAN, floor_rms = 0;
-  double torque_rms = 0;  // of the recorded torque, N m or N
+  double torque_rms = 0;   // of the recorded torque, N m or N
   Organisation organised;  // of the refitted model's residual
   double unexplained = 0;  // chi^2 beyond the noise's after the effects
 };
