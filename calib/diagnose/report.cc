@@ -241,7 +241,8 @@ std::string FullReport(const GapDiagnosis& diagnosis, bool verbose) {
     text += "note       " + finding.finding + ": " + finding.evidence +
             (finding.flag.empty() ? "" : " (" + finding.flag + ")") + "\n";
   }
-  if (!diagnosis.effects.empty()) text += "\nwhich effect\n";
+  if (!diagnosis.effects.empty())
+    text += "\nwhich effect (how probable; values +- one standard deviation)\n";
   for (const FoundEffect& found : diagnosis.effects) {
     text += EffectLines(found, diagnosis);
   }

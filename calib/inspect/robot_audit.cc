@@ -107,13 +107,13 @@ class RobotAudit {
     if (same == bodies) {
       Add("default_inertia", "all links have the same inertia: a placeholder",
           ThreeDigits(CentralInertia(first->inertial)(0, 0)) + " kg m^2",
-          "trust it little: " + OptionName("trust") + "=1");
+          "trust it little in what follows: " + OptionName("trust") + "=1");
     }
     if (centred == bodies) {
       Add("default_inertia",
           "all links have their mass at their frame's origin",
           std::to_string(bodies) + " links",
-          "trust it little: " + OptionName("trust") + "=1");
+          "trust it little in what follows: " + OptionName("trust") + "=1");
     }
   }
 

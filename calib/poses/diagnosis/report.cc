@@ -225,7 +225,8 @@ std::string PoseDiagnosisReport(const Robot& robot,
   }
   const PoseCampaign campaign = MakeCampaign({robot}, measured, measured.q);
   std::string text = PoseSentence(diagnosis) + "\n";
-  if (!diagnosis.findings.empty()) text += "\nwhich effect\n";
+  if (!diagnosis.findings.empty())
+    text += "\nwhich effect (how probable; values +- one standard deviation)\n";
   for (const PoseFinding& finding : diagnosis.findings) {
     text += FindingText(finding, campaign);
   }
