@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <set>
 
 #include "calib/inspect/inspection.h"

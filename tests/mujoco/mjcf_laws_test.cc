@@ -15,15 +15,9 @@
 namespace armcal::mujoco_mjcf_laws_test {
 
 RobotDescription Arm() {
-  RobotDescription description{TwoLinkArm().ToRobot(), {}};
-  description.robot.name = "arm";
+  RobotDescription description{TwoLinkArm().ToNamedRobot(), {}};
   description.robot.gravity.setZero();
-  for (int j = 0; j < 2; ++j) {
-    Link& link = description.robot.links[j];
-    link.name = "link" + std::to_string(j + 1);
-    link.joint.name = "joint" + std::to_string(j + 1);
-    link.joint.armature = .2;
-  }
+  for (Link& link : description.robot.links) link.joint.armature = .2;
   description.drives.resize(2);
   return description;
 }

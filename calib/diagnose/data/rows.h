@@ -37,7 +37,8 @@ struct LogPart {
 // no row.
 class GapRows {
  public:
-  static constexpr double kPeriodsAtEnds = 4;  // of the bandwidth, bent
+  // That filters bend at an end of a segment, of the bandwidth.
+  static constexpr double kPeriodsAtEnds = 4;
 
   // References to segments are kept.
   GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,

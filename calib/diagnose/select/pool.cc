@@ -61,10 +61,13 @@ std::vector<GapCandidate> CandidatePool::Fitted(
 }
 
 std::vector<GapCandidate> CandidatePool::AFewLargerOnes() const {
+  const std::vector<bool> more = MoreThanNoise();
+  const bool any = std::count(more.begin(), more.end(), true) > 0;
   std::vector<GapCandidate> larger;
   for (const int c : FirstShapes(candidates_)) {
     const GapCandidate& candidate = candidates_[c];
-    if (!ShowsMoreThanNoise(candidate)) continue;
+    const bool shows = candidate.joint < 0 ? any : more[candidate.joint];
+    if (!shows) continue;
     for (const GapCandidate& one : FewLargerOnes(candidate)) {
       larger.push_back(one);
     }
@@ -100,20 +103,16 @@ std::vector<GapCandidate> CandidatePool::LargerOnesWhereTheyShow() const {
   return larger;
 }
 
-bool CandidatePool::ShowsMoreThanNoise(const GapCandidate& candidate) const {
-  if (candidate.joint >= 0) return HasMoreThanNoise(candidate.joint);
-  for (int j = 0; j < regression_.rows().num_joints(); ++j) {
-    if (HasMoreThanNoise(j)) return true;
-  }
-  return false;
-}
-
-bool CandidatePool::HasMoreThanNoise(int joint) const {
+std::vector<bool> CandidatePool::MoreThanNoise() const {
   constexpr double kMore = 1.1;  // of the variance
   const MatrixXd left = regression_.data()->ResidualWith(regression_.refit());
-  const VectorXd rows =
-      regression_.rows().WhitenByNoise(joint, left.col(joint));
-  return rows.squaredNorm() > kMore * static_cast<double>(rows.size());
+  std::vector<bool> more;
+  for (int j = 0; j < regression_.rows().num_joints(); ++j) {
+    const VectorXd rows = regression_.rows().WhitenByNoise(j, left.col(j));
+    more.push_back(rows.squaredNorm() >
+                   kMore * static_cast<double>(rows.size()));
+  }
+  return more;
 }
 
 // What a candidate's torque is, events do not change.

@@ -31,9 +31,8 @@ class CandidatePool {
   void Add(std::vector<GapCandidate> more);
   std::vector<GapCandidate> AFewLargerOnes() const;
   std::vector<GapCandidate> LargerOnesWhereTheyShow() const;
-  bool HasMoreThanNoise(int joint) const;
-  // On its joint; of the whole robot on any.
-  bool ShowsMoreThanNoise(const GapCandidate& candidate) const;
+  // Whether a refit without effects leaves more than the noise, per joint.
+  std::vector<bool> MoreThanNoise() const;
   void Evaluate(std::vector<GapCandidate>* candidates);
   void Forget();
 

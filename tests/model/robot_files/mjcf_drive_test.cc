@@ -3,15 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "model/robot_files/mjcf_writer.h"
 #include "model/robot_files/robot_formats.h"
 #include "model/robot_files/robot_reader.h"
 #include "tests/fixtures/temp_file.h"
 #include "tests/fixtures/two_link_arm.h"
+#include "tests/fixtures/written_mjcf.h"
 
 namespace armcal::mjcf_drive_test {
 
@@ -19,15 +18,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 RobotDescription Arm(DriveKind kind) {
-  RobotDescription description{TwoLinkArm().ToRobot(), {}};
-  Robot& robot = description.robot;
-  robot.name = "arm";
-  for (int j = 0; j < 2; ++j) {
-    robot.links[j].name = "link" + std::to_string(j + 1);
-    robot.links[j].joint.name = "joint" + std::to_string(j + 1);
-  }
+  RobotDescription description{TwoLinkArm().ToNamedRobot(), {}};
   description.controller =
-      DefaultController(robot, Eigen::Vector2d::Zero(), 5, kind);
+      DefaultController(description.robot, Eigen::Vector2d::Zero(), 5, kind);
   description.controller->feedforward = Feedforward::kNone;
   return description;
 }
@@ -44,10 +37,7 @@ std::vector<double> Numbers(const std::string& mjcf, const std::string& tag,
     ADD_FAILURE() << tag << " " << attribute << "\n" << mjcf;
     return {};
   }
-  std::istringstream words(element->Attribute(attribute.c_str()));
-  std::vector<double> numbers;
-  for (double x; words >> x;) numbers.push_back(x);
-  return numbers;
+  return armcal::Numbers(element, attribute.c_str());
 }
 
 // MuJoCo's pid pushes with kp e + kv (qd_ref - v) + ki int e. Along any motion
