@@ -15,9 +15,11 @@ constexpr int kMostSteps = 8;
 constexpr double kClose = 1e-10;  // of the largest torque
 constexpr int kLagSteps = 12;
 constexpr double kLagTolerance = 1e-5;
-// A step that leaves more than this share of what was missing did not help:
-// the map is (nearly) flat there.
-constexpr double kLeastProgress = .8;
+// A step that takes less than this share from what was missing did not help:
+// the map is (nearly) flat there. One that takes more than all of it did, since
+// its slope is known then: a motor that gives three times what is asked of it
+// overshoots by twice of what was missing.
+constexpr double kLeastProgress = .2;
 // Lags shorter than a sample follow the slope of what they are given.
 constexpr int kSubsteps = 2;
 // What stood before the first sample, s, in implicit steps.
@@ -161,7 +163,7 @@ double InvertAt(const MotorMap& motor, double needed, double guess,
     commanded += step;
     const double before = missing;
     missing = needed - motor.given(commanded);
-    if (!(std::abs(missing) < kLeastProgress * std::abs(before))) break;
+    if (!((before - missing) / before > kLeastProgress)) break;
     step = missing * step / (before - missing);
   }
   return commanded;
@@ -198,7 +200,7 @@ MatrixXd InvertMap(const std::vector<ActuatorMap>& map,
     }
     missing = needed - given;
     open = open && missing.array().abs() > close &&
-           missing.array().abs() < kLeastProgress * before.array().abs();
+           (before - missing).array() / before.array() > kLeastProgress;
     Secant(before, missing, &step);
   }
   return commanded;

@@ -77,6 +77,23 @@ TEST(ActuatorInversion, InvertsMotorsAsOtherMaps) {
   }
 }
 
+// A motor's constant may be a third or three times of what is assumed, and the
+// first step, which takes it for right, then leads beyond.
+TEST(ActuatorInversion, InvertsSteepMotors) {
+  const VectorXd needed = Wave(Torque);
+  for (const double slope : {1 / .2, 1 / .3, 1 / .5, 1 / 3.}) {
+    const auto given = [slope](double x) { return slope * x; };
+    for (const VectorXd& guess : {VectorXd(), VectorXd(needed / 2)}) {
+      for (const ActuatorMap& motor :
+           {ActuatorMap{{}, MotorMap{0, given}}, Stateless(given)}) {
+        const VectorXd commanded = CommandFor({motor}, Rest(), needed, guess);
+        EXPECT_LT((slope * commanded - needed).cwiseAbs().maxCoeff(), 1e-8)
+            << slope;
+      }
+    }
+  }
+}
+
 // Where a motor is at its limit only the record says what was asked.
 TEST(ActuatorInversion, BelievesTheRecordAtALimit) {
   const auto clip = [](double x) { return std::clamp(x, -5., 5.); };
