@@ -172,8 +172,12 @@ double InvertAt(const MotorMap& motor, double needed, double guess,
 // From what is needed of the motors to what is asked of them, in place.
 void InvertMotor(const MotorMap& motor, const MatrixXd& guess,
                  MatrixXd* torque) {
-  const double close = kClose * torque->cwiseAbs().maxCoeff();
   const int j = motor.joint;
+  if (motor.commanded) {
+    for (double& one : torque->col(j)) one = motor.commanded(one);
+    return;
+  }
+  const double close = kClose * torque->cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < torque->rows(); ++k) {
     (*torque)(k, j) = InvertAt(motor, (*torque)(k, j), guess(k, j), close);
   }

@@ -14,6 +14,9 @@ namespace armcal {
 struct MotorMap {
   int joint = 0;
   std::function<double(double commanded)> given;
+  // Its inverse: the command for which it gives this. Empty where a command is
+  // lost, as at a limit.
+  std::function<double(double given)> commanded;
 
   void operator()(const ArmInstant&, const double*, double*,
                   Eigen::VectorXd* torque) const {

@@ -154,8 +154,9 @@ void AddTorque(const EffectSite& site, const InstantTorque& torque,
 
 void AddActuator(const EffectSite& site,
                  const std::function<double(double commanded)>& given,
+                 const std::function<double(double given)>& commanded,
                  SimulatedRobot* robot) {
-  robot->actuators.push_back({{}, MotorMap{site.joint, given}});
+  robot->actuators.push_back({{}, MotorMap{site.joint, given, commanded}});
 }
 
 double SoftPlus(double x) {

@@ -65,9 +65,11 @@ void AddFriction(const EffectSite& site, const InstantTorque& torque,
                  SimulatedRobot* robot);
 void AddTorque(const EffectSite& site, const InstantTorque& torque,
                SimulatedRobot* robot);
-// What the site's motor gives of a command, without states.
+// What the site's motor gives of a command, without states, and its inverse
+// (MotorMap).
 void AddActuator(const EffectSite& site,
                  const std::function<double(double commanded)>& given,
+                 const std::function<double(double given)>& commanded,
                  SimulatedRobot* robot);
 
 // a sin(x) + b cos(x) = amplitude sin(x + phase).

@@ -47,7 +47,7 @@ Effect TorqueDeadband() {
         [=](double commanded) {
           return std::copysign(Given(std::abs(commanded), d, s), commanded);
         },
-        robot);
+        [=](double given) { return given + d * std::tanh(given / s); }, robot);
   };
   effect.near_zero = true;
   effect.means = {"coulomb_friction"};

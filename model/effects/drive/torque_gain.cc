@@ -26,7 +26,8 @@ Effect TorqueGain() {
                     SimulatedRobot* robot) {
     const double gain = p[0];
     AddActuator(
-        site, [=](double commanded) { return commanded / (1 + gain); }, robot);
+        site, [=](double commanded) { return commanded / (1 + gain); },
+        [=](double given) { return (1 + gain) * given; }, robot);
   };
   effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
     drive->gain /= 1 + NumberOf(numbers, "gain");

@@ -35,6 +35,10 @@ Effect TorqueNonlinearity() {
           const double y = commanded / peak;
           return peak * 2 / a * std::sinh(std::asinh(1.5 * a * y) / 3);
         },
+        [=](double given) {
+          const double x = given / peak;
+          return given * (1 + fall * x * x);
+        },
         robot);
   };
   effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {

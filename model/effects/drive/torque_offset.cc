@@ -15,7 +15,8 @@ Effect TorqueOffset() {
                     SimulatedRobot* robot) {
     const double offset = p[0];
     AddActuator(
-        site, [=](double commanded) { return commanded - offset; }, robot);
+        site, [=](double commanded) { return commanded - offset; },
+        [=](double given) { return given + offset; }, robot);
   };
   effect.joint_term = JointTerm::kOffset;
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {

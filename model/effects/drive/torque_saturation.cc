@@ -69,7 +69,7 @@ Effect TorqueSaturation() {
         [=](double commanded) {
           return commanded - share * (commanded - clip(commanded));
         },
-        robot);
+        {}, robot);
   };
   effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
     return std::vector<EffectEstimate>{{"limit", UnitAt(site, "E"), p[1]},

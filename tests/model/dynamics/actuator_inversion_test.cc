@@ -67,13 +67,26 @@ TEST(ActuatorInversion, InvertsMotorsAsOtherMaps) {
   };
   const VectorXd needed = Wave(Torque);
   for (const VectorXd& guess : {VectorXd(), VectorXd(needed * .9)}) {
-    const ActuatorMap motor = {{}, MotorMap{0, given}};
+    const ActuatorMap motor = {{}, MotorMap{0, given, {}}};
     const MatrixXd commanded = CommandFor({motor}, Rest(), needed, guess);
     const MatrixXd other =
         CommandFor({Stateless(given)}, Rest(), needed, guess);
     EXPECT_LT((commanded - other).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT((commanded.unaryExpr(given) - needed).cwiseAbs().maxCoeff(),
               1e-8);
+  }
+}
+
+// A map whose inverse is known needs no record.
+TEST(ActuatorInversion, TakesTheInverseOfAMotor) {
+  const VectorXd needed = Wave(Torque);
+  const ActuatorMap motor = {{},
+                             MotorMap{0, [](double x) { return std::sinh(x); },
+                                      [](double y) { return std::asinh(y); }}};
+  const VectorXd commanded =
+      CommandFor({motor}, Rest(), needed, VectorXd::Zero(kSamples));
+  for (int k = 0; k < kSamples; ++k) {
+    EXPECT_DOUBLE_EQ(commanded[k], std::asinh(needed[k])) << k;
   }
 }
 
@@ -85,7 +98,7 @@ TEST(ActuatorInversion, InvertsSteepMotors) {
     const auto given = [slope](double x) { return slope * x; };
     for (const VectorXd& guess : {VectorXd(), VectorXd(needed / 2)}) {
       for (const ActuatorMap& motor :
-           {ActuatorMap{{}, MotorMap{0, given}}, Stateless(given)}) {
+           {ActuatorMap{{}, MotorMap{0, given, {}}}, Stateless(given)}) {
         const VectorXd commanded = CommandFor({motor}, Rest(), needed, guess);
         EXPECT_LT((slope * commanded - needed).cwiseAbs().maxCoeff(), 1e-8)
             << slope;

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/dynamics/joint_term.h"
+#include "model/dynamics/motor_map.h"
 #include "model/dynamics/recorded_torque.h"
 #include "model/effects/effects.h"
 #include "tests/model/effects/every_effect.h"
@@ -54,6 +56,55 @@ TEST_P(PropertiesOf, LooksAtLinksOnlyIfItSaysSo) {
                 law.torque(elsewhere, state.data(), other_rate.data()));
       EXPECT_EQ(rate, other_rate);
     }
+  });
+}
+
+// What it gives of a command, and the command of what it gives.
+TEST_P(PropertiesOf, InvertsItsMotor) {
+  Everywhere([&](const EffectArm& arm, int joint, const VectorXd& sizes,
+                 RecordedTorque*) {
+    SimulatedRobot changed;
+    changed.robot = arm.robot;
+    GetParam().apply(arm.Site(joint), 5 * sizes, &changed);
+    for (const ActuatorMap& map : changed.actuators) {
+      const auto* motor = map.apply.target<MotorMap>();
+      if (motor == nullptr || !motor->commanded) continue;
+      for (const double given : {-20., -1., -1e-3, 0., 1e-3, 1., 20.}) {
+        EXPECT_NEAR(motor->given(motor->commanded(given)), given, 1e-9);
+      }
+    }
+  });
+}
+
+// An effect without larger sizes is judged by a column: its torque at other
+// sizes is that, times a factor. A length and a clock are in it squared as
+// well.
+TEST_P(PropertiesOf, IsInProportionUnlessItHasLargerSizes) {
+  if (!GetParam().larger_sizes.empty() || !GetParam().proportional) return;
+  const bool bends = GetParam().name == "link_length" || GetParam().is_clock;
+  const double tolerance = bends ? .12 : 1e-9;
+  const auto& parameters = GetParam().parameters;
+  const bool has_sign =
+      std::any_of(parameters.begin(), parameters.end(),
+                  [](const EffectParameter& parameter) {
+                    return parameter.sign == EffectParameter::Sign::kPositive;
+                  });
+  const double factor = has_sign ? 12 : -12;
+  Everywhere([&](const EffectArm& arm, int joint, const VectorXd& sizes,
+                 RecordedTorque* recorded) {
+    VectorXd larger = sizes;
+    for (Eigen::Index k = 0; k < sizes.size(); ++k) {
+      if (parameters[k].search == Search::kLinear) larger[k] *= factor;
+    }
+    const auto change = [&](const VectorXd& p) {
+      SimulatedRobot changed;
+      changed.robot = arm.robot;
+      GetParam().apply(arm.Site(joint), p, &changed);
+      return recorded->Change(changed);
+    };
+    const MatrixXd torque = change(sizes);
+    EXPECT_LT((change(larger) - factor * torque).norm(),
+              tolerance * std::abs(factor) * torque.norm());
   });
 }
 
