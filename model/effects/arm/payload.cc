@@ -38,12 +38,14 @@ std::vector<EffectEstimate> PayloadEstimates(const EffectSite& site,
           {"inertia", "kg m^2", p[4]}};
 }
 
-// A centre of mass far from the last link is of no load.
+// A centre of mass far from the last link is of no load, nor is a moment
+// without a mass, whose centre is infinitely far; of nothing (0 / 0) it is
+// anywhere.
 bool IsWithinReach(const std::vector<EffectEstimate>& estimates) {
   constexpr double kFarthest = 1;  // m, from the last link's frame
   double squared = 0;
   for (const EffectEstimate& estimate : estimates) {
-    if (estimate.name.rfind("com_", 0) == 0 && std::isfinite(estimate.value)) {
+    if (estimate.name.rfind("com_", 0) == 0 && !std::isnan(estimate.value)) {
       squared += estimate.value * estimate.value;
     }
   }

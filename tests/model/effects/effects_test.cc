@@ -199,4 +199,19 @@ TEST(PayloadOfAPendulum, IsAPointMass) {
 INSTANTIATE_TEST_SUITE_P(Catalogue, EffectOf, testing::ValuesIn(Effects()),
                          [](const auto& info) { return info.param.name; });
 
+// A load has a centre of mass within an arm's reach of the last link.
+TEST(Effects, PayloadsAreWithinReach) {
+  const EffectArm arm("PUMA560 6R");
+  const Effect& payload = *FindEffect("payload");
+  const auto is_plausible = [&](std::vector<double> p) {
+    return payload.plausible(
+        EstimatesOf(payload, arm.Site(-1),
+                    Eigen::Map<const Eigen::VectorXd>(p.data(), p.size())));
+  };
+  EXPECT_TRUE(is_plausible({2, .2, 0, 0, 0}));
+  EXPECT_FALSE(is_plausible({.1, 2, 0, 0, 0}));
+  EXPECT_FALSE(is_plausible({0, .2, 0, 0, 0}));
+  EXPECT_TRUE(is_plausible({0, 0, 0, 0, .01}));
+}
+
 }  // namespace armcal::effects_test
