@@ -121,9 +121,9 @@ void GapFit::SelectWithTheirNoise() {
 // changes the weights and so asks for another choice. Then the shapes of the
 // chosen ones are fitted, kRounds times at most; candidates at these shapes are
 // added to the pool, and the choice is made again, until the same places come
-// out.
+// out. What was chosen for its column alone leaves the pool instead.
 void GapFit::Select() {
-  constexpr int kRounds = 2;
+  constexpr int kRounds = 2, kMostBarred = 4;
   const auto select = [this] {
     selection_ = SelectEffects(screen(), candidates(), options_.selection);
   };
@@ -133,14 +133,21 @@ void GapFit::Select() {
     MakeScreen();
     SelectWithTheirNoise();
   }
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0, barred = 0; round < kRounds;) {
     const std::vector<GapCandidate> chosen = pool_.Fitted(selection_.chosen);
     if (std::none_of(chosen.begin(), chosen.end(), HasShape)) return;
-    pool_.Sharpen(
-        RefineEffects(screen(), baseline(), scale(), chosen, -1, data())
-            .effects);
+    const RefinedEffects refined =
+        RefineEffects(screen(), baseline(), scale(), chosen, -1, data());
+    const int hollow = FindHollow(screen(), candidates(), selection_, refined);
+    if (hollow >= 0 && barred++ < kMostBarred) {
+      pool_.Bar(selection_.chosen[hollow]);
+      select();
+      continue;
+    }
+    pool_.Sharpen(refined.effects);
     const std::vector<int> before = selection_.chosen;
     select();
+    ++round;
     if (selection_.chosen.size() == before.size() &&
         std::is_permutation(before.begin(), before.end(),
                             selection_.chosen.begin(), [this](int a, int b) {

@@ -46,6 +46,12 @@ void CandidatePool::Sharpen(const std::vector<GapCandidate>& fitted) {
   Add(std::move(sharper));
 }
 
+void CandidatePool::Bar(int candidate) {
+  for (GapCandidate& other : candidates_) {
+    if (SamePlace(candidates_[candidate], other)) other.least = other.most = 0;
+  }
+}
+
 void CandidatePool::Add(std::vector<GapCandidate> more) {
   if (more.empty()) return;
   Evaluate(&more);

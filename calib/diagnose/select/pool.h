@@ -21,6 +21,9 @@ class CandidatePool {
   void List();
   // Adds those of these fitted effects that have a shape, at that shape.
   void Sharpen(const std::vector<GapCandidate>& fitted);
+  // Does without this candidate's effect at its place, in any shape and size,
+  // until all are listed again.
+  void Bar(int candidate);
 
   const std::vector<GapCandidate>& candidates() const { return candidates_; }
   // Those (indices) with their linear parameters, fitted together.

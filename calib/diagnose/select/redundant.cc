@@ -2,6 +2,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "calib/diagnose/select/chosen.h"
+#include "calib/diagnose/select/form_error.h"
+
 namespace armcal {
 
 // The selection judged columns, linear in an effect's size; here the laws are
@@ -34,6 +37,32 @@ int FindRedundant(const GapRegression& regression, const CandidatePool& pool,
     redundant = static_cast<int>(k);
   }
   return redundant;
+}
+
+// The column of a law that bends, as of an elastic joint, is right at its size
+// and where nothing else acts: with other effects, and times a factor, it is
+// the torque of no law, and may fit all the better. Fitted as it is, that law
+// then is worth nothing; the lowest
+//   delta_chi2 of all, fitted - delta_chi2 of the others' columns - penalty of
+//   k
+// below 0 tells it.
+int FindHollow(const GapScreen& screen,
+               const std::vector<GapCandidate>& candidates,
+               const Selection& selection, const RefinedEffects& refined) {
+  int hollow = -1;
+  double least = 0;
+  for (int k = 0; k < static_cast<int>(selection.chosen.size()); ++k) {
+    const GapCandidate& own = candidates[selection.chosen[k]];
+    if (own.effect->larger_sizes.empty()) continue;
+    const double score =
+        refined.delta_chi2 -
+        TotalDeltaChi2(screen, candidates, Without(selection.chosen, k)) -
+        Penalty(screen, own);
+    if (score >= least) continue;
+    least = score;
+    hollow = k;
+  }
+  return hollow;
 }
 
 }  // namespace armcal

@@ -14,4 +14,11 @@ int FindRedundant(const GapRegression& regression, const CandidatePool& pool,
                   const SelectionOptions& options, const Selection& selection,
                   const RefinedEffects& refined);
 
+// The effect (its place in the selection) that was chosen for a column which
+// its law does not keep: all effects as fitted explain less than the others'
+// columns without it, and its penalty. -1: there is none.
+int FindHollow(const GapScreen& screen,
+               const std::vector<GapCandidate>& candidates,
+               const Selection& selection, const RefinedEffects& refined);
+
 }  // namespace armcal

@@ -19,6 +19,23 @@ constexpr double kOut = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+// The law of an effect is never quite the robot's, and what a richer one of the
+// same joint explains beyond a simpler one may be that error of form: as much
+// as one more effect on that joint has to exceed (`share` of delta_chi2,
+// form_error.h) is no evidence for it.
+void LeaveOutErrorsOfForm(double share, std::vector<FittedRival>* rivals) {
+  const std::vector<FittedRival> as_fitted = *rivals;
+  for (FittedRival& richer : *rivals) {
+    const double explained = richer.delta_chi2;
+    for (const FittedRival& simpler : as_fitted) {
+      if (simpler.joint != richer.joint || simpler.joint < 0) continue;
+      if (!(simpler.penalty < richer.penalty)) continue;
+      if (simpler.delta_chi2 < (1 - share) * explained) continue;
+      richer.delta_chi2 = std::min(richer.delta_chi2, simpler.delta_chi2);
+    }
+  }
+}
+
 // A grid of shapes samples some effects densely and others hardly, and so
 // favours the former. The candidates whose scores in the k-th place are within
 // max(20, half of its delta_chi2) of the chosen one's, kMostRivals of them at
@@ -63,15 +80,20 @@ Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
     refined[r] = RefineEffects(screen, baseline, scale, pool.Fitted(chosen), k,
                                regression.data());
   });
+  std::vector<FittedRival> fitted;
+  for (size_t r = 0; r < near.size(); ++r) {
+    const GapCandidate& rival = candidates[near[r]];
+    const size_t varied = ListCoordinates(baseline, scale, {rival}, 0).size();
+    fitted.push_back({rival.joint, refined[r].delta_chi2 - by_others,
+                      RefinedPenalty(screen, rival, static_cast<int>(varied))});
+  }
+  LeaveOutErrorsOfForm(options.same_joint_share, &fitted);
   Rivals rivals{{}, selection.chosen[k], {}};
   double best_score = kOut;
   bool best_is_possible = false;
   for (size_t r = 0; r < near.size(); ++r) {
     const GapCandidate& rival = candidates[near[r]];
-    const size_t varied = ListCoordinates(baseline, scale, {rival}, 0).size();
-    const double score =
-        refined[r].delta_chi2 - by_others -
-        RefinedPenalty(screen, rival, static_cast<int>(varied));
+    const double score = fitted[r].delta_chi2 - fitted[r].penalty;
     const bool is_possible =
         IsPossible(refined[r].effects[k], baseline.robot(), scale);
     rivals.scores.push_back({rival.effect, rival.joint, score, is_possible});

@@ -27,6 +27,18 @@ struct Rivals {
   std::optional<RefinedEffects> refined;
 };
 
+// What a rival explains beyond the other effects, its shape fitted, and its
+// penalty.
+struct FittedRival {
+  int joint = -1;
+  double delta_chi2 = 0, penalty = 0;
+};
+
+// Takes from each rival what it explains beyond a simpler one of its joint
+// (whose penalty is lower) where that is less than this share of what it
+// explains: an error of form.
+void LeaveOutErrorsOfForm(double share, std::vector<FittedRival>* rivals);
+
 // A grid may be kinder to one effect than to another: those near the k-th
 // chosen one in score take its place in turn, each with its shape fitted given
 // the others, which stay.
