@@ -200,7 +200,8 @@ GapFigures Diagnoser::FiguresOf(const HeldOut::Residuals& residuals) const {
 // and drawing is of what the verdict names. What nothing explains was told
 // before: what is fitted and not named is not without explanation, it has
 // several. What alone makes held-out data worse for certain is not claimed
-// either, unless chi^2 sees it there. Whether there was anything to leave out.
+// either, nor what shrinks the gap little. Whether there was anything to leave
+// out.
 bool Diagnoser::ClaimNoMore(GapFindings* findings) {
   const size_t fitted = fit_->refined().effects.size();
   do {
@@ -210,7 +211,7 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
       result_.torque = FiguresOf(held_out_->AllResiduals());
       SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
     }
-  } while (result_.torque.ci95[1] < 0 && GiveUpWorst(findings));
+  } while (GiveUpWorst(result_.torque, findings));
   LowerWhatDoesNotHelp(result_.torque, &findings->effects);
   if (fit_->refined().effects.size() == fitted) return false;
   if (result_.torque.joints.rows() > 0) {

@@ -246,6 +246,9 @@ const std::vector<ThresholdInfo> kAll = {
     {"untold", &T::untold, "1",
      "What held-out data cannot tell is at most this probable", Kind::kLaw,
      "indifference"},
+    {"explains", &T::explains, "gap",
+     "What is claimed may remove this share of it: more than it leaves",
+     Kind::kDefinition, "what explains"},
     {"tells", &T::tells, "delta_chi2",
      "A joint that has less of a delay tells nothing of it", Kind::kTuned,
      "calibration cases of seeds 3301 and 3302 and the building sets of real "

@@ -9,6 +9,7 @@
 #include "calib/diagnose/judge/agreement.h"
 #include "calib/diagnose/judge/changed_friction.h"
 #include "calib/diagnose/judge/claims.h"
+#include "calib/diagnose/judge/contact_finding.h"
 #include "calib/diagnose/judge/description.h"
 #include "calib/diagnose/judge/dissipation.h"
 #include "model/effects/effects.h"
@@ -72,7 +73,6 @@ class Findings {
   FoundEffect Describe(const GapCandidate& effect,
                        const MatrixXd& covariance) const;
   FoundEffect Found(size_t k) const;
-  FoundEffect Contacts() const;
   void AddMissingTerms(const std::vector<MissingTerm>& terms);
   void ShareTheRest(FoundEffect* found, bool is_first);
 
@@ -137,43 +137,6 @@ FoundEffect Findings::Found(size_t k) const {
   return found;
 }
 
-// That an event is a contact, `evidence` being that of all events: of what is
-// beyond friction by the chance that a log without a contact gets as far
-// (ProbabilityBeyondChance), which several logs tell, else by regressions.
-double ProbabilityOfEvent(const GapEvent& event,
-                          const EffectEvidence& evidence) {
-  if (!event.beyond_friction) return ProbabilityOf(evidence);
-  if (!event.chance_of_logs) return ProbabilityBeyondOneReference(evidence);
-  return ProbabilityBeyondChance(event.chance, Limits().odds_of_no_contact);
-}
-
-// All windows in which the arm was touched, as one effect with the estimates of
-// the strongest and the largest of their probabilities.
-FoundEffect Findings::Contacts() const {
-  const std::vector<GapEvent>& events = fit_.events();
-  const GapEvent& strongest = *std::max_element(
-      events.begin(), events.end(), [](const GapEvent& a, const GapEvent& b) {
-        return a.delta_chi2 < b.delta_chi2;
-      });
-  FoundEffect found;
-  if (strongest.fitted) {
-    found = Describe(strongest.fitted->effect, strongest.fitted->covariance);
-  } else {
-    found.effect = &ContactEffect();
-    found.estimates =
-        ContactEstimates(robot_, strongest.contact, &found.stddev);
-  }
-  found.score = strongest.score;
-  found.evidence = evidence_.ForEvents();
-  for (const GapEvent& event : events) {
-    found.delta_chi2 += event.delta_chi2;
-    found.contacts.push_back(event.contact);
-    found.probability =
-        std::max(found.probability, ProbabilityOfEvent(event, found.evidence));
-  }
-  return found;
-}
-
 // What the file gives no joint at all, as one effect each. Its probability is
 // 1: it was asked for with the threshold of an effect before anything else was
 // fitted, and that a robot has friction is no hypothesis.
@@ -200,7 +163,9 @@ void Findings::AddMissingTerms(const std::vector<MissingTerm>& terms) {
 GapFindings Findings::List(const std::vector<MissingTerm>& terms) {
   result_.effects = ListChangedFriction(fit_);
   AddMissingTerms(terms);
-  if (!fit_.events().empty()) result_.effects.push_back(Contacts());
+  if (!fit_.events().empty()) {
+    result_.effects.push_back(FindContact(robot_, fit_, evidence_.ForEvents()));
+  }
   for (size_t k = 0; k < fit_.refined().effects.size(); ++k) {
     result_.effects.push_back(Found(k));
   }
@@ -342,20 +307,28 @@ void FitClaimed(GapFindings* findings, GapFit* fit) {
   }
 }
 
-bool GiveUpWorst(GapFindings* findings) {
+bool GiveUpWorst(const GapFigures& torque, GapFindings* findings) {
+  if (!(torque.ci95[1] < 100 * Limits().explains)) return false;
+  const bool nothing = torque.ci95[0] <= 0;
   std::vector<FoundEffect>& effects = findings->effects;
-  auto worst = effects.end();
-  for (auto found = effects.begin(); found != effects.end(); ++found) {
-    if (found->fitted.empty() || IsSeenAgain(*found)) continue;
-    if (worst == effects.end() ||
-        found->removed_percent < worst->removed_percent) {
-      worst = found;
+  for (const bool seen : {false, true}) {
+    auto worst = effects.end();
+    for (auto found = effects.begin(); found != effects.end(); ++found) {
+      if (found->fitted.empty() || IsSeenAgain(*found) != seen) continue;
+      if (!nothing && found->probability >= Limits().likely_unseen) continue;
+      if (worst == effects.end() ||
+          found->removed_percent < worst->removed_percent) {
+        worst = found;
+      }
     }
+    if (worst == effects.end()) continue;
+    // Something is there, which has another name.
+    findings->without_name |= seen;
+    findings->unnamed.push_back(*worst);
+    effects.erase(worst);
+    return true;
   }
-  if (worst == effects.end()) return false;
-  findings->unnamed.push_back(*worst);
-  effects.erase(worst);
-  return true;
+  return false;
 }
 
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,

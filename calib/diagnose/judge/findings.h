@@ -41,11 +41,14 @@ GapFindings ListFindings(const Robot& robot, const GapFit& fit,
 // Keeps the claimed effects alone in the fit, and tells them as they are then;
 // what they remove is told by SetClaimedShares, once the figures are known.
 void FitClaimed(GapFindings* findings, GapFit* fit);
-// Does not claim the effect that removes least, of those that chi^2 does not
-// see in held-out data: the mean square of these may be larger with an effect
-// that is there, by the errors of other values that it was fitted with. Whether
-// there was one.
-bool GiveUpWorst(GapFindings* findings);
+// Where held-out data show that the effects remove less than half of the gap
+// (short logs do not: their intervals are wide), most of it has another cause,
+// which they may be confused with. Where they perhaps remove nothing, none is
+// claimed, else none that is not as likely as what held-out data do not show
+// has to be. Gives up the one that removes least, of those first that chi^2
+// does not see in held-out data: it sees, of the law of another cause, what is
+// alike in both; the mean square sees the rest. Whether there was one.
+bool GiveUpWorst(const GapFigures& torque, GapFindings* findings);
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       const GapFigures& torque,
                       std::vector<FoundEffect>* effects);

@@ -21,6 +21,13 @@ std::vector<std::string> Sorted(std::vector<FoundEffect> effects) {
   return Names(effects);
 }
 
+GapFigures Shrinking(double low, double high) {
+  GapFigures torque;
+  torque.ci95[0] = low;
+  torque.ci95[1] = high;
+  return torque;
+}
+
 TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
   GapFindings findings;
   findings.effects = {Found("spring", 1, 9), Found("stribeck", 1, 8),
@@ -34,12 +41,32 @@ TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
   findings.effects[3].fitted = {2};
   findings.effects[3].removed_percent = -80;
   findings.effects[3].evidence.confirmation = {50, 40};  // seen all the same
-  EXPECT_TRUE(GiveUpWorst(&findings));
+  const GapFigures little = Shrinking(-20, 30);
+  EXPECT_TRUE(GiveUpWorst(little, &findings));
   EXPECT_THAT(Names(findings.unnamed), ElementsAre("stribeck@2"));
-  EXPECT_TRUE(GiveUpWorst(&findings));
-  EXPECT_FALSE(GiveUpWorst(&findings));
-  EXPECT_THAT(Names(findings.effects),
-              ElementsAre("viscous_friction@0", "armature@1"));
+  EXPECT_TRUE(GiveUpWorst(little, &findings));
+  EXPECT_FALSE(findings.without_name);
+  EXPECT_TRUE(GiveUpWorst(little, &findings));
+  EXPECT_TRUE(findings.without_name);
+  EXPECT_FALSE(GiveUpWorst(little, &findings));
+  EXPECT_THAT(Names(findings.effects), ElementsAre("viscous_friction@0"));
+}
+
+// Half of the gap, or nothing, is what short logs tell. What removes some of it
+// for certain, and no more than half, has to be more certain itself.
+TEST(GiveUpWorst, TakesNothingThatMayExplain) {
+  GapFindings findings;
+  findings.effects = {Found("spring", 1, 9)};
+  findings.effects[0].fitted = {0};
+  findings.effects[0].probability = .71;
+  EXPECT_FALSE(GiveUpWorst(Shrinking(1, 30), &findings));
+  findings.effects[0].probability = .69;
+  EXPECT_FALSE(GiveUpWorst(Shrinking(1, 60), &findings));
+  GapFindings unlikely = findings;
+  EXPECT_TRUE(GiveUpWorst(Shrinking(1, 30), &unlikely));
+  EXPECT_FALSE(GiveUpWorst(Shrinking(-20, 60), &findings));
+  EXPECT_FALSE(GiveUpWorst(GapFigures(), &findings));
+  EXPECT_TRUE(GiveUpWorst(Shrinking(-60, -2), &findings));
 }
 
 // A name for what left-out data do not show is at most as likely as not.

@@ -1,0 +1,49 @@
+#include "calib/diagnose/judge/outstanding.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace armcal {
+
+// What peaks have above a threshold, the smallest one's size, is exponential
+// (the generalized Pareto law of shape 0, Pickands 1975). Where m of them with
+// the sum S are all that is known of its mean, whose logarithm could be any
+// before, one more has as much as x above it with the probability
+//   (1 + x / S)^-m,
+// Lomax's law, and the largest of m + 1 with at most m + 1 times that
+// (Bonferroni). A peak is asked against those below it, and is no likelier than
+// these, so that several which stand out do not hide each other; that k of them
+// do is one question among others, of which it has the share 2^-k (weighted
+// Bonferroni, Genovese, Roeder and Wasserman 2006).
+std::vector<double> ChancesAmongPeaks(const std::vector<double>& sizes) {
+  constexpr int kFewest = 3;  // above the threshold, that tell a mean
+  std::vector<double> chances(sizes.size(), 1);
+  if (sizes.empty()) return chances;
+  const double threshold = *std::min_element(sizes.begin(), sizes.end());
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    double sum = 0;
+    int below = -1;  // the smallest is the threshold's
+    double questions = 1;
+    for (const double size : sizes) {
+      if (!(size < sizes[i])) {
+        questions *= 2;
+        continue;
+      }
+      sum += size - threshold;
+      ++below;
+    }
+    if (below < kFewest || !(sum > 0)) continue;
+    chances[i] =
+        std::min(1., questions * (below + 1) *
+                         std::pow(1 + (sizes[i] - threshold) / sum, -below));
+  }
+  const std::vector<double> alone = chances;
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    for (size_t k = 0; k < sizes.size(); ++k) {
+      if (sizes[k] < sizes[i]) chances[i] = std::min(chances[i], alone[k]);
+    }
+  }
+  return chances;
+}
+
+}  // namespace armcal

@@ -1,0 +1,53 @@
+#include "calib/diagnose/judge/outstanding.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace armcal::outstanding_test {
+
+// Five of 1 to 2 above the threshold of 1, and one of 21: (1 + 20 / 1.5)^-4,
+// five times, and one that stands out is half of the questions.
+TEST(ChancesAmongPeaks, AreLomaxs) {
+  const std::vector<double> chances =
+      ChancesAmongPeaks({1, 21, 1.2, 1.3, 1.4, 1.6});
+  EXPECT_NEAR(chances[1], 2 * 5 * std::pow(1 + 20 / 1.5, -4), 1e-12);
+  EXPECT_EQ(chances[0], 1);
+}
+
+TEST(ChancesAmongPeaks, OfSeveralThatStandOut) {
+  const std::vector<double> chances =
+      ChancesAmongPeaks({1, 21, 1.2, 1.3, 1.4, 1.6, 23, 22});
+  for (const int k : {1, 6, 7}) EXPECT_LT(chances[k], .01) << k;
+}
+
+TEST(ChancesAmongPeaks, AreOneWhereFewTell) {
+  for (const double chance : ChancesAmongPeaks({1, 2, 3, 100})) {
+    EXPECT_EQ(chance, 1);
+  }
+  EXPECT_TRUE(ChancesAmongPeaks({}).empty());
+}
+
+// The largest of exponential peaks is called improbable no more often than it
+// is.
+TEST(ChancesAmongPeaks, AreNoLargerThanTrue) {
+  std::mt19937_64 random(3);
+  std::exponential_distribution<double> peak(.4);
+  constexpr int kDraws = 20000;
+  for (const int peaks : {5, 14}) {
+    int passed = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      std::vector<double> sizes(peaks);
+      for (double& size : sizes) size = 3 + peak(random);
+      const std::vector<double> chances = ChancesAmongPeaks(sizes);
+      const auto largest = std::max_element(sizes.begin(), sizes.end());
+      passed += chances[largest - sizes.begin()] < .02;
+    }
+    EXPECT_LT(passed, .02 * kDraws) << peaks;
+  }
+}
+
+}  // namespace armcal::outstanding_test
