@@ -211,7 +211,7 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
       result_.torque = FiguresOf(held_out_->AllResiduals());
       SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
     }
-  } while (GiveUpWorst(result_.torque, findings));
+  } while (GiveUpWorst(result_.torque, result_.has_reference, findings));
   LowerWhatDoesNotHelp(result_.torque, &findings->effects);
   if (fit_->refined().effects.size() == fitted) return false;
   if (result_.torque.joints.rows() > 0) {

@@ -307,11 +307,14 @@ void FitClaimed(GapFindings* findings, GapFit* fit) {
   }
 }
 
-bool GiveUpWorst(const GapFigures& torque, GapFindings* findings) {
-  if (!(torque.ci95[1] < 100 * Limits().explains)) return false;
+bool GiveUpWorst(const GapFigures& torque, bool since_reference,
+                 GapFindings* findings) {
+  const double most = since_reference ? 100 * Limits().explains : 0;
+  if (!(torque.ci95[1] < most)) return false;
   const bool nothing = torque.ci95[0] <= 0;
   std::vector<FoundEffect>& effects = findings->effects;
   for (const bool seen : {false, true}) {
+    if (seen && !since_reference) continue;
     auto worst = effects.end();
     for (auto found = effects.begin(); found != effects.end(); ++found) {
       if (found->fitted.empty() || IsSeenAgain(*found) != seen) continue;

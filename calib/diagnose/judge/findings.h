@@ -47,8 +47,12 @@ void FitClaimed(GapFindings* findings, GapFit* fit);
 // claimed, else none that is not as likely as what held-out data do not show
 // has to be. Gives up the one that removes least, of those first that chi^2
 // does not see in held-out data: it sees, of the law of another cause, what is
-// alike in both; the mean square sees the rest. Whether there was one.
-bool GiveUpWorst(const GapFigures& torque, GapFindings* findings);
+// alike in both; the mean square sees the rest. Without a reference the gap is
+// of what a refit leaves, which may have taken up what is the effects': then
+// only what chi^2 does not see, and the mean square sees against, is given up.
+// Whether there was one.
+bool GiveUpWorst(const GapFigures& torque, bool since_reference,
+                 GapFindings* findings);
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       const GapFigures& torque,
                       std::vector<FoundEffect>* effects);

@@ -42,13 +42,13 @@ TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
   findings.effects[3].removed_percent = -80;
   findings.effects[3].evidence.confirmation = {50, 40};  // seen all the same
   const GapFigures little = Shrinking(-20, 30);
-  EXPECT_TRUE(GiveUpWorst(little, &findings));
+  EXPECT_TRUE(GiveUpWorst(little, true, &findings));
   EXPECT_THAT(Names(findings.unnamed), ElementsAre("stribeck@2"));
-  EXPECT_TRUE(GiveUpWorst(little, &findings));
+  EXPECT_TRUE(GiveUpWorst(little, true, &findings));
   EXPECT_FALSE(findings.without_name);
-  EXPECT_TRUE(GiveUpWorst(little, &findings));
+  EXPECT_TRUE(GiveUpWorst(little, true, &findings));
   EXPECT_TRUE(findings.without_name);
-  EXPECT_FALSE(GiveUpWorst(little, &findings));
+  EXPECT_FALSE(GiveUpWorst(little, true, &findings));
   EXPECT_THAT(Names(findings.effects), ElementsAre("viscous_friction@0"));
 }
 
@@ -59,14 +59,26 @@ TEST(GiveUpWorst, TakesNothingThatMayExplain) {
   findings.effects = {Found("spring", 1, 9)};
   findings.effects[0].fitted = {0};
   findings.effects[0].probability = .71;
-  EXPECT_FALSE(GiveUpWorst(Shrinking(1, 30), &findings));
+  EXPECT_FALSE(GiveUpWorst(Shrinking(1, 30), true, &findings));
   findings.effects[0].probability = .69;
-  EXPECT_FALSE(GiveUpWorst(Shrinking(1, 60), &findings));
+  EXPECT_FALSE(GiveUpWorst(Shrinking(1, 60), true, &findings));
   GapFindings unlikely = findings;
-  EXPECT_TRUE(GiveUpWorst(Shrinking(1, 30), &unlikely));
-  EXPECT_FALSE(GiveUpWorst(Shrinking(-20, 60), &findings));
-  EXPECT_FALSE(GiveUpWorst(GapFigures(), &findings));
-  EXPECT_TRUE(GiveUpWorst(Shrinking(-60, -2), &findings));
+  EXPECT_TRUE(GiveUpWorst(Shrinking(1, 30), true, &unlikely));
+  EXPECT_FALSE(GiveUpWorst(Shrinking(-20, 60), true, &findings));
+  EXPECT_FALSE(GiveUpWorst(GapFigures(), true, &findings));
+  EXPECT_TRUE(GiveUpWorst(Shrinking(-60, -2), true, &findings));
+}
+
+// Without a reference a refit may have removed what the effect would have.
+TEST(GiveUpWorst, TakesWithoutAReferenceWhatNothingSpeaksFor) {
+  GapFindings findings;
+  findings.effects = {Found("coulomb_friction", 1, 9)};
+  findings.effects[0].fitted = {0};
+  EXPECT_FALSE(GiveUpWorst(Shrinking(-2, 1), false, &findings));
+  findings.effects[0].evidence.confirmation = {50, 40};
+  EXPECT_FALSE(GiveUpWorst(Shrinking(-60, -2), false, &findings));
+  findings.effects[0].evidence.confirmation = {50, 4};
+  EXPECT_TRUE(GiveUpWorst(Shrinking(-60, -2), false, &findings));
 }
 
 // A name for what left-out data do not show is at most as likely as not.
