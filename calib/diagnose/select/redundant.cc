@@ -43,8 +43,7 @@ int FindRedundant(const GapRegression& regression, const CandidatePool& pool,
 // and where nothing else acts: with other effects, and times a factor, it is
 // the torque of no law, and may fit all the better. Fitted as it is, that law
 // then is worth nothing; the lowest
-//   delta_chi2 of all, fitted - delta_chi2 of the others' columns - penalty of
-//   k
+//   delta_chi2 of all, fitted - that of the others' columns - penalty of k
 // below 0 tells it.
 int FindHollow(const GapScreen& screen,
                const std::vector<GapCandidate>& candidates,
