@@ -2,6 +2,7 @@
 
 #include "calib/calibrate_parts.h"
 #include "calib/calibration_details.h"
+#include "calib/poses/cross_validation.h"
 #include "calib/poses/report.h"
 #include "calib/poses/verdict.h"
 #include "calib/robot_outputs.h"
@@ -40,10 +41,12 @@ CalibrateSummary CalibrateFromPoses(const Robot& robot,
                       "poses tell nothing of masses to draw from; give a " +
                       OptionName("log") + " beside them");
   }
-  fit.loss = options.equations.loss.value_or(fit.loss);
   fit.prior_length = options.trust.length;
   fit.prior_angle = options.trust.angle;
   if (options.progress) options.progress("fitting the poses", -1);
+  fit.loss = options.equations.loss
+                 ? *options.equations.loss
+                 : ChoosePoseLoss(robot, *options.poses, fit);
   auto details = std::make_shared<CalibrationDetails>();
   const PoseCalibration& result =
       details->poses.emplace(CalibratePoses(robot, *options.poses, fit));

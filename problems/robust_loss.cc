@@ -18,6 +18,20 @@ LossAt FromCeres(const ceres::LossFunction& loss, double r) {
 
 }  // namespace
 
+const char* LossName(RobustLoss loss) {
+  switch (loss) {
+    case RobustLoss::kSquared:
+      return "squared";
+    case RobustLoss::kHuber:
+      return "huber";
+    case RobustLoss::kCauchy:
+      return "cauchy";
+    case RobustLoss::kTukey:
+      return "tukey";
+  }
+  return "";
+}
+
 // Scales at which the estimate of a mean has 1 / .95 of the least variance if
 // errors are normal after all: (E psi')^2 / E psi^2 = .95. For one coordinate
 // they are the well-known 1.345 of Huber's loss and 4.685 of Tukey's (Holland

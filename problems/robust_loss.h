@@ -9,6 +9,8 @@ namespace armcal {
 // those beyond its scale.
 enum class RobustLoss { kSquared, kHuber, kCauchy, kTukey };
 
+// "squared", "huber", "cauchy", "tukey".
+const char* LossName(RobustLoss loss);
 // In noise units, for residuals of 1, 2, 3 or 6 coordinates that are judged by
 // their length: 95 % efficient for normal errors (one coordinate: Holland and
 // Welsch 1977; the others by the same integral). 0 for kSquared.

@@ -7,8 +7,10 @@
 
 #include "calib/numerics/median.h"
 #include "calib/poses/coupling.h"
+#include "calib/poses/cross_validation.h"
 #include "calib/poses/fit.h"
 #include "calib/poses/misfit.h"
+#include "calib/poses/outliers.h"
 #include "calib/poses/pose_solution.h"
 #include "model/signals/dense_solvers.h"
 
@@ -17,23 +19,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Poses one of whose residual vectors (of a target, the pose or the wire) is so
-// long that Tukey's loss gives it up.
-std::vector<int> FindOutliers(const PoseFit& fit, const PoseUnknowns& at,
-                              const std::vector<int>& rows) {
-  VectorXd residuals;
-  fit.Jacobian(rows, at, &residuals);
-  const double limit = LossScale(RobustLoss::kTukey, fit.Coordinates());
-  const Eigen::Index per_pose = residuals.size() / rows.size();
-  std::vector<int> outliers;
-  for (size_t k = 0; k < rows.size(); ++k) {
-    const auto r = residuals.segment(k * per_pose, per_pose)
-                       .reshaped(fit.Coordinates(), Eigen::AutoSize);
-    if (r.colwise().norm().maxCoeff() > limit) outliers.push_back(rows[k]);
-  }
-  return outliers;
-}
 
 // rms of positions (of the first target, or of lengths) about their mean, m;
 // points that are touched have none.
@@ -45,26 +30,6 @@ double Extent(const PoseMeasurements& measured) {
   if (measured.tilts.size() > 0) p = measured.tilts;
   const MatrixXd about = p.rowwise() - p.colwise().mean();
   return about.norm() / std::sqrt(static_cast<double>(p.rows()));
-}
-
-// Leaves out every folds-th pose in turn and predicts it from the others.
-void CrossValidate(const PoseFit& fit, const std::vector<bool>& free,
-                   const PoseUnknowns& start, RobustLoss loss, int folds,
-                   int poses, PoseCalibration* result) {
-  if (folds < 2) return;
-  std::vector<double> all;
-  for (int fold = 0; fold < folds; ++fold) {
-    std::vector<int> kept, left_out;
-    for (int k = 0; k < poses; ++k) {
-      (k % folds == fold ? left_out : kept).push_back(k);
-    }
-    PoseUnknowns unknowns = start;
-    if (!fit.Solve(free, kept, loss, &unknowns)) continue;
-    for (const double d : fit.Distances(left_out, unknowns)) all.push_back(d);
-  }
-  if (all.empty()) return;
-  result->held_out_rms = Rms(all);
-  result->held_out_median = Median(all);
 }
 
 // Derivatives of `rows` by the free parameters, then by what else there is,
@@ -177,6 +142,7 @@ PoseCalibration CalibratePoses(const Robot& robot,
   result.robot = robot;
   result.count = measured.size();
   if (measured.tilts.size() > 0) result.unit = "rad";
+  result.loss = options.loss;
   result.refined = options.refine != RefineGeometry::kNothing;
   result.travel =
       measured.q.colwise().maxCoeff() - measured.q.colwise().minCoeff();
@@ -193,8 +159,16 @@ PoseCalibration CalibratePoses(const Robot& robot,
   const std::vector<int> inliers =
       ReportErrors(fit, measured, solution, &result);
   result.coupling = FindCoupling(robot, measured, options);
-  CrossValidate(fit, solution.free, solution.unknowns, options.loss,
-                options.folds, measured.size(), &result);
+  const MatrixXd predicted = LeftOutDistances(
+      fit, solution.free, solution.unknowns, options.loss, options.folds);
+  std::vector<double> left_out;
+  for (const double d : predicted.reshaped()) {
+    if (std::isfinite(d)) left_out.push_back(d);
+  }
+  if (!left_out.empty()) {
+    result.held_out_rms = Rms(left_out);
+    result.held_out_median = Median(left_out);
+  }
   // What Tukey's loss gives up tells nothing; the others let all poses pull.
   const bool some = options.loss == RobustLoss::kTukey && !inliers.empty();
   ReportParameters(fit, solution.free, some ? inliers : fit.AllRows(),

@@ -78,6 +78,7 @@ struct PoseCalibration {
   int count = 0;           // poses
   std::string unit = "m";  // of deviations below; of tilts "rad"
   bool refined = false;    // the arm's own geometry too
+  RobustLoss loss = RobustLoss::kTukey;  // by which it was fitted
   Eigen::VectorXd travel;  // per joint, all poses, rad or m
   double extent = 0;       // m, rms of measured positions about their mean
   PoseNoise noise;

@@ -61,6 +61,12 @@ std::string OutlierText(const PoseMeasurements& measured,
   return text + "\n";
 }
 
+// Tukey's is the usual one.
+std::string LossText(const PoseCalibration& result) {
+  if (result.loss == RobustLoss::kTukey) return "";
+  return std::string("loss       ") + LossName(result.loss) + "\n";
+}
+
 std::string CameraText(const PoseMeasurements& measured) {
   if (!(measured.pixel_stddev > 0)) return "";
   return Format(
@@ -152,7 +158,7 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
                 1e3 * result.median, unit, 1e3 * result.max, unit,
                 1e3 * result.held_out_rms, unit, 1e3 * result.held_out_median,
                 unit);
-  std::string text = line + CameraText(measured) +
+  std::string text = line + CameraText(measured) + LossText(result) +
                      OutlierText(measured, result) + MisfitText(result, unit) +
                      "\ngeometry                       file        estimate\n";
   for (const GeometryEstimate& p : result.parameters) text += Estimate(p);
@@ -193,6 +199,7 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
             {"max", result.max},
             {"median", result.median},
             {"before_rms", result.before_rms},
+            {"loss", LossName(result.loss)},
             {"cross_validated_rms", result.held_out_rms},
             {"cross_validated_median", result.held_out_median},
             {"noise_stddev", result.noise.position},
