@@ -18,6 +18,7 @@
 #include "calib/robot_outputs.h"
 #include "model/effects/effects.h"
 #include "model/robot_files/controller_reader.h"
+#include "model/text/format.h"
 #include "model/text/input_error.h"
 #include "model/text/option_name.h"
 
@@ -94,6 +95,8 @@ DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
   fit.without = options.without;
   fit.progress = options.progress;
   fit.baseline.trust = TrustInFile(options);
+  fit.may_trust_less = !options.trust && options.reference.logs.empty() &&
+                       options.calibration.empty();
   fit.bandwidth_hz = options.bandwidth_hz;
   fit.forward = options.forward;
   fit.seed = options.seed;
@@ -128,6 +131,20 @@ void AddClocks(const std::vector<WrongClock>& clocks,
   diagnosis->candidates.insert(
       diagnosis->candidates.begin(),
       {effect->effect, effect->joint, effect->probability, effect->score});
+}
+
+// The links' masses, centres and inertias were further off than a file's are.
+void NoteTrust(double assumed, GapDiagnosis* diagnosis) {
+  if (diagnosis->trust <= assumed) return;
+  diagnosis->data.push_back(
+      {Format("the robot file's masses and inertias are off by more than %.0f "
+              "%%",
+              100 * assumed),
+       Format("the logs are likelier where they may be off by %.0f %%; so they "
+              "may here, and effects on masses are told less surely",
+              100 * diagnosis->trust),
+       OptionName("calibration") + " of a calibrated robot, or " +
+           OptionName("trust")});
 }
 
 DrawnTorques Draw(const GapDiagnosis& diagnosis, const LogSet& held_out) {
@@ -262,6 +279,7 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   const LogSet* before = reference ? &*reference : nullptr;
   auto details = std::make_shared<GapDiagnosis>(DiagnoseGap(
       calibrated ? calibrated->robot : robot, fit, training, held_out, before));
+  NoteTrust(fit.baseline.trust, details.get());
   AddClocks(clocks, logs.logs, options, details.get());
   if (calibrated) {
     NoteCalibration(*calibrated, {&training, held_out, before}, &details->data);

@@ -10,6 +10,7 @@
 #include "calib/diagnose/data/segments.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/data/torque_bursts.h"
+#include "calib/diagnose/freedom.h"
 #include "calib/diagnose/judge/claims.h"
 #include "calib/diagnose/judge/held_out.h"
 #include "calib/diagnose/select/fit.h"
@@ -22,6 +23,11 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+// By which factors the trust in a file may be less than assumed: half decades,
+// from the 5 % of a file taken at its word to the 50 % that calibrations give
+// one.
+const std::vector<double> kLessTrust = {1, 3, 10};
 
 class Diagnoser {
  public:
@@ -51,6 +57,8 @@ class Diagnoser {
   void FitBaseline(const MissingTerms& missing,
                    std::vector<GapSegment>* segments,
                    std::vector<GapSegment>* before);
+  void FreeWhatIsContradicted(MissingTerms missing,
+                              std::vector<GapSegment>* segments);
   void Fit(const std::vector<GapSegment>& segments,
            const std::vector<GapSegment>& before);
   void KnowWhatModelsLack(const std::vector<GapSegment>& segments,
@@ -93,6 +101,7 @@ void Diagnoser::FitBaseline(const MissingTerms& missing,
                             std::vector<GapSegment>* segments,
                             std::vector<GapSegment>* before) {
   BaselineOptions trust = options_.baseline;
+  trust.trust = result_.trust;
   for (const MissingTerm& term : missing.terms) {
     trust.missing_terms[term.joint_term] = term.usual;
   }
@@ -117,6 +126,27 @@ void Diagnoser::FitBaseline(const MissingTerms& missing,
   }
 }
 
+// Without a reference, which would tell: the effects are chosen again while
+// they contradict what was assumed of the file (freedom.h), kMost times at
+// most. The trust is raised once.
+void Diagnoser::FreeWhatIsContradicted(MissingTerms missing,
+                                       std::vector<GapSegment>* segments) {
+  constexpr int kMost = 3;
+  const double given = result_.trust;
+  std::vector<GapSegment> none;
+  for (int round = 0; round < kMost; ++round) {
+    bool again = HoldNegative(*fit_, &missing);
+    if (options_.may_trust_less && result_.trust == given) {
+      result_.trust *= LikeliestTrust(*fit_, kLessTrust);
+      again |= result_.trust > given;
+    }
+    if (!again) return;
+    fit_.reset();  // it refers to the baseline
+    FitBaseline(missing, segments, &none);
+    Fit(*segments, none);
+  }
+}
+
 GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
                             const LogSet* reference) {
   const bool split = validation == nullptr;
@@ -125,6 +155,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   std::vector<GapSegment> before;
   if (reference != nullptr) before = Read(*reference);
   Tell("fitting the baseline");
+  result_.trust = options_.baseline.trust;
   const MissingTerms missing =
       FitMissingTerms(robot_, options_.baseline, bandwidth_hz_,
                       before.empty() ? segments : before);
@@ -135,6 +166,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   result_.torque_constants_stddev = training.torque_constants_stddev();
   Tell("choosing effects");
   Fit(segments, before);
+  if (before.empty()) FreeWhatIsContradicted(missing, &segments);
   if (split) {
     held_out_.emplace(*fit_);
   } else {

@@ -36,6 +36,9 @@ struct DiagnosisOptions {
   std::optional<double> bandwidth_hz;
   SelectionOptions selection;
   std::vector<std::string> without;  // effects that are not considered
+  // Whether the trust in the file's inertial parameters is a guess, which the
+  // logs may raise (LikeliestTrust).
+  bool may_trust_less = false;
   // What makes these logs those of another arm; nothing is told of it then.
   std::vector<DataFinding> wrong_readings;
   std::uint64_t seed = 1;
@@ -86,6 +89,7 @@ struct GapDiagnosis {
   std::vector<DataFinding> data;
   std::vector<UntestableEffect> untestable;
   double bandwidth_hz = 0;
+  double trust = 0;  // in the file's inertial parameters, relative deviations
   double torque_constants_stddev = 0;  // relative, LogSet
 };
 

@@ -237,6 +237,7 @@ json ToJson(const GapDiagnosis& diagnosis) {
           {"gap", gap},
           {"floor_source", NoiseFloorName(diagnosis.floor)},
           {"bandwidth_hz", JsonNumber(diagnosis.bandwidth_hz)},
+          {"trust", JsonNumber(diagnosis.trust)},
           {"torque_constants_stddev", diagnosis.torque_constants_stddev},
           {"unexplained", unexplained}};
 }

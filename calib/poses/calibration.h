@@ -75,12 +75,12 @@ struct PoseCalibration {
   std::vector<InstrumentEstimate> instrument;
   // Sentences: what is held because the poses cannot tell it.
   std::vector<std::string> held;
-  int count = 0;           // poses
-  std::string unit = "m";  // of deviations below; of tilts "rad"
-  bool refined = false;    // the arm's own geometry too
+  int count = 0;                         // poses
+  std::string unit = "m";                // of deviations below; of tilts "rad"
+  bool refined = false;                  // the arm's own geometry too
   RobustLoss loss = RobustLoss::kTukey;  // by which it was fitted
-  Eigen::VectorXd travel;  // per joint, all poses, rad or m
-  double extent = 0;       // m, rms of measured positions about their mean
+  Eigen::VectorXd travel;                // per joint, all poses, rad or m
+  double extent = 0;  // m, rms of measured positions about their mean
   PoseNoise noise;
   // m, per pose and target: with only the frame fitted, with the estimate.
   std::vector<double> before, after;

@@ -81,7 +81,10 @@ Eigen::MatrixXd LeftOutDistances(const PoseFit& fit,
                                  int folds) {
   if (folds < 2) return {};
   const int poses = fit.measured().size();
-  const int targets = fit.EquationsPerPose() / fit.Width();
+  // A pose seen whole has one distance, as a wire has; else each target its
+  // own.
+  const auto targets = static_cast<Eigen::Index>(
+      std::max<size_t>(1, fit.measured().targets.size()));
   Eigen::MatrixXd distances =
       Eigen::MatrixXd::Constant(poses, targets, std::nan(""));
   for (int fold = 0; fold < folds; ++fold) {

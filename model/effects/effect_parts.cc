@@ -129,6 +129,12 @@ std::string WhyNoNeighbour(const EffectSite& site) {
   return Neighbours(site).empty() ? "the robot has one joint" : "";
 }
 
+std::string WhyNotRecorded(const EffectSite& site) {
+  const Eigen::VectorXd& tops = site.scale->top_torque;
+  const bool is_zero = tops.size() > 0 && tops[site.joint] == 0;
+  return is_zero ? "the joint's torque is recorded as zero throughout" : "";
+}
+
 std::string WhyNotCarried(const EffectSite& site) {
   bool moves = false;
   for (int k = site.joint; k >= 0; k = site.robot->parent(k)) {

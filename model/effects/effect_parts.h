@@ -56,6 +56,9 @@ std::vector<int> Neighbours(const EffectSite& site);
 // Their numbers, from 1: a parameter of effects between two joints.
 EffectParameter NeighbourParameter();
 std::string WhyNoNeighbour(const EffectSite& site);
+// Of what a motor makes of its command: why not here, or empty. A passive
+// joint, and one whose torque was not recorded, have zeros throughout.
+std::string WhyNotRecorded(const EffectSite& site);
 // Of what is felt by its swinging and lifting: why not here, or empty.
 std::string WhyNotCarried(const EffectSite& site);
 

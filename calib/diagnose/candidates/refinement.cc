@@ -11,6 +11,7 @@
 
 #include "calib/diagnose/candidates/block_covariance.h"
 #include "calib/diagnose/candidates/bounded_covariance.h"
+#include "calib/diagnose/candidates/joint_scatter.h"
 #include "calib/diagnose/candidates/varied_effects.h"
 
 namespace armcal {
@@ -213,6 +214,25 @@ void SetBounds(const std::vector<Coordinate>& coordinates, double* u,
   }
 }
 
+std::vector<int> RowsOf(const GapScreen& screen) {
+  std::vector<int> rows;
+  for (int j = 0; j < screen.num_joints(); ++j) {
+    rows.push_back(screen.num_rows(j));
+  }
+  return rows;
+}
+
+// Coordinates of effects of the whole robot.
+std::vector<int> OfAllJoints(const std::vector<GapCandidate>& effects,
+                             const std::vector<Coordinate>& coordinates) {
+  std::vector<int> which;
+  for (size_t k = 0; k < coordinates.size(); ++k) {
+    const bool is_of_all = effects[coordinates[k].effect].joint < 0;
+    if (is_of_all) which.push_back(static_cast<int>(k));
+  }
+  return which;
+}
+
 // From coordinates to all parameters one after the other.
 MatrixXd Spread(const std::vector<GapCandidate>& effects,
                 const std::vector<Coordinate>& coordinates,
@@ -267,10 +287,13 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   refined.effects = varied.At(u);
   const RowMajorMatrix& J = cost->SlopesAt(u);
   const VectorXd& left = cost->ResidualAt(u);
-  refined.covariance = Spread(
-      effects, coordinates,
-      BoundedCovariance(BlockCovariance(J, left, BlocksOfRows(data->rows())),
-                        J.transpose() * left, coordinates, u));
+  const MatrixXd of_blocks =
+      BlockCovariance(J, left, BlocksOfRows(data->rows()));
+  refined.covariance =
+      Spread(effects, coordinates,
+             BoundedCovariance(WidenByJoints(of_blocks, J, left, RowsOf(screen),
+                                             OfAllJoints(effects, coordinates)),
+                               J.transpose() * left, coordinates, u));
   refined.baseline = cost->BaselineAt(u);
   refined.delta_chi2 =
       screen.ResidualGiven(JointRows(screen.num_joints())).squaredNorm() -

@@ -7,10 +7,10 @@ inline namespace effects {
 
 namespace {
 
-// A link with no mass left, or with more than twice its own, carries something
-// or has lost it: another effect.
+// A link with a tenth of its mass left, or with more than twice its own,
+// carries something or has lost it: another effect.
 bool IsOfTheLink(const std::vector<EffectEstimate>& estimates) {
-  return std::abs(estimates[0].value) < 1;
+  return estimates[0].value > -.9 && estimates[0].value < 1;
 }
 
 }  // namespace

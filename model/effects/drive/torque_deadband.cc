@@ -38,6 +38,7 @@ Effect TorqueDeadband() {
                          return GeometricGrid(.02 * TorqueScale(site),
                                               .2 * TorqueScale(site), 3);
                        })};
+  effect.unfit = WhyNotRecorded;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const double d = p[0], s = p[1];

@@ -5,10 +5,10 @@ inline namespace effects {
 
 namespace {
 
-// A motor that gives nothing of what is recorded, or the opposite, or a third
-// of it, has another fault than its constant.
+// A motor that gives ten times what is recorded or more, or the opposite, or a
+// third of it, has another fault than its constant.
 bool IsOfAConstant(const std::vector<EffectEstimate>& estimates) {
-  return estimates[0].value > -1 && estimates[0].value < 2;
+  return estimates[0].value > -.9 && estimates[0].value < 2;
 }
 
 }  // namespace
@@ -36,6 +36,7 @@ Effect TorqueGain() {
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"gain", p[0]}};
   };
+  effect.unfit = WhyNotRecorded;
   effect.plausible = IsOfAConstant;
   effect.experiment = "a known payload, held and moved";
   return effect;

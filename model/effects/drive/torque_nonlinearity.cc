@@ -23,6 +23,7 @@ Effect TorqueNonlinearity() {
   effect.parameters = {Linear(
       "fall", "1", [](const EffectSite&) { return .05; },
       EffectParameter::Sign::kPositive)};
+  effect.unfit = WhyNotRecorded;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const double fall = p[0], peak = FallTorque(site);

@@ -11,6 +11,7 @@ Effect TorqueOffset() {
   effect.law = "tau = offset";
   effect.shows = "any motion, beside gravity that changes sign";
   effect.parameters = {Linear("offset", "E", ShareOfTorque(.05))};
+  effect.unfit = WhyNotRecorded;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const double offset = p[0];

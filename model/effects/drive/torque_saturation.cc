@@ -60,6 +60,7 @@ Effect TorqueSaturation() {
       Gridded("knee", "1", [](const EffectSite&) {
         return std::vector<double>{.02, .08};
       })};
+  effect.unfit = WhyNotRecorded;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const double share = p[0];

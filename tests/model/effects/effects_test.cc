@@ -156,6 +156,19 @@ TEST(WhatALinkCarries, IsNotFeltBeyondJointsThatStand) {
   }
 }
 
+// A passive joint's torques say nothing of a motor, whose gain of -1 would
+// explain them.
+TEST(WhatAMotorMakes, IsNotToldWhereNoTorqueIsRecorded) {
+  EffectArm arm("SCARA RRPR");
+  arm.scale.top_torque = Eigen::Vector4d(0, 3, 3, 3);
+  for (const char* name : {"torque_gain", "torque_offset", "torque_deadband",
+                           "torque_nonlinearity", "torque_saturation"}) {
+    const Effect& effect = *FindEffect(name);
+    EXPECT_NE(effect.unfit(arm.Site(0)), "") << name;
+    EXPECT_EQ(effect.unfit(arm.Site(1)), "") << name;
+  }
+}
+
 // tau = m c^2 qdd + m g c sin q of a point mass m at c below the axis, whose
 // weight on the axis nothing shows.
 TEST(PayloadOfAPendulum, IsAPointMass) {
