@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "calib/diagnose/judge/description.h"
 
 namespace armcal {
 namespace {
@@ -26,6 +29,22 @@ double StddevOf(const GapBaseline& baseline, const VectorXd& covariance,
   return std::sqrt(variance);
 }
 
+// Whether the k-th effect is itself such a term, of which it leaves the joint
+// less than none.
+bool IsBelowNone(const GapFit& fit, size_t k, const Robot& with,
+                 const VectorXd& covariance) {
+  const GapCandidate& effect = fit.refined().effects[k];
+  const std::optional<JointTerm> term = effect.effect->joint_term;
+  if (!term || *term == JointTerm::kOffset) return false;
+  const double value =
+      TermOf(*term, with.links[effect.joint].joint) + effect.p[0];
+  const double own = CovarianceOf(fit.refined(), k)(0, 0);
+  const double stddev =
+      std::hypot(std::sqrt(own),
+                 StddevOf(fit.baseline(), covariance, effect.joint, *term));
+  return value < -kBelowZero * stddev;
+}
+
 }  // namespace
 
 bool MakesFrictionGivePower(const GapFit& fit, size_t k) {
@@ -35,6 +54,7 @@ bool MakesFrictionGivePower(const GapFit& fit, size_t k) {
   const Robot with = fit.baseline().With(fit.refined().baseline);
   const Robot without = fit.baseline().With(fit.regression().BaselineGiven(
       fit.regression().TorqueOf(AllBut(effects, k))));
+  if (IsBelowNone(fit, k, with, covariance)) return true;
   for (const JointTerm term : {JointTerm::kViscous, JointTerm::kCoulomb}) {
     for (int j = 0; j < fit.rows().num_joints(); ++j) {
       if (std::any_of(effects.begin(), effects.end(), [&](const auto& one) {
