@@ -73,10 +73,10 @@ const FlagChoices<TorqueKind> kTorqueKinds("torque_kind",
                                             {"command", TorqueKind::kCommand}});
 const FlagChoices<std::optional<RobustLoss>> kLosses(
     "loss", {{"auto", std::nullopt},
-             {"huber", RobustLoss::kHuber},
-             {"cauchy", RobustLoss::kCauchy},
-             {"tukey", RobustLoss::kTukey},
-             {"squared", RobustLoss::kSquared}});
+             {LossName(RobustLoss::kHuber), RobustLoss::kHuber},
+             {LossName(RobustLoss::kCauchy), RobustLoss::kCauchy},
+             {LossName(RobustLoss::kTukey), RobustLoss::kTukey},
+             {LossName(RobustLoss::kSquared), RobustLoss::kSquared}});
 
 std::vector<std::string> EffectNames() {
   std::vector<std::string> names;

@@ -24,11 +24,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// By which factors the trust in a file may be less than assumed: half decades,
-// from the 5 % of a file taken at its word to the 50 % that calibrations give
-// one.
-const std::vector<double> kLessTrust = {1, 3, 10};
-
 class Diagnoser {
  public:
   Diagnoser(const Robot& robot, const DiagnosisOptions& options,
@@ -137,7 +132,7 @@ void Diagnoser::FreeWhatIsContradicted(MissingTerms missing,
   for (int round = 0; round < kMost; ++round) {
     bool again = HoldNegative(*fit_, &missing);
     if (options_.may_trust_less && result_.trust == given) {
-      result_.trust *= LikeliestTrust(*fit_, kLessTrust);
+      result_.trust *= LikeliestTrust(*fit_);
       again |= result_.trust > given;
     }
     if (!again) return;

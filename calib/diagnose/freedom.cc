@@ -1,8 +1,7 @@
 #include "calib/diagnose/freedom.h"
 
 #include <cmath>
-#include <limits>
-#include <utility>
+#include <vector>
 
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/evidence_noise.h"
@@ -42,7 +41,9 @@ bool HoldNegative(const GapFit& fit, MissingTerms* missing) {
   return any;
 }
 
-double LikeliestTrust(const GapFit& fit, const std::vector<double>& factors) {
+// By half decades, from the 5 % of a file taken at its word to the 50 % that
+// calibrations give one.
+double LikeliestTrust(const GapFit& fit) {
   // Torques that were reconstructed keep the noise of their positions.
   if (!fit.rows().has_evidence()) return 1;
   const GapBaseline& baseline = fit.baseline();
@@ -54,17 +55,8 @@ double LikeliestTrust(const GapFit& fit, const std::vector<double>& factors) {
   }
   const GapScreen chosen =
       fit.screen().Only(ColumnsOf(fit.candidates(), fit.selection().chosen));
-  double likeliest = 1, most = -std::numeric_limits<double>::infinity();
-  for (const double factor : factors) {
-    GapScreen scaled = chosen;
-    scaled.ScaleBaseline(inertial, factor);
-    const double evidence =
-        LogEvidence(std::move(scaled), fit.regression().evidence());
-    if (evidence <= most) continue;
-    most = evidence;
-    likeliest = factor;
-  }
-  return likeliest;
+  return LikeliestScale(chosen, fit.regression().evidence(), inertial,
+                        {1, 3, 10});
 }
 
 }  // namespace armcal

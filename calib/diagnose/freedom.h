@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "calib/diagnose/select/fit.h"
 #include "calib/diagnose/select/missing_terms.h"
 
@@ -17,12 +15,12 @@ namespace armcal {
 // Whether there was any.
 bool HoldNegative(const GapFit& fit, MissingTerms* missing);
 
-// By which of these factors the trust in the file's inertial parameters (their
-// relative standard deviations) is larger than was assumed: the one under which
-// the logs are the likeliest, the chosen effects among the parameters, all
-// integrated over. Where one effect explains what a file lacks, its one column
-// costs less than all links' freedom; where the file is rough throughout no
-// single effect does (type II maximum likelihood, MacKay 1992).
-double LikeliestTrust(const GapFit& fit, const std::vector<double>& factors);
+// By which of the factors 1, 3 and 10 the trust in the file's inertial
+// parameters (their relative standard deviations) is larger than was assumed:
+// the one under which the logs are the likeliest, the chosen effects among the
+// parameters, all integrated over. Where one effect explains what a file lacks,
+// its one column costs less than all links' freedom; where the file is rough
+// throughout no single effect does (type II maximum likelihood, MacKay 1992).
+double LikeliestTrust(const GapFit& fit);
 
 }  // namespace armcal

@@ -44,7 +44,7 @@ TERMS = {"viscous_friction", "coulomb_friction", "armature", "torque_offset"}
 
 
 def places(diagnosis):
-    """{(effect, joint)} that are claimed, and what is told to be the same."""
+    """{(effect, joint)} that are claimed, but for terms that the file lacks."""
     found = set()
     for entry in claims(diagnosis):
         if entry["effect"] in TERMS and not entry["joint"]:

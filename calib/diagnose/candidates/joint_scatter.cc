@@ -17,36 +17,25 @@ VectorXd OwnSlopes(const RowMajorMatrix& J, int k) {
          others * others.completeOrthogonalDecomposition().solve(J.col(k));
 }
 
-// Of one parameter with these slopes; 0 where one joint alone depends on it.
-double VarianceByJoints(const VectorXd& slopes, const VectorXd& residual,
-                        const std::vector<int>& rows_of_joint) {
-  double sum = 0, joints = 0;
-  Eigen::Index begin = 0;
-  for (const int rows : rows_of_joint) {
-    const auto own = slopes.segment(begin, rows);
-    const double score = own.dot(residual.segment(begin, rows));
-    begin += rows;
-    if (own.isZero(0)) continue;
-    sum += score * score;
-    ++joints;
-  }
-  const double information = slopes.squaredNorm();
-  if (joints < 2 || !(information > 0)) return 0;
-  return joints / (joints - 1) * sum / (information * information);
-}
-
 }  // namespace
+
+std::vector<int> JointsOfRows(const GapRows& rows) {
+  std::vector<int> joints;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    joints.insert(joints.end(), rows.PlacesOfRows(j).size(), j);
+  }
+  return joints;
+}
 
 MatrixXd WidenByJoints(const MatrixXd& covariance, const RowMajorMatrix& J,
                        const VectorXd& residual,
-                       const std::vector<int>& rows_of_joint,
+                       const std::vector<int>& joint_of_row,
                        const std::vector<int>& which) {
   MatrixXd widened = covariance;
-  if (!residual.allFinite() || !J.allFinite()) return widened;
   for (const int k : which) {
     if (!(widened(k, k) > 0)) continue;
     const double variance =
-        VarianceByJoints(OwnSlopes(J, k), residual, rows_of_joint);
+        BlockCovariance(OwnSlopes(J, k), residual, joint_of_row)(0, 0);
     if (variance <= widened(k, k)) continue;
     const double factor = std::sqrt(variance / widened(k, k));
     widened.row(k) *= factor;

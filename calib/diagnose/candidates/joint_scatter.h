@@ -7,20 +7,20 @@
 
 namespace armcal {
 
+// Which joint each row is of, as residuals have them.
+std::vector<int> JointsOfRows(const GapRows& rows);
+
 // The covariance of a least-squares estimate, widened for parameters `which`
 // that all joints have in common, such as a delay of the whole robot: by how
-// much its joints disagree. With the slopes a of one such parameter, less what
-// the other parameters' slopes explain of them, and each joint's score s_j =
-// sum of a_i r_i over its rows, its variance is at least
-//   n / (n - 1) sum_j s_j^2 / (a' a)^2
-// of n joints whose rows depend on it (Liang and Zeger 1986, clusters being the
-// joints). Where all had the same value the scores would be noise. J: residual
-// by parameter, joint by joint; `rows_of_joint`: how many each has; more rows
-// are of a prior and of other data. One joint says nothing.
+// much its joints disagree. The variance of such a parameter is at least that
+// by BlockCovariance of its own slopes (less what the other parameters' slopes
+// explain of them), the blocks being the joints: where all had the same value
+// their scores would be noise. J: residual by parameter; rows beyond the
+// joints' are of a prior and of other data. One joint says nothing.
 Eigen::MatrixXd WidenByJoints(const Eigen::MatrixXd& covariance,
                               const RowMajorMatrix& J,
                               const Eigen::VectorXd& residual,
-                              const std::vector<int>& rows_of_joint,
+                              const std::vector<int>& joint_of_row,
                               const std::vector<int>& which);
 
 }  // namespace armcal

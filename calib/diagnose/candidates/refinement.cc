@@ -214,14 +214,6 @@ void SetBounds(const std::vector<Coordinate>& coordinates, double* u,
   }
 }
 
-std::vector<int> RowsOf(const GapScreen& screen) {
-  std::vector<int> rows;
-  for (int j = 0; j < screen.num_joints(); ++j) {
-    rows.push_back(screen.num_rows(j));
-  }
-  return rows;
-}
-
 // Coordinates of effects of the whole robot.
 std::vector<int> OfAllJoints(const std::vector<GapCandidate>& effects,
                              const std::vector<Coordinate>& coordinates) {
@@ -291,9 +283,10 @@ RefinedEffects RefineEffects(const GapScreen& screen,
       BlockCovariance(J, left, BlocksOfRows(data->rows()));
   refined.covariance =
       Spread(effects, coordinates,
-             BoundedCovariance(WidenByJoints(of_blocks, J, left, RowsOf(screen),
-                                             OfAllJoints(effects, coordinates)),
-                               J.transpose() * left, coordinates, u));
+             BoundedCovariance(
+                 WidenByJoints(of_blocks, J, left, JointsOfRows(data->rows()),
+                               OfAllJoints(effects, coordinates)),
+                 J.transpose() * left, coordinates, u));
   refined.baseline = cost->BaselineAt(u);
   refined.delta_chi2 =
       screen.ResidualGiven(JointRows(screen.num_joints())).squaredNorm() -

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -136,6 +137,21 @@ double LogEvidence(GapScreen screen, const EvidenceNoise& before) {
             weighed.screen.Residual(j, weighed.fit).squaredNorm();
   }
   return -cost;
+}
+
+double LikeliestScale(const GapScreen& screen, const EvidenceNoise& noise,
+                      const std::vector<int>& which,
+                      const std::vector<double>& factors) {
+  double likeliest = 1, most = -std::numeric_limits<double>::infinity();
+  for (const double factor : factors) {
+    GapScreen scaled = screen;
+    scaled.ScaleBaseline(which, factor);
+    const double evidence = LogEvidence(std::move(scaled), noise);
+    if (evidence <= most) continue;
+    most = evidence;
+    likeliest = factor;
+  }
+  return likeliest;
 }
 
 // The correlation time of each joint is the smaller one of what both models

@@ -37,6 +37,13 @@ EvidenceNoise SettleNoise(GapScreen screen, Eigen::VectorXd stddev);
 // up to what models of the same rows and times share.
 double LogEvidence(GapScreen screen, const EvidenceNoise& noise);
 
+// Of the factors by which a screen's baseline columns `which` may be scaled
+// (their prior stays N(0, 1)) the one with the largest LogEvidence, the first
+// of equal ones.
+double LikeliestScale(const GapScreen& screen, const EvidenceNoise& noise,
+                      const std::vector<int>& which,
+                      const std::vector<double>& factors);
+
 // 2 log of the odds of a larger model against a smaller one. The larger one
 // says how many samples are independent, for both (tempered likelihoods can be
 // compared under one temperature only); variances are each model's own:

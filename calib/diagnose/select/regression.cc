@@ -213,16 +213,7 @@ double GapRegression::LikeliestDiscrepancy(const GapScreen& screen,
   const int first = baseline_.num_model_columns();
   std::vector<int> discrepancy(baseline_.size() - first);
   std::iota(discrepancy.begin(), discrepancy.end(), first);
-  double likeliest = 1, most = LogEvidence(screen, noise);
-  for (const double size : {3 * least, least}) {
-    GapScreen scaled = screen;
-    scaled.ScaleBaseline(discrepancy, size);
-    const double evidence = LogEvidence(std::move(scaled), noise);
-    if (evidence <= most) continue;
-    most = evidence;
-    likeliest = size;
-  }
-  return likeliest;
+  return LikeliestScale(screen, noise, discrepancy, {1, 3 * least, least});
 }
 
 // A reference tells it where there is one: nothing in it is wrong, and what is

@@ -37,12 +37,17 @@ VectorXd Left(double scatter, std::mt19937_64* random) {
   return y - J * J.colPivHouseholderQr().solve(y);
 }
 
+std::vector<int> Joints() {
+  std::vector<int> joints(kJoints * kRows);
+  for (int i = 0; i < kJoints * kRows; ++i) joints[i] = i / kRows;
+  return joints;
+}
+
 MatrixXd Told(double scatter, const std::vector<int>& which,
               std::mt19937_64* random) {
   const RowMajorMatrix J = Slopes();
   const MatrixXd noise = (J.transpose() * J).inverse();
-  return WidenByJoints(noise, J, Left(scatter, random),
-                       std::vector<int>(kJoints, kRows), which);
+  return WidenByJoints(noise, J, Left(scatter, random), Joints(), which);
 }
 
 // The mean of joints whose own values scatter by s is off by s / sqrt(n).
