@@ -12,8 +12,9 @@ namespace {
 
 const std::set<std::string>& OfAnotherArm() {
   static const std::set<std::string> kFindings = {
-      "time_unit",   "position_unit", "joint_order",    "joint_sign",
-      "torque_sign", "position_sign", "unsigned_torque"};
+      "time_unit",      "position_unit", "joint_order",
+      "position_order", "torque_order",  "joint_sign",
+      "torque_sign",    "position_sign", "unsigned_torque"};
   return kFindings;
 }
 

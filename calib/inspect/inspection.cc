@@ -277,7 +277,7 @@ Log Mended(const Robot& robot, const Log& log,
                                       : inspection.stamps.unit * log.t;
   const LogReading& reading = inspection.reading;
   for (int j = 0; j < robot.num_joints(); ++j) {
-    const int from = reading.wiring.column[j];
+    const int from = reading.wiring.position_column[j];
     const double sign = reading.wiring.position_sign[j];
     const double unit =
         reading.degrees && IsRotational(robot.links[j].joint.type) ? kDegree
@@ -293,7 +293,8 @@ Log Mended(const Robot& robot, const Log& log,
       mended.qref.col(j) = sign * unit * log.qref.col(from);
     }
     if (log.tau.size() == 0) continue;
-    mended.tau.col(j) = reading.wiring.torque_sign[j] * log.tau.col(from);
+    mended.tau.col(j) = reading.wiring.torque_sign[j] *
+                        log.tau.col(reading.wiring.torque_column[j]);
   }
   return mended;
 }

@@ -31,10 +31,6 @@ constexpr double kLeastAsked = 1;    // s, of a joint whose sign is asked for
 
 using Kind = ReadingChange::Kind;
 
-bool IsOneSign(Kind kind) {
-  return kind == Kind::kPositionSign || kind == Kind::kTorqueSign;
-}
-
 class Reader {
  public:
   Reader(const Robot& robot, const UniformSeries& series,
@@ -50,9 +46,9 @@ class Reader {
             .colwise()
             .sum();
     for (int j = 0; j < robot.num_joints(); ++j) {
-      const bool moves = moving[j] * series.dt() > kLeastAsked;
-      num_moving_ += moves;
-      asked_.push_back(moves && (tells.empty() || tells[j]));
+      moves_.push_back(moving[j] * series.dt() > kLeastAsked);
+      num_moving_ += moves_.back();
+      tells_.push_back(tells.empty() || tells[j]);
     }
   }
 
@@ -89,8 +85,18 @@ class Reader {
     return FitOf(reading).Misfit(SamplesOf(reading).tau, percent);
   }
 
+  // Of which joints signs and order are asked.
+  std::vector<bool> Asked() const {
+    std::vector<bool> asked;
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      asked.push_back(moves_[best_.wiring.position_column[j]] &&
+                      tells_[best_.wiring.torque_column[j]]);
+    }
+    return asked;
+  }
+
   std::vector<Candidate> Candidates() {
-    std::vector<Candidate> all = WiringCandidates(best_, asked_);
+    std::vector<Candidate> all = WiringCandidates(best_, Asked());
     const double magnitude =
         robot_.gravity.norm() > 0 ? robot_.gravity.norm() : 9.81;
     for (const Candidate& candidate : GravityCandidates(best_, magnitude)) {
@@ -104,14 +110,25 @@ class Reader {
     return all;
   }
 
+  // A fit's regressors are most of the work, and of the motion alone.
+  std::vector<double> Misfits(const std::vector<Candidate>& all) const {
+    std::vector<double> misfits;
+    std::optional<TorqueFit> fit;
+    for (size_t k = 0; k < all.size(); ++k) {
+      const LogReading& reading = all[k].reading;
+      const WiringSamples samples = SamplesOf(reading);
+      if (k == 0 || !MoveAlike(reading, all[k - 1].reading))
+        fit.emplace(RobotOf(reading), samples.motion);
+      misfits.push_back(fit->Misfit(samples.tau));
+    }
+    return misfits;
+  }
+
   // One discrete change, the best that held-out torques confirm; false where
   // there is none.
   bool Improve() {
     std::vector<Candidate> all = Candidates();
-    std::vector<double> misfits;
-    for (const Candidate& candidate : all) {
-      misfits.push_back(Misfit(candidate.reading));
-    }
+    const std::vector<double> misfits = Misfits(all);
     std::vector<size_t> order(all.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),
@@ -140,7 +157,7 @@ class Reader {
 
   void Take(size_t k, const HeldOutFit& held_out,
             const std::vector<double>& misfits, std::vector<Candidate>* all) {
-    NoteOtherSign(misfits, held_out, k, all);
+    NoteOtherSignal(misfits, held_out, k, all);
     double sum = 0;
     for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
     Accept((*all)[k], misfits[k], std::min(1., 1 / sum), held_out);
@@ -158,32 +175,25 @@ class Reader {
              (joints_agree_ &&
               held_out.residual_percent < held_out_.residual_percent);
     }
-    std::vector<int> of;
-    for (const int j : {change.joint, change.other}) {
-      if (j >= 0) of.push_back(j);
-    }
-    return IsClearlyBetter(held_out_, held_out, of) ||
+    return IsClearlyBetter(held_out_, held_out, JointsOf(change)) ||
            (IsOneSign(change.kind) &&
             IsFirstToExplain(held_out_, held_out, change.joint));
   }
 
-  // Whether the sign of the joint's other signal would do as well, or nearly
-  // so: then what the model misses may decide between them.
-  void NoteOtherSign(const std::vector<double>& misfits,
-                     const HeldOutFit& held_out, size_t k,
-                     std::vector<Candidate>* all) const {
+  // Whether the same change of the joints' other signal would do as well, or
+  // nearly so: then what the model misses may decide between them.
+  void NoteOtherSignal(const std::vector<double>& misfits,
+                       const HeldOutFit& held_out, size_t k,
+                       std::vector<Candidate>* all) const {
     ReadingChange& change = (*all)[k].change;
     for (size_t i = 0; i < all->size(); ++i) {
       const ReadingChange& other = (*all)[i].change;
-      if (i == k || other.joint != change.joint || !IsOneSign(other.kind) ||
-          !IsOneSign(change.kind)) {
-        continue;
-      }
+      if (!AreOfEitherSignal(other, change)) continue;
       const HeldOutFit fit = HeldOut((*all)[i].reading);
       if (misfits[i] < misfits[k] + kLeastGain ||
           (Confirms(other, fit) &&
-           !IsClearlyBetter(fit, held_out, {change.joint}))) {
-        change.or_other_sign = true;
+           !IsClearlyBetter(fit, held_out, JointsOf(change)))) {
+        change.or_other_signal = true;
       }
     }
   }
@@ -247,10 +257,6 @@ class Reader {
   // What the joints agree on, else what is best for all of them together.
   Candidate BestDelay() {
     Candidate best{best_, {Kind::kDelay}};
-    std::vector<bool> asked;
-    for (const int column : best_.wiring.column) {
-      asked.push_back(asked_[column]);
-    }
     const TorqueDelay found = FindTorqueDelay(
         FitOf(best_),
         [&](double delay) {
@@ -258,7 +264,7 @@ class Reader {
           at.delay = delay;
           return SamplesOf(at).tau;
         },
-        asked);
+        Asked());
     joints_agree_ = found.IsBeyond(kLeastDelay);
     const double delay = joints_agree_ ? found.mean : found.best;
     if (joints_agree_ || (found.inside && std::abs(delay) > kLeastDelay)) {
@@ -273,8 +279,8 @@ class Reader {
   const int samples_;
   LogReading best_;
   double least_ = 0;
-  HeldOutFit held_out_;      // of best_
-  std::vector<bool> asked_;  // of columns as logged, whether signs are asked
+  HeldOutFit held_out_;              // of best_
+  std::vector<bool> moves_, tells_;  // of columns as logged
   int num_moving_ = 0;
   bool joints_agree_ = false;  // on the delay of the latest candidates
   std::vector<ReadingChange> changes_;

@@ -7,27 +7,50 @@ namespace armcal {
 using Eigen::Vector3d;
 using Kind = ReadingChange::Kind;
 
+namespace {
+
+LogReading Exchanged(LogReading reading, Kind kind, int j, int k) {
+  Wiring& wiring = reading.wiring;
+  if (kind != Kind::kTorquesExchanged)
+    std::swap(wiring.position_column[j], wiring.position_column[k]);
+  if (kind != Kind::kPositionsExchanged)
+    std::swap(wiring.torque_column[j], wiring.torque_column[k]);
+  return reading;
+}
+
+LogReading TurnedRound(LogReading reading, Kind kind, int j) {
+  Wiring& wiring = reading.wiring;
+  if (kind != Kind::kTorqueSign) wiring.position_sign[j] *= -1;
+  if (kind != Kind::kPositionSign) wiring.torque_sign[j] *= -1;
+  return reading;
+}
+
+}  // namespace
+
 std::vector<Candidate> WiringCandidates(const LogReading& from,
-                                        const std::vector<bool>& moves) {
-  std::vector<Candidate> all;
-  const auto n = static_cast<int>(from.wiring.column.size());
+                                        const std::vector<bool>& asked) {
+  std::vector<Candidate> of_torques, of_positions;
+  const auto n = static_cast<int>(asked.size());
+  const auto add = [&](std::vector<Candidate>* all, Kind kind, int j, int k) {
+    all->push_back({Exchanged(from, kind, j, k), {kind, j, k}});
+  };
+  const auto turn = [&](std::vector<Candidate>* all, Kind kind, int j) {
+    all->push_back({TurnedRound(from, kind, j), {kind, j}});
+  };
   for (int j = 0; j < n; ++j) {
-    if (!moves[from.wiring.column[j]]) continue;
+    if (!asked[j]) continue;
     for (int k = j + 1; k < n; ++k) {
-      if (!moves[from.wiring.column[k]]) continue;
-      all.push_back({from, {Kind::kExchanged, j, k}});
-      std::vector<int>& column = all.back().reading.wiring.column;
-      std::swap(column[j], column[k]);
+      if (!asked[k]) continue;
+      add(&of_torques, Kind::kTorquesExchanged, j, k);
+      add(&of_positions, Kind::kPositionsExchanged, j, k);
+      add(&of_positions, Kind::kExchanged, j, k);
     }
-    for (const Kind kind :
-         {Kind::kPositionSign, Kind::kTorqueSign, Kind::kJointSign}) {
-      all.push_back({from, {kind, j}});
-      Wiring& wiring = all.back().reading.wiring;
-      if (kind != Kind::kTorqueSign) wiring.position_sign[j] *= -1;
-      if (kind != Kind::kPositionSign) wiring.torque_sign[j] *= -1;
-    }
+    turn(&of_torques, Kind::kTorqueSign, j);
+    turn(&of_positions, Kind::kPositionSign, j);
+    turn(&of_positions, Kind::kJointSign, j);
   }
-  return all;
+  of_torques.insert(of_torques.end(), of_positions.begin(), of_positions.end());
+  return of_torques;
 }
 
 std::vector<Candidate> GravityCandidates(const LogReading& from,

@@ -12,10 +12,11 @@ struct Candidate {
   ReadingChange change;
 };
 
-// Two joints exchanged, and each joint's position, torque or both turned round;
-// of the columns that move (`moves`, as they are logged).
+// Two joints' positions, torques or both exchanged, and each joint's position,
+// torque or both turned round; of joints that are `asked`. Those that move
+// alike follow each other.
 std::vector<Candidate> WiringCandidates(const LogReading& from,
-                                        const std::vector<bool>& moves);
+                                        const std::vector<bool>& asked);
 
 // Gravity of that size, m/s^2, along each axis of the world, and none.
 std::vector<Candidate> GravityCandidates(const LogReading& from,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "calib/logs/wiring.h"
 #include "model/robot/robot.h"
@@ -21,7 +22,9 @@ struct LogReading {
 // One thing by which the best reading differs from the log as it is.
 struct ReadingChange {
   enum class Kind {
-    kExchanged,     // two joints' columns
+    kExchanged,           // two joints' columns
+    kPositionsExchanged,  // theirs alone, with velocities and commands
+    kTorquesExchanged,
     kPositionSign,  // of one joint
     kTorqueSign,
     kJointSign,  // of both
@@ -35,9 +38,19 @@ struct ReadingChange {
   // What a fit leaves of torques that it has not seen, before and after.
   double held_out_before = 0, held_out_after = 0;  // %
   double probability = 1;  // against the other changes that were tried
-  // Of a position's or torque's sign: whether that of the other would do as
-  // well, since nothing tells which way the joint turns.
-  bool or_other_sign = false;
+  // Of what concerns positions or torques alone: whether the same change of the
+  // other would do as well, since nothing tells which way the joint turns, or
+  // which of two it is.
+  bool or_other_signal = false;
 };
+
+// Whether it is the sign of one joint's position or torque alone.
+bool IsOneSign(ReadingChange::Kind kind);
+// Whether they are one change of the same joints, of positions and of torques.
+bool AreOfEitherSignal(const ReadingChange& a, const ReadingChange& b);
+// The joint or joints that it concerns; none where it is all.
+std::vector<int> JointsOf(const ReadingChange& change);
+// Whether joints move alike in both, whatever their torques.
+bool MoveAlike(const LogReading& a, const LogReading& b);
 
 }  // namespace armcal

@@ -40,8 +40,20 @@ void SaySign(const ReadingChange& change, const char* signal, const char* other,
   finding->finding = std::string(signal) + "_sign";
   finding->sentence =
       std::string("the ") + signal + " of " + joint + " has the wrong sign";
-  if (change.or_other_sign)
+  if (change.or_other_signal)
     finding->sentence += std::string(", or its ") + other;
+}
+
+// Of positions or torques alone.
+void SayOrder(const ReadingChange& change, const char* signal,
+              const char* other, const std::string& joints,
+              InspectionFinding* finding) {
+  finding->finding = std::string(signal) + "_order";
+  finding->sentence =
+      std::string("the ") + signal + "s of " + joints + " are exchanged";
+  finding->sentence += change.or_other_signal
+                           ? std::string(", or their ") + other + "s"
+                           : std::string(", their ") + other + "s are not";
 }
 
 }  // namespace
@@ -49,6 +61,9 @@ void SaySign(const ReadingChange& change, const char* signal, const char* other,
 InspectionFinding FindingOf(const ReadingChange& change,
                             const LogReading& reading, const Robot& robot) {
   const auto name = [&](int j) { return robot.links[j].joint.name; };
+  const auto names = [&] {
+    return name(change.joint) + " and " + name(change.other);
+  };
   InspectionFinding finding;
   finding.joint = change.joint;
   finding.probability = change.probability;
@@ -62,8 +77,13 @@ InspectionFinding FindingOf(const ReadingChange& change,
   switch (change.kind) {
     case Kind::kExchanged:
       finding.finding = "joint_order";
-      finding.sentence = "the columns of " + name(change.joint) + " and " +
-                         name(change.other) + " are exchanged";
+      finding.sentence = "the columns of " + names() + " are exchanged";
+      break;
+    case Kind::kPositionsExchanged:
+      SayOrder(change, "position", "torque", names(), &finding);
+      break;
+    case Kind::kTorquesExchanged:
+      SayOrder(change, "torque", "position", names(), &finding);
       break;
     case Kind::kPositionSign:
       SaySign(change, "position", "torque", name(change.joint), &finding);

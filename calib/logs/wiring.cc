@@ -63,22 +63,25 @@ MatrixXd MovingSamples(const Motion& motion) {
 }  // namespace
 
 Wiring::Wiring(int num_joints)
-    : column(num_joints),
+    : position_column(num_joints),
+      torque_column(num_joints),
       position_sign(VectorXd::Ones(num_joints)),
       torque_sign(VectorXd::Ones(num_joints)) {
-  std::iota(column.begin(), column.end(), 0);
+  std::iota(position_column.begin(), position_column.end(), 0);
+  std::iota(torque_column.begin(), torque_column.end(), 0);
 }
 
 WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring) {
   WiringSamples joints = samples;
-  for (size_t j = 0; j < wiring.column.size(); ++j) {
+  for (size_t j = 0; j < wiring.position_column.size(); ++j) {
     const auto to = static_cast<Eigen::Index>(j);
-    const int from = wiring.column[j];
+    const int from = wiring.position_column[j];
     const double sign = wiring.position_sign[to];
     joints.motion.q.col(to) = sign * samples.motion.q.col(from);
     joints.motion.qd.col(to) = sign * samples.motion.qd.col(from);
     joints.motion.qdd.col(to) = sign * samples.motion.qdd.col(from);
-    joints.tau.col(to) = wiring.torque_sign[to] * samples.tau.col(from);
+    joints.tau.col(to) =
+        wiring.torque_sign[to] * samples.tau.col(wiring.torque_column[j]);
   }
   return joints;
 }

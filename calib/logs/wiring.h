@@ -16,10 +16,11 @@ struct WiringSamples {
   Eigen::MatrixXd tau;  // samples x n
 };
 
-// Which column belongs to which joint, and with what sign.
+// Which columns belong to which joint, and with what sign. A column of the
+// position stands for those of velocity and command as well.
 struct Wiring {
-  std::vector<int> column;                     // of each joint, from 0
-  Eigen::VectorXd position_sign, torque_sign;  // of each joint, +-1
+  std::vector<int> position_column, torque_column;  // of each joint, from 0
+  Eigen::VectorXd position_sign, torque_sign;       // of each joint, +-1
 
   explicit Wiring(int num_joints);
 };

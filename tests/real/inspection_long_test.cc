@@ -102,6 +102,15 @@ std::vector<Fault> FaultsOf(const Recording& recording) {
            Exchange(a, b, &r->log);
          }});
   }
+  faults.push_back(
+      {"positions exchanged", "position_order", 1, {}, [](Recording* r) {
+         r->log.q.col(1).swap(r->log.q.col(2));
+         r->log.qd.col(1).swap(r->log.qd.col(2));
+       }});
+  faults.push_back(
+      {"torques exchanged", "torque_order", 0, {}, [](Recording* r) {
+         r->log.tau.col(0).swap(r->log.tau.col(2));
+       }});
   for (const int j : {0, 1, n - 2}) {
     faults.push_back(
         {"position sign", "position_sign", j, {}, [j](Recording* r) {

@@ -69,6 +69,22 @@ TEST_F(InspectionTest, AWrongSignIsNamedAndMended) {
   EXPECT_EQ(json["logs"][0]["coverage"]["known"], false);
 }
 
+TEST_F(InspectionTest, ExchangedPositionsAreNamedAndMended) {
+  Log wrong = arm_.log;
+  wrong.q.col(1).swap(wrong.q.col(2));
+  wrong.qd.col(1).swap(wrong.qd.col(2));
+  const LogInspection inspection = Inspect(wrong);
+  ASSERT_EQ(inspection.findings.size(), 1u);
+  EXPECT_EQ(inspection.findings[0].finding, "position_order");
+  EXPECT_EQ(inspection.findings[0].sentence,
+            "the positions of joint2 and joint3 are exchanged, their torques "
+            "are not");
+  const Log mended = Mended(arm_.robot, wrong, inspection);
+  EXPECT_EQ(mended.q, arm_.log.q);
+  EXPECT_EQ(mended.qd, arm_.log.qd);
+  EXPECT_EQ(mended.tau, arm_.log.tau);
+}
+
 TEST_F(InspectionTest, TimeInMillisecondsIsNamed) {
   Log wrong = arm_.log;
   wrong.t *= 1000;

@@ -44,6 +44,26 @@ TEST_F(LogReadingTest, ExchangedJoints) {
   ExpectOne(Kind::kExchanged, 1, 2);
 }
 
+TEST_F(LogReadingTest, ExchangedPositionsAlone) {
+  log_.q.col(1).swap(log_.q.col(2));
+  ExpectOne(Kind::kPositionsExchanged, 1, 2);
+}
+
+TEST_F(LogReadingTest, ExchangedTorquesAlone) {
+  log_.tau.col(0).swap(log_.tau.col(2));
+  ExpectOne(Kind::kTorquesExchanged, 0, 2);
+}
+
+// Three joints' torques one place on: two exchanges.
+TEST_F(LogReadingTest, TorquesInAnotherOrder) {
+  log_.tau.col(0).swap(log_.tau.col(1));
+  log_.tau.col(1).swap(log_.tau.col(2));
+  const ReadingFinding found = Read();
+  ASSERT_EQ(found.changes.size(), 2u);
+  const std::vector<int> as_logged = {2, 0, 1, 3, 4, 5};
+  EXPECT_EQ(found.reading.wiring.torque_column, as_logged);
+}
+
 TEST_F(LogReadingTest, SignOfThePosition) {
   log_.q.col(2) *= -1;
   ExpectOne(Kind::kPositionSign, 2);
