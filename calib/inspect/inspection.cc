@@ -12,7 +12,6 @@
 #include "calib/logs/held_values.h"
 #include "calib/logs/velocity_delay.h"
 #include "model/log_files/torque_columns.h"
-#include "model/robot/axis_rotation.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
 #include "model/text/option_name.h"
@@ -71,19 +70,21 @@ class Inspector {
       DescribeSpeed(series);
       if (!stuck) ReadTorques(series);
     }
-    if (result_.reading.degrees) TakeDegrees();
+    if (result_.reading.units.any()) TakeUnits();
     return result_;
   }
 
  private:
-  // The cause before what follows from it, and the motion's figures in rad.
-  void TakeDegrees() {
-    result_.velocity_as_it_is =
-        PutPositionUnitFirst(robot_, log_, result_.stamps, &result_.findings);
+  // The cause before what follows from it, and the motion's figures in rad and
+  // m.
+  void TakeUnits() {
+    const PositionUnits& units = result_.reading.units;
+    result_.velocity_as_it_is = PutPositionUnitFirst(
+        robot_, log_, result_.stamps, units, &result_.findings);
     for (VectorXd* figure :
          {&result_.travel, &result_.top_speed, &result_.tracking_rms}) {
       for (int j = 0; j < figure->size(); ++j) {
-        if (IsRotational(robot_.links[j].joint.type)) (*figure)[j] *= kDegree;
+        (*figure)[j] *= units.Of(robot_.links[j].joint);
       }
     }
   }
@@ -161,8 +162,10 @@ class Inspector {
                                           OptionName("torque_constants");
       return;
     }
-    const ReadingFinding found =
-        FindReading(robot_, series, Tells(), !result_.clock.wrong());
+    const ReadingFinding found = FindReading(
+        robot_, series,
+        {Tells(), !result_.clock.wrong(),
+         HintsOfPositionUnit(robot_, log_, result_.stamps, result_.top_speed)});
     result_.reading = found.reading;
     result_.as_it_is = found.changes.empty() && !result_.clock.wrong();
     result_.residual_percent = found.residual_percent;
@@ -279,9 +282,7 @@ Log Mended(const Robot& robot, const Log& log,
   for (int j = 0; j < robot.num_joints(); ++j) {
     const int from = reading.wiring.position_column[j];
     const double sign = reading.wiring.position_sign[j];
-    const double unit =
-        reading.degrees && IsRotational(robot.links[j].joint.type) ? kDegree
-                                                                   : 1;
+    const double unit = reading.units.Of(robot.links[j].joint);
     const bool as_it_is = !inspection.velocity_as_it_is.empty() &&
                           inspection.velocity_as_it_is[from];
     const double of_velocity = as_it_is ? 1 : unit;

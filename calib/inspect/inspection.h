@@ -37,7 +37,7 @@ struct LogInspection {
   std::vector<InspectionFinding> findings;
   bool as_it_is = false;  // its torques fit the robot best as logged
   LogReading reading;
-  // Per joint, where positions are in degrees: its velocity is in rad/s.
+  // Per joint, where positions are in other units: its velocity is not.
   std::vector<bool> velocity_as_it_is;
   LogCoverage coverage;  // CoverageOf, where asked for
   LogDrawing drawing;    // where bins are asked for

@@ -34,10 +34,10 @@ using Kind = ReadingChange::Kind;
 class Reader {
  public:
   Reader(const Robot& robot, const UniformSeries& series,
-         const std::vector<bool>& tells, bool asks_gravity)
+         const ReadingHints& hints)
       : robot_(robot),
         series_(series),
-        asks_gravity_(asks_gravity),
+        hints_(hints),
         samples_(kSamplesOfReading * 7 / std::max(7, robot.num_joints())),
         best_(robot) {
     const Eigen::VectorXd moving =
@@ -48,7 +48,7 @@ class Reader {
     for (int j = 0; j < robot.num_joints(); ++j) {
       moves_.push_back(moving[j] * series.dt() > kLeastAsked);
       num_moving_ += moves_.back();
-      tells_.push_back(tells.empty() || tells[j]);
+      tells_.push_back(hints.tells.empty() || hints.tells[j]);
     }
   }
 
@@ -56,6 +56,7 @@ class Reader {
     held_out_ = HeldOut(best_);
     ReadingFinding finding{best_, {}, 0, 0};
     least_ = Misfit(best_, &finding.residual_percent_as_is);
+    TakeHintedUnits();
     while (static_cast<int>(changes_.size()) < kMostChanges && Improve()) {
     }
     RefineGravity();
@@ -104,10 +105,29 @@ class Reader {
         all.push_back(candidate);
       }
     }
-    all.push_back({best_, {Kind::kDegrees}});
-    all.back().reading.degrees = !best_.degrees;
+    for (Candidate& candidate : UnitCandidates(best_, robot_)) {
+      all.push_back(std::move(candidate));
+    }
     all.push_back(BestDelay());
     return all;
+  }
+
+  // What a unit that has a hint leaves has to be less; no more is asked, as the
+  // inertias of links that move a thousand times as far are free enough to
+  // explain much of it.
+  void TakeHintedUnits() {
+    for (Candidate& candidate : UnitCandidates(best_, robot_)) {
+      const bool degrees = candidate.change.kind == Kind::kDegrees;
+      candidate.change.hint =
+          degrees ? hints_.units.degrees : hints_.units.millimetres;
+      if (candidate.change.hint.empty()) continue;
+      candidate.reading = best_;
+      (degrees ? candidate.reading.units.degrees
+               : candidate.reading.units.millimetres) = true;
+      const HeldOutFit held_out = HeldOut(candidate.reading);
+      if (held_out.residual_percent < held_out_.residual_percent)
+        Accept(candidate, Misfit(candidate.reading), 1, held_out);
+    }
   }
 
   // A fit's regressors are most of the work, and of the motion alone.
@@ -166,7 +186,7 @@ class Reader {
   // The offsets and first moments of one joint that moves alone say the same as
   // gravity's direction.
   bool AsksGravity() const {
-    return asks_gravity_ && (num_moving_ > 1 || robot_.num_joints() == 1);
+    return hints_.asks_gravity && (num_moving_ > 1 || robot_.num_joints() == 1);
   }
 
   bool Confirms(const ReadingChange& change, const HeldOutFit& held_out) const {
@@ -275,7 +295,7 @@ class Reader {
 
   const Robot& robot_;
   const UniformSeries& series_;
-  const bool asks_gravity_;
+  const ReadingHints& hints_;
   const int samples_;
   LogReading best_;
   double least_ = 0;
@@ -292,18 +312,18 @@ WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
                         const UniformSeries& series, int count) {
   WiringSamples samples =
       Rewired(series.Pick(count, reading.delay), reading.wiring);
-  for (int j = 0; reading.degrees && j < robot.num_joints(); ++j) {
-    if (!IsRotational(robot.links[j].joint.type)) continue;
-    samples.motion.q.col(j) *= kDegree;
-    samples.motion.qd.col(j) *= kDegree;
-    samples.motion.qdd.col(j) *= kDegree;
+  for (int j = 0; reading.units.any() && j < robot.num_joints(); ++j) {
+    const double unit = reading.units.Of(robot.links[j].joint);
+    samples.motion.q.col(j) *= unit;
+    samples.motion.qd.col(j) *= unit;
+    samples.motion.qdd.col(j) *= unit;
   }
   return samples;
 }
 
 ReadingFinding FindReading(const Robot& robot, const UniformSeries& series,
-                           const std::vector<bool>& tells, bool asks_gravity) {
-  return Reader(robot, series, tells, asks_gravity).Run();
+                           const ReadingHints& hints) {
+  return Reader(robot, series, hints).Run();
 }
 
 }  // namespace armcal

@@ -16,6 +16,15 @@ namespace armcal {
 WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
                         const UniformSeries& series, int count);
 
+// What is known of a log beside its motion and torques.
+struct ReadingHints {
+  std::vector<bool> tells;  // whose torque tells a sign; empty: all
+  // Accelerations by a time that was rebuilt are rough, and a load that turns
+  // explains some of that.
+  bool asks_gravity = true;
+  PositionUnitHints units;
+};
+
 struct ReadingFinding {
   LogReading reading;
   std::vector<ReadingChange> changes;  // in the order they were found
@@ -27,11 +36,10 @@ struct ReadingFinding {
 // own errors do: `kLeastGain` nats of some hundred samples, and, of torques
 // that the fit has not seen, what IsClearlyBetter and IsBetterForAll say. Of
 // signs and order nothing is asked of joints that hardly move, nor of those
-// whose torque `tells` nothing (empty: all tell); of gravity nothing where one
-// of several joints moves, nor where it is not to be asked: accelerations by a
-// time that was rebuilt are rough, and a load that turns explains some of that.
+// whose torque tells nothing; of gravity nothing where one of several joints
+// moves. A unit of positions that something else speaks for comes first, and
+// has to fit no worse.
 ReadingFinding FindReading(const Robot& robot, const UniformSeries& series,
-                           const std::vector<bool>& tells = {},
-                           bool asks_gravity = true);
+                           const ReadingHints& hints = {});
 
 }  // namespace armcal

@@ -1,19 +1,26 @@
 #include "calib/inspect/position_unit.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "model/robot/axis_rotation.h"
+#include "model/text/format.h"
 
 namespace armcal {
 namespace {
+
+using Eigen::VectorXd;
 
 bool IsOfVelocity(const InspectionFinding& finding) {
   return finding.finding == "velocity";
 }
 
-// Of which joints velocities are not the slopes of positions in rad either.
-std::vector<bool> StillWrong(const Robot& robot, Log log,
-                             const StampFigures& stamps) {
+// Of which joints velocities are not the slopes of positions in these units.
+std::vector<bool> WrongVelocities(const Robot& robot, Log log,
+                                  const StampFigures& stamps,
+                                  const PositionUnits& units) {
   for (int j = 0; j < robot.num_joints(); ++j) {
-    if (IsRotational(robot.links[j].joint.type)) log.q.col(j) *= kDegree;
+    log.q.col(j) *= units.Of(robot.links[j].joint);
   }
   std::vector<bool> wrong(robot.num_joints(), false);
   for (const InspectionFinding& f : AuditChannels(robot, log, stamps)) {
@@ -22,12 +29,82 @@ std::vector<bool> StillWrong(const Robot& robot, Log log,
   return wrong;
 }
 
+// How many times as far, or as fast, as its limits a joint goes; 0 where the
+// file has none.
+double BeyondLimits(const Joint& joint, const VectorXd& q, double speed) {
+  const auto share = [](double value, double limit) {
+    return limit > 0 && std::isfinite(limit) ? value / limit : 0;
+  };
+  const double limit = std::max(std::abs(joint.lower), std::abs(joint.upper));
+  return std::max(share(q.cwiseAbs().maxCoeff(), limit),
+                  share(speed, joint.velocity));
+}
+
+class Hints {
+ public:
+  Hints(const Robot& robot, const Log& log, const StampFigures& stamps,
+        const VectorXd& top_speed)
+      : robot_(robot), log_(log), stamps_(stamps), top_speed_(top_speed) {}
+
+  std::string Of(const PositionUnits& units) const {
+    const std::string of_velocities = OfVelocities(units);
+    return of_velocities.empty() ? OfLimits(units) : of_velocities;
+  }
+
+ private:
+  bool Concerns(const PositionUnits& units, int j) const {
+    return units.Of(robot_.links[j].joint) != 1;
+  }
+
+  std::string OfVelocities(const PositionUnits& units) const {
+    if (log_.qd.size() == 0) return "";
+    const auto as_logged = WrongVelocities(robot_, log_, stamps_, {});
+    const auto so = WrongVelocities(robot_, log_, stamps_, units);
+    bool any = false;
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      if (!Concerns(units, j)) continue;
+      if (so[j]) return "";
+      any |= as_logged[j];
+    }
+    return any ? "the recorded velocities are the positions' slopes then" : "";
+  }
+
+  std::string OfLimits(const PositionUnits& units) const {
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      const Joint& joint = robot_.links[j].joint;
+      const double beyond = BeyondLimits(joint, log_.q.col(j), top_speed_[j]);
+      if (!Concerns(units, j) || !(beyond > 1 / std::sqrt(units.Of(joint))))
+        continue;
+      return Format("as logged %s is at %.3g times its limits",
+                    joint.name.c_str(), beyond);
+    }
+    return "";
+  }
+
+  const Robot& robot_;
+  const Log& log_;
+  const StampFigures& stamps_;
+  const VectorXd& top_speed_;
+};
+
 }  // namespace
+
+double PositionUnits::Of(const Joint& joint) const {
+  if (IsRotational(joint.type)) return degrees ? kDegree : 1;
+  return millimetres ? 1e-3 : 1;
+}
+
+PositionUnitHints HintsOfPositionUnit(const Robot& robot, const Log& log,
+                                      const StampFigures& stamps,
+                                      const VectorXd& top_speed) {
+  const Hints hints(robot, log, stamps, top_speed);
+  return {hints.Of({true, false}), hints.Of({false, true})};
+}
 
 std::vector<bool> PutPositionUnitFirst(
     const Robot& robot, const Log& log, const StampFigures& stamps,
-    std::vector<InspectionFinding>* findings) {
-  const std::vector<bool> wrong = StillWrong(robot, log, stamps);
+    const PositionUnits& units, std::vector<InspectionFinding>* findings) {
+  const std::vector<bool> wrong = WrongVelocities(robot, log, stamps, units);
   std::vector<bool> follows(robot.num_joints(), false);
   std::vector<InspectionFinding> first, others;
   for (const InspectionFinding& f : *findings) {

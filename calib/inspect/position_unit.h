@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "calib/logs/channel_audit.h"
@@ -9,11 +11,34 @@
 
 namespace armcal {
 
-// Of a log whose positions are in degrees: puts that before all other findings
-// and takes out those that follow from it, velocities in rad/s that are not
-// the slopes of degrees. Returns which joints' velocities these are.
+// In which units a log has positions.
+struct PositionUnits {
+  bool degrees = false;      // of joints that turn, not rad
+  bool millimetres = false;  // of joints that slide, not m
+
+  // Of this joint, rad or m.
+  double Of(const Joint& joint) const;
+  bool any() const { return degrees || millimetres; }
+};
+
+// What speaks for either of these units, but for torques; empty: nothing.
+struct PositionUnitHints {
+  std::string degrees, millimetres;
+};
+
+// Recorded velocities that are the slopes of positions in that unit, of all
+// joints of the kind that are not as logged; or positions, or their slopes
+// (`top_speed`, as logged), that are closer to the robot file's limits in that
+// unit: they are beyond these by more than the root of the units' ratio.
+PositionUnitHints HintsOfPositionUnit(const Robot& robot, const Log& log,
+                                      const StampFigures& stamps,
+                                      const Eigen::VectorXd& top_speed);
+
+// Of a log whose positions are in these units: puts that before all other
+// findings and takes out those that follow from it, velocities that are not the
+// slopes of positions as logged. Returns which joints' velocities these are.
 std::vector<bool> PutPositionUnitFirst(
     const Robot& robot, const Log& log, const StampFigures& stamps,
-    std::vector<InspectionFinding>* findings);
+    const PositionUnits& units, std::vector<InspectionFinding>* findings);
 
 }  // namespace armcal

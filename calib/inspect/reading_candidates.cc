@@ -53,6 +53,24 @@ std::vector<Candidate> WiringCandidates(const LogReading& from,
   return of_torques;
 }
 
+std::vector<Candidate> UnitCandidates(const LogReading& from,
+                                      const Robot& robot) {
+  bool turns = false, slides = false;
+  for (const Link& link : robot.links) {
+    (IsRotational(link.joint.type) ? turns : slides) = true;
+  }
+  std::vector<Candidate> all;
+  if (turns) {
+    all.push_back({from, {Kind::kDegrees}});
+    all.back().reading.units.degrees ^= true;
+  }
+  if (slides) {
+    all.push_back({from, {Kind::kMillimetres}});
+    all.back().reading.units.millimetres ^= true;
+  }
+  return all;
+}
+
 std::vector<Candidate> GravityCandidates(const LogReading& from,
                                          double magnitude) {
   std::vector<Candidate> all = {{from, {Kind::kGravity}}};

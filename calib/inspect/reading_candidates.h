@@ -18,6 +18,11 @@ struct Candidate {
 std::vector<Candidate> WiringCandidates(const LogReading& from,
                                         const std::vector<bool>& asked);
 
+// Positions in degrees, and in millimetres, where they are not; of joints that
+// turn and slide, if there are some.
+std::vector<Candidate> UnitCandidates(const LogReading& from,
+                                      const Robot& robot);
+
 // Gravity of that size, m/s^2, along each axis of the world, and none.
 std::vector<Candidate> GravityCandidates(const LogReading& from,
                                          double magnitude);

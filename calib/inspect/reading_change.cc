@@ -33,7 +33,8 @@ std::vector<int> JointsOf(const ReadingChange& change) {
 bool MoveAlike(const LogReading& a, const LogReading& b) {
   return a.wiring.position_column == b.wiring.position_column &&
          a.wiring.position_sign == b.wiring.position_sign &&
-         a.degrees == b.degrees && a.gravity == b.gravity;
+         a.units.degrees == b.units.degrees &&
+         a.units.millimetres == b.units.millimetres && a.gravity == b.gravity;
 }
 
 }  // namespace armcal

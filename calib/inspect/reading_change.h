@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
+#include "calib/inspect/position_unit.h"
 #include "calib/logs/wiring.h"
 #include "model/robot/robot.h"
 
@@ -11,7 +13,7 @@ namespace armcal {
 // How a log, and the robot's posture, are to be understood.
 struct LogReading {
   Wiring wiring;
-  bool degrees = false;     // positions of rotating joints
+  PositionUnits units;
   Eigen::Vector3d gravity;  // in W, m/s^2; 0: torques hold no gravity
   double delay = 0;         // of torques behind positions, s
 
@@ -29,6 +31,7 @@ struct ReadingChange {
     kTorqueSign,
     kJointSign,  // of both
     kDegrees,
+    kMillimetres,
     kGravity,  // has another direction, or is missing
     kDelay
   };
@@ -42,6 +45,7 @@ struct ReadingChange {
   // other would do as well, since nothing tells which way the joint turns, or
   // which of two it is.
   bool or_other_signal = false;
+  std::string hint{};  // what speaks for it beside torques
 };
 
 // Whether it is the sign of one joint's position or torque alone.

@@ -73,6 +73,7 @@ InspectionFinding FindingOf(const ReadingChange& change,
       "of torques held out a fit leaves %.3g %% as logged and %.3g %% so (%.0f "
       "nats)",
       change.held_out_before, change.held_out_after, change.gain);
+  if (!change.hint.empty()) finding.evidence += "; " + change.hint;
   finding.remedy = OptionName("fix") + " writes the log so";
   switch (change.kind) {
     case Kind::kExchanged:
@@ -100,6 +101,11 @@ InspectionFinding FindingOf(const ReadingChange& change,
       finding.finding = "position_unit";
       finding.sentence = "positions are in degrees, not in rad";
       finding.remedy = "name the columns q1[deg] ..., or " + OptionName("fix");
+      break;
+    case Kind::kMillimetres:
+      finding.finding = "position_unit";
+      finding.sentence = "positions of joints that slide are in mm, not in m";
+      finding.remedy = "name their columns q3[mm] ..., or " + OptionName("fix");
       break;
     case Kind::kGravity:
       SayGravity(reading.gravity, robot, &finding);

@@ -106,7 +106,7 @@ TEST_F(LogReadingTest, GravityElsewhere) {
 TEST_F(LogReadingTest, GravityThatIsNotAskedFor) {
   robot_.gravity = Eigen::AngleAxisd(.5, Vector3d::UnitX()) * robot_.gravity;
   for (const ReadingChange& change :
-       FindReading(robot_, UniformSeries(log_, .01, .05, 8), {}, false)
+       FindReading(robot_, UniformSeries(log_, .01, .05, 8), {{}, false, {}})
            .changes) {
     EXPECT_NE(change.kind, Kind::kGravity);
   }
