@@ -135,16 +135,24 @@ json FindingsJson(const Robot& robot,
                   const std::vector<InspectionFinding>& findings) {
   json list = json::array();
   for (const InspectionFinding& finding : findings) {
-    list.push_back(
-        {{"finding", finding.finding},
-         {"sentence", finding.sentence},
-         {"evidence", finding.evidence},
-         {"flag", finding.remedy},
-         {"joint",
-          finding.joint < 0 ? "" : robot.links[finding.joint].joint.name},
-         {"joint_index", finding.joint + 1},
-         {"probability", JsonNumber(finding.probability)},
-         {"held_out", HeldOutJson(finding)}});
+    const auto name = [&](int j) {
+      return j < 0 ? "" : robot.links[j].joint.name;
+    };
+    json alternatives = json::array();
+    for (const auto& [other, joint] : finding.alternatives) {
+      alternatives.push_back({{"finding", other},
+                              {"joint", name(joint)},
+                              {"joint_index", joint + 1}});
+    }
+    list.push_back({{"finding", finding.finding},
+                    {"sentence", finding.sentence},
+                    {"evidence", finding.evidence},
+                    {"flag", finding.remedy},
+                    {"joint", name(finding.joint)},
+                    {"joint_index", finding.joint + 1},
+                    {"probability", JsonNumber(finding.probability)},
+                    {"held_out", HeldOutJson(finding)},
+                    {"alternatives", std::move(alternatives)}});
   }
   return list;
 }

@@ -60,6 +60,7 @@ class Reader {
     while (static_cast<int>(changes_.size()) < kMostChanges && Improve()) {
     }
     RefineGravity();
+    DropTaken();
     finding.reading = best_;
     finding.changes = changes_;
     Misfit(best_, &finding.residual_percent);
@@ -177,7 +178,7 @@ class Reader {
 
   void Take(size_t k, const HeldOutFit& held_out,
             const std::vector<double>& misfits, std::vector<Candidate>* all) {
-    NoteOtherSignal(misfits, held_out, k, all);
+    NoteAlternatives(misfits, held_out, *all, &(*all)[k]);
     double sum = 0;
     for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
     Accept((*all)[k], misfits[k], std::min(1., 1 / sum), held_out);
@@ -200,21 +201,40 @@ class Reader {
             IsFirstToExplain(held_out_, held_out, change.joint));
   }
 
-  // Whether the same change of the joints' other signal would do as well, or
-  // nearly so: then what the model misses may decide between them.
-  void NoteOtherSignal(const std::vector<double>& misfits,
-                       const HeldOutFit& held_out, size_t k,
-                       std::vector<Candidate>* all) const {
-    ReadingChange& change = (*all)[k].change;
-    for (size_t i = 0; i < all->size(); ++i) {
-      const ReadingChange& other = (*all)[i].change;
-      if (!AreOfEitherSignal(other, change)) continue;
-      const HeldOutFit fit = HeldOut((*all)[i].reading);
-      if (misfits[i] < misfits[k] + kLeastGain ||
-          (Confirms(other, fit) &&
-           !IsClearlyBetter(fit, held_out, JointsOf(change)))) {
-        change.or_other_signal = true;
+  // What would do as well, or nearly so: then what the model misses may decide
+  // between them.
+  void NoteAlternatives(const std::vector<double>& misfits,
+                        const HeldOutFit& held_out,
+                        const std::vector<Candidate>& all,
+                        Candidate* taken) const {
+    ReadingChange& change = taken->change;
+    const double misfit = misfits[taken - all.data()];
+    for (size_t i = 0; i < all.size(); ++i) {
+      const ReadingChange& other = all[i].change;
+      if (!MayBeEither(other, change)) continue;
+      bool does_as_well = misfits[i] < misfit + kLeastGain;
+      if (!does_as_well && misfits[i] < least_ - kLeastGain) {
+        const HeldOutFit fit = HeldOut(all[i].reading);
+        does_as_well = Confirms(other, fit) &&
+                       !IsClearlyBetter(fit, held_out, JointsOf(change));
       }
+      if (does_as_well) change.alternatives.push_back(other);
+    }
+  }
+
+  // What was taken later was no alternative, but wrong as well.
+  void DropTaken() {
+    for (ReadingChange& change : changes_) {
+      auto& all = change.alternatives;
+      all.erase(std::remove_if(all.begin(), all.end(),
+                               [&](const ReadingChange& other) {
+                                 return std::any_of(
+                                     changes_.begin(), changes_.end(),
+                                     [&](const ReadingChange& taken) {
+                                       return AreTheSame(taken, other);
+                                     });
+                               }),
+                all.end());
     }
   }
 

@@ -1,13 +1,16 @@
 #include "calib/inspect/reading_change.h"
 
+#include <algorithm>
+
 namespace armcal {
 
 using Kind = ReadingChange::Kind;
 
 namespace {
 
-bool IsOneOrder(Kind kind) {
-  return kind == Kind::kPositionsExchanged || kind == Kind::kTorquesExchanged;
+bool IsOfOneSignal(Kind kind) {
+  return IsOneSign(kind) || kind == Kind::kPositionsExchanged ||
+         kind == Kind::kTorquesExchanged;
 }
 
 }  // namespace
@@ -16,10 +19,18 @@ bool IsOneSign(Kind kind) {
   return kind == Kind::kPositionSign || kind == Kind::kTorqueSign;
 }
 
-bool AreOfEitherSignal(const ReadingChange& a, const ReadingChange& b) {
-  return a.kind != b.kind && a.joint == b.joint && a.other == b.other &&
-         ((IsOneSign(a.kind) && IsOneSign(b.kind)) ||
-          (IsOneOrder(a.kind) && IsOneOrder(b.kind)));
+bool AreTheSame(const ReadingChange& a, const ReadingChange& b) {
+  return a.kind == b.kind && a.joint == b.joint && a.other == b.other;
+}
+
+bool MayBeEither(const ReadingChange& a, const ReadingChange& b) {
+  if (!IsOfOneSignal(a.kind) || !IsOfOneSignal(b.kind) || AreTheSame(a, b))
+    return false;
+  const std::vector<int> joints = JointsOf(b);
+  for (const int j : JointsOf(a)) {
+    if (std::count(joints.begin(), joints.end(), j) > 0) return true;
+  }
+  return false;
 }
 
 std::vector<int> JointsOf(const ReadingChange& change) {

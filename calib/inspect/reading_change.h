@@ -41,17 +41,19 @@ struct ReadingChange {
   // What a fit leaves of torques that it has not seen, before and after.
   double held_out_before = 0, held_out_after = 0;  // %
   double probability = 1;  // against the other changes that were tried
-  // Of what concerns positions or torques alone: whether the same change of the
-  // other would do as well, since nothing tells which way the joint turns, or
-  // which of two it is.
-  bool or_other_signal = false;
+  // Of what concerns positions or torques alone: other changes of these joints
+  // that would do as well, since nothing tells which way a joint turns, or what
+  // an arm of two joints is like.
+  std::vector<ReadingChange> alternatives{};
   std::string hint{};  // what speaks for it beside torques
 };
 
 // Whether it is the sign of one joint's position or torque alone.
 bool IsOneSign(ReadingChange::Kind kind);
-// Whether they are one change of the same joints, of positions and of torques.
-bool AreOfEitherSignal(const ReadingChange& a, const ReadingChange& b);
+bool AreTheSame(const ReadingChange& a, const ReadingChange& b);
+// Whether it may be the one or the other that is wrong: both concern positions
+// or torques alone, and a joint that is in both.
+bool MayBeEither(const ReadingChange& a, const ReadingChange& b);
 // The joint or joints that it concerns; none where it is all.
 std::vector<int> JointsOf(const ReadingChange& change);
 // Whether joints move alike in both, whatever their torques.

@@ -35,35 +35,56 @@ void SayGravity(const Eigen::Vector3d& gravity, const Robot& robot,
       Format("=%.3g,%.3g,%.3g", gravity[0], gravity[1], gravity[2]);
 }
 
-void SaySign(const ReadingChange& change, const char* signal, const char* other,
-             const std::string& joint, InspectionFinding* finding) {
-  finding->finding = std::string(signal) + "_sign";
-  finding->sentence =
-      std::string("the ") + signal + " of " + joint + " has the wrong sign";
-  if (change.or_other_signal)
-    finding->sentence += std::string(", or its ") + other;
+const char* SignalOf(Kind kind) {
+  return kind == Kind::kPositionSign || kind == Kind::kPositionsExchanged
+             ? "position"
+             : "torque";
 }
 
 // Of positions or torques alone.
-void SayOrder(const ReadingChange& change, const char* signal,
-              const char* other, const std::string& joints,
-              InspectionFinding* finding) {
-  finding->finding = std::string(signal) + "_order";
-  finding->sentence =
-      std::string("the ") + signal + "s of " + joints + " are exchanged";
-  finding->sentence += change.or_other_signal
-                           ? std::string(", or their ") + other + "s"
-                           : std::string(", their ") + other + "s are not";
+std::string FindingOf(Kind kind) {
+  return std::string(SignalOf(kind)) + (IsOneSign(kind) ? "_sign" : "_order");
+}
+
+std::string JointNames(const ReadingChange& change, const Robot& robot) {
+  std::string names;
+  for (const int j : JointsOf(change)) {
+    if (!names.empty()) names += " and ";
+    names += robot.links[j].joint.name;
+  }
+  return names;
+}
+
+std::string Phrase(const ReadingChange& change, const Robot& robot) {
+  const std::string signal = std::string("the ") + SignalOf(change.kind);
+  const std::string joints = JointNames(change, robot);
+  return IsOneSign(change.kind)
+             ? signal + " of " + joints + " has the wrong sign"
+             : signal + "s of " + joints + " are exchanged";
+}
+
+// The same change of the other signal in two words.
+std::string Alternative(const ReadingChange& other, const ReadingChange& change,
+                        const Robot& robot) {
+  if (JointsOf(other) != JointsOf(change)) return Phrase(other, robot);
+  const std::string signal = SignalOf(other.kind);
+  return IsOneSign(other.kind) ? "its " + signal : "their " + signal + "s";
+}
+
+void SayOneSignal(const ReadingChange& change, const Robot& robot,
+                  InspectionFinding* finding) {
+  finding->finding = FindingOf(change.kind);
+  finding->sentence = Phrase(change, robot);
+  for (const ReadingChange& other : change.alternatives) {
+    finding->sentence += ", or " + Alternative(other, change, robot);
+    finding->alternatives.push_back({FindingOf(other.kind), other.joint});
+  }
 }
 
 }  // namespace
 
 InspectionFinding FindingOf(const ReadingChange& change,
                             const LogReading& reading, const Robot& robot) {
-  const auto name = [&](int j) { return robot.links[j].joint.name; };
-  const auto names = [&] {
-    return name(change.joint) + " and " + name(change.other);
-  };
   InspectionFinding finding;
   finding.joint = change.joint;
   finding.probability = change.probability;
@@ -78,24 +99,19 @@ InspectionFinding FindingOf(const ReadingChange& change,
   switch (change.kind) {
     case Kind::kExchanged:
       finding.finding = "joint_order";
-      finding.sentence = "the columns of " + names() + " are exchanged";
+      finding.sentence =
+          "the columns of " + JointNames(change, robot) + " are exchanged";
       break;
     case Kind::kPositionsExchanged:
-      SayOrder(change, "position", "torque", names(), &finding);
-      break;
     case Kind::kTorquesExchanged:
-      SayOrder(change, "torque", "position", names(), &finding);
-      break;
     case Kind::kPositionSign:
-      SaySign(change, "position", "torque", name(change.joint), &finding);
-      break;
     case Kind::kTorqueSign:
-      SaySign(change, "torque", "position", name(change.joint), &finding);
+      SayOneSignal(change, robot, &finding);
       break;
     case Kind::kJointSign:
       finding.finding = "joint_sign";
-      finding.sentence =
-          name(change.joint) + " turns the other way than the robot file says";
+      finding.sentence = JointNames(change, robot) +
+                         " turns the other way than the robot file says";
       break;
     case Kind::kDegrees:
       finding.finding = "position_unit";

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace armcal {
 
@@ -15,6 +17,8 @@ struct InspectionFinding {
   // Where what would mend it was tried: what a fit leaves of torques that it
   // has not seen, %, without and with it. 0: it was not.
   double held_out_before = 0, held_out_after = 0;
+  // What may be wrong instead: `finding` and `joint`.
+  std::vector<std::pair<std::string, int>> alternatives{};
 };
 
 }  // namespace armcal

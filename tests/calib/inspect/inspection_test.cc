@@ -77,8 +77,7 @@ TEST_F(InspectionTest, ExchangedPositionsAreNamedAndMended) {
   ASSERT_EQ(inspection.findings.size(), 1u);
   EXPECT_EQ(inspection.findings[0].finding, "position_order");
   EXPECT_EQ(inspection.findings[0].sentence,
-            "the positions of joint2 and joint3 are exchanged, their torques "
-            "are not");
+            "the positions of joint2 and joint3 are exchanged");
   const Log mended = Mended(arm_.robot, wrong, inspection);
   EXPECT_EQ(mended.q, arm_.log.q);
   EXPECT_EQ(mended.qd, arm_.log.qd);
