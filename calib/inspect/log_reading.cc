@@ -60,7 +60,6 @@ class Reader {
     while (static_cast<int>(changes_.size()) < kMostChanges && Improve()) {
     }
     RefineGravity();
-    DropTaken();
     finding.reading = best_;
     finding.changes = changes_;
     Misfit(best_, &finding.residual_percent);
@@ -219,22 +218,6 @@ class Reader {
                        !IsClearlyBetter(fit, held_out, JointsOf(change));
       }
       if (does_as_well) change.alternatives.push_back(other);
-    }
-  }
-
-  // What was taken later was no alternative, but wrong as well.
-  void DropTaken() {
-    for (ReadingChange& change : changes_) {
-      auto& all = change.alternatives;
-      all.erase(std::remove_if(all.begin(), all.end(),
-                               [&](const ReadingChange& other) {
-                                 return std::any_of(
-                                     changes_.begin(), changes_.end(),
-                                     [&](const ReadingChange& taken) {
-                                       return AreTheSame(taken, other);
-                                     });
-                               }),
-                all.end());
     }
   }
 

@@ -62,6 +62,45 @@ TEST_F(LogReadingTest, TorquesInAnotherOrder) {
   ASSERT_EQ(found.changes.size(), 2u);
   const std::vector<int> as_logged = {2, 0, 1, 3, 4, 5};
   EXPECT_EQ(found.reading.wiring.torque_column, as_logged);
+  for (const ReadingChange& change : found.changes) {
+    EXPECT_TRUE(change.alternatives.empty());
+  }
+}
+
+// The base's joint turns about gravity and the others rest: nothing tells which
+// way.
+TEST_F(LogReadingTest, TheSignOfEitherSignal) {
+  const Eigen::MatrixXd first = log_.q.col(0);
+  log_.q.rowwise() = log_.q.row(0).eval();
+  log_.q.col(0) = first;
+  log_.qd.rightCols(5).setZero();
+  log_.qdd.rightCols(5).setZero();
+  log_.tau.setZero();
+  AddTorque(robot_, &log_);
+  log_.tau.col(0) *= -1;
+  const ReadingFinding found = Read();
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes[0].joint, 0);
+  ASSERT_EQ(found.changes[0].alternatives.size(), 1u);
+  const ReadingChange& other = found.changes[0].alternatives[0];
+  EXPECT_TRUE(IsOneSign(other.kind));
+  EXPECT_NE(other.kind, found.changes[0].kind);
+  EXPECT_EQ(other.joint, 0);
+}
+
+// Velocities in rad/s, or positions far beyond the file's limits.
+TEST_F(LogReadingTest, AUnitWithAHintHasToFitNoWorse) {
+  log_.q *= 180 / M_PI;
+  ReadingHints hints;
+  hints.units.degrees = "the limits";
+  const ReadingFinding found =
+      FindReading(robot_, UniformSeries(log_, .01, .05, 8), hints);
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes[0].hint, "the limits");
+  EXPECT_TRUE(found.reading.units.degrees);
+  log_ = arm_.log;
+  EXPECT_TRUE(FindReading(robot_, UniformSeries(log_, .01, .05, 8), hints)
+                  .changes.empty());
 }
 
 TEST_F(LogReadingTest, SignOfThePosition) {

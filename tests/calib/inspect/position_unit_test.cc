@@ -1,0 +1,58 @@
+#include "calib/inspect/position_unit.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/inspected_arm.h"
+
+namespace armcal::position_unit_test {
+
+class PositionUnitTest : public testing::Test {
+ protected:
+  PositionUnitHints Hints(const Log& log) const {
+    const Eigen::VectorXd speed = Eigen::VectorXd::Ones(robot_.num_joints());
+    return HintsOfPositionUnit(robot_, log, AuditStamps(log), speed);
+  }
+
+  InspectedArm arm_;
+  Robot robot_ = arm_.robot;
+  Log log_ = arm_.log;
+};
+
+TEST_F(PositionUnitTest, ARightLogHasNoHint) {
+  EXPECT_EQ(Hints(log_).degrees, "");
+  EXPECT_EQ(Hints(log_).millimetres, "");
+}
+
+TEST_F(PositionUnitTest, VelocitiesTell) {
+  log_.q *= 180 / M_PI;
+  EXPECT_NE(Hints(log_).degrees.find("velocities"), std::string::npos);
+  EXPECT_EQ(Hints(log_).millimetres, "");
+  // One that is no slope in either unit.
+  log_.qd.col(2) *= 3;
+  EXPECT_EQ(Hints(log_).degrees, "");
+}
+
+// Between rad at the limit and degrees at it, in proportion: the root of 57.3.
+TEST_F(PositionUnitTest, LimitsTellWhatIsCloserToThem) {
+  log_.qd.resize(0, 0);
+  Joint& joint = robot_.links[1].joint;
+  const double most = log_.q.col(1).cwiseAbs().maxCoeff();
+  joint.lower = -most;
+  joint.upper = most / 2;
+  EXPECT_EQ(Hints(log_).degrees, "");
+  log_.q.col(1) *= 7.4;
+  EXPECT_EQ(Hints(log_).degrees, "");
+  log_.q.col(1) *= 7.8 / 7.4;
+  EXPECT_NE(Hints(log_).degrees.find("7.8 times its limits"),
+            std::string::npos);
+}
+
+TEST_F(PositionUnitTest, JointsThatSlideHaveMillimetres) {
+  log_.qd.resize(0, 0);
+  robot_.links[1].joint.type = JointType::kPrismatic;
+  robot_.links[1].joint.velocity = 1. / 40;
+  EXPECT_NE(Hints(log_).millimetres.find("joint2"), std::string::npos);
+  EXPECT_EQ(Hints(log_).degrees, "");
+}
+
+}  // namespace armcal::position_unit_test
