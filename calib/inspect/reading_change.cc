@@ -8,6 +8,10 @@ using Kind = ReadingChange::Kind;
 
 namespace {
 
+bool AreTheSame(const ReadingChange& a, const ReadingChange& b) {
+  return a.kind == b.kind && a.joint == b.joint && a.other == b.other;
+}
+
 bool IsOfOneSignal(Kind kind) {
   return IsOneSign(kind) || kind == Kind::kPositionsExchanged ||
          kind == Kind::kTorquesExchanged;
@@ -17,10 +21,6 @@ bool IsOfOneSignal(Kind kind) {
 
 bool IsOneSign(Kind kind) {
   return kind == Kind::kPositionSign || kind == Kind::kTorqueSign;
-}
-
-bool AreTheSame(const ReadingChange& a, const ReadingChange& b) {
-  return a.kind == b.kind && a.joint == b.joint && a.other == b.other;
 }
 
 bool MayBeEither(const ReadingChange& a, const ReadingChange& b) {

@@ -50,7 +50,6 @@ struct ReadingChange {
 
 // Whether it is the sign of one joint's position or torque alone.
 bool IsOneSign(ReadingChange::Kind kind);
-bool AreTheSame(const ReadingChange& a, const ReadingChange& b);
 // Whether it may be the one or the other that is wrong: both concern positions
 // or torques alone, and a joint that is in both.
 bool MayBeEither(const ReadingChange& a, const ReadingChange& b);
