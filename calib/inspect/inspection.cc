@@ -38,6 +38,7 @@ class Inspector {
     reader.Read(kMostRows, &log_);
     Log more;
     result_.whole = !reader.Read(1, &more);
+    result_.spelling = reader.spelling();
     result_.torque_source = reader.torque_source();
     result_.currents = reader.currents_without_constants();
     result_.rows = log_.size();

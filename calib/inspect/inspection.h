@@ -25,6 +25,7 @@ struct LogInspection {
   StampFigures stamps;
   SampleClock clock;
   bool rebuilds_time = false;  // the log fits better by the clock's time
+  std::string spelling;        // LogReader's
   std::string torque_source;   // empty: none, but commands or currents
   std::string currents;        // without constants, as LogReader names them
   Eigen::VectorXd travel;      // per joint, rad or m

@@ -88,6 +88,7 @@ std::string LogText(const Robot& robot, const LogInspection& log) {
     text +=
         Format("  the longest step is %.4g ms\n", 1e3 * log.stamps.longest_gap);
   }
+  if (!log.spelling.empty()) text += "  its columns: " + log.spelling + "\n";
   text += "  torque: " + TorqueText(log);
   if (log.residual_percent > 0) {
     text += Format("; the best fit of this arm leaves %.3g %%",
@@ -212,6 +213,7 @@ json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
                     {"duplicates", log.stamps.duplicates},
                     {"clock", ClockJson(log.clock)},
                     {"moving_share", JsonNumber(log.moving_share)},
+                    {"spelling", log.spelling},
                     {"torque", log.torque_source},
                     {"residual_percent", JsonNumber(log.residual_percent)},
                     {"joints", JointsJson(robot, log)},

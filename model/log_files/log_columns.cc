@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
+#include "model/log_files/column_spelling.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 
@@ -73,8 +75,23 @@ LogColumns::LogColumns(const std::string& file, std::string_view header,
     Refuse("expected several columns separated by , ; or TAB, found " +
            Quoted(names_[0]));
   }
-  own_names_ = OwnNames(names_);
+  Understand(OwnNames(names_));
+  if (HasPositionsInTime()) return;
+  const std::vector<std::string> own_names = own_names_;
+  Understand(SpelledOut(names_, joint_names_));
+  is_spelled_out_ = HasPositionsInTime();
+  if (!is_spelled_out_) Understand(own_names);
+}
+
+void LogColumns::Understand(std::vector<std::string> own_names) {
+  own_names_ = std::move(own_names);
+  time_columns_.clear();
+  matches_.clear();
   for (int i = 0; i < size(); ++i) Classify(i);
+}
+
+bool LogColumns::HasPositionsInTime() const {
+  return time_columns_.size() == 1 && HasAll(Signal::kPosition);
 }
 
 bool LogColumns::simulated() const {
@@ -257,6 +274,16 @@ std::string LogColumns::Named(Signal signal) const {
     if (first.empty()) first = last;
   }
   return first == last ? first : first + " to " + last;
+}
+
+std::string LogColumns::Spelling() const {
+  std::string text;
+  for (const Signal signal : kSignals) {
+    if (!is_spelled_out_ || !HasAny(signal)) continue;
+    AddTo(&text,
+          std::string(NamesOf(signal).number_prefix) + " is " + Named(signal));
+  }
+  return text;
 }
 
 std::string LogColumns::Unrecognised() const {

@@ -16,8 +16,9 @@ struct LogColumn {
 };
 
 // Reads the header line of a log: which field holds what, in which unit. The
-// accepted names are listed in log_reader.h; all other columns are left alone,
-// whatever they hold.
+// accepted names are listed in log_reader.h. Where these do not give the time
+// and all positions, other spellings are tried (column_spelling.h) and taken if
+// they do. All other columns are left alone, whatever they hold.
 class LogColumns {
  public:
   // `file` is for messages, `about` for those on missing columns. Throws
@@ -50,6 +51,9 @@ class LogColumns {
   std::string Missing(Signal signal) const;
   // The columns that it has of a signal, as its header names them: "i1 to i6".
   std::string Named(Signal signal) const;
+  // Where the header spells names in its own way (SpelledOut) how they were
+  // understood, "q is pos_0 to pos_5, tau is ..."; else empty.
+  std::string Spelling() const;
   // What else the file has, which ends messages on missing columns: "; not
   // recognised: ...".
   std::string Unrecognised() const;
@@ -62,6 +66,8 @@ class LogColumns {
     bool by_number;  // q3, not elbow/position
   };
 
+  void Understand(std::vector<std::string> own_names);
+  bool HasPositionsInTime() const;
   void Classify(int index);
   void Add(Match match, std::string_view unit);
   // The 1-based number of the joint that a path ends with; 0 for none.
@@ -78,7 +84,8 @@ class LogColumns {
   std::vector<std::string> joint_names_;
   char separator_ = ',';
   std::vector<std::string> names_;
-  std::vector<std::string> own_names_;  // OwnNames(), which tell the units too
+  std::vector<std::string> own_names_;  // armcal's, which tell the units too
+  bool is_spelled_out_ = false;
   std::vector<int> time_columns_;
   std::vector<Match> matches_;
 };

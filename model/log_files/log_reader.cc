@@ -310,6 +310,8 @@ bool LogReader::has_acceleration() const {
   return impl_->columns.HasAll(Signal::kAcceleration);
 }
 
+std::string LogReader::spelling() const { return impl_->columns.Spelling(); }
+
 const std::string& LogReader::torque_source() const {
   return impl_->torque_source;
 }

@@ -19,11 +19,12 @@ namespace armcal {
 // (/joint_states/shoulder/position). A unit suffix is honoured: [s] [ms] [us]
 // [ns] [rad] [deg] [rad/s] [deg/s] [rad/s^2] [deg/s^2] [m] [mm] [m/s] [mm/s]
 // [m/s^2] [mm/s^2] [Nm] [N] [mNm] [kNm] [A] [mA]; without one the unit is SI.
-// An effort in A is a current. Order never matters, names do; columns that are
-// not used are not parsed. Separators , ; or TAB; CRLF, a byte order mark,
-// quoted names and a # before the header are accepted. Times may be large
-// (epoch): they are kept relative to the first row's without loss. Equal times
-// pass.
+// An effort in A is a current. Other spellings are understood, too, where time
+// and all positions come out (column_spelling.h). Order never matters, names
+// do; columns that are not used are not parsed. Separators , ; or TAB; CRLF, a
+// byte order mark, quoted names and a # before the header are accepted. Times
+// may be large (epoch): they are kept relative to the first row's without loss.
+// Equal times pass.
 //
 // Throws InputError with file, row, column, value and expectation: a missing or
 // duplicate column, a log that numbers more joints than the robot has, a field
@@ -44,6 +45,9 @@ class LogReader {
   // How the torque was made, a phrase for reports: "tau columns" or
   // "currents times 14.87 13.26 N m/A"; empty where it is not needed.
   const std::string& torque_source() const;
+
+  // How the columns are called, where not as here: LogColumns::Spelling().
+  std::string spelling() const;
 
   // The columns of currents that have no constants, "i1 to i6"; empty where
   // torques are read, or where there are none.

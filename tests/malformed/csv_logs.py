@@ -126,9 +126,9 @@ GROUPS = [Group(
     Row("too many joints", headed("t,q1,q2,q3,tau1"),
         "log.csv: row 1: wrong number of joints: the robot has 2 joints, the log holds "
         "q1..q3"),
-    Row("joints from 0", headed("t,q0,q1,tau0,tau1"),
+    Row("joints from 0", headed("t,q0,q1,q2,tau1"),
         "log.csv: row 1: joints are numbered from 1; the robot has 2 joints, the log holds "
-        "q0..q1"),
+        "q0..q2"),
     Row("joint number of 11 digits", headed("t,q1,q99999999999,tau1,tau2"),
         "log.csv: row 1: missing q2 or joint2/position; the robot has 2 joints, the log "
         "holds q1; not recognised: 'q99999999999'"),

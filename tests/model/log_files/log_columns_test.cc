@@ -103,8 +103,11 @@ struct BadHeader {
 TEST(LogColumns, RefusesWrongColumns) {
   const BadHeader cases[] = {
       {"t,q1,qd1,Q2,pos 2",
+       "two columns for the position of joint elbow, 'Q2' and 'pos 2'; rename "
+       "one"},
+      {"t,q1,qd1,Q3,pos x",
        "missing q2 or elbow/position; the robot has 2 joints, the log holds "
-       "q1; not recognised: 'Q2', 'pos 2'"},
+       "q1; not recognised: 'Q3', 'pos x'"},
       {"t,a,b,c,d,e,f,g,h",
        "missing q1 or shoulder/position, q2 or elbow/position; the robot has 2 "
        "joints, the log holds 0 such columns; not recognised: 'a', 'b', 'c', "
@@ -116,9 +119,9 @@ TEST(LogColumns, RefusesWrongColumns) {
        "wrong number of joints: the robot has 2 joints, the log holds q1..q3"},
       {"t,q1,q5",
        "wrong number of joints: the robot has 2 joints, the log holds q1, q5"},
-      {"t,q0,q1",
+      {"t,q0,q1,q2",
        "joints are numbered from 1; the robot has 2 joints, the log holds "
-       "q0..q1"},
+       "q0..q2"},
       {"t,q1,q2,q1",
        "two columns for the position of joint shoulder, 'q1' and 'q1'; rename "
        "one"},
@@ -184,10 +187,24 @@ TEST(LogColumns, ReadsRobotMakersRecorders) {
             "log holds q1..q3");
 }
 
+TEST(LogColumns, ReadsOtherSpellingsWhereItsOwnAreNotThere) {
+  const std::string header =
+      "Time [ms],pos_0 [deg],pos_1 [deg],torque_0,torque_1,note";
+  EXPECT_EQ(FindTime(header), "0 1e-3 s");
+  EXPECT_EQ(Find(header), "1*0.017453 2*0.017453");
+  EXPECT_EQ(Find(header, Signal::kEffort), "3 4");
+  EXPECT_EQ(LogColumns("FILE", header, {"shoulder", "elbow"}).Spelling(),
+            "q is pos_0 [deg] to pos_1 [deg], tau is torque_0 to torque_1");
+  // Its own names alone are looked at where they are there.
+  EXPECT_EQ(Find("t,q1,q2,pos_1,pos_2"), "1 2");
+  EXPECT_EQ(LogColumns("FILE", "t,q1,q2", {"shoulder", "elbow"}).Spelling(),
+            "");
+}
+
 TEST(LogColumns, RefusesWrongTime) {
-  EXPECT_EQ(FindTime("Time,q1,q2"),
+  EXPECT_EQ(FindTime("clock,q1,q2"),
             "FILE: row 1: no time column: expected t, time, timestamp or "
-            "__time; not recognised: 'Time'");
+            "__time; not recognised: 'clock'");
   EXPECT_EQ(FindTime("t,time,q1,q2"),
             "FILE: row 1: two time columns, 't' and 'time'; rename one");
   EXPECT_EQ(FindTime("t [h],q1,q2"),
