@@ -76,10 +76,14 @@ LogColumns::LogColumns(const std::string& file, std::string_view header,
            Quoted(names_[0]));
   }
   Understand(OwnNames(names_));
-  if (HasPositionsInTime()) return;
+  const auto drives = [this] {
+    return HasAny(Signal::kEffort) || HasAny(Signal::kCurrent);
+  };
+  const bool moves = HasPositionsInTime();
+  if (moves && drives()) return;
   const std::vector<std::string> own_names = own_names_;
   Understand(SpelledOut(names_, joint_names_));
-  is_spelled_out_ = HasPositionsInTime();
+  is_spelled_out_ = HasPositionsInTime() && (!moves || drives());
   if (!is_spelled_out_) Understand(own_names);
 }
 
@@ -278,10 +282,12 @@ std::string LogColumns::Named(Signal signal) const {
 
 std::string LogColumns::Spelling() const {
   std::string text;
+  if (!is_spelled_out_) return text;
   for (const Signal signal : kSignals) {
-    if (!is_spelled_out_ || !HasAny(signal)) continue;
-    AddTo(&text,
-          std::string(NamesOf(signal).number_prefix) + " is " + Named(signal));
+    const std::string prefix(NamesOf(signal).number_prefix);
+    const std::string named = Named(signal);
+    if (named.empty() || named.rfind(prefix + "1", 0) == 0) continue;
+    AddTo(&text, prefix + " is " + named);
   }
   return text;
 }

@@ -16,9 +16,10 @@ struct LogColumn {
 };
 
 // Reads the header line of a log: which field holds what, in which unit. The
-// accepted names are listed in log_reader.h. Where these do not give the time
-// and all positions, other spellings are tried (column_spelling.h) and taken if
-// they do. All other columns are left alone, whatever they hold.
+// accepted names are listed in log_reader.h. Where these do not give the time,
+// all positions and some torque or current, other spellings are tried
+// (column_spelling.h) and taken if they do. All other columns are left alone,
+// whatever they hold.
 class LogColumns {
  public:
   // `file` is for messages, `about` for those on missing columns. Throws

@@ -31,15 +31,15 @@ TEST(ColumnSpelling, WordsInAnyCaseWithAnythingBetween) {
 TEST(ColumnSpelling, ByJointNamesWithoutAPath) {
   EXPECT_EQ(Spelled({"shoulder_joint_position", "elbow.effort",
                      "velocity elbow", "/js/shoulder_joint/effort"}),
-            "q1,tau2,qd2,tau1");
+            "q1,tau2,qd2,/js/shoulder_joint/effort");
 }
 
 TEST(ColumnSpelling, CountsFromZeroWhereAllDo) {
   EXPECT_EQ(Spelled({"q0", "q1", "tau0", "tau1"}), "q1,q2,tau1,tau2");
   EXPECT_EQ(Spelled({"field.position0", "field.position1", "field.effort0"}),
             "q1,q2,tau1");
-  EXPECT_EQ(Spelled({"q[0]", "q[1]", "tau_J[0]", "q_d[1]"}),
-            "q1,q2,tau1,qref2");
+  EXPECT_EQ(Spelled({"q[0]", "q[1]", "tau_J[0]", "q_d[0]"}),
+            "q1,q2,tau1,qref1");
   // Positions from 0 and torques from 1: nobody knows.
   EXPECT_EQ(Spelled({"q_0", "q_1", "tau_1", "tau_2"}), "q0,q1,tau1,tau2");
 }

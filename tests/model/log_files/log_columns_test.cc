@@ -195,8 +195,12 @@ TEST(LogColumns, ReadsOtherSpellingsWhereItsOwnAreNotThere) {
   EXPECT_EQ(Find(header, Signal::kEffort), "3 4");
   EXPECT_EQ(LogColumns("FILE", header, {"shoulder", "elbow"}).Spelling(),
             "q is pos_0 [deg] to pos_1 [deg], tau is torque_0 to torque_1");
+  // Positions in its own names, torques not.
+  EXPECT_EQ(Find("t,q1,q2,tau_J1,tau_J2", Signal::kEffort), "3 4");
+  EXPECT_EQ(Find("t,q1,q2,tau_J0,tau_J1", Signal::kEffort).substr(0, 12),
+            "FILE: row 1:");
   // Its own names alone are looked at where they are there.
-  EXPECT_EQ(Find("t,q1,q2,pos_1,pos_2"), "1 2");
+  EXPECT_EQ(Find("t,q1,q2,tau1,tau2,pos_1,pos_2,vel_1"), "1 2");
   EXPECT_EQ(LogColumns("FILE", "t,q1,q2", {"shoulder", "elbow"}).Spelling(),
             "");
 }
