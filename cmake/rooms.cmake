@@ -6,6 +6,7 @@ set(rooms
     model/camera        # what a lens makes of points, and files of it
     model/robot         # the arm as a value: links, joints, frames, inertias
     model/ros_bags      # messages out of rosbag2's files
+    model/log_files/columns  # which column of a header holds what
     model/log_files     # logs and poses out of CSV, bags, NumPy and MATLAB files
     model/simd/lanes      # arithmetic on several numbers at once, filters
     model/simd/regressor  # torques and columns of many samples of one arm

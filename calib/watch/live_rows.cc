@@ -1,6 +1,6 @@
 #include "calib/watch/live_rows.h"
 
-#include "model/log_files/log_signal.h"
+#include "model/log_files/columns/log_signal.h"
 #include "model/log_files/torque_columns.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "calib/watch/live_text.h"
-#include "model/log_files/log_columns.h"
+#include "model/log_files/columns/log_columns.h"
 #include "model/log_files/log_reader_options.h"
 #include "model/log_files/log_row.h"
 #include "model/text/decimal_time.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/log_files/log_signal.h"
+#include "model/log_files/columns/log_signal.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 

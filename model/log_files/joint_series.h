@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/log_files/log_signal.h"
+#include "model/log_files/columns/log_signal.h"
 
 namespace armcal {
 

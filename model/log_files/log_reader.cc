@@ -6,8 +6,8 @@
 
 #include <string_view>
 
+#include "model/log_files/columns/log_columns.h"
 #include "model/log_files/line_source.h"
-#include "model/log_files/log_columns.h"
 #include "model/log_files/log_row.h"
 #include "model/log_files/open_lines.h"
 #include "model/log_files/torque_columns.h"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/log_files/log_columns.h"
+#include "model/log_files/columns/log_columns.h"
 
 namespace armcal {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "model/log_files/log_signal.h"
+#include "model/log_files/columns/log_signal.h"
 
 namespace armcal {
 

@@ -4,8 +4,8 @@
 
 #include <cstdio>
 
-#include "model/log_files/log_columns.h"
-#include "model/log_files/log_signal.h"
+#include "model/log_files/columns/log_columns.h"
+#include "model/log_files/columns/log_signal.h"
 
 namespace armcal {
 

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "model/log_files/columns/log_signal.h"
 #include "model/log_files/hdf5_datasets.h"
-#include "model/log_files/log_signal.h"
 #include "model/log_files/mat_elements.h"
 #include "model/log_files/packed_arrays.h"
 #include "model/text/confined_process.h"

@@ -6,10 +6,10 @@
 #include <sstream>
 #include <string_view>
 
+#include "model/log_files/columns/log_columns.h"
+#include "model/log_files/columns/named_columns.h"
 #include "model/log_files/line_source.h"
-#include "model/log_files/log_columns.h"
 #include "model/log_files/log_row.h"
-#include "model/log_files/named_columns.h"
 #include "model/log_files/open_lines.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/log_files/log_columns.h"
+#include "model/log_files/columns/log_columns.h"
 #include "model/log_files/log_reader_options.h"
 
 namespace armcal {

@@ -1,4 +1,4 @@
-#include "model/log_files/log_signal.h"
+#include "model/log_files/columns/log_signal.h"
 
 #include <algorithm>
 #include <charconv>

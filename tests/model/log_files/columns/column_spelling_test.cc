@@ -1,4 +1,4 @@
-#include "model/log_files/column_spelling.h"
+#include "model/log_files/columns/column_spelling.h"
 
 #include <gtest/gtest.h>
 

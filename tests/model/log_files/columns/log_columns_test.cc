@@ -1,4 +1,4 @@
-#include "model/log_files/log_columns.h"
+#include "model/log_files/columns/log_columns.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/log_files/log_signal.h"
+#include "model/log_files/columns/log_signal.h"
 
 namespace armcal {
 

@@ -1,10 +1,10 @@
-#include "model/log_files/log_columns.h"
+#include "model/log_files/columns/log_columns.h"
 
 #include <algorithm>
 #include <set>
 #include <utility>
 
-#include "model/log_files/column_spelling.h"
+#include "model/log_files/columns/column_spelling.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 

@@ -1,4 +1,4 @@
-#include "model/log_files/column_spelling.h"
+#include "model/log_files/columns/column_spelling.h"
 
 #include <algorithm>
 #include <cctype>
@@ -7,7 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "model/log_files/log_signal.h"
+#include "model/log_files/columns/log_signal.h"
 
 namespace armcal {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/log_files/named_columns.h"
+#include "model/log_files/columns/named_columns.h"
 
 #include <cmath>
 #include <string_view>
