@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/numerics/median.h"
 #include "model/robot/axis_rotation.h"
 #include "model/text/format.h"
 
@@ -29,22 +30,27 @@ std::vector<bool> WrongVelocities(const Robot& robot, Log log,
   return wrong;
 }
 
+// What a hundredth of the values is beyond, in size.
+double Most(const VectorXd& values) {
+  const VectorXd size = values.cwiseAbs();
+  return Quantile({size.begin(), size.end()}, .99);
+}
+
 // How many times as far, or as fast, as its limits a joint goes; 0 where the
 // file has none.
-double BeyondLimits(const Joint& joint, const VectorXd& q, double speed) {
+double BeyondLimits(const Joint& joint, const VectorXd& q, const VectorXd& qd) {
   const auto share = [](double value, double limit) {
     return limit > 0 && std::isfinite(limit) ? value / limit : 0;
   };
   const double limit = std::max(std::abs(joint.lower), std::abs(joint.upper));
-  return std::max(share(q.cwiseAbs().maxCoeff(), limit),
-                  share(speed, joint.velocity));
+  return std::max(share(Most(q), limit), share(Most(qd), joint.velocity));
 }
 
 class Hints {
  public:
   Hints(const Robot& robot, const Log& log, const StampFigures& stamps,
-        const VectorXd& top_speed)
-      : robot_(robot), log_(log), stamps_(stamps), top_speed_(top_speed) {}
+        const Eigen::MatrixXd& qd)
+      : robot_(robot), log_(log), stamps_(stamps), qd_(qd) {}
 
   std::string Of(const PositionUnits& units) const {
     const std::string of_velocities = OfVelocities(units);
@@ -72,7 +78,7 @@ class Hints {
   std::string OfLimits(const PositionUnits& units) const {
     for (int j = 0; j < robot_.num_joints(); ++j) {
       const Joint& joint = robot_.links[j].joint;
-      const double beyond = BeyondLimits(joint, log_.q.col(j), top_speed_[j]);
+      const double beyond = BeyondLimits(joint, log_.q.col(j), qd_.col(j));
       if (!Concerns(units, j) || !(beyond > 1 / std::sqrt(units.Of(joint))))
         continue;
       return Format("as logged %s is at %.3g times its limits",
@@ -84,7 +90,7 @@ class Hints {
   const Robot& robot_;
   const Log& log_;
   const StampFigures& stamps_;
-  const VectorXd& top_speed_;
+  const Eigen::MatrixXd& qd_;
 };
 
 }  // namespace
@@ -96,8 +102,8 @@ double PositionUnits::Of(const Joint& joint) const {
 
 PositionUnitHints HintsOfPositionUnit(const Robot& robot, const Log& log,
                                       const StampFigures& stamps,
-                                      const VectorXd& top_speed) {
-  const Hints hints(robot, log, stamps, top_speed);
+                                      const Eigen::MatrixXd& qd) {
+  const Hints hints(robot, log, stamps, qd);
   return {hints.Of({true, false}), hints.Of({false, true})};
 }
 

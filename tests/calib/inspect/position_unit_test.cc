@@ -9,8 +9,8 @@ namespace armcal::position_unit_test {
 class PositionUnitTest : public testing::Test {
  protected:
   PositionUnitHints Hints(const Log& log) const {
-    const Eigen::VectorXd speed = Eigen::VectorXd::Ones(robot_.num_joints());
-    return HintsOfPositionUnit(robot_, log, AuditStamps(log), speed);
+    const Eigen::MatrixXd qd = Eigen::MatrixXd::Ones(9, robot_.num_joints());
+    return HintsOfPositionUnit(robot_, log, AuditStamps(log), qd);
   }
 
   InspectedArm arm_;
@@ -36,9 +36,11 @@ TEST_F(PositionUnitTest, VelocitiesTell) {
 TEST_F(PositionUnitTest, LimitsTellWhatIsCloserToThem) {
   log_.qd.resize(0, 0);
   Joint& joint = robot_.links[1].joint;
-  const double most = log_.q.col(1).cwiseAbs().maxCoeff();
-  joint.lower = -most;
-  joint.upper = most / 2;
+  joint.lower = -1;
+  joint.upper = .5;
+  // Of which a hundredth is beyond 1, and a glitch.
+  log_.q.col(1) = Eigen::VectorXd::LinSpaced(log_.q.rows(), -1, 1) / .99;
+  log_.q(7, 1) = 1e3;
   EXPECT_EQ(Hints(log_).degrees, "");
   log_.q.col(1) *= 7.4;
   EXPECT_EQ(Hints(log_).degrees, "");
