@@ -16,6 +16,7 @@ it nor are said of the log as it was.
 """
 import argparse
 import json
+import math
 import random
 import subprocess
 import sys
@@ -104,6 +105,19 @@ def exchanged_alone(signals):
                 columns[a], columns[b] = columns[b], columns[a]
         return a
     return make
+
+
+def in_unit(unit, joints):
+    """Positions and velocities of these joints in a unit of so many rad or m."""
+    def make(log, _):
+        for signal in ("q", "qd"):
+            for j in joints(log) if signal in log.columns else ():
+                log.columns[signal][j] = [x / unit for x in log.columns[signal][j]]
+    return make
+
+
+def turning(log):
+    return [j for j in range(log.joints) if j not in log.sliding()]
 
 
 def late_torques(log, draw):
@@ -213,6 +227,9 @@ LATER = {
                             {"position_order"}),
     "torques exchanged": (exchanged_alone(lambda log: (log.torque,)), has_two,
                           {"torque_order"}),
+    "degrees": (in_unit(math.pi / 180, turning), lambda log: bool(turning(log)),
+                {"position_unit"}),
+    "mm": (in_unit(1e-3, Log.sliding), lambda log: bool(log.sliding()), {"position_unit"}),
 }
 
 

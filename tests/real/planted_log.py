@@ -3,6 +3,7 @@
 import csv
 import gzip
 from pathlib import Path
+from xml.etree import ElementTree
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 UR10E = ("--torque_constants=14.87,13.26,11.13,10.62,11.03,11.47",)
@@ -21,8 +22,16 @@ class Log:
         self.torque = "tau" if "tau1" in column else "i"
         self.joints = sum(1 for name in column if name[0] == "q" and name[1:].isdigit())
         self.t = column["t"]
+        self.path = path
         self.columns = {s: [column[f"{s}{j + 1}"] for j in range(self.joints)]
                         for s in ("q", "qd", self.torque) if f"{s}1" in column}
+
+    def sliding(self):
+        """Joints that slide, of a robot file beside the log (base to tip there)."""
+        robot = ElementTree.parse(min(self.path.parent.glob("*.urdf")))
+        types = [joint.get("type") for joint in robot.iter("joint")]
+        moving = [t for t in types if t in ("revolute", "continuous", "prismatic")]
+        return [j for j, t in enumerate(moving[:self.joints]) if t == "prismatic"]
 
     def size(self):
         return len(self.t)
