@@ -163,11 +163,11 @@ class Inspector {
                                           OptionName("torque_constants");
       return;
     }
-    const ReadingFinding found =
-        FindReading(robot_, series,
-                    {Tells(), !result_.clock.wrong(),
-                     HintsOfPositionUnit(robot_, log_, result_.stamps,
-                                         series.motion().qd)});
+    const ReadingFinding found = FindReading(
+        robot_, series,
+        {Tells(), !result_.clock.wrong(),
+         HintsOfPositionUnit(robot_, log_, result_.stamps, result_.findings,
+                             series.motion().qd)});
     result_.reading = found.reading;
     result_.as_it_is = found.changes.empty() && !result_.clock.wrong();
     result_.residual_percent = found.residual_percent;

@@ -116,14 +116,13 @@ class Reader {
   // inertias of links that move a thousand times as far are free enough to
   // explain much of it.
   void TakeHintedUnits() {
-    for (Candidate& candidate : UnitCandidates(best_, robot_)) {
-      const bool degrees = candidate.change.kind == Kind::kDegrees;
-      candidate.change.hint =
-          degrees ? hints_.units.degrees : hints_.units.millimetres;
-      if (candidate.change.hint.empty()) continue;
-      candidate.reading = best_;
-      (degrees ? candidate.reading.units.degrees
-               : candidate.reading.units.millimetres) = true;
+    const std::pair<Kind, std::string> hinted[] = {
+        {Kind::kDegrees, hints_.units.degrees},
+        {Kind::kMillimetres, hints_.units.millimetres}};
+    for (const auto& [kind, hint] : hinted) {
+      if (hint.empty()) continue;
+      Candidate candidate = InOtherUnit(best_, kind);
+      candidate.change.hint = hint;
       const HeldOutFit held_out = HeldOut(candidate.reading);
       if (held_out.residual_percent < held_out_.residual_percent)
         Accept(candidate, Misfit(candidate.reading), 1, held_out);
@@ -177,7 +176,7 @@ class Reader {
 
   void Take(size_t k, const HeldOutFit& held_out,
             const std::vector<double>& misfits, std::vector<Candidate>* all) {
-    NoteAlternatives(misfits, held_out, *all, &(*all)[k]);
+    (*all)[k].change.alternatives = Alternatives(k, held_out, misfits, *all);
     double sum = 0;
     for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
     Accept((*all)[k], misfits[k], std::min(1., 1 / sum), held_out);
@@ -200,25 +199,25 @@ class Reader {
             IsFirstToExplain(held_out_, held_out, change.joint));
   }
 
-  // What would do as well, or nearly so: then what the model misses may decide
-  // between them.
-  void NoteAlternatives(const std::vector<double>& misfits,
-                        const HeldOutFit& held_out,
-                        const std::vector<Candidate>& all,
-                        Candidate* taken) const {
-    ReadingChange& change = taken->change;
-    const double misfit = misfits[taken - all.data()];
+  // What would do as well as the k-th, or nearly so: then what the model misses
+  // may decide between them.
+  std::vector<ReadingChange> Alternatives(
+      size_t k, const HeldOutFit& held_out, const std::vector<double>& misfits,
+      const std::vector<Candidate>& all) const {
+    const ReadingChange& change = all[k].change;
+    std::vector<ReadingChange> alternatives;
     for (size_t i = 0; i < all.size(); ++i) {
       const ReadingChange& other = all[i].change;
       if (!MayBeEither(other, change)) continue;
-      bool does_as_well = misfits[i] < misfit + kLeastGain;
+      bool does_as_well = misfits[i] < misfits[k] + kLeastGain;
       if (!does_as_well && misfits[i] < least_ - kLeastGain) {
         const HeldOutFit fit = HeldOut(all[i].reading);
         does_as_well = Confirms(other, fit) &&
                        !IsClearlyBetter(fit, held_out, JointsOf(change));
       }
-      if (does_as_well) change.alternatives.push_back(other);
+      if (does_as_well) alternatives.push_back(other);
     }
+    return alternatives;
   }
 
   void Accept(Candidate candidate, double misfit, double probability,

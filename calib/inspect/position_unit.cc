@@ -16,6 +16,16 @@ bool IsOfVelocity(const InspectionFinding& finding) {
   return finding.finding == "velocity";
 }
 
+// Of which joints findings say so.
+std::vector<bool> WrongVelocities(
+    const Robot& robot, const std::vector<InspectionFinding>& findings) {
+  std::vector<bool> wrong(robot.num_joints(), false);
+  for (const InspectionFinding& f : findings) {
+    if (IsOfVelocity(f)) wrong[f.joint] = true;
+  }
+  return wrong;
+}
+
 // Of which joints velocities are not the slopes of positions in these units.
 std::vector<bool> WrongVelocities(const Robot& robot, Log log,
                                   const StampFigures& stamps,
@@ -23,11 +33,7 @@ std::vector<bool> WrongVelocities(const Robot& robot, Log log,
   for (int j = 0; j < robot.num_joints(); ++j) {
     log.q.col(j) *= units.Of(robot.links[j].joint);
   }
-  std::vector<bool> wrong(robot.num_joints(), false);
-  for (const InspectionFinding& f : AuditChannels(robot, log, stamps)) {
-    if (IsOfVelocity(f)) wrong[f.joint] = true;
-  }
-  return wrong;
+  return WrongVelocities(robot, AuditChannels(robot, log, stamps));
 }
 
 // What a hundredth of the values is beyond, in size.
@@ -49,38 +55,43 @@ double BeyondLimits(const Joint& joint, const VectorXd& q, const VectorXd& qd) {
 class Hints {
  public:
   Hints(const Robot& robot, const Log& log, const StampFigures& stamps,
+        const std::vector<InspectionFinding>& findings,
         const Eigen::MatrixXd& qd)
-      : robot_(robot), log_(log), stamps_(stamps), qd_(qd) {}
+      : robot_(robot),
+        log_(log),
+        stamps_(stamps),
+        wrong_as_logged_(WrongVelocities(robot, findings)),
+        qd_(qd) {}
 
   std::string Of(const PositionUnits& units) const {
-    const std::string of_velocities = OfVelocities(units);
-    return of_velocities.empty() ? OfLimits(units) : of_velocities;
+    if (VelocitiesTell(units))
+      return "the recorded velocities are the positions' slopes then";
+    return OfLimits(units);
   }
 
  private:
   bool Concerns(const PositionUnits& units, int j) const {
     return units.Of(robot_.links[j].joint) != 1;
   }
-
-  std::string OfVelocities(const PositionUnits& units) const {
-    if (log_.qd.size() == 0) return "";
-    const auto as_logged = WrongVelocities(robot_, log_, stamps_, {});
-    const auto so = WrongVelocities(robot_, log_, stamps_, units);
-    bool any = false;
+  bool AnyConcerned(const PositionUnits& units,
+                    const std::vector<bool>& joints) const {
     for (int j = 0; j < robot_.num_joints(); ++j) {
-      if (!Concerns(units, j)) continue;
-      if (so[j]) return "";
-      any |= as_logged[j];
+      if (joints[j] && Concerns(units, j)) return true;
     }
-    return any ? "the recorded velocities are the positions' slopes then" : "";
+    return false;
+  }
+
+  bool VelocitiesTell(const PositionUnits& units) const {
+    return AnyConcerned(units, wrong_as_logged_) &&
+           !AnyConcerned(units, WrongVelocities(robot_, log_, stamps_, units));
   }
 
   std::string OfLimits(const PositionUnits& units) const {
     for (int j = 0; j < robot_.num_joints(); ++j) {
+      if (!Concerns(units, j)) continue;
       const Joint& joint = robot_.links[j].joint;
       const double beyond = BeyondLimits(joint, log_.q.col(j), qd_.col(j));
-      if (!Concerns(units, j) || !(beyond > 1 / std::sqrt(units.Of(joint))))
-        continue;
+      if (!(beyond > 1 / std::sqrt(units.Of(joint)))) continue;
       return Format("as logged %s is at %.3g times its limits",
                     joint.name.c_str(), beyond);
     }
@@ -90,6 +101,7 @@ class Hints {
   const Robot& robot_;
   const Log& log_;
   const StampFigures& stamps_;
+  const std::vector<bool> wrong_as_logged_;
   const Eigen::MatrixXd& qd_;
 };
 
@@ -100,10 +112,10 @@ double PositionUnits::Of(const Joint& joint) const {
   return millimetres ? 1e-3 : 1;
 }
 
-PositionUnitHints HintsOfPositionUnit(const Robot& robot, const Log& log,
-                                      const StampFigures& stamps,
-                                      const Eigen::MatrixXd& qd) {
-  const Hints hints(robot, log, stamps, qd);
+PositionUnitHints HintsOfPositionUnit(
+    const Robot& robot, const Log& log, const StampFigures& stamps,
+    const std::vector<InspectionFinding>& findings, const Eigen::MatrixXd& qd) {
+  const Hints hints(robot, log, stamps, findings, qd);
   return {hints.Of({true, false}), hints.Of({false, true})};
 }
 

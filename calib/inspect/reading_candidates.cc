@@ -53,6 +53,13 @@ std::vector<Candidate> WiringCandidates(const LogReading& from,
   return of_torques;
 }
 
+Candidate InOtherUnit(const LogReading& from, Kind kind) {
+  Candidate other{from, {kind}};
+  PositionUnits& units = other.reading.units;
+  (kind == Kind::kDegrees ? units.degrees : units.millimetres) ^= true;
+  return other;
+}
+
 std::vector<Candidate> UnitCandidates(const LogReading& from,
                                       const Robot& robot) {
   bool turns = false, slides = false;
@@ -60,14 +67,8 @@ std::vector<Candidate> UnitCandidates(const LogReading& from,
     (IsRotational(link.joint.type) ? turns : slides) = true;
   }
   std::vector<Candidate> all;
-  if (turns) {
-    all.push_back({from, {Kind::kDegrees}});
-    all.back().reading.units.degrees ^= true;
-  }
-  if (slides) {
-    all.push_back({from, {Kind::kMillimetres}});
-    all.back().reading.units.millimetres ^= true;
-  }
+  if (turns) all.push_back(InOtherUnit(from, Kind::kDegrees));
+  if (slides) all.push_back(InOtherUnit(from, Kind::kMillimetres));
   return all;
 }
 

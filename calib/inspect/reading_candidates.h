@@ -18,8 +18,11 @@ struct Candidate {
 std::vector<Candidate> WiringCandidates(const LogReading& from,
                                         const std::vector<bool>& asked);
 
-// Positions in degrees, and in millimetres, where they are not; of joints that
-// turn and slide, if there are some.
+// Positions in the unit that `kind` (kDegrees, kMillimetres) names where they
+// are not, else in rad or m.
+Candidate InOtherUnit(const LogReading& from, ReadingChange::Kind kind);
+
+// The same of both units, of joints that turn and slide, if there are some.
 std::vector<Candidate> UnitCandidates(const LogReading& from,
                                       const Robot& robot);
 

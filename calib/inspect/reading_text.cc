@@ -42,7 +42,7 @@ const char* SignalOf(Kind kind) {
 }
 
 // Of positions or torques alone.
-std::string FindingOf(Kind kind) {
+std::string FindingWord(Kind kind) {
   return std::string(SignalOf(kind)) + (IsOneSign(kind) ? "_sign" : "_order");
 }
 
@@ -73,11 +73,11 @@ std::string Alternative(const ReadingChange& other, const ReadingChange& change,
 
 void SayOneSignal(const ReadingChange& change, const Robot& robot,
                   InspectionFinding* finding) {
-  finding->finding = FindingOf(change.kind);
+  finding->finding = FindingWord(change.kind);
   finding->sentence = Phrase(change, robot);
   for (const ReadingChange& other : change.alternatives) {
     finding->sentence += ", or " + Alternative(other, change, robot);
-    finding->alternatives.push_back({FindingOf(other.kind), other.joint});
+    finding->alternatives.push_back({FindingWord(other.kind), other.joint});
   }
 }
 

@@ -14,44 +14,33 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// What signals are called, their words joined by blanks.
-const std::map<std::string, Signal>& Phrases() {
+// What signals are called beside armcal's own words (NamesOf), their words
+// joined by blanks.
+const std::map<std::string, Signal>& OtherPhrases() {
   static const auto* const kPhrases = new std::map<std::string, Signal>{
-      {"q", Signal::kPosition},
       {"pos", Signal::kPosition},
-      {"position", Signal::kPosition},
       {"positions", Signal::kPosition},
       {"angle", Signal::kPosition},
-      {"qd", Signal::kVelocity},
       {"dq", Signal::kVelocity},
       {"qdot", Signal::kVelocity},
       {"vel", Signal::kVelocity},
-      {"velocity", Signal::kVelocity},
       {"velocities", Signal::kVelocity},
       {"speed", Signal::kVelocity},
-      {"qdd", Signal::kAcceleration},
       {"ddq", Signal::kAcceleration},
       {"acc", Signal::kAcceleration},
-      {"acceleration", Signal::kAcceleration},
       {"accelerations", Signal::kAcceleration},
-      {"tau", Signal::kEffort},
       {"tau j", Signal::kEffort},  // libfranka's
       {"torque", Signal::kEffort},
       {"torques", Signal::kEffort},
-      {"effort", Signal::kEffort},
       {"efforts", Signal::kEffort},
       {"force", Signal::kEffort},
-      {"i", Signal::kCurrent},
-      {"current", Signal::kCurrent},
       {"currents", Signal::kCurrent},
       {"motor current", Signal::kCurrent},
-      {"qref", Signal::kReference},
       {"q ref", Signal::kReference},
       {"q d", Signal::kReference},  // libfranka's
       {"q des", Signal::kReference},
       {"q cmd", Signal::kReference},
       {"target q", Signal::kReference},
-      {"reference", Signal::kReference},
       {"position reference", Signal::kReference},
       {"position command", Signal::kReference},
       {"desired position", Signal::kReference},
@@ -60,10 +49,19 @@ const std::map<std::string, Signal>& Phrases() {
       {"pos ref", Signal::kReference},
       {"pos des", Signal::kReference},
       {"pos cmd", Signal::kReference},
-      {"temp", Signal::kTemperature},
-      {"temperature", Signal::kTemperature},
       {"temperatures", Signal::kTemperature}};
   return *kPhrases;
+}
+
+std::optional<Signal> SignalOf(const std::string& phrase) {
+  for (const Signal signal : kSignals) {
+    const SignalNames& names = NamesOf(signal);
+    if (phrase == names.number_prefix || phrase == names.path_part)
+      return signal;
+  }
+  const auto other = OtherPhrases().find(phrase);
+  if (other == OtherPhrases().end()) return std::nullopt;
+  return other->second;
 }
 
 // Words that change nothing of what a column holds.
@@ -74,46 +72,14 @@ const std::set<std::string>& Fillers() {
   return *kFillers;
 }
 
-// Units by how they are written, in lower case without blanks, dots and stars.
-const std::map<std::string, std::string_view>& Units() {
-  static const auto* const kUnits =
-      new std::map<std::string, std::string_view>{{"rad", "rad"},
-                                                  {"radian", "rad"},
-                                                  {"radians", "rad"},
-                                                  {"deg", "deg"},
-                                                  {"degree", "deg"},
-                                                  {"degrees", "deg"},
-                                                  {"\u00b0", "deg"},
-                                                  {"m", "m"},
-                                                  {"mm", "mm"},
-                                                  {"rad/s", "rad/s"},
-                                                  {"deg/s", "deg/s"},
-                                                  {"\u00b0/s", "deg/s"},
-                                                  {"m/s", "m/s"},
-                                                  {"mm/s", "mm/s"},
-                                                  {"rad/s^2", "rad/s^2"},
-                                                  {"rad/s2", "rad/s^2"},
-                                                  {"deg/s^2", "deg/s^2"},
-                                                  {"deg/s2", "deg/s^2"},
-                                                  {"nm", "Nm"},
-                                                  {"n", "N"},
-                                                  {"mnm", "mNm"},
-                                                  {"knm", "kNm"},
-                                                  {"a", "A"},
-                                                  {"ma", "mA"},
-                                                  {"amp", "A"},
-                                                  {"amps", "A"},
-                                                  {"c", "degC"},
-                                                  {"degc", "degC"},
-                                                  {"\u00b0c", "degC"},
-                                                  {"s", "s"},
-                                                  {"sec", "s"},
-                                                  {"secs", "s"},
-                                                  {"seconds", "s"},
-                                                  {"ms", "ms"},
-                                                  {"us", "us"},
-                                                  {"\u00b5s", "us"},
-                                                  {"ns", "ns"}};
+// Units by how else they are written, as Plain() has them.
+const std::map<std::string, std::string>& OtherUnits() {
+  static const auto* const kUnits = new std::map<std::string, std::string>{
+      {"radian", "rad"},     {"radians", "rad"},    {"degree", "deg"},
+      {"degrees", "deg"},    {"\u00b0", "deg"},     {"\u00b0/s", "deg/s"},
+      {"rad/s2", "rad/s^2"}, {"deg/s2", "deg/s^2"}, {"amp", "A"},
+      {"amps", "A"},         {"\u00b0c", "degC"},   {"sec", "s"},
+      {"secs", "s"},         {"seconds", "s"}};
   return *kUnits;
 }
 
@@ -136,16 +102,30 @@ Words WordsOf(std::string_view text) {
   return words;
 }
 
-std::optional<std::string> UnitOf(std::string_view text) {
+// In lower case, without blanks, dots and stars.
+std::string Plain(std::string_view unit) {
   std::string plain;
-  for (const char c : text) {
+  for (const char c : unit) {
     if (c != ' ' && c != '.' && c != '*') {
       plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     }
   }
-  const auto found = Units().find(plain);
-  if (found == Units().end()) return std::nullopt;
-  return std::string(found->second);
+  return plain;
+}
+
+std::optional<std::string> UnitOf(std::string_view text) {
+  const std::string plain = Plain(text);
+  int decimals = 0;
+  if (plain.empty()) return std::nullopt;
+  if (FindTimeUnit(plain, &decimals)) return plain;
+  for (const Signal signal : kSignals) {
+    for (const Unit& unit : NamesOf(signal).units) {
+      if (Plain(unit.name) == plain) return std::string(unit.name);
+    }
+  }
+  const auto other = OtherUnits().find(plain);
+  if (other == OtherUnits().end()) return std::nullopt;
+  return other->second;
 }
 
 // A name without its unit, which is in brackets of either kind behind it, or
@@ -206,9 +186,9 @@ class Speller {
     Understood column;
     Words words = WordsOf(WithoutUnit(name, &column.unit));
     if (!FindJoint(&words, &column)) return std::nullopt;
-    const auto signal = Phrases().find(Joined(words));
-    if (signal == Phrases().end()) return std::nullopt;
-    column.signal = signal->second;
+    const std::optional<Signal> signal = SignalOf(Joined(words));
+    if (!signal) return std::nullopt;
+    column.signal = *signal;
     return column;
   }
 

@@ -10,7 +10,9 @@ class PositionUnitTest : public testing::Test {
  protected:
   PositionUnitHints Hints(const Log& log) const {
     const Eigen::MatrixXd qd = Eigen::MatrixXd::Ones(9, robot_.num_joints());
-    return HintsOfPositionUnit(robot_, log, AuditStamps(log), qd);
+    const StampFigures stamps = AuditStamps(log);
+    return HintsOfPositionUnit(robot_, log, stamps,
+                               AuditChannels(robot_, log, stamps), qd);
   }
 
   InspectedArm arm_;
