@@ -85,6 +85,7 @@ json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
       {"evidence", EvidenceJson(found.evidence)},
       {"estimates", EstimatesJson(found.estimates, found.stddev)},
       {"equivalent", PlacesJson(found.equivalent)},
+      {"any_probability", JsonNumber(found.any_probability)},
       {"separate_by", found.separate_by},
       {"removed_percent", JsonNumber(found.removed_percent)},
       {"ci95", {JsonNumber(found.ci95[0]), JsonNumber(found.ci95[1])}},
@@ -208,6 +209,7 @@ json ToJson(const GapDiagnosis& diagnosis) {
   json unnamed = json::array();
   for (const FoundEffect& found : diagnosis.unnamed) {
     unnamed.push_back(EffectJson(found, diagnosis));
+    unnamed.back()["one_of_few"] = found.one_of_few;
   }
   json untestable = json::array();
   for (const UntestableEffect& effect : diagnosis.untestable) {

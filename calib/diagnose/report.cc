@@ -62,6 +62,21 @@ std::string Wrapped(std::string line, const std::vector<std::string>& items) {
   return text + line + "\n";
 }
 
+// What else it may be, and what would tell.
+std::string Others(const FoundEffect& found, const GapDiagnosis& diagnosis) {
+  constexpr double kWorthSaying = .02;
+  std::string text;
+  for (const PlacedEffect& other : found.equivalent) {
+    if (other.probability < kWorthSaying) continue;
+    text += Format("         or %.0f %% ", 100 * other.probability) +
+            NameOf(*other.effect, other.joint, diagnosis) + "\n";
+  }
+  if (!found.separate_by.empty()) {
+    text += "         told apart by: " + found.separate_by + "\n";
+  }
+  return text;
+}
+
 std::string EffectLines(const FoundEffect& found,
                         const GapDiagnosis& diagnosis) {
   std::string text =
@@ -76,16 +91,7 @@ std::string EffectLines(const FoundEffect& found,
                contact.stddev[contact.joint]) +
         joint.unit + " on " + joint.name + "\n";
   }
-  constexpr double kWorthSaying = .02;
-  for (const PlacedEffect& other : found.equivalent) {
-    if (other.probability < kWorthSaying) continue;
-    text += Format("         or %.0f %% ", 100 * other.probability) +
-            NameOf(*other.effect, other.joint, diagnosis) + "\n";
-  }
-  if (!found.separate_by.empty()) {
-    text += "         told apart by: " + found.separate_by + "\n";
-  }
-  return text;
+  return text + Others(found, diagnosis);
 }
 
 // What the data ask for as well, but no name is probable enough for: no part of
@@ -102,6 +108,7 @@ std::string Unnamed(const GapDiagnosis& diagnosis) {
       text += ": held out, it removes nothing";
     }
     text += "\n";
+    if (found.one_of_few) text += Others(found, diagnosis);
   }
   return text;
 }

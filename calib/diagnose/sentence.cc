@@ -58,6 +58,32 @@ std::string Findings(const GapDiagnosis& diagnosis) {
                     removed);
 }
 
+// "one of payload, base tilt and encoder offset on elbow"
+std::string OneOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
+  std::string text = "one of " + NameOf(*found.effect, found.joint, diagnosis);
+  for (const PlacedEffect& other : found.equivalent) {
+    const bool is_last = &other == &found.equivalent.back();
+    text += (is_last ? " and " : ", ") +
+            NameOf(*other.effect, other.joint, diagnosis);
+  }
+  return text;
+}
+
+// What has several names, none of which is probable enough; empty where nothing
+// has.
+std::string NamesAlike(const GapDiagnosis& diagnosis) {
+  std::string names;
+  double least = 1;
+  for (const FoundEffect& found : diagnosis.unnamed) {
+    if (!found.one_of_few) continue;
+    names += (names.empty() ? "" : ", and ") + OneOf(found, diagnosis);
+    least = std::min(least, found.any_probability);
+  }
+  if (names.empty()) return "";
+  return std::string("The model ") + Lacks(least) + " " + names +
+         ": these data cannot tell which.";
+}
+
 // Friction that differs on several joints is one change, as temperature makes
 // it: "Friction has changed since the reference: elbow.viscous -20 %." Empty
 // where none has.
@@ -98,6 +124,21 @@ std::string Agreement(const GapDiagnosis& diagnosis) {
          ": that tells nothing of it.";
 }
 
+// What is there without a name: one of a few known effects, or none of them.
+std::string WithoutName(const GapDiagnosis& diagnosis) {
+  const std::string alike = NamesAlike(diagnosis);
+  if (!alike.empty()) return alike;
+  std::string text = "Something real is missing that no known effect explains";
+  const auto& unexplained = diagnosis.unexplained;
+  if (!unexplained.joint.empty()) {
+    text += ": most of it on " + unexplained.joint;
+    if (!unexplained.organised_by.empty()) {
+      text += ", ordered by its " + unexplained.organised_by;
+    }
+  }
+  return text + ".";
+}
+
 // What is left given friction that has changed.
 std::string BriefVerdict(const GapDiagnosis& diagnosis) {
   constexpr double kNoisy = 2;  // times the noise's mean square
@@ -124,14 +165,7 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
     case GapVerdict::kPartlyExplained:
       return Findings(diagnosis) + "; something else is left.";
     case GapVerdict::kUnknown:
-      return "Something real is missing that no known effect explains" +
-             (diagnosis.unexplained.joint.empty()
-                  ? std::string(".")
-                  : ": most of it on " + diagnosis.unexplained.joint +
-                        (diagnosis.unexplained.organised_by.empty()
-                             ? "."
-                             : ", ordered by its " +
-                                   diagnosis.unexplained.organised_by + "."));
+      return WithoutName(diagnosis);
     case GapVerdict::kNotTestable:
       return "These data cannot carry a diagnosis.";
   }

@@ -85,6 +85,7 @@ struct Thresholds {
   double confirmation = 4;
   double seen_again = .3;
   double untold = .5;
+  double few = 4;
   double explains = .5;
   double tells = .01;
 

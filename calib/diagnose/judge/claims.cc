@@ -45,16 +45,32 @@ bool IsContradicted(const FoundEffect& found) {
          confirmation.explained < 0 && found.evidence.gain < Limits().helps;
 }
 
-bool IsClaimed(const FoundEffect& found) {
-  if (found.of_another_day) return true;
-  if (!found.contacts.empty()) return found.probability >= Limits().likely;
+namespace {
+
+// Whether it is told as an effect where it has this probability.
+bool IsClaimedAt(const FoundEffect& found, double probability) {
   if (!IsPossible(found) || IsContradicted(found)) return false;
   if (!found.joints_agree || !found.dissipates) return false;
   if (!IsBeyondScatter(found)) return false;
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
-  return found.probability >=
+  return probability >=
          (IsSeenAgain(found) ? Limits().likely : Limits().likely_unseen);
+}
+
+}  // namespace
+
+bool IsClaimed(const FoundEffect& found) {
+  if (found.of_another_day) return true;
+  if (!found.contacts.empty()) return found.probability >= Limits().likely;
+  return IsClaimedAt(found, found.probability);
+}
+
+bool IsOneOfFew(const FoundEffect& found) {
+  const size_t members = 1 + found.equivalent.size();
+  return !found.fitted.empty() && members > 1 &&
+         static_cast<double>(members) <= Limits().few &&
+         IsClaimedAt(found, found.any_probability);
 }
 
 }  // namespace armcal

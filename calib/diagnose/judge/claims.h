@@ -42,4 +42,8 @@ bool IsContradicted(const FoundEffect& found);
 // show it; what swings in time has to help there.
 bool IsClaimed(const FoundEffect& found);
 
+// Whether it is told that one of a few is there, which data cannot tell apart:
+// it or one of its equivalents together would be claimed.
+bool IsOneOfFew(const FoundEffect& found);
+
 }  // namespace armcal

@@ -56,6 +56,26 @@ constexpr double kMostOdds = 12;  // to have a number where there is no rival
 
 double Logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
+// ln of the odds that one of `set` is it, against the next beside them, by the
+// probabilities of `all`.
+double OddsOfAny(const std::vector<PlacedEffect>& all,
+                 const std::vector<PlacedEffect>& set) {
+  double inside = 0, next = 0;
+  for (const PlacedEffect& one : all) {
+    const bool is_in =
+        std::any_of(set.begin(), set.end(), [&](const PlacedEffect& member) {
+          return member.effect == one.effect && member.joint == one.joint;
+        });
+    if (is_in) {
+      inside += one.probability;
+    } else {
+      next = std::max(next, one.probability);
+    }
+  }
+  return next > 0 ? std::clamp(std::log(inside / next), -kMostOdds, kMostOdds)
+                  : kMostOdds;
+}
+
 }  // namespace
 
 // What is said of all effects alike: how many were chosen, and how well the
@@ -103,6 +123,9 @@ EffectEvidence GapEvidence::ForEffect(
   }
   evidence.odds = std::clamp((own - others) / (2 * Limits().temperature),
                              -kMostOdds, kMostOdds);
+  std::vector<PlacedEffect> alike = CredibleSet(all);
+  alike.push_back({effect.effect, effect.joint});
+  evidence.odds_of_any = OddsOfAny(all, alike);
   evidence.strength = std::log(std::max(1., fit_.selection().delta_chi2[k]));
   const std::vector<double>& delta_chi2 = fit_.selection().delta_chi2;
   for (size_t i = 0; i < delta_chi2.size(); ++i) {
@@ -113,8 +136,6 @@ EffectEvidence GapEvidence::ForEffect(
   if (!figures_.known()) return evidence;
   evidence.held_out = true;
   evidence.gain = held_out_.GainOf(k, figures_.after);
-  std::vector<PlacedEffect> alike = CredibleSet(all);
-  alike.push_back({effect.effect, effect.joint});
   const std::vector<Confirmation> parts = held_out_.ConfirmationsOf(k, alike);
   evidence.confirmation = SumOf(parts);
   evidence.least_share = LeastShare(parts);
@@ -163,6 +184,14 @@ double ProbabilityOf(const EffectEvidence& e) {
                          w.stronger_beside * e.stronger_beside +
                          w.confirmed * e.confirmation.Share() +
                          w.least_confirmed * e.least_share);
+}
+
+// Which of several is there, and whether one of them is, are two questions:
+// rivals of an effect speak against it and not against all of them.
+double ProbabilityOfAny(const EffectEvidence& e) {
+  EffectEvidence any = e;
+  any.odds = e.odds_of_any;
+  return ProbabilityOf(any);
 }
 
 double ProbabilityBeyondOneReference(const EffectEvidence& e) {

@@ -11,7 +11,9 @@ namespace armcal {
 
 // What speaks for an effect besides its score, and against it.
 struct EffectEvidence {
-  double odds = 0;      // ln of its softmax probability against the next
+  double odds = 0;  // ln of its softmax probability against the next
+  // The same of it and all that data cannot tell from it, together.
+  double odds_of_any = 0;
   double strength = 0;  // ln of its delta chi^2
   int chosen = 1;       // how many effects were, all events being one
   // How many of the others are stronger, and of these on its joint (if it has
@@ -63,6 +65,9 @@ class GapEvidence {
 // regression on evidence, fitted to which effects were right in the calibration
 // cases of the blind bench (tests/blind/EVALUATIONS.md says which).
 double ProbabilityOf(const EffectEvidence& evidence);
+// That it is this one or one of those that the data cannot tell from it: the
+// same regression on the evidence for all of them as if they were one.
+double ProbabilityOfAny(const EffectEvidence& evidence);
 
 // The same of contacts that stand out from friction and from a single
 // reference, which does not tell how much logs differ: by how much each of them

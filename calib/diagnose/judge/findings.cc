@@ -74,7 +74,6 @@ class Findings {
                        const MatrixXd& covariance) const;
   FoundEffect Found(size_t k) const;
   void AddMissingTerms(const std::vector<MissingTerm>& terms);
-  void ShareTheRest(FoundEffect* found, bool is_first);
 
   const Robot& robot_;
   const GapFit& fit_;
@@ -132,6 +131,7 @@ FoundEffect Findings::Found(size_t k) const {
   found.over_change =
       OverChangedFriction(fit_, torque_, effect.joint, found.evidence.gain);
   found.probability = ProbabilityOf(found.evidence);
+  found.any_probability = ProbabilityOfAny(found.evidence);
   SetShare(fit_, torque_, found.evidence.gain, &found);
   found.separate_by = found.equivalent.empty() ? "" : found.effect->experiment;
   return found;
@@ -172,7 +172,7 @@ GapFindings Findings::List(const std::vector<MissingTerm>& terms) {
   SortFindings(&result_.effects);
   JoinMeans(&result_.effects);
   for (FoundEffect& found : result_.effects) {
-    ShareTheRest(&found, &found == &result_.effects.front());
+    ShareTheRest(&found, &result_.candidates);
   }
   const double extra_variance = ExtraVariance(fit_.noise().source);
   const auto unneeded =
@@ -189,35 +189,10 @@ GapFindings Findings::List(const std::vector<MissingTerm>& terms) {
   result_.unnamed.insert(result_.unnamed.begin(), unclaimed,
                          result_.effects.end());
   result_.effects.erase(unclaimed, result_.effects.end());
+  for (FoundEffect& found : result_.unnamed) {
+    found.one_of_few = IsNeeded(found, extra_variance) && IsOneOfFew(found);
+  }
   return result_;
-}
-
-// The probability that an effect does not have is that of all others together,
-// since one of them is there if it is not. Of a further effect, which may not
-// be there at all, the others have as much of it as their scores say. The set
-// of candidates ends where 95 % are in it, or where each of the others has less
-// than kLeastCandidate.
-void Findings::ShareTheRest(FoundEffect* found, bool is_first) {
-  constexpr double kLeastCandidate = .01;
-  double others = 0;
-  for (const PlacedEffect& other : found->equivalent) {
-    others += other.probability;
-  }
-  const double rest = 1 - found->probability;
-  const double shared = is_first
-                            ? rest
-                            : std::min(rest, found->probability * others /
-                                                 std::max(1e-9, 1 - others));
-  result_.candidates.push_back(
-      {found->effect, found->joint, found->probability, found->score});
-  double sum = 1 - shared;
-  for (PlacedEffect& other : found->equivalent) {
-    other.probability *= shared / std::max(1e-9, others);
-    if (sum < Limits().credible && other.probability >= kLeastCandidate) {
-      result_.candidates.push_back(other);
-    }
-    sum += other.probability;
-  }
 }
 
 }  // namespace
@@ -258,6 +233,32 @@ void JoinMeans(std::vector<FoundEffect>* effects) {
                         mean.fitted.end());
       effects->erase(effects->begin() + i);
     }
+  }
+}
+
+// Whether the effect or one of those in its place is there is a question of its
+// own (ProbabilityOfAny). They share what this is above the effect's own as
+// their scores say, and what is left is that none of the catalogue is. The set
+// of candidates ends where 95 % of what is told are in it, or where each of the
+// others has less than kLeastCandidate.
+void ShareTheRest(FoundEffect* found, std::vector<PlacedEffect>* candidates) {
+  constexpr double kLeastCandidate = .01;
+  double others = 0;
+  for (const PlacedEffect& other : found->equivalent) {
+    others += other.probability;
+  }
+  double& any = found->any_probability;
+  any = std::max(any, found->probability);
+  const double shared = any - found->probability;
+  candidates->push_back(
+      {found->effect, found->joint, found->probability, found->score});
+  double sum = found->probability;
+  for (PlacedEffect& other : found->equivalent) {
+    other.probability *= shared / std::max(1e-9, others);
+    if (sum < Limits().credible * any && other.probability >= kLeastCandidate) {
+      candidates->push_back(other);
+    }
+    sum += other.probability;
   }
 }
 
@@ -360,7 +361,9 @@ void LowerWhatDoesNotHelp(const GapFigures& torque,
     const double removed =
         fitted == 1 ? torque.removed_percent : found.removed_percent;
     if (removed > 0) continue;
-    found.probability = std::min(found.probability, Limits().untold);
+    for (double* p : {&found.probability, &found.any_probability}) {
+      *p = std::min(*p, Limits().untold);
+    }
   }
 }
 

@@ -19,6 +19,11 @@ void SortFindings(std::vector<FoundEffect>* effects);
 // estimates it is.
 void JoinMeans(std::vector<FoundEffect>* effects);
 
+// Shares what `any_probability` is above the effect's own among its
+// equivalents, whose probabilities are those of a softmax before. Both are
+// candidates then, up to 95 % of `any_probability`, but for those below 1 %.
+void ShareTheRest(FoundEffect* found, std::vector<PlacedEffect>* candidates);
+
 // What a fit found.
 struct GapFindings {
   // Probable enough to be claimed, the strongest first.

@@ -18,6 +18,7 @@ struct FoundEffect {
   const Effect* effect = nullptr;
   int joint = -1;  // from 0; -1: all joints or the whole robot
   double probability = 0;
+  double any_probability = 0;  // that it or one of `equivalent` is there
   double score = 0;
   double delta_chi2 = 0;  // by which chi^2 rises without it
   EffectEvidence evidence;
@@ -38,6 +39,8 @@ struct FoundEffect {
   double over_change = std::numeric_limits<double>::quiet_NaN();
   // Others that these data cannot tell from it.
   std::vector<PlacedEffect> equivalent;
+  // Whether these are few, and one of them is claimed though none is by itself.
+  bool one_of_few = false;
   // Of the held-out gap, by this one given the others; NaN: not known.
   double removed_percent = NAN;
   double ci95[2] = {NAN, NAN};

@@ -70,6 +70,19 @@ TEST(FullReport, HoldsEveryPart) {
   }
 }
 
+TEST(FullReport, ListsWhatItCannotTellApart) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.unnamed = {diagnosis.effects[0]};
+  diagnosis.effects.clear();
+  EXPECT_THAT(FullReport(diagnosis, true), Not(HasSubstr("or 8 %")));
+  diagnosis.unnamed[0].one_of_few = true;
+  EXPECT_THAT(
+      FullReport(diagnosis, true),
+      HasSubstr("stribeck on elbow: would remove 40 % of what refitting "
+                "leaves\n         or 8 % presliding on elbow\n"));
+  EXPECT_TRUE(ToJson(diagnosis)["fitted_not_named"][0]["one_of_few"]);
+}
+
 TEST(FullReport, SaysWhereNothingWasHeldOut) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.torque = {};

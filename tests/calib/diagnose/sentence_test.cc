@@ -69,6 +69,24 @@ TEST(BriefReport, SaysWhatItCannotName) {
   }
 }
 
+// Something real that known effects explain is not said to have no explanation.
+TEST(BriefReport, NamesAFewTogetherThatItCannotTellApart) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.verdict = GapVerdict::kUnknown;
+  FoundEffect offset = MakeFound("encoder_offset", 1);
+  offset.any_probability = .7;
+  offset.equivalent = {{FindEffect("base_tilt"), -1, .3},
+                       {FindEffect("encoder_offset"), 0, .1}};
+  diagnosis.unnamed = {MakeFound("spring", 0), offset};
+  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("no known effect explains"));
+  diagnosis.unnamed[1].one_of_few = true;
+  EXPECT_EQ(BriefReport(diagnosis),
+            "The model probably lacks one of encoder offset on elbow, base "
+            "tilt and encoder offset on shoulder: these data cannot tell "
+            "which.");
+}
+
 // Noise of .77 N m agrees with a pendulum of 1 N m, loaded or not.
 TEST(BriefReport, SaysWithinWhatItAgrees) {
   GapDiagnosis diagnosis = SampleDiagnosis();

@@ -134,4 +134,32 @@ TEST_F(IsClaimedTest, ALoadIsWithinReachOfTheTool) {
   EXPECT_TRUE(Claimed(.9, .1));
 }
 
+// Two that data cannot tell apart are claimed together where one of them is
+// probable enough; five would be a list and no name.
+TEST(IsOneOfFew, WhereFewTogetherWouldBeClaimed) {
+  FoundEffect found = Found("encoder_offset", 1, 100);
+  found.fitted = {0};
+  found.evidence.confirmation = {50, 40};
+  found.probability = .4;
+  found.any_probability = .6;
+  EXPECT_FALSE(IsOneOfFew(found)) << "of itself alone";
+  found.equivalent = {{FindEffect("base_tilt"), -1, .2}};
+  EXPECT_TRUE(IsOneOfFew(found));
+  EXPECT_FALSE(IsClaimed(found));
+  found.any_probability = .45;
+  EXPECT_FALSE(IsOneOfFew(found));
+  found.any_probability = .6;
+  found.evidence.confirmation = {50, 5};
+  EXPECT_FALSE(IsOneOfFew(found)) << "held-out data do not show it";
+  found.any_probability = .75;
+  EXPECT_TRUE(IsOneOfFew(found));
+  found.scatter = {100, 1};
+  EXPECT_FALSE(IsOneOfFew(found)) << "logs of the reference differ by as much";
+  found.scatter = {};
+  found.equivalent.resize(3, found.equivalent[0]);
+  EXPECT_TRUE(IsOneOfFew(found));
+  found.equivalent.resize(4, found.equivalent[0]);
+  EXPECT_FALSE(IsOneOfFew(found));
+}
+
 }  // namespace armcal::claims_test

@@ -76,6 +76,15 @@ TEST(ProbabilityOf, FallsWithAllThatSpeaksAgainstAChangeSinceAReference) {
 
 // What was held out has to say something: an effect that one stretch alone
 // shows is as likely something that happened there.
+// An equal rival speaks against the one and not against the two.
+TEST(ProbabilityOfAny, IsNotLessForWhatCannotBeToldApart) {
+  EffectEvidence evidence = Clear();
+  evidence.odds = 0;
+  evidence.odds_of_any = Clear().odds;
+  EXPECT_LT(ProbabilityOf(evidence), ProbabilityOf(Clear()));
+  EXPECT_EQ(ProbabilityOfAny(evidence), ProbabilityOf(Clear()));
+}
+
 TEST(ProbabilityOf, IsAtMostEvenWhereHeldOutDataCannotTell) {
   EffectEvidence evidence = Clear();
   evidence.held_out = true;

@@ -28,6 +28,38 @@ GapFigures Shrinking(double low, double high) {
   return torque;
 }
 
+// Which of several it is and whether it is one of them are two questions: what
+// is left of both is that none of the catalogue is.
+TEST(ShareTheRest, LeavesRoomForWhatHasNoName) {
+  FoundEffect found = Found("added_mass", 5, 100);
+  found.probability = .15;
+  found.any_probability = .35;
+  found.equivalent = {{FindEffect("payload"), -1, .3},
+                      {FindEffect("spring"), 1, .1},
+                      {FindEffect("cable"), 1, .01}};
+  std::vector<PlacedEffect> candidates;
+  ShareTheRest(&found, &candidates);
+  ASSERT_EQ(candidates.size(), 3u) << "0.5 % is not worth a line";
+  EXPECT_EQ(candidates[0].probability, .15);
+  EXPECT_NEAR(candidates[1].probability, .2 * .3 / .41, 1e-12);
+  EXPECT_NEAR(candidates[2].probability, .2 * .1 / .41, 1e-12);
+  EXPECT_NEAR(found.equivalent[2].probability, .2 * .01 / .41, 1e-12);
+}
+
+TEST(ShareTheRest, EndsWhereNearlyAllIsTold) {
+  FoundEffect found = Found("payload", -1, 100);
+  found.probability = .9;
+  found.any_probability = .94;
+  found.equivalent = {{FindEffect("added_mass"), 1, .1}};
+  std::vector<PlacedEffect> candidates;
+  ShareTheRest(&found, &candidates);
+  EXPECT_EQ(candidates.size(), 1u);
+  FoundEffect contact = Found("external_contact", -1, 100);
+  contact.probability = .7;
+  ShareTheRest(&contact, &candidates);
+  EXPECT_EQ(contact.any_probability, .7);
+}
+
 TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
   GapFindings findings;
   findings.effects = {Found("spring", 1, 9), Found("stribeck", 1, 8),
