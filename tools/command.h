@@ -13,6 +13,7 @@
 #include "tools/console.h"
 #include "tools/flag_values.h"
 #include "tools/output_folder.h"
+#include "tools/spooled_pipes.h"
 #include "tools/usage_error.h"
 
 namespace armcal {
@@ -42,6 +43,8 @@ struct CommandInput {
   std::optional<Document> robot_file;
   // Logs in memory, by the names that flags have for them.
   std::map<std::string, LogSource> logs;
+  // What came out of those that are pipes.
+  std::shared_ptr<SpooledPipes> pipes = std::make_shared<SpooledPipes>();
   Progress progress;    // a fraction below 0: nobody knows
   bool report = false;  // make report.html even without --out
 

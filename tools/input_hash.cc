@@ -47,8 +47,12 @@ SourceFile HashFolder(const std::string& name) {
 SourceFile HashInput(const CommandInput& input, const std::string& name) {
   const auto log = input.logs.find(name);
   if (log != input.logs.end()) return HashArrays(log->second);
+  const std::string path = input.pipes->PathOf(name);
   std::error_code error;
-  return fs::is_directory(name, error) ? HashFolder(name) : HashFile(name);
+  SourceFile source =
+      fs::is_directory(path, error) ? HashFolder(path) : HashFile(path);
+  source.path = name;
+  return source;
 }
 
 }  // namespace armcal

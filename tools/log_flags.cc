@@ -7,7 +7,8 @@ namespace armcal {
 
 LogSource SourceOf(const CommandInput& input, const std::string& name) {
   const auto log = input.logs.find(name);
-  return log == input.logs.end() ? LogSource(name) : log->second;
+  if (log != input.logs.end()) return log->second;
+  return LogSource(name, input.pipes->PathOf(name));
 }
 
 std::vector<LogSource> SourcesOf(const CommandInput& input,

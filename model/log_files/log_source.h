@@ -15,13 +15,20 @@ namespace armcal {
 struct LogSource {
   LogSource(std::string path) : name(std::move(path)) {}  // NOLINT: implicit
   LogSource(const char* path) : name(path) {}             // NOLINT: implicit
+  // `name` stands for the file at `path` in messages and results.
+  LogSource(std::string name, std::string path)
+      : name(std::move(name)), file(std::move(path)) {}
   // `name` stands for the log in messages and results.
   LogSource(std::string name, std::vector<LogArray> arrays);
   // The signals that `log` has, as they are: SI units, joints in the robot's
   // order.
   LogSource(std::string name, const Log& log);
 
-  std::string name;                                     // or path
+  // What is opened.
+  const std::string& path() const { return file.empty() ? name : file; }
+
+  std::string name;  // or path
+  std::string file;  // path, where it is not `name`
   std::shared_ptr<const std::vector<LogArray>> arrays;  // null: of a file
 };
 

@@ -41,7 +41,7 @@ std::unique_ptr<LineSource> OpenLines(const LogSource& log,
   if (log.arrays != nullptr) {
     return std::make_unique<ArraySource>(log.name, *log.arrays);
   }
-  const std::string& path = log.name;
+  const std::string& path = log.path();
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     return std::make_unique<BagSource>(path, options);
@@ -51,14 +51,14 @@ std::unique_ptr<LineSource> OpenLines(const LogSource& log,
     const std::string first = FirstBytes(path);
     if (IsBagFile(first)) return std::make_unique<BagSource>(path, options);
     if (first.rfind("PK\3\4", 0) == 0) {
-      return std::make_unique<ArraySource>(path, ReadNpz(path));
+      return std::make_unique<ArraySource>(log.name, ReadNpz(path));
     }
     if (IsMatFile(first)) {
-      return std::make_unique<ArraySource>(path, ReadMat(path));
+      return std::make_unique<ArraySource>(log.name, ReadMat(path));
     }
-    RefuseOthers(path, first);
+    RefuseOthers(log.name, first);
   }
-  return std::make_unique<TextSource>(path);
+  return std::make_unique<TextSource>(path, log.name);
 }
 
 }  // namespace armcal

@@ -90,12 +90,12 @@ bool StartsWith(const std::vector<unsigned char>& data, size_t size,
 }  // namespace
 
 struct TextSource::Impl {
-  Impl(const std::string& path, int block_bytes)
-      : path(path),
+  Impl(const std::string& path, const std::string& name, int block_bytes)
+      : name(name),
         file(std::fopen(path.c_str(), "rb"), std::fclose),
         block(block_bytes) {
     if (!file) {
-      throw InputError(path, "", "",
+      throw InputError(name, "", "",
                        std::string("cannot be opened: ") + strerror(errno));
     }
     bytes = Bytes();
@@ -120,19 +120,19 @@ struct TextSource::Impl {
     if (is_gzip) gzip.Restart();
     if (StartsWith(raw, raw_size, "\xff\xfe") ||
         StartsWith(raw, raw_size, "\xfe\xff")) {
-      throw InputError(path, "", "", "the text is UTF-16; save it as UTF-8");
+      throw InputError(name, "", "", "the text is UTF-16; save it as UTF-8");
     }
   }
 
   size_t ReadFile(void* to, size_t size) {
     const size_t read = std::fread(to, 1, size, file.get());
     if (std::ferror(file.get())) {
-      throw InputError(path, "", "",
+      throw InputError(name, "", "",
                        std::string("cannot be read: ") + strerror(errno));
     }
     if (read < size && Bytes() != bytes) {  // at the end
       throw InputError(
-          path, "", "",
+          name, "", "",
           "has changed while it was read: " + std::to_string(bytes) +
               " bytes at first, " + std::to_string(Bytes()) +
               " now; read it when its recording has ended");
@@ -141,7 +141,7 @@ struct TextSource::Impl {
   }
 
   [[noreturn]] void Refuse(long at, const std::string& expected) const {
-    throw InputError(path, "row " + std::to_string(at), "", expected);
+    throw InputError(name, "row " + std::to_string(at), "", expected);
   }
 
   // Up to `size` bytes of text; 0 at the end.
@@ -227,7 +227,7 @@ struct TextSource::Impl {
     return true;
   }
 
-  std::string path;
+  std::string name;
   File file;
   long bytes = -1;
   std::vector<unsigned char> raw = std::vector<unsigned char>(1 << 16);
@@ -242,8 +242,9 @@ struct TextSource::Impl {
   long row = 0;
 };
 
-TextSource::TextSource(const std::string& path, int block_bytes)
-    : impl_(std::make_unique<Impl>(path, block_bytes)) {}
+TextSource::TextSource(const std::string& path, const std::string& name,
+                       int block_bytes)
+    : impl_(std::make_unique<Impl>(path, name, block_bytes)) {}
 TextSource::~TextSource() = default;
 TextSource::TextSource(TextSource&&) noexcept = default;
 
@@ -267,7 +268,7 @@ bool TextSource::cut() const { return impl_->cut; }
 
 void TextSource::Rewind() {
   if (std::fseek(impl_->file.get(), 0, SEEK_SET) != 0) {
-    throw InputError(impl_->path, "", "",
+    throw InputError(impl_->name, "", "",
                      "cannot be read twice; save the pipe to a file");
   }
   impl_->Start();

@@ -22,7 +22,11 @@ class TextSource : public LineSource {
   static constexpr int kBlockBytes = 1 << 20;
 
   // `block_bytes` is the longest line accepted; tests make it small.
-  explicit TextSource(const std::string& path, int block_bytes = kBlockBytes);
+  explicit TextSource(const std::string& path, int block_bytes = kBlockBytes)
+      : TextSource(path, path, block_bytes) {}
+  // `name` stands for the file in messages.
+  TextSource(const std::string& path, const std::string& name,
+             int block_bytes = kBlockBytes);
   ~TextSource() override;
   TextSource(TextSource&&) noexcept;
 

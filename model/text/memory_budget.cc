@@ -7,7 +7,7 @@
 namespace armcal {
 
 std::size_t MemoryBudget::DefaultBytes() {
-  constexpr std::size_t kMost = std::size_t{1} << 30;
+  constexpr std::size_t kMost = std::size_t{3} << 28;
   const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
   if (pages <= 0 || size <= 0) return kMost;
   return std::min(kMost, static_cast<std::size_t>(pages) * size / 8);

@@ -13,8 +13,8 @@ class MemoryBudget {
  public:
   explicit MemoryBudget(std::size_t bytes) : left_(bytes) {}
 
-  // An eighth of the machine's memory, 1 GB at most: there may be several sets
-  // of logs.
+  // An eighth of the machine's memory, 0.8 GB at most: there may be several
+  // sets of logs.
   static std::size_t DefaultBytes();
 
   // False, and nothing taken, where fewer are left. One thread may make the

@@ -58,6 +58,9 @@ LogSource LogOf(const CommandInput& input) {
     throw UsageError("--log: expected one log to watch, found " +
                      std::to_string(names.size()));
   }
+  // What is still being written is not waited for.
+  const bool is_file = input.logs.count(names[0]) == 0;
+  if (is_file && input.flags.Switch("follow")) return names[0];
   return SourceOf(input, names[0]);
 }
 
