@@ -101,6 +101,22 @@ std::string FrictionChanged(const GapDiagnosis& diagnosis) {
   return text + ".";
 }
 
+double NoiseShare(const JointGap& joint) {
+  return joint.torque_rms > 0 ? joint.floor_rms / joint.torque_rms : 0;
+}
+
+// Where nothing tells the noise it is what a refit leaves. If that is more than
+// what it explains of the joints' torques, in the mean of their squares, a
+// model that leaves no more than it is not confirmed by that.
+bool ExplainsLessThanItLeaves(const GapDiagnosis& diagnosis) {
+  double squares = 0;
+  for (const JointGap& joint : diagnosis.joints) {
+    squares += NoiseShare(joint) * NoiseShare(joint);
+  }
+  return diagnosis.floor == NoiseFloor::kAssumed &&
+         squares > .5 * static_cast<double>(diagnosis.joints.size());
+}
+
 // To agree within noise means as little as there is much of it: its largest
 // share of a joint's recorded torque, rms over rms.
 std::string Agreement(const GapDiagnosis& diagnosis) {
@@ -109,10 +125,8 @@ std::string Agreement(const GapDiagnosis& diagnosis) {
   double most = 0;
   std::string joint;
   for (const JointGap& gap : diagnosis.joints) {
-    const double share =
-        gap.torque_rms > 0 ? gap.floor_rms / gap.torque_rms : 0;
-    if (share <= most) continue;
-    most = share;
+    if (NoiseShare(gap) <= most) continue;
+    most = NoiseShare(gap);
     joint = gap.name;
   }
   if (joint.empty()) return agrees + ".";
@@ -150,6 +164,11 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
         "noise's mean square: the noise may be louder than was told, or "
         "something is missing that the fitted logs do not show.",
         diagnosis.torque.refit);
+  }
+  if (nothing_named && ExplainsLessThanItLeaves(diagnosis)) {
+    return "The model explains less of the torque than it leaves, which is "
+           "taken for noise here: these data tell nothing of it. Is the torque "
+           "this arm's, and of this motion?";
   }
   switch (diagnosis.verdict) {
     case GapVerdict::kNoiseFloor:

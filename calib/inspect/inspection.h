@@ -43,6 +43,11 @@ struct LogInspection {
   LogCoverage coverage;  // CoverageOf, where asked for
   LogDrawing drawing;    // where bins are asked for
 
+  // Whether the best fit explains more of the torque's squares than it leaves.
+  bool ExplainsTorque() const {
+    return residual_percent * residual_percent < 5000;
+  }
+
   explicit LogInspection(const Robot& robot) : reading(robot) {}
 };
 

@@ -74,6 +74,16 @@ std::string TorqueText(const LogInspection& log) {
   return text;
 }
 
+// A wrong reading is told where another is clearly better; that none of them
+// makes the torque this arm's is no finding about a column. Noise as large as
+// the torque looks the same.
+std::string NothingFound(const LogInspection& log) {
+  if (log.ExplainsTorque()) return "  nothing wrong was found\n";
+  return "  nothing wrong was found, but no reading makes this arm explain its "
+         "torque, of which the best fit leaves more than it explains:\n"
+         "  is it this arm's, of this motion, and above its noise?\n";
+}
+
 std::string LogText(const Robot& robot, const LogInspection& log) {
   std::string text = log.path + "\n";
   text += Format("  %d rows in %.4g s, a step of %.4g ms, %.0f %% in motion\n",
@@ -110,7 +120,7 @@ std::string LogText(const Robot& robot, const LogInspection& log) {
   for (const InspectionFinding& finding : log.findings) {
     text += FindingText(finding);
   }
-  if (log.findings.empty()) text += "  nothing wrong was found\n";
+  if (log.findings.empty()) text += NothingFound(log);
   return text;
 }
 
@@ -216,6 +226,7 @@ json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
                     {"spelling", log.spelling},
                     {"torque", log.torque_source},
                     {"residual_percent", JsonNumber(log.residual_percent)},
+                    {"explains_torque", log.ExplainsTorque()},
                     {"joints", JointsJson(robot, log)},
                     {"coverage", CoverageJson(log.coverage)},
                     {"findings", FindingsJson(robot, log.findings)}});

@@ -104,6 +104,12 @@ TEST(BriefReport, SaysWithinWhatItAgrees) {
             "The model agrees with the log to within the noise, up to 77 % of "
             "the torque (elbow).");
   diagnosis.joints[1].floor_rms = 1.1;
+  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("explains less of the torque"))
+      << "a half and more of the squares, in the joints' mean";
+  diagnosis.verdict = GapVerdict::kAbsorbed;
+  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("explains less of the torque"));
+  diagnosis.verdict = GapVerdict::kNoiseFloor;
+  diagnosis.floor = NoiseFloor::kStandstill;
   EXPECT_EQ(BriefReport(diagnosis),
             "The model agrees with the log to within the noise, which is as "
             "large as the torque of elbow: that tells nothing of it.");

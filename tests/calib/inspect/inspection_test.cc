@@ -39,6 +39,21 @@ TEST_F(InspectionTest, ACleanLogIsClean) {
   EXPECT_TRUE(coverage.findings.empty());
 }
 
+// A torque that has nothing to do with the motion, however columns are read.
+TEST_F(InspectionTest, ATorqueThatNoReadingExplainsIsSaid) {
+  Log wrong = arm_.log;
+  std::mt19937_64 random(1);
+  const Eigen::VectorXd rms = ColumnRms(wrong.tau);
+  wrong.tau.setZero();
+  AddNoise(&random, rms, &wrong.tau);
+  const auto said = [&](const Log& log) {
+    return FullReport(arm_.robot, {}, {Inspect(log)});
+  };
+  const std::string but = "nothing wrong was found, but no reading makes";
+  EXPECT_NE(said(wrong).find(but), std::string::npos) << said(wrong);
+  EXPECT_EQ(said(arm_.log).find(but), std::string::npos);
+}
+
 // Most of it is turned round, too, but no sign that is turned back mends it.
 TEST_F(InspectionTest, WhatHasNoSignHasNoWrongOne) {
   Log wrong = arm_.log;
