@@ -47,6 +47,11 @@ FrictionExcess ExcessGiven(const GapRegression& regression,
                             regression.data()->ResidualWith(x, torque));
 }
 
+bool LastsTooLong(double seconds, const Contact& contact) {
+  return contact.window.end - contact.window.begin >
+         Limits().most_of_time * seconds;
+}
+
 // The threshold is the excess that a log without a contact passes with the
 // probability false_contacts, by the tail of its block maxima (maxima_tail.h):
 // of the reference for arms of several joints, also of the log itself for one
@@ -58,6 +63,7 @@ std::vector<GapEvent> ContactsGiven(const GapRegression& regression,
                                     ContactSearch search) {
   const GapRows& rows = regression.rows();
   const bool of_itself = search == ContactSearch::kInMotion;
+  const bool at_rest = search == ContactSearch::kAtRest;
   if (HaveNoiseOfPositions(rows.segments())) return {};
   if (of_itself ? rows.num_joints() > 1 : !regression.reference()) return {};
   const FrictionExcess excess = ExcessGiven(regression, effects);
@@ -67,11 +73,12 @@ std::vector<GapEvent> ContactsGiven(const GapRegression& regression,
        FindContacts(regression.baseline().robot(), rows, excess,
                     usual.Quantile(Limits().false_contacts), search)) {
     if (IsKnown(known, contact)) continue;
+    if (!at_rest && LastsTooLong(rows.time(), contact)) continue;
     events.push_back(EventBeyondFriction(rows, excess, contact));
     events.back().chance = usual.Chance(contact.deviations);
     events.back().chance_of_logs =
         of_itself || regression.has_several_references();
-    events.back().at_rest = search == ContactSearch::kAtRest;
+    events.back().at_rest = at_rest;
   }
   return events;
 }

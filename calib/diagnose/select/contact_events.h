@@ -14,6 +14,11 @@ namespace armcal {
 FrictionExcess ExcessGiven(const GapRegression& regression,
                            const std::vector<GapCandidate>& effects);
 
+// Whether one stretch of motion in which something stands out is a third of
+// logs of so many s, or more. A touch comes and goes: what lasts has another
+// cause, whose law is not fitted yet.
+bool LastsTooLong(double seconds, const Contact& contact);
+
 // Contacts given effects, in windows in which nothing is known yet. They
 // stand out from all that friction does when nothing touches the arm, which
 // only a reference tells. What one joint alone feels in motion may be its own:
