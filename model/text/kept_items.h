@@ -32,6 +32,7 @@ class KeptItems {
     if (state_ != State::kFilling) return item;
     if (!share_.Take(bytes)) {
       Drop();
+      ReturnFreedMemory();
       state_ = State::kTooLarge;
       return item;
     }

@@ -3,8 +3,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace armcal {
+
+void ReturnFreedMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 std::size_t MemoryBudget::DefaultBytes() {
   constexpr std::size_t kMost = std::size_t{3} << 28;

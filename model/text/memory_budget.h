@@ -7,6 +7,10 @@
 
 namespace armcal {
 
+// Gives the system the memory that was freed. Each thread's heap keeps it for
+// itself otherwise, while another thread's grows by as much.
+void ReturnFreedMemory();
+
 // How many bytes may hold what could be computed again. What does not fit is
 // computed again, with the same results.
 class MemoryBudget {
