@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -48,6 +49,15 @@ ssize_t ReadSome(int from, std::vector<char>* block) {
   return size;
 }
 
+// A twentieth of the file system is left to others: a pipe may have no end.
+bool HasRoom(int file) {
+  struct statvfs status;
+  if (fstatvfs(file, &status) != 0) return true;
+  if (status.f_bavail > status.f_blocks / 20) return true;
+  errno = ENOSPC;
+  return false;
+}
+
 bool WriteAll(int to, const char* data, ssize_t size) {
   while (size > 0) {
     const ssize_t written = write(to, data, static_cast<size_t>(size));
@@ -77,7 +87,8 @@ int CopyOf(const std::string& name, const std::string& path) {
     const ssize_t size = ReadSome(pipe.descriptor, &block);
     if (size < 0) Refuse(name, "cannot be read");
     if (size == 0) return copy.Release();
-    if (!WriteAll(copy.descriptor, block.data(), size)) {
+    if (!HasRoom(copy.descriptor) ||
+        !WriteAll(copy.descriptor, block.data(), size)) {
       Refuse(name,
              "is a pipe, whose bytes do not fit where they are kept for a "
              "second reading ($TMPDIR says where)");

@@ -23,6 +23,7 @@ json PlacesJson(const std::vector<PlacedEffect>& places) {
 
 json EvidenceJson(const EffectEvidence& evidence) {
   return {{"odds", JsonNumber(evidence.odds)},
+          {"odds_of_any", JsonNumber(evidence.odds_of_any)},
           {"strength", JsonNumber(evidence.strength)},
           {"chosen", evidence.chosen},
           {"stronger", evidence.stronger},

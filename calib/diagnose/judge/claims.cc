@@ -6,6 +6,20 @@
 #include "model/effects/effects.h"
 
 namespace armcal {
+namespace {
+
+// Whether it is told as an effect where it has this probability.
+bool IsClaimedAt(const FoundEffect& found, double probability) {
+  if (!IsPossible(found) || IsContradicted(found)) return false;
+  if (!found.joints_agree || !found.dissipates) return false;
+  if (!IsBeyondScatter(found)) return false;
+  // At a frequency that other data do not have, it was a random torque.
+  if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
+  return probability >=
+         (IsSeenAgain(found) ? Limits().likely : Limits().likely_unseen);
+}
+
+}  // namespace
 
 bool IsNeeded(const FoundEffect& found, double extra_variance) {
   const bool has_gap = !(found.gap < 1 - extra_variance);
@@ -44,21 +58,6 @@ bool IsContradicted(const FoundEffect& found) {
                       Limits().form_error * found.delta_chi2) &&
          confirmation.explained < 0 && found.evidence.gain < Limits().helps;
 }
-
-namespace {
-
-// Whether it is told as an effect where it has this probability.
-bool IsClaimedAt(const FoundEffect& found, double probability) {
-  if (!IsPossible(found) || IsContradicted(found)) return false;
-  if (!found.joints_agree || !found.dissipates) return false;
-  if (!IsBeyondScatter(found)) return false;
-  // At a frequency that other data do not have, it was a random torque.
-  if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
-  return probability >=
-         (IsSeenAgain(found) ? Limits().likely : Limits().likely_unseen);
-}
-
-}  // namespace
 
 bool IsClaimed(const FoundEffect& found) {
   if (found.of_another_day) return true;
