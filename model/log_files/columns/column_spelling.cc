@@ -8,80 +8,12 @@
 #include <string_view>
 
 #include "model/log_files/columns/log_signal.h"
+#include "model/log_files/columns/signal_phrases.h"
 
 namespace armcal {
 namespace {
 
 using Words = std::vector<std::string>;
-
-// What signals are called beside armcal's own words (NamesOf), their words
-// joined by blanks.
-const std::map<std::string, Signal>& OtherPhrases() {
-  static const auto* const kPhrases = new std::map<std::string, Signal>{
-      {"pos", Signal::kPosition},
-      {"positions", Signal::kPosition},
-      {"angle", Signal::kPosition},
-      {"dq", Signal::kVelocity},
-      {"qdot", Signal::kVelocity},
-      {"vel", Signal::kVelocity},
-      {"velocities", Signal::kVelocity},
-      {"speed", Signal::kVelocity},
-      {"ddq", Signal::kAcceleration},
-      {"acc", Signal::kAcceleration},
-      {"accelerations", Signal::kAcceleration},
-      {"tau j", Signal::kEffort},  // libfranka's
-      {"torque", Signal::kEffort},
-      {"torques", Signal::kEffort},
-      {"efforts", Signal::kEffort},
-      {"force", Signal::kEffort},
-      {"currents", Signal::kCurrent},
-      {"motor current", Signal::kCurrent},
-      {"q ref", Signal::kReference},
-      {"q d", Signal::kReference},  // libfranka's
-      {"q des", Signal::kReference},
-      {"q cmd", Signal::kReference},
-      {"target q", Signal::kReference},
-      {"position reference", Signal::kReference},
-      {"position command", Signal::kReference},
-      {"desired position", Signal::kReference},
-      {"target position", Signal::kReference},
-      {"commanded position", Signal::kReference},
-      {"pos ref", Signal::kReference},
-      {"pos des", Signal::kReference},
-      {"pos cmd", Signal::kReference},
-      {"temperatures", Signal::kTemperature}};
-  return *kPhrases;
-}
-
-std::optional<Signal> SignalOf(const std::string& phrase) {
-  for (const Signal signal : kSignals) {
-    const SignalNames& names = NamesOf(signal);
-    if (phrase == names.number_prefix || phrase == names.path_part)
-      return signal;
-  }
-  const auto other = OtherPhrases().find(phrase);
-  if (other == OtherPhrases().end()) return std::nullopt;
-  return other->second;
-}
-
-// Words that change nothing of what a column holds.
-const std::set<std::string>& Fillers() {
-  static const auto* const kFillers = new std::set<std::string>{
-      "joint", "joints", "j",      "axis",  "actual", "measured",
-      "meas",  "state",  "states", "field", "robot"};
-  return *kFillers;
-}
-
-// Units by how else they are written, as Plain() has them.
-const std::map<std::string, std::string>& OtherUnits() {
-  static const auto* const kUnits = new std::map<std::string, std::string>{
-      {"radian", "rad"},     {"radians", "rad"},    {"degree", "deg"},
-      {"degrees", "deg"},    {"\u00b0", "deg"},     {"\u00b0/s", "deg/s"},
-      {"rad/s2", "rad/s^2"}, {"deg/s2", "deg/s^2"}, {"amp", "A"},
-      {"amps", "A"},         {"\u00b0c", "degC"},   {"sec", "s"},
-      {"secs", "s"},         {"seconds", "s"}};
-  return *kUnits;
-}
 
 bool IsLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)); }
 bool IsDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)); }
@@ -100,32 +32,6 @@ Words WordsOf(std::string_view text) {
     before = c;
   }
   return words;
-}
-
-// In lower case, without blanks, dots and stars.
-std::string Plain(std::string_view unit) {
-  std::string plain;
-  for (const char c : unit) {
-    if (c != ' ' && c != '.' && c != '*') {
-      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-  }
-  return plain;
-}
-
-std::optional<std::string> UnitOf(std::string_view text) {
-  const std::string plain = Plain(text);
-  int decimals = 0;
-  if (plain.empty()) return std::nullopt;
-  if (FindTimeUnit(plain, &decimals)) return plain;
-  for (const Signal signal : kSignals) {
-    for (const Unit& unit : NamesOf(signal).units) {
-      if (Plain(unit.name) == plain) return std::string(unit.name);
-    }
-  }
-  const auto other = OtherUnits().find(plain);
-  if (other == OtherUnits().end()) return std::nullopt;
-  return other->second;
 }
 
 // A name without its unit, which is in brackets of either kind behind it, or
@@ -151,19 +57,21 @@ std::string WithoutUnit(const std::string& name, std::string* unit) {
   return name.substr(0, last);
 }
 
-// Takes these words out of `words` where they stand together.
-bool TakeOut(const Words& of, Words* words) {
+// Takes these words out of `words` where they stand together; returns how many
+// stood before them, -1 if they are not there.
+int TakeOut(const Words& of, Words* words) {
   const auto at =
       std::search(words->begin(), words->end(), of.begin(), of.end());
-  if (of.empty() || at == words->end()) return false;
+  if (of.empty() || at == words->end()) return -1;
+  const auto before = at - words->begin();
   words->erase(at, at + static_cast<std::ptrdiff_t>(of.size()));
-  return true;
+  return static_cast<int>(before);
 }
 
 std::string Joined(const Words& words) {
   std::string text;
   for (const std::string& word : words) {
-    if (Fillers().count(word) > 0 && !(word == "j" && text == "tau")) continue;
+    if (IsFiller(word) && !(word == "j" && text == "tau")) continue;
     text += (text.empty() ? "" : " ") + word;
   }
   return text;
@@ -175,6 +83,7 @@ struct Understood {
   int number = 0;  // as it is written
   bool by_number = false;
   std::string unit;
+  std::string prefix;  // words before the joint's name that the robot has not
 };
 
 class Speller {
@@ -185,8 +94,16 @@ class Speller {
   std::optional<Understood> Understand(const std::string& name) const {
     Understood column;
     Words words = WordsOf(WithoutUnit(name, &column.unit));
-    if (!FindJoint(&words, &column)) return std::nullopt;
-    const std::optional<Signal> signal = SignalOf(Joined(words));
+    int before = 0;  // words before the joint's name
+    if (!FindJoint(&words, &column, &before)) return std::nullopt;
+    std::optional<Signal> signal = SignalOf(Joined(words));
+    if (!signal && before > 0) {
+      const auto begin = words.begin() + before;
+      if (std::any_of(words.begin(), begin, TellsOtherQuantity))
+        return std::nullopt;
+      signal = SignalOf(Joined({begin, words.end()}));
+      column.prefix = Joined({words.begin(), begin});
+    }
     if (!signal) return std::nullopt;
     column.signal = *signal;
     return column;
@@ -194,20 +111,20 @@ class Speller {
 
  private:
   // By the longest name, else by the only number.
-  bool FindJoint(Words* words, Understood* column) const {
+  bool FindJoint(Words* words, Understood* column, int* before) const {
     size_t longest = 0;
     int named = 0;
     for (size_t i = 0; i < joint_names_.size(); ++i) {
       Words rest = *words;
       if (joint_names_[i].size() <= longest ||
-          !TakeOut(WordsOf(joint_names_[i]), &rest)) {
+          TakeOut(WordsOf(joint_names_[i]), &rest) < 0) {
         continue;
       }
       longest = joint_names_[i].size();
       named = static_cast<int>(i) + 1;
     }
     if (named > 0) {
-      TakeOut(WordsOf(joint_names_[named - 1]), words);
+      *before = TakeOut(WordsOf(joint_names_[named - 1]), words);
       column->number = named;
       return true;
     }
@@ -235,14 +152,35 @@ std::optional<std::string> TimeName(const std::string& name) {
   std::string unit;
   const Words words = WordsOf(WithoutUnit(name, &unit));
   if (words.size() != 1) return std::nullopt;
-  if (!IsTimeName(words[0]) && words[0] != "sec" && words[0] != "seconds")
-    return std::nullopt;
+  const std::string& word = words[0];
+  const bool is_other = word == "sec" || word == "seconds" || word == "stamp";
+  if (!IsTimeName(word) && !is_other) return std::nullopt;
   if (name == "%time") unit = "ns";
   return unit.empty() ? "t" : "t [" + unit + "]";
 }
 
+using AllUnderstood = std::vector<std::optional<Understood>>;
+
+// The one prefix under which every joint has a position, where none has one
+// without: the log's joints have another name then, a namespace's before the
+// file's. "" where there is no such prefix, or several.
+std::string PrefixOfJoints(const AllUnderstood& columns, size_t joints) {
+  std::map<std::string, std::set<int>> positions;  // joints of each prefix
+  for (const auto& column : columns) {
+    if (!column || column->signal != Signal::kPosition) continue;
+    positions[column->prefix].insert(column->number);
+  }
+  std::string found;
+  for (const auto& [prefix, numbers] : positions) {
+    if (numbers.size() < joints && !prefix.empty()) continue;
+    if (prefix.empty() || !found.empty()) return "";
+    found = prefix;
+  }
+  return found;
+}
+
 // Whether columns that are numbered count from 0: all do that have numbers.
-bool CountFromZero(const std::vector<std::optional<Understood>>& columns) {
+bool CountFromZero(const AllUnderstood& columns) {
   std::map<Signal, int> first;
   for (const auto& column : columns) {
     if (!column || !column->by_number) continue;
@@ -260,9 +198,15 @@ std::vector<std::string> SpelledOut(
     const std::vector<std::string>& names,
     const std::vector<std::string>& joint_names) {
   const Speller speller(joint_names);
-  std::vector<std::optional<Understood>> columns;
+  AllUnderstood columns;
   for (const std::string& name : names) {
     columns.push_back(speller.Understand(name));
+  }
+  const std::string prefix = PrefixOfJoints(columns, joint_names.size());
+  for (std::optional<Understood>& column : columns) {
+    if (column && !column->by_number && column->prefix != prefix) {
+      column.reset();
+    }
   }
   const int shift = CountFromZero(columns) ? 1 : 0;
   std::vector<std::string> own = names;

@@ -34,6 +34,32 @@ TEST(ColumnSpelling, ByJointNamesWithoutAPath) {
             "q1,tau2,qd2,/js/shoulder_joint/effort");
 }
 
+// The file calls the joints "shoulder_joint" and "elbow", the log's arm has a
+// name as well.
+TEST(ColumnSpelling, ANamespaceBeforeAllJoints) {
+  EXPECT_EQ(Spelled({"stamp", "left_shoulder_joint.position",
+                     "left_elbow.position", "left_elbow.effort"}),
+            "t,q1,q2,tau2");
+  EXPECT_EQ(Spelled({"/js/a7_shoulder_joint/velocity",
+                     "/js/a7_shoulder_joint/position",
+                     "/js/a7_elbow/position [deg]"}),
+            "qd1,q1,q2 [deg]");
+  // One joint has none, two arms, a joint without a namespace, and what is
+  // another quantity than the joint's own.
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"left_elbow.position", "left_elbow.effort"},
+        {"left_elbow.position", "left_shoulder_joint.position",
+         "right_elbow.position", "right_shoulder_joint.position"},
+        {"motor_elbow.position", "motor_shoulder_joint.position"}}) {
+    std::string same;
+    for (const std::string& name : names) same += "," + name;
+    EXPECT_EQ(Spelled(names), same.substr(1));
+  }
+  EXPECT_EQ(Spelled({"elbow.position", "shoulder_joint.position",
+                     "raw_elbow.position", "raw_shoulder_joint.position"}),
+            "q2,q1,raw_elbow.position,raw_shoulder_joint.position");
+}
+
 TEST(ColumnSpelling, CountsFromZeroWhereAllDo) {
   EXPECT_EQ(Spelled({"q0", "q1", "tau0", "tau1"}), "q1,q2,tau1,tau2");
   EXPECT_EQ(Spelled({"field.position0", "field.position1", "field.effort0"}),
