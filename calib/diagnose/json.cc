@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "calib/diagnose/next_steps.h"
 #include "calib/diagnose/report.h"
 #include "calib/diagnose/sentence.h"
 #include "calib/numerics/json_figures.h"
@@ -230,6 +231,7 @@ json ToJson(const GapDiagnosis& diagnosis) {
           {"data", data},
           {"effects", effects},
           {"fitted_not_named", unnamed},
+          {"next", NextSteps(diagnosis)},
           {"candidates", PlacesJson(diagnosis.candidates)},
           {"ladder", LadderJson(diagnosis.ladder)},
           {"absorbed", MovedJson(diagnosis.moved)},

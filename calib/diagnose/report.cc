@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/next_steps.h"
 #include "calib/diagnose/sentence.h"
 #include "model/log_files/torque_columns.h"
 #include "model/text/format.h"
@@ -234,6 +235,14 @@ std::string Drifts(const std::vector<RunDrift>& drifts) {
   return text;
 }
 
+std::string Next(const GapDiagnosis& diagnosis) {
+  std::string text;
+  for (const std::string& step : NextSteps(diagnosis)) {
+    text += (text.empty() ? "\nnext\n" : "") + ("  " + step) + "\n";
+  }
+  return text;
+}
+
 std::string MovedTitle(const GapDiagnosis& diagnosis) {
   const std::string before = SinceWhat(diagnosis);
   return before.empty() ? "\nparameters far from the file's\n"
@@ -272,7 +281,7 @@ std::string FullReport(const GapDiagnosis& diagnosis, bool verbose) {
                moved.nominal, moved.value, moved.stddev, moved.unit.c_str());
   }
   return text + Drifts(diagnosis.drifts) +
-         Untestable(diagnosis.untestable, verbose);
+         Untestable(diagnosis.untestable, verbose) + Next(diagnosis);
 }
 
 }  // namespace armcal

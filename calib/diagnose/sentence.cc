@@ -14,40 +14,42 @@ const char* Lacks(double least_probability) {
   return least_probability >= .8 ? "lacks" : "probably lacks";
 }
 
-// What happened, and what the model lacks.
-std::string Findings(const GapDiagnosis& diagnosis) {
-  std::string touched;
+// Effects in a sentence, and how certain the least certain is.
+struct Named {
   std::vector<std::string> names;
   double least = 1;
-  bool terms_alone = true;  // which the refit has as well
-  for (const FoundEffect& found : diagnosis.effects) {
-    // FrictionChanged() and the data's findings say so.
-    if (found.of_another_day || found.of_the_stamps) continue;
-    const size_t times = found.contacts.size();
-    if (times > 0) {
-      touched = "Something touched the arm " +
-                (times == 1 ? "once" : std::to_string(times) + " times");
-    } else {
-      names.push_back(NameOf(*found.effect, found.joint, diagnosis));
-      least = std::min(least, found.probability);
-      terms_alone &= found.fitted.empty();
+
+  void Add(const FoundEffect& found, const GapDiagnosis& diagnosis) {
+    names.push_back(NameOf(*found.effect, found.joint, diagnosis));
+    least = std::min(least, found.probability);
+  }
+  // " lacks payload, delay and backlash on elbow"
+  std::string Lacked(const char* also) const {
+    std::string text = std::string(" ") + also + Lacks(least) + " " + names[0];
+    for (size_t k = 1; k < names.size(); ++k) {
+      text += (k + 1 < names.size() ? ", " : " and ") + names[k];
     }
+    return text;
   }
-  if (names.empty()) return touched;
-  std::string text = (touched.empty() ? "The" : touched + "; the") +
-                     std::string(" model ") + Lacks(least) + " " + names[0];
-  for (size_t k = 1; k < names.size(); ++k) {
-    text += (k + 1 < names.size() ? ", " : " and ") + names[k];
-  }
-  if (terms_alone) {
-    const double less = diagnosis.torque.removed_from_nominal_percent;
-    if (!(less >= .5)) return text;
-    return text + Format(
-                      "; refitted with %s, %.0f %% of the file's gap is gone "
-                      "on held-out data",
-                      names.size() > 1 ? "them" : "it", less);
-  }
-  const double removed = diagnosis.torque.removed_percent;
+};
+
+// What a refit with the terms alone has of the file's gap, %.
+double RefitRemoves(const GapFigures& gap) {
+  return 100 * (gap.nominal - gap.refit) / (gap.nominal - gap.floor);
+}
+
+// " lacks viscous friction; refitted with it, 80 % of the file's gap is gone"
+std::string TermsLacked(const Named& terms, double less) {
+  const std::string text = terms.Lacked("");
+  if (!(less >= .5)) return text;
+  return text + Format(
+                    "; refitted with %s, %.0f %% of the file's gap is gone "
+                    "on held-out data",
+                    terms.names.size() > 1 ? "them" : "it", less);
+}
+
+std::string EffectsLacked(const Named& effects, bool besides, double removed) {
+  const std::string text = effects.Lacked(besides ? "also " : "");
   if (!std::isfinite(removed)) return text;
   if (removed < .5) {
     return text + ", which does not shrink the gap on held-out data";
@@ -56,6 +58,36 @@ std::string Findings(const GapDiagnosis& diagnosis) {
                     ", which removes %.0f %% of the gap that refitting "
                     "leaves on held-out data",
                     removed);
+}
+
+// What happened, and what the model lacks: joints' terms that the file has for
+// none, which the refit has as well, and then what a refit cannot have.
+std::string Findings(const GapDiagnosis& diagnosis) {
+  std::string touched;
+  Named terms, effects;
+  for (const FoundEffect& found : diagnosis.effects) {
+    // FrictionChanged() and the data's findings say so.
+    if (found.of_another_day || found.of_the_stamps) continue;
+    const size_t times = found.contacts.size();
+    if (times > 0) {
+      touched = "Something touched the arm " +
+                (times == 1 ? "once" : std::to_string(times) + " times");
+    } else {
+      (found.fitted.empty() ? terms : effects).Add(found, diagnosis);
+    }
+  }
+  const std::string model = touched.empty() ? "The model" : "; the model";
+  const GapFigures& gap = diagnosis.torque;
+  if (terms.names.empty() && effects.names.empty()) return touched;
+  if (terms.names.empty()) {
+    return touched + model + EffectsLacked(effects, false, gap.removed_percent);
+  }
+  if (effects.names.empty()) {
+    return touched + model +
+           TermsLacked(terms, gap.removed_from_nominal_percent);
+  }
+  return touched + model + TermsLacked(terms, RefitRemoves(gap)) + "; it" +
+         EffectsLacked(effects, true, gap.removed_percent);
 }
 
 // "one of payload, base tilt and encoder offset on elbow"

@@ -49,6 +49,25 @@ TEST(BriefReport, ComparesTermsThatAFileLacksWithTheFile) {
             "file's gap is gone on held-out data.");
 }
 
+// Both at once: a refit has the terms, and how far it comes is told of them
+// alone.
+TEST(BriefReport, TellsWhatTermsAndWhatOtherEffectsRemove) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects = {MakeFound("delay", -1),
+                       MakeFound("coulomb_friction", -1),
+                       MakeFound("armature", -1)};
+  for (size_t k : {1, 2}) diagnosis.effects[k].fitted.clear();
+  diagnosis.effects[0].probability = .6;
+  diagnosis.torque.nominal = 21;
+  diagnosis.torque.refit = 5;
+  diagnosis.torque.floor = 1;
+  EXPECT_EQ(BriefReport(diagnosis),
+            "The model lacks coulomb friction and armature; refitted with "
+            "them, 80 % of the file's gap is gone on held-out data; it also "
+            "probably lacks delay, which removes 93 % of the gap that "
+            "refitting leaves on held-out data.");
+}
+
 TEST(BriefReport, SaysWhatItCannotName) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.effects.clear();

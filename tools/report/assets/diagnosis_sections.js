@@ -30,7 +30,7 @@ const diagnosisSections = (data) => {
           (e.equivalent || []).map((q) => typeof q === 'string' ? q : name(q)).join(', ') || '–'])) : null,
       found.some((e) => isNumber(e.removed_percent)) ? note('Of the gap that fitting again leaves, on motion that ' +
           'the model was not fitted to' + (found.some((e) => whole(e.ci95)) ? '; in brackets its 95 % interval.' : '.')) : null,
-      ...found.filter((e) => e.separate_by).map((e) => note(`To tell ${name(e)} from the others: ${e.separate_by}.`))];
+      ...((result.next || []).length ? [heading('What to do next'), list(result.next)] : [])];
   };
   const jointName = (index) => index > 0 && result.where && result.where.joints[index - 1]
       ? ' on ' + result.where.joints[index - 1].name : '';

@@ -1,0 +1,98 @@
+#include "calib/diagnose/next_steps.h"
+
+#include <gmock/gmock.h>
+
+#include "calib/diagnose/report.h"
+#include "tests/calib/diagnose/sample_diagnosis.h"
+
+namespace armcal::next_steps_test {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const char* const kExport =
+    "for a simulator: `export` and `modules` write the robot with what it was "
+    "found to have";
+
+// What is certain needs no experiment; what others are like needs the one that
+// tells them apart.
+TEST(NextSteps, ExperimentsForWhatIsNotCertain) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  EXPECT_THAT(NextSteps(diagnosis), ElementsAre(kExport));
+  for (FoundEffect& found : diagnosis.effects) found.probability = .6;
+  FoundEffect cable = MakeFound("cable", 0), faint = MakeFound("cable", 1);
+  cable.probability = .3;
+  faint.probability = .05;
+  diagnosis.unnamed = {cable, faint};
+  EXPECT_THAT(
+      NextSteps(diagnosis),
+      ElementsAre(
+          "to tell stribeck on elbow from what is like it: constant velocities",
+          "to be sure of payload: " + FindEffect("payload")->experiment,
+          "to see whether it is cable on shoulder: " +
+              FindEffect("cable")->experiment,
+          kExport));
+}
+
+// One of a few is claimed, another that is likelier by itself is not.
+TEST(NextSteps, WhatTellsAFewApartIsBeforeWhatIsNotClaimed) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.has_reference = true;
+  diagnosis.verdict = GapVerdict::kUnknown;
+  FoundEffect few = MakeFound("spring", 0);
+  few.probability = .2;
+  few.one_of_few = true;
+  few.separate_by = "slow sweeps";
+  diagnosis.unnamed = {MakeFound("cable", 1), few};
+  EXPECT_THAT(NextSteps(diagnosis),
+              ElementsAre("to tell spring on shoulder from what is like it: "
+                          "slow sweeps",
+                          HasSubstr("cable on elbow")));
+}
+
+TEST(NextSteps, FewExperiments) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.has_reference = true;
+  diagnosis.verdict = GapVerdict::kUnknown;
+  diagnosis.unnamed.assign(9, MakeFound("spring", 0));
+  EXPECT_EQ(NextSteps(diagnosis).size(), 3u);
+}
+
+// What is of a log or of a moment is nothing to simulate.
+TEST(NextSteps, NoSimulatorForRecordingsAndTouches) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects = {MakeFound("delay", -1), MakeTouched()};
+  EXPECT_THAT(NextSteps(diagnosis), IsEmpty());
+}
+
+TEST(NextSteps, WhereNothingIsNamed) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.verdict = GapVerdict::kUnknown;
+  EXPECT_THAT(NextSteps(diagnosis), ElementsAre(HasSubstr("`reference`")));
+  diagnosis.has_reference = true;
+  EXPECT_THAT(NextSteps(diagnosis), IsEmpty());
+  diagnosis.verdict = GapVerdict::kAbsorbed;
+  EXPECT_THAT(NextSteps(diagnosis), ElementsAre(HasSubstr("excite")));
+  diagnosis.has_reference = false;
+  EXPECT_THAT(NextSteps(diagnosis),
+              ElementsAre(HasSubstr("calibrate"), HasSubstr("excite")));
+  diagnosis.verdict = GapVerdict::kNoiseFloor;
+  diagnosis.untestable.clear();
+  EXPECT_THAT(NextSteps(diagnosis), IsEmpty());
+  diagnosis.verdict = GapVerdict::kNotTestable;
+  diagnosis.unnamed = {MakeFound("spring", 0)};
+  EXPECT_THAT(NextSteps(diagnosis), IsEmpty());
+}
+
+TEST(NextSteps, EndTheTextAndAreInTheJson) {
+  const GapDiagnosis diagnosis = SampleDiagnosis();
+  EXPECT_THAT(FullReport(diagnosis, false),
+              testing::EndsWith(std::string("\nnext\n  ") + kExport + "\n"));
+  EXPECT_EQ(ToJson(diagnosis)["next"][0], kExport);
+}
+
+}  // namespace armcal::next_steps_test
