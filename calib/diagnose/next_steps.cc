@@ -8,7 +8,7 @@
 namespace armcal {
 namespace {
 
-constexpr double kCertain = .8;     // what the sentence calls "lacks"
+constexpr double kSure = .8;        // what the sentence calls "lacks"
 constexpr double kWorthIt = .1;     // of what has no name
 constexpr size_t kExperiments = 3;  // more would not be done
 
@@ -28,7 +28,7 @@ std::vector<std::string> Experiments(const GapDiagnosis& diagnosis) {
                     ": " + experiment);
   };
   for (const FoundEffect& found : diagnosis.effects) {
-    if (found.probability < kCertain) add("to be sure of ", found);
+    if (found.probability < kSure) add("to be sure of ", found);
   }
   for (const FoundEffect& found : diagnosis.unnamed) {
     if (found.one_of_few) add("to be sure of ", found);
