@@ -6,6 +6,7 @@
 #include "calib/robot_outputs.h"
 #include "model/log_files/log_writer.h"
 #include "model/robot_files/controller_reader.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -18,6 +19,24 @@ LogInspection InspectWhole(const Robot& robot, const LogSource& source,
   log.findings.insert(log.findings.end(), log.coverage.findings.begin(),
                       log.coverage.findings.end());
   return log;
+}
+
+std::string NameOfMended(size_t log) {
+  return "fixed_" + std::to_string(log + 1) + ".csv";
+}
+
+// "`fix` writes the log so" is "fixed_1.csv is the log so" once it is written.
+void TellWhatIsMended(const std::string& file,
+                      std::vector<InspectionFinding>* findings) {
+  const std::string would = OptionName("fix"), writes = would + " writes";
+  for (InspectionFinding& finding : *findings) {
+    std::string& remedy = finding.remedy;
+    const size_t at = remedy.find(would);
+    if (at == remedy.npos) continue;
+    const bool is_verb = remedy.compare(at, writes.size(), writes) == 0;
+    remedy.replace(at, (is_verb ? writes : would).size(),
+                   file + (is_verb ? " is" : ""));
+  }
 }
 
 std::string MendedText(const Robot& robot, const LogSource& source,
@@ -56,7 +75,10 @@ InspectSummary Inspect(const Robot& robot, const std::vector<LogSource>& logs,
     const bool drawn = options.draw && inspected.size() < kMostDrawnLogs;
     inspected.push_back(
         InspectWhole(robot, source, reading, drawn ? most_bins : 0));
-    const LogInspection& log = inspected.back();
+    LogInspection& log = inspected.back();
+    if (options.mend) {
+      TellWhatIsMended(NameOfMended(inspected.size() - 1), &log.findings);
+    }
     summary.logs.push_back(
         {source.name, log.as_it_is, log.findings, log.drawing});
     summary.positive = summary.positive && log.findings.empty();
@@ -69,8 +91,7 @@ InspectSummary Inspect(const Robot& robot, const std::vector<LogSource>& logs,
   // Numbers in their names: logs of different folders may have one name.
   for (size_t k = 0; options.mend && k < logs.size(); ++k) {
     summary.files.push_back(
-        {"fixed_" + std::to_string(k + 1) + ".csv",
-         MendedText(robot, logs[k], reading, inspected[k])});
+        {NameOfMended(k), MendedText(robot, logs[k], reading, inspected[k])});
   }
   summary.report = FullReport(robot, summary.of_robot, inspected) + losses;
   return summary;

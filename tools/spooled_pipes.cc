@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/text/input_error.h"
+#include "model/text/write_all.h"
 
 namespace armcal {
 namespace {
@@ -58,17 +59,6 @@ bool HasRoom(int file) {
   return false;
 }
 
-bool WriteAll(int to, const char* data, ssize_t size) {
-  while (size > 0) {
-    const ssize_t written = write(to, data, static_cast<size_t>(size));
-    if (written < 0 && errno != EINTR) return false;
-    if (written < 0) continue;
-    data += written;
-    size -= written;
-  }
-  return true;
-}
-
 // Closes what it holds.
 struct OpenFile {
   int descriptor;
@@ -88,7 +78,7 @@ int CopyOf(const std::string& name, const std::string& path) {
     if (size < 0) Refuse(name, "cannot be read");
     if (size == 0) return copy.Release();
     if (!HasRoom(copy.descriptor) ||
-        !WriteAll(copy.descriptor, block.data(), size)) {
+        !WriteAll(copy.descriptor, block.data(), static_cast<size_t>(size))) {
       Refuse(name,
              "is a pipe, whose bytes do not fit where they are kept for a "
              "second reading ($TMPDIR says where)");

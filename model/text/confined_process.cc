@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "model/text/input_error.h"
+#include "model/text/write_all.h"
 
 namespace armcal {
 namespace {
@@ -104,17 +105,6 @@ bool Confine() {
                               filter.data()};
   return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
          prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
-}
-
-bool WriteAll(int file, const char* bytes, size_t size) {
-  while (size > 0) {
-    const ssize_t written = write(file, bytes, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes += written;
-    size -= written;
-  }
-  return true;
 }
 
 bool Send(char kind, const std::string& text) {

@@ -36,7 +36,8 @@ file(WRITE ${WORK_DIR}/wrong.csv "${wrong}")
 
 run("a wrong sign" inspect --robot=arm.yaml --log=wrong.csv --out=out --fix)
 expect_code(1)
-expect_text(out "the torque of joint2 has the wrong sign" "--fix")
+expect_text(out "the torque of joint2 has the wrong sign"
+            "fixed_1.csv is the log so")
 file(READ ${WORK_DIR}/out/inspect.json json)
 string(JSON finding GET "${json}" logs 0 findings 0 finding)
 string(JSON joint GET "${json}" logs 0 findings 0 joint_index)
