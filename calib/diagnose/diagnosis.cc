@@ -190,7 +190,9 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   result_.moved = ListMoved(*fit_, fit_->model_after());
   result_.shown = ListShown(*fit_, fit_->model_after());
   result_.drifts = ListRunDrifts(*fit_, fit_->model_after());
-  result_.untestable = ListUntestable(*fit_);
+  std::vector<FoundEffect> found = result_.effects;
+  found.insert(found.end(), result_.unnamed.begin(), result_.unnamed.end());
+  result_.untestable = ListUntestable(*fit_, found);
   Judge();
   return result_;
 }

@@ -54,7 +54,8 @@ std::string WhyNot(const Visibility& visibility, bool moves) {
 // left it out, it was never a candidate (nothing stood out where it would be
 // looked for), or even one that matters would be smaller than Limits().material
 // of the noise.
-std::vector<UntestableEffect> ListUntestable(const GapFit& fit) {
+std::vector<UntestableEffect> ListUntestable(
+    const GapFit& fit, const std::vector<FoundEffect>& found) {
   std::map<std::pair<const Effect*, int>, Visibility> seen;
   for (const GapCandidate& candidate : fit.candidates()) {
     Visibility& best = seen[{candidate.effect, candidate.joint}];
@@ -63,19 +64,25 @@ std::vector<UntestableEffect> ListUntestable(const GapFit& fit) {
     best.size = std::max(best.size, own.size);
   }
   const Robot& robot = fit.baseline().robot();
+  const auto was_found = [&](const Effect& effect, int joint) {
+    return std::any_of(found.begin(), found.end(), [&](const FoundEffect& f) {
+      return f.effect == &effect && f.joint == joint;
+    });
+  };
   std::vector<UntestableEffect> untestable;
   for (const Effect& effect : Effects()) {
     const bool whole = effect.scope == Effect::Scope::kRobot;
     for (int j = whole ? -1 : 0; j < (whole ? 0 : robot.num_joints()); ++j) {
+      if (was_found(effect, j)) continue;
       const EffectSite site = {&robot, j, &fit.scale()};
       std::string why = effect.unfit ? effect.unfit(site) : "";
-      const auto found = seen.find({&effect, j});
+      const auto best = seen.find({&effect, j});
       if (fit.IsLeftOut(effect)) {
         why = "it was not to be considered";
       } else if (why.empty()) {
-        why = found == seen.end()
+        why = best == seen.end()
                   ? "nothing stands out where it would be looked for"
-                  : WhyNot(found->second, whole || fit.rows().num_rows(j) > 0);
+                  : WhyNot(best->second, whole || fit.rows().num_rows(j) > 0);
       }
       if (why.empty()) continue;
       untestable.push_back(

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/judge/found_effect.h"
 #include "calib/diagnose/select/fit.h"
 
 namespace armcal {
@@ -15,7 +16,9 @@ struct UntestableEffect {
 
 // Effects that these data say nothing of: that the robot cannot show, that the
 // model's own parameters would take for theirs, or that would hide in the noise
-// at a size that matters.
-std::vector<UntestableEffect> ListUntestable(const GapFit& fit);
+// at a size that matters. Those that were `found` are larger than that, and are
+// not among them.
+std::vector<UntestableEffect> ListUntestable(
+    const GapFit& fit, const std::vector<FoundEffect>& found);
 
 }  // namespace armcal

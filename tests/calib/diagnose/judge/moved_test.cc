@@ -36,7 +36,7 @@ class GapFitTest : public testing::Test {
   }
   std::string WhyNot(const std::string& effect,
                      const std::string& joint) const {
-    for (const UntestableEffect& one : ListUntestable(*fit_)) {
+    for (const UntestableEffect& one : ListUntestable(*fit_, found_)) {
       if (one.effect == effect && one.joint == joint) return one.why;
     }
     return "";
@@ -47,6 +47,7 @@ class GapFitTest : public testing::Test {
   std::mt19937_64 random_{2};
   bool stands_ = false;
   std::optional<GapFit> fit_;
+  std::vector<FoundEffect> found_;
 };
 
 // Three standard deviations of the file's 5 %.
@@ -84,6 +85,17 @@ TEST_F(GapFitTest, NoiseHidesEffects) {
   EXPECT_EQ(WhyNot("load_friction", "joint2"), "");
   Fit(arm_.robot, 20);
   EXPECT_THAT(WhyNot("torque_ripple", "joint2"), testing::HasSubstr("noise"));
+  EXPECT_THAT(WhyNot("load_friction", "joint2"), testing::HasSubstr("noise"));
+}
+
+// One that matters would hide; that one is larger, and no contradiction.
+TEST_F(GapFitTest, WhatWasFoundIsNotUntestable) {
+  Fit(arm_.robot, 20);
+  found_.resize(1);
+  found_[0].effect = FindEffect("torque_ripple");
+  found_[0].joint = 1;
+  EXPECT_EQ(WhyNot("torque_ripple", "joint2"), "");
+  EXPECT_THAT(WhyNot("torque_ripple", "joint1"), testing::HasSubstr("noise"));
   EXPECT_THAT(WhyNot("load_friction", "joint2"), testing::HasSubstr("noise"));
 }
 
