@@ -8,7 +8,6 @@
 namespace armcal {
 namespace {
 
-constexpr double kSure = .8;        // what the sentence calls "lacks"
 constexpr double kWorthIt = .1;     // of what has no name
 constexpr size_t kExperiments = 3;  // more would not be done
 
@@ -28,7 +27,7 @@ std::vector<std::string> Experiments(const GapDiagnosis& diagnosis) {
                     ": " + experiment);
   };
   for (const FoundEffect& found : diagnosis.effects) {
-    if (found.probability < kSure) add("to be sure of ", found);
+    if (!IsConfident(found.probability)) add("to be sure of ", found);
   }
   for (const FoundEffect& found : diagnosis.unnamed) {
     if (found.one_of_few) add("to be sure of ", found);
@@ -64,8 +63,8 @@ std::vector<std::string> NextSteps(const GapDiagnosis& diagnosis) {
   }
   if (verdict == GapVerdict::kAbsorbed && is_of_file) {
     steps.push_back(
-        "armcal calibrate, on more motion than this, has these values with "
-        "their deviations, of a robot that can exist");
+        "armcal calibrate gives such values with their deviations, of a robot "
+        "that can exist: the better, the more motion it sees");
   }
   const bool nothing_seen =
       verdict == GapVerdict::kNoiseFloor || verdict == GapVerdict::kAbsorbed;
@@ -76,8 +75,7 @@ std::vector<std::string> NextSteps(const GapDiagnosis& diagnosis) {
                   IsOfTheRobot)) {
     steps.push_back("for a simulator: " + OptionName("export") + " and " +
                     OptionName("modules") +
-                    " write the robot with what it was "
-                    "found to have");
+                    " write the robot with what it was found to have");
   }
   return steps;
 }

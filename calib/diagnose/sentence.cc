@@ -9,9 +9,9 @@
 namespace armcal {
 namespace {
 
-// What probabilities of effects are worth in words; "confident" is .8.
+// What probabilities of effects are worth in words.
 const char* Lacks(double least_probability) {
-  return least_probability >= .8 ? "lacks" : "probably lacks";
+  return IsConfident(least_probability) ? "lacks" : "probably lacks";
 }
 
 // Effects in a sentence, and how certain the least certain is.
@@ -234,6 +234,8 @@ std::string NameOf(const Effect& effect, int joint,
   if (joint >= 0) text += " on " + diagnosis.joints[joint].name;
   return text;
 }
+
+bool IsConfident(double probability) { return probability >= .8; }
 
 std::string SinceWhat(const GapDiagnosis& diagnosis) {
   if (diagnosis.has_reference) return "the reference";

@@ -15,6 +15,9 @@ std::string NameOf(const Effect& effect, int joint,
 // robot file, since which nothing is said to have changed.
 std::string SinceWhat(const GapDiagnosis& diagnosis);
 
+// Whether an effect of this probability is told without a "probably".
+bool IsConfident(double probability);
+
 // The sentence a colleague would want to read.
 std::string BriefReport(const GapDiagnosis& diagnosis);
 
