@@ -285,10 +285,20 @@ VectorXd GapScreen::Baseline(const Fit& fit) const {
   return baseline_.factor().Solve(gradient);
 }
 
-VectorXd GapScreen::Residual(int joint, const Fit& fit) const {
+JointRows GapScreen::Residuals(const Fit& fit) const {
+  const VectorXd x = Baseline(fit);
+  JointRows residuals;
+  for (int j = 0; j < num_joints(); ++j) {
+    residuals.push_back(ResidualGiven(j, fit, x));
+  }
+  return residuals;
+}
+
+VectorXd GapScreen::ResidualGiven(int joint, const Fit& fit,
+                                  const VectorXd& x) const {
   const double weight = baseline_.weight(joint);
-  VectorXd residual = weight * baseline_.rows(joint).target -
-                      baseline_.Torque(joint, Baseline(fit));
+  VectorXd residual =
+      weight * baseline_.rows(joint).target - baseline_.Torque(joint, x);
   for (size_t k = 0; k < fit.columns.size(); ++k) {
     const VectorXd& column = (*columns_[fit.columns[k]])[joint];
     if (column.size() > 0) residual -= weight * fit.coefficients[k] * column;
@@ -296,11 +306,14 @@ VectorXd GapScreen::Residual(int joint, const Fit& fit) const {
   return residual;
 }
 
-VectorXd GapScreen::Projected(int column, int joint) const {
-  VectorXd projected =
-      -baseline_.Torque(joint, baseline_.factor().Solve(cross_.col(column)));
-  const VectorXd& own = (*columns_[column])[joint];
-  if (own.size() > 0) projected += baseline_.weight(joint) * own;
+JointRows GapScreen::Projected(int column) const {
+  const VectorXd absorbed = baseline_.factor().Solve(cross_.col(column));
+  JointRows projected;
+  for (int j = 0; j < num_joints(); ++j) {
+    projected.push_back(-baseline_.Torque(j, absorbed));
+    const VectorXd& own = (*columns_[column])[j];
+    if (own.size() > 0) projected[j] += baseline_.weight(j) * own;
+  }
   return projected;
 }
 

@@ -80,8 +80,11 @@ class GapScreen {
   double DeltaChi2Of(const std::vector<JointRows>& columns) const;
   // Estimates of the baseline with these columns fitted.
   Eigen::VectorXd Baseline(const Fit& fit) const;
-  // Whitened residual of joint j.
-  Eigen::VectorXd Residual(int joint, const Fit& fit) const;
+  // Whitened residual of all joints, and of one.
+  JointRows Residuals(const Fit& fit) const;
+  Eigen::VectorXd Residual(int joint, const Fit& fit) const {
+    return ResidualGiven(joint, fit, Baseline(fit));
+  }
   // The baseline that fits best given a torque (whitened, per joint).
   Eigen::VectorXd BaselineGiven(const JointRows& torque) const {
     return baseline_.ValuesGiven(torque);
@@ -99,8 +102,8 @@ class GapScreen {
   Eigen::VectorXd Chi2Given(const std::vector<JointRows>& torques) const {
     return armcal::Chi2Given(baseline_, torques);
   }
-  // Joint j's rows of a column, less what the baseline absorbs of it.
-  Eigen::VectorXd Projected(int column, int joint) const;
+  // A column's rows of all joints, less what the baseline absorbs of them.
+  JointRows Projected(int column) const;
   // Of chi^2: what the baseline's values given `fit` cost by their prior and
   // other data.
   double PriorCost(const Fit& fit) const;
@@ -132,6 +135,10 @@ class GapScreen {
     // With these columns alone, numbered as they come here.
     Products Only(const std::vector<int>& which) const;
   };
+
+  // Of joint j with `fit`, whose Baseline() is x.
+  Eigen::VectorXd ResidualGiven(int joint, const Fit& fit,
+                                const Eigen::VectorXd& x) const;
 
   explicit GapScreen(BaselineFit baseline) : baseline_(std::move(baseline)) {}
 

@@ -94,14 +94,14 @@ Agreement AgreementOn(const GapFit& fit, size_t k) {
   }
   const VectorXd x = RefinedSize(fit, k);
   const int n = screen.num_joints(), size = static_cast<int>(x.size());
+  std::vector<JointRows> columns;
+  for (int c = 0; c < size; ++c) columns.push_back(screen.Projected(first + c));
   std::vector<MatrixXd> information(n);
   std::vector<VectorXd> wanted(n);
   double told = 0;
   for (int j = 0; j < n; ++j) {
     MatrixXd rows(screen.num_rows(j), size);
-    for (int c = 0; c < size; ++c) {
-      rows.col(c) = screen.Projected(first + c, j);
-    }
+    for (int c = 0; c < size; ++c) rows.col(c) = columns[c][j];
     information[j] = rows.transpose() * rows;
     wanted[j] = rows.transpose() * left[j];
     told += information[j].trace();

@@ -35,25 +35,39 @@ struct Weighed {
     stddev = wanted;
     fit = FitAll(screen);
   }
-  // Joint j's, in its own unit.
-  VectorXd Residual(int j) const { return stddev[j] * screen.Residual(j, fit); }
-  // The variance of joint j's rows at the fixed point of the fit,
+  // Of all joints, in their own units.
+  JointRows Residuals() const {
+    JointRows residuals = screen.Residuals(fit);
+    for (size_t j = 0; j < residuals.size(); ++j) residuals[j] *= stddev[j];
+    return residuals;
+  }
+  // The variance of each joint's rows at the fixed point of the fit,
   //   v = (|r|^2 + tr(A C A')) / N,
   // where tr(A C A') = fitted v: the residual of a fit is smaller than the
   // noise by what its parameters took up, and the posterior of these gives it
   // back (the expectation step of Dempster, Laird and Rubin 1977). `fitted`:
-  // how many of the rows the baseline fits, in units of rows of variance
+  // how many of a joint's rows the baseline fits, in units of rows of variance
   // `before`, of which it can be no more than nine tenths of all.
-  double Variance(int j, double fitted, double before) const {
-    const double rows = std::max(1, screen.num_rows(j));
-    const double left = Residual(j).squaredNorm();
-    return std::max(kLeast,
-                    (left + std::min(fitted, .9 * rows) * before) / rows);
+  VectorXd Variances(const VectorXd& fitted, const VectorXd& before) const {
+    const JointRows residuals = Residuals();
+    VectorXd variance(before.size());
+    for (int j = 0; j < variance.size(); ++j) {
+      const double rows = std::max(1, screen.num_rows(j));
+      const double left = residuals[j].squaredNorm();
+      variance[j] = std::max(
+          kLeast, (left + std::min(fitted[j], .9 * rows) * before[j]) / rows);
+    }
+    return variance;
   }
 };
 
-double TimeOf(const VectorXd& residual) {
-  return CorrelationTime({residual.data(), residual.data() + residual.size()});
+VectorXd TimesOf(const JointRows& residuals) {
+  VectorXd times(residuals.size());
+  for (int j = 0; j < times.size(); ++j) {
+    const VectorXd& rows = residuals[j];
+    times[j] = CorrelationTime({rows.data(), rows.data() + rows.size()});
+  }
+  return times;
 }
 
 double MostChange(const VectorXd& before, const VectorXd& after) {
@@ -71,12 +85,9 @@ void Settle(int rounds, Weighed* weighed, EvidenceNoise* noise) {
     if (round % kRoundsOfFitted == 0) {
       noise->fitted = weighed->screen.FittedRows();
     }
-    VectorXd variance = noise->variance;
-    for (int j = 0; j < variance.size(); ++j) {
-      // In units of rows of this variance.
-      const double fitted = noise->fitted[j] * noise->time[j];
-      variance[j] = weighed->Variance(j, fitted, variance[j]);
-    }
+    // In units of rows of this variance.
+    const VectorXd variance = weighed->Variances(
+        noise->fitted.cwiseProduct(noise->time), noise->variance);
     const double change = MostChange(noise->variance, variance);
     noise->variance = variance;
     if (change < kVarianceSettled) break;
@@ -92,9 +103,7 @@ VectorXd VariancesUnder(const VectorXd& time, const EvidenceNoise& start,
   VectorXd variance = start.variance;
   for (int round = 0; round < kRoundsOfOdds; ++round) {
     weighed->Weigh(variance.cwiseProduct(time).cwiseSqrt());
-    for (int j = 0; j < variance.size(); ++j) {
-      variance[j] = weighed->Variance(j, start.fitted[j], variance[j]);
-    }
+    variance = weighed->Variances(start.fitted, variance);
   }
   return variance;
 }
@@ -110,9 +119,9 @@ EvidenceNoise SettleNoise(GapScreen screen, VectorXd stddev) {
   Weighed weighed{std::move(screen), std::move(stddev), {}};
   weighed.fit = FitAll(weighed.screen);
   EvidenceNoise noise{VectorXd(n), VectorXd::Ones(n), VectorXd::Zero(n)};
-  for (int j = 0; j < n; ++j) noise.variance[j] = weighed.Variance(j, 0, 0);
+  noise.variance = weighed.Variances(VectorXd::Zero(n), VectorXd::Zero(n));
   Settle(kRoundsOfVariance, &weighed, &noise);
-  for (int j = 0; j < n; ++j) noise.time[j] = TimeOf(weighed.Residual(j));
+  noise.time = TimesOf(weighed.Residuals());
   Settle(kRoundsWithTime, &weighed, &noise);
   return noise;
 }
@@ -131,10 +140,11 @@ double LogEvidence(GapScreen screen, const EvidenceNoise& before) {
   Settle(kRoundsWithTime, &weighed, &noise);
   double cost = weighed.screen.PriorCost(weighed.fit) +
                 weighed.screen.LogDeterminant(weighed.fit);
+  const JointRows residuals = weighed.screen.Residuals(weighed.fit);
   for (int j = 0; j < weighed.screen.num_joints(); ++j) {
     cost += weighed.screen.num_rows(j) / noise.time[j] *
                 std::log(noise.variance[j]) +
-            weighed.screen.Residual(j, weighed.fit).squaredNorm();
+            residuals[j].squaredNorm();
   }
   return -cost;
 }
@@ -165,10 +175,7 @@ double LargerModelOdds(const GapScreen& smaller, const GapScreen& larger,
   const int n = smaller.num_joints();
   Weighed with{larger, noise.stddev(), FitAll(larger)};
   Weighed without{smaller, noise.stddev(), FitAll(smaller)};
-  VectorXd time(n);
-  for (int j = 0; j < n; ++j) {
-    time[j] = std::min(noise.time[j], TimeOf(with.Residual(j)));
-  }
+  const VectorXd time = noise.time.cwiseMin(TimesOf(with.Residuals()));
   const VectorXd v1 = VariancesUnder(time, noise, &with);
   const VectorXd v0 = VariancesUnder(time, noise, &without);
   double odds =

@@ -14,13 +14,14 @@ double DeltaChi2Elsewhere(const GapScreen& screen,
                           const std::vector<GapCandidate>& candidates,
                           const std::vector<int>& fewer,
                           const std::vector<int>& more, int joint) {
-  const GapScreen::Fit before = screen.Solve(ColumnsOf(candidates, fewer));
-  const GapScreen::Fit after = screen.Solve(ColumnsOf(candidates, more));
+  const JointRows before =
+      screen.Residuals(screen.Solve(ColumnsOf(candidates, fewer)));
+  const JointRows after =
+      screen.Residuals(screen.Solve(ColumnsOf(candidates, more)));
   double delta_chi2 = 0;
   for (int j = 0; j < screen.num_joints(); ++j) {
     if (j == joint) continue;
-    delta_chi2 += screen.Residual(j, before).squaredNorm() -
-                  screen.Residual(j, after).squaredNorm();
+    delta_chi2 += before[j].squaredNorm() - after[j].squaredNorm();
   }
   return delta_chi2;
 }

@@ -44,13 +44,16 @@ double Inflation(const GapScreen& screen, const GapRows& rows,
     there += screen.raw(candidate.columns[a]) > 0;
   }
   std::map<std::pair<int, long>, VectorXd> blocks;
+  const JointRows residuals = screen.Residuals(fit);
+  std::vector<JointRows> projected;
+  for (const int c : candidate.columns) {
+    projected.push_back(screen.Projected(c));
+  }
   for (int j = 0; j < rows.num_joints(); ++j) {
     const std::vector<GapRows::Place> places = rows.PlacesOfRows(j);
-    const VectorXd residual = screen.Residual(j, fit);
+    const VectorXd& residual = residuals[j];
     MatrixXd columns(residual.size(), size);
-    for (int a = 0; a < size; ++a) {
-      columns.col(a) = screen.Projected(candidate.columns[a], j);
-    }
+    for (int a = 0; a < size; ++a) columns.col(a) = projected[a][j];
     for (size_t k = 0; k < places.size(); ++k) {
       VectorXd& sum = blocks.emplace(BlockOf(places[k]), VectorXd::Zero(size))
                           .first->second;

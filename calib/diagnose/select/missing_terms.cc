@@ -217,10 +217,10 @@ class MissingTermFit {
     return screen_->Solve(ColumnsOf(candidates_, Members(terms)));
   }
   VectorXd Left(int terms) const {
-    const GapScreen::Fit fit = Solve(terms);
+    const JointRows residuals = screen_->Residuals(Solve(terms));
     VectorXd left(robot_.num_joints());
     for (int j = 0; j < left.size(); ++j) {
-      const VectorXd residual = screen_->Residual(j, fit);
+      const VectorXd& residual = residuals[j];
       left[j] = noise_[j].sigma *
                 std::sqrt(residual.squaredNorm() /
                           std::max<Eigen::Index>(1, residual.size()));

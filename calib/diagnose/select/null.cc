@@ -32,9 +32,8 @@ MatrixXd BlockGradients(const GapScreen& screen, const GapRows& rows,
   const int n = rows.num_joints();
   std::map<std::pair<int, long>, int> blocks;
   std::vector<std::vector<std::pair<int, long>>> of_row(n);
-  JointRows residual(n);
+  const JointRows residual = screen.Residuals(fit);
   for (int j = 0; j < n; ++j) {
-    residual[j] = screen.Residual(j, fit);
     for (const GapRows::Place& place : rows.PlacesOfRows(j)) {
       of_row[j].push_back(BlockOf(place));
       blocks[of_row[j].back()] = 0;
