@@ -33,11 +33,6 @@ struct Named {
   }
 };
 
-// What a refit with the terms alone has of the file's gap, %.
-double RefitRemoves(const GapFigures& gap) {
-  return 100 * (gap.nominal - gap.refit) / (gap.nominal - gap.floor);
-}
-
 // " lacks viscous friction; refitted with it, 80 % of the file's gap is gone"
 std::string TermsLacked(const Named& terms, double less) {
   const std::string text = terms.Lacked("");
@@ -86,8 +81,8 @@ std::string Findings(const GapDiagnosis& diagnosis) {
     return touched + model +
            TermsLacked(terms, gap.removed_from_nominal_percent);
   }
-  return touched + model + TermsLacked(terms, RefitRemoves(gap)) + "; it" +
-         EffectsLacked(effects, true, gap.removed_percent);
+  return touched + model + TermsLacked(terms, gap.refit_removes_percent) +
+         "; it" + EffectsLacked(effects, true, gap.removed_percent);
 }
 
 // "one of payload, base tilt and encoder offset on elbow"

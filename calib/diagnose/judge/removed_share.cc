@@ -121,6 +121,8 @@ GapFigures RemovedShareFigures(const HeldOutSquares& squares,
       Removed(figures.refit, figures.after, figures.floor, floor_stddev);
   figures.removed_from_nominal_percent =
       Removed(figures.nominal, figures.after, figures.floor, floor_stddev);
+  figures.refit_removes_percent =
+      Removed(figures.nominal, figures.refit, figures.floor, floor_stddev);
   figures.joints.resize(squares.refit.cols(), 3);
   figures.joints << RmsOfJoints(squares.nominal), RmsOfJoints(squares.refit),
       RmsOfJoints(squares.after);

@@ -29,6 +29,8 @@ struct GapFigures {
   // 100 (refit - after) / (refit - floor); NaN where nothing can be removed.
   double removed_percent = NAN;
   double removed_from_nominal_percent = NAN;
+  // 100 (nominal - refit) / (nominal - floor): by fitting numbers alone.
+  double refit_removes_percent = NAN;
   double ci95[2] = {NAN, NAN};          // of removed_percent
   double nominal_ci95[2] = {NAN, NAN};  // of removed_from_nominal_percent
   Eigen::MatrixXd joints;               // n x 3 rms: nominal, refit, after

@@ -118,8 +118,8 @@ EvidenceNoise SettleNoise(GapScreen screen, VectorXd stddev) {
   const int n = screen.num_joints();
   Weighed weighed{std::move(screen), std::move(stddev), {}};
   weighed.fit = FitAll(weighed.screen);
-  EvidenceNoise noise{VectorXd(n), VectorXd::Ones(n), VectorXd::Zero(n)};
-  noise.variance = weighed.Variances(VectorXd::Zero(n), VectorXd::Zero(n));
+  const VectorXd none = VectorXd::Zero(n);
+  EvidenceNoise noise{weighed.Variances(none, none), VectorXd::Ones(n), none};
   Settle(kRoundsOfVariance, &weighed, &noise);
   noise.time = TimesOf(weighed.Residuals());
   Settle(kRoundsWithTime, &weighed, &noise);

@@ -58,9 +58,7 @@ TEST(BriefReport, TellsWhatTermsAndWhatOtherEffectsRemove) {
                        MakeFound("armature", -1)};
   for (size_t k : {1, 2}) diagnosis.effects[k].fitted.clear();
   diagnosis.effects[0].probability = .6;
-  diagnosis.torque.nominal = 21;
-  diagnosis.torque.refit = 5;
-  diagnosis.torque.floor = 1;
+  diagnosis.torque.refit_removes_percent = 80;
   EXPECT_EQ(BriefReport(diagnosis),
             "The model lacks coulomb friction and armature; refitted with "
             "them, 80 % of the file's gap is gone on held-out data; it also "

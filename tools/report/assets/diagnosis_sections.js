@@ -11,20 +11,20 @@ const diagnosisSections = (data) => {
   const whole = (interval) => (interval || []).length === 2 && interval.every(isNumber);
   const effects = () => {
     if (data.command !== 'diagnose' || !testable) return null;
-    const candidates = result.candidates || [];
+    const candidates = (result.candidates || []).slice(0, 12);
     const found = result.effects || [];
     const name = (c) => String(c.effect).replace(/_/g, ' ') +
         (c.joint ? ' on ' + c.joint : jointName(c.joint_index));
     const unnamed = (result.fitted_not_named || []).filter((e) => !e.one_of_few);
     const isUnnamed = (c) => unnamed.some((e) => e.effect === c.effect && e.joint_index === c.joint_index);
-    const chart = bars(candidates.slice(0, 12).map((c) => ({
+    const chart = bars(candidates.map((c) => ({
       label: name(c), value: 100 * c.probability, colour: c.probability >= .8 ? 'c2' : 'c1',
       note: (c.probability < .005 ? 'less than 1 %' : Math.round(100 * c.probability) + ' %') +
           (isUnnamed(c) ? ', not claimed' : '')})), '%', {top: 100});
     return [
       chart ? heading('How likely each is') : null,
       chart || html('p', {}, 'No effect is claimed.'),
-      candidates.slice(0, 12).some(isUnnamed) ? note('Not claimed: fitted, but what was held out, or what else may ' +
+      candidates.some(isUnnamed) ? note('Not claimed: fitted, but what was held out, or what else may ' +
           'explain it, does not bear it out. It is in no figure here.') : null,
       found.length ? table(['effect', 'size', 'removes of the gap', 'cannot be told from'],
         found.map((e) => [

@@ -28,9 +28,11 @@ TEST(RemovedShare, FiguresAreThoseCountedByHand) {
   EXPECT_NEAR(figures.refit, 34 / 6., 1e-9);
   EXPECT_NEAR(figures.after, 2, 1e-9);
   EXPECT_EQ(figures.floor, 1);
-  // (34 / 6 - 2) / (34 / 6 - 1) and (12 - 2) / (12 - 1).
+  // (34 / 6 - 2) / (34 / 6 - 1), (12 - 2) / (12 - 1) and
+  // (12 - 34 / 6) / (12 - 1).
   EXPECT_NEAR(figures.removed_percent, 100 * 22 / 28., 1e-9);
   EXPECT_NEAR(figures.removed_from_nominal_percent, 1000 / 11., 1e-9);
+  EXPECT_NEAR(figures.refit_removes_percent, 3800 / 66., 1e-9);
   ASSERT_EQ(figures.joints.rows(), 2);
   EXPECT_NEAR(figures.joints(0, 0), 4, 1e-9);
   EXPECT_NEAR(figures.joints(0, 1), std::sqrt(8), 1e-9);
@@ -68,6 +70,9 @@ TEST(RemovedShare, WhereNothingCanBeRemovedNoShareIs) {
   EXPECT_TRUE(std::isnan(figures.removed_percent));
   EXPECT_NEAR(figures.floor, .9, 1e-9);
   EXPECT_NEAR(figures.removed_from_nominal_percent, 100, 1e-9);
+  squares.nominal = squares.refit;
+  EXPECT_TRUE(
+      std::isnan(RemovedShareFigures(squares, 0, 1).refit_removes_percent));
 }
 
 // The noise is at most what is left: .6 of what was taken for it.
